@@ -1,0 +1,1 @@
+"""The vocabulary: frozen dataclasses every stage speaks. Metres, kilograms, seconds, radians."""

@@ -1,0 +1,55 @@
+"""Alignment: which part plays which role, how sure that is, and why."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Literal
+
+from yellowiron.model.finding import Finding
+from yellowiron.model.geometry import Floats
+
+AssignmentSource = Literal["solved", "name", "edited", "data"]
+
+
+@dataclass(frozen=True)
+class PartAssignment:
+    """The role of one part.
+
+    `role` is the template's most specific name for the part (a pin's role; else the role of its body), `body` the
+    rigid role it moves with (None: left out of the machine). `confidence` in [0, 1]; `reason` in words;
+    `edited` parts were set by a person and win over every solver.
+    """
+
+    part: str
+    role: str | None
+    body: str | None
+    confidence: float
+    reason: str
+    source: AssignmentSource = "solved"
+    runner_up: str | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Alignment:
+    """Every part's role. `frame` (4, 4) takes CAD metres to the machine frame (DESIGN: frames).
+
+    `choices` are the template's variants as found in the CAD (`{"lift_cylinders": "twin"}`); `missing` lists roles
+    that the template requires and no part plays; `to_review` the part ids and roles a person should look at.
+    """
+
+    equipment_type: str
+    frame: Floats
+    parts: tuple[PartAssignment, ...]
+    choices: Mapping[str, str] = field(default_factory=dict)
+    missing: tuple[str, ...] = ()
+    to_review: tuple[str, ...] = ()
+    findings: tuple[Finding, ...] = ()
+
+    def parts_of_body(self, body: str) -> tuple[str, ...]:
+        """Ids of the parts that move with a body, in CAD order."""
+        return tuple(a.part for a in self.parts if a.body == body)
+
+    def parts_of_role(self, role: str) -> tuple[str, ...]:
+        """Ids of the parts that play exactly this role, in CAD order."""
+        return tuple(a.part for a in self.parts if a.role == role)

@@ -1,0 +1,58 @@
+"""What a CAD reader returns: parts, placed, and the shapes they share."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from yellowiron.model.finding import Finding
+from yellowiron.model.geometry import Color, Floats, Shape
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """One occurrence of a shape in the CAD model.
+
+    `id` is unique and stable: the tree path joined by '/', repeated paths numbered '#2', '#3' in tree order
+    (`WHEEL LOADER/FRONT FRAME ASSY/BOLT M24#3`). `path` holds the names of the assemblies above it, outermost
+    first. `transform` (4, 4) takes the shape's frame to the CAD file's, metres; its determinant may be negative
+    (a mirrored instance) and its scale differ from 1.
+    """
+
+    id: str
+    name: str
+    path: tuple[str, ...]
+    shape: str
+    transform: Floats
+    color: Color | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Assembly:
+    """A CAD model in metres, in the CAD file's own frame. `unit` is the file's own unit in metres (0.001: mm)."""
+
+    name: str
+    format: str
+    unit: float
+    parts: tuple[Part, ...]
+    shapes: Mapping[str, Shape]
+    findings: tuple[Finding, ...] = ()
+    declared_occurrences: int | None = None
+
+    def part(self, part_id: str) -> Part:
+        """The part with that id; `KeyError` if there is none."""
+        for part in self.parts:
+            if part.id == part_id:
+                return part
+        raise KeyError(part_id)
+
+    def shape_of(self, part: Part) -> Shape:
+        """The shape that a part is an occurrence of."""
+        return self.shapes[part.shape]
+
+    def points_of(self, part: Part) -> Floats:
+        """(n, 3) mesh points of a part in the CAD frame, metres."""
+        points = self.shapes[part.shape].mesh.points
+        return np.asarray(points @ part.transform[:3, :3].T + part.transform[:3, 3], dtype=np.float64)

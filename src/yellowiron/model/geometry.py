@@ -1,0 +1,93 @@
+"""Shapes: meshes and the features that were fitted to them. Metres, in the shape's own frame."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int32]
+Color = tuple[float, float, float]
+
+
+@dataclass(frozen=True, eq=False)
+class Mesh:
+    """A triangle mesh.
+
+    `points` (n, 3) float64 in metres, `triangles` (m, 3) int32 indices, counter-clockwise seen from outside,
+    `normals` (n, 3) unit vertex normals or None, `triangle_colors` (m, 3) linear RGB or None.
+    """
+
+    points: Floats
+    triangles: Ints
+    normals: Floats | None = None
+    triangle_colors: Floats | None = None
+
+
+@dataclass(frozen=True)
+class CylinderFeature:
+    """One cylindrical face set: all faces of one shape that lie on the same cylinder.
+
+    The axis passes through `point` along the unit vector `direction`; the faces span [`lower`, `upper`]
+    (metres along `direction`, measured from `point`) and `arc` radians around it (2π: a full cylinder).
+    `inner` is true for a bore (material outside), false for a shaft. `exact` is true where it came from a
+    B-rep surface, false where it was fitted to triangles. `area` in m².
+    """
+
+    point: tuple[float, float, float]
+    direction: tuple[float, float, float]
+    radius: float
+    lower: float
+    upper: float
+    arc: float
+    inner: bool
+    exact: bool = True
+    area: float = 0.0
+
+    @property
+    def length(self) -> float:
+        """Metres along the axis."""
+        return self.upper - self.lower
+
+    @property
+    def center(self) -> tuple[float, float, float]:
+        """The axis point midway between the two ends."""
+        middle = 0.5 * (self.lower + self.upper)
+        x, y, z = self.point
+        dx, dy, dz = self.direction
+        return (x + middle * dx, y + middle * dy, z + middle * dz)
+
+
+@dataclass(frozen=True)
+class PlaneFeature:
+    """One planar face: `point` at its centre of area, outward unit `normal`, `area` in m²."""
+
+    point: tuple[float, float, float]
+    normal: tuple[float, float, float]
+    area: float
+
+
+@dataclass(frozen=True, eq=False)
+class Shape:
+    """One distinct solid (or sheet) of a CAD file, shared by all its occurrences. Own frame, metres.
+
+    `key` is a hash of the content: equal shapes of two files have equal keys. `volume` (m³), `centroid` (3,)
+    and `inertia` (3, 3) (m⁵: for density 1, about the centroid) are exact where `exact` is true (B-rep), else
+    those of the mesh. `closed` is false for sheets and open meshes, whose volume means little.
+    """
+
+    key: str
+    name: str
+    mesh: Mesh
+    volume: float
+    area: float
+    centroid: Floats
+    inertia: Floats
+    closed: bool = True
+    exact: bool = True
+    color: Color | None = None
+    cylinders: tuple[CylinderFeature, ...] = ()
+    planes: tuple[PlaneFeature, ...] = ()
+    bounds: Floats = field(default_factory=lambda: np.zeros((2, 3)))

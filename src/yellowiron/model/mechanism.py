@@ -1,0 +1,211 @@
+"""The mechanism: the machine in SI units and no engine's terms. Machine frame, drawn pose, metres, radians,
+kilograms."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+from yellowiron.model.finding import Finding
+from yellowiron.model.geometry import Floats
+from yellowiron.model.template import JointType, Material, MeasurementTemplate
+
+Vector = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class BodyPart:
+    """A CAD part as it moves with a body: its material (a key of `Mechanism.materials`), its collision approximation
+    and where these came from."""
+
+    part: str
+    role: str | None
+    material: str
+    collision: str
+    mass: float
+    source: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Body:
+    """A rigid body. `origin` is its frame's origin (axes parallel to the machine's in the drawn pose);
+    `center_of_mass` and `inertia` (3, 3, kg·m² about the centre of mass) are in the machine frame. `hull` (n, 3):
+    corners of the convex hulls of its parts in the machine frame, for extents and ground contact."""
+
+    name: str
+    origin: Vector
+    mass: float
+    center_of_mass: Vector
+    inertia: Floats
+    parts: tuple[BodyPart, ...]
+    hull: Floats
+    source: str = ""
+
+
+@dataclass(frozen=True)
+class Drive:
+    """A joint drive. `position` drives hold a target with stiffness and damping, `velocity` drives have damping only.
+    N/m and N·s/m (slides) or N·m/rad and N·m·s/rad (pivots); `max_force` in N or N·m; `max_velocity` m/s or rad/s."""
+
+    kind: Literal["position", "velocity"]
+    stiffness: float
+    damping: float
+    max_force: float
+    max_velocity: float
+    source: str = ""
+
+
+@dataclass(frozen=True)
+class Joint:
+    """A joint in the drawn pose, where its coordinate is 0. `body0` is the parent in the tree (for a cut joint: the
+    body nearer the root); `axis` is a unit vector, `anchor` a point on it, both in the machine frame. Limits are in
+    metres or radians from the drawn pose, None: unlimited. `free` coordinates move without a drive (an oscillating
+    axle). `source` holds the evidence: template entry, CAD parts, residuals, page and quote of a limit."""
+
+    name: str
+    type: JointType
+    body0: str
+    body1: str
+    anchor: Vector
+    axis: Vector
+    lower: float | None = None
+    upper: float | None = None
+    cut: bool = False
+    free: bool = False
+    drive: Drive | None = None
+    source: Mapping[str, Any] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Cylinder:
+    """A hydraulic cylinder. Lengths are between the barrel's and the rod's pivots, metres; `extension` is the drawn one
+    (drawn length − closed length); forces in N, `speed` in m/s (extending). `passive` twins follow the driven one.
+    `sources` says for every quantity where it came from."""
+
+    name: str
+    barrel: str
+    rod: str
+    slide: str
+    barrel_joint: str
+    rod_joint: str
+    bore: float
+    rod_diameter: float
+    stroke: float
+    closed_length: float
+    drawn_length: float
+    pressure: float
+    push_force: float
+    pull_force: float
+    speed: float
+    passive: bool = False
+    sources: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def extension(self) -> float:
+        """How far the cylinder is out in the drawn pose, metres."""
+        return self.drawn_length - self.closed_length
+
+
+@dataclass(frozen=True)
+class ActuatorJoint:
+    """One joint that an actuator moves, with its sign."""
+
+    joint: str
+    sign: int = 1
+
+
+@dataclass(frozen=True)
+class Actuator:
+    """What one lever commands. For cylinders the first joint is the driven slide and the others follow through the
+    loops; the actuator's coordinate is that slide's, metres from the drawn pose, positive as the actuator's positive
+    sense."""
+
+    name: str
+    kind: Literal["cylinder", "motor"]
+    joints: tuple[ActuatorJoint, ...]
+    cylinders: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Loop:
+    """A closed loop: the joints around it and the one that is cut. `branch` is the sign of its triangle of pivots (+1,
+    −1, or 0 where it has none), by which a flip to the other assembly branch is known."""
+
+    joints: tuple[str, ...]
+    cut: str
+    branch: int = 0
+
+
+@dataclass(frozen=True)
+class Site:
+    """A named frame on a body: `position` and unit `x_axis`, `z_axis` in the machine frame, drawn pose."""
+
+    name: str
+    body: str
+    position: Vector
+    x_axis: Vector = (1.0, 0.0, 0.0)
+    z_axis: Vector = (0.0, 0.0, 1.0)
+    source: str = ""
+
+
+@dataclass(frozen=True)
+class Mobility:
+    """Degrees of freedom relative to the root: `computed` is the rank of the constraint Jacobian taken from the joint
+    coordinates, `grubler` the spatial count (overconstrained loops make it lower), `expected` the actuated coordinates
+    plus the joints declared free."""
+
+    computed: int
+    expected: int
+    grubler: int
+
+
+@dataclass(frozen=True, eq=False)
+class Mechanism:
+    """The whole machine. `root` is the articulation's root body; `measurements` are the template's, carried along so
+    that the USD file can be measured alone; `specifications` maps wanted names to SI values for the same reason."""
+
+    name: str
+    equipment_type: str
+    root: str
+    bodies: tuple[Body, ...]
+    joints: tuple[Joint, ...]
+    cylinders: tuple[Cylinder, ...] = ()
+    actuators: tuple[Actuator, ...] = ()
+    loops: tuple[Loop, ...] = ()
+    sites: tuple[Site, ...] = ()
+    materials: Mapping[str, Material] = field(default_factory=dict)
+    measurements: tuple[MeasurementTemplate, ...] = ()
+    specifications: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+    mobility: Mobility | None = None
+    findings: tuple[Finding, ...] = ()
+
+    def body(self, name: str) -> Body:
+        """The body of that name; `KeyError` if there is none."""
+        for body in self.bodies:
+            if body.name == name:
+                return body
+        raise KeyError(name)
+
+    def joint(self, name: str) -> Joint:
+        """The joint of that name; `KeyError` if there is none."""
+        for joint in self.joints:
+            if joint.name == name:
+                return joint
+        raise KeyError(name)
+
+
+@dataclass(frozen=True)
+class Measurement:
+    """A specification measured on the mechanism, SI. `role`: `checked` (published), `calibrated` (used to place a
+    cylinder, so no proof), `example` (the publisher's example value). `reason` says why `model` is None."""
+
+    name: str
+    specification: str
+    spec: float | None
+    model: float | None
+    unit: str
+    error_percent: float | None
+    role: Literal["checked", "calibrated", "example"]
+    definition: str = ""
+    reason: str = ""

@@ -1,0 +1,229 @@
+"""Templates: what is known of an equipment type before any CAD is seen. Plain data; the loader is in `library`."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any, Literal
+
+from yellowiron.model.geometry import Color
+
+JointType = Literal["fixed", "distance", "spherical", "revolute", "prismatic"]
+DriveType = Literal["linear", "angular"]
+Choices = Mapping[str, tuple[str, ...]]
+"""Variant name → the choices under which an entry exists; empty: always."""
+
+
+@dataclass(frozen=True)
+class Role:
+    """A part name of the hierarchy.
+
+    `rigid` roles are bodies; others move with their nearest rigid ancestor or only group. `kind` tells the aligner
+    what geometry to expect: `frame`, `pin`, `barrel`, `rod`, `wheel`, `tyre`, `arm`, `edge`, `group`, or "" (anything).
+    `many`: the role is written `name[*]` and stands for a counted row of parts. `side`: `l`, `r` or "".
+    """
+
+    name: str
+    parent: str | None
+    rigid: bool
+    kind: str = ""
+    side: str = ""
+    optional: bool = False
+    many: bool = False
+    when: Choices = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class JointTemplate:
+    """A joint entry. `parts` are role names as written in `Body`; limits are numbers (metres, radians), texts naming a
+    specification (with an optional leading minus), or None (free). Gains in SI (N/m, N·m/rad …) or None: computed."""
+
+    name: str
+    type: JointType
+    parts: tuple[str, str]
+    lower: float | str | None = None
+    upper: float | str | None = None
+    drive: DriveType | None = None
+    free: bool = False
+    stiffness: float | None = None
+    damping: float | None = None
+    max_force: float | None = None
+    max_velocity: float | None = None
+    when: Choices = field(default_factory=dict)
+    drive_when: Choices = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Material:
+    """Physical and visual properties (the conference paper's JSON-1). Density kg/m³, elasticity (Young) Pa; colour
+    linear RGB; texture a path relative to its document. None: not stated."""
+
+    name: str
+    density: float | None = None
+    elasticity: float | None = None
+    static_friction: float | None = None
+    dynamic_friction: float | None = None
+    restitution: float | None = None
+    color: Color | None = None
+    texture: str | None = None
+    roughness: float | None = None
+    metalness: float | None = None
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """A value the template can ask a sheet for. `dimension` is one of: length, angle, mass, pressure, flow, volume,
+    force, torque, power, speed, angular_speed, time, count. `synonyms` by language code (`en`, `de`, …); `forbidden`
+    words rule a statement out; `sections` are headings that support it; `mass_of` names the body (or `*`, the whole
+    machine) whose mass it is; `where` says in which table makers print it."""
+
+    name: str
+    dimension: str
+    synonyms: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    forbidden: tuple[str, ...] = ()
+    sections: tuple[str, ...] = ()
+    use: str = ""
+    where: str = ""
+    mass_of: str | None = None
+    minimum: float | None = None
+    maximum: float | None = None
+
+
+@dataclass(frozen=True)
+class CylinderTemplate:
+    """One cylinder of an actuator: its slide joint; `sign` −1 where it retracts when the actuator moves positive;
+    `passive` twins follow the driven one (their rod pin is cut)."""
+
+    slide: str
+    barrel_joint: str
+    rod_joint: str
+    sign: int = 1
+    passive: bool = False
+    when: Choices = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class ActuatorTemplate:
+    """What one lever commands. `specifications` maps a quantity (bore, rod_diameter, stroke, closed_length, pressure,
+    flow, extend_time, retract_time, speed, torque) to the wanted name that gives it; `defaults` gives SI values used,
+    and said to be used, where no sheet does. `joints` are the motor joints where `kind` is `motor`."""
+
+    name: str
+    kind: Literal["cylinder", "motor"]
+    cylinders: tuple[CylinderTemplate, ...] = ()
+    joints: tuple[str, ...] = ()
+    specifications: Mapping[str, str] = field(default_factory=dict)
+    defaults: Mapping[str, float] = field(default_factory=dict)
+    source: str = ""
+
+
+@dataclass(frozen=True)
+class SiteTemplate:
+    """A named frame on a body. `rule` says where: {"joint": J} (its anchor), {"edge_from": J, "spanning": 0.8} (the
+    point of the body farthest from that joint's axis among parts spanning that share of the body's width along the
+    axis), {"point": [x, y, z]} (machine frame)."""
+
+    name: str
+    body: str
+    rule: Mapping[str, Any]
+
+
+@dataclass(frozen=True)
+class MeasurementTemplate:
+    """A specification that can be measured on the mechanism, as data: which quantity, after which steps (docs:
+    template format).
+
+    `specification` is the wanted name it is compared with; `definition` the words (and the standard) behind it.
+    """
+
+    name: str
+    specification: str
+    quantity: Mapping[str, Any]
+    steps: tuple[Mapping[str, Any], ...] = ()
+    unit: str = "m"
+    definition: str = ""
+
+
+@dataclass(frozen=True)
+class Variant:
+    """A declared choice of the template. `decided_by`: `geometry` (the aligner finds it) or `user` (`--set
+    NAME=CHOICE`)."""
+
+    name: str
+    choices: tuple[str, ...]
+    default: str
+    decided_by: Literal["geometry", "user"] = "user"
+
+
+@dataclass(frozen=True)
+class Template:
+    """A template with all its documents. `root` is the body that stands for the machine's base."""
+
+    equipment_type: str
+    folder: str
+    root: str
+    roles: tuple[Role, ...]
+    joints: tuple[JointTemplate, ...]
+    materials: Mapping[str, Material] = field(default_factory=dict)
+    collision: Mapping[str, str] = field(default_factory=dict)
+    wanted: tuple[Wanted, ...] = ()
+    actuators: tuple[ActuatorTemplate, ...] = ()
+    sites: tuple[SiteTemplate, ...] = ()
+    measurements: tuple[MeasurementTemplate, ...] = ()
+    variants: tuple[Variant, ...] = ()
+    reference: Mapping[str, Any] = field(default_factory=dict)
+
+    def role(self, name: str) -> Role:
+        """The role of that name; `KeyError` if there is none."""
+        for role in self.roles:
+            if role.name == name:
+                return role
+        raise KeyError(name)
+
+    def joint(self, name: str) -> JointTemplate:
+        """The joint of that name; `KeyError` if there is none."""
+        for joint in self.joints:
+            if joint.name == name:
+                return joint
+        raise KeyError(name)
+
+    def body_of(self, role_name: str) -> str | None:
+        """The rigid role that a role is or moves with; None for a group above all bodies."""
+        role: Role | None = self.role(role_name)
+        while role is not None and not role.rigid:
+            role = self.role(role.parent) if role.parent is not None else None
+        return role.name if role is not None else None
+
+    def bodies_of(self, joint: JointTemplate) -> tuple[str | None, str | None]:
+        """The two bodies a joint joins, in the order of its `Body` entry."""
+        return (self.body_of(joint.parts[0]), self.body_of(joint.parts[1]))
+
+    def default_choices(self) -> dict[str, str]:
+        """Every variant's default."""
+        return {v.name: v.default for v in self.variants}
+
+
+def choose(template: Template, choices: Mapping[str, str]) -> Template:
+    """The template with its variants decided: only the entries that exist under `choices` (defaults elsewhere)
+    remain."""
+    chosen = {**template.default_choices(), **choices}
+
+    def holds(when: Choices) -> bool:
+        return all(chosen.get(name) in allowed for name, allowed in when.items())
+
+    roles = tuple(replace(r, when={}) for r in template.roles if holds(r.when))
+    joints = tuple(
+        replace(j, when={}, drive_when={}, drive=j.drive if holds(j.drive_when) else None)
+        for j in template.joints
+        if holds(j.when)
+    )
+    kept = {j.name for j in joints}
+    actuators = []
+    for actuator in template.actuators:
+        cylinders = tuple(replace(c, when={}) for c in actuator.cylinders if holds(c.when) and c.slide in kept)
+        motors = tuple(
+            j for j in actuator.joints if j in kept and template.joint(j).drive and holds(template.joint(j).drive_when)
+        )
+        if cylinders or motors:
+            actuators.append(replace(actuator, cylinders=cylinders, joints=motors))
+    return replace(template, roles=roles, joints=joints, actuators=tuple(actuators), variants=())

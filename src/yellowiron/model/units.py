@@ -1,0 +1,76 @@
+"""Quantities with units: text to SI and back. pint does the arithmetic."""
+
+from __future__ import annotations
+
+import functools
+import re
+from typing import TYPE_CHECKING, Any
+
+from yellowiron.model.errors import YellowironError
+
+if TYPE_CHECKING:
+    import pint
+
+SI_UNIT = {
+    "length": "m",
+    "angle": "rad",
+    "mass": "kg",
+    "pressure": "Pa",
+    "flow": "m^3/s",
+    "volume": "m^3",
+    "force": "N",
+    "torque": "N*m",
+    "power": "W",
+    "speed": "m/s",
+    "angular_speed": "rad/s",
+    "time": "s",
+    "count": "1",
+}
+"""Dimension (the word a template uses) → the SI unit its values are kept in."""
+
+_NUMBER = re.compile(r"^\s*([-+−]?\d+(?:\.\d*)?(?:[eE][-+]?\d+)?|[-+−]?\.\d+)\s*(.*?)\s*$")
+_SPELLING = {
+    "°": "degree",
+    "deg": "degree",
+    "l/min": "liter/minute",
+    "L/min": "liter/minute",
+    "rpm": "revolution/minute",
+}
+
+
+@functools.cache
+def registry() -> pint.UnitRegistry[Any]:
+    """The process's pint registry (imported on first use: it takes a third of a second)."""
+    import pint
+
+    return pint.UnitRegistry()
+
+
+def to_si(value: float, unit: str, *, where: str = "") -> tuple[float, str]:
+    """A number with a unit in SI: (value, SI unit of its dimension). `YellowironError` for an unknown unit."""
+    spelled = _SPELLING.get(unit, unit)
+    try:
+        quantity = registry().Quantity(value, spelled)
+        for si in SI_UNIT.values():
+            target = registry().Unit(si) if si != "1" else registry().dimensionless
+            same_kind = quantity.is_compatible_with(target)
+            angular = (si == "rad") == (spelled in ("degree", "radian", "rad"))
+            if same_kind and (angular or si not in ("rad", "1")):
+                return float(quantity.to(target).magnitude), si
+    except Exception as error:  # pint raises half a dozen unrelated classes for bad text
+        raise YellowironError(
+            f"'{unit}' is not a unit", where=where, hint="Write e.g. 764 mm, 31.5 MPa, 40 deg."
+        ) from error
+    raise YellowironError(
+        f"'{unit}' is no unit of a specification", where=where, hint=f"Known: {', '.join(SI_UNIT.values())}."
+    )
+
+
+def parse_quantity(text: str, *, where: str = "") -> tuple[float, str]:
+    """'764 mm' → (0.764, 'm'); a bare number has unit ''. `YellowironError` if there is no number."""
+    match = _NUMBER.match(text)
+    if match is None:
+        raise YellowironError(f"'{text}' is not a number with a unit", where=where, hint="Write e.g. 764 mm.")
+    value = float(match.group(1).replace("−", "-"))
+    unit = match.group(2)
+    return to_si(value, unit, where=where) if unit else (value, "")
