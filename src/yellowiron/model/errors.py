@@ -15,6 +15,9 @@ class YellowironError(Exception):
         self.where = where
         self.hint = hint
 
+    def __reduce__(self) -> tuple[object, ...]:
+        return (_rebuild, (type(self), self.message, self.where, self.hint))
+
     def __str__(self) -> str:
         text = self.message
         if self.where:
@@ -22,6 +25,11 @@ class YellowironError(Exception):
         if self.hint:
             text += f" Hint: {self.hint}"
         return text
+
+
+def _rebuild(kind: type[YellowironError], message: str, where: str, hint: str) -> YellowironError:
+    """An error from its pickle: keyword-only arguments need help to cross a process boundary."""
+    return kind(message, where=where, hint=hint)
 
 
 class CadError(YellowironError):

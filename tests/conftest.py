@@ -1,0 +1,30 @@
+"""Shared fixtures: where the repository, its examples and the optional real inputs are."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+
+
+@pytest.fixture(scope="session")
+def root() -> Path:
+    """The repository's root."""
+    return ROOT
+
+
+@pytest.fixture(scope="session")
+def example() -> Path:
+    """The wheel loader example's folder."""
+    return ROOT / "examples" / "wheel_loader"
+
+
+@pytest.fixture(scope="session")
+def shared_data() -> Path:
+    """Real inputs beside the checkout; tests that need them skip where the folder is absent."""
+    folder = ROOT.parent / "shared" / "data"
+    if not folder.is_dir():
+        pytest.skip("real inputs (shared/data) are not here")
+    return folder
