@@ -1,0 +1,36 @@
+# make demo: sets everything up and builds the example machine into out/.  make test: sets up and passes the tests.
+PYTHON ?= python3
+VENV := .venv
+STAMP := $(VENV)/.installed
+EXAMPLE := examples/wheel_loader
+
+.PHONY: demo test test-fast lint bench clean
+.DELETE_ON_ERROR:
+
+demo: $(STAMP)
+	$(VENV)/bin/yellowiron build wheel_loader \
+	  --cad $(EXAMPLE)/wheel_loader.step --specs $(EXAMPLE)/specifications.pdf --out out/wheel_loader
+
+# Fast tests first: a mistake shows before the slow ones start.
+test: $(STAMP)
+	$(VENV)/bin/python -m pytest -m "not slow"
+	$(VENV)/bin/python -m pytest -m slow
+
+test-fast: $(STAMP)
+	$(VENV)/bin/python -m pytest -m "not slow"
+
+lint: $(STAMP)
+	$(VENV)/bin/ruff check . && $(VENV)/bin/ruff format --check . && $(VENV)/bin/mypy
+
+bench: $(STAMP)
+	for script in benchmarks/bench_*.py; do $(VENV)/bin/python $$script || exit 1; done
+
+$(STAMP): pyproject.toml
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
+	  { echo "yellowiron needs Python 3.11 or newer; name one with: make PYTHON=python3.12 $(MAKECMDGOALS)"; exit 1; }
+	@$(PYTHON) -m venv $(VENV) || { echo "On Debian: apt-get install python3-venv"; exit 1; }
+	$(VENV)/bin/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]'
+	touch $(STAMP)
+
+clean:
+	rm -rf $(VENV) out
