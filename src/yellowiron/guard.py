@@ -90,7 +90,7 @@ def _child(call: Path) -> None:
         outcome = ("error", error)
     except MemoryError:
         outcome = ("memory", None)
-    except Exception as error:  # whatever a third-party reader throws becomes one sentence in the parent
+    except Exception as error:  # noqa: BLE001 - whatever a third-party reader throws becomes one sentence in the parent
         outcome = ("failure", f"{type(error).__name__}: {error}"[:500])
     part = Path(f"{answer}.part")
     part.write_bytes(pickle.dumps(outcome))

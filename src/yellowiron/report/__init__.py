@@ -1,0 +1,33 @@
+"""The report: `report.json`, `report.html`, the tables of the command line and their pictures."""
+
+from yellowiron.report.console import (
+    alignment_table,
+    build_summary,
+    finding_table,
+    measurement_table,
+    specification_table,
+)
+from yellowiron.report.document import (
+    alignment_entry,
+    fell_short,
+    report_document,
+    specification_entry,
+    within_tolerance,
+    write_document,
+)
+from yellowiron.report.page import page
+
+__all__ = [
+    "alignment_entry",
+    "alignment_table",
+    "build_summary",
+    "fell_short",
+    "finding_table",
+    "measurement_table",
+    "page",
+    "report_document",
+    "specification_entry",
+    "specification_table",
+    "within_tolerance",
+    "write_document",
+]

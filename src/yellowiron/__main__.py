@@ -1,0 +1,5 @@
+"""`python -m yellowiron`."""
+
+from yellowiron.cli import main
+
+main()

@@ -1,0 +1,130 @@
+"""The whole way, in order: type, CAD model and specification sheet to a measured USD machine."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from yellowiron import align, cad, kinematics, library, mechanism, report, specs, usd
+from yellowiron.model.alignment import Alignment
+from yellowiron.model.mechanism import Measurement, Mechanism
+from yellowiron.model.specification import Specifications
+from yellowiron.model.template import choose
+from yellowiron.output import output_folder
+
+Progress = Callable[[str], None]
+
+
+@dataclass(frozen=True, eq=False)
+class Machine:
+    """What a build returns: every stage's result, the report, and what `fell_short`, one phrase each."""
+
+    mechanism: Mechanism
+    alignment: Alignment
+    specifications: Specifications
+    measurements: tuple[Measurement, ...]
+    report: Mapping[str, Any]
+    folder: Path
+    fell_short: tuple[str, ...]
+
+
+@dataclass
+class _Clock:
+    """Wall-clock seconds by stage."""
+
+    progress: Progress
+    seconds: dict[str, float] = field(default_factory=dict)
+
+    @contextmanager
+    def stage(self, name: str, words: str) -> Iterator[None]:
+        self.progress(words)
+        start = time.perf_counter()
+        yield
+        self.seconds[name] = self.seconds.get(name, 0.0) + time.perf_counter() - start
+
+
+def build(
+    equipment_type: str | Path,
+    cad_file: Path,
+    out: Path,
+    *,
+    sheets: Sequence[Path] = (),
+    alignment_file: Path | None = None,
+    documents: Sequence[Path] = (),
+    settings: Sequence[str] = (),
+    config: str = "",
+    progress: Progress = lambda words: None,
+) -> Machine:
+    """Fuses an equipment type's template, a CAD model and specification sheets into a USD machine in the folder `out`.
+
+    `equipment_type` is a library type or a template folder; `alignment_file` an edited alignment (default: the one
+    that an earlier run left in `out`); `documents` are JSON-1 … JSON-4 or a filled joint template; `settings` are texts such as
+    `Lift Cylinder Stroke=764 mm`; `config` picks a column of the sheet. Raises `YellowironError` for unusable input,
+    having written nothing.
+    """
+    clock = _Clock(progress)
+    with output_folder(out) as folder:
+        # What is known of the type, and what was asked for by hand.
+        template = library.load_template(equipment_type)
+        values, choices = specs.split_settings(settings, template)
+
+        with clock.stage("convert", "Reading the CAD model"):
+            assembly = cad.read_cad(cad_file)
+
+        # Weakest first: template, sheet, documents, settings.
+        data = library.load_documents(documents, template, assembly)
+        template = library.apply_joints(template, data)
+        with clock.stage("extract", "Reading the specification sheets"):
+            specifications = specs.merge(
+                specs.extract(template, sheets, config=config), specs.parse_settings(values, template)
+            )
+
+        with clock.stage("align", "Finding the part that plays each role"):
+            earlier = alignment_file or out / "alignment.json"
+            edits = align.read_alignment(earlier, assembly, template) if alignment_file or earlier.exists() else None
+            alignment = align.align(
+                assembly, template, specifications, edits=library.with_relations(edits, data), choices=choices
+            )
+            template = choose(template, {**alignment.choices, **choices})
+
+        with clock.stage("mechanism", "Building the mechanism"):
+            machine = mechanism.build_mechanism(
+                assembly, template, alignment, specifications, name=template.equipment_type, documents=data
+            )
+            machine = kinematics.complete(kinematics.calibrate(machine))
+
+        with clock.stage("measure", "Measuring the machine against its sheet"):
+            measurements = kinematics.measure(machine)
+
+        with clock.stage("write", "Writing USD"):
+            usd.write_machine(machine, assembly, folder, name=machine.name)
+
+        with clock.stage("report", "Writing the report"):
+            document = report.report_document(
+                machine, template, alignment, specifications, measurements,
+                findings=(*library.lint(template).findings, *assembly.findings, *data.findings),
+                usd_counts=usd.count_joints(folder / f"{machine.name}.usda"),
+                levers={a.name: kinematics.lever_table(machine, a.name) for a in machine.actuators},
+            )  # fmt: skip
+            report.write_document(document, folder / "report.json")
+            report.write_document({"specifications": document["specifications"]}, folder / "specifications.json")
+            report.write_document(
+                library.filled_joints(template, machine, specifications), folder / "joints.filled.json"
+            )
+            align.write_alignment(alignment, assembly, folder / "alignment.json")
+            page = report.page(document, machine, assembly, alignment, poses=kinematics.key_poses(machine))
+            (folder / "report.html").write_text(page, encoding="utf-8")
+        report.write_document(clock.seconds, folder / "timings.json")
+    return Machine(
+        mechanism=machine,
+        alignment=alignment,
+        specifications=specifications,
+        measurements=measurements,
+        report=document,
+        folder=out,
+        fell_short=tuple(report.fell_short(document)),
+    )

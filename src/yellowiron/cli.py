@@ -1,0 +1,243 @@
+"""The commands. Exit code 0: done; 1: done, and something fell short; 2: the input is unusable."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import asdict
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+from rich.console import Console, RenderableType
+from rich.text import Text
+
+from yellowiron.model.errors import YellowironError
+from yellowiron.model.text import to_json
+
+app = typer.Typer(
+    name="yellowiron",
+    help="From a construction machine's CAD model and specification sheet to a simulation-ready USD machine.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+)
+templates = typer.Typer(help="The template library.", no_args_is_help=True)
+app.add_typer(templates, name="templates")
+
+Type = Annotated[str, typer.Argument(metavar="TYPE", help="A library type (templates list) or a template folder.")]
+Json = Annotated[bool, typer.Option("--json", help="Print one JSON document and nothing else.")]
+Sheets = Annotated[list[Path] | None, typer.Option("--specs", help="A specification sheet (PDF); may be repeated.")]
+Settings = Annotated[
+    list[str] | None, typer.Option("--set", help='A value by hand: "Lift Cylinder Stroke=764 mm"; may be repeated.')
+]
+Config = Annotated[str, typer.Option("--config", help="The column of the sheet to take, by its heading.")]
+
+
+@app.command()
+def build(
+    equipment_type: Type,
+    cad: Annotated[Path, typer.Option("--cad", help="The CAD model.")],
+    out: Annotated[Path, typer.Option("--out", help="The folder to write the machine to.")],
+    specs: Sheets = None,
+    alignment: Annotated[Path | None, typer.Option("--alignment", help="An alignment that a person edited.")] = None,
+    data: Annotated[
+        list[Path] | None, typer.Option("--data", help="Materials, collision, relations or joints.")
+    ] = None,
+    settings: Settings = None,
+    config: Config = "",
+    as_json: Json = False,
+) -> None:
+    """Build a machine: the whole way."""
+    from yellowiron.build import build as build_machine
+    from yellowiron.report import build_summary
+
+    with _progress(as_json) as progress:
+        machine = build_machine(
+            equipment_type, cad, out, sheets=specs or (), alignment_file=alignment, documents=data or (),
+            settings=settings or (), config=config, progress=progress,
+        )  # fmt: skip
+    reasons = machine.fell_short
+    _show(machine.report, build_summary(machine.report, reasons, str(out)), as_json)
+    raise typer.Exit(1 if reasons else 0)
+
+
+@app.command()
+def extract(
+    equipment_type: Type,
+    pdfs: Annotated[list[Path], typer.Argument(metavar="PDF...", help="Specification sheets.")],
+    config: Config = "",
+    show: Annotated[Path | None, typer.Option("--show", help="Write the pages as pictures, values boxed.")] = None,
+    as_json: Json = False,
+) -> None:
+    """Read the specifications a template asks for, each with its evidence."""
+    from yellowiron import library, specs
+    from yellowiron.output import output_folder
+    from yellowiron.report import specification_entry, specification_table
+
+    with _progress(as_json) as progress:
+        progress("Reading the specification sheets")
+        found = specs.extract(library.load_template(equipment_type), pdfs, config=config)
+        if show is not None:
+            with output_folder(show) as folder:
+                specs.draw_evidence(pdfs, found, folder)
+    entries = [specification_entry(s) for s in found]
+    _show(
+        {"specifications": entries, "findings": [asdict(f) for f in found.findings]},
+        specification_table(entries),
+        as_json,
+    )
+    short = any(e["status"] in ("review", "conflict", "unreadable") for e in entries)
+    raise typer.Exit(1 if short else 0)
+
+
+@app.command()
+def convert(
+    cad: Annotated[Path, typer.Argument(metavar="CAD", help="The CAD model.")],
+    out: Annotated[Path, typer.Option("--out", help="The .usd, .usda or .usdc file to write.")],
+) -> None:
+    """Convert CAD to USD, nothing else."""
+    from yellowiron import cad as readers
+    from yellowiron import usd
+    from yellowiron.output import output_file
+
+    with _progress(False) as progress, output_file(out) as temporary:
+        progress("Reading the CAD model")
+        assembly = readers.read_cad(cad)
+        progress("Writing USD")
+        usd.write_assembly(assembly, temporary)
+    _print(Text(f"{out}: {len(assembly.parts)} parts, {len(assembly.shapes)} shapes"))
+
+
+@app.command("align")
+def align_parts(
+    equipment_type: Type,
+    cad: Annotated[Path, typer.Argument(metavar="CAD", help="The CAD model.")],
+    out: Annotated[
+        Path | None, typer.Option("--out", help="The alignment file to write (edits in it are kept).")
+    ] = None,
+    explain: Annotated[str | None, typer.Option("--explain", help="Say why for one role or part.")] = None,
+    as_json: Json = False,
+) -> None:
+    """Find the part that plays each role."""
+    from yellowiron import align, library
+    from yellowiron import cad as readers
+    from yellowiron.model.specification import Specifications
+    from yellowiron.output import output_file
+    from yellowiron.report import alignment_entry, alignment_table
+
+    with _progress(as_json) as progress:
+        template = library.load_template(equipment_type)
+        progress("Reading the CAD model")
+        assembly = readers.read_cad(cad)
+        progress("Finding the part that plays each role")
+        edits = align.read_alignment(out, assembly, template) if out is not None and out.exists() else None
+        alignment = align.align(assembly, template, Specifications(), edits=edits)
+        if out is not None:
+            with output_file(out) as temporary:
+                align.write_alignment(alignment, assembly, temporary)
+    renderable: RenderableType = alignment_table(alignment)
+    if explain is not None:
+        renderable = Text(align.explain(alignment, explain))
+    _show(alignment_entry(alignment), renderable, as_json)
+    raise typer.Exit(1 if alignment.to_review or alignment.missing else 0)
+
+
+@app.command()
+def measure(
+    machine: Annotated[Path, typer.Argument(metavar="FILE.usd", help="A machine that build wrote.")],
+    as_json: Json = False,
+) -> None:
+    """Measure a machine against its sheet."""
+    from yellowiron import kinematics, usd
+    from yellowiron.report import measurement_table, within_tolerance
+
+    found = kinematics.measure(usd.read_machine(machine))
+    entries = [asdict(m) for m in found]
+    _show({"measurements": entries}, measurement_table(entries), as_json)
+    raise typer.Exit(1 if any(m.role == "checked" and within_tolerance(m) is False for m in found) else 0)
+
+
+@templates.command("list")
+def list_templates(as_json: Json = False) -> None:
+    """List the equipment types of the library."""
+    from yellowiron import library
+
+    names = library.list_templates()
+    _show({"templates": list(names)}, Text("\n".join(names)), as_json)
+
+
+@templates.command("show")
+def show_template(equipment_type: Type) -> None:
+    """Show a template's hierarchy and joints."""
+    from yellowiron import library
+
+    _print(library.tree(library.load_template(equipment_type)))
+
+
+@templates.command("check")
+def check_template(equipment_type: Type, as_json: Json = False) -> None:
+    """Check a template: names, references, mobility."""
+    from yellowiron import library
+    from yellowiron.report import finding_table
+
+    lint = library.lint(library.load_template(equipment_type))
+    entries = [asdict(f) for f in lint.findings]
+    _show(
+        {"findings": entries, "counts": dict(lint.counts)},
+        finding_table(entries) if entries else Text("Sound."),
+        as_json,
+    )
+    raise typer.Exit(1 if any(f.severity == "error" for f in lint.findings) else 0)
+
+
+@templates.command("copy")
+def copy_template(equipment_type: Type, folder: Annotated[Path, typer.Argument(metavar="DIR")]) -> None:
+    """Copy a template to a folder of yours, to change it."""
+    from yellowiron import library
+
+    library.copy_template(equipment_type, folder)
+    _print(Text(f"{folder}: yours to change; build with it by naming the folder."))
+
+
+def main() -> None:
+    """The console script: an unusable input is one sentence on stderr and exit code 2, never a traceback."""
+    try:
+        app()
+    except YellowironError as error:
+        console = Console(stderr=True)
+        console.print(Text.assemble(("error: ", "bold red"), error.message), soft_wrap=True)
+        if error.where:
+            console.print(Text.assemble(("where: ", "bold"), error.where), soft_wrap=True)
+        if error.hint:
+            console.print(Text.assemble(("hint:  ", "bold"), error.hint), soft_wrap=True)
+        sys.exit(2)
+
+
+@contextmanager
+def _progress(quiet: bool) -> Iterator[Any]:
+    """A function that says what is being done, shown on stderr when it is a terminal."""
+    console = Console(stderr=True)
+    if quiet or not console.is_terminal:
+        yield lambda words: None
+        return
+    with console.status("") as status:
+        yield lambda words: status.update(f"{words} …")
+
+
+def _show(document: Any, renderable: RenderableType, as_json: bool) -> None:
+    if as_json:
+        sys.stdout.write(to_json(document))
+    else:
+        _print(renderable)
+
+
+def _print(renderable: RenderableType) -> None:
+    console = Console()
+    # A pipe has no width: let tables be as wide as their text.
+    Console(width=None if console.is_terminal else 160).print(renderable)
+
+
+if __name__ == "__main__":
+    main()

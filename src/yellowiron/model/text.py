@@ -1,0 +1,53 @@
+"""How values are written for people and for files: one place, so that the same value reads the same everywhere."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+_DISPLAY = {
+    "m": ("mm", 1e3),
+    "rad": ("°", 180.0 / math.pi),
+    "Pa": ("MPa", 1e-6),
+    "m^3/s": ("L/min", 6e4),
+    "N": ("kN", 1e-3),
+}
+
+
+def display(value: float | None, unit: str, *, digits: int = 5) -> str:
+    """An SI value in the unit people read: 0.764 m → '764 mm', 0.698 rad → '40 °'; '–' for None."""
+    if value is None:
+        return "–"
+    shown, factor = _DISPLAY.get(unit, (unit if unit != "1" else "", 1.0))
+    number = float(f"{value * factor:.{digits}g}")
+    text = f"{number:.0f}" if number == round(number) else f"{number:g}"
+    return f"{text} {shown}".rstrip()
+
+
+def plain(value: Any) -> Any:
+    """A value as JSON knows it: arrays and tuples become lists, floats 12 significant digits (the rest is noise)."""
+    if isinstance(value, np.ndarray):
+        return plain(value.tolist())
+    if isinstance(value, Mapping):
+        return {str(k): plain(v) for k, v in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [plain(v) for v in value]
+    if isinstance(value, (bool, np.bool_)):
+        return bool(value)
+    if isinstance(value, (int, np.integer)):
+        return int(value)
+    if isinstance(value, (float, np.floating)):
+        if not math.isfinite(value):
+            return None
+        rounded = float(f"{value:.12g}")
+        return 0.0 if rounded == 0.0 else rounded
+    return value
+
+
+def to_json(document: Any) -> str:
+    """A document as the text of a JSON file: two-space indent, the writer's key order, UTF-8, a closing newline."""
+    return json.dumps(plain(document), indent=2, ensure_ascii=False) + "\n"

@@ -1,0 +1,128 @@
+"""The tables the command line prints."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+from rich.console import Group, RenderableType
+from rich.table import Table
+from rich.text import Text
+
+from yellowiron.model.alignment import Alignment
+from yellowiron.model.mechanism import Measurement
+from yellowiron.model.text import display
+from yellowiron.report.document import within_tolerance
+
+_STATUS = {"ok": "green", "review": "yellow", "conflict": "red", "missing": "dim", "unreadable": "red"}
+_SEVERITY = {"error": "red", "warning": "yellow", "info": "dim"}
+
+
+def specification_table(entries: Iterable[Mapping[str, Any]]) -> Table:
+    """Specifications: name, value, status, and where it was read."""
+    table = _table("Specification", "Value", "Status", "Page", "Evidence", right=("Value", "Page"))
+    for entry in entries:
+        note = f"“{entry['quote']}”" if entry["quote"] else entry["hint"] or entry["reason"]
+        if entry["example"]:
+            note += "  (example value)"
+        if entry["status"] == "conflict":
+            values = (f"{display(c['value'], c['unit'])} {c['configuration']}".strip() for c in entry["candidates"])
+            note = " | ".join(values)
+        table.add_row(
+            entry["name"],
+            display(entry["value"], entry["unit"]),
+            Text(entry["status"], style=_STATUS[entry["status"]]),
+            "" if entry["page"] is None else str(entry["page"]),
+            Text(note, overflow="ellipsis", no_wrap=True, style="dim"),
+        )
+    return table
+
+
+def measurement_table(entries: Sequence[Mapping[str, Any]]) -> Table:
+    """Measurements: what the sheet says, what the model gives."""
+    table = _table("Measurement", "Sheet", "Model", "Error", "", right=("Sheet", "Model", "Error"))
+    for entry in entries:
+        held = within_tolerance(Measurement(**entry))
+        mark = {True: Text("✓", "green"), False: Text("✗", "red"), None: Text("")}[held]
+        if entry["role"] != "checked" and held is not None:
+            mark = mark + Text(f" {entry['role']} value", "dim")
+        if entry["reason"]:
+            mark = Text(entry["reason"], "dim")
+        table.add_row(
+            entry["name"],
+            display(entry["spec"], entry["unit"]),
+            display(entry["model"], entry["unit"], digits=6),
+            _error(entry),
+            mark,
+        )
+    return table
+
+
+def finding_table(entries: Iterable[Mapping[str, Any]]) -> Table:
+    """Findings: code, where, what, and what to do."""
+    table = _table("Code", "Where", "Finding", right=())
+    for entry in entries:
+        text = Text(entry["message"], style=_SEVERITY[entry["severity"]])
+        if entry["hint"]:
+            text.append(f" {entry['hint']}", style="dim")
+        table.add_row(entry["code"], entry["where"], text)
+    return table
+
+
+def alignment_table(alignment: Alignment) -> RenderableType:
+    """Bodies with their parts counted, then what to review."""
+    table = _table("Body", "Parts", "Confidence", "Pins", right=("Parts", "Confidence"))
+    bodies = list(dict.fromkeys(a.body for a in alignment.parts))
+    for body in bodies:
+        parts = [a for a in alignment.parts if a.body == body]
+        roles = dict.fromkeys(a.role for a in parts if a.role not in (None, body))
+        lowest = min(a.confidence for a in parts)
+        table.add_row(body or "–", str(len(parts)), f"≥ {lowest:.2f}", ", ".join(str(r) for r in roles))
+    blocks: list[RenderableType] = [table]
+    for title, items in (("No part plays", alignment.missing), ("To review", alignment.to_review)):
+        if items:
+            blocks += ["", Text(title, "bold yellow"), *(Text(f"  • {item}") for item in items)]
+    return Group(*blocks)
+
+
+def build_summary(document: Mapping[str, Any], reasons: Sequence[str], folder: str) -> RenderableType:
+    """What a build ends with: the machine in a line, the measurements, what is left to a person."""
+    counts, mobility, alignment = document["counts"], document["mobility"], document["alignment"]
+    line = Text.assemble(
+        (document["machine"], "bold"),
+        f"  {alignment['assigned']} of {alignment['parts']} parts in {counts['bodies']} bodies, "
+        f"{counts['revolute']} revolute and {counts['prismatic']} prismatic joints, {counts['loops']} loops, "
+        f"mobility {mobility['computed']} of {mobility['expected']}"
+        if mobility
+        else "",
+    )
+    blocks: list[RenderableType] = [line, "", measurement_table(document["measurements"])]
+    notable = [f for f in document["findings"] if f["severity"] != "info"]
+    if notable:
+        blocks += ["", finding_table(notable)]
+    if reasons:
+        blocks += [
+            "",
+            Text("Left to you:", "bold yellow"),
+            *(Text(f"  • {reason}", overflow="fold") for reason in reasons),
+        ]
+    else:
+        blocks += ["", Text("Ready: nothing left to do by hand.", "bold green")]
+    blocks.append(Text(f"{folder}/scene.usda is the machine on the ground; {folder}/report.html says why.", "dim"))
+    return Group(*blocks)
+
+
+def _error(entry: Mapping[str, Any]) -> str:
+    if entry["spec"] is None or entry["model"] is None:
+        return ""
+    gap = entry["model"] - entry["spec"]
+    if entry["unit"] == "rad":
+        return f"{gap * 57.29577951308232:+.3f} °"
+    return f"{entry['error_percent']:+.3f} %" if entry["error_percent"] is not None else display(gap, entry["unit"])
+
+
+def _table(*columns: str, right: Sequence[str]) -> Table:
+    table = Table(box=None, pad_edge=False, header_style="bold", show_edge=False)
+    for column in columns:
+        table.add_column(column, justify="right" if column in right else "left")
+    return table

@@ -1,0 +1,183 @@
+"""`report.json`: everything a build decided and measured, as one document (DESIGN: the command line)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from yellowiron.model.alignment import Alignment
+from yellowiron.model.finding import Finding
+from yellowiron.model.mechanism import Joint, Measurement, Mechanism
+from yellowiron.model.specification import Specification, Specifications
+from yellowiron.model.template import Template
+from yellowiron.model.text import to_json
+
+REVOLUTE_TOLERANCE = 0.1
+"""Degrees: how far a measured angle may be from a published one before the build falls short."""
+RELATIVE_TOLERANCE = 0.2
+"""Percent: the same for every other quantity."""
+
+
+def report_document(
+    mechanism: Mechanism,
+    template: Template,
+    alignment: Alignment,
+    specifications: Specifications,
+    measurements: Sequence[Measurement],
+    *,
+    findings: Sequence[Finding] = (),
+    usd_counts: Mapping[str, int] | None = None,
+    levers: Mapping[str, Any] | None = None,
+) -> dict[str, Any]:
+    """The document behind `report.json` and `report.html`. SI units, machine frame, radians."""
+    everything = (*findings, *specifications.findings, *alignment.findings, *mechanism.findings)
+    return {
+        "machine": mechanism.name,
+        "equipment_type": mechanism.equipment_type,
+        "frame": alignment.frame,
+        "alignment": {
+            "parts": len(alignment.parts),
+            "assigned": sum(a.body is not None for a in alignment.parts),
+            "to_review": list(alignment.to_review),
+            "missing": list(alignment.missing),
+            "choices": dict(alignment.choices),
+        },
+        "specifications": [specification_entry(s) for s in specifications],
+        "bodies": [
+            {
+                "name": b.name,
+                "mass": b.mass,
+                "center_of_mass": b.center_of_mass,
+                "inertia": b.inertia,
+                "parts": [p.part for p in b.parts],
+                "source": b.source,
+            }
+            for b in mechanism.bodies
+        ],
+        "joints": [_joint_entry(j) for j in mechanism.joints],
+        "cylinders": [{**asdict(c), "extension": c.extension} for c in mechanism.cylinders],
+        "actuators": [asdict(a) for a in mechanism.actuators],
+        "loops": [asdict(loop) for loop in mechanism.loops],
+        "levers": dict(levers or {}),
+        "counts": _counts(mechanism, template),
+        "usd_counts": dict(usd_counts or {}),
+        "mobility": asdict(mechanism.mobility) if mechanism.mobility else None,
+        "measurements": [asdict(m) for m in measurements],
+        "findings": [asdict(f) for f in _unique(everything)],
+        "missing": _missing(template, specifications),
+    }
+
+
+def specification_entry(specification: Specification) -> dict[str, Any]:
+    """One specification as `report.json` and `extract --json` give it."""
+    evidence = specification.evidence
+    return {
+        "name": specification.name,
+        "value": specification.value,
+        "unit": specification.unit,
+        "status": specification.status,
+        "example": specification.example,
+        "page": evidence.page if evidence else None,
+        "quote": evidence.quote if evidence else None,
+        "box": evidence.box if evidence else None,
+        "file": evidence.file if evidence else None,
+        "source": specification.source,
+        "confidence": specification.confidence,
+        "reason": specification.reason,
+        "hint": specification.hint,
+        "candidates": [
+            {"value": c.value, "unit": c.unit, "page": c.evidence.page, "quote": c.evidence.quote,
+             "configuration": c.configuration}
+            for c in specification.candidates
+        ],
+    }  # fmt: skip
+
+
+def alignment_entry(alignment: Alignment) -> dict[str, Any]:
+    """An alignment as `align --json` gives it."""
+    return {
+        "frame": alignment.frame,
+        "choices": dict(alignment.choices),
+        "parts": [
+            {"part": a.part, "role": a.role, "body": a.body, "confidence": a.confidence, "reason": a.reason}
+            for a in alignment.parts
+        ],
+        "missing": list(alignment.missing),
+        "to_review": list(alignment.to_review),
+        "findings": [asdict(f) for f in alignment.findings],
+    }
+
+
+def within_tolerance(measurement: Measurement) -> bool | None:
+    """Whether a measurement meets its specification (0.2 %, or 0.1° for an angle); None where either is unknown."""
+    if measurement.spec is None or measurement.model is None:
+        return None
+    gap = abs(measurement.model - measurement.spec)
+    if measurement.unit == "rad":
+        return gap <= REVOLUTE_TOLERANCE * 3.141592653589793 / 180.0
+    return gap <= RELATIVE_TOLERANCE / 100.0 * abs(measurement.spec)
+
+
+def fell_short(document: Mapping[str, Any]) -> list[str]:
+    """What a person must still look at, one phrase each; empty when the machine is ready (exit code 0)."""
+    reasons = [f"missing: {name}" for name in document["missing"]]
+    reasons += [f"no part plays {role}" for role in document["alignment"]["missing"]]
+    reasons += [f"to review: {item}" for item in document["alignment"]["to_review"]]
+    reasons += [
+        f"{s['status']}: {s['name']}"
+        for s in document["specifications"]
+        if s["status"] in ("conflict", "review", "unreadable")
+    ]
+    reasons += [f"{f['code']} {f['where']}: {f['message']}" for f in document["findings"] if f["severity"] == "error"]
+    mobility = document["mobility"]
+    if mobility is not None and mobility["computed"] != mobility["expected"]:
+        reasons.append(f"mobility {mobility['computed']}, expected {mobility['expected']}")
+    for entry in document["measurements"]:
+        if entry["role"] == "checked" and within_tolerance(Measurement(**entry)) is False:
+            reasons.append(f"off the sheet: {entry['name']} by {entry['error_percent']:+.2f} %")
+    return reasons
+
+
+def write_document(document: Mapping[str, Any], path: Path) -> None:
+    """Writes a document as JSON, the same bytes for the same content."""
+    path.write_text(to_json(document), encoding="utf-8")
+
+
+def _joint_entry(joint: Joint) -> dict[str, Any]:
+    entry = asdict(joint)
+    drive = entry.pop("drive")
+    return {**entry, "drive": drive}
+
+
+def _counts(mechanism: Mechanism, template: Template) -> dict[str, int]:
+    """The template's joints and drives as modelled, before cuts and before one of a twin becomes passive."""
+    built = {j.name for j in mechanism.joints}
+    types = [j.type for j in mechanism.joints]
+    drives = [j.drive for j in template.joints if j.name in built]
+    return {
+        "bodies": len(mechanism.bodies),
+        **{kind: types.count(kind) for kind in ("revolute", "prismatic", "fixed", "spherical", "distance")},
+        "linear_drives": drives.count("linear"),
+        "angular_drives": drives.count("angular"),
+        "loops": len(mechanism.loops),
+    }
+
+
+def _missing(template: Template, specifications: Specifications) -> list[str]:
+    """Names that a joint limit needs and nothing gives: what a person must supply."""
+    names: dict[str, None] = {}
+    for joint in template.joints:
+        for limit in (joint.lower, joint.upper):
+            if isinstance(limit, str):
+                name = limit.lstrip("-− ").strip()
+                if specifications.number(name) is None:
+                    names[name] = None
+    return list(names)
+
+
+def _unique(findings: Sequence[Finding]) -> list[Finding]:
+    """Findings once each, the gravest first, otherwise in the order they came."""
+    order = {"error": 0, "warning": 1, "info": 2}
+    return sorted(dict.fromkeys(findings), key=lambda f: order[f.severity])

@@ -1,0 +1,225 @@
+"""Shaded pictures on a bare machine: rays by embreex, shading by numpy. No display, no GPU, the same bytes every time.
+
+Machine frame: metres, Z up, the ground at z = 0.
+"""
+
+from __future__ import annotations
+
+import io
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+
+from yellowiron.model.assembly import Assembly
+from yellowiron.model.geometry import Floats
+from yellowiron.model.mechanism import Mechanism
+
+_SUN = np.array([0.35, -0.70, 1.0]) / math.sqrt(0.35**2 + 0.70**2 + 1.0)
+_SKY = np.array([0.93, 0.95, 0.97])
+_GROUND = np.array([0.90, 0.895, 0.88])
+_YELLOW = (0.94, 0.72, 0.10)
+_PALETTE = (
+    (0.90, 0.62, 0.00), (0.34, 0.71, 0.91), (0.00, 0.62, 0.45), (0.94, 0.89, 0.26), (0.00, 0.45, 0.70),
+    (0.84, 0.37, 0.00), (0.80, 0.47, 0.65), (0.60, 0.60, 0.60), (0.55, 0.34, 0.29), (0.50, 0.80, 0.40),
+)  # fmt: skip
+"""Okabe and Ito's colours, distinguishable by colour-blind readers, and three more."""
+
+
+@dataclass(frozen=True, eq=False)
+class Soup:
+    """Triangles to draw: corners (m, 3, 3) in metres, corner normals (m, 3, 3), colours (m, 3), part numbers
+    (m,)."""
+
+    corners: Floats
+    normals: Floats
+    colors: Floats
+    parts: NDArray[np.int64]
+
+
+@dataclass(frozen=True, eq=False)
+class Camera:
+    """A camera with a long lens: `eye`, unit `forward`, `right`, `up`; `scale` pixels per unit of slope."""
+
+    eye: Floats
+    forward: Floats
+    right: Floats
+    up: Floats
+    scale: float
+    width: int
+    height: int
+
+    def project(self, points: Floats) -> Floats:
+        """Pixel coordinates (n, 2) of points (n, 3); x to the right, y down."""
+        offset = points - self.eye
+        depth = offset @ self.forward
+        x = self.width / 2 + self.scale * (offset @ self.right) / depth
+        y = self.height / 2 - self.scale * (offset @ self.up) / depth
+        return np.stack([x, y], axis=1)
+
+
+def machine_soup(
+    mechanism: Mechanism,
+    assembly: Assembly,
+    frame: Floats,
+    *,
+    poses: Mapping[str, Floats] | None = None,
+    by_body: bool = False,
+) -> Soup:
+    """All parts of a mechanism's bodies.
+
+    `frame` (4, 4): CAD → machine; `poses`: body → (4, 4) displacement from the drawn pose, machine frame; `by_body`
+    colours every body by itself instead of by its parts' CAD colours.
+    """
+    parts = {p.id: p for p in assembly.parts}
+    corners: list[Floats] = []
+    normals: list[Floats] = []
+    colors: list[Floats] = []
+    numbers: list[NDArray[np.int64]] = []
+    for index, body in enumerate(mechanism.bodies):
+        displacement = poses.get(body.name, np.eye(4)) if poses else np.eye(4)
+        for body_part in body.parts:
+            part = parts[body_part.part]
+            shape = assembly.shape_of(part)
+            place = displacement @ frame @ part.transform
+            triangles = shape.mesh.triangles
+            if np.linalg.det(place[:3, :3]) < 0:
+                triangles = triangles[:, ::-1]
+            points = shape.mesh.points @ place[:3, :3].T + place[:3, 3]
+            soup = points[triangles]
+            facet = np.cross(soup[:, 1] - soup[:, 0], soup[:, 2] - soup[:, 0])
+            facet /= np.maximum(np.linalg.norm(facet, axis=1, keepdims=True), 1e-30)
+            if shape.mesh.normals is None:
+                corner_normals = np.repeat(facet[:, None, :], 3, axis=1)
+            else:
+                turned = shape.mesh.normals @ np.linalg.inv(place[:3, :3])
+                turned /= np.maximum(np.linalg.norm(turned, axis=1, keepdims=True), 1e-30)
+                corner_normals = turned[triangles]
+            color = _PALETTE[index % len(_PALETTE)] if by_body else (part.color or shape.color or _YELLOW)
+            corners.append(soup)
+            normals.append(corner_normals)
+            colors.append(np.broadcast_to(np.asarray(color, dtype=np.float64), (len(soup), 3)))
+            numbers.append(np.full(len(soup), len(numbers), dtype=np.int64))
+    if not corners:
+        nothing = np.zeros((0, 3, 3))
+        return Soup(nothing, nothing, np.zeros((0, 3)), np.zeros(0, dtype=np.int64))
+    return Soup(np.concatenate(corners), np.concatenate(normals), np.concatenate(colors), np.concatenate(numbers))
+
+
+def look_at(
+    points: Floats, *, azimuth: float = -0.6, elevation: float = 0.35, width: int = 1280, height: int = 720
+) -> Camera:
+    """A camera that sees all of `points` (n, 3). Radians: azimuth from +X towards +Y, elevation above the ground."""
+    center = 0.5 * (points.min(axis=0) + points.max(axis=0))
+    back = np.array(
+        [math.cos(elevation) * math.cos(azimuth), math.cos(elevation) * math.sin(azimuth), math.sin(elevation)]
+    )
+    forward = -back
+    right = np.cross(forward, [0.0, 0.0, 1.0])
+    right /= np.linalg.norm(right)
+    up = np.cross(right, forward)
+    reach = float(np.linalg.norm(points - center, axis=1).max())
+    eye = center + back * 5.0 * reach
+    offset = points - eye
+    depth = offset @ forward
+    slopes = np.stack([(offset @ right) / depth, (offset @ up) / depth], axis=1)
+    low, high = slopes.min(axis=0), slopes.max(axis=0)
+    # Aim at the middle of what is seen, then fill the frame with a margin.
+    aim = forward + right * 0.5 * (low[0] + high[0]) + up * 0.5 * (low[1] + high[1])
+    forward = aim / np.linalg.norm(aim)
+    right = np.cross(forward, [0.0, 0.0, 1.0])
+    right /= np.linalg.norm(right)
+    up = np.cross(right, forward)
+    scale = 0.88 * min(width / (high[0] - low[0]), height / (high[1] - low[1]))
+    return Camera(eye, forward, right, up, scale, width, height)
+
+
+def render(soup: Soup, camera: Camera, *, supersample: int = 2) -> Image.Image:
+    """The picture: sun with shadow, sky light, a ground plane, and lines where parts or creases meet."""
+    from embreex import rtcore_scene
+    from embreex.mesh_construction import TriangleMesh
+
+    width, height = camera.width * supersample, camera.height * supersample
+    scale = camera.scale * supersample
+    columns, rows = np.meshgrid(np.arange(width) + 0.5, np.arange(height) + 0.5)
+    directions = (
+        camera.forward
+        + ((columns - width / 2) / scale)[..., None] * camera.right
+        - ((rows - height / 2) / scale)[..., None] * camera.up
+    ).reshape(-1, 3)
+    directions /= np.linalg.norm(directions, axis=1, keepdims=True)
+    scene = rtcore_scene.EmbreeScene()
+    TriangleMesh(scene, soup.corners.astype(np.float32))
+    origins = np.broadcast_to(camera.eye, directions.shape).astype(np.float32)
+    hit = scene.run(origins, directions.astype(np.float32), output=True)
+    face = hit["primID"].astype(np.int64)
+    seen = face >= 0
+    distance = np.where(seen, hit["tfar"], np.inf)
+
+    normals = np.zeros_like(directions)
+    u, v = hit["u"][seen, None], hit["v"][seen, None]
+    corner = soup.normals[face[seen]]
+    normals[seen] = (1 - u - v) * corner[:, 0] + u * corner[:, 1] + v * corner[:, 2]
+    lengths = np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
+    normals /= lengths
+    normals *= np.where(np.einsum("ij,ij->i", normals, directions) > 0, -1.0, 1.0)[:, None]
+
+    with np.errstate(divide="ignore", invalid="ignore"):
+        to_ground = np.where(directions[:, 2] < 0, -camera.eye[2] / directions[:, 2], np.inf)
+    ground = ~seen & np.isfinite(to_ground)
+    distance[ground] = to_ground[ground]
+    normals[ground] = (0.0, 0.0, 1.0)
+    lit = seen | ground
+    points = camera.eye + directions[lit] * distance[lit, None]
+
+    sun = np.clip(normals[lit] @ _SUN, 0.0, 1.0)
+    start = points + normals[lit] * 2e-3
+    shadow = scene.run(start.astype(np.float32), np.tile(_SUN, (len(start), 1)).astype(np.float32), query="OCCLUDED")
+    sun = np.where(shadow >= 0, 0.0, sun)
+    sky = 0.5 + 0.5 * normals[lit][:, 2]
+    light = 0.36 + 0.26 * sky + 0.50 * sun
+    color = np.tile(_SKY, (len(directions), 1))
+    albedo = np.where(seen[:, None], soup.colors[np.maximum(face, 0)] if len(soup.colors) else 0.0, _GROUND)
+    color[lit] = albedo[lit] * light[:, None]
+    color[ground] = np.minimum(color[ground] * 0.90, 1.0)
+    # The ground fades into the sky, so that it has no edge.
+    spread = np.linalg.norm((camera.eye + directions[ground] * distance[ground, None])[:, :2], axis=1)
+    fade = np.clip(spread / 14.0, 0.0, 1.0)[:, None] ** 2
+    color[ground] = color[ground] * (1 - fade) + _SKY * fade
+
+    label = np.where(seen, soup.parts[np.maximum(face, 0)] if len(soup.parts) else -1, -1)
+    edges = _edges(label.reshape(height, width), normals.reshape(height, width, 3), seen.reshape(height, width))
+    image = color.reshape(height, width, 3)
+    image[edges] *= 0.45
+    pixels = (np.clip(image, 0.0, 1.0) * 255.0 + 0.5).astype(np.uint8)
+    return Image.fromarray(pixels).resize((camera.width, camera.height), Image.Resampling.BOX)
+
+
+def encode(image: Image.Image, *, quality: int = 82) -> bytes:
+    """The picture as WebP bytes."""
+    buffer = io.BytesIO()
+    image.save(buffer, "WEBP", quality=quality, method=4)
+    return buffer.getvalue()
+
+
+def contact_sheet(images: Sequence[Image.Image]) -> Image.Image:
+    """Pictures of one size side by side."""
+    width, height = images[0].size
+    sheet = Image.new("RGB", (width * len(images), height))
+    for index, image in enumerate(images):
+        sheet.paste(image, (index * width, 0))
+    return sheet
+
+
+def _edges(label: NDArray[np.int64], normals: Floats, seen: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Pixels where two parts, or two faces at more than about 35°, meet."""
+    edges = np.zeros(label.shape, dtype=bool)
+    for axis in (0, 1):
+        here = (slice(None, -1), slice(None)) if axis == 0 else (slice(None), slice(None, -1))
+        there = (slice(1, None), slice(None)) if axis == 0 else (slice(None), slice(1, None))
+        crease = np.einsum("ijk,ijk->ij", normals[here], normals[there]) < 0.82
+        edges[here] |= (label[here] != label[there]) | (crease & seen[here] & seen[there])
+    return edges
