@@ -62,10 +62,9 @@ def build(
     """Fuses an equipment type's template, a CAD model and specification sheets into a USD machine in the folder `out`.
 
     `equipment_type` is a library type or a template folder; `alignment_file` an edited alignment (default: the one
-    that an earlier run left in `out`); `documents` are JSON-1 … JSON-4 or a filled joint template; `settings` are texts such as
-    `Lift Cylinder Stroke=764 mm`; `config` picks a column of the sheet.
-    Raises `YellowironError` for unusable input,
-    having written nothing.
+    that an earlier run left in `out`); `documents` are JSON-1 … JSON-4 or a filled joint template; `settings` are
+    texts such as `Lift Cylinder Stroke=764 mm`; `config` picks a column of the sheet. Raises `YellowironError` for
+    unusable input, having written nothing.
     """
     clock = _Clock(progress)
     with output_folder(out) as folder:
