@@ -1,0 +1,61 @@
+"""The guard: whatever a reader does in its child process is an error message here."""
+
+from __future__ import annotations
+
+import os
+import time
+from pathlib import Path
+
+import pytest
+
+from yellowiron.guard import run_guarded
+from yellowiron.model.errors import CadError, SheetError
+
+
+def test_a_result_comes_back() -> None:
+    assert run_guarded("math:hypot", 3.0, 4.0, where="x") == 5.0
+
+
+@pytest.mark.parametrize(
+    ("target", "arguments", "words"),
+    [
+        ("os:abort", (), "crashed (SIGABRT)"),
+        ("os:_exit", (7,), "ended with code 7"),
+        ("math:sqrt", (-1.0,), "ValueError"),
+        ("no_such_module:f", (), "ModuleNotFoundError"),
+    ],
+)
+def test_a_failure_is_one_sentence(target: str, arguments: tuple[object, ...], words: str) -> None:
+    with pytest.raises(CadError) as caught:
+        run_guarded(target, *arguments, where="bad.step", error=CadError)
+    assert words in caught.value.message
+    assert caught.value.where == "bad.step"
+    assert caught.value.hint
+
+
+def test_a_hang_is_stopped() -> None:
+    start = time.monotonic()
+    with pytest.raises(SheetError, match="more than 1 s"):
+        run_guarded("time:sleep", 60, where="slow.pdf", error=SheetError, timeout_s=1.0)
+    assert time.monotonic() - start < 10.0
+
+
+def test_a_bomb_is_bounded() -> None:
+    with pytest.raises(CadError, match="memory"):
+        run_guarded("builtins:bytearray", 2**34, where="bomb.step", error=CadError, memory_mb=1024)
+
+
+def test_our_own_errors_cross_the_process_whole() -> None:
+    with pytest.raises(Exception) as caught:
+        run_guarded("yellowiron.model.units:parse_quantity", "many", where="x")
+    assert "many" in str(caught.value) and "764 mm" in str(caught.value)
+
+
+def test_the_child_is_another_process() -> None:
+    assert run_guarded("os:getpid", where="x") != os.getpid()
+
+
+def test_nothing_stays_behind(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    run_guarded("math:sqrt", 4.0, where="x")
+    assert list(tmp_path.iterdir()) == []

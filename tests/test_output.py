@@ -1,0 +1,63 @@
+"""Output is whole or absent."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from yellowiron.model.errors import OutputError
+from yellowiron.output import output_file, output_folder
+
+
+def test_a_folder_appears_whole(tmp_path: Path) -> None:
+    with output_folder(tmp_path / "a" / "out") as folder:
+        (folder / "payloads").mkdir()
+        (folder / "payloads" / "x").write_text("1")
+        assert not (tmp_path / "a" / "out").exists()
+    assert (tmp_path / "a" / "out" / "payloads" / "x").read_text() == "1"
+    assert [p.name for p in (tmp_path / "a").iterdir()] == ["out"]
+
+
+def test_a_failure_leaves_what_was_there(tmp_path: Path) -> None:
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / "x").write_text("old")
+    with pytest.raises(RuntimeError), output_folder(tmp_path / "out") as folder:
+        (folder / "x").write_text("new")
+        raise RuntimeError
+    assert (tmp_path / "out" / "x").read_text() == "old"
+    assert [p.name for p in tmp_path.iterdir()] == ["out"]
+
+
+def test_a_second_run_replaces_its_own_and_keeps_the_user_s(tmp_path: Path) -> None:
+    for content in ("first", "second"):
+        with output_folder(tmp_path / "out") as folder:
+            (folder / "payloads").mkdir()
+            (folder / "payloads" / content).write_text(content)
+        (tmp_path / "out" / "notes.txt").write_text("mine")
+    assert sorted(str(p.relative_to(tmp_path / "out")) for p in (tmp_path / "out").rglob("*")) == [
+        "notes.txt",
+        "payloads",
+        "payloads/second",
+    ]
+
+
+def test_a_file_appears_whole(tmp_path: Path) -> None:
+    with pytest.raises(RuntimeError), output_file(tmp_path / "a.usd") as path:
+        path.write_text("half")
+        raise RuntimeError
+    assert list(tmp_path.iterdir()) == []
+    with output_file(tmp_path / "a.usd") as path:
+        assert path.suffix == ".usd"
+        path.write_text("whole")
+    assert [p.name for p in tmp_path.iterdir()] == ["a.usd"]
+
+
+def test_a_place_that_cannot_be_written_is_an_error(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    with pytest.raises(OutputError), output_folder(tmp_path / "file"):
+        pass
+    with pytest.raises(OutputError), output_folder(tmp_path / "file" / "out"):
+        pass
+    with pytest.raises(OutputError), output_file(tmp_path):
+        pass
