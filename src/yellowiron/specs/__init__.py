@@ -1,0 +1,11 @@
+"""Specification sheets: PDF → layout statements → the values a template asks for, each with its evidence.
+
+`extract` reads sheets by rules, without any network; `parse_settings` takes values a person gives; `merge` decides
+between sources; `draw_evidence` shows on pictures of the pages where each value stands.
+"""
+
+from __future__ import annotations
+
+from yellowiron.specs.settings import merge, parse_settings, split_settings
+
+__all__ = ["merge", "parse_settings", "split_settings"]

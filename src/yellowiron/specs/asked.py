@@ -1,0 +1,70 @@
+"""Which values a template asks a sheet for."""
+
+from __future__ import annotations
+
+from yellowiron.model.specification import fold
+from yellowiron.model.template import JointTemplate, Template, Wanted
+
+_ANGULAR = {"revolute", "spherical"}
+
+
+def asked(template: Template) -> tuple[Wanted, ...]:
+    """The template's wanted values, then every joint limit that names a specification without a wanted entry.
+
+    Such a limit is asked for by its own words; its dimension follows from the joint's type. A name that stands in
+    several limits is asked for once.
+    """
+    found = {fold(w.name): w for w in template.wanted}
+    for joint in template.joints:
+        for limit in (joint.lower, joint.upper):
+            name = limit_name(limit)
+            if name and fold(name) not in found:
+                found[fold(name)] = _from_limit(name, joint)
+    return tuple(found.values())
+
+
+def limit_name(limit: float | str | None) -> str:
+    """The specification that a joint limit names, without its sign; "" for a number or no limit."""
+    if not isinstance(limit, str):
+        return ""
+    name = limit.strip().lstrip("-−").strip()
+    return name if any(c.isalpha() for c in name) and not name[0].isdigit() else ""
+
+
+def _from_limit(name: str, joint: JointTemplate) -> Wanted:
+    dimension = "angle" if joint.type in _ANGULAR else "length"
+    return Wanted(name=name, dimension=dimension, use=f"limit of {joint.name}")
+
+
+def hint_for(wanted: Wanted) -> str:
+    """What a missing value is, where makers print it and how to give it."""
+    what = f"{wanted.name} ({wanted.dimension}"
+    what += f"; {wanted.use.rstrip('.')})" if wanted.use else ")"
+    place = wanted.where.rstrip(".") or _PLACES.get(wanted.dimension, "the specification tables")
+    return f'{what}. Look in {place}; give it with --set "{wanted.name}={_EXAMPLES.get(wanted.dimension, "VALUE")}".'
+
+
+_PLACES = {
+    "length": "the dimensions or hydraulic cylinder tables",
+    "angle": "the dimensions, steering or axle tables",
+    "mass": "the weights or operating specifications",
+    "pressure": "the hydraulic system table",
+    "flow": "the hydraulic system table",
+    "volume": "the bucket or capacity tables",
+    "time": "the hydraulic cycle times",
+}
+_EXAMPLES = {
+    "length": "VALUE mm",
+    "angle": "VALUE deg",
+    "mass": "VALUE kg",
+    "pressure": "VALUE MPa",
+    "flow": "VALUE L/min",
+    "volume": "VALUE m3",
+    "force": "VALUE kN",
+    "torque": "VALUE N*m",
+    "power": "VALUE kW",
+    "speed": "VALUE km/h",
+    "angular_speed": "VALUE rpm",
+    "time": "VALUE s",
+    "count": "VALUE",
+}
