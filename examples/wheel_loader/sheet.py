@@ -1,0 +1,711 @@
+"""Writes `specifications.pdf`: the example wheel loader's specification sheet, in the layout of a maker's brochure.
+
+    python sheet.py [FOLDER]
+
+Values come from `values.py`. A published one is printed as it is; one of our own carries the words "example value" (beside
+the number, in its column's head or in its section's bar). The distractors a real brochure has (engine, tyres, capacities,
+other buckets, a high-lift boom) are our own as well. Same bytes every time.
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import values as v
+from reportlab.lib.colors import Color, HexColor, white
+from reportlab.lib.pagesizes import A4
+from reportlab.pdfbase.pdfmetrics import stringWidth
+from reportlab.pdfgen.canvas import Canvas
+from values import Value
+
+WIDTH, HEIGHT = A4
+MARGIN, GUTTER = 36.0, 22.0
+COLUMN = (WIDTH - 2 * MARGIN - GUTTER) / 2
+LEFT, RIGHT = MARGIN, MARGIN + COLUMN + GUTTER
+INK, SLATE, AMBER, PALE, GREY = (HexColor(c) for c in ("#1d2429", "#35424a", "#e8a317", "#f1f3f4", "#7b868d"))
+REGULAR, BOLD, ITALIC = "Helvetica", "Helvetica-Bold", "Helvetica-Oblique"
+TITLE = "Example wheel loader (WA475-10 class)"
+EXAMPLE_MARK = "example value"
+SOURCE = (
+    f"Published values: {v.MAKE} {v.MODEL} brochure AESS942-0225, pages 18 and 19, as collected in EXO-Robotics/"
+    "exo-equipment-atlas (machines/komatsu-wa475-10/evidence/facts.json)."
+)
+DISCLAIMER = (
+    "Made for a software example. Not a document of, nor endorsed by, any manufacturer. Every figure marked "
+    '"example value" is our own.'
+)
+
+
+# ---- the distractors: our own, and marked so ---------------------------------------------------------------------------
+@dataclass(frozen=True, slots=True)
+class Bucket:
+    """One column of the bucket table; lengths mm, masses kg, capacities m3, force kN."""
+
+    head: tuple[str, str]
+    heaped: float
+    struck: float
+    width: float
+    weight: float
+    tipping_straight: float
+    tipping_turned: float
+    breakout: float
+    clearance: float
+    reach: float
+    dig_depth: float
+    operating_height: float
+    overall_length: float
+    operating_weight: float
+
+
+BREAKOUT = 198.0
+STOCK_PILE = Bucket(
+    ("Stock pile", "Bolt-on edge"),
+    v.BUCKET_CAPACITY_HEAPED.value,
+    v.BUCKET_CAPACITY_STRUCK.value,
+    v.BUCKET_WIDTH.value,
+    v.BUCKET_WEIGHT.value,
+    v.TIPPING_LOAD_STRAIGHT.value,
+    v.TIPPING_LOAD_FULL_TURN.value,
+    BREAKOUT,
+    v.DUMP_CLEARANCE.value,
+    v.DUMP_REACH.value,
+    v.DIG_DEPTH.value,
+    v.OPERATING_HEIGHT.value,
+    v.OVERALL_LENGTH.value,
+    v.OPERATING_WEIGHT.value,
+)
+BUCKETS = (
+    STOCK_PILE,
+    Bucket(("Stock pile", "Teeth"), 4.0, 3.4, 3190, 2138, 20640, 17860, 207, 2970, 1440, 90, 6090, 9320, 25450),
+    Bucket(
+        ("Excavating", "Teeth and segments"),
+        3.8,
+        3.2,
+        3190,
+        2270,
+        20430,
+        17680,
+        214,
+        2995,
+        1415,
+        105,
+        5985,
+        9285,
+        25585,
+    ),
+    Bucket(
+        ("Light material", "Bolt-on edge"), 5.8, 5.0, 3400, 2545, 19890, 17190, 168, 2890, 1520, 95, 6310, 9425, 25860
+    ),
+)
+
+
+# ---- numbers as a brochure prints them -----------------------------------------------------------------------------------
+def grouped(value: float, decimals: int = 0) -> str:
+    """1234.5 → "1,234.5"."""
+    return f"{value:,.{decimals}f}"
+
+
+def feet(mm: float) -> str:
+    """Millimetres as feet and inches: 14'4"."""
+    inches = round(mm / 25.4)
+    return f"{inches // 12}'{inches % 12}\""
+
+
+def inches(mm: float) -> str:
+    """Millimetres as inches to a tenth, without the unit."""
+    return f"{mm / 25.4:.1f}"
+
+
+def pounds(kg: float) -> str:
+    """Kilograms as pounds to the nearest 5."""
+    return grouped(5 * round(kg / 0.45359237 / 5))
+
+
+def yards(m3: float) -> str:
+    """Cubic metres as cubic yards."""
+    return f"{m3 / 0.764554857984:.1f}"
+
+
+def gallons(litres: float, decimals: int = 0) -> str:
+    """Litres as US gallons."""
+    return grouped(litres / 3.785411784, decimals)
+
+
+def psi(mpa: float) -> str:
+    """Megapascals as pounds a square inch."""
+    return grouped(mpa / 0.00689475729)
+
+
+def dual_mm(value: Value) -> str:
+    """A short length in both systems: 90 mm (3.5 in)."""
+    return f"{grouped(value.value)} mm ({inches(value.value)} in)"
+
+
+def bore_by_stroke(count: Value, bore: Value, stroke: Value) -> str:
+    """ "2 - 150 x 764 mm"."""
+    return f"{count.value:.0f} - {bore.value:.0f} x {stroke.value:.0f} mm"
+
+
+# ---- drawing ------------------------------------------------------------------------------------------------------------
+def text(
+    c: Canvas,
+    x: float,
+    y: float,
+    words: str,
+    *,
+    size: float = 7.2,
+    font: str = REGULAR,
+    ink: Color = INK,
+    align: str = "l",
+) -> float:
+    """Prints words at a baseline; returns their width. `align`: l, c or r of `x`."""
+    width = stringWidth(words, font, size)
+    c.setFont(font, size)
+    c.setFillColor(ink)
+    c.drawString(x - {"l": 0.0, "c": width / 2, "r": width}[align], y, words)
+    return width
+
+
+def paragraph(c: Canvas, x: float, y: float, words: str, width: float, *, size: float = 7.2, ink: Color = INK) -> float:
+    """Prints wrapped text; returns the baseline below it."""
+    line = ""
+    for word in words.split():
+        longer = f"{line} {word}".strip()
+        if stringWidth(longer, REGULAR, size) > width:
+            text(c, x, y, line, size=size, ink=ink)
+            y, longer = y - 1.35 * size, word
+        line = longer
+    text(c, x, y, line, size=size, ink=ink)
+    return y - 1.35 * size
+
+
+def bar(c: Canvas, x: float, y: float, words: str, width: float = COLUMN) -> float:
+    """A section's bar with its top at `y`; returns the first baseline under it."""
+    c.setFillColor(SLATE)
+    c.rect(x, y - 14, width, 14, stroke=0, fill=1)
+    c.setFillColor(AMBER)
+    c.rect(x, y - 14, 4, 14, stroke=0, fill=1)
+    text(c, x + 10, y - 10.2, words, size=8, font=BOLD, ink=white)
+    return y - 25
+
+
+def rule(c: Canvas, x0: float, y: float, x1: float, *, weight: float = 0.4, ink: Color = GREY) -> None:
+    """A horizontal rule."""
+    c.setStrokeColor(ink)
+    c.setLineWidth(weight)
+    c.line(x0, y, x1, y)
+
+
+def furniture(c: Canvas, page: int, heading: str) -> None:
+    """Header and footer of an inner page."""
+    c.setFillColor(AMBER)
+    c.rect(0, HEIGHT - 44, WIDTH, 3, stroke=0, fill=1)
+    text(c, MARGIN, HEIGHT - 33, heading, size=15, font=BOLD)
+    text(c, WIDTH - MARGIN, HEIGHT - 33, TITLE, size=8, ink=GREY, align="r")
+    rule(c, MARGIN, 40, WIDTH - MARGIN)
+    text(c, MARGIN, 31, SOURCE, size=5.4, ink=GREY)
+    text(c, MARGIN, 24, DISCLAIMER, size=5.4, ink=GREY)
+    text(c, WIDTH - MARGIN, 24, str(page), size=7, font=BOLD, align="r")
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """A label and what is printed beside it; `ours` prints the mark. `label` may have a second line."""
+
+    label: str
+    value: str
+    ours: bool = False
+
+
+def leader_rows(c: Canvas, x: float, y: float, rows: Sequence[Row], width: float = COLUMN) -> float:
+    """Rows with dotted leaders, no rules; returns the next bar's top."""
+    for row in rows:
+        *head, last = row.label.split("\n")
+        for line in head:
+            text(c, x, y, line)
+            y -= 9
+        start = x + text(c, x, y, last) + 3
+        right = x + width
+        if row.ours:
+            right -= text(c, right, y, EXAMPLE_MARK, size=5, font=ITALIC, ink=GREY, align="r") + 3
+        end = right - text(c, right, y, row.value, align="r") - 3
+        dots = int((end - start) / stringWidth(".", REGULAR, 7.2))
+        text(c, end, y, "." * dots, ink=GREY, align="r")
+        y -= 11.5
+    return y - 4
+
+
+def ruled_rows(c: Canvas, x: float, y: float, rows: Sequence[Row], width: float = COLUMN) -> float:
+    """Rows with a hair rule under each; returns the next bar's top."""
+    for row in rows:
+        lines = row.label.split("\n")
+        value_y = y - 4.5 * (len(lines) - 1)
+        right = x + width
+        if row.ours:
+            right -= text(c, right, value_y, EXAMPLE_MARK, size=5, font=ITALIC, ink=GREY, align="r") + 3
+        text(c, right, value_y, row.value, align="r")
+        for line in lines:
+            text(c, x, y, line)
+            y -= 9
+        y += 5.5
+        rule(c, x, y, x + width, weight=0.3)
+        y -= 9
+    return y - 3
+
+
+# ---- page 1: title and headline figures ---------------------------------------------------------------------------------
+def cover(c: Canvas) -> None:
+    """Title, drawing, three headline figures."""
+    c.setFillColor(INK)
+    c.rect(0, HEIGHT - 190, WIDTH, 190, stroke=0, fill=1)
+    c.setFillColor(AMBER)
+    c.rect(0, HEIGHT - 196, WIDTH, 6, stroke=0, fill=1)
+    text(c, MARGIN, HEIGHT - 92, "Example wheel loader", size=34, font=BOLD, ink=white)
+    text(c, MARGIN, HEIGHT - 120, "WA475-10 class", size=18, ink=AMBER)
+    text(c, MARGIN, HEIGHT - 160, "Technical data sheet  |  standard boom, Z-bar loader linkage", size=10, ink=white)
+    scale = (WIDTH - 2 * MARGIN - 40) / 9400
+    machine(c, MARGIN + 20 + 4300 * scale, 420, scale, raised=False)
+    tiles = (
+        ("OPERATING WEIGHT", f"{grouped(v.OPERATING_WEIGHT.value)} kg", f"{pounds(v.OPERATING_WEIGHT.value)} lb"),
+        (
+            "BUCKET CAPACITY, HEAPED",
+            f"{v.BUCKET_CAPACITY_HEAPED.value} m³",
+            f"{yards(v.BUCKET_CAPACITY_HEAPED.value)} yd³",
+        ),
+        ("STATIC TIPPING LOAD, FULL TURN", f"{grouped(v.TIPPING_LOAD_FULL_TURN.value)} kg",
+         f"{pounds(v.TIPPING_LOAD_FULL_TURN.value)} lb"),
+    )  # fmt: skip
+    third = (WIDTH - 2 * MARGIN - 24) / 3
+    for index, (label, metric, imperial) in enumerate(tiles):
+        x = MARGIN + index * (third + 12)
+        c.setFillColor(PALE)
+        c.rect(x, 270, third, 86, stroke=0, fill=1)
+        c.setFillColor(AMBER)
+        c.rect(x, 353, third, 3, stroke=0, fill=1)
+        text(c, x + 12, 335, label, size=7.5, font=BOLD, ink=GREY)
+        text(c, x + 12, 306, metric, size=20, font=BOLD)
+        text(c, x + 12, 286, imperial, size=11, ink=GREY)
+    y = 236.0
+    for words in (
+        "Figures are for the standard boom with the 4.2 m³ stock-pile bucket with bolt-on edge and 26.5R25 tyres unless a "
+        "table says otherwise.",
+        f'Figures marked "{EXAMPLE_MARK}" were chosen for this example: they are plausible for the class, and published '
+        "by nobody. All other figures are published ones.",
+        SOURCE,
+        DISCLAIMER,
+    ):
+        y = paragraph(c, MARGIN, y, words, WIDTH - 2 * MARGIN, size=8) - 6
+
+
+# ---- page 2: specifications in two columns ------------------------------------------------------------------------------
+def specifications(c: Canvas) -> None:
+    """Engine, transmission, axles, tyres | steering, hydraulics, refills, sound."""
+    furniture(c, 2, "Specifications")
+    y = bar(c, LEFT, HEIGHT - 62, "ENGINE (example values)")
+    y = leader_rows(
+        c,
+        LEFT,
+        y,
+        (
+            Row("Type", "Water-cooled, 4-cycle, turbocharged"),
+            Row("Number of cylinders", "6"),
+            Row("Bore x stroke", "125 x 150 mm (4.9 x 5.9 in)"),
+            Row("Piston displacement", "11.04 L (674 in³)"),
+            Row("Gross power at 1,700 rpm", "217 kW (291 hp)"),
+            Row("Net power at 1,700 rpm", "216 kW (290 hp)"),
+            Row("Maximum torque at 1,250 rpm", "1,515 N·m (1,117 lbf·ft)"),
+            Row("Low idle / high idle", "800 / 1,950 rpm"),
+        ),
+    )
+    y = bar(c, LEFT, y, "TRANSMISSION (example values)")
+    y = speeds(c, LEFT, y)
+    y = bar(c, LEFT, y, "AXLES AND FINAL DRIVES")
+    y = leader_rows(
+        c,
+        LEFT,
+        y,
+        (
+            Row("Drive system", "Four-wheel drive"),
+            Row("Front axle", "Fixed, semi-floating"),
+            Row("Rear axle, total oscillation", f"{v.OSCILLATION_TOTAL.value:.0f}°"),
+            Row("Vertical travel at rear wheel", "520 mm (20.5 in)", ours=True),
+            Row("Final drive reduction", "4.588 : 1", ours=True),
+        ),
+    )
+    y = bar(c, LEFT, y, "BRAKES (example values)")
+    y = leader_rows(
+        c,
+        LEFT,
+        y,
+        (
+            Row("Service brakes", "Wet disc, all four wheels"),
+            Row("Brake charge pressure, cut-in", "11.8 MPa (1,711 psi)"),
+            Row("Parking brake", "Spring applied, on output shaft"),
+        ),
+    )
+    y = bar(c, LEFT, y, "TYRES")
+    leader_rows(
+        c,
+        LEFT,
+        y,
+        (
+            Row("Standard", v.TYRE_SIZE),
+            Row("Optional", "775/65R29", ours=True),
+            Row("Outside diameter", dual_mm(v.TYRE_DIAMETER), ours=True),
+            Row("Section width", dual_mm(v.TYRE_WIDTH), ours=True),
+            Row("Inflation pressure front / rear", "450 / 350 kPa", ours=True),
+        ),
+    )
+    y = bar(c, RIGHT, HEIGHT - 62, "STEERING SYSTEM")
+    y = ruled_rows(
+        c,
+        RIGHT,
+        y,
+        (
+            Row("Type", "Articulated, fully hydraulic"),
+            Row(
+                "Steering angle",
+                f"{v.STEER_ANGLE_NOMINAL.value:.0f}° each direction ({v.STEER_ANGLE.value:.0f}° to max. end stop)",
+            ),
+            Row(
+                "Steering cylinders\nNumber of cylinders – bore x stroke",
+                bore_by_stroke(v.STEER_COUNT, v.STEER_BORE, v.STEER_STROKE),
+            ),
+            Row("Steering cylinder, rod diameter", dual_mm(v.STEER_ROD), ours=True),
+            Row("Steering pump flow", f"{v.STEER_PUMP_FLOW.value:.0f} L/min ({gallons(v.STEER_PUMP_FLOW.value, 1)} gal/min)",
+                ours=True),
+            Row("Steering relief pressure", f"{v.STEER_PRESSURE.value} MPa ({psi(v.STEER_PRESSURE.value)} psi)", ours=True),
+            Row("Minimum turning radius, tyre centre", "6,170 mm (20'3\")", ours=True),
+        ),
+    )  # fmt: skip
+    y = bar(c, RIGHT, y, "HYDRAULIC SYSTEM")
+    y = ruled_rows(
+        c,
+        RIGHT,
+        y,
+        (
+            Row(
+                "Work equipment pump flow at 2,000 rpm",
+                f"{v.WORK_PUMP_FLOW.value:.0f} L/min ({gallons(v.WORK_PUMP_FLOW.value, 1)} gal/min)",
+                ours=True,
+            ),
+            Row("Main relief pressure, work equipment", f"{v.WORK_PRESSURE.value} MPa ({psi(v.WORK_PRESSURE.value)} psi)",
+                ours=True),
+            Row("Pilot pressure", "3.7 MPa (537 psi)", ours=True),
+            Row("Lift cylinders\nNumber of cylinders – bore x stroke",
+                bore_by_stroke(v.LIFT_COUNT, v.LIFT_BORE, v.LIFT_STROKE)),
+            Row("Lift cylinder, rod diameter", dual_mm(v.LIFT_ROD), ours=True),
+            Row("Bucket cylinder\nNumber of cylinders – bore x stroke",
+                bore_by_stroke(v.TILT_COUNT, v.TILT_BORE, v.TILT_STROKE)),
+            Row("Bucket cylinder, rod diameter", dual_mm(v.TILT_ROD), ours=True),
+        ),
+    )  # fmt: skip
+    y = bar(c, RIGHT, y, "HYDRAULIC CYCLE TIME, RATED LOAD (example values)")
+    total = v.TIME_RAISE.value + v.TIME_DUMP.value + v.TIME_LOWER.value
+    y = ruled_rows(
+        c,
+        RIGHT,
+        y,
+        (
+            Row("Raise", f"{v.TIME_RAISE.value} s"),
+            Row("Dump", f"{v.TIME_DUMP.value} s"),
+            Row("Lower, empty", f"{v.TIME_LOWER.value} s"),
+            Row("Total", f"{total:.1f} s"),
+        ),
+    )
+    y = bar(c, RIGHT, y, "SERVICE REFILL CAPACITIES (example values)")
+    refills = (("Fuel tank", 375), ("Engine oil", 37), ("Hydraulic tank", 178), ("Front axle", 52), ("Rear axle", 50))
+    y = ruled_rows(c, RIGHT, y, [Row(name, f"{n} L ({gallons(n, 1)} gal)") for name, n in refills])
+    y = bar(c, RIGHT, y, "SOUND LEVELS (example values)")
+    ruled_rows(
+        c,
+        RIGHT,
+        y,
+        (Row("Operator's ear, ISO 6396:2008", "69 dB(A)"), Row("Outside, ISO 6395:2008", "107 dB(A)")),
+    )
+
+
+def speeds(c: Canvas, x: float, y: float) -> float:
+    """Travel speeds by gear: a small table with its own heads, no rules."""
+    stops = (x + 52, x + 104, x + 156, x + 208, x + COLUMN)
+    top = v.TRAVEL_SPEED_MAX.value
+    forward, reverse = (7.1, 12.4, 22.6, top), (7.4, 13.0, 23.7, top)
+    text(c, x, y, "Travel speed", font=BOLD)
+    for stop, head in zip(stops, ("1st", "2nd", "3rd", "4th"), strict=False):
+        text(c, stop, y, head, font=BOLD, align="r")
+    y -= 11.5
+    for name, row in (("Forward", forward), ("Reverse", reverse)):
+        for unit, factor in (("km/h", 1.0), ("mph", 1 / 1.609344)):
+            text(c, x, y, name if unit == "km/h" else "")
+            for stop, speed in zip(stops, row, strict=False):
+                text(c, stop, y, f"{speed * factor:.1f}", align="r")
+            text(c, stops[4], y, unit, align="r")
+            y -= 10.5
+    return y - 5
+
+
+# ---- page 3: dimensions -------------------------------------------------------------------------------------------------
+def dimensions(c: Canvas) -> None:
+    """Letter-keyed drawing; table with the standard boom beside the high-lift boom; bucket angles."""
+    furniture(c, 3, "Dimensions")
+    scale = (WIDTH - 2 * MARGIN - 110) / 9400
+    origin_x, ground = MARGIN + 62 + 4300 * scale, 512.0
+    machine(c, origin_x, ground, scale, raised=True)
+    keys(c, origin_x, ground, scale)
+    y = bar(c, MARGIN, 452, "MACHINE DIMENSIONS WITH STOCK-PILE BUCKET", WIDTH - 2 * MARGIN)
+    right = WIDTH - MARGIN
+    stops = (right - 190, right - 132, right - 62, right)
+    text(c, (stops[0] + stops[1]) / 2 - 14, y, "Standard boom", font=BOLD, align="c")
+    text(c, (stops[2] + stops[3]) / 2 - 14, y, "High-lift boom", font=BOLD, align="c")
+    y -= 9
+    text(c, (stops[2] + stops[3]) / 2 - 14, y, EXAMPLE_MARK, size=5, font=ITALIC, ink=GREY, align="c")
+    for stop, unit in zip(stops, ("mm", "ft in", "mm", "ft in"), strict=True):
+        text(c, stop, y - 3, unit, size=6.2, ink=GREY, align="r")
+    y -= 8
+    rule(c, MARGIN, y, right, weight=0.8, ink=INK)
+    y -= 10
+    rows = (
+        ("", "Tread", v.TREAD, v.TREAD.value),
+        ("", "Width over tyres", v.WIDTH_OVER_TYRES, v.WIDTH_OVER_TYRES.value),
+        ("A", "Wheelbase", v.WHEELBASE, v.WHEELBASE.value),
+        ("B", "Hinge pin height, max. lift", v.HINGE_HEIGHT_MAX, 4870),
+        ("C", "Hinge pin height, carry position", v.HINGE_HEIGHT_CARRY, 660),
+        ("D", "Ground clearance", v.GROUND_CLEARANCE, v.GROUND_CLEARANCE.value),
+        ("E", "Hitch height", v.HITCH_HEIGHT, v.HITCH_HEIGHT.value),
+        ("F", "Height to top of exhaust stack", v.STACK_HEIGHT, v.STACK_HEIGHT.value),
+        ("G", "Overall height, ROPS cab", v.CAB_HEIGHT, v.CAB_HEIGHT.value),
+        ("H", "Height to roof rail", Value("roof rail", 3565, "mm"), 3565),
+        ("J", "Rear axle centre to counterweight", v.REAR_OVERHANG, v.REAR_OVERHANG.value + 90),
+    )
+    for key, label, value, high in rows:
+        text(c, MARGIN + 2, y, key, font=BOLD)
+        width = text(c, MARGIN + 18, y, label)
+        if not value.published:
+            text(c, MARGIN + 22 + width, y, EXAMPLE_MARK, size=5, font=ITALIC, ink=GREY)
+        for stop, cell in zip(stops, (grouped(value.value), feet(value.value), grouped(high), feet(high)), strict=True):
+            text(c, stop, y, cell, align="r")
+        rule(c, MARGIN, y - 3.6, right, weight=0.3)
+        y -= 13
+    y = bar(c, MARGIN, y - 4, "BUCKET ANGLES, STANDARD BOOM (example values)", WIDTH - 2 * MARGIN)
+    pairs = (
+        (("Rack back at ground", v.RACK_BACK_GROUND), ("Rack back at maximum lift", v.RACK_BACK_MAX)),
+        (("Dump angle at maximum lift", v.DUMP_ANGLE_MAX), ("Approach angle, carry", v.APPROACH_ANGLE_CARRY)),
+    )
+    for pair in pairs:
+        for x, (label, value) in zip((LEFT, RIGHT), pair, strict=True):
+            text(c, x, y, label)
+            text(c, x + COLUMN - 40, y, f"{value.value:.0f}°", align="r")
+        y -= 12
+
+
+# ---- page 4: buckets ----------------------------------------------------------------------------------------------------
+def buckets(c: Canvas) -> None:
+    """The selection table: a full grid, one column a bucket, metric above imperial in each cell."""
+    furniture(c, 4, "Bucket selection")
+    text(
+        c,
+        MARGIN,
+        HEIGHT - 60,
+        "Standard boom, 26.5R25 tyres, full fuel tank, operator. Dumping figures at 45° with the boom fully raised.",
+        size=7.5,
+    )
+    edges = [MARGIN, MARGIN + 24, MARGIN + 176]
+    edges += [edges[-1] + (WIDTH - MARGIN - edges[-1]) * (i + 1) / len(BUCKETS) for i in range(len(BUCKETS))]
+    y = HEIGHT - 76.0
+    y = _heads(c, edges, y)
+    rows: tuple[tuple[str, tuple[str, ...], Callable[[Bucket], tuple[str, str]]], ...] = (
+        ("", ("Bucket capacity, heaped",), lambda b: (f"{b.heaped:.1f} m³", f"{yards(b.heaped)} yd³")),
+        ("", ("Bucket capacity, struck",), lambda b: (f"{b.struck:.1f} m³", f"{yards(b.struck)} yd³")),
+        ("", ("Bucket width",), lambda b: (f"{grouped(b.width)} mm", feet(b.width))),
+        ("", ("Bucket weight",), lambda b: (f"{grouped(b.weight)} kg", f"{pounds(b.weight)} lb")),
+        ("", ("Static tipping load, straight",), lambda b: _mass(b.tipping_straight)),
+        ("", ("Static tipping load, 40° full turn",), lambda b: _mass(b.tipping_turned)),
+        ("", ("Breakout force (example value)",), lambda b: (f"{b.breakout:.0f} kN", f"{grouped(b.breakout * 224.809)} lbf")),
+        ("H", ("Dumping clearance, max. lift", "and 45° dump angle"), lambda b: _length(b.clearance)),
+        ("I", ("Reach at max. lift", "and 45° dump angle"), lambda b: _length(b.reach)),
+        ("K", ("Digging depth, bucket level", "(example value)"), lambda b: (f"{b.dig_depth:.0f} mm", f"{inches(b.dig_depth)} in")),
+        ("L", ("Operating height, fully raised",), lambda b: _length(b.operating_height)),
+        ("M", ("Overall length, bucket on ground",), lambda b: _length(b.overall_length)),
+        ("", ("Operating weight",), lambda b: _mass(b.operating_weight)),
+    )  # fmt: skip
+    for key, label, cells in rows:
+        height = 25.0
+        _grid_row(c, edges, y, height)
+        text(c, (edges[0] + edges[1]) / 2, y - 15, key, font=BOLD, align="c")
+        for index, line in enumerate(label):
+            text(c, edges[1] + 5, y - 15 + 4.6 * (len(label) - 1) - 9.2 * index, line)
+        for column, bucket in enumerate(BUCKETS):
+            metric, imperial = cells(bucket)
+            centre = (edges[2 + column] + edges[3 + column]) / 2
+            text(c, centre, y - 10.5, metric, align="c", font=BOLD if column == 0 else REGULAR)
+            text(c, centre, y - 20, imperial, size=6.4, ink=GREY, align="c")
+        y -= height
+    paragraph(
+        c,
+        MARGIN,
+        y - 16,
+        "Capacities after ISO 7546, static tipping loads after ISO 14397-1 with rigid tyres, dimensions after ISO 7131. "
+        "The other three buckets are of our own choosing, to stand where a brochure offers alternatives.",
+        WIDTH - 2 * MARGIN,
+    )
+
+
+def _heads(c: Canvas, edges: Sequence[float], y: float) -> float:
+    """Two rows of heads: the bucket's kind spans its columns, its edge stands below."""
+    spans = ((2, 4), (4, 5), (5, 6))
+    c.setFillColor(PALE)
+    c.rect(edges[0], y - 44, edges[-1] - edges[0], 44, stroke=0, fill=1)
+    c.setStrokeColor(GREY)
+    c.setLineWidth(0.5)
+    c.rect(edges[0], y - 44, edges[2] - edges[0], 44)
+    text(c, edges[0] + 6, y - 25, "Bucket type", font=BOLD)
+    for first, last in spans:
+        c.rect(edges[first], y - 18, edges[last] - edges[first], 18)
+        text(c, (edges[first] + edges[last]) / 2, y - 12, BUCKETS[first - 2].head[0], font=BOLD, align="c")
+    for column, bucket in enumerate(BUCKETS):
+        c.rect(edges[2 + column], y - 44, edges[3 + column] - edges[2 + column], 26)
+        centre = (edges[2 + column] + edges[3 + column]) / 2
+        text(c, centre, y - 28, bucket.head[1], align="c")
+        if column:
+            text(c, centre, y - 38, EXAMPLE_MARK, size=5, font=ITALIC, ink=GREY, align="c")
+    return y - 44
+
+
+def _grid_row(c: Canvas, edges: Sequence[float], y: float, height: float) -> None:
+    c.setStrokeColor(GREY)
+    c.setLineWidth(0.5)
+    for x0, x1 in zip(edges, edges[1:], strict=False):
+        c.rect(x0, y - height, x1 - x0, height)
+
+
+def _length(mm: float) -> tuple[str, str]:
+    return f"{grouped(mm)} mm", feet(mm)
+
+
+def _mass(kg: float) -> tuple[str, str]:
+    return f"{grouped(kg)} kg", f"{pounds(kg)} lb"
+
+
+# ---- the drawings -------------------------------------------------------------------------------------------------------
+def machine(c: Canvas, x0: float, ground: float, scale: float, *, raised: bool) -> None:
+    """A schematic side view: x0 is the articulation axis, millimetres times `scale` are points."""
+
+    def at(x: float, z: float) -> tuple[float, float]:
+        return x0 + x * scale, ground + z * scale
+
+    def shape(points: Sequence[tuple[float, float]], fill: Color, *, dashed: bool = False) -> None:
+        path = c.beginPath()
+        path.moveTo(*at(*points[0]))
+        for point in points[1:]:
+            path.lineTo(*at(*point))
+        path.close()
+        c.saveState()
+        c.setStrokeColor(GREY if dashed else INK)
+        c.setLineWidth(0.7)
+        if dashed:
+            c.setDash(3, 2)
+        c.setFillColor(fill)
+        c.drawPath(path, stroke=1, fill=0 if dashed else 1)
+        c.restoreState()
+
+    rule(c, *at(-4500, 0), at(5100, 0)[0], weight=0.8, ink=INK)
+    axle, radius = v.WHEELBASE.value / 2, v.TYRE_DIAMETER.value / 2
+    rear = -axle - v.REAR_OVERHANG.value
+    tip = v.OVERALL_LENGTH.value + rear
+    shape(((rear, 700), (rear, 2150), (-3900, 2500), (-1250, 2600), (-1250, 1000), (-900, 700)), AMBER)
+    shape(((-1250, 1150), (-1250, 2600), (-1100, 3450), (350, 3500), (420, 1750), (250, 1150)), PALE)
+    shape(((-3100, 2500), (-3100, 3450), (-2960, 3450), (-2960, 2500)), SLATE)
+    shape(((150, 700), (150, 1250), (900, 2350), (1150, 2300), (1600, 1000), (1500, 700)), SLATE)
+    boom = (850.0, 2150.0)
+    carry = (3330.0, 290.0)
+    shape(_arm(boom, carry, 190), AMBER)
+    shape(_bucket(carry, 0.0, tip - carry[0]), SLATE)
+    if raised:
+        high = (2680.0, v.HINGE_HEIGHT_MAX.value)
+        shape(_arm(boom, high, 190), AMBER, dashed=True)
+        shape(_bucket(high, -math.pi / 4, tip - carry[0]), SLATE, dashed=True)
+    for x in (-axle, axle):
+        for r, fill in ((radius, INK), (radius * 0.55, AMBER), (radius * 0.2, SLATE)):
+            c.setFillColor(fill)
+            c.circle(*at(x, radius), r * scale, stroke=0, fill=1)
+
+
+def _arm(a: tuple[float, float], b: tuple[float, float], half: float) -> list[tuple[float, float]]:
+    dx, dz = b[0] - a[0], b[1] - a[1]
+    length = math.hypot(dx, dz)
+    nx, nz = -dz / length * half, dx / length * half
+    return [
+        (a[0] + nx, a[1] + nz),
+        (b[0] + nx / 2, b[1] + nz / 2),
+        (b[0] - nx / 2, b[1] - nz / 2),
+        (a[0] - nx, a[1] - nz),
+    ]
+
+
+def _bucket(pin: tuple[float, float], angle: float, reach: float) -> list[tuple[float, float]]:
+    outline = (
+        (reach, -290.0),
+        (250.0, -290.0),
+        (-200.0, -60.0),
+        (-260.0, 500.0),
+        (120.0, 1010.0),
+        (360.0, 1060.0),
+        (520, 430),
+    )
+    s, k = math.sin(angle), math.cos(angle)
+    return [(pin[0] + k * x - s * z, pin[1] + s * x + k * z) for x, z in outline]
+
+
+def keys(c: Canvas, x0: float, ground: float, scale: float) -> None:
+    """The letter keys with their dimension lines."""
+    c.setStrokeColor(INK)
+
+    def span(x: float, low: float, high: float, key: str) -> None:
+        px, pl, ph = x0 + x * scale, ground + low * scale, ground + high * scale
+        rule(c, px - 3, pl, px + 3)
+        rule(c, px - 3, ph, px + 3)
+        c.line(px, pl, px, ph)
+        text(c, px + 3, (pl + ph) / 2 - 2, key, size=7, font=BOLD)
+
+    def across(z: float, left: float, right: float, key: str) -> None:
+        pz, pl, pr = ground + z * scale, x0 + left * scale, x0 + right * scale
+        c.setLineWidth(0.4)
+        c.line(pl, pz, pr, pz)
+        c.line(pl, pz - 3, pl, pz + 3)
+        c.line(pr, pz - 3, pr, pz + 3)
+        text(c, (pl + pr) / 2, pz + 2, key, size=7, font=BOLD, align="c")
+
+    axle = v.WHEELBASE.value / 2
+    rear = -axle - v.REAR_OVERHANG.value
+    span(5150, 0, v.OPERATING_HEIGHT.value, "L")
+    span(4700, 0, v.DUMP_CLEARANCE.value, "H")
+    span(2300, 0, v.HINGE_HEIGHT_MAX.value, "B")
+    span(-250, 0, v.GROUND_CLEARANCE.value, "D")
+    span(rear - 150, 0, v.HITCH_HEIGHT.value, "E")
+    span(-3500, 0, v.STACK_HEIGHT.value, "F")
+    span(500, 0, v.CAB_HEIGHT.value, "G")
+    across(-350, -axle, axle, "A")
+    across(-350, rear, -axle, "J")
+    across(-750, rear, v.OVERALL_LENGTH.value + rear, "M")
+
+
+def write(path: Path) -> None:
+    """Writes the sheet."""
+    c = Canvas(str(path), pagesize=A4, invariant=1, pageCompression=1)
+    c.setTitle(f"{TITLE}: technical data")
+    c.setAuthor("yellowiron examples")
+    c.setSubject("Specification sheet of an example machine")
+    for page in (cover, specifications, dimensions, buckets):
+        page(c)
+        c.showPage()
+    c.save()
+
+
+if __name__ == "__main__":
+    folder = Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).resolve().parent
+    write(folder / "specifications.pdf")
+    print(folder / "specifications.pdf")
