@@ -1,0 +1,64 @@
+"""Numbers of a template: bare ones are metres and degrees, texts may carry a unit or name a specification."""
+
+from __future__ import annotations
+
+import math
+import re
+
+from yellowiron.model.errors import TemplateError, YellowironError
+from yellowiron.model.units import SI_UNIT, parse_quantity
+
+_STARTS_A_NUMBER = re.compile(r"^[-+−]?\s*\.?\d")
+_NAME = re.compile(r"^([-−]?)\s*([^\W\d_].*)$", re.DOTALL)
+
+
+def quantity(value: float | str, dimension: str, *, where: str) -> float:
+    """A number, or a text such as '25 MPa', in SI. A bare number is SI already, save an angle: degrees.
+
+    `TemplateError` for a text that is no number with a unit of that dimension, and for a number that is not finite.
+    """
+    if isinstance(value, str):
+        try:
+            number, unit = parse_quantity(value, where=where)
+        except YellowironError as error:
+            raise TemplateError(error.message, where=where, hint=error.hint) from error
+        if unit and unit != SI_UNIT[dimension]:
+            raise TemplateError(
+                f"'{value}' is not a quantity of dimension {dimension}", where=where, hint=_example(dimension)
+            )
+        if unit:
+            return number
+    else:
+        number = float(value)
+    if not math.isfinite(number):
+        raise TemplateError(f"{number} is not a number that can be used", where=where)
+    return math.radians(number) if dimension == "angle" else number
+
+
+def limit(value: float | str | None, dimension: str, *, where: str) -> float | str | None:
+    """One end of a `Limit`: a number in SI, the name of a specification (with a leading '-' if it is negative), or None
+    (an empty text or null: no limit)."""
+    if value is None or (isinstance(value, str) and not value.strip()):
+        return None
+    if isinstance(value, str) and not _STARTS_A_NUMBER.match(value.strip()):
+        match = _NAME.match(value.strip())
+        if match is None:
+            raise TemplateError(
+                f"'{value}' is neither a number nor the name of a specification",
+                where=where,
+                hint='Write e.g. 0, "0.764 m", "-13 deg" or "Lift Cylinder Stroke".',
+            )
+        return ("-" if match.group(1) else "") + " ".join(match.group(2).split())
+    return quantity(value, dimension, where=where)
+
+
+def number_text(value: float, unit: str) -> str:
+    """A number for a file: '0.764 m', degrees for radians; read back by `quantity` to 12 significant digits."""
+    if unit == "rad":
+        value, unit = math.degrees(value), "deg"
+    return f"{float(f'{value:.12g}'):.12g} {unit}".strip()
+
+
+def _example(dimension: str) -> str:
+    examples = {"length": "0.8 m", "angle": "13 deg", "pressure": "25 MPa", "flow": "300 L/min", "mass": "2200 kg"}
+    return f"Write e.g. {examples.get(dimension, '1 ' + SI_UNIT[dimension])}."
