@@ -170,10 +170,11 @@ def _body(name: str, origin: Point, mass: float, centre: Point, hull: Point) -> 
 
 
 def mechanism(
-    z: ZBar, travel: tuple[tuple[float, float], tuple[float, float]], *, steer: float = 0.15, size: float = 1.0
+    z: ZBar, travel: tuple[tuple[float, float], tuple[float, float]], *, lock: float = 0.6, size: float = 1.0
 ) -> Mechanism:
     """The loader as a `Mechanism`, cut by the rules: driven cylinders in the tree, structural pins and the passive
-    twins' rod pins cut. `travel` as from `strokes`, `steer` the travel of the left steering cylinder either way."""
+    twins' rod pins cut. `travel` as from `strokes`, `lock` the steering angle at full stroke."""
+    full = tuple(length(z.P, turned(z.Q, angle)) - z.steer for angle in (lock, -lock))
     radius, axle = 0.8 * size, 1.7 * size
     pitch, yaw = (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 
@@ -222,7 +223,7 @@ def mechanism(
         body(f"steering_barrel_{s}", p, 40.0)
         body(f"steering_rod_{s}", p, 30.0, q)
         pivot(f"steering_barrel_{s}_joint", "rear_frame", f"steering_barrel_{s}", p, yaw)
-        slide(f"steering_{s}", f"steering_barrel_{s}", f"steering_rod_{s}", p, q, -steer, steer, s == "l")
+        slide(f"steering_{s}", f"steering_barrel_{s}", f"steering_rod_{s}", p, q, *full, s == "l")
         if s == "l":
             pivot("steering_rod_l_joint", "steering_rod_l", "front_frame", q, yaw)
         else:
@@ -295,8 +296,7 @@ def mechanism(
             f"steering_rod_{s}",
             f"steering_rod_{s}_joint",
             z.steer,
-            -steer,
-            steer,
+            *full,
             s == "r",
         )
         for s in "lr"

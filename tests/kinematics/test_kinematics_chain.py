@@ -103,7 +103,7 @@ def test_mobility_and_coordinates():
         *(f"{e}_wheel_{s}_joint" for e in ("front", "rear") for s in "lr"),
     }
     assert chain.idle == ()
-    assert [set(c[0]) for c in chain.components()] == [{"steering_l"}, {"lift_l", "tilt"}]
+    assert [set(c.drivers) for c in chain.components()] == [{"steering_l"}, {"lift_l", "tilt"}]
 
 
 def test_dead_point_keeps_the_last_good_state():

@@ -23,7 +23,7 @@ CLOSED = 1e-12
 """Metres: largest gap left in a loop's independent closure equations, for machines up to 10 m; it grows beyond."""
 RANK = 1e-3
 """Relative size below which a closure equation counts as dependent on the others."""
-_STEP = {"prismatic": 0.2, "revolute": 0.35, "spherical": 0.35}
+_STEP = {"prismatic": 0.2, "revolute": 0.35}
 _ITERATIONS = 12
 _SHORTEST = 1e-7
 
@@ -46,6 +46,16 @@ class State:
     closure: float = 0.0
 
 
+@dataclass(frozen=True)
+class Component:
+    """Coordinates that loops couple: the `drivers` that are given, the `dependent` tree joints that follow, and the
+    `cuts` of those loops."""
+
+    drivers: tuple[str, ...]
+    dependent: tuple[str, ...]
+    cuts: tuple[str, ...]
+
+
 class ClosedChain:
     """The closed-chain kinematics of a mechanism, its root held still. Coordinates are 0 in the drawn pose; lengths in
     metres, angles in radians, poses in the machine frame. Not safe for use by several threads at once."""
@@ -61,7 +71,7 @@ class ClosedChain:
         self._data = mujoco.MjData(self._model)
         self._joints = {joint.name: joint for joint in mechanism.joints}
         self._origins = {body.name: np.array(body.origin, dtype=np.float64) for body in mechanism.bodies}
-        self._axes = {joint.name: transverse(joint.axis) for joint in mechanism.joints if joint.type != "fixed"}
+        self._axes = {joint.name: transverse(joint.axis) for joint in mechanism.joints if joint.type in _STEP}
         self._jacobian = np.zeros((0, self._model.nv))
         self._gaps = np.zeros(0)
         self._placed: State | None = None
@@ -111,9 +121,8 @@ class ClosedChain:
         values = np.linalg.svd(jacobian, compute_uv=False) if jacobian.size else np.zeros(0)
         return int(self._model.nv - np.count_nonzero(values > RANK * max(1.0, float(values.max(initial=0.0)))))
 
-    def components(self) -> tuple[tuple[tuple[str, ...], tuple[str, ...]], ...]:
-        """Independent coordinates that the loops couple, together with the cuts of those loops; in the mechanism's
-        order."""
+    def components(self) -> tuple[Component, ...]:
+        """The groups of coordinates that the loops couple, in the mechanism's order."""
         jacobian = np.abs(self._at(self.drawn)) > 1e-9
         groups: list[tuple[set[int], list[str]]] = []
         for cut, points in self._body.cuts.items():
@@ -122,11 +131,14 @@ class ClosedChain:
             joined = [group for group in groups if group[0] & columns]
             merged = (columns.union(*(g[0] for g in joined)), [*(name for g in joined for name in g[1]), cut])
             groups = [group for group in groups if group not in joined] + [merged]
-        named = [
-            (tuple(n for n in self.independent if not columns.isdisjoint(self._dofs(n))), tuple(cuts))
+
+        def moving(names: Sequence[str], columns: set[int]) -> tuple[str, ...]:
+            return tuple(name for name in names if not columns.isdisjoint(self._dofs(name)))
+
+        return tuple(
+            Component(moving(self.independent, columns), moving(self.dependent, columns), tuple(cuts))
             for columns, cuts in groups
-        ]
-        return tuple(named)
+        )
 
     # ---- solving ----------------------------------------------------------------------------------------------------
     def solve(self, targets: Mapping[str, float], *, start: State | None = None) -> State:

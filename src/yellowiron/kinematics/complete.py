@@ -1,0 +1,290 @@
+"""What follows from the loops: mobility, limits, branch signs and drive gains."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from yellowiron.kinematics.branches import branch_pivots, branch_sines
+from yellowiron.kinematics.chain import ClosedChain, Component, independent_joints
+from yellowiron.kinematics.grid import Grid, explore, joint_values
+from yellowiron.model.finding import Finding
+from yellowiron.model.geometry import Floats
+from yellowiron.model.mechanism import Drive, Joint, Mechanism, Mobility
+
+ANGLE_MARGIN = math.radians(0.5)
+"""Radians added to a pivot's range from the loop, so that its limit never carries load."""
+SLIDE_MARGIN = 2e-3
+"""Metres added to a passive slide's range from the loop."""
+FREQUENCY = 2.0
+"""Hertz of a position drive on the mass it moves: what every engine held at any step size that was tried."""
+STRAIGHT = 0.05
+"""|sine| at a triangle of pivots below which a loop is too near its dead point to have a branch."""
+_BACK = 2e-3
+_PER_FREEDOM = {"fixed": 6, "revolute": 5, "prismatic": 5, "spherical": 3, "distance": 0}
+
+
+@dataclass
+class _Work:
+    """What the steps below hand on: joints as they change, findings as they come."""
+
+    chain: ClosedChain
+    joints: dict[str, Joint]
+    findings: list[Finding] = field(default_factory=list)
+
+    def find(self, code: str, severity: str, where: str, message: str, hint: str = "") -> None:
+        self.findings.append(Finding(code, severity, where, message, hint))  # type: ignore[arg-type]
+
+
+def complete(mechanism: Mechanism) -> Mechanism:
+    """The mechanism with everything that follows from its loops.
+
+    - `mobility`, from the rank of the constraint Jacobian.
+    - Limits of passive pivots and slides, tree and cut, over the full strokes of all actuators that move them, with a
+      small margin; limits that are already there stay.
+    - The stroke of a driven slide ends where the linkage locks.
+    - `Loop.branch`: the sign of each loop's triangle of pivots (`branches.branch_pivots`).
+    - Gains of drives that have none (stiffness 0, or damping 0 for a velocity drive): k = m(2πf)², d = 2k/(2πf), m the
+      mass the drive sees through the linkage at most, f = 2 Hz. A velocity drive gives its full force at standstill
+      and none at full speed.
+
+    Findings: KIN001 stroke past a dead point, KIN002 unreachable combination of strokes, KIN003 branch, KIN004 passive
+    twin out of stroke, KIN005 mobility, KIN006 stated limit against the loop's, KIN007 drive without force or speed.
+    Raises `MechanismError` where the joints are no tree with cuts.
+    """
+    chain = ClosedChain(mechanism)
+    work = _Work(chain, {joint.name: joint for joint in mechanism.joints})
+    mobility = _mobility(mechanism, work)
+    grids = [explore(chain, ranges) for ranges in _ranges(work)]
+    placed = [chain.placements(grid.states) for grid in grids]
+    for grid in grids:
+        _report_unreachable(grid, work)
+    for component, grid, (rotations, _) in zip(chain.components(), grids, placed, strict=True):
+        _limit(component, grid, rotations, work)
+    _check_twins(mechanism, work)
+    loops = _branches(mechanism, grids, placed, work)
+    _gains(mechanism, grids, work)
+    return replace(
+        mechanism,
+        joints=tuple(work.joints[joint.name] for joint in mechanism.joints),
+        loops=loops,
+        mobility=mobility,
+        findings=(*mechanism.findings, *work.findings),
+    )
+
+
+def _mobility(mechanism: Mechanism, work: _Work) -> Mobility:
+    freedom = {"fixed": 0, "revolute": 1, "prismatic": 1, "spherical": 3, "distance": 0}
+    tree = sum(freedom[joint.type] for joint in mechanism.joints if not joint.cut)
+    grubler = tree - sum(_PER_FREEDOM[joint.type] for joint in mechanism.joints if joint.cut)
+    mobility = Mobility(work.chain.degrees_of_freedom, len(independent_joints(mechanism)), grubler)
+    if mobility.computed != mobility.expected:
+        more = mobility.computed > mobility.expected
+        work.find(
+            "KIN005",
+            "error",
+            mechanism.name,
+            f"the machine has {mobility.computed} degrees of freedom where its drives and free joints make "
+            f"{mobility.expected}",
+            f"Nothing holds: {', '.join(work.chain.idle) or 'a body'}." if more else "A pivot is missing: a loop is locked.",
+        )
+    return mobility
+
+
+def _ranges(work: _Work) -> list[dict[str, tuple[float, float]]]:
+    """The drivers of each component with their ranges, cut short where the linkage locks on the way there."""
+    ranges: list[dict[str, tuple[float, float]]] = []
+    for component in work.chain.components():
+        found: dict[str, tuple[float, float]] = {}
+        for name in component.drivers:
+            joint = work.joints[name]
+            if joint.lower is None or joint.upper is None:
+                continue
+            ends = [_reachable(work, joint, end, float(getattr(joint, end))) for end in ("lower", "upper")]
+            found[name] = (min(ends), max(ends))
+        ranges.append(found)
+    return ranges
+
+
+def _reachable(work: _Work, joint: Joint, end: str, limit: float) -> float:
+    state, fraction = work.chain.reach({joint.name: limit})
+    if fraction == 1.0:
+        return limit
+    stop = work.chain.coordinate(state, joint.name)
+    stop -= math.copysign(min(_BACK, abs(stop)), stop)
+    work.find(
+        "KIN001",
+        "warning",
+        joint.name,
+        f"the linkage locks at {1e3 * stop:.1f} mm from the drawn pose, before the stroke's end at {1e3 * limit:.1f} mm",
+        "Check the stroke, the closed length and the pins of this cylinder's loop.",
+    )
+    source = {**work.joints[joint.name].source, f"{end}_reason": "from the loop: dead point"}
+    changed: dict[str, Any] = {end: stop, "source": source}
+    work.joints[joint.name] = replace(work.joints[joint.name], **changed)
+    return stop
+
+
+def _report_unreachable(grid: Grid, work: _Work) -> None:
+    if not grid.unreachable:
+        return
+    share = 100.0 * len(grid.unreachable) / (len(grid.unreachable) + len(grid.states))
+    at = ", ".join(f"{n} {1e3 * v:.0f} mm" for n, v in zip(grid.drivers, grid.unreachable[0], strict=True))
+    work.find(
+        "KIN002",
+        "warning",
+        ", ".join(grid.drivers),
+        f"{share:.0f} % of the combinations of these strokes lie past a dead point, for one {at}",
+        "Limits are taken from the others.",
+    )
+
+
+def _limit(component: Component, grid: Grid, rotations: Floats, work: _Work) -> None:
+    """Limits of everything that moves with a component's drivers."""
+    if not grid.states:
+        return
+    drivers = " and ".join(grid.drivers) or "the drawn pose alone"
+    for name, joint in work.joints.items():
+        if joint.type not in ("revolute", "prismatic") or name not in (*component.dependent, *component.cuts):
+            continue
+        values = joint_values(work.chain, grid, joint, rotations)
+        low, high = float(values.min()), float(values.max())
+        margin = SLIDE_MARGIN if joint.type == "prismatic" else ANGLE_MARGIN
+        passive = any(cylinder.slide == name and cylinder.passive for cylinder in work.chain.mechanism.cylinders)
+        if passive or joint.lower is None or joint.upper is None:
+            text = f"from the loop over the strokes of {drivers}, with {_text(margin, joint)} to spare"
+            source = {**joint.source, "limits": text}
+            work.joints[name] = replace(joint, lower=low - margin, upper=high + margin, source=source)
+        elif low < joint.lower - margin or high > joint.upper + margin:
+            work.find(
+                "KIN006",
+                "warning",
+                name,
+                f"the strokes take it from {_text(low, joint)} to {_text(high, joint)}, its stated limits are "
+                f"{_text(joint.lower, joint)} and {_text(joint.upper, joint)}",
+                "The stated limits stay; check them against the strokes.",
+            )
+
+
+def _text(value: float, joint: Joint) -> str:
+    return f"{1e3 * value:.1f} mm" if joint.type == "prismatic" else f"{math.degrees(value):.2f}°"
+
+
+def _check_twins(mechanism: Mechanism, work: _Work) -> None:
+    """A passive twin must stay within its own stroke while the driven one uses all of its own."""
+    for cylinder in mechanism.cylinders:
+        slide = work.joints.get(cylinder.slide)
+        if not cylinder.passive or slide is None or slide.lower is None or slide.upper is None:
+            continue
+        short = -cylinder.extension - (slide.lower + SLIDE_MARGIN)
+        long = (slide.upper - SLIDE_MARGIN) - (cylinder.stroke - cylinder.extension)
+        if max(short, long) > 1e-3:
+            work.find(
+                "KIN004",
+                "warning",
+                cylinder.slide,
+                f"the twin cylinder would have to go {1e3 * max(short, long):.1f} mm past its own stroke",
+                "Check stroke, closed length and the pins of both cylinders.",
+            )
+
+
+def _branches(mechanism: Mechanism, grids: list[Grid], placed: list[tuple[Floats, Floats]], work: _Work) -> Any:
+    """The loops with their branch signs; a sign that changes over the strokes is a finding."""
+    pivots = branch_pivots(mechanism)
+    at = {cut: number for number, component in enumerate(work.chain.components()) for cut in component.cuts}
+    drawn = work.chain.placements((work.chain.drawn,))
+    loops = []
+    for loop in mechanism.loops:
+        branch = 0
+        if loop.cut in pivots:
+            sine = float(branch_sines(work.chain, pivots[loop.cut], *drawn)[0])
+            branch = int(math.copysign(1.0, sine)) if abs(sine) > 1e-6 else 0
+            sines = branch_sines(work.chain, pivots[loop.cut], *placed[at[loop.cut]]) * branch
+            least = float(sines.min(initial=abs(sine)))
+            if branch and least < STRAIGHT:
+                branch = 0 if least < 0.0 else branch
+                work.find(
+                    "KIN003",
+                    "warning",
+                    loop.cut,
+                    f"over the strokes its loop comes within {math.degrees(math.asin(max(0.0, least))):.1f}° of a dead point"
+                    if least >= 0.0
+                    else "its loop changes branch within the strokes",
+                    f"Pivots {', '.join(pivots[loop.cut])} must not come into line; check strokes and pins.",
+                )
+        loops.append(replace(loop, branch=branch))
+    return tuple(loops)
+
+
+def _gains(mechanism: Mechanism, grids: list[Grid], work: _Work) -> None:
+    masses = _seen_masses(work.chain, grids)
+    for joint in mechanism.joints:
+        drive = joint.drive
+        if drive is None or joint.name not in work.chain.independent:
+            continue
+        if drive.kind == "velocity":
+            work.joints[joint.name] = replace(work.joints[joint.name], drive=_velocity_gain(drive, joint, work))
+            continue
+        if joint.name not in masses:
+            masses[joint.name] = work.chain.effective_mass(work.chain.drawn, joint.name)
+        gained = position_gains(drive, masses[joint.name], "kg" if joint.type == "prismatic" else "kg·m²")
+        work.joints[joint.name] = replace(work.joints[joint.name], drive=gained)
+
+
+def position_gains(drive: Drive, mass: float, unit: str = "kg", *, frequency: float = FREQUENCY) -> Drive:
+    """A position drive with gains for a mass (kg, or kg·m² for a pivot): k = m(2πf)², d = 2k/(2πf), critically damped.
+    A stiffness that is there stays, and gets the damping d = 2√(km) where it has none."""
+    omega = 2.0 * math.pi * frequency
+    if drive.stiffness > 0.0:
+        damping = drive.damping if drive.damping > 0.0 else 2.0 * math.sqrt(drive.stiffness * mass)
+        return replace(drive, damping=damping)
+    stiffness = mass * omega * omega
+    shown = f"{1e-3 * mass:.4g} t" if unit == "kg" else f"{mass:.4g} {unit}"
+    source = f"gains: {frequency:g} Hz, critically damped, on the {shown} it sees through the linkage at most"
+    return replace(
+        drive,
+        stiffness=stiffness,
+        damping=2.0 * stiffness / omega,
+        source="; ".join(text for text in (drive.source, source) if text),
+    )
+
+
+def _velocity_gain(drive: Drive, joint: Joint, work: _Work) -> Drive:
+    if drive.damping > 0.0:
+        return drive
+    if not (drive.max_force > 0.0 and drive.max_velocity > 0.0):
+        work.find("KIN007", "warning", joint.name, "the drive has no force or no speed, so it gets no damping")
+        return drive
+    source = "damping: full force at standstill, none at full speed"
+    return replace(
+        drive,
+        damping=drive.max_force / drive.max_velocity,
+        source="; ".join(text for text in (drive.source, source) if text),
+    )
+
+
+def _seen_masses(chain: ClosedChain, grids: list[Grid]) -> dict[str, float]:
+    """Driver → the largest mass it sees: over its own component's poses, and over its own range in the corners of the
+    other components (a steering cylinder turns a raised boom too)."""
+    masses: dict[str, float] = {}
+
+    def see(name: str, state: Any) -> None:
+        masses[name] = max(masses.get(name, 0.0), chain.effective_mass(state, name))
+
+    for grid in grids:
+        for state in grid.states:
+            for name in grid.drivers:
+                see(name, state)
+        for other in grids:
+            if other is grid:
+                continue
+            for corner in other.corners:
+                for index in sorted({*grid.corners, len(grid.states) // 2} if grid.states else ()):
+                    values: Mapping[str, float] = dict(zip(grid.drivers, grid.values[index].tolist(), strict=True))
+                    state, fraction = chain.reach(values, start=other.states[corner])
+                    if fraction == 1.0:
+                        for name in grid.drivers:
+                            see(name, state)
+    return masses
