@@ -1,0 +1,23 @@
+"""USD: machines and plain assemblies written, machines read back. The names here import `pxr` when they are used."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from yellowiron.usd.convert import write_assembly
+    from yellowiron.usd.read import read_machine
+    from yellowiron.usd.write import write_machine
+
+__all__ = ["read_machine", "write_assembly", "write_machine"]
+
+_HOMES = {"read_machine": "read", "write_assembly": "convert", "write_machine": "write"}
+
+
+def __getattr__(name: str) -> Any:
+    """The public functions, imported on first use."""
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    import importlib
+
+    return getattr(importlib.import_module(f"{__name__}.{_HOMES[name]}"), name)

@@ -1,0 +1,75 @@
+"""The physics layer: UsdPhysics opinions over the base layer, and nothing that belongs to one engine."""
+
+from __future__ import annotations
+
+import numpy as np
+from pxr import Gf, Sdf
+
+from yellowiron.model.mechanism import Body
+from yellowiron.usd.joints import write_joints
+from yellowiron.usd.materials import write_physics_material
+from yellowiron.usd.overlap import overlapping_bodies
+from yellowiron.usd.plan import COLLIDERS, MATERIALS, PlacedPart, Plan
+from yellowiron.usd.rotation import principal_axes
+from yellowiron.usd.stage import Types, apply_schemas, define, over, set_attribute, set_targets
+
+
+def write_physics(layer: Sdf.Layer, base: Sdf.Layer, plan: Plan) -> None:
+    """Articulation root, rigid bodies with mass, colliders, materials, joints and filtered pairs. `base` tells which
+    colliders are meshes."""
+    apply_schemas(over(layer, plan.root), "PhysicsArticulationRootAPI")
+    if plan.material_paths:
+        define(layer, f"{plan.root}/{MATERIALS}", "Scope")
+        for name, path in plan.material_paths.items():
+            write_physics_material(layer, path, plan.mechanism.materials[name])
+    for body in plan.mechanism.bodies:
+        spec = over(layer, plan.body_paths[body.name])
+        apply_schemas(spec, "PhysicsRigidBodyAPI", "PhysicsMassAPI")
+        write_mass(spec, body)
+        for placed in plan.parts[body.name]:
+            if placed.approximation.usd:
+                _write_collider(layer, base, f"{spec.path}/{COLLIDERS}/{placed.name}", placed, plan)
+    _write_filtered_pairs(layer, plan)
+    write_joints(layer, plan)
+
+
+def write_mass(spec: Sdf.PrimSpec, body: Body) -> None:
+    """Explicit mass properties: nothing is left to a collider's volume. In the body's frame, kg and kg·m²."""
+    moments, axes = principal_axes(np.asarray(body.inertia, dtype=np.float64))
+    center = np.asarray(body.center_of_mass) - np.asarray(body.origin)
+    set_attribute(spec, "physics:mass", Types.Float, float(body.mass))
+    set_attribute(spec, "physics:centerOfMass", Types.Point3f, Gf.Vec3f(*center.tolist()))
+    set_attribute(spec, "physics:diagonalInertia", Types.Float3, Gf.Vec3f(*moments))
+    set_attribute(spec, "physics:principalAxes", Types.Quatf, Gf.Quatf(Gf.Quatd(*axes)))
+
+
+def _write_collider(layer: Sdf.Layer, base: Sdf.Layer, path: str, placed: PlacedPart, plan: Plan) -> None:
+    spec = over(layer, path)
+    apply_schemas(spec, "PhysicsCollisionAPI")
+    if base.GetPrimAtPath(path).typeName == "Mesh":
+        apply_schemas(spec, "PhysicsMeshCollisionAPI")
+        if placed.approximation.usd != "none":
+            set_attribute(spec, "physics:approximation", Types.Token, placed.approximation.usd, uniform=True)
+    material = plan.material_paths.get(placed.data.material)
+    if material is not None:
+        apply_schemas(spec, "MaterialBindingAPI")
+        set_targets(spec, "material:binding:physics", material)
+
+
+def filtered_pairs(plan: Plan) -> dict[str, list[str]]:
+    """Body → the bodies after it that it must not collide with: those it is jointed to, and those it overlaps in the
+    drawn pose."""
+    order = {body.name: index for index, body in enumerate(plan.mechanism.bodies)}
+    pairs = {tuple(sorted((j.body0, j.body1), key=order.__getitem__)) for j in plan.mechanism.joints}
+    pairs |= set(overlapping_bodies(plan))
+    filtered: dict[str, list[str]] = {}
+    for first, second in sorted(pairs, key=lambda p: (order[p[0]], order[p[1]])):
+        filtered.setdefault(first, []).append(second)
+    return filtered
+
+
+def _write_filtered_pairs(layer: Sdf.Layer, plan: Plan) -> None:
+    for body, others in filtered_pairs(plan).items():
+        spec = over(layer, plan.body_paths[body])
+        apply_schemas(spec, "PhysicsFilteredPairsAPI")
+        set_targets(spec, "physics:filteredPairs", *(plan.body_paths[other] for other in others))

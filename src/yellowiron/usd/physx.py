@@ -1,0 +1,53 @@
+"""The PhysX layer: schemas by name and plain attributes, so that writing needs no PhysX.
+
+The attributes and their defaults are those of `physx-usd-schemas`; a joint's largest velocity is written in both its
+forms, Isaac Sim's `PhysxJointAPI` and the per-axis `PhysxJointAxisAPI` that replaced it.
+"""
+
+from __future__ import annotations
+
+import math
+
+from pxr import Sdf
+
+from yellowiron.model.mechanism import Drive, Joint
+from yellowiron.usd.drives import INSTANCES, to_usd_unit
+from yellowiron.usd.plan import COLLIDERS, Plan
+from yellowiron.usd.stage import Types, apply_schemas, over, set_attribute
+
+POSITION_ITERATIONS = 64
+"""Solver iterations of the articulation: at 60 Hz the worst pin error is 31 mm with 4 and 0.28 mm with 64."""
+
+_VALUE_TYPES = {bool: Types.Bool, int: Types.Int, float: Types.Float}
+
+
+def write_physx(layer: Sdf.Layer, base: Sdf.Layer, plan: Plan) -> None:
+    """Articulation settings, joint velocities and the collision parameters UsdPhysics has no word for."""
+    root = over(layer, plan.root)
+    apply_schemas(root, "PhysxArticulationAPI")
+    set_attribute(root, "physxArticulation:enabledSelfCollisions", Types.Bool, False)
+    set_attribute(root, "physxArticulation:solverPositionIterationCount", Types.Int, POSITION_ITERATIONS)
+    for joint in plan.mechanism.joints:
+        if joint.drive is not None and not joint.cut and 0.0 < joint.drive.max_velocity < math.inf:
+            _write_max_velocity(over(layer, plan.joint_paths[joint.name]), joint, joint.drive)
+    for body in plan.mechanism.bodies:
+        for placed in plan.parts[body.name]:
+            path = f"{plan.body_paths[body.name]}/{COLLIDERS}/{placed.name}"
+            chosen = placed.approximation
+            if not chosen.physx_schema or base.GetPrimAtPath(path).typeName != "Mesh":
+                continue
+            spec = over(layer, path)
+            apply_schemas(spec, chosen.physx_schema)
+            if chosen.physx_usd:
+                set_attribute(spec, "physics:approximation", Types.Token, chosen.physx_usd, uniform=True)
+            for name, value in chosen.physx_values.items():
+                set_attribute(spec, name, _VALUE_TYPES[type(value)], value)
+
+
+def _write_max_velocity(spec: Sdf.PrimSpec, joint: Joint, drive: Drive) -> None:
+    """m/s for slides, degrees a second for pivots."""
+    velocity = drive.max_velocity * to_usd_unit(joint.type)
+    instance = INSTANCES[joint.type]
+    apply_schemas(spec, "PhysxJointAPI", f"PhysxJointAxisAPI:{instance}")
+    set_attribute(spec, "physxJoint:maxJointVelocity", Types.Float, velocity)
+    set_attribute(spec, f"physxJointAxis:{instance}:maxJointVelocity", Types.Float, velocity)

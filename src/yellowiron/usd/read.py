@@ -1,0 +1,309 @@
+"""Reads a machine back: the `Mechanism` that its USD file was written from, or that a person has edited since.
+
+Numbers are kept twice: in the schemas' attributes, mostly single precision, and exactly in `customData`. The exact one
+is used where it rounds to what the attribute says; elsewhere someone edited the attribute, and the attribute wins.
+"""
+
+from __future__ import annotations
+
+import typing
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from pxr import Gf, Sdf, Tf, Usd, UsdGeom, UsdPhysics
+
+from yellowiron.model.errors import YellowironError
+from yellowiron.model.geometry import Floats
+from yellowiron.model.mechanism import Body, BodyPart, Drive, Joint, Mechanism, Site, Vector
+from yellowiron.model.template import JointType
+from yellowiron.usd.drives import INSTANCES, per_usd_unit, to_usd_unit
+from yellowiron.usd.metadata import DOCUMENTS, FORMAT, KEY, from_json
+from yellowiron.usd.plan import HULL, JOINTS, VISUALS
+from yellowiron.usd.rotation import axis_of, principal_axes
+
+_SUFFIXES = {".usd", ".usda", ".usdc", ".usdz"}
+_BUILD_HINT = "Give the machine file or the scene.usda that `yellowiron build` wrote."
+_SINGLE = 2.0**-22
+"""Relative distance within which a double and a single-precision attribute say the same."""
+
+
+def read_machine(path: str | Path) -> Mechanism:
+    """The mechanism in a machine file, or in a scene that holds one. SI, machine frame, drawn pose.
+
+    `YellowironError` where the file is no USD, references that it needs are missing, or there is no machine of ours.
+    """
+    stage = open_stage(path)
+    prim = _find_machine(stage, str(path))
+    with Usd.EditContext(stage, stage.GetSessionLayer()):
+        for name, choice in (("Physics", "on"), ("Base", "floating")):
+            if prim.GetVariantSets().HasVariantSet(name):
+                prim.GetVariantSet(name).SetVariantSelection(choice)
+    _check_composition(stage, str(path))
+    return _Reader(stage, prim, str(path)).read()
+
+
+def open_stage(path: str | Path) -> Usd.Stage:
+    """The composed stage of a USD file; `YellowironError` where it is none or does not compose."""
+    file = Path(path)
+    if not file.is_file():
+        raise YellowironError("There is no such file", where=str(path), hint=_BUILD_HINT)
+    if file.suffix.lower() not in _SUFFIXES:
+        raise YellowironError(
+            "This is not a USD file", where=str(path), hint="USD files end in .usd, .usda, .usdc, .usdz."
+        )
+    try:
+        stage = Usd.Stage.Open(str(file))
+    except Tf.ErrorException as error:
+        raise YellowironError(
+            "The file cannot be read as USD", where=str(path), hint="It is damaged or is not USD; write it again."
+        ) from error
+    _check_composition(stage, str(path))
+    return stage
+
+
+def _check_composition(stage: Usd.Stage, where: str) -> None:
+    errors = stage.GetCompositionErrors()
+    if errors:
+        raise YellowironError(
+            "The file refers to something that is not there",
+            where=where,
+            hint=f"Keep it together with its payloads folder. USD says: {str(errors[0]).strip()[:300]}",
+        )
+
+
+def _find_machine(stage: Usd.Stage, where: str) -> Usd.Prim:
+    candidates: Iterable[Usd.Prim] = stage.Traverse()
+    default = stage.GetDefaultPrim()
+    if default:
+        candidates = (default, *default.GetChildren(), *candidates)
+    for prim in candidates:
+        data = prim.GetCustomDataByKey(KEY)
+        if data and "equipmentType" in data:
+            if data.get("format") != FORMAT:
+                raise YellowironError(
+                    f"The machine is written in form {data.get('format')}, and this version reads form {FORMAT}",
+                    where=where,
+                    hint="Build the machine again, or use the version that wrote it.",
+                )
+            return prim
+    raise YellowironError("There is no yellowiron machine in the file", where=where, hint=_BUILD_HINT)
+
+
+class _Reader:
+    """One machine prim on its stage. Positions are read relative to the machine's prim, wherever it stands."""
+
+    def __init__(self, stage: Usd.Stage, prim: Usd.Prim, where: str) -> None:
+        self._stage = stage
+        self._prim = prim
+        self._where = where
+        self._cache = UsdGeom.XformCache()
+        self._names: dict[Sdf.Path, str] = {}
+
+    def read(self) -> Mechanism:
+        data = self._prim.GetCustomDataByKey(KEY)
+        body_prims = [p for p in self._prim.GetChildren() if _kind(p) == "body"]
+        self._names = {p.GetPath(): str(_data(p)["name"]) for p in body_prims}
+        bodies = tuple(self._body(p) for p in body_prims)
+        origins = {body.name: body.origin for body in bodies}
+        scope = self._prim.GetChild(JOINTS)
+        joint_prims = [p for p in scope.GetChildren() if _kind(p) == "joint"] if scope else []
+        hints = typing.get_type_hints(Mechanism)
+        try:
+            return Mechanism(
+                name=str(data["name"]),
+                equipment_type=str(data["equipmentType"]),
+                root=str(data["root"]),
+                bodies=bodies,
+                joints=tuple(self._joint(p, origins) for p in joint_prims),
+                sites=tuple(s for p in body_prims for s in self._sites(p)),
+                **{name: from_json(hints[name], data[name]) for name in DOCUMENTS},
+            )
+        except KeyError as error:
+            raise YellowironError(
+                f"The machine lacks its entry {error}", where=self._where, hint="Build the machine again."
+            ) from error
+
+    def _body(self, prim: Usd.Prim) -> Body:
+        data = _data(prim)
+        mass = UsdPhysics.MassAPI(prim)
+        matrix, _ = self._cache.ComputeRelativeTransform(prim, self._prim)
+        origin = np.array(matrix.ExtractTranslation())
+        recorded = np.array(data["centerOfMass"])
+        center = _exact(_array(mass.GetCenterOfMassAttr()) + origin, recorded, scale=np.abs(recorded - origin))
+        inertia = np.array(data["inertia"], dtype=np.float64)
+        moments, axes = principal_axes(inertia)
+        written = _array(mass.GetDiagonalInertiaAttr())
+        rotation = mass.GetPrincipalAxesAttr().Get()
+        turned = Gf.Matrix3d(Gf.Rotation(Gf.Quatd(rotation)))
+        if not (_same(written, np.array(moments)) and _same_rotation(Gf.Quatd(rotation), Gf.Quatd(*axes))):
+            columns = np.array(turned).T
+            inertia = columns @ np.diag(written) @ columns.T
+        return Body(
+            name=str(data["name"]),
+            origin=_vector(origin),
+            mass=_number(mass.GetMassAttr(), data["mass"]),
+            center_of_mass=_vector(center),
+            inertia=inertia,
+            parts=tuple(self._parts(prim)),
+            hull=self._hull(prim, origin),
+            source=str(data.get("source", "")),
+        )
+
+    def _parts(self, body: Usd.Prim) -> Iterator[BodyPart]:
+        scope = body.GetChild(VISUALS)
+        for prim in scope.GetChildren() if scope else ():
+            if _kind(prim) == "part":
+                data = _data(prim)
+                yield BodyPart(
+                    part=str(data["part"]),
+                    role=data.get("role"),
+                    material=str(data.get("material", "")),
+                    collision=str(data.get("collision", "")),
+                    mass=float(data["mass"]),
+                    source=str(data.get("source", "")),
+                )
+
+    def _hull(self, body: Usd.Prim, origin: Floats) -> Floats:
+        points = body.GetChild(HULL).GetAttribute("yellowiron:points") if body.GetChild(HULL) else None
+        stored = points.Get() if points else None
+        return np.zeros((0, 3)) if stored is None else np.array(stored, dtype=np.float64).reshape(-1, 3) + origin
+
+    def _sites(self, body: Usd.Prim) -> Iterator[Site]:
+        for prim in body.GetChildren():
+            if _kind(prim) == "site":
+                data = _data(prim)
+                matrix, _ = self._cache.ComputeRelativeTransform(prim, self._prim)
+                x, z = (matrix.TransformDir(axis).GetNormalized() for axis in (Gf.Vec3d.XAxis(), Gf.Vec3d.ZAxis()))
+                yield Site(
+                    name=str(data["name"]),
+                    body=self._names[body.GetPath()],
+                    position=_vector(_exact(np.array(matrix.ExtractTranslation()), np.array(data["position"]))),
+                    x_axis=_vector(_exact(np.array(x), np.array(data["xAxis"]), scale=1.0)),
+                    z_axis=_vector(_exact(np.array(z), np.array(data["zAxis"]), scale=1.0)),
+                    source=str(data.get("source", "")),
+                )
+
+    def _joint(self, prim: Usd.Prim, origins: dict[str, Vector]) -> Joint:
+        data = _data(prim)
+        kind: JointType = data["type"]
+        joint = UsdPhysics.Joint(prim)
+        names = [self._joined(rel, prim) for rel in (joint.GetBody0Rel(), joint.GetBody1Rel())]
+        origin = np.array(origins[names[0]])
+        recorded = np.array(data["anchor"])
+        anchor = _array(joint.GetLocalPos0Attr()) + origin
+        rotation = Gf.Quatd(joint.GetLocalRot0Attr().Get())
+        imaginary = rotation.GetImaginary()
+        axis = np.array(axis_of((rotation.GetReal(), imaginary[0], imaginary[1], imaginary[2])))
+        lower, upper = self._limits(prim, kind, data)
+        drive = data.get("drive")
+        return Joint(
+            name=str(data["name"]),
+            type=kind,
+            body0=names[0],
+            body1=names[1],
+            anchor=_vector(_exact(anchor, recorded, scale=np.abs(recorded - origin))),
+            axis=_vector(_exact(axis, np.array(data["axis"]), scale=1.0)),
+            lower=lower,
+            upper=upper,
+            cut=bool(joint.GetExcludeFromArticulationAttr().Get()),
+            free=bool(data.get("free", False)),
+            drive=None if drive is None else _drive(prim, kind, from_json(Drive, drive)),
+            source=from_json(dict, data["evidence"]) if "evidence" in data else {},
+        )
+
+    def _joined(self, relationship: Usd.Relationship, joint: Usd.Prim) -> str:
+        targets = relationship.GetTargets()
+        if len(targets) != 1 or targets[0] not in self._names:
+            raise YellowironError(
+                "A joint does not join two bodies of the machine",
+                where=str(joint.GetPath()),
+                hint=f"Its {relationship.GetName()} has the targets {[str(t) for t in targets]}.",
+            )
+        return self._names[targets[0]]
+
+    def _limits(self, prim: Usd.Prim, kind: str, data: Any) -> tuple[float | None, float | None]:
+        """What the attributes say, exactly where they are unedited; from the record where this type has none."""
+        lower, upper = data.get("lower"), data.get("upper")
+        names = {
+            "PhysicsRevoluteJoint": ("physics:lowerLimit", "physics:upperLimit"),
+            "PhysicsPrismaticJoint": ("physics:lowerLimit", "physics:upperLimit"),
+            "PhysicsDistanceJoint": ("physics:minDistance", "physics:maxDistance"),
+        }.get(prim.GetTypeName())
+        if names is None:
+            return lower, upper
+        factor = to_usd_unit(kind)
+        return _limit(prim, names[0], lower, factor), _limit(prim, names[1], upper, factor)
+
+
+def _limit(prim: Usd.Prim, name: str, recorded: float | None, factor: float) -> float | None:
+    attribute = prim.GetAttribute(name)
+    if not attribute.HasAuthoredValue():
+        return None
+    value = float(attribute.Get())
+    if recorded is not None and _same(value, recorded * factor):
+        return recorded
+    return value / factor if np.isfinite(value) else None
+
+
+def _drive(prim: Usd.Prim, kind: str, recorded: Drive) -> Drive:
+    """The recorded drive, with what was edited in its attributes."""
+    if kind not in INSTANCES:
+        return recorded
+    api = UsdPhysics.DriveAPI(prim, INSTANCES[kind])
+    if not api or not prim.HasAPI(UsdPhysics.DriveAPI, INSTANCES[kind]):
+        return recorded
+    factor = per_usd_unit(kind)
+    stiffness = recorded.stiffness
+    if recorded.kind == "position":
+        stiffness = _number(api.GetStiffnessAttr(), recorded.stiffness, factor)
+    return Drive(
+        kind=recorded.kind,
+        stiffness=stiffness,
+        damping=_number(api.GetDampingAttr(), recorded.damping, factor),
+        max_force=_number(api.GetMaxForceAttr(), recorded.max_force),
+        max_velocity=recorded.max_velocity,
+        source=recorded.source,
+    )
+
+
+def _kind(prim: Usd.Prim) -> str:
+    data = prim.GetCustomDataByKey(KEY)
+    return str(data.get("kind", "")) if data else ""
+
+
+def _data(prim: Usd.Prim) -> Any:
+    return prim.GetCustomDataByKey(KEY)
+
+
+def _array(attribute: Usd.Attribute) -> Floats:
+    return np.array(attribute.Get(), dtype=np.float64)
+
+
+def _vector(values: Floats) -> Vector:
+    return (float(values[0]), float(values[1]), float(values[2]))
+
+
+def _same(written: Floats | float, recorded: Floats | float, scale: Floats | float | None = None) -> bool:
+    """Whether a recorded double rounds to the single-precision value of an attribute."""
+    size = np.abs(recorded) if scale is None else scale
+    with np.errstate(invalid="ignore"):
+        close = np.abs(np.asarray(written) - recorded) <= _SINGLE * np.asarray(size) + 1e-30
+    return bool(np.all(close | (np.asarray(written) == np.asarray(recorded))))
+
+
+def _exact(written: Floats, recorded: Floats, scale: Floats | float | None = None) -> Floats:
+    """The recorded value unless the attribute was edited; `scale` is the size of what was rounded."""
+    allowed = np.max(np.abs(recorded) if scale is None else scale)
+    return recorded if _same(written, recorded, float(allowed)) else written
+
+
+def _number(attribute: Usd.Attribute, recorded: float, factor: float = 1.0) -> float:
+    """A recorded number unless its attribute (= number x factor) was edited."""
+    value = float(attribute.Get())
+    return float(recorded) if _same(value, recorded * factor) else value / factor
+
+
+def _same_rotation(first: Gf.Quatd, second: Gf.Quatd) -> bool:
+    return bool(abs(abs(Gf.Dot(first, second)) - 1.0) < 1e-6)

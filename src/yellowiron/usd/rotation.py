@@ -1,0 +1,69 @@
+"""Quaternions of frames, with one sign and one choice where the problem leaves several."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.spatial.transform import Rotation
+
+from yellowiron.model.geometry import Floats
+
+Quaternion = tuple[float, float, float, float]
+"""(w, x, y, z), unit, w ≥ 0."""
+
+
+def quaternion_of(rotation: Floats) -> Quaternion:
+    """The quaternion of a rotation matrix (3, 3)."""
+    return _canonical(Rotation.from_matrix(rotation).as_quat(canonical=True, scalar_first=True))
+
+
+def quaternion_to(axis: ArrayLike) -> Quaternion:
+    """The shortest rotation that takes +X to the unit vector `axis`; half a turn about +Z where it is −X."""
+    x, y, z = (float(v) for v in np.asarray(axis, dtype=np.float64))
+    if x < -1.0 + 1e-12:
+        return (0.0, 0.0, 0.0, 1.0)
+    return _canonical(np.array([1.0 + x, 0.0, -z, y]))
+
+
+def axis_of(quaternion: Quaternion) -> tuple[float, float, float]:
+    """Where a rotation takes +X."""
+    x, y, z = Rotation.from_quat(quaternion, scalar_first=True).apply([1.0, 0.0, 0.0])
+    return (float(x), float(y), float(z))
+
+
+def principal_axes(inertia: Floats) -> tuple[tuple[float, float, float], Quaternion]:
+    """The principal moments of a symmetric inertia (3, 3) and the rotation from its principal axes to its frame.
+
+    Moments keep the order of the frame's axes as far as it makes sense, so a diagonal inertia gives no rotation.
+    """
+    symmetric = 0.5 * (inertia + inertia.T)
+    if np.allclose(symmetric, np.diag(np.diag(symmetric)), rtol=0.0, atol=1e-12 * float(np.abs(symmetric).max() or 1)):
+        first, second, third = (float(v) for v in np.diag(symmetric))
+        return (first, second, third), (1.0, 0.0, 0.0, 0.0)
+    moments, axes = np.linalg.eigh(symmetric)
+    order = _nearest_order(np.abs(axes))
+    moments, axes = moments[order], axes[:, order]
+    axes = axes * np.where(np.diag(axes) < 0.0, -1.0, 1.0)
+    if np.linalg.det(axes) < 0.0:
+        axes[:, 2] = -axes[:, 2]
+    first, second, third = (float(v) for v in moments)
+    return (first, second, third), quaternion_of(axes)
+
+
+def _nearest_order(weights: Floats) -> list[int]:
+    """For each frame axis, the column that lies nearest to it, none twice."""
+    order: list[int] = []
+    for row in weights:
+        free = [c for c in range(3) if c not in order]
+        order.append(max(free, key=lambda c: row[c]))
+    return order
+
+
+def _canonical(quaternion: Floats) -> Quaternion:
+    """Unit length, first nonzero component positive, no negative zeros."""
+    q = np.asarray(quaternion, dtype=np.float64)
+    q = q / np.linalg.norm(q)
+    leading = next((v for v in q if abs(v) > 1e-15), 1.0)
+    q = np.copysign(1.0, leading) * q + 0.0
+    w, x, y, z = (float(v) for v in q)
+    return (w, x, y, z)

@@ -1,0 +1,90 @@
+"""Writes a machine: every layer authored in memory, then exported. The same inputs give the same bytes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike
+from pxr import Sdf
+
+from yellowiron.model.assembly import Assembly
+from yellowiron.model.errors import OutputError
+from yellowiron.model.mechanism import Mechanism
+from yellowiron.usd.bodies import is_mirrored, write_bodies
+from yellowiron.usd.geometry import write_hulls, write_mirrored, write_prototypes
+from yellowiron.usd.materials import copy_textures
+from yellowiron.usd.mujoco import write_mujoco
+from yellowiron.usd.physics import write_physics
+from yellowiron.usd.physx import write_physx
+from yellowiron.usd.plan import GEOMETRY_FILE, PROTOTYPES, Plan, make_plan
+from yellowiron.usd.scene import PAYLOAD_FOLDER, write_machine_layer, write_scene_layer
+from yellowiron.usd.stage import create_layer, define, save_layer
+
+SCENE_FILE = "scene.usda"
+TEXTURE_FOLDER = "textures"
+
+
+def write_machine(
+    mechanism: Mechanism,
+    assembly: Assembly,
+    folder: str | Path,
+    *,
+    name: str,
+    frame: ArrayLike | None = None,
+    texture_folders: Sequence[str | Path] = (),
+) -> tuple[Path, ...]:
+    """Writes `<name>.usda`, `scene.usda` and `payloads/` into `folder`, and returns the files, machine first.
+
+    `frame` (4, 4) takes the assembly's frame to the mechanism's, metres (`Alignment.frame`; None: they are the same).
+    `texture_folders` are searched for the texture files that materials name. The folder is made if it is absent; the
+    caller that wants all or nothing gives a temporary one and renames it. `MechanismError` where mechanism and assembly
+    do not fit, `OutputError` where a file cannot be written or a texture is not found.
+    """
+    _check_name(name)
+    folder = Path(folder)
+    payloads = folder / PAYLOAD_FOLDER
+    plan = make_plan(mechanism, assembly, np.eye(4) if frame is None else np.asarray(frame, dtype=np.float64), name)
+    named = [p.look.texture for p in plan.prototypes if p.look.texture is not None]
+    textures, texture_files = copy_textures(
+        named, payloads / TEXTURE_FOLDER, search=[Path(f) for f in texture_folders], relative=f"./{TEXTURE_FOLDER}"
+    )
+    machine_file = f"{name}.usda"
+    machine, scene = create_layer(plan.root_name), create_layer("World")
+    geometry = create_layer(PROTOTYPES[1:], binary=True)
+    base, physics, physx, mujoco = (create_layer(plan.root_name) for _ in range(4))
+    with Sdf.ChangeBlock():
+        _write_geometry(geometry, plan, textures)
+        write_bodies(base, plan)
+        write_physics(physics, base, plan)
+        write_physx(physx, base, plan)
+        write_mujoco(mujoco, base, plan)
+        write_machine_layer(machine, plan)
+        write_scene_layer(scene, plan, machine_file)
+    layers = {
+        folder / machine_file: machine,
+        folder / SCENE_FILE: scene,
+        payloads / GEOMETRY_FILE: geometry,
+        payloads / "base.usda": base,
+        payloads / "physics.usda": physics,
+        payloads / "physx.usda": physx,
+        payloads / "mujoco.usda": mujoco,
+    }
+    return (*(save_layer(layer, path) for path, layer in layers.items()), *texture_files)
+
+
+def _check_name(name: str) -> None:
+    """A machine's name is also its file's."""
+    if not name or Path(name).name != name or f"{name}.usda" == SCENE_FILE:
+        raise OutputError(
+            f"'{name}' cannot be the machine's name", where=name, hint="Give a file name; 'scene' is the scene's own."
+        )
+
+
+def _write_geometry(layer: Sdf.Layer, plan: Plan, textures: dict[str, str]) -> None:
+    define(layer, PROTOTYPES, "Scope")
+    write_prototypes(layer, plan.prototypes, textures)
+    placed = [p for body in plan.mechanism.bodies for p in plan.parts[body.name]]
+    write_mirrored(layer, (p for p in placed if p.approximation.usd and is_mirrored(p.matrix)))
+    write_hulls(layer, plan)
