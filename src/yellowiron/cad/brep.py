@@ -1,0 +1,205 @@
+"""A B-rep solid or sheet to a `Shape`: exact mass properties, features, content key, mesh."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from OCP.Bnd import Bnd_Box
+from OCP.BRep import BRep_Tool
+from OCP.BRepBndLib import BRepBndLib
+from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeSolid
+from OCP.BRepGProp import BRepGProp
+from OCP.gp import gp_Pnt
+from OCP.GProp import GProp_GProps
+from OCP.TopAbs import TopAbs_FACE, TopAbs_SHELL, TopAbs_SOLID
+from OCP.TopExp import TopExp_Explorer
+from OCP.TopoDS import TopoDS
+
+from yellowiron.cad import features
+from yellowiron.cad.tessellate import MILLIMETRE, mesh_of
+from yellowiron.model.geometry import Color, Floats, Mesh, Shape
+
+
+@dataclass(eq=False)
+class Body:
+    """One distinct solid or sheet, measured but not yet meshed. Lengths in mm, as Open CASCADE keeps them."""
+
+    name: str
+    shape: Any
+    faces: list[Any]
+    survey: list[features.Face]
+    closed: bool
+    volume: float
+    area: float
+    centroid: Floats
+    inertia: Floats
+    box: Floats
+    color: Color | None
+    face_colors: list[Color | None] | None
+    key: str = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.key = _key(self)
+
+    @property
+    def diagonal(self) -> float:
+        """Of the bounding box, mm."""
+        return float(np.linalg.norm(self.box[1] - self.box[0]))
+
+    @property
+    def sound(self) -> bool:
+        """False where a coordinate or a measure is not a finite number."""
+        numbers = (self.box, self.volume, self.area, self.centroid, self.inertia)
+        return all(bool(np.isfinite(value).all()) for value in numbers)
+
+
+def measure(
+    name: str, shape: Any, *, color: Color | None = None, face_colors: Sequence[Color | None] | None = None
+) -> Body:
+    """A body from a solid, compsolid, shell or compound of faces in its own frame.
+
+    A closed shell counts as the solid it bounds; a solid turned inside out is turned back.
+    """
+    shape, closed = _close(shape)
+    box = _box(shape)
+    faces = subshapes(shape, TopAbs_FACE)
+    properties = GProp_GProps(gp_Pnt(*box.mean(axis=0))) if np.isfinite(box).all() else GProp_GProps()
+    if closed:
+        BRepGProp.VolumeProperties_s(shape, properties)
+        if properties.Mass() < 0.0:
+            shape = shape.Reversed()
+            faces = subshapes(shape, TopAbs_FACE)
+            properties = GProp_GProps(gp_Pnt(*box.mean(axis=0)))
+            BRepGProp.VolumeProperties_s(shape, properties)
+    surveyed = features.survey(faces)
+    area = sum(face.area for face in surveyed)
+    if closed:
+        centroid = np.array(properties.CentreOfMass().Coord())
+        matrix = properties.MatrixOfInertia()
+        inertia = np.array([[matrix.Value(i, j) for j in (1, 2, 3)] for i in (1, 2, 3)])
+    else:
+        # The centre of a sheet is that of its area; what it weighs is not in the file.
+        weights = np.array([face.area for face in surveyed])
+        centers = np.array([face.center for face in surveyed]).reshape(-1, 3)
+        centroid = weights @ centers / weights.sum() if weights.sum() > 0.0 else box.mean(axis=0)
+        inertia = np.zeros((3, 3))
+    colors = None if face_colors is None else list(face_colors)
+    if colors is not None and len(set(colors)) == 1:
+        color, colors = colors[0] or color, None
+    return Body(
+        name=name,
+        shape=shape,
+        faces=faces,
+        survey=surveyed,
+        closed=closed,
+        volume=properties.Mass() if closed else 0.0,
+        area=area,
+        centroid=centroid,
+        inertia=inertia,
+        box=box,
+        color=color,
+        face_colors=colors,
+    )
+
+
+def subshapes(shape: Any, kind: Any) -> list[Any]:
+    """The sub-shapes of a kind in exploration order, cast to their type."""
+    cast = {TopAbs_FACE: TopoDS.Face, TopAbs_SHELL: TopoDS.Shell, TopAbs_SOLID: TopoDS.Solid}[kind]
+    explorer, found = TopExp_Explorer(shape, kind), []
+    while explorer.More():
+        found.append(cast(explorer.Current()))
+        explorer.Next()
+    return found
+
+
+def _close(shape: Any) -> tuple[Any, bool]:
+    shells = subshapes(shape, TopAbs_SHELL)
+    closed = bool(shells) and all(BRep_Tool.IsClosed_s(shell) for shell in shells)
+    if shape.ShapeType() == TopAbs_SHELL and closed:
+        return BRepBuilderAPI_MakeSolid(shells[0]).Solid(), True
+    return shape, closed and bool(subshapes(shape, TopAbs_SOLID))
+
+
+def _box(shape: Any) -> Floats:
+    """(2, 3) exact bounds, mm; infinite or NaN where the shape has none."""
+    box = Bnd_Box()
+    BRepBndLib.AddOptimal_s(shape, box, False, False)
+    if box.IsVoid() or box.IsOpen():
+        return np.full((2, 3), np.nan)
+    low, high = box.CornerMin(), box.CornerMax()
+    return np.array([low.Coord(), high.Coord()])
+
+
+def _key(body: Body) -> str:
+    """A hash of what the body is: its faces' kinds, areas and centres, its volume and inertia; then its colours.
+
+    Lengths are taken to 1e-4 mm or a millionth of the size, whichever is more, so that the last digits of another
+    export or unit do not matter. The first 32 characters are the geometry alone; coloured bodies have 9 more.
+    """
+    size = body.diagonal
+    if not body.sound or size <= 0.0:
+        return hashlib.sha256(body.name.encode()).hexdigest()[:32]
+    step = max(1e-4, 1e-6 * size)
+    rows = sorted(
+        (face.kind, round(face.area / (step * size)), *(round(c / step) for c in face.center)) for face in body.survey
+    )
+    whole = [round(body.volume / (step * size**2)), *(round(c / step) for c in body.centroid)]
+    whole += [round(float(value) / (step * size**4)) for value in body.inertia.ravel()]
+    geometry = hashlib.sha256(repr((rows, whole, body.closed)).encode()).hexdigest()[:32]
+    if body.color is None and body.face_colors is None:
+        return geometry
+    paint = repr((_rounded(body.color), [_rounded(color) for color in body.face_colors or ()]))
+    return f"{geometry}-{hashlib.sha256(paint.encode()).hexdigest()[:8]}"
+
+
+def _rounded(color: Color | None) -> tuple[float, ...] | None:
+    return None if color is None else tuple(round(channel, 4) for channel in color)
+
+
+def finish(body: Body) -> tuple[Shape, int]:
+    """The shape of a meshed body, in metres; and how many of its faces could not be meshed."""
+    colors = body.face_colors
+    if colors is not None:
+        colors = [color or body.color for color in colors]
+    mesh, missing = mesh_of(body.faces, colors)
+    volume, centroid, inertia, exact = body.volume, body.centroid * MILLIMETRE, body.inertia * MILLIMETRE**5, True
+    volume *= MILLIMETRE**3
+    if body.closed and not 0.0 < body.volume <= float(np.prod(body.box[1] - body.box[0])) * (1.0 + 1e-6):
+        volume, centroid, inertia = mesh_properties(mesh)
+        exact = False
+    shape = Shape(
+        key=body.key,
+        name=body.name,
+        mesh=mesh,
+        volume=volume,
+        area=body.area * MILLIMETRE**2,
+        centroid=centroid,
+        inertia=inertia,
+        closed=body.closed,
+        exact=exact,
+        color=body.color,
+        cylinders=features.cylinders(body.survey),
+        planes=features.planes(body.survey),
+        bounds=body.box * MILLIMETRE,
+    )
+    return shape, missing
+
+
+def mesh_properties(mesh: Mesh) -> tuple[float, Floats, Floats]:
+    """Volume, centroid and inertia (density 1, about the centroid) of what a mesh encloses, from signed tetrahedra."""
+    a, b, c = (mesh.points[mesh.triangles[:, i]] for i in range(3))
+    volumes = np.einsum("ij,ij->i", a, np.cross(b, c)) / 6.0
+    volume = float(volumes.sum())
+    if volume == 0.0:
+        return 0.0, np.asarray(mesh.points.mean(axis=0)), np.zeros((3, 3))
+    corners = np.stack([a, b, c])
+    total = corners.sum(axis=0)
+    centroid = volumes @ total / (4.0 * volume)
+    # Second moments of a tetrahedron with one corner at the origin: V/20 (Σ xᵢxᵢᵀ + (Σxᵢ)(Σxᵢ)ᵀ).
+    moments = np.einsum("kni,knj,n->ij", corners, corners, volumes) + np.einsum("ni,nj,n->ij", total, total, volumes)
+    covariance = moments / 20.0 - volume * np.outer(centroid, centroid)
+    return volume, centroid, np.trace(covariance) * np.eye(3) - covariance

@@ -1,0 +1,334 @@
+"""Faces of a B-rep shape, and the cylinders and planes among them. Millimetres in; features come out in metres."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from OCP.BRep import BRep_Tool
+from OCP.BRepAdaptor import BRepAdaptor_Curve, BRepAdaptor_Surface
+from OCP.BRepGProp import BRepGProp
+from OCP.BRepTools import BRepTools
+from OCP.GeomAbs import (
+    GeomAbs_Cone,
+    GeomAbs_Cylinder,
+    GeomAbs_Plane,
+    GeomAbs_Sphere,
+    GeomAbs_Torus,
+)
+from OCP.gp import gp_Cylinder, gp_Pln, gp_Pnt, gp_Vec
+from OCP.GProp import GProp_GProps
+from OCP.ShapeAnalysis import ShapeAnalysis_CanonicalRecognition
+from OCP.TopAbs import TopAbs_EDGE, TopAbs_REVERSED
+from OCP.TopExp import TopExp_Explorer
+from OCP.TopLoc import TopLoc_Location
+from OCP.TopoDS import TopoDS
+
+from yellowiron.cad.tessellate import MILLIMETRE
+from yellowiron.model.geometry import CylinderFeature, Floats, PlaneFeature
+
+RECOGNITION = (1e-3, 1e-2)
+"""A free-form face is a plane or cylinder if it departs from one by no more than its tolerance, within these bounds, mm."""
+SAME_CYLINDER = 5e-3
+"""Faces lie on the same cylinder if axes and radii differ by no more than this over their length, mm."""
+ABUT = 1e-2
+"""Two faces on one cylinder are one feature if the gap between them along the axis is no more than this, mm."""
+
+_PLANE, _CYLINDER, _CONE, _SPHERE, _TORUS, _FREE = range(6)
+_KINDS = {GeomAbs_Plane: _PLANE, GeomAbs_Cylinder: _CYLINDER, GeomAbs_Cone: _CONE, GeomAbs_Sphere: _SPHERE}
+_KINDS[GeomAbs_Torus] = _TORUS
+_EDGE_SAMPLES = 24
+_TURN = 2.0 * math.pi
+
+
+@dataclass(frozen=True, eq=False)
+class Patch:
+    """One cylindrical face, mm: `origin` on the axis, unit `axis`, ends along it, and the angles it covers.
+
+    `angles` (k,) are either the two ends of an interval about `axis`, counted from `zero` (`interval` true), or those
+    of boundary points. `inner`: material outside.
+    """
+
+    origin: Floats
+    axis: Floats
+    zero: Floats
+    radius: float
+    lower: float
+    upper: float
+    angles: Floats
+    interval: bool
+    inner: bool
+    area: float
+
+
+@dataclass(frozen=True, eq=False)
+class Face:
+    """What is known of one face, mm: kind of surface, area, centre of area, and the plane's or cylinder's data."""
+
+    face: Any
+    kind: int
+    area: float
+    center: tuple[float, float, float]
+    normal: tuple[float, float, float] | None = None
+    patch: Patch | None = None
+
+
+def survey(faces: Sequence[Any]) -> list[Face]:
+    """Every face that has a surface, measured and recognised, in the order given."""
+    return [_survey_face(face) for face in faces if BRep_Tool.Surface_s(face, TopLoc_Location()) is not None]
+
+
+def _survey_face(face: Any) -> Face:
+    properties = GProp_GProps()
+    BRepGProp.SurfaceProperties_s(face, properties)
+    area, center = properties.Mass(), properties.CentreOfMass().Coord()
+    surface = BRepAdaptor_Surface(face)
+    kind = _KINDS.get(surface.GetType(), _FREE)
+    if kind == _PLANE:
+        return Face(face, kind, area, center, normal=_plane_normal(face, surface))
+    if kind == _CYLINDER:
+        return Face(face, kind, area, center, patch=_cylinder_patch(face, surface, area))
+    if kind == _FREE:
+        return _recognise(face, surface, area, center)
+    return Face(face, kind, area, center)
+
+
+def _recognise(face: Any, surface: Any, area: float, center: tuple[float, float, float]) -> Face:
+    """A free-form face, or the plane or cylinder that it really is."""
+    tolerance = min(max(BRep_Tool.Tolerance_s(face), RECOGNITION[0]), RECOGNITION[1])
+    recognition = ShapeAnalysis_CanonicalRecognition(face)
+    plane, cylinder = gp_Pln(), gp_Cylinder()
+    if recognition.IsPlane(tolerance, plane):
+        return Face(face, _PLANE, area, center, normal=_outward(face, surface))
+    if recognition.IsCylinder(tolerance, cylinder):
+        patch = _sampled_patch(face, surface, cylinder, area)
+        if patch is not None:
+            return Face(face, _CYLINDER, area, center, patch=patch)
+    return Face(face, _FREE, area, center)
+
+
+def _plane_normal(face: Any, surface: Any) -> tuple[float, float, float]:
+    position = surface.Plane().Position()
+    sign = 1.0 if position.Direct() else -1.0
+    if face.Orientation() == TopAbs_REVERSED:
+        sign = -sign
+    x, y, z = position.Direction().Coord()
+    return (sign * x, sign * y, sign * z)
+
+
+def _outward(face: Any, surface: Any, uv: tuple[float, float] | None = None) -> tuple[float, float, float]:
+    """The unit normal out of the material, at the middle of the face's parameters."""
+    if uv is None:
+        u0, u1, v0, v1 = _bounds(face)
+        uv = (0.5 * (u0 + u1), 0.5 * (v0 + v1))
+    point, du, dv = gp_Pnt(), gp_Vec(), gp_Vec()
+    surface.D1(*uv, point, du, dv)
+    normal = np.cross(du.Coord(), dv.Coord())
+    length = float(np.linalg.norm(normal))
+    if length == 0.0:
+        return (0.0, 0.0, 0.0)
+    normal /= -length if face.Orientation() == TopAbs_REVERSED else length
+    return (float(normal[0]), float(normal[1]), float(normal[2]))
+
+
+def _bounds(face: Any) -> tuple[float, float, float, float]:
+    u0, u1, v0, v1 = BRepTools.UVBounds_s(face)
+    return u0, u1, v0, v1
+
+
+def _cylinder_patch(face: Any, surface: Any, area: float) -> Patch:
+    cylinder = surface.Cylinder()
+    position = cylinder.Position()
+    u0, u1, v0, v1 = _bounds(face)
+    axis = np.array(position.Direction().Coord())
+    # A left-handed frame turns the parameter round: the interval then runs backwards about the axis.
+    turn = 1.0 if position.Direct() else -1.0
+    inner = (turn < 0.0) != (face.Orientation() == TopAbs_REVERSED)
+    return Patch(
+        origin=np.array(position.Location().Coord()),
+        axis=axis,
+        zero=np.array(position.XDirection().Coord()),
+        radius=cylinder.Radius(),
+        lower=v0,
+        upper=v1,
+        angles=np.array(sorted((turn * u0, turn * u1))),
+        interval=True,
+        inner=inner,
+        area=area,
+    )
+
+
+def _sampled_patch(face: Any, surface: Any, cylinder: Any, area: float) -> Patch | None:
+    """The patch of a free-form face on a recognised cylinder; its extents come from its boundary."""
+    position = cylinder.Position()
+    origin = np.array(position.Location().Coord())
+    axis = np.array(position.Direction().Coord())
+    zero = np.array(position.XDirection().Coord())
+    points = _boundary(face)
+    if len(points) < 2:
+        return None
+    along = (points - origin) @ axis
+    radial = points - origin - np.outer(along, axis)
+    angles = np.arctan2(radial @ np.cross(axis, zero), radial @ zero)
+    u0, u1, v0, v1 = _bounds(face)
+    uv = (0.5 * (u0 + u1), 0.5 * (v0 + v1))
+    middle = np.array(surface.Value(*uv).Coord()) - origin
+    outward = np.array(_outward(face, surface, uv))
+    return Patch(
+        origin=origin,
+        axis=axis,
+        zero=zero,
+        radius=cylinder.Radius(),
+        lower=float(along.min()),
+        upper=float(along.max()),
+        angles=np.append(angles, math.atan2(middle @ np.cross(axis, zero), middle @ zero)),
+        interval=False,
+        inner=float(outward @ (middle - axis * (middle @ axis))) < 0.0,
+        area=area,
+    )
+
+
+def _boundary(face: Any) -> Floats:
+    """(k, 3) points along the edges of a face."""
+    points: list[tuple[float, float, float]] = []
+    explorer = TopExp_Explorer(face, TopAbs_EDGE)
+    while explorer.More():
+        edge = TopoDS.Edge(explorer.Current())
+        explorer.Next()
+        if BRep_Tool.Degenerated_s(edge):
+            continue
+        curve = BRepAdaptor_Curve(edge)
+        first, last = curve.FirstParameter(), curve.LastParameter()
+        if not (math.isfinite(first) and math.isfinite(last)):
+            continue
+        points += [curve.Value(float(t)).Coord() for t in np.linspace(first, last, _EDGE_SAMPLES + 1)]
+    return np.array(points, dtype=np.float64).reshape(-1, 3)
+
+
+def planes(faces: Sequence[Face]) -> tuple[PlaneFeature, ...]:
+    """The planar faces, in order, metres."""
+    return tuple(
+        PlaneFeature(_metres(face.center), _clean(face.normal), face.area * MILLIMETRE**2)
+        for face in faces
+        if face.normal is not None
+    )
+
+
+def cylinders(faces: Sequence[Face]) -> tuple[CylinderFeature, ...]:
+    """The cylinders, metres: faces on the same cylinder that overlap or abut along its axis are one feature.
+
+    Ordered by the group's first face, then along the axis. A feature's point is the middle of its axis.
+    """
+    groups: list[list[Patch]] = []
+    for face in faces:
+        if face.patch is None:
+            continue
+        for group in groups:
+            if _same_cylinder(group[0], face.patch):
+                group.append(face.patch)
+                break
+        else:
+            groups.append([face.patch])
+    return tuple(feature for group in groups for feature in _features(group))
+
+
+def _same_cylinder(one: Patch, other: Patch) -> bool:
+    if one.inner != other.inner or abs(one.radius - other.radius) > SAME_CYLINDER:
+        return False
+    ends = other.origin + np.outer((other.lower, other.upper), other.axis) - one.origin
+    off = ends - np.outer(ends @ one.axis, one.axis)
+    if float(np.abs(off).max()) > SAME_CYLINDER:
+        return False
+    return abs(float(one.axis @ other.axis)) > 0.999
+
+
+def _features(group: Sequence[Patch]) -> list[CylinderFeature]:
+    """Features of faces on one cylinder. The exact axis is the largest analytic face's."""
+    main = max(group, key=lambda patch: (patch.interval, patch.area))
+    axis = _canonical(main.axis)
+    zero = main.zero
+    pieces = []
+    for patch in group:
+        ends = sorted(float((patch.origin + t * patch.axis - main.origin) @ axis) for t in (patch.lower, patch.upper))
+        pieces.append((ends[0], ends[1], patch))
+    pieces.sort(key=lambda piece: piece[:2])
+    runs: list[list[tuple[float, float, Patch]]] = []
+    for piece in pieces:
+        if runs and piece[0] <= max(p[1] for p in runs[-1]) + ABUT:
+            runs[-1].append(piece)
+        else:
+            runs.append([piece])
+    features = []
+    for run in runs:
+        lower, upper = run[0][0], max(piece[1] for piece in run)
+        half = 0.5 * (upper - lower) * MILLIMETRE
+        features.append(
+            CylinderFeature(
+                point=_metres(main.origin + 0.5 * (lower + upper) * axis),
+                direction=_clean(axis),
+                radius=main.radius * MILLIMETRE,
+                lower=-half,
+                upper=half,
+                arc=_coverage([interval for _, _, patch in run for interval in _intervals(patch, axis, zero)]),
+                inner=main.inner,
+                area=sum(patch.area for _, _, patch in run) * MILLIMETRE**2,
+            )
+        )
+    return features
+
+
+def _canonical(axis: Floats) -> Floats:
+    """The axis or its opposite: the one whose first component that is not zero is positive."""
+    for component in axis:
+        if abs(component) > 1e-6:
+            return axis if component > 0 else -axis
+    return axis
+
+
+def _intervals(patch: Patch, axis: Floats, zero: Floats) -> list[tuple[float, float]]:
+    """The angles a patch covers about `axis`, counted from `zero`."""
+    side = np.cross(axis, zero)
+    shift = math.atan2(float(patch.zero @ side), float(patch.zero @ zero))
+    turn = 1.0 if float(patch.axis @ axis) > 0.0 else -1.0
+    if patch.interval:
+        first, last = sorted(shift + turn * float(angle) for angle in patch.angles)
+        return [(first, last)]
+    # Between boundary points next to each other there is surface, save in the widest gap, if it is wide.
+    angles = np.sort((shift + turn * patch.angles) % _TURN)
+    gaps = np.diff(np.append(angles, angles[0] + _TURN))
+    widest = int(np.argmax(gaps))
+    if gaps[widest] < 3.0 * _TURN / _EDGE_SAMPLES:
+        return [(0.0, _TURN)]
+    start = float(angles[(widest + 1) % len(angles)])
+    return [(start, start + _TURN - float(gaps[widest]))]
+
+
+def _coverage(intervals: Sequence[tuple[float, float]]) -> float:
+    """The measure of a union of angular intervals, at most a full turn."""
+    flat: list[tuple[float, float]] = []
+    for first, last in intervals:
+        if last - first >= _TURN - 1e-9:
+            return _TURN
+        start = first % _TURN
+        end = start + last - first
+        flat.append((start, min(end, _TURN)))
+        if end > _TURN:
+            flat.append((0.0, end - _TURN))
+    covered = reach = 0.0
+    for start, end in sorted(flat):
+        covered += max(0.0, end - max(start, reach))
+        reach = max(reach, end)
+    return _TURN if covered > _TURN - 1e-6 else covered
+
+
+def _metres(point: Sequence[float] | Floats) -> tuple[float, float, float]:
+    return (float(point[0]) * MILLIMETRE, float(point[1]) * MILLIMETRE, float(point[2]) * MILLIMETRE)
+
+
+def _clean(direction: Sequence[float] | Floats) -> tuple[float, float, float]:
+    """A unit vector without the rounding dust of 1e-16 and negative zeros."""
+    x, y, z = (0.0 if abs(c) < 1e-14 else float(c) for c in direction)
+    return (x, y, z)

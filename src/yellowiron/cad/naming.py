@@ -1,0 +1,116 @@
+"""Names out of CAD files: which encoding they are in, which say something, and ids that are unique."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Iterable, Sequence
+
+_GENERIC = re.compile(
+    r"(?:=>.*|\d+|nauo\s*\d*|(?:solid|compound|compsolid|shell|part|body|component|product|shape|assembly|assy|default|"
+    r"none|unnamed|unknown|noname|no name|open cascade step translator.*)[\s_.:#-]*\d*(?:[.:_-]\d+)*)",
+    re.IGNORECASE,
+)
+
+_HAN_COMMON = {"gb18030": (0xB0, 0xD7), "big5": (0xA4, 0xC6), "cp932": (0x88, 0x97), "cp949": (0xB0, 0xC8)}
+"""Lead bytes of each encoding's everyday characters (level 1 hanzi and kanji; the common Hangul)."""
+
+_ISOLATED = re.compile(rb"(?<![\x80-\xff])[\x80-\xff](?![\x80-\xff])")
+
+
+def sniff_encoding(names: Sequence[bytes]) -> str:
+    """The Python codec that the names of one file are written in.
+
+    ISO 10303-21 allows ASCII only, with escapes that every reader knows; CAD systems write their computer's own
+    encoding all the same. ASCII and UTF-8 come out as 'utf-8'; otherwise the candidate whose decoded text is made of
+    its script's everyday characters wins: GB 18030, Shift-JIS (CP932), Big5, Korean (CP949), Western (CP1252).
+    """
+    high = [name for name in names if any(byte > 0x7F for byte in name)]
+    if not high or all(_decodes(name, "utf-8") for name in high):
+        return "utf-8"
+    scores = {codec: sum(_plausibility(name, codec) for name in high) for codec in (*_HAN_COMMON, "cp1252")}
+    return max(scores, key=lambda codec: scores[codec])
+
+
+def _decodes(name: bytes, codec: str) -> bool:
+    try:
+        name.decode(codec)
+    except UnicodeDecodeError:
+        return False
+    return True
+
+
+def _plausibility(name: bytes, codec: str) -> float:
+    """How well a name reads in an encoding: the sum over its characters, divided by its bytes above ASCII."""
+    high_bytes = sum(byte > 0x7F for byte in name)
+    if not _decodes(name, codec):
+        # A stray byte among many names must not overthrow the rest; Western text always decodes, nearly.
+        return -1.0
+    if codec == "cp1252":
+        return len(_ISOLATED.findall(name)) / high_bytes * 1.5 - 0.5
+    score = 0.0
+    for character in name.decode(codec):
+        raw = character.encode(codec)
+        if raw[0] <= 0x7F:
+            continue
+        first, last = _HAN_COMMON[codec]
+        if codec == "cp932" and len(raw) == 1:
+            score += 0.45  # half-width katakana; GB text read as Shift-JIS is full of them, two for each character
+        elif len(raw) == 2 and (first <= raw[0] <= last or _is_kana(character)):
+            # An ASCII second byte is legal in three of the four, and in Western text read as one of them.
+            score += 2.0 if raw[1] > 0x7F else 1.4
+        else:
+            score += 0.6 if raw[-1] > 0x7F else -0.5
+    return score / high_bytes
+
+
+def _is_kana(character: str) -> bool:
+    return 0x3041 <= ord(character) <= 0x30FE
+
+
+def decode_name(text: str, encoding: str) -> str:
+    """A name as read byte for byte (one character a byte) in its real encoding; cleaned of control characters."""
+    if encoding != "utf-8" and all(ord(character) < 0x100 for character in text):
+        text = text.encode("latin-1").decode(encoding, errors="replace")
+    text = "".join(" " if unicodedata.category(character) == "Cc" else character for character in text)
+    return unicodedata.normalize("NFC", " ".join(text.split()))
+
+
+def is_generic(name: str) -> bool:
+    """True for a name that a program gave (`Solid17`, `NAUO3`, `12`, `=>[0:1:1:2]`, nothing), not a person."""
+    return not name or _GENERIC.fullmatch(name) is not None
+
+
+def occurrence_name(instance: str, product: str) -> str:
+    """What to call an occurrence: the product's name, or the instance's where only that one says something new.
+
+    Most programs derive the instance name (`BOLT-3`, `BOLT:1`); some let a person write one (`LIFT CYLINDER LH`).
+    """
+    if is_generic(instance):
+        return product
+    if is_generic(product):
+        return instance
+    one, other = _letters(instance), _letters(product)
+    return product if one.startswith(other) or other.startswith(one) else instance
+
+
+def _letters(name: str) -> str:
+    return "".join(character for character in name.casefold() if character.isalnum())
+
+
+def unique_ids(paths: Iterable[tuple[str, ...]]) -> list[str]:
+    """One id a path: its names joined by '/', repeated ones numbered '#2', '#3' in order."""
+    ids: list[str] = []
+    taken: set[str] = set()
+    count: dict[str, int] = {}
+    for path in paths:
+        plain = "/".join(path)
+        number = count.get(plain, 0) + 1
+        candidate = plain if number == 1 else f"{plain}#{number}"
+        while candidate in taken:
+            number += 1
+            candidate = f"{plain}#{number}"
+        count[plain] = number
+        taken.add(candidate)
+        ids.append(candidate)
+    return ids

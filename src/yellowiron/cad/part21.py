@@ -1,0 +1,89 @@
+"""What the text of a STEP file (ISO 10303-21) says without a CAD kernel: end, names, declared occurrences."""
+
+from __future__ import annotations
+
+import functools
+import re
+from dataclasses import dataclass
+
+_STRING = rb"(?:'(?:[^']|'')*'|\$)"
+_PRODUCT = re.compile(rb"=\s*PRODUCT\s*\(\s*(" + _STRING + rb")\s*,\s*(" + _STRING + rb")")
+_NAUO = re.compile(
+    rb"=\s*NEXT_ASSEMBLY_USAGE_OCCURRENCE\s*\(\s*"
+    + _STRING
+    + rb"\s*,\s*("
+    + _STRING
+    + rb")\s*,\s*"
+    + _STRING
+    + rb"\s*,\s*#(\d+)\s*,\s*#(\d+)"
+)
+_DEFINITION = re.compile(
+    rb"#(\d+)\s*=\s*PRODUCT_DEFINITION(?:_WITH_ASSOCIATED_DOCUMENTS)?\s*\(\s*" + _STRING + rb"\s*,\s*" + _STRING
+)
+_SOLID = re.compile(rb"(?:MANIFOLD_SOLID_BREP|BREP_WITH_VOIDS|FACETED_BREP)\s*\(\s*(" + _STRING + rb")")
+_DOCUMENT = re.compile(rb"=\s*DOCUMENT_FILE\s*\(\s*(" + _STRING + rb")")
+_DEEPEST = 200
+
+
+@dataclass(frozen=True)
+class Part21:
+    """Facts of a STEP file's text.
+
+    `names` are the raw bytes of every product, instance and solid name; `occurrences` the number of leaf products
+    that the assembly structure declares, expanded from the roots (None if it is cyclic); `documents` the raw names
+    of the files it refers to; `complete` whether its last section is closed, `ended` whether the file's end is marked.
+    """
+
+    names: tuple[bytes, ...]
+    occurrences: int | None
+    documents: tuple[bytes, ...]
+    complete: bool
+    ended: bool
+
+
+def scan(data: bytes) -> Part21:
+    """The facts of a STEP file from its bytes."""
+    names = [group for match in _PRODUCT.finditer(data) for group in match.groups()]
+    names += [match.group(1) for match in _SOLID.finditer(data)]
+    uses: list[tuple[int, int]] = []
+    for match in _NAUO.finditer(data):
+        names.append(match.group(1))
+        uses.append((int(match.group(2)), int(match.group(3))))
+    definitions = [int(match.group(1)) for match in _DEFINITION.finditer(data)]
+    tail = data[-4096:]
+    return Part21(
+        names=tuple(name.strip(b"'") for name in names),
+        occurrences=_expand(definitions, uses),
+        documents=tuple(match.group(1).strip(b"'") for match in _DOCUMENT.finditer(data)),
+        complete=re.search(rb"ENDSEC\s*;\s*(?:END-|SIGNATURE|$)", tail) is not None or _is_closed(data),
+        ended=b"END-ISO-10303-21" in tail,
+    )
+
+
+def _is_closed(data: bytes) -> bool:
+    """True where an ENDSEC follows the last entity (a long signature or padding may hide it from the tail)."""
+    last_section = data.rfind(b"ENDSEC")
+    return last_section > data.rfind(b"DATA;") and last_section > data.find(b"ENDSEC") and last_section > 0
+
+
+def _expand(definitions: list[int], uses: list[tuple[int, int]]) -> int | None:
+    """Leaf occurrences below the definitions that nothing uses."""
+    children: dict[int, list[int]] = {}
+    used: set[int] = set()
+    for parent, child in uses:
+        children.setdefault(parent, []).append(child)
+        used.add(child)
+
+    @functools.cache
+    def leaves(definition: int, depth: int = 0) -> int:
+        if depth > _DEEPEST:
+            raise RecursionError
+        below = children.get(definition)
+        return 1 if below is None else sum(leaves(child, depth + 1) for child in below)
+
+    # Without a definition of its own the structure is still there in its uses.
+    roots = [d for d in dict.fromkeys([*definitions, *(parent for parent, _ in uses)]) if d not in used]
+    try:
+        return sum(leaves(root) for root in roots) if roots else None
+    except RecursionError:
+        return None

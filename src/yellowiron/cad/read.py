@@ -1,0 +1,48 @@
+"""`read_cad`: any CAD file to an `Assembly`, by what it holds and not by what it is called.
+
+The reader of third parties runs in a child process (`yellowiron.guard`).
+
+Findings:
+
+| code   | severity | says                                                                                       |
+|--------|----------|--------------------------------------------------------------------------------------------|
+| CAD001 | warning  | fewer occurrences were read than the file declares                                         |
+| CAD002 | info     | products without geometry                                                                  |
+| CAD003 | error    | a body left out: a coordinate is not a finite number                                       |
+| CAD004 | error, warning | a body left out for its size; a model too small or large to be a machine             |
+| CAD005 | info     | sheets: not closed, so without a volume                                                    |
+| CAD006 | warning  | faces that could not be meshed                                                             |
+| CAD007 | warning  | a solid whose exact volume is not usable; its mesh's was taken                             |
+| CAD008 | error    | files that the file refers to are missing                                                  |
+| CAD009 | warning  | the end of the file is missing after its last section                                      |
+| CAD010 | warning, info | the unit of length is unknown; units are mixed                                        |
+| CAD011 | info     | names are not in a standard encoding, and which was taken                                  |
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from yellowiron.cad import sniff
+from yellowiron.guard import run_guarded
+from yellowiron.model.assembly import Assembly
+from yellowiron.model.errors import CadError
+
+
+def read_cad(path: str | Path, *, timeout_s: float = 600.0, memory_mb: int = 8192) -> Assembly:
+    """The assembly in a CAD file, in metres, in the file's own frame.
+
+    STEP (AP203, AP214, AP242) is read. The reader may take `timeout_s` seconds and `memory_mb` MB. `CadError` for a
+    file that is missing, empty, damaged, of no or of an unreadable CAD format, or without a part in it.
+    """
+    source = Path(path)
+    sniff.require_step(source)
+    assembly: Assembly = run_guarded(
+        "yellowiron.cad.step:read_step",
+        str(source),
+        where=str(source),
+        error=CadError,
+        timeout_s=timeout_s,
+        memory_mb=memory_mb,
+    )
+    return assembly

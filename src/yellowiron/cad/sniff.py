@@ -1,0 +1,214 @@
+"""What a file is, by its content first and its name second."""
+
+from __future__ import annotations
+
+import re
+import zipfile
+from pathlib import Path
+
+from yellowiron.model.errors import CadError
+
+_OLE = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"
+_HEAD = 65536
+
+_PROPRIETARY: dict[str, tuple[str, str]] = {
+    ".sldprt": ("SolidWorks", "File > Save As > STEP AP214 (*.step)"),
+    ".sldasm": ("SolidWorks", "File > Save As > STEP AP214 (*.step)"),
+    ".rvt": ("Revit", "File > Export > CAD formats > STEP, or IFC into a CAD program that writes STEP"),
+    ".rfa": ("Revit", "File > Export > CAD formats > STEP"),
+    ".catpart": ("CATIA", "File > Save As > stp"),
+    ".catproduct": ("CATIA", "File > Save As > stp"),
+    ".cgr": ("CATIA", "open the part itself and use File > Save As > stp"),
+    ".ipt": ("Inventor", "File > Export > CAD Format > STEP"),
+    ".iam": ("Inventor", "File > Export > CAD Format > STEP"),
+    ".prt": ("NX, Creo or CADDS", "File > Export > STEP"),
+    ".asm": ("Creo or Solid Edge", "File > Save As > STEP"),
+    ".par": ("Solid Edge", "File > Save As > STEP"),
+    ".psm": ("Solid Edge", "File > Save As > STEP"),
+    ".jt": ("JT", "export from the program that made it, File > Export > STEP"),
+    ".dgn": ("DGN (MicroStation)", "File > Export > STEP"),
+    ".x_t": ("Parasolid", "export from the program that made it, as STEP"),
+    ".x_b": ("Parasolid", "export from the program that made it, as STEP"),
+    ".dwg": ("DWG", "command EXPORT or STEPOUT in a program that has it"),
+    ".sat": ("ACIS", "export from the program that made it, as STEP"),
+    ".sab": ("ACIS", "export from the program that made it, as STEP"),
+    ".skp": ("SketchUp", "open it in a CAD program that writes STEP"),
+    ".3dxml": ("3DXML (CATIA)", "open the product itself and use File > Save As > stp"),
+}
+"""Formats without an open reader, by extension: name and how to export."""
+
+_LATER = {
+    ".glb": "GLB",
+    ".gltf": "glTF",
+    ".stl": "STL",
+    ".obj": "OBJ",
+    ".ply": "PLY",
+    ".3mf": "3MF",
+    ".dae": "COLLADA",
+    ".fbx": "FBX",
+    ".igs": "IGES",
+    ".iges": "IGES",
+    ".ifc": "IFC",
+    ".dxf": "DXF",
+    ".fcstd": "FreeCAD",
+    ".usd": "USD",
+    ".usda": "USD",
+    ".usdc": "USD",
+    ".usdz": "USD",
+    ".blend": "Blender",
+    ".brep": "BREP",
+}
+"""Formats that other versions may read, by extension."""
+
+_STEP_XML = re.compile(rb"urn:oid:1\.0\.10303|<\s*(?:\w+:)?Uos\b|iso_10303_28")
+
+
+def require_step(path: Path) -> None:
+    """Returns if the file is STEP (ISO 10303-21); otherwise `CadError` says what it is and what to do."""
+    head = _head(path)
+    if _is_step(head):
+        return
+    name, hint = recognise(head, path)
+    if name in _LATER.values():
+        raise CadError(
+            f"This is a {name} file, and this version reads STEP only",
+            where=str(path),
+            hint="Export the model as STEP AP214 or AP242 from the program that made it.",
+        )
+    if name:
+        raise CadError(
+            f"No open reader exists for {name}: export to STEP (AP214 or AP242)",
+            where=str(path),
+            hint=f"In the program that made it: {hint}.",
+        )
+    if path.suffix.lower() in (".step", ".stp", ".p21"):
+        raise CadError(
+            "This is not a STEP file, whatever its name says: it does not start with ISO-10303-21",
+            where=str(path),
+            hint="Export the model as STEP AP214 or AP242.",
+        )
+    raise CadError(
+        "This is no CAD file that is known here",
+        where=str(path),
+        hint="Give a STEP file (AP203, AP214 or AP242: .step, .stp).",
+    )
+
+
+def _head(path: Path) -> bytes:
+    if path.is_dir():
+        raise CadError("This is a folder, not a CAD file", where=str(path), hint="Name the STEP file in it.")
+    try:
+        with path.open("rb") as file:
+            head = file.read(_HEAD)
+    except FileNotFoundError as error:
+        raise CadError("There is no such CAD file", where=str(path), hint="Check the path.") from error
+    except OSError as error:
+        raise CadError(
+            f"The CAD file cannot be opened: {error.strerror}", where=str(path), hint="Check its permissions."
+        ) from error
+    if not head:
+        raise CadError("The CAD file is empty", where=str(path), hint="Copy or export it again.")
+    return head
+
+
+def _is_step(head: bytes) -> bool:
+    text = head.removeprefix(b"\xef\xbb\xbf").lstrip()
+    while text.startswith(b"/*") and b"*/" in text:
+        text = text[text.index(b"*/") + 2 :].lstrip()
+    return text.startswith(b"ISO-10303-21")
+
+
+def recognise(head: bytes, path: Path) -> tuple[str, str]:
+    """The format of a file that is not STEP and how to export from it; ('', '') for one that is not known."""
+    suffix = path.suffix.lower()
+    by_content = _by_content(head, path)
+    if by_content is not None:
+        return by_content
+    if suffix in _PROPRIETARY and not _is_text(head):
+        return _PROPRIETARY[suffix]
+    if suffix in _LATER and _may_be(suffix, head):
+        return _LATER[suffix], ""
+    return "", ""
+
+
+def _by_content(head: bytes, path: Path) -> tuple[str, str] | None:
+    suffix = path.suffix.lower()
+    if head.startswith(_OLE):
+        for marker, extension in (
+            ("RevitPreview", ".rvt"),
+            ("BasicFileInfo", ".rvt"),
+            ("SldAsm", ".sldasm"),
+            ("SolidWorks", ".sldprt"),
+            ("swXmlContents", ".sldprt"),
+            ("Inventor", ".ipt"),
+            ("UFRxDoc", ".ipt"),
+            ("JSite", ".par"),
+        ):
+            if marker.encode("utf-16-le") in head or marker.encode() in head:
+                return _PROPRIETARY[extension]
+        return _PROPRIETARY.get(suffix, ("this OLE container (SolidWorks, Inventor, Revit, …)", "File > Export > STEP"))
+    starts: tuple[tuple[bytes, str], ...] = (
+        (b"V5_CFV2", ".catpart"),
+        (b"AC10", ".dwg"),
+        (b"**ABCDEFGHIJKLMNOPQRSTUVWXYZ", ".x_t"),
+        (b"PS\x00\x00", ".x_b"),
+        (b"#UGC:2", ".asm"),
+        (b"ACIS BinaryFile", ".sab"),
+        (b"ASM BinaryFile", ".sab"),
+        (b"\xff\xfe\xff\x0eS\x00k\x00e\x00t\x00c\x00h\x00U\x00p", ".skp"),
+    )
+    for start, extension in starts:
+        if head.startswith(start):
+            return _PROPRIETARY[extension]
+    if re.match(rb"Version \d+\.\d+ +JT", head):
+        return _PROPRIETARY[".jt"]
+    if suffix == ".dgn" and head[:4] in (b"\x08\x09\xfe\x02", b"\xc8\x09\xfe\x02"):
+        return _PROPRIETARY[".dgn"]
+    if head.startswith(b"glTF"):
+        return "GLB", ""
+    if head.startswith(b"Kaydara FBX"):
+        return "FBX", ""
+    if head.startswith((b"PXR-USDC", b"#usda")):
+        return "USD", ""
+    if head.startswith(b"BLENDER"):
+        return "Blender", ""
+    if head[:2] == b"\x1f\x8b":
+        return "a compressed file", "unpack it (gunzip) and give the STEP file inside"
+    if head.startswith(b"PK\x03\x04"):
+        return _zip(path)
+    if _STEP_XML.search(head[:4096]):
+        return "STEP-XML", "export as STEP Part 21 (.step), AP242 without XML"
+    if len(head) >= 80 and re.match(rb".{72}S {6}1[ \r\n]", head, re.DOTALL):
+        return "IGES", ""
+    return None
+
+
+def _zip(path: Path) -> tuple[str, str]:
+    try:
+        with zipfile.ZipFile(path) as archive:
+            names = [name.lower() for name in archive.namelist()]
+    except (zipfile.BadZipFile, OSError):
+        return "a damaged zip archive", "copy or export it again"
+    if "document.xml" in names:
+        return "FreeCAD", ""
+    if any(name.endswith(".model") for name in names):
+        return "3MF", ""
+    if any(name.endswith((".usda", ".usdc", ".usd")) for name in names):
+        return "USD", ""
+    if any("swxmlcontents" in name or "docprops" in name for name in names):
+        return _PROPRIETARY[".sldprt"]
+    suffix = path.suffix.lower()
+    return _PROPRIETARY.get(suffix, ("a zip archive", "unpack it and give the STEP file inside"))
+
+
+def _is_text(head: bytes) -> bool:
+    return b"\x00" not in head[:4096]
+
+
+def _may_be(suffix: str, head: bytes) -> bool:
+    """False where an extension is a lie, as far as a few bytes can tell."""
+    if suffix == ".stl":
+        return head.lstrip().startswith(b"solid") or (len(head) >= 84 and not _is_text(head))
+    if suffix in (".obj", ".ply", ".dxf", ".gltf", ".dae", ".ifc", ".brep"):
+        return _is_text(head)
+    return True

@@ -1,0 +1,454 @@
+"""STEP through Open CASCADE's XCAF: product tree, names, colours, instances. Runs in the guard's child process."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from OCP.collections import IndexedMap_TopoDS_Shape_TopTools_ShapeMapHasher, Sequence_TCollection_AsciiString
+from OCP.collections import Sequence_TDF_Label as LabelSequence
+from OCP.IFSelect import IFSelect_ReturnStatus
+from OCP.Interface import Interface_Static
+from OCP.Quantity import Quantity_Color
+from OCP.STEPCAFControl import STEPCAFControl_Controller, STEPCAFControl_Reader
+from OCP.TCollection import TCollection_ExtendedString
+from OCP.TDataStd import TDataStd_Name
+from OCP.TDF import TDF_Label
+from OCP.TDocStd import TDocStd_Document
+from OCP.TopAbs import (
+    TopAbs_COMPOUND,
+    TopAbs_COMPSOLID,
+    TopAbs_FACE,
+    TopAbs_SHELL,
+    TopAbs_SOLID,
+)
+from OCP.TopLoc import TopLoc_Location
+from OCP.TopoDS import TopoDS_Iterator
+from OCP.XCAFApp import XCAFApp_Application
+from OCP.XCAFDoc import (
+    XCAFDoc_ColorGen,
+    XCAFDoc_ColorSurf,
+    XCAFDoc_ColorTool,
+    XCAFDoc_DocumentTool,
+    XCAFDoc_LengthUnit,
+    XCAFDoc_ShapeTool,
+)
+
+from yellowiron.cad import brep, part21
+from yellowiron.cad.naming import decode_name, is_generic, occurrence_name, sniff_encoding, unique_ids
+from yellowiron.cad.tessellate import MILLIMETRE, mesh_shapes
+from yellowiron.model.assembly import Assembly, Part
+from yellowiron.model.errors import CadError
+from yellowiron.model.finding import Finding
+from yellowiron.model.geometry import Color, Floats, Shape
+
+UNITS = {
+    "millimetre": 1e-3,
+    "millimeter": 1e-3,
+    "mm": 1e-3,
+    "metre": 1.0,
+    "meter": 1.0,
+    "m": 1.0,
+    "centimetre": 1e-2,
+    "centimeter": 1e-2,
+    "decimetre": 1e-1,
+    "kilometre": 1e3,
+    "micrometre": 1e-6,
+    "inch": 0.0254,
+    "inches": 0.0254,
+    "in": 0.0254,
+    "foot": 0.3048,
+    "feet": 0.3048,
+    "ft": 0.3048,
+    "mil": 2.54e-5,
+    "mile": 1609.344,
+}
+"""Unit names of STEP files, lower case, to metres."""
+
+LARGEST = 1e3
+"""A part or machine larger than this (metres) has the wrong unit, or a coordinate that is damaged."""
+_EXPORT_AGAIN = "Export the file again as STEP AP214 or AP242, solids included."
+
+
+@dataclass(frozen=True, eq=False)
+class Leaf:
+    """One occurrence of a product without components: where it hangs, its label, placement and inherited colour."""
+
+    name: str
+    path: tuple[str, ...]
+    label: Any
+    location: Any
+    color: Color | None
+
+
+@dataclass(frozen=True, eq=False)
+class Piece:
+    """One solid or sheet of a product, in its own frame, with where the product has it."""
+
+    name: str
+    body: int
+    location: Any
+
+
+def read_step(path: str) -> Assembly:
+    """The assembly in a STEP file. `CadError` if there is nothing in it that is a part."""
+    data = Path(path).read_bytes()
+    facts = part21.scan(data)
+    del data
+    if not facts.complete:
+        raise CadError(
+            "The STEP file is truncated: its data section never ends",
+            where=path,
+            hint="Copy or export it again; the end of the file is missing.",
+        )
+    encoding = sniff_encoding(facts.names)
+    findings = []
+    if not facts.ended:
+        findings.append(_finding("CAD009", "warning", path, "The end of the file is missing after its last section"))
+    if encoding != "utf-8":
+        findings.append(
+            _finding("CAD011", "info", path, f"Names are not in a standard encoding; they were read as {encoding}")
+        )
+    document, unit, unit_findings = _transfer(path, encoding)
+    findings += unit_findings
+    tree = _Tree(document, encoding)
+    leaves = list(tree.leaves())
+    collector = _Bodies(tree)
+    pieces = [collector.pieces(leaf) for leaf in leaves]
+    findings += _missing(path, facts, leaves, pieces)
+    shapes, shape_findings = _shapes(collector.bodies)
+    findings += shape_findings
+    parts = _parts(leaves, pieces, collector.bodies, shapes)
+    if not parts:
+        raise CadError("The STEP file holds no solid and no surface", where=path, hint=_EXPORT_AGAIN)
+    used = {part.shape for part in parts}
+    assembly = Assembly(
+        name=tree.name or Path(path).stem,
+        format="STEP",
+        unit=unit,
+        parts=tuple(parts),
+        shapes={key: shape for key, shape in shapes.items() if key in used},
+        declared_occurrences=facts.occurrences,
+    )
+    return replace(assembly, findings=(*findings, *_plausibility(assembly, path)))
+
+
+def _finding(code: str, severity: Any, where: str, message: str, hint: str = "") -> Finding:
+    return Finding(code, severity, where, message, hint)
+
+
+def _transfer(path: str, encoding: str) -> tuple[Any, float, list[Finding]]:
+    """The XCAF document of a file, the file's unit in metres, and findings about units and references."""
+    STEPCAFControl_Controller.Init_s()
+    # Bytes that are not UTF-8 pass through as they are, one character each; `decode_name` knows what they mean.
+    Interface_Static.SetCVal_s("read.step.codepage", "UTF8" if encoding == "utf-8" else "iso8859-1")
+    Interface_Static.SetCVal_s("xstep.cascade.unit", "MM")
+    Interface_Static.SetCVal_s("read.stepcaf.subshapes.name", "On")
+    reader = STEPCAFControl_Reader()
+    reader.SetNameMode(True)
+    reader.SetColorMode(True)
+    for switch in (reader.SetGDTMode, reader.SetLayerMode, reader.SetMatMode, reader.SetPropsMode, reader.SetViewMode):
+        switch(False)
+    # A relative path would silently lose every external reference.
+    if reader.ReadFile(str(Path(path).absolute())) != IFSelect_ReturnStatus.IFSelect_RetDone:
+        raise CadError("The STEP file cannot be read: its syntax is broken", where=path, hint=_EXPORT_AGAIN)
+    document = TDocStd_Document(TCollection_ExtendedString("yellowiron"))
+    XCAFApp_Application.GetApplication_s().NewDocument(TCollection_ExtendedString("BinXCAF"), document)
+    if not reader.Transfer(document):
+        raise CadError("The STEP file holds nothing that can be read as a part", where=path, hint=_EXPORT_AGAIN)
+    lengths, angles, solid_angles = (Sequence_TCollection_AsciiString() for _ in range(3))
+    reader.ChangeReader().FileUnits(lengths, angles, solid_angles)
+    names = [lengths.Value(i).ToCString() for i in range(1, lengths.Length() + 1)]
+    unit, findings = _unit(names, path)
+    return document, unit, findings
+
+
+def _unit(names: Sequence[str], path: str) -> tuple[float, list[Finding]]:
+    known = [UNITS[name.lower()] for name in names if name.lower() in UNITS]
+    unit = known[0] if known else 1e-3
+    if not known:
+        said = f"'{names[0]}'" if names else "none"
+        return unit, [
+            _finding("CAD010", "warning", path, f"The file's unit of length is not known ({said}); millimetres assumed")
+        ]
+    if len(set(known)) > 1:
+        listed = ", ".join(dict.fromkeys(names))
+        return unit, [_finding("CAD010", "info", path, f"The file mixes units ({listed}); every part was converted")]
+    return unit, []
+
+
+class _Tree:
+    """The product tree of an XCAF document."""
+
+    def __init__(self, document: Any, encoding: str) -> None:
+        self.encoding = encoding
+        main = document.Main()
+        self.tool = XCAFDoc_DocumentTool.ShapeTool_s(main)
+        unit, root = XCAFDoc_LengthUnit(), main.Root()
+        stated = root.IsAttribute(XCAFDoc_LengthUnit.GetID_s()) and root.FindAttribute(
+            XCAFDoc_LengthUnit.GetID_s(), unit
+        )
+        # Whatever the file's unit, the geometry must arrive in the unit that was asked for.
+        if stated and abs(unit.GetUnitValue() - MILLIMETRE) > 1e-12:
+            raise CadError(f"The reader delivered units of {unit.GetUnitValue():g} m instead of millimetres")
+        roots = LabelSequence()
+        self.tool.GetFreeShapes(roots)
+        self.roots = _labels(roots)
+        self.name = self.product_name(self.roots[0]) if len(self.roots) == 1 else ""
+
+    def leaves(self) -> Iterator[Leaf]:
+        """Every occurrence of a product without components, in tree order."""
+        for root in self.roots:
+            yield from self._walk(root, self.product_name(root), (), TopLoc_Location(), None)
+
+    def _walk(self, label: Any, name: str, path: tuple[str, ...], location: Any, color: Color | None) -> Iterator[Leaf]:
+        if not XCAFDoc_ShapeTool.IsAssembly_s(label):
+            yield Leaf(name or "Part", path, label, location, color)
+            return
+        color = label_color(label) or color
+        components = LabelSequence()
+        XCAFDoc_ShapeTool.GetComponents_s(label, components)
+        for component in _labels(components):
+            product = TDF_Label()
+            if not XCAFDoc_ShapeTool.GetReferredShape_s(component, product):
+                continue
+            yield from self._walk(
+                product,
+                occurrence_name(self.product_name(component), self.product_name(product)),
+                (*path, name or "Assembly"),
+                location * XCAFDoc_ShapeTool.GetLocation_s(component),
+                label_color(component) or color,
+            )
+
+    def product_name(self, label: Any) -> str:
+        """A label's name, decoded; empty if it has none."""
+        if not label.IsAttribute(TDataStd_Name.GetID_s()):
+            return ""  # asking for an attribute that is not there crashes the binding
+        name = TDataStd_Name()
+        label.FindAttribute(TDataStd_Name.GetID_s(), name)
+        return decode_name(name.Get().ToExtString(), self.encoding)
+
+
+def _labels(sequence: Any) -> list[Any]:
+    return [sequence.Value(i) for i in range(1, sequence.Length() + 1)]
+
+
+def label_color(label: Any) -> Color | None:
+    """The colour on a label (linear RGB), surface colour first."""
+    color = Quantity_Color()
+    for kind in (XCAFDoc_ColorSurf, XCAFDoc_ColorGen):
+        if XCAFDoc_ColorTool.GetColor_s(label, kind, color):
+            return (color.Red(), color.Green(), color.Blue())
+    return None
+
+
+class _Bodies:
+    """The distinct solids and sheets of a document, each measured once, however many products or instances have it."""
+
+    def __init__(self, tree: _Tree) -> None:
+        self.tree = tree
+        self.bodies: list[brep.Body] = []
+        self._known = IndexedMap_TopoDS_Shape_TopTools_ShapeMapHasher()
+        self._pieces: dict[int, list[Piece]] = {}
+        self._labels = IndexedMap_TopoDS_Shape_TopTools_ShapeMapHasher()
+
+    def pieces(self, leaf: Leaf) -> list[Piece]:
+        """The solids and sheets of a leaf's product, in the product's frame."""
+        shape = XCAFDoc_ShapeTool.GetShape_s(leaf.label)
+        if shape is None or shape.IsNull():
+            return []
+        index = self._labels.Add(shape)
+        if index not in self._pieces:
+            self._pieces[index] = self._split(leaf, shape)
+        return self._pieces[index]
+
+    def _split(self, leaf: Leaf, shape: Any) -> list[Piece]:
+        styles = _Styles(self.tree, leaf.label)
+        product = self.tree.product_name(leaf.label) or leaf.name
+        units = list(_units(shape))
+        pieces = []
+        for number, unit in enumerate(units, start=1):
+            name, color = styles.of(unit)
+            body_name = name if len(units) > 1 and name else product
+            local = unit.Located(TopLoc_Location())
+            known = self._known.FindIndex(local)
+            if known == 0:
+                known = self._known.Add(local)
+                faces = brep.subshapes(local, TopAbs_FACE)
+                self.bodies.append(
+                    brep.measure(
+                        body_name, local, color=color or label_color(leaf.label), face_colors=styles.of_faces(faces)
+                    )
+                )
+            suffix = f"#{number}" if len(units) > 1 else ""
+            own = name if name and not is_generic(name) and len(units) > 1 else ""
+            pieces.append(Piece(own or suffix, known - 1, unit.Location()))
+        return pieces
+
+
+def _units(shape: Any) -> Iterator[Any]:
+    """The solids of a shape, or its shells and loose faces: what becomes a part each. A compsolid is one."""
+    kind = shape.ShapeType()
+    if kind in (TopAbs_SOLID, TopAbs_COMPSOLID, TopAbs_SHELL, TopAbs_FACE):
+        yield shape
+    elif kind == TopAbs_COMPOUND:
+        children = TopoDS_Iterator(shape)
+        while children.More():
+            yield from _units(children.Value())
+            children.Next()
+
+
+class _Styles:
+    """Names and colours that a product gives to its sub-shapes."""
+
+    def __init__(self, tree: _Tree, label: Any) -> None:
+        self._map = IndexedMap_TopoDS_Shape_TopTools_ShapeMapHasher()
+        self._styles: list[tuple[str, Color | None]] = []
+        self.has_face_colors = False
+        labels = LabelSequence()
+        XCAFDoc_ShapeTool.GetSubShapes_s(label, labels)
+        for sub in _labels(labels):
+            shape = XCAFDoc_ShapeTool.GetShape_s(sub)
+            if shape is None or shape.IsNull():
+                continue
+            color = label_color(sub)
+            size = self._map.Size()
+            if self._map.Add(shape.Located(TopLoc_Location())) > size:
+                self._styles.append((tree.product_name(sub), color))
+                self.has_face_colors |= color is not None and shape.ShapeType() == TopAbs_FACE
+
+    def of(self, shape: Any) -> tuple[str, Color | None]:
+        """A sub-shape's own name and colour."""
+        index = self._map.FindIndex(shape.Located(TopLoc_Location())) if self._styles else 0
+        return self._styles[index - 1] if index else ("", None)
+
+    def of_faces(self, faces: Sequence[Any]) -> list[Color | None] | None:
+        """One colour a face, where faces have any."""
+        if not self.has_face_colors:
+            return None
+        colors = [self.of(face)[1] for face in faces]
+        return colors if any(color is not None for color in colors) else None
+
+
+def _missing(
+    path: str, facts: part21.Part21, leaves: Sequence[Leaf], pieces: Sequence[Sequence[Piece]]
+) -> list[Finding]:
+    empty = ["/".join((*leaf.path, leaf.name)) for leaf, found in zip(leaves, pieces, strict=True) if not found]
+    findings = []
+    read = len(leaves) - len(empty)
+    if facts.occurrences is not None and read < facts.occurrences:
+        findings.append(
+            _finding(
+                "CAD001",
+                "warning",
+                path,
+                f"The file declares {facts.occurrences} occurrences of parts and {read} were read",
+                "Open the file in its own program: the others may be empty, or stand in files that are not here.",
+            )
+        )
+    if empty:
+        findings.append(_finding("CAD002", "info", path, f"Without geometry: {_listed(empty)}"))
+    folder = Path(path).absolute().parent
+    gone = [name for name in dict.fromkeys(facts.documents) if not (folder / name.decode(errors="replace")).exists()]
+    if gone and empty:
+        names = _listed([name.decode(errors="replace") for name in gone])
+        findings.append(
+            _finding(
+                "CAD008", "error", path, f"Referenced files are missing: {names}", "Put them beside the STEP file."
+            )
+        )
+    return findings
+
+
+def _listed(names: Sequence[str], most: int = 5) -> str:
+    more = f" and {len(names) - most} more" if len(names) > most else ""
+    return ", ".join(names[:most]) + more
+
+
+def _shapes(bodies: Sequence[brep.Body]) -> tuple[dict[str, Shape], list[Finding]]:
+    """Distinct sound bodies by key, meshed; equal ones are meshed once."""
+    distinct: dict[str, brep.Body] = {}
+    for body in bodies:
+        if body.sound and body.diagonal * MILLIMETRE < LARGEST:
+            distinct.setdefault(body.key, body)
+    mesh_shapes((body.shape, body.diagonal) for body in distinct.values())
+    shapes, findings = {}, []
+    for key, body in distinct.items():
+        shape, missing = brep.finish(body)
+        if missing:
+            findings.append(
+                _finding("CAD006", "warning", body.name, f"{missing} of {len(body.faces)} faces could not be meshed")
+            )
+        if not shape.exact:
+            findings.append(
+                _finding("CAD007", "warning", body.name, "The solid's exact volume is not usable; its mesh's was taken")
+            )
+        if len(shape.mesh.triangles):
+            shapes[key] = shape
+    for body in bodies:
+        if not body.sound:
+            findings.append(_finding("CAD003", "error", body.name, "Left out: its coordinates are not finite numbers"))
+        elif body.diagonal * MILLIMETRE >= LARGEST:
+            size = body.diagonal * MILLIMETRE
+            findings.append(_finding("CAD004", "error", body.name, f"Left out: it would be {size:.3g} m large"))
+    return shapes, findings
+
+
+def _parts(
+    leaves: Sequence[Leaf],
+    pieces: Sequence[Sequence[Piece]],
+    bodies: Sequence[brep.Body],
+    shapes: dict[str, Shape],
+) -> list[Part]:
+    found: list[tuple[str, tuple[str, ...], str, Floats, Color | None]] = []
+    for leaf, own in zip(leaves, pieces, strict=True):
+        for piece in own:
+            key = bodies[piece.body].key
+            if key not in shapes:
+                continue
+            path, name = leaf.path, leaf.name
+            if piece.name.startswith("#"):
+                name += piece.name
+            elif piece.name:
+                path, name = (*path, name), piece.name
+            found.append(
+                (name, path, key, _matrix(leaf.location * piece.location), leaf.color or bodies[piece.body].color)
+            )
+    ids = unique_ids((*path, name) for name, path, *_ in found)
+    return [Part(id, *fields) for id, fields in zip(ids, found, strict=True)]
+
+
+def _matrix(location: Any) -> Floats:
+    """(4, 4) of a location, translation in metres."""
+    trsf = location.Transformation()
+    matrix = np.eye(4)
+    matrix[:3] = [[trsf.Value(i, j) for j in (1, 2, 3, 4)] for i in (1, 2, 3)]
+    matrix[:3, 3] *= MILLIMETRE
+    return matrix
+
+
+def _plausibility(assembly: Assembly, path: str) -> list[Finding]:
+    findings = []
+    sheets = [part.name for part in assembly.parts if not assembly.shapes[part.shape].closed]
+    if sheets:
+        findings.append(
+            _finding("CAD005", "info", path, f"Not closed, so without a volume: {_listed(list(dict.fromkeys(sheets)))}")
+        )
+    corners = np.concatenate([_corners(assembly, part) for part in assembly.parts])
+    size = float(np.linalg.norm(np.ptp(corners, axis=0)))
+    if not 1e-3 < size < LARGEST:
+        findings.append(
+            _finding("CAD004", "warning", path, f"The model is {size:.3g} m large: check the unit it was exported in")
+        )
+    return findings
+
+
+def _corners(assembly: Assembly, part: Part) -> Floats:
+    low, high = assembly.shapes[part.shape].bounds
+    corners = np.array(
+        [[(low, high)[i][0], (low, high)[j][1], (low, high)[k][2]] for i in (0, 1) for j in (0, 1) for k in (0, 1)]
+    )
+    return np.asarray(corners @ part.transform[:3, :3].T + part.transform[:3, 3])
