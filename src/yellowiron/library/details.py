@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import fnmatch
+import re
 from collections.abc import Iterable, Mapping
 from typing import Any, TypeVar
 
@@ -83,17 +84,20 @@ def read_material(document: Document, key: str, entry: Mapping[str, Any]) -> Mat
         raise TemplateError(
             f"The dynamic friction of '{key}' is above its static friction", where=document.at(key, "dynamic friction")
         )
+    numbers = {
+        k: float(entry[k]) for k in ("density", "elasticity", "restitution", "roughness", "metalness") if k in entry
+    }
     return Material(
         name=entry.get("name", key),
-        density=entry.get("density"),
-        elasticity=entry.get("elasticity"),
-        static_friction=static,
-        dynamic_friction=dynamic,
-        restitution=entry.get("restitution"),
+        density=numbers.get("density"),
+        elasticity=numbers.get("elasticity"),
+        static_friction=None if static is None else float(static),
+        dynamic_friction=None if dynamic is None else float(dynamic),
+        restitution=numbers.get("restitution"),
         color=_color(entry.get("color")),
         texture=entry.get("texture"),
-        roughness=entry.get("roughness"),
-        metalness=entry.get("metalness"),
+        roughness=numbers.get("roughness"),
+        metalness=numbers.get("metalness"),
     )
 
 
@@ -103,7 +107,7 @@ def by_role(document: Document, entries: Mapping[str, T], roles: tuple[Role, ...
     fits no role."""
     exact: dict[str, T] = {}
     for key, entry in entries.items():
-        fits = [r.name for r in roles if fold(r.name) == fold(key) or (EVERYTHING in key and _matches(r.name, key))]
+        fits = [r.name for r in roles if fold(r.name) == fold(key) or (EVERYTHING in key and matches(r.name, key))]
         if not fits and key != EVERYTHING:
             raise TemplateError(
                 f"'{key}' is no role of the template", where=document.at(key), hint=near(key, (r.name for r in roles))
@@ -112,7 +116,7 @@ def by_role(document: Document, entries: Mapping[str, T], roles: tuple[Role, ...
             exact[fits[0]] = entry
     found: dict[str, T] = {}
     for role in roles:
-        matching = [e for k, e in entries.items() if k != EVERYTHING and EVERYTHING in k and _matches(role.name, k)]
+        matching = [e for k, e in entries.items() if k != EVERYTHING and EVERYTHING in k and matches(role.name, k)]
         if role.name in exact:
             found[role.name] = exact[role.name]
         elif matching:
@@ -185,11 +189,11 @@ def read_actuators(document: Document, joints: tuple[JointTemplate, ...]) -> tup
                 raise TemplateError(
                     f"The slide '{slide.name}' of actuator '{name}' is not prismatic", where=document.at(*keys, "slide")
                 )
-            ends = [joint(cylinder[k], *keys, k).name for k in ("barrel_joint", "rod_joint")]
             cylinders.append(
                 CylinderTemplate(
                     slide.name,
-                    *ends,
+                    joint(cylinder["barrel_joint"], *keys, "barrel_joint").name,
+                    joint(cylinder["rod_joint"], *keys, "rod_joint").name,
                     sign=cylinder.get("sign", 1),
                     passive=yes(cylinder.get("passive")),
                     when=choices_of(cylinder, "when"),
@@ -254,9 +258,10 @@ def read_measurements(
     return tuple(sites), tuple(measurements)
 
 
-def _matches(name: str, pattern: str) -> bool:
-    """Whether a role fits a pattern in which `*` stands for any text; case, `_`, `-` and spaces do not count."""
-    return fnmatch.fnmatchcase(fold(name), fold(pattern))
+def matches(name: str, pattern: str) -> bool:
+    """Whether a role fits a pattern in which `*` stands for any text; case does not count, and `_`, `-` and a space
+    are the same."""
+    return fnmatch.fnmatchcase(*(re.sub(r"[\s_-]+", "_", text.strip().casefold()) for text in (name, pattern)))
 
 
 def _color(value: str | list[float] | None) -> Color | None:

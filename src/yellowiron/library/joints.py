@@ -22,6 +22,8 @@ DIMENSION: Mapping[str, str] = {
     "fixed": "length",
 }
 """Joint type → the dimension of its limits."""
+GAINS = ("stiffness", "damping", "max_force", "max_velocity")
+"""The keys of JSON-4, all in SI units."""
 _DRIVABLE: Mapping[str, str] = {"linear": "prismatic", "angular": "revolute"}
 _INDEX = re.compile(r"^(.*?)\s*\[\s*(\*|i(?:\s*[+-]\s*\d+)?)\s*\]$")
 
@@ -49,7 +51,8 @@ def read_joint(document: Document, name: str, entry: Mapping[str, Any], base: Jo
     kind = cast(JointType, entry["joint_type"].lower()) if "joint_type" in entry else base.type
     lower, upper = _limits(document, name, entry["Limit"], kind) if "Limit" in entry else (base.lower, base.upper)
     body = entry.get("Body", base.parts)
-    return replace(
+    gains = {key: float(entry[key]) for key in GAINS if key in entry}
+    joint = replace(
         base,
         type=kind,
         parts=(body[0].strip(), body[1].strip()),
@@ -59,7 +62,13 @@ def read_joint(document: Document, name: str, entry: Mapping[str, Any], base: Jo
         free=yes(entry["free"]) if "free" in entry else base.free,
         when=choices_of(entry, "when") if "when" in entry else base.when,
         drive_when=choices_of(entry, "drive_when") if "drive_when" in entry else base.drive_when,
-        **{key: float(entry[key]) for key in ("stiffness", "damping", "max_force", "max_velocity") if key in entry},
+    )
+    return replace(
+        joint,
+        stiffness=gains.get("stiffness", base.stiffness),
+        damping=gains.get("damping", base.damping),
+        max_force=gains.get("max_force", base.max_force),
+        max_velocity=gains.get("max_velocity", base.max_velocity),
     )
 
 
@@ -129,7 +138,7 @@ def _drive(document: Document, name: str, value: Any, kind: str) -> DriveType | 
     word = (value[0] if value else None) if isinstance(value, list) else value
     if not word:
         return None
-    drive = cast(DriveType, "linear" if word.lower().startswith("linear") else "angular")
+    drive: DriveType = "linear" if word.lower().startswith("linear") else "angular"
     if _DRIVABLE[drive] != kind:
         raise TemplateError(
             f"Joint '{name}' is {kind} and cannot have a drive that is {drive}",

@@ -35,7 +35,7 @@ class Document:
         return where(self.path, keys)
 
 
-class _Twice(ValueError):
+class _TwiceError(ValueError):
     """A key given twice in one object."""
 
 
@@ -78,7 +78,7 @@ def read_json(path: Path) -> Any:
         found: dict[str, str] = {}
         for key, _ in items:
             if fold(key) in found:
-                raise _Twice(key)
+                raise _TwiceError(key)
             found[fold(key)] = key
         return dict(items)
 
@@ -101,7 +101,7 @@ def read_json(path: Path) -> Any:
             where=f"{path}: line {error.lineno}, column {error.colno}",
             hint="Mind commas and quotes; JSON knows no comments.",
         ) from error
-    except _Twice as error:
+    except _TwiceError as error:
         raise TemplateError(
             f"The key '{error}' is there twice",
             where=str(path),
@@ -183,29 +183,30 @@ def _nearest(error: ValidationError) -> ValidationError:
 
 def _explain(error: ValidationError) -> tuple[str, str]:
     """One sentence and a hint for a schema's complaint."""
-    value, instance = error.validator_value, error.instance
+    instance: Any = error.instance
+    value: Any = error.validator_value
+    schema: Any = error.schema
     if error.validator == "required":
-        absent = [key for key in value if key not in instance]
-        return f"'{absent[0]}' is missing", _FORMAT_HINT
+        return f"'{next(key for key in value if key not in instance)}' is missing", _FORMAT_HINT
     if error.validator == "additionalProperties" and isinstance(instance, dict):
-        known = list(error.schema.get("properties", {}))
+        known = list(schema.get("properties", {}))
         odd = next(key for key in instance if key not in known)
         return f"'{odd}' is no key of this entry", near(odd, known) or f"Known: {', '.join(known)}."
     if error.validator == "enum":
-        words = [str(w) for w in value if isinstance(w, str) and w]
-        hint = near(str(instance), words) or f"Known: {', '.join(words[:_ENUM_WORDS])}."
+        choices = [str(w) for w in value if w not in (None, True, False, "")]
+        hint = near(str(instance), choices) or f"Known: {', '.join(choices[:_ENUM_WORDS])}."
         return f"'{_short(instance)}' is none of the words this key knows", hint
     if error.validator == "type":
         kinds = [value] if isinstance(value, str) else list(value)
-        return f"{_short(instance)} should be {_kinds(kinds)}", _FORMAT_HINT
+        return f"'{_short(instance)}' should be {_kinds(kinds)}", _FORMAT_HINT
     if error.validator in ("minProperties", "minItems") and not instance:
         return "There is nothing in it", _FORMAT_HINT
     if error.validator in ("minItems", "maxItems"):
         return f"The list has {len(instance)} items, not {value}", _FORMAT_HINT
-    if error.validator in ("minimum", "maximum", "exclusiveMinimum"):
-        words = {"minimum": "at least", "maximum": "at most", "exclusiveMinimum": "more than"}[error.validator]
-        return f"{instance} should be {words} {value}", ""
-    return f"{_short(instance)} does not fit: {_short(error.message)}", _FORMAT_HINT
+    bounds = {"minimum": "at least", "maximum": "at most", "exclusiveMinimum": "more than"}
+    if error.validator in bounds:
+        return f"{instance} should be {bounds[str(error.validator)]} {value}", _FORMAT_HINT
+    return f"'{_short(instance)}' does not fit: {_short(error.message)}", _FORMAT_HINT
 
 
 def _kinds(kinds: list[str]) -> str:
