@@ -101,7 +101,10 @@ def build(
             measurements = kinematics.measure(machine)
 
         with clock.stage("write", "Writing USD"):
-            usd.write_machine(machine, assembly, folder, name=machine.name)
+            textures = [*(document.parent for document in documents), Path(template.folder)]
+            usd.write_machine(
+                machine, assembly, folder, name=machine.name, frame=alignment.frame, texture_folders=textures
+            )
 
         with clock.stage("report", "Writing the report"):
             document = report.report_document(

@@ -56,7 +56,8 @@ class JointTemplate:
 @dataclass(frozen=True)
 class Material:
     """Physical and visual properties (the conference paper's JSON-1). Density kg/m³, elasticity (Young) Pa; colour
-    linear RGB; texture a path relative to its document. None: not stated."""
+    linear RGB; texture a path relative to its document. None: not stated. With `repaint` (a user's own document) colour
+    and texture replace what the CAD file shows; without it they stand in where the CAD file has no colour."""
 
     name: str
     density: float | None = None
@@ -68,6 +69,7 @@ class Material:
     texture: str | None = None
     roughness: float | None = None
     metalness: float | None = None
+    repaint: bool = False
 
 
 @dataclass(frozen=True)

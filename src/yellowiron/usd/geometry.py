@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from pxr import Gf, Sdf, Vt
 
-from yellowiron.model.geometry import Floats, Mesh, Shape
+from yellowiron.model.geometry import Floats, Ints, Mesh, Shape
 from yellowiron.usd.materials import write_look
 from yellowiron.usd.plan import PlacedPart, Plan, Prototype
 from yellowiron.usd.stage import Types, add_reference, define, set_attribute, set_display_name
@@ -17,6 +18,8 @@ CREASE_ANGLE = np.radians(30.0)
 """Facets that meet at less than this angle are shaded as one smooth surface, where the CAD reader gave no normals."""
 
 MIRRORED = "/Mirrored"
+
+Singles = NDArray[np.float32]
 
 
 def write_prototypes(layer: Sdf.Layer, prototypes: Iterable[Prototype], textures: Mapping[str, str]) -> None:
@@ -38,11 +41,18 @@ def write_mirrored(layer: Sdf.Layer, placed: Iterable[PlacedPart]) -> None:
     """For colliders of mirrored occurrences: the mesh reflected at its own yz plane, so that the collider's transform
     is proper (engines read a negative scale in different ways)."""
     for item in placed:
+        if layer.GetPrimAtPath(MIRRORED) is None:
+            define(layer, MIRRORED, "Scope")
         path = mirrored_path(item.prototype)
         if layer.GetPrimAtPath(path) is None:
             mesh = item.prototype.shape.mesh
-            reflected = Mesh(mesh.points * (-1.0, 1.0, 1.0), mesh.triangles[:, ::-1])
-            write_mesh(define(layer, path, "Mesh"), item.prototype.shape, reflected, normals=False)
+            flip = np.array([-1.0, 1.0, 1.0])
+            normals = None if mesh.normals is None else mesh.normals * flip
+            write_mesh(
+                define(layer, path, "Mesh"),
+                item.prototype.shape,
+                Mesh(mesh.points * flip, mesh.triangles[:, ::-1], normals),
+            )
 
 
 def mirrored_path(prototype: Prototype) -> str:
@@ -58,10 +68,13 @@ def write_hulls(layer: Sdf.Layer, plan: Plan) -> None:
         set_attribute(spec, "yellowiron:points", Types.Double3Array, Vt.Vec3dArray.FromNumpy(corners), custom=True)
 
 
-def write_mesh(spec: Sdf.PrimSpec, shape: Shape, mesh: Mesh, *, normals: bool = True) -> None:
-    """A triangle mesh: points, topology, extent, normals (the reader's, else creased), per-triangle colours."""
-    points = mesh.points.astype(np.float32)
-    triangles = np.ascontiguousarray(mesh.triangles, dtype=np.int32)
+def write_mesh(spec: Sdf.PrimSpec, shape: Shape, mesh: Mesh) -> None:
+    """A triangle mesh: points, topology, extent, normals (the reader's, else creased), per-triangle colours.
+
+    Points that coincide in single precision become one, so that a closed shape is a closed mesh: CAD meshes repeat them
+    along every edge between two faces. Triangles that thereby lose a corner are left out.
+    """
+    points, triangles, kept = _weld(mesh)
     set_attribute(spec, "points", Types.Point3fArray, Vt.Vec3fArray.FromNumpy(points))
     counts = np.full(len(triangles), 3, dtype=np.int32)
     set_attribute(spec, "faceVertexCounts", Types.IntArray, Vt.IntArray.FromNumpy(counts))
@@ -72,23 +85,49 @@ def write_mesh(spec: Sdf.PrimSpec, shape: Shape, mesh: Mesh, *, normals: bool = 
         set_attribute(spec, "extent", Types.Float3Array, extent)
     if not shape.closed:
         set_attribute(spec, "doubleSided", Types.Bool, True, uniform=True)
-    if normals:
-        _write_normals(spec, mesh)
-        if mesh.triangle_colors is not None:
-            colors = Vt.Vec3fArray.FromNumpy(mesh.triangle_colors.astype(np.float32))
-            set_attribute(spec, "primvars:displayColor", Types.Color3fArray, colors, interpolation="uniform")
-
-
-def _write_normals(spec: Sdf.PrimSpec, mesh: Mesh) -> None:
-    if mesh.normals is not None:
-        values, interpolation = mesh.normals, "vertex"
+    if mesh.normals is None:
+        values = _single(creased_normals(points, triangles))
+        set_attribute(spec, "normals", Types.Normal3fArray, values, interpolation="faceVarying")
+    elif len(points) == len(mesh.points):
+        set_attribute(spec, "normals", Types.Normal3fArray, _single(mesh.normals), interpolation="vertex")
     else:
-        values, interpolation = creased_normals(mesh.points, mesh.triangles), "faceVarying"
-    array = Vt.Vec3fArray.FromNumpy(np.ascontiguousarray(values, dtype=np.float32))
-    set_attribute(spec, "normals", Types.Normal3fArray, array, interpolation=interpolation)
+        _write_indexed(spec, "normals", Types.Normal3fArray, _single(mesh.normals), mesh.triangles[kept])
+    if mesh.triangle_colors is not None:
+        colors = _single(mesh.triangle_colors[kept])
+        set_attribute(spec, "primvars:displayColor", Types.Color3fArray, colors, interpolation="uniform")
 
 
-def creased_normals(points: Floats, triangles: NDArray[np.int32], angle: float = CREASE_ANGLE) -> Floats:
+def _single(values: Floats) -> Vt.Vec3fArray:
+    return Vt.Vec3fArray.FromNumpy(np.ascontiguousarray(values, dtype=np.float32))
+
+
+def _weld(mesh: Mesh) -> tuple[Singles, Ints, NDArray[np.bool_]]:
+    """Points without repetition (in order of first use), triangles on them, and which of the mesh's triangles stay."""
+    points = np.ascontiguousarray(mesh.points, dtype=np.float32) + np.float32(0.0)
+    order = np.lexsort(points.T)
+    ordered = points[order]
+    new = np.ones(len(points), dtype=bool)
+    new[1:] = (ordered[1:] != ordered[:-1]).any(axis=1)
+    group = np.empty(len(points), dtype=np.int64)
+    group[order] = np.cumsum(new) - 1
+    first = np.minimum.reduceat(order, np.flatnonzero(new)) if len(points) else order
+    rank = np.empty(len(first), dtype=np.int32)
+    rank[np.argsort(first)] = np.arange(len(first), dtype=np.int32)
+    triangles = rank[group][np.asarray(mesh.triangles, dtype=np.int64)].reshape(-1, 3)
+    kept = (triangles != np.roll(triangles, 1, axis=1)).all(axis=1)
+    return points[np.sort(first)], triangles[kept], kept
+
+
+def _write_indexed(
+    spec: Sdf.PrimSpec, name: str, type_name: Sdf.ValueTypeName, values: Any, indices: NDArray[np.int32]
+) -> None:
+    """A face-varying primvar with its indices, one a corner."""
+    set_attribute(spec, f"primvars:{name}", type_name, values, interpolation="faceVarying")
+    array = Vt.IntArray.FromNumpy(np.ascontiguousarray(indices, dtype=np.int32).ravel())
+    set_attribute(spec, f"primvars:{name}:indices", Types.IntArray, array)
+
+
+def creased_normals(points: Floats | Singles, triangles: Ints, angle: float = CREASE_ANGLE) -> Floats:
     """(3m, 3) unit normals, one a corner: the area-weighted mean of the facets around the corner's point that lie
     within `angle` (radians) of the corner's own facet. A facet without area gets its neighbours' mean, else +Z."""
     corners = points[triangles]
@@ -116,10 +155,12 @@ def creased_normals(points: Floats, triangles: NDArray[np.int32], angle: float =
 
 def _write_box_mapping(spec: Sdf.PrimSpec, mesh: Mesh) -> None:
     """Texture coordinates by projection along each facet's largest normal component; one repeat a metre."""
-    corners = mesh.points[mesh.triangles]
+    points, triangles, _ = _weld(mesh)
+    corners = points[triangles]
     facet = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     drop = np.abs(facet).argmax(axis=1)
     kept = np.array([[1, 2], [0, 2], [0, 1]])[drop]
     values = np.take_along_axis(corners, np.broadcast_to(kept[:, None, :], (*corners.shape[:2], 2)), axis=2)
-    array = Vt.Vec2fArray.FromNumpy(np.ascontiguousarray(values.reshape(-1, 2), dtype=np.float32))
-    set_attribute(spec, "primvars:st", Types.TexCoord2fArray, array, interpolation="faceVarying")
+    unique, indices = np.unique(values.reshape(-1, 2), axis=0, return_inverse=True)
+    array = Vt.Vec2fArray.FromNumpy(np.ascontiguousarray(unique, dtype=np.float32))
+    _write_indexed(spec, "st", Types.TexCoord2fArray, array, indices.astype(np.int32))

@@ -44,16 +44,23 @@ class Look:
 
 
 def look_of(part_color: Color | None, shape: Shape, material: Material | None) -> Look:
-    """The look of a part: what its material states, else the CAD file's colour of the part, else of its shape."""
-    color = (material.color if material else None) or part_color
-    if color is None and shape.mesh.triangle_colors is None:
-        color = shape.color or _NEUTRAL
-    if color is not None:
-        red, green, blue = (float(c) for c in color)
-        color = (red, green, blue)
+    """The look of a part: the CAD file's colours (its own, its triangles', its shape's) where it has any and the
+    material does not repaint it; else the material's texture or colour; else a neutral grey."""
+    own = part_color or (None if shape.mesh.triangle_colors is not None else shape.color)
+    coloured = own is not None or shape.mesh.triangle_colors is not None
     if material is None:
-        return Look("cad", color)
-    return Look(material.name or "material", color, material.roughness, material.metalness, material.texture)
+        return Look("cad", _plain(own if coloured else _NEUTRAL))
+    painted = material.color is not None or material.texture is not None
+    texture = None
+    if painted and (material.repaint or not coloured):
+        own, texture = material.color, material.texture
+    elif not coloured:
+        own = _NEUTRAL
+    return Look(material.name or "material", _plain(own), material.roughness, material.metalness, texture)
+
+
+def _plain(color: Color | None) -> Color | None:
+    return None if color is None else (float(color[0]), float(color[1]), float(color[2]))
 
 
 def write_look(layer: Sdf.Layer, prototype: str, look: Look, textures: Mapping[str, str]) -> None:

@@ -16,7 +16,7 @@ from yellowiron.usd.materials import Look, look_of
 from yellowiron.usd.stage import Names
 
 GEOMETRY_FILE = "geometry.usdc"
-PROTOTYPES = "/Prototypes"
+PROTOTYPES, HULLS = "/Prototypes", "/Hulls"
 VISUALS, COLLIDERS, HULL = "visuals", "colliders", "hull"
 JOINTS, MATERIALS, BASE_JOINT = "joints", "materials", "base_joint"
 
@@ -83,7 +83,7 @@ def make_plan(mechanism: Mechanism, assembly: Assembly, frame: Floats, name: str
         body_paths=body_paths,
         joint_paths={j.name: f"{root}/{JOINTS}/{joint_names.give(j.name)}" for j in mechanism.joints},
         material_paths={m: f"{root}/{MATERIALS}/{material_names.give(m)}" for m in mechanism.materials},
-        hull_paths={b.name: f"/Hulls/{hull_names.give(b.name)}" for b in mechanism.bodies},
+        hull_paths={b.name: f"{HULLS}/{hull_names.give(b.name)}" for b in mechanism.bodies},
         parts=parts,
         prototypes=tuple(placer.prototypes.prototypes),
     )

@@ -18,7 +18,7 @@ from yellowiron.usd.materials import copy_textures
 from yellowiron.usd.mujoco import write_mujoco
 from yellowiron.usd.physics import write_physics
 from yellowiron.usd.physx import write_physx
-from yellowiron.usd.plan import GEOMETRY_FILE, PROTOTYPES, Plan, make_plan
+from yellowiron.usd.plan import GEOMETRY_FILE, HULLS, PROTOTYPES, Plan, make_plan
 from yellowiron.usd.scene import PAYLOAD_FOLDER, write_machine_layer, write_scene_layer
 from yellowiron.usd.stage import create_layer, define, save_layer
 
@@ -83,7 +83,8 @@ def _check_name(name: str) -> None:
 
 
 def _write_geometry(layer: Sdf.Layer, plan: Plan, textures: dict[str, str]) -> None:
-    define(layer, PROTOTYPES, "Scope")
+    for scope in (PROTOTYPES, HULLS):
+        define(layer, scope, "Scope")
     write_prototypes(layer, plan.prototypes, textures)
     placed = [p for body in plan.mechanism.bodies for p in plan.parts[body.name]]
     write_mirrored(layer, (p for p in placed if p.approximation.usd and is_mirrored(p.matrix)))

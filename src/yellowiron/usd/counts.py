@@ -1,0 +1,31 @@
+"""What a USD file holds, counted: for the report, beside the template's counts."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from pxr import Usd, UsdPhysics
+
+from yellowiron.usd.read import open_stage
+
+_TYPES = {
+    "revolute": UsdPhysics.RevoluteJoint,
+    "prismatic": UsdPhysics.PrismaticJoint,
+    "fixed": UsdPhysics.FixedJoint,
+    "spherical": UsdPhysics.SphericalJoint,
+    "distance": UsdPhysics.DistanceJoint,
+}
+
+
+def count_joints(path: str | Path) -> dict[str, int]:
+    """Rigid bodies, joints by type, drives and loops (joints excluded from the articulation) of a file as it opens:
+    cut pivots count as the spherical joints they are written as. `YellowironError` where the file does not open."""
+    prims = list(open_stage(path).Traverse(Usd.TraverseInstanceProxies()))
+    joints = [UsdPhysics.Joint(p) for p in prims if p.IsA(UsdPhysics.Joint)]
+    return {
+        "bodies": sum(p.HasAPI(UsdPhysics.RigidBodyAPI) for p in prims),
+        **{name: sum(p.IsA(kind) for p in prims) for name, kind in _TYPES.items()},
+        "linear_drives": sum(p.HasAPI(UsdPhysics.DriveAPI, "linear") for p in prims),
+        "angular_drives": sum(p.HasAPI(UsdPhysics.DriveAPI, "angular") for p in prims),
+        "loops": sum(bool(j.GetExcludeFromArticulationAttr().Get()) for j in joints),
+    }
