@@ -1,0 +1,40 @@
+"""Assembly × Template × Alignment × Specifications → Mechanism.
+
+One concept a module: `placement` (the aligned CAD in the machine frame), `axes` (lines through cylinder features),
+`frames` (where a joint is), `planarity` (parallel axes made exactly so), `tree` (loops and cuts), `values`, `rams`
+(what the CAD shows of a cylinder), `cylinders`, `drives`, `mass`, `body`, `sites`; `build` puts them in order.
+
+Findings:
+
+======  ========================================================================================================
+MEC001  a joint names no part of the template, or does not join two different bodies; it is left out
+MEC002  a body that a joint needs has no part in the CAD model; the joint is left out
+MEC003  a joint's axis is a guess: its parts have no cylinder that fits
+MEC004  the features of one axis are out of line
+MEC005  nothing says where a joint is; it is left out
+MEC006  more than one axis fits a joint
+MEC007  a part is aligned to a body that the template does not have; it is left out
+MEC010  parallel axes of one loop differ by more than drawing accuracy; they were made parallel
+MEC011  a body has no joint that leads to it; it was welded to its ancestor
+MEC012  a loop has no pin that could be cut
+MEC020  a bore or rod diameter differs between sheet and CAD
+MEC021  the piston's travel in CAD is not the stroke
+MEC022  a cylinder's closed length is not known; mid-stroke was assumed
+MEC023  a cylinder's stroke is not on the sheet
+MEC024  the drawn pose is outside a slide's limits
+MEC025  the template's default stands for a value that no sheet gives
+MEC026  an actuator has no cylinder or motor left
+MEC027  nothing gives a value that a cylinder or motor needs; it has no force limit
+MEC030  a part's material has no density; steel's was taken
+MEC031  an open or empty solid: its mass is that of a thin shell
+MEC032  masses were scaled to published weights (a warning where the factor is not plausible)
+MEC033  published component weights leave nothing of the operating weight
+MEC040  a site's place was not found
+MEC041  no plane meets the edge of an edge site; its x axis points from the hinge to the edge
+MEC050  a limit names a specification that is not known; the joint is not limited there
+======  ========================================================================================================
+"""
+
+from yellowiron.mechanism.build import build_mechanism
+
+__all__ = ["build_mechanism"]

@@ -1,0 +1,223 @@
+"""The mechanism, in order: where the parts are, where the joints are, which joints are cut, what the cylinders can do,
+what everything weighs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, Protocol
+
+import numpy as np
+
+from yellowiron.mechanism import body, cylinders, drives, mass, sites, values
+from yellowiron.mechanism.body import vector
+from yellowiron.mechanism.cylinders import FittedCylinder
+from yellowiron.mechanism.frames import JointFrame, joint_frames
+from yellowiron.mechanism.placement import Placement, ancestors, place
+from yellowiron.mechanism.planarity import make_parallel
+from yellowiron.mechanism.tree import Tree, links, loop_groups, loose_bodies, span_tree
+from yellowiron.model.alignment import Alignment
+from yellowiron.model.assembly import Assembly
+from yellowiron.model.errors import MechanismError
+from yellowiron.model.finding import Finding
+from yellowiron.model.mechanism import Drive, Joint, Mechanism, Vector
+from yellowiron.model.specification import Specifications
+from yellowiron.model.template import JointTemplate, Material, Template
+
+
+class Documents(Protocol):
+    """What a user's own documents say of materials and collision, by role or CAD part name."""
+
+    @property
+    def materials(self) -> Mapping[str, Material]:
+        """Materials by role or part name."""
+
+    @property
+    def collision(self) -> Mapping[str, str]:
+        """Collision approximations by role or part name."""
+
+
+def build_mechanism(
+    assembly: Assembly,
+    template: Template,
+    alignment: Alignment,
+    specifications: Specifications,
+    *,
+    name: str,
+    documents: Documents | None = None,
+) -> Mechanism:
+    """The machine in SI units and the machine frame, in the drawn pose.
+
+    `template` has its variants decided (`choose`); `alignment` says which part moves with which body, and where the
+    machine frame is. `documents` win over the template's materials and collision. What could not be found is left
+    out or guessed, with a finding; raises `MechanismError` only where no part is the root body's.
+
+    Pivot limits that follow from loops, gains, mobility and the branch signs of loops are the kinematics' part.
+    """
+    by_document = documents.materials if documents is not None else {}
+    collision = documents.collision if documents is not None else {}
+
+    # Where the parts and the joints are.
+    placement, findings = place(assembly, template, alignment)
+    if not placement.has_body(template.root):
+        raise MechanismError(
+            f"No part of the CAD model is the root body '{template.root}'",
+            where=assembly.name,
+            hint="Give its parts that role in the alignment.",
+        )
+    frames, remarks = joint_frames(placement, template)
+    findings += remarks
+
+    # Which joints make the tree, which close its loops; axes of a loop exactly parallel.
+    frames = _weld_loose(frames, placement, template, findings)
+    tree = span_tree(template.root, links(template, frames))
+    findings += _uncuttable(tree, frames)
+    frames, remarks = make_parallel(frames, loop_groups(tree.loops))
+    findings += remarks
+
+    # What moves them, how far and how hard.
+    fitted, remarks = cylinders.fit_cylinders(placement, template, frames, specifications)
+    findings += remarks
+    powered = drives.slide_drives(template, fitted, findings)
+    powered |= drives.motor_drives(template, frames, tree.sides, placement, specifications, findings)
+    actuators = drives.actuators(template, frames, fitted, findings)
+    slides = {f.cylinder.slide: f for group in fitted.values() for f in group}
+    joints = tuple(_joint(frame, tree, slides, powered, specifications, findings) for frame in frames.values())
+
+    # What everything weighs.
+    materials, used = mass.part_materials(placement, template, by_document)
+    moments = mass.part_moments(placement, materials, findings)
+    weights = {b: sum(moments[row].mass for row in placement.rows_of_body(b)) for b in tree.bodies}
+    factors = mass.reconcile(weights, template, specifications, findings)
+    bodies = body.bodies(
+        tree.bodies, _origins(tree, frames), placement, template, materials, moments, factors, collision
+    )
+
+    return Mechanism(
+        name=name,
+        equipment_type=template.equipment_type,
+        root=template.root,
+        bodies=bodies,
+        joints=joints,
+        cylinders=tuple(f.cylinder for f in slides.values()),
+        actuators=actuators,
+        loops=tree.loops,
+        sites=sites.sites(template, frames, placement, findings),
+        materials=used,
+        measurements=template.measurements,
+        specifications=values.carried(specifications),
+        findings=tuple(dict.fromkeys(findings)),
+    )
+
+
+def _weld_loose(
+    frames: Mapping[str, JointFrame], placement: Placement, template: Template, findings: list[Finding]
+) -> dict[str, JointFrame]:
+    """Frames with a weld for every group of bodies that no joint ties to the root, so that nothing falls apart."""
+    present = [r.name for r in template.roles if r.rigid and placement.has_body(r.name)]
+    result = dict(frames)
+    for loose in loose_bodies(template.root, present, links(template, frames)):
+        above = [r.name for r in ancestors(template, loose)[1:] if r.rigid and placement.has_body(r.name)]
+        holder = above[0] if above else template.root
+        joint = JointTemplate(f"{holder}2{loose}_weld_joint", "fixed", (holder, loose))
+        points = placement.points_of(placement.rows_of_body(loose))
+        result[joint.name] = JointFrame(
+            joint,
+            (holder, loose),
+            0.5 * (points.min(axis=0) + points.max(axis=0)),
+            np.array([1.0, 0.0, 0.0]),
+            0.0,
+            {"template": "", "method": "weld: no joint leads to this body"},
+        )
+        findings.append(
+            Finding(
+                "MEC011",
+                "error",
+                loose,
+                f"No joint leads to the body '{loose}': it was welded to '{holder}'.",
+                "See the findings on its joints; check its pins in the alignment.",
+            )
+        )
+    return result
+
+
+def _uncuttable(tree: Tree, frames: Mapping[str, JointFrame]) -> list[Finding]:
+    return [
+        Finding(
+            "MEC012",
+            "error",
+            name,
+            f"Its loop has no pin that could be cut, so the {frames[name].joint.type} joint was.",
+            "Check the joints of the template.",
+        )
+        for name in tree.cuts
+        if frames[name].joint.type in ("fixed", "prismatic")
+    ]
+
+
+def _joint(
+    frame: JointFrame,
+    tree: Tree,
+    slides: Mapping[str, FittedCylinder],
+    powered: Mapping[str, Drive],
+    specifications: Specifications,
+    findings: list[Finding],
+) -> Joint:
+    """A joint with its sides, sense, limits, drive and evidence."""
+    entry = frame.joint
+    body0, body1 = tree.sides[entry.name]
+    # A slide's axis was found from its first body to its second; extension is from parent to child.
+    turned = entry.type == "prismatic" and (body0, body1) != frame.bodies
+    source: dict[str, Any] = dict(frame.source)
+    if entry.name in slides:
+        fit = slides[entry.name]
+        lower, upper = fit.lower, fit.upper
+        source |= fit.evidence
+    else:
+        lower, upper = _limits(entry, specifications, source, findings)
+    if entry.name in tree.cuts:
+        source["cut"] = tree.cuts[entry.name]
+    return Joint(
+        name=entry.name,
+        type=entry.type,
+        body0=body0,
+        body1=body1,
+        anchor=vector(frame.anchor),
+        axis=vector(-frame.axis if turned else frame.axis),
+        lower=lower,
+        upper=upper,
+        cut=entry.name in tree.cuts,
+        free=entry.free,
+        drive=powered.get(entry.name),
+        source=source,
+    )
+
+
+def _limits(
+    entry: JointTemplate, specifications: Specifications, source: dict[str, Any], findings: list[Finding]
+) -> tuple[float | None, float | None]:
+    """The template's limits; the evidence of those that a specification gives goes into `source`."""
+    found: list[float | None] = []
+    for side, stated in (("lower", entry.lower), ("upper", entry.upper)):
+        number, evidence = values.limit(stated, specifications)
+        source |= {f"{side}_{key}": value for key, value in evidence.items()}
+        found.append(number)
+        if "missing" in evidence:
+            findings.append(
+                Finding(
+                    "MEC050",
+                    "warning",
+                    entry.name,
+                    f"Its {side} limit '{evidence['missing']}' is not known: it is not limited there.",
+                    f'--set "{evidence["missing"]}=…"',
+                )
+            )
+    lower, upper = found
+    if lower is not None and upper is not None and lower > upper:
+        lower, upper = upper, lower
+    return lower, upper
+
+
+def _origins(tree: Tree, frames: Mapping[str, JointFrame]) -> dict[str, Vector]:
+    """Each body's origin: the joint that leads to it; the root's is the machine's."""
+    origins: dict[str, Vector] = dict.fromkeys(tree.bodies, (0.0, 0.0, 0.0))
+    return origins | {b: vector(frames[joint].anchor) for b, joint in tree.leading.items()}

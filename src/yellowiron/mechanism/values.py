@@ -1,0 +1,95 @@
+"""Values from specifications, with the evidence that travels with them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from yellowiron.model.finding import Finding
+from yellowiron.model.specification import Specification, Specifications
+from yellowiron.model.template import ActuatorTemplate
+from yellowiron.model.text import display
+
+
+@dataclass(frozen=True)
+class Known:
+    """A value in SI and where it came from, in words."""
+
+    value: float
+    source: str
+
+
+def words(specification: Specification) -> str:
+    """A specification's provenance: 'sheet: Lift Cylinder Stroke 764 mm, page 2 "Stroke 764 mm"'."""
+    text = f"{specification.source}: {specification.name} {display(specification.value, specification.unit)}"
+    if specification.evidence is not None:
+        text += f", page {specification.evidence.page} “{specification.evidence.quote}”"
+    return text + (" (example value)" if specification.example else "")
+
+
+def known(specifications: Specifications, name: str | None) -> Known | None:
+    """The value of a specification if its status is `ok`."""
+    found = specifications.get(name) if name else None
+    if found is None or found.status != "ok" or found.value is None:
+        return None
+    return Known(found.value, words(found))
+
+
+def default(actuator: ActuatorTemplate, quantity: str, findings: list[Finding]) -> Known | None:
+    """The template's own value of an actuator's quantity, with a finding that says it stands in for the sheet's."""
+    value = actuator.defaults.get(quantity)
+    if value is None:
+        return None
+    name = actuator.specifications.get(quantity, quantity)
+    findings.append(
+        Finding(
+            "MEC025",
+            "info",
+            actuator.name,
+            f"No sheet gives '{name}': the template's {quantity.replace('_', ' ')} of {value:g} (SI) is used.",
+            f'--set "{name}=…"',
+        )
+    )
+    return Known(value, f"template: {actuator.source or 'default'}")
+
+
+def limit(entry: float | str | None, specifications: Specifications) -> tuple[float | None, dict[str, Any]]:
+    """A template limit in SI: a number, or a specification's name with an optional minus. (None, evidence) for a name
+    that is not known, with its name under `missing`."""
+    if entry is None or not isinstance(entry, str):
+        return entry, {}
+    text = entry.strip()
+    sign, name = (-1.0, text[1:].strip()) if text.startswith(("-", "−")) else (1.0, text)
+    if (number := _number(name)) is not None:
+        return sign * number, {}
+    found = specifications.get(name)
+    if found is None or found.status != "ok" or found.value is None:
+        return None, {"missing": name}
+    evidence: dict[str, Any] = {"specification": found.name, "source": found.source}
+    if found.evidence is not None:
+        evidence |= {"page": found.evidence.page, "quote": found.evidence.quote}
+    return sign * found.value, evidence
+
+
+def carried(specifications: Specifications) -> dict[str, Mapping[str, Any]]:
+    """Every specification as the mechanism carries it: value, unit, status, example, page, quote, source."""
+    return {
+        s.name: {
+            "value": s.value,
+            "unit": s.unit,
+            "status": s.status,
+            "example": s.example,
+            "page": s.evidence.page if s.evidence else None,
+            "quote": s.evidence.quote if s.evidence else None,
+            "source": s.source,
+        }
+        for s in specifications
+    }
+
+
+def _number(text: str) -> float | None:
+    try:
+        return float(text)
+    except ValueError:
+        return None

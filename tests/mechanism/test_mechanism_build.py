@@ -1,0 +1,208 @@
+"""The whole mechanism of the hand-made crane: joints on their pins, in any CAD frame, and what happens where parts are
+missing."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from mechanism_machine import A, C, D, feature, machine, specifications, template
+
+from yellowiron.mechanism import build_mechanism
+from yellowiron.model.alignment import Alignment
+from yellowiron.model.assembly import Assembly
+from yellowiron.model.errors import MechanismError
+from yellowiron.model.geometry import Floats
+from yellowiron.model.mechanism import Mechanism
+from yellowiron.model.template import JointTemplate, SiteTemplate, Template
+
+angle = st.floats(-math.pi, math.pi)
+
+
+def rotation(a: float, b: float, c: float) -> Floats:
+    matrix = np.eye(4)
+    for axis, turn in enumerate((a, b, c)):
+        i, j = (axis + 1) % 3, (axis + 2) % 3
+        step = np.eye(4)
+        step[[i, i, j, j], [i, j, i, j]] = (math.cos(turn), -math.sin(turn), math.sin(turn), math.cos(turn))
+        matrix = matrix @ step
+    return matrix
+
+
+def build(made: tuple[Assembly, Alignment] | None = None, plan: Template | None = None, **values: float) -> Mechanism:
+    assembly, alignment = made or machine()
+    return build_mechanism(assembly, plan or template(), alignment, specifications(**values), name="crane")
+
+
+def without(alignment: Alignment, *names: str) -> Alignment:
+    """The alignment with parts of those names left out of the machine."""
+    parts = tuple(replace(a, role=None, body=None) if a.part.split("/")[-1] in names else a for a in alignment.parts)
+    return replace(alignment, parts=parts)
+
+
+def codes(built: Mechanism) -> set[str]:
+    return {f.code for f in built.findings}
+
+
+@settings(max_examples=20, deadline=None)
+@given(a=angle, b=angle, c=angle, at=st.tuples(*[st.floats(-20, 20)] * 3))
+def test_joints_are_on_their_pins_in_any_cad_frame(
+    a: float, b: float, c: float, at: tuple[float, float, float]
+) -> None:
+    frame = rotation(a, b, c)
+    frame[:3, 3] = at
+    built = build(machine(frame=frame))
+    for name, anchor in (("base2arm", A), ("base2barrel", C), ("arm2rod", D)):
+        joint = built.joint(name)
+        assert joint.axis == pytest.approx((0.0, 1.0, 0.0), abs=1e-9)
+        assert joint.anchor == pytest.approx(anchor, abs=1e-9)
+    slide = built.joint("slide")
+    assert slide.axis == pytest.approx((D - C) / np.linalg.norm(D - C), abs=1e-9)
+    assert slide.anchor == pytest.approx(D, abs=1e-9)
+    assert (slide.body0, slide.body1) == ("cylinder_barrel", "cylinder_rod")
+
+
+def test_the_tree_is_rooted_and_bodies_start_at_their_joints() -> None:
+    built = build()
+    assert [b.name for b in built.bodies] == ["base", "cylinder_barrel", "cylinder_rod", "arm"]
+    assert built.joint("base2arm").cut
+    assert built.loops[0].cut == "base2arm"
+    origins = {b.name: b.origin for b in built.bodies}
+    assert origins["base"] == (0.0, 0.0, 0.0)
+    assert origins["cylinder_barrel"] == built.joint("base2barrel").anchor
+    assert origins["arm"] == built.joint("arm2rod").anchor
+
+
+def test_an_inverted_cylinder_extends_from_parent_to_child() -> None:
+    """Seen from the arm the tree enters by the rod, and a positive coordinate still makes the cylinder longer."""
+    built = build(plan=replace(template(), root="arm"))
+    slide = built.joint("slide")
+    assert (slide.body0, slide.body1) == ("cylinder_rod", "cylinder_barrel")
+    assert slide.axis == pytest.approx((C - D) / np.linalg.norm(C - D), abs=1e-9)
+    assert slide.lower == pytest.approx(-built.cylinders[0].extension)
+
+
+def test_a_pin_that_leans_a_little_is_made_parallel_and_reported() -> None:
+    silent, told = build(machine(twist=math.radians(0.005))), build(machine(twist=math.radians(0.1)))
+    for built in (silent, told):
+        axes = [built.joint(n).axis for n in ("base2arm", "base2barrel", "arm2rod")]
+        assert axes[0] == pytest.approx(axes[1], abs=1e-15)
+        assert axes[0] == pytest.approx(axes[2], abs=1e-15)
+        assert abs(np.dot(axes[0], built.joint("slide").axis)) < 1e-15
+    assert "MEC010" not in codes(silent)
+    assert 0.0 < silent.joint("arm2rod").source["planarity_deg"] < 0.01
+    assert "MEC010" in codes(told)
+
+
+def test_a_pin_that_leans_much_is_left_alone() -> None:
+    built = build(machine(twist=math.radians(5.0)))
+    assert "MEC010" not in codes(built)
+    assert abs(built.joint("arm2rod").axis[1]) == pytest.approx(math.cos(math.radians(5.0)))
+
+
+def test_without_a_pin_the_bores_of_both_bodies_say_where() -> None:
+    assembly, alignment = machine()
+    bore = {
+        "arm": feature((0, -0.25, 1.0), (0, 1, 0), 0.04, 0.0, 0.5, inner=True),
+        "base": feature((0, 0.26, 1.0), (0, 1, 0), 0.04, 0.0, 0.1, inner=True),
+    }
+    shapes = {k: replace(s, cylinders=(bore[k],)) if k in bore else s for k, s in assembly.shapes.items()}
+    built = build((replace(assembly, shapes=shapes), without(alignment, "PIN L", "PIN R")))
+    joint = built.joint("base2arm")
+    assert joint.axis == pytest.approx((0.0, 1.0, 0.0))
+    assert np.hypot(joint.anchor[0], joint.anchor[2] - 1.0) < 1e-12
+    assert "both bodies" in joint.source["method"]
+
+
+def test_a_joint_that_nothing_shows_is_left_out_with_an_error() -> None:
+    assembly, alignment = machine()
+    built = build((assembly, without(alignment, "PIN L", "PIN R")))
+    assert "base2arm" not in {j.name for j in built.joints}
+    assert "MEC005" in codes(built)
+    assert not built.loops
+
+
+def test_a_pin_without_cylinders_is_a_guess_with_a_warning() -> None:
+    assembly, alignment = machine()
+    shapes = {k: replace(s, cylinders=()) if k == "short" else s for k, s in assembly.shapes.items()}
+    built = build((replace(assembly, shapes=shapes), alignment))
+    assert built.joint("base2arm").axis == pytest.approx((0.0, 1.0, 0.0), abs=1e-6)
+    assert "MEC003" in codes(built)
+
+
+def test_a_missing_body_takes_its_joints_and_actuator_along() -> None:
+    assembly, alignment = machine()
+    built = build((assembly, without(alignment, "ROD")))
+    assert {j.name for j in built.joints} == {"base2arm", "base2barrel"}
+    assert {"MEC002", "MEC026"} <= codes(built)
+    assert not built.actuators
+
+
+def test_a_body_that_nothing_holds_is_welded() -> None:
+    assembly, alignment = machine()
+    built = build((assembly, without(alignment, "PIN L", "PIN R", "PIN D", "ROD")))
+    weld = next(j for j in built.joints if j.type == "fixed")
+    assert (weld.body0, weld.body1) == ("base", "arm")
+    assert "MEC011" in codes(built)
+
+
+def test_a_joint_to_nowhere_is_a_finding() -> None:
+    plan = template()
+    odd = (JointTemplate("odd", "revolute", ("arm", "moon")), JointTemplate("self", "revolute", ("arm", "rod_pin")))
+    built = build(plan=replace(plan, joints=plan.joints + odd))
+    assert [f.where for f in built.findings if f.code == "MEC001"] == ["odd", "self"]
+
+
+def test_limits_are_read_with_their_sign_and_evidence_or_missed_aloud() -> None:
+    plan = template()
+    base = replace(plan.joints[0], lower="-Swing Angle", upper="Swing Angle")
+    known = build(plan=replace(plan, joints=(base, *plan.joints[1:])), Swing_Angle=0.5).joint("base2arm")
+    assert (known.lower, known.upper) == (-0.5, 0.5)
+    assert known.source["upper_page"] == 2
+    missed = build(plan=replace(plan, joints=(base, *plan.joints[1:])))
+    assert (missed.joint("base2arm").lower, missed.joint("base2arm").upper) == (None, None)
+    assert sum(f.code == "MEC050" for f in missed.findings) == 2
+
+
+def test_a_part_of_an_unknown_body_is_left_out_with_an_error() -> None:
+    assembly, alignment = machine()
+    parts = tuple(replace(a, body="moon") if a.part.endswith("ROD") else a for a in alignment.parts)
+    assert "MEC007" in codes(build((assembly, replace(alignment, parts=parts))))
+
+
+def test_no_root_is_an_error() -> None:
+    assembly, alignment = machine()
+    with pytest.raises(MechanismError, match="root body 'base'"):
+        build((assembly, without(alignment, "BASE", "PIN L", "PIN R", "PIN C")))
+
+
+def test_sites_at_joints_points_and_edges() -> None:
+    plan = template()
+    rules = (
+        SiteTemplate("hinge", "arm", {"joint": "arm2rod"}),
+        SiteTemplate("eye", "base", {"point": [1, 2, 3]}),
+        SiteTemplate("lost", "arm", {"joint": "moon"}),
+        *plan.sites,
+    )
+    built = build(plan=replace(plan, sites=rules))
+    found = {s.name: s for s in built.sites}
+    assert found["hinge"].position == built.joint("arm2rod").anchor
+    assert found["eye"].position == (1.0, 2.0, 3.0)
+    assert "lost" not in found and "MEC040" in codes(built)
+    # The arm's box ends 2 m from its pin in two edges: the lower one counts, and its widest plane is the underside.
+    assert found["tip"].position == pytest.approx((2.0, 0.0, 0.95))
+    assert found["tip"].x_axis == pytest.approx((1.0, 0.0, 0.0))
+    assert found["tip"].z_axis == pytest.approx((0.0, 0.0, 1.0))
+
+
+def test_twice_the_same_inputs_give_the_same_mechanism() -> None:
+    def flat(built: Mechanism) -> str:
+        return repr(
+            (built.joints, built.cylinders, built.sites, built.findings, [b.inertia.tobytes() for b in built.bodies])
+        )
+
+    assert flat(build()) == flat(build())

@@ -1,0 +1,118 @@
+"""Mass, centre and inertia against closed formulas: mirrored, scaled, open; and reconciled with a sheet."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from mechanism_machine import box, machine, specifications, template
+
+from yellowiron.mechanism import build_mechanism
+from yellowiron.mechanism.mass import Moments, choose_entry, combine, shell_moments, solid_moments
+from yellowiron.model.geometry import Floats
+from yellowiron.model.mechanism import Mechanism
+
+scale = st.floats(0.2, 3.0)
+number = st.floats(-1.0, 1.0)
+
+
+def box_inertia(mass: float, a: float, b: float, c: float) -> Floats:
+    return mass / 12.0 * np.diag([b * b + c * c, a * a + c * c, a * a + b * b])
+
+
+@given(a=scale, b=scale, c=scale, mirror=st.booleans(), at=st.tuples(number, number, number))
+def test_a_scaled_and_mirrored_box_is_the_box_of_that_size(
+    a: float, b: float, c: float, mirror: bool, at: tuple[float, float, float]
+) -> None:
+    matrix = np.diag([-a if mirror else a, b, c, 1.0])
+    matrix[:3, 3] = at
+    found = solid_moments(box("box", (1.0, 2.0, 0.5), at=(0.1, 0.0, 0.2)), matrix, 7850.0)
+    mass = 7850.0 * a * b * c
+    assert found.mass == pytest.approx(mass)
+    assert found.center == pytest.approx(matrix @ [0.1, 0.0, 0.2, 1.0] @ np.eye(4)[:, :3])
+    assert found.inertia == pytest.approx(box_inertia(mass, a, 2.0 * b, 0.5 * c))
+
+
+@given(rows=st.lists(st.tuples(number, number, number), min_size=3, max_size=3))
+def test_inertia_is_physically_valid_under_any_map(rows: list[tuple[float, float, float]]) -> None:
+    matrix = np.eye(4)
+    matrix[:3, :3] = np.array(rows) + 0.01 * np.eye(3)
+    found = solid_moments(box("box", (1.0, 2.0, 0.5)), matrix, 7850.0)
+    if found.mass < 1e-6:
+        return
+    small, middle, large = np.linalg.eigvalsh(found.inertia)
+    assert small > 0.0
+    assert small + middle >= large * (1.0 - 1e-9)
+
+
+def test_the_parallel_axis_theorem_puts_two_halves_together() -> None:
+    halves = [solid_moments(box("half", (1.0, 1.0, 0.5), at=(0, 0, z)), np.eye(4), 100.0) for z in (-0.25, 0.25)]
+    whole = combine(halves)
+    assert whole.mass == pytest.approx(100.0)
+    assert whole.inertia == pytest.approx(box_inertia(100.0, 1.0, 1.0, 1.0))
+
+
+def test_a_shell_is_its_triangles() -> None:
+    """A square plate of 1 kg/m²: m/12 across its edges, m/6 about its normal (and no zero thickness)."""
+    square = np.array([[[0, 0, 0], [1, 0, 0], [1, 1, 0]], [[0, 0, 0], [1, 1, 0], [0, 1, 0]]], dtype=float)
+    found = shell_moments(square + 5.0, 1.0)
+    assert found.mass == pytest.approx(1.0)
+    assert found.center == pytest.approx([5.5, 5.5, 5.0])
+    assert np.diag(found.inertia) == pytest.approx([1 / 12, 1 / 12, 1 / 6], rel=1e-6)
+
+
+def test_a_bad_inertia_is_made_valid() -> None:
+    """A shape whose file claims an impossible inertia."""
+    found = Moments(2.0, np.zeros(3), np.diag([-1.0, 0.5, 1.0]))
+    assert np.linalg.eigvalsh(found.inertia).min() > 0.0
+
+
+def mass_of(machine: Mechanism, body: str) -> float:
+    return machine.body(body).mass
+
+
+def build(**values: float) -> Mechanism:
+    assembly, alignment = machine()
+    return build_mechanism(assembly, template(), alignment, specifications(**values), name="crane")
+
+
+def test_material_is_the_nearest_role_s() -> None:
+    built = build()
+    arm = next(p for p in built.body("arm").parts if p.role == "arm")
+    assert (arm.material, arm.collision) == ("alloy", "convexDecomposition")
+    assert arm.mass == pytest.approx(2.0 * 0.5 * 0.1 * 2700.0)
+    base = next(p for p in built.body("base").parts if p.role == "base")
+    assert (base.material, base.collision) == ("steel", "convexHull")
+    assert set(built.materials) == {"steel", "alloy"}
+
+
+def test_published_weights_are_met_body_first_then_the_whole() -> None:
+    plain, met = build(), build(Arm_Weight=300.0, Operating_Weight=2000.0)
+    assert mass_of(met, "arm") == pytest.approx(300.0)
+    assert sum(b.mass for b in met.bodies) == pytest.approx(2000.0)
+    assert sum(p.mass for b in met.bodies for p in b.parts) == pytest.approx(2000.0)
+    factor = mass_of(met, "base") / mass_of(plain, "base")
+    assert mass_of(met, "cylinder_rod") == pytest.approx(factor * mass_of(plain, "cylinder_rod"))
+    assert met.body("base").inertia == pytest.approx(factor * plain.body("base").inertia)
+    assert {(f.code, f.severity) for f in met.findings if f.code == "MEC032"} == {("MEC032", "info")}
+
+
+def test_a_weight_far_off_is_a_warning() -> None:
+    assert any(f.code == "MEC032" and f.severity == "warning" for f in build(Operating_Weight=20000.0).findings)
+
+
+def test_component_weights_above_the_operating_weight_are_a_finding() -> None:
+    built = build(Arm_Weight=300.0, Operating_Weight=200.0)
+    assert "MEC033" in {f.code for f in built.findings}
+    assert all(b.mass > 0.0 for b in built.bodies)
+
+
+def test_entries_win_in_order() -> None:
+    documents = {"BASE": "part", "arm": "document role", "*": "document star"}
+    own = {"arm": "template role", "base": "template ancestor", "*": "star"}
+    plan = template()
+    pick = [choose_entry(p, r, plan, documents, own) for p, r in (("base", None), ("X", "arm"), ("X", "rod_pin"))]
+    assert [p[0] if p else None for p in pick] == ["part", "document role", "document role"]
+    assert choose_entry("X", "arm_pin", plan, {}, own) == ("template ancestor", "template: role 'base'")
+    assert choose_entry("X", None, plan, {}, {}) is None
