@@ -1,0 +1,196 @@
+"""How a template's mechanism can move, before any geometry is known: Grübler's counts and the generic rank.
+
+Joints that lie on common loops form a group, and a group is planar: its pivots are parallel, its slides lie in the
+plane across them. So are steering and working equipment, and so is every linkage that a template describes. Joints in
+no loop move on their own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from yellowiron.library.joints import split_index
+from yellowiron.model.geometry import Floats
+from yellowiron.model.template import JointTemplate, Template
+
+SPATIAL_FREEDOM: Mapping[str, int] = {"fixed": 0, "distance": 5, "spherical": 3, "revolute": 1, "prismatic": 1}
+"""Joint type → its degrees of freedom in space."""
+_PLANAR_FREEDOM: Mapping[str, int] = {"distance": 2, "spherical": 1, "revolute": 1, "prismatic": 1}
+_SAMPLES = 3
+_RANK_TOLERANCE = 1e-9
+
+
+@dataclass(frozen=True)
+class Group:
+    """Joints on common loops, with the bodies between them. `grubler` is the planar count 3(n−1) − Σ(3−f), negative
+    where the group is locked more than once; `computed` the degrees of freedom by the rank of the constraint Jacobian
+    in general position; `expected` the driven and free coordinates among its joints."""
+
+    bodies: tuple[str, ...]
+    joints: tuple[str, ...]
+    grubler: int
+    computed: int
+    expected: int
+
+
+@dataclass(frozen=True)
+class TemplateMobility:
+    """Degrees of freedom relative to the root under one set of `choices`: `computed` by the generic rank, `expected`
+    the driven and free coordinates, `planar` and `spatial` by Grübler's count (a planar loop counts 3 too few in
+    space)."""
+
+    choices: Mapping[str, str]
+    computed: int
+    expected: int
+    planar: int
+    spatial: int
+    groups: tuple[Group, ...] = ()
+
+
+def mobility(template: Template, choices: Mapping[str, str]) -> TemplateMobility:
+    """The mobility of a template whose variants are decided, as the `choices` say; rows of parts are left out."""
+    joints = [j for j in template.joints if not any(split_index(p)[1] for p in j.parts)]
+    ends = welded_ends(template, joints)
+    coordinates = coordinates_of(template)
+    groups = []
+    computed = planar = 0
+    for names in blocks(ends):
+        members = [template.joint(n) for n in names]
+        if len(members) == 1:
+            computed += SPATIAL_FREEDOM[members[0].type]
+            planar += SPATIAL_FREEDOM[members[0].type]
+            continue
+        bodies = tuple(dict.fromkeys(b for n in names for b in ends[n]))
+        count = 3 * (len(bodies) - 1) - sum(3 - _PLANAR_FREEDOM[j.type] for j in members)
+        free = generic_freedom(bodies, members, ends)
+        groups.append(Group(bodies, names, count, free, sum(n in coordinates for n in names)))
+        computed += free
+        planar += count
+    bodies = tuple(dict.fromkeys(b for pair in ends.values() for b in pair))
+    spatial = 6 * (len(bodies) - 1) - sum(6 - SPATIAL_FREEDOM[template.joint(n).type] for n in ends)
+    return TemplateMobility(choices, computed, len(coordinates), planar, spatial, tuple(groups))
+
+
+def coordinates_of(template: Template) -> tuple[str, ...]:
+    """The joints whose coordinates are given from outside: the driven cylinders' slides (not their passive twins'),
+    motor joints, and free joints."""
+    slides = [c.slide for a in template.actuators for c in a.cylinders if not c.passive]
+    passive = {c.slide for a in template.actuators for c in a.cylinders if c.passive}
+    given = {*slides, *(j for a in template.actuators for j in a.joints)}
+    return tuple(
+        j.name
+        for j in template.joints
+        if j.name in given or (j.drive and j.name not in passive) or (j.free and not j.drive)
+    )
+
+
+def welded_ends(template: Template, joints: Iterable[JointTemplate]) -> dict[str, tuple[str, str]]:
+    """Joint → its two bodies, bodies that fixed joints weld together being one; without the fixed joints."""
+    leader: dict[str, str] = {}
+
+    def find(body: str) -> str:
+        while body in leader:
+            body = leader[body]
+        return body
+
+    pairs = {}
+    for joint in joints:
+        first, second = template.bodies_of(joint)
+        if first is None or second is None:
+            continue
+        if joint.type == "fixed":
+            if find(first) != find(second):
+                leader[find(second)] = find(first)
+        else:
+            pairs[joint.name] = (first, second)
+    welded = {name: (find(a), find(b)) for name, (a, b) in pairs.items()}
+    return {name: pair for name, pair in welded.items() if pair[0] != pair[1]}
+
+
+def blocks(ends: Mapping[str, tuple[str, str]]) -> tuple[tuple[str, ...], ...]:
+    """The joints by common loops (the graph's biconnected components), each in the given order; a joint in no loop is a
+    block of its own. J. Hopcroft, R. Tarjan: Algorithm 447, CACM 16 (1973)."""
+    neighbours: dict[str, list[tuple[str, str]]] = {}
+    for name, (a, b) in ends.items():
+        neighbours.setdefault(a, []).append((name, b))
+        neighbours.setdefault(b, []).append((name, a))
+    order = {name: i for i, name in enumerate(ends)}
+    depth: dict[str, int] = {}
+    low: dict[str, int] = {}
+    open_joints: list[str] = []
+    found: list[tuple[str, ...]] = []
+    for start in neighbours:
+        if start in depth:
+            continue
+        depth[start] = low[start] = 0
+        stack = [(start, "", iter(neighbours[start]))]
+        while stack:
+            body, by, rest = stack[-1]
+            step = next(rest, None)
+            if step is None:
+                stack.pop()
+                if stack:
+                    parent = stack[-1][0]
+                    low[parent] = min(low[parent], low[body])
+                    if low[body] >= depth[parent]:
+                        cut = open_joints.index(by)
+                        found.append(tuple(sorted(open_joints[cut:], key=order.__getitem__)))
+                        del open_joints[cut:]
+                continue
+            name, other = step
+            if name == by or (other in depth and depth[other] > depth[body]):
+                continue
+            open_joints.append(name)
+            if other in depth:
+                low[body] = min(low[body], depth[other])
+            else:
+                depth[other] = low[other] = depth[body] + 1
+                stack.append((other, name, iter(neighbours[other])))
+    return tuple(sorted(found, key=lambda names: order[names[0]]))
+
+
+def generic_freedom(
+    bodies: tuple[str, ...], joints: Iterable[JointTemplate], ends: Mapping[str, tuple[str, str]]
+) -> int:
+    """Degrees of freedom of a planar group in general position, its first body held: pivots at random points, slides in
+    random directions (any such set is a closed pose of links of some shape). The least of a few samples, which is the
+    generic value with probability 1."""
+    joints = list(joints)
+    random = np.random.default_rng(20240607)
+    columns = 3 * (len(bodies) - 1)
+    ranks = [
+        int(np.linalg.matrix_rank(_jacobian(bodies, joints, ends, random), tol=_RANK_TOLERANCE))
+        for _ in range(_SAMPLES)
+    ]
+    return columns - max(ranks)
+
+
+def _jacobian(
+    bodies: tuple[str, ...],
+    joints: Iterable[JointTemplate],
+    ends: Mapping[str, tuple[str, str]],
+    random: np.random.Generator,
+) -> Floats:
+    """Rows: velocity constraints; columns: (vx, vy, ω) of every body but the first. Unit lengths."""
+    rows: list[Floats] = []
+    for joint in joints:
+        x, y = random.uniform(-1.0, 1.0, 2)
+        angle = random.uniform(0.0, 2.0 * np.pi)
+        along = np.array([np.cos(angle), np.sin(angle)])
+        across = np.array([-along[1], along[0]])
+        at = np.array([[1.0, 0.0, -y], [0.0, 1.0, x]])
+        if joint.type == "prismatic":
+            local = np.vstack([across @ at, [0.0, 0.0, 1.0]])
+        elif joint.type == "distance":
+            local = (along @ at)[None, :]
+        else:
+            local = at
+        block = np.zeros((len(local), 3 * len(bodies)))
+        for body, sign in zip(ends[joint.name], (1.0, -1.0), strict=True):
+            start = 3 * bodies.index(body)
+            block[:, start : start + 3] += sign * local
+        rows.append(block)
+    return np.vstack(rows)[:, 3:]
