@@ -16,10 +16,8 @@ from yellowiron.usd.plan import COLLIDERS, GEOMETRY_FILE, HULL, VISUALS, PlacedP
 from yellowiron.usd.primitives import Primitive, fit_primitive
 from yellowiron.usd.rotation import quaternion_of
 from yellowiron.usd.stage import (
-    Names,
     Types,
     add_reference,
-    apply_schemas,
     define,
     set_attribute,
     set_display_name,
@@ -44,13 +42,12 @@ def write_bodies(layer: Sdf.Layer, plan: Plan) -> None:
         set_display_name(spec, body.name)
         set_placement(spec, body.origin)
         set_custom(spec, describe_body(body))
-        names = Names(VISUALS, COLLIDERS, HULL)
         _write_visuals(layer, path, plan.parts[body.name])
         _write_colliders(layer, path, plan.parts[body.name], primitives)
         if len(body.hull):
             add_reference(define(layer, f"{path}/{HULL}"), f"./{GEOMETRY_FILE}", plan.hull_paths[body.name])
         for site in sites.get(body.name, ()):
-            _write_site(layer, f"{path}/{names.give(site.name)}", site, body)
+            _write_site(layer, plan.site_paths[site.name], site, body)
 
 
 def _write_visuals(layer: Sdf.Layer, body: str, parts: tuple[PlacedPart, ...]) -> None:
@@ -137,7 +134,6 @@ def _write_site(layer: Sdf.Layer, path: str, site: Site, body: Body) -> None:
     """A named frame: an Xform that draws nothing."""
     spec = define(layer, path, "Xform")
     set_display_name(spec, site.name)
-    apply_schemas(spec, "NewtonSiteAPI")
     x, z = np.asarray(site.x_axis), np.asarray(site.z_axis)
     rotation = np.column_stack([x, np.cross(z, x), z])
     set_placement(spec, np.asarray(site.position) - np.asarray(body.origin), quaternion_of(rotation))

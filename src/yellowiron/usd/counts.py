@@ -20,7 +20,8 @@ _TYPES = {
 def count_joints(path: str | Path) -> dict[str, int]:
     """Rigid bodies, joints by type, drives and loops (joints excluded from the articulation) of a file as it opens:
     cut pivots count as the spherical joints they are written as. `YellowironError` where the file does not open."""
-    prims = list(open_stage(path).Traverse(Usd.TraverseInstanceProxies()))
+    stage = open_stage(path)
+    prims = list(stage.Traverse(Usd.TraverseInstanceProxies()))
     joints = [UsdPhysics.Joint(p) for p in prims if p.IsA(UsdPhysics.Joint)]
     return {
         "bodies": sum(p.HasAPI(UsdPhysics.RigidBodyAPI) for p in prims),

@@ -13,6 +13,7 @@ from yellowiron.model.errors import OutputError
 from yellowiron.model.geometry import Color, Shape
 from yellowiron.model.template import Material
 from yellowiron.usd.stage import (
+    WRITE_HINT,
     Types,
     apply_schemas,
     connect,
@@ -133,14 +134,18 @@ def copy_textures(
         names[text] = f"{relative}/{name}"
     files = []
     for name, content in written.items():
-        folder.mkdir(parents=True, exist_ok=True)
         files.append(folder / name)
-        files[-1].write_bytes(content)
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            files[-1].write_bytes(content)
+        except OSError as error:
+            raise OutputError("A texture cannot be written", where=str(files[-1]), hint=WRITE_HINT) from error
     return names, files
 
 
 def _find_texture(text: str, search: Sequence[Path]) -> Path:
-    for candidate in (Path(text), *(folder / text for folder in search)):
+    absolute = [Path(text)] if Path(text).is_absolute() else []
+    for candidate in (*absolute, *(folder / text for folder in search)):
         if candidate.is_file():
             return candidate
     raise OutputError(

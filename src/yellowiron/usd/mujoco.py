@@ -23,7 +23,7 @@ _EQUALITIES = {"spherical": "MjcEqualityConnectAPI", "fixed": "MjcEqualityWeldAP
 
 
 def write_mujoco(layer: Sdf.Layer, base: Sdf.Layer, plan: Plan) -> None:
-    """Equalities on the cuts, self-collision off, velocity limits, signed distance fields."""
+    """Equalities on the cuts, self-collision off, velocity limits, sites, signed distance fields."""
     root = over(layer, plan.root)
     apply_schemas(root, "NewtonArticulationRootAPI")
     set_attribute(root, "newton:selfCollisionEnabled", Types.Bool, False)
@@ -39,6 +39,8 @@ def write_mujoco(layer: Sdf.Layer, base: Sdf.Layer, plan: Plan) -> None:
             apply_schemas(spec, "NewtonJointAPI")
             velocity = joint.drive.max_velocity * to_usd_unit(joint.type)
             set_attribute(spec, "newton:velocityLimit", Types.Float, velocity)
+    for path in plan.site_paths.values():
+        apply_schemas(over(layer, path), "NewtonSiteAPI")
     for body in plan.mechanism.bodies:
         for placed in plan.parts[body.name]:
             path = f"{plan.body_paths[body.name]}/{COLLIDERS}/{placed.name}"

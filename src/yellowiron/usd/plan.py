@@ -47,14 +47,15 @@ class PlacedPart:
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """Paths by name. `root` is the machine's prim; `body_paths`, `joint_paths`, `material_paths` are absolute in the
-    composed machine; `parts` holds each body's parts in the mechanism's order; `hull_paths` are in the geometry
+    """Paths by name. `root` is the machine's prim; `body_paths`, `joint_paths`, `site_paths`, `material_paths` are
+    absolute in the composed machine; `parts` holds each body's parts in the mechanism's order; `hull_paths` are in the geometry
     layer."""
 
     mechanism: Mechanism
     root: str
     body_paths: Mapping[str, str]
     joint_paths: Mapping[str, str]
+    site_paths: Mapping[str, str]
     material_paths: Mapping[str, str]
     hull_paths: Mapping[str, str]
     parts: Mapping[str, tuple[PlacedPart, ...]]
@@ -82,11 +83,17 @@ def make_plan(mechanism: Mechanism, assembly: Assembly, frame: Floats, name: str
         root=root,
         body_paths=body_paths,
         joint_paths={j.name: f"{root}/{JOINTS}/{joint_names.give(j.name)}" for j in mechanism.joints},
+        site_paths=_site_paths(mechanism, body_paths),
         material_paths={m: f"{root}/{MATERIALS}/{material_names.give(m)}" for m in mechanism.materials},
         hull_paths={b.name: f"{HULLS}/{hull_names.give(b.name)}" for b in mechanism.bodies},
         parts=parts,
         prototypes=tuple(placer.prototypes.prototypes),
     )
+
+
+def _site_paths(mechanism: Mechanism, body_paths: Mapping[str, str]) -> dict[str, str]:
+    names = {body: Names(VISUALS, COLLIDERS, HULL) for body in body_paths}
+    return {site.name: f"{body_paths[site.body]}/{names[site.body].give(site.name)}" for site in mechanism.sites}
 
 
 class Prototypes:

@@ -20,9 +20,12 @@ def quaternion_of(rotation: Floats) -> Quaternion:
 def quaternion_to(axis: ArrayLike) -> Quaternion:
     """The shortest rotation that takes +X to the unit vector `axis`; half a turn about +Z where it is −X."""
     x, y, z = (float(v) for v in np.asarray(axis, dtype=np.float64))
-    if x < -1.0 + 1e-12:
+    across = y * y + z * z
+    if x < 0.0 and across < 1e-24:
         return (0.0, 0.0, 0.0, 1.0)
-    return _canonical(np.array([1.0 + x, 0.0, -z, y]))
+    # 1 + x, without the cancellation near −X.
+    real = 1.0 + x if x >= 0.0 else across / (1.0 - x)
+    return _canonical(np.array([real, 0.0, -z, y]))
 
 
 def axis_of(quaternion: Quaternion) -> tuple[float, float, float]:

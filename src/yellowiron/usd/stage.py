@@ -18,6 +18,7 @@ from yellowiron.model.errors import OutputError
 from yellowiron.model.geometry import Floats
 
 Types = Sdf.ValueTypeNames
+WRITE_HINT = "Check that the folder exists, may be written to, and has space."
 
 
 def create_layer(default_prim: str, *, binary: bool = False) -> Sdf.Layer:
@@ -35,13 +36,10 @@ def save_layer(layer: Sdf.Layer, path: Path) -> Path:
         path.parent.mkdir(parents=True, exist_ok=True)
         saved = layer.Export(str(path))
     except (OSError, Tf.ErrorException) as error:
-        raise OutputError("The USD layer cannot be written", where=str(path), hint=_WRITE_HINT) from error
+        raise OutputError("The USD layer cannot be written", where=str(path), hint=WRITE_HINT) from error
     if not saved:
-        raise OutputError("The USD layer cannot be written", where=str(path), hint=_WRITE_HINT)
+        raise OutputError("The USD layer cannot be written", where=str(path), hint=WRITE_HINT)
     return path
-
-
-_WRITE_HINT = "Check that the folder exists, may be written to, and has space."
 
 
 def define(layer: Sdf.Layer, path: str, type_name: str = "", *, abstract: bool = False) -> Sdf.PrimSpec:
