@@ -1,6 +1,24 @@
 """The template library: templates from JSON, their lint, the user's own documents, and what is shown of them."""
 
+from yellowiron.library.copying import copy_template
+from yellowiron.library.documents import Documents, apply_joints, load_documents, with_relations
+from yellowiron.library.filled import filled_joints
+from yellowiron.library.lint import LintReport, lint
 from yellowiron.library.load import list_templates, load_template
 from yellowiron.library.reading import template_schema
+from yellowiron.library.show import tree
 
-__all__ = ["list_templates", "load_template", "template_schema"]
+__all__ = [
+    "Documents",
+    "LintReport",
+    "apply_joints",
+    "copy_template",
+    "filled_joints",
+    "lint",
+    "list_templates",
+    "load_documents",
+    "load_template",
+    "template_schema",
+    "tree",
+    "with_relations",
+]

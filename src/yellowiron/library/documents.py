@@ -1,0 +1,252 @@
+"""The user's own documents (`--data`): the conference paper's JSON-1 to JSON-4, or a filled joint template.
+
+A document is known by its content. Its names are roles or CAD part names, in which `*` stands for any text; case, `_`,
+`-` and spaces do not count. Findings: DOC001, a name matches nothing; DOC002, a joint names a part whose body is not
+known; DOC003, a document says nothing; DOC004, what a relation leads from is no body.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from yellowiron.library.details import EVERYTHING, matches, read_material
+from yellowiron.library.joints import GAINS, check_bodies, read_joint, split_index
+from yellowiron.library.reading import Document, check_document, near, read_json, template_schema
+from yellowiron.model.alignment import Alignment, PartAssignment
+from yellowiron.model.assembly import Assembly
+from yellowiron.model.errors import TemplateError
+from yellowiron.model.finding import Finding
+from yellowiron.model.specification import fold
+from yellowiron.model.template import JointTemplate, Material, Template
+
+_KINDS = "materials (density, color …), collision (texts), relations (lists) or joints (joint_type, Body …)"
+
+
+@dataclass(frozen=True)
+class Follower:
+    """A CAD part that a relations document moves with a body: the role it plays is `role` (the body's own, or the pin's
+    whose name it has)."""
+
+    part: str
+    role: str
+    body: str
+    source: str
+
+
+@dataclass(frozen=True)
+class Documents:
+    """What the user's documents say. `materials` and `collision` by role or CAD part name as spelled in the template or
+    the CAD model (or `*`); `relations` body → followers (CAD part names or roles); `joints` by name, merged with the
+    template's; `folders` those of the documents, in which textures are looked for."""
+
+    materials: Mapping[str, Material] = field(default_factory=dict)
+    collision: Mapping[str, str] = field(default_factory=dict)
+    relations: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    joints: Mapping[str, JointTemplate] = field(default_factory=dict)
+    followers: tuple[Follower, ...] = ()
+    folders: tuple[str, ...] = ()
+    findings: tuple[Finding, ...] = ()
+
+
+def load_documents(paths: Sequence[str | Path], template: Template, assembly: Assembly | None = None) -> Documents:
+    """The documents of `--data`, later ones winning. Without an assembly only roles can be named.
+
+    `TemplateError` for a file that is none of the four documents, or that fails its schema.
+    """
+    reader = _Reader(template, assembly)
+    documents = []
+    for path in map(Path, paths):
+        content = read_json(path)
+        kind = kind_of(content, path)
+        if kind is None:
+            reader.find("DOC003", str(path), "The document says nothing.", "Remove it, or fill it.")
+        else:
+            documents.append((kind, check_document(path, content, kind)))
+    for kind, document in sorted(documents, key=lambda d: d[0] == "joint_overrides"):
+        reader.read(kind, document)
+    return Documents(
+        materials=reader.materials,
+        collision=reader.collision,
+        relations={leader: tuple(names) for leader, names in reader.relations.items()},
+        joints=reader.joints,
+        followers=tuple(reader.followers.values()),
+        folders=tuple(dict.fromkeys(str(Path(p).parent) for p in paths)),
+        findings=tuple(dict.fromkeys(reader.findings)),
+    )
+
+
+def kind_of(content: Any, path: Path) -> str | None:
+    """Which of the four documents a content is (the name of its schema), None where it is empty. `TemplateError` for
+    anything else."""
+    values = list(content.values()) if isinstance(content, dict) else None
+    if values is not None and not values:
+        return None
+    if values is not None:
+        if all(isinstance(v, str) for v in values):
+            return "collision"
+        if all(isinstance(v, list) for v in values):
+            return "relations"
+        if all(isinstance(v, dict) for v in values):
+            keys = {fold(k) for v in values for k in v}
+            known = {
+                kind: keys & {fold(k) for k in template_schema(kind)["$defs"][entry]["properties"]}
+                for kind, entry in (("materials", "material"), ("joint_overrides", "joint"))
+            }
+            best = max(known, key=lambda kind: len(known[kind]))
+            if known[best]:
+                return best
+    raise TemplateError("The document is none that --data knows", where=str(path), hint=f"It takes {_KINDS}.")
+
+
+def apply_joints(template: Template, documents: Documents) -> Template:
+    """The template with the documents' joints: theirs replace those of the same name, new ones come after."""
+    joints = [documents.joints.get(j.name, j) for j in template.joints]
+    known = {j.name for j in template.joints}
+    joints += [j for name, j in documents.joints.items() if name not in known]
+    return replace(template, joints=tuple(joints))
+
+
+def with_relations(edits: Alignment | None, documents: Documents) -> Alignment | None:
+    """A person's alignment edits together with what relations documents say of CAD parts; the edits win."""
+    if not documents.followers:
+        return edits
+    edits = edits or Alignment(equipment_type="", frame=np.eye(4), parts=())
+    settled = {a.part for a in edits.parts if a.source == "edited"}
+    said = {
+        f.part: PartAssignment(f.part, f.role, f.body, 1.0, f.source, source="data")
+        for f in documents.followers
+        if f.part not in settled
+    }
+    return replace(edits, parts=(*(a for a in edits.parts if a.part not in said), *said.values()))
+
+
+class _Reader:
+    """What the documents say so far, and what the names in them can mean."""
+
+    def __init__(self, template: Template, assembly: Assembly | None) -> None:
+        self.template = template
+        self.roles = {fold(r.name): r.name for r in template.roles}
+        self.parts: dict[str, list[tuple[str, str]]] = {}
+        for part in assembly.parts if assembly is not None else ():
+            self.parts.setdefault(fold(part.name), []).append((part.name, part.id))
+        self.materials: dict[str, Material] = {}
+        self.collision: dict[str, str] = {}
+        self.relations: dict[str, list[str]] = {}
+        self.joints: dict[str, JointTemplate] = {}
+        self.followers: dict[str, Follower] = {}
+        self.findings: list[Finding] = []
+
+    def find(self, code: str, where: str, message: str, hint: str) -> None:
+        self.findings.append(Finding(code, "warning", where, message, hint))
+
+    def read(self, kind: str, document: Document) -> None:
+        if kind == "materials":
+            for key, entry in document.data.items():
+                material = read_material(document, key, entry)
+                _check_texture(material, document, key)
+                self.materials.update(dict.fromkeys(self.names(key, document.at(key)), material))
+        elif kind == "collision":
+            for key, token in document.data.items():
+                self.collision.update(dict.fromkeys(self.names(key, document.at(key)), token))
+        elif kind == "relations":
+            self.read_relations(document)
+        else:
+            for name, entry in document.data.items():
+                self.read_joint(document, name, entry)
+
+    def names(self, key: str, where: str) -> list[str]:
+        """The role and CAD part names that a key stands for."""
+        if key == EVERYTHING:
+            return [EVERYTHING]
+        if EVERYTHING in key:
+            spelled = [*self.roles.values(), *(found[0][0] for found in self.parts.values())]
+            names = [name for name in spelled if matches(name, key)]
+        else:
+            names = [self.roles[fold(key)]] if fold(key) in self.roles else []
+            names += [name for name, _ in self.parts.get(fold(key), ())[:1]]
+        if not names:
+            self.find("DOC001", where, f"'{key}' is neither a role nor a part of the CAD model.", self.near(key))
+        return list(dict.fromkeys(names))
+
+    def near(self, name: str) -> str:
+        return near(name, [*self.roles.values(), *(found[0][0] for found in self.parts.values())])
+
+    # ---- relations --------------------------------------------------------------------------------------------------
+    def read_relations(self, document: Document) -> None:
+        """Leaders are bodies, or followers of bodies that lead others."""
+        waiting: dict[str, list[str]] = {leader: list(names) for leader, names in document.data.items()}
+        while waiting:
+            ready = [leader for leader in waiting if self.leader(leader) is not None]
+            for leader in ready or list(waiting):
+                body = self.leader(leader)
+                names = waiting.pop(leader)
+                if body is None:
+                    message = f"'{leader}' leads others and is no body of the template."
+                    self.find("DOC004", document.at(leader), message, self.near(leader))
+                else:
+                    for index, name in enumerate(names):
+                        self.follow(name, body, document.at(leader, index), f"{document.path.name}: follows '{leader}'")
+
+    def leader(self, name: str) -> str | None:
+        """The body that a leader's name stands for."""
+        if fold(name) in self.roles:
+            return self.template.body_of(self.roles[fold(name)])
+        return next((self.followers[i].body for _, i in self.parts.get(fold(name), ()) if i in self.followers), None)
+
+    def follow(self, name: str, body: str, where: str, source: str) -> None:
+        role = self.roles.get(fold(name))
+        parts = self.parts.get(fold(name), [])
+        if not parts and (role is None or self.template.body_of(role) != body):
+            self.find("DOC001", where, f"'{name}' is no part of the CAD model.", self.near(name))
+            return
+        self.relations.setdefault(body, []).append(parts[0][0] if parts else role or name)
+        own = role if role is not None and self.template.body_of(role) == body else body
+        for _, part in parts:
+            self.followers[part] = Follower(part, own, body, source)
+
+    # ---- joints -----------------------------------------------------------------------------------------------------
+    def read_joint(self, document: Document, name: str, entry: Mapping[str, Any]) -> None:
+        base = {fold(j.name): j for j in self.template.joints} | {fold(n): j for n, j in self.joints.items()}
+        known = base.get(fold(name))
+        joint = read_joint(document, known.name if known else name, entry, known)
+        if "Body" in entry:
+            parts = [self.role_of(part) for part in joint.parts]
+            for part, role in zip(joint.parts, parts, strict=True):
+                if role is None:
+                    message = f"Which body '{part}' moves with is not known; the joint is left out."
+                    hint = self.near(part) or "Say it in a relations document."
+                    self.find("DOC002", document.at(name, "Body"), message, hint)
+            if parts[0] is None or parts[1] is None:
+                return
+            joint = replace(joint, parts=(parts[0], parts[1]))
+            check_bodies(joint, self.template.bodies_of(joint), document.at(name, "Body"))
+        self.joints[joint.name] = joint
+
+    def role_of(self, part: str) -> str | None:
+        """The role that a joint's part stands for: its own name, or the body it follows."""
+        name, index = split_index(part)
+        if fold(name) in self.roles:
+            return f"{self.roles[fold(name)]}[{index}]" if index else self.roles[fold(name)]
+        return next((self.followers[i].role for _, i in self.parts.get(fold(name), ()) if i in self.followers), None)
+
+
+def _check_texture(material: Material, document: Document, key: str) -> None:
+    if material.texture is not None and not (document.path.parent / material.texture).is_file():
+        raise TemplateError(
+            f"The texture '{material.texture}' is not there",
+            where=document.at(key, "texture"),
+            hint="Its path is relative to this document.",
+        )
+
+
+def stated_gains(joint: JointTemplate) -> Iterable[tuple[str, float]]:
+    """The gains that a joint entry states, SI."""
+    for key in GAINS:
+        value = getattr(joint, key)
+        if value is not None:
+            yield key, value

@@ -1,0 +1,70 @@
+"""A template as people see it: the hierarchy as a tree, each body with its pins and the joints that carry it."""
+
+from __future__ import annotations
+
+from rich.text import Text
+from rich.tree import Tree
+
+from yellowiron.library.joints import DIMENSION, split_index
+from yellowiron.library.quantities import number_text
+from yellowiron.model.template import Choices, JointTemplate, Role, Template
+from yellowiron.model.units import SI_UNIT
+
+
+def tree(template: Template) -> Tree:
+    """The hierarchy with, under each body, its joints (type, other body, pin, limits, drive)."""
+    top = Tree(Text(template.equipment_type, style="bold"))
+    nodes: dict[str | None, Tree] = {None: top}
+    shown: set[str] = set()
+    for role in template.roles:
+        if role.parent is None and not role.rigid and role.name == template.equipment_type:
+            nodes[role.name] = top
+            continue
+        nodes[role.name] = nodes[role.parent].add(_role(role, template))
+    for joint in template.joints:
+        bodies = [b for b in template.bodies_of(joint) if b is not None]
+        for part, body in zip(joint.parts, template.bodies_of(joint), strict=True):
+            # Under the body that the joint names itself: the one that moves, where the other is named by its pin.
+            if split_index(part)[0] == body and joint.name not in shown:
+                nodes[body].add(_joint(joint, next((b for b in bodies if b != body), body)))
+                shown.add(joint.name)
+    if template.actuators:
+        levers = top.add(Text("actuators", style="italic"))
+        for actuator in template.actuators:
+            moved = [c.slide for c in actuator.cylinders] or list(actuator.joints)
+            levers.add(Text.assemble((actuator.name, "bold"), f"  {actuator.kind}: {', '.join(moved)}"))
+    if template.variants:
+        choices = top.add(Text("variants", style="italic"))
+        for variant in template.variants:
+            words = ", ".join(f"{c} (default)" if c == variant.default else c for c in variant.choices)
+            choices.add(Text.assemble((variant.name, "bold"), f"  {words}; decided by {variant.decided_by}"))
+    return top
+
+
+def _role(role: Role, template: Template) -> Text:
+    text = Text(role.name + ("[*]" if role.many else ""), style="bold" if role.rigid else "")
+    notes = ["root"] if role.name == template.root else []
+    notes += [role.kind] if role.kind else []
+    notes += ["optional"] if role.optional else []
+    notes += _when(role.when)
+    return text.append(f"  {', '.join(notes)}" if notes else "", style="dim not bold")
+
+
+def _joint(joint: JointTemplate, other: str) -> Text:
+    pins = [p for p in joint.parts if p.endswith("pin")]
+    words = [f"{joint.type} with {other}" + (f" on {pins[0]}" if pins else "")]
+    if joint.lower is not None or joint.upper is not None:
+        unit = SI_UNIT[DIMENSION[joint.type]]
+        ends = [
+            "…" if v is None else v if isinstance(v, str) else number_text(v, unit) for v in (joint.lower, joint.upper)
+        ]
+        words.append(f"{ends[0]} to {ends[1]}")
+    words += [f"{joint.drive} drive"] if joint.drive else []
+    words += _when(joint.drive_when, "driven where ") if joint.drive else []
+    words += ["free"] if joint.free and (joint.drive is None or joint.drive_when) else []
+    words += _when(joint.when)
+    return Text.assemble((joint.name, "cyan"), (f"  {', '.join(words)}", "dim"))
+
+
+def _when(when: Choices, before: str = "") -> list[str]:
+    return [f"{before}{name}={'|'.join(choices)}" for name, choices in when.items()]
