@@ -10,30 +10,28 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from yellowiron.kinematics.branches import branch_pivots, branch_sine
-    from yellowiron.kinematics.calibrate import calibrate
+    from yellowiron.kinematics.calibration import calibrate
     from yellowiron.kinematics.chain import ClosedChain, KinematicsError, State
-    from yellowiron.kinematics.complete import complete
-    from yellowiron.kinematics.levers import LeverTable, lever_table
-    from yellowiron.kinematics.measure import key_poses, measure
+    from yellowiron.kinematics.completion import complete
+    from yellowiron.kinematics.levers import lever_table
+    from yellowiron.kinematics.measurement import key_poses, measure
 
 _HOME = {
     "ClosedChain": "chain",
     "KinematicsError": "chain",
-    "LeverTable": "levers",
     "State": "chain",
     "branch_pivots": "branches",
     "branch_sine": "branches",
-    "calibrate": "calibrate",
-    "complete": "complete",
-    "key_poses": "measure",
+    "calibrate": "calibration",
+    "complete": "completion",
+    "key_poses": "measurement",
     "lever_table": "levers",
-    "measure": "measure",
+    "measure": "measurement",
 }
 
 __all__ = [
     "ClosedChain",
     "KinematicsError",
-    "LeverTable",
     "State",
     "branch_pivots",
     "branch_sine",

@@ -88,7 +88,9 @@ def _mobility(mechanism: Mechanism, work: _Work) -> Mobility:
             mechanism.name,
             f"the machine has {mobility.computed} degrees of freedom where its drives and free joints make "
             f"{mobility.expected}",
-            f"Nothing holds: {', '.join(work.chain.idle) or 'a body'}." if more else "A pivot is missing: a loop is locked.",
+            f"Nothing holds: {', '.join(work.chain.idle) or 'a body'}."
+            if more
+            else "A pivot is missing: a loop is locked.",
         )
     return mobility
 
@@ -118,7 +120,7 @@ def _reachable(work: _Work, joint: Joint, end: str, limit: float) -> float:
         "KIN001",
         "warning",
         joint.name,
-        f"the linkage locks at {1e3 * stop:.1f} mm from the drawn pose, before the stroke's end at {1e3 * limit:.1f} mm",
+        f"the linkage locks {1e3 * stop:.1f} mm from the drawn pose, before the stroke's end at {1e3 * limit:.1f} mm",
         "Check the stroke, the closed length and the pins of this cylinder's loop.",
     )
     source = {**work.joints[joint.name].source, f"{end}_reason": "from the loop: dead point"}
@@ -205,11 +207,12 @@ def _branches(mechanism: Mechanism, grids: list[Grid], placed: list[tuple[Floats
             least = float(sines.min(initial=abs(sine)))
             if branch and least < STRAIGHT:
                 branch = 0 if least < 0.0 else branch
+                near = math.degrees(math.asin(max(0.0, least)))
                 work.find(
                     "KIN003",
                     "warning",
                     loop.cut,
-                    f"over the strokes its loop comes within {math.degrees(math.asin(max(0.0, least))):.1f}° of a dead point"
+                    f"over the strokes its loop comes within {near:.1f}° of a dead point"
                     if least >= 0.0
                     else "its loop changes branch within the strokes",
                     f"Pivots {', '.join(pivots[loop.cut])} must not come into line; check strokes and pins.",

@@ -1,0 +1,254 @@
+"""Measurements against the planar solution, calibration, lever tables."""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from planar_zbar import direction, mechanism, sketch, strokes, with_measurements
+from scipy.optimize import brentq
+
+from yellowiron.kinematics import ClosedChain, calibrate, complete, key_poses, lever_table, measure
+from yellowiron.kinematics.quantities import KINDS, wheels
+from yellowiron.model.template import MeasurementTemplate
+from yellowiron.model.text import plain
+
+DOWN = -math.radians(30.0)
+EDGE = {"kind": "height", "site": "edge"}
+PITCH = {"kind": "angle", "site": "edge"}
+
+
+def template(name: str, quantity, *steps) -> MeasurementTemplate:
+    return MeasurementTemplate(name, name, quantity, tuple(steps))
+
+
+def solve(*conditions):
+    return {"solve": [{"actuator": a, "quantity": q, "value": v} for a, q, v in conditions]}
+
+
+TEMPLATES = [
+    template("hinge at top", {"kind": "height", "joint": "bucket_pin"}, {"set": {"boom": "max"}}),
+    template("rack back at top", PITCH, {"set": {"boom": "max", "bucket": "max"}}),
+    template("clearance", EDGE, {"set": {"boom": "max"}}, solve(("bucket", PITCH, DOWN))),
+    template("reach", {"kind": "reach", "site": "edge"}, {"set": {"boom": "max"}}, solve(("bucket", PITCH, DOWN))),
+    template(
+        "rack back low",
+        PITCH,
+        solve(("boom", EDGE, 0.8), ("bucket", PITCH, math.radians(5.0))),
+        {"set": {"bucket": "max"}},
+    ),
+    template("steering", {"kind": "joint_angle", "joint": "articulation"}, {"set": {"steering": "max"}}),
+    template("right", {"kind": "joint_angle", "joint": "articulation", "factor": -1}, {"set": {"steering": "min"}}),
+    template("wheelbase", {"kind": "distance", "joints": ["front_wheel_l_joint", "rear_wheel_l_joint"], "axis": "x"}),
+    template("tread", {"kind": "distance", "joints": ["front_wheel_l_joint", "front_wheel_r_joint"]}),
+    template("oscillation", {"kind": "joint_range", "joint": "axle_joint"}),
+    template("width", {"kind": "extent", "axis": "y", "of": "length", "bodies": ["bucket"]}),
+    template("height", {"kind": "extent", "axis": "z", "of": "max", "bodies": ["*"]}, {"set": {"boom": 0.5}}),
+    template("approach", {"kind": "approach_angle", "bodies": ["bucket"]}, {"set": {"boom": "max", "bucket": "max"}}),
+]
+
+
+@pytest.fixture(scope="module")
+def planar():
+    z = sketch()
+    return z, strokes(z)
+
+
+@pytest.fixture(scope="module")
+def machine(planar):
+    return with_measurements(mechanism(*planar), TEMPLATES, {"hinge at top": 3.0})
+
+
+def expected(z, travel) -> dict[str, float]:
+    (l0, l1), (t0, t1) = travel
+    low, high = z.lift + l0, z.lift + l1
+
+    def pitch(p):
+        return direction(p["T"] - p["B"])
+
+    top = z.pose(high, z.tilt + t1)
+    dumped = z.pose(high, brentq(lambda t: pitch(z.pose(high, t)) - DOWN, z.tilt + t0, z.tilt + t1, xtol=1e-14))
+
+    def levelled(lift):
+        return brentq(lambda t: pitch(z.pose(lift, t)) - math.radians(5.0), z.tilt + t0, z.tilt + t1, xtol=1e-14)
+
+    ground = brentq(lambda lift: z.pose(lift, levelled(lift))["T"][1] - 0.8, low, high, xtol=1e-14)
+    # The tangent from the edge below the tyre: the angle between the line and the line to the wheel's centre.
+    centre = np.array([1.7, 0.8])
+    corners = [p - centre for p in (top["T"], top["B"], top["J"])]
+    approach = min(direction(c) + math.asin(0.8 / np.hypot(*c)) for c in corners)
+    half = z.pose(z.lift + 0.5 * (l0 + l1), z.tilt)
+    return {
+        "hinge at top": top["B"][1],
+        "rack back at top": pitch(top),
+        "clearance": dumped["T"][1],
+        "reach": dumped["T"][0] - 2.5,
+        "rack back low": pitch(z.pose(ground, z.tilt + t1)),
+        "steering": 0.6,
+        "right": 0.6,
+        "wheelbase": 3.4,
+        "tread": 2.0,
+        "oscillation": 0.4,
+        "width": 3.0,
+        "height": max(3.0, *(half[pin][1] for pin in "BDGFHJT"), z.A[1]),
+        "approach": approach,
+    }
+
+
+def test_measurements_agree_with_the_planar_solution(planar, machine):
+    want = expected(*planar)
+    found = {m.name: m for m in measure(machine)}
+    assert list(found) == [t.name for t in TEMPLATES]
+    for name, value in want.items():
+        assert found[name].model == pytest.approx(value, abs=1e-9), (name, found[name].reason)
+    top = found["hinge at top"]
+    assert top.spec == 3.0 and top.role == "checked"
+    assert top.error_percent == pytest.approx(100.0 * (want["hinge at top"] - 3.0) / 3.0)
+    assert found["steering"].spec is None and found["steering"].error_percent is None
+
+
+def test_completing_does_not_change_what_is_measured(machine):
+    before, after = measure(machine), measure(complete(machine))
+    assert [m.model for m in before] == pytest.approx([m.model for m in after], abs=1e-12)
+
+
+def test_a_drawing_may_show_the_machine_steered(planar, machine):
+    """The straight machine is where both steering cylinders are equally long, whatever the drawing shows."""
+    chain = ClosedChain(machine)
+    bent = chain.solve({"steering_l": 0.1})
+    moved = chain.pose(bent)
+    joints = []
+    for j in machine.joints:
+        pose = moved[j.body0]
+        anchor = tuple(float(v) for v in (pose @ [*j.anchor, 1.0])[:3])
+        axis = tuple(float(v) for v in pose[:3, :3] @ j.axis)
+        shift = chain.coordinate(bent, j.name) if j.type == "prismatic" else 0.0
+        limits = {} if j.lower is None or j.upper is None else {"lower": j.lower - shift, "upper": j.upper - shift}
+        joints.append(replace(j, anchor=anchor, axis=axis, **limits))
+    bodies = [
+        replace(b, origin=tuple(float(v) for v in (moved[b.name] @ [*b.origin, 1.0])[:3])) for b in machine.bodies
+    ]
+    shifts = {c.name: chain.coordinate(bent, c.slide) for c in machine.cylinders}
+    cylinders = [replace(c, drawn_length=c.drawn_length + shifts[c.name]) for c in machine.cylinders]
+    steered = replace(machine, joints=tuple(joints), bodies=tuple(bodies), cylinders=tuple(cylinders))
+    found = {m.name: m.model for m in measure(steered)}
+    assert found["steering"] == pytest.approx(0.6, abs=1e-9)
+    assert found["right"] == pytest.approx(0.6, abs=1e-9)
+
+
+def test_what_cannot_be_measured_says_why(machine):
+    high = template("too high", EDGE, solve(("boom", EDGE, 9.0)))
+    both = template("both too high", EDGE, solve(("boom", EDGE, 9.0), ("bucket", PITCH, 0.0)))
+    no_site = template("no site", {"kind": "height", "site": "moon"})
+    no_lever = template("no lever", EDGE, {"set": {"jib": "max"}})
+    no_kind = template("no kind", {"kind": "weight"})
+    motor = template("motor", EDGE, {"set": {"drive": "max"}})
+    odd = replace(machine, measurements=(high, both, no_site, no_lever, no_kind, motor))
+    found = measure(odd)
+    assert all(m.model is None and m.error_percent is None for m in found)
+    for m, words in zip(
+        found,
+        ("within the strokes it goes from", "cannot be reached together", "no site 'moon'", "no actuator 'jib'",
+         "no quantity of kind 'weight'", "no end of stroke"),
+        strict=True,
+    ):  # fmt: skip
+        assert words in m.reason, m.reason
+
+
+def test_roles_and_status(machine):
+    known = {
+        "Hinge at Top": {"value": 3.0, "unit": "m", "status": "ok", "example": True},
+        "clearance": {"value": 2.0, "unit": "m", "status": "conflict"},
+    }
+    found = {m.name: m for m in measure(replace(machine, specifications=known))}
+    assert found["hinge at top"].role == "example" and found["hinge at top"].spec == 3.0
+    assert found["clearance"].spec is None and "conflict" in found["clearance"].reason
+
+
+def shifted(machine, amounts):
+    """The machine with the closed lengths of some cylinders forgotten: limits off by `amounts`, source unknown."""
+    cylinders, limits = [], {}
+    for c in machine.cylinders:
+        actuator = next(a for a in machine.actuators if c.name in a.cylinders)
+        if actuator.name in amounts:
+            by = amounts[actuator.name]
+            limits[c.slide] = by
+            c = replace(c, closed_length=c.closed_length + by, sources={"closed_length": "unknown: half the stroke"})
+        cylinders.append(c)
+    joints = [
+        replace(j, lower=j.lower + limits[j.name], upper=j.upper + limits[j.name]) if j.name in limits else j
+        for j in machine.joints
+    ]
+    return replace(machine, cylinders=tuple(cylinders), joints=tuple(joints))
+
+
+def test_calibration_finds_the_closed_lengths(planar, machine):
+    values = {
+        k: v for k, v in expected(*planar).items() if k in ("hinge at top", "rack back at top", "clearance", "steering")
+    }
+    known = with_measurements(machine, TEMPLATES, values)
+    lost = shifted(known, {"boom": 0.06, "bucket": -0.04})
+    found = calibrate(lost)
+    for c, want in zip(found.cylinders, known.cylinders, strict=True):
+        assert c.closed_length == pytest.approx(want.closed_length, abs=1e-6)
+    for j, want in zip(found.joints, known.joints, strict=True):
+        assert j.lower == (want.lower if want.lower is None else pytest.approx(want.lower, abs=1e-6))
+    roles = {m.specification: m.role for m in measure(found) if m.spec is not None}
+    assert roles["hinge at top"] == "calibrated" and roles["rack back at top"] == "calibrated"
+    assert roles["steering"] == "checked"
+    assert [f.code for f in found.findings] == ["KIN010", "KIN010"]
+
+
+def test_calibration_without_anything_to_go_by(machine):
+    lost = shifted(replace(machine, specifications={}), {"boom": 0.06})
+    found = calibrate(lost)
+    assert [f.code for f in found.findings] == ["KIN011"]
+    assert found.joints == lost.joints
+
+
+def test_known_closed_lengths_are_left_alone(machine):
+    assert calibrate(machine) is machine
+
+
+def test_lever_tables_are_what_the_planar_solution_says(planar, machine):
+    z, travel = planar
+    table = lever_table(machine, "boom", n=5)
+    assert table["joint"] == "lift_l"
+    assert table["stroke"] == pytest.approx(np.linspace(*travel[0], 5).tolist())
+    assert table["extension"][0] == pytest.approx(0.0, abs=1e-12)
+    for stroke, angle, lever in zip(table["stroke"], *table["pivots"]["boom_pin"].values(), strict=True):
+        p = z.pose(z.lift + stroke, z.tilt)
+        assert angle == pytest.approx(-p["boom"], abs=1e-9)
+        u = (p["D"] - z.C) / np.hypot(*(p["D"] - z.C))
+        arm = p["D"] - z.A
+        assert abs(lever) == pytest.approx(abs(arm[0] * u[1] - arm[1] * u[0]), abs=1e-9)
+    assert lever_table(machine, "drive") == {} and lever_table(machine, "moon") == {}
+    assert json.loads(json.dumps(plain(lever_table(machine, "bucket"))))["pivots"]["bucket_pin"]["lever"]
+    positive = lever_table(machine, "steering", n=3)["pivots"]["articulation"]["angle"]
+    assert positive == pytest.approx(sorted(positive)) and positive[-1] == pytest.approx(0.6, abs=1e-9)
+
+
+def test_key_poses_differ(machine):
+    poses = key_poses(machine)
+    assert 2 <= len(poses) <= 4
+    assert all(set(pose) == {b.name for b in machine.bodies} for pose in poses.values())
+
+
+def test_wheels_are_found_by_what_they_are(machine):
+    found = wheels(machine)
+    assert [joint.body1 for joint, _ in found] == ["front_wheel_l", "front_wheel_r", "rear_wheel_l", "rear_wheel_r"]
+    assert all(radius == pytest.approx(0.8, abs=1e-12) for _, radius in found)
+
+
+def test_every_quantity_is_documented(root):
+    text = (root / "docs" / "measurements.md").read_text(encoding="utf-8")
+    assert all(f"`{kind}`" in text for kind in KINDS)
+
+
+def test_the_library_measures_only_what_exists(root):
+    for path in sorted((root / "src" / "yellowiron" / "library" / "data").glob("*/measurements.json")):
+        for entry in json.loads(path.read_text(encoding="utf-8"))["measurements"]:
+            assert entry["quantity"]["kind"] in KINDS
