@@ -75,7 +75,7 @@ TIPPING_LOAD_FULL_TURN = _published("Static tipping load full turn 40 deg", 1777
 # ---- ours: what the sheet prints as "example value" ------------------------------------------------------------------
 RACK_BACK_GROUND = Value("Rack-back angle at ground", 40.0, "deg")
 """Lift cylinders where the level bucket's edge rests on the ground, bucket cylinder fully extended."""
-RACK_BACK_MAX = Value("Rack-back angle at maximum lift", 55.0, "deg")
+RACK_BACK_MAX = Value("Rack-back angle at maximum lift", 50.0, "deg")
 DUMP_ANGLE_MAX = Value("Dump angle at maximum lift", 48.0, "deg")
 """Bucket cylinder fully retracted, lift cylinders fully extended; the bucket then stands at -48 degrees."""
 APPROACH_ANGLE_CARRY = Value("Approach angle in carry position", 15.0, "deg")
@@ -100,7 +100,7 @@ REAR_OVERHANG = Value("Rear axle centre to rear of counterweight", 2500.0, "mm")
 
 # ---- ours: how the cylinders are drawn; a sheet does not print these -------------------------------------------------
 LIFT_CLOSED = Value("Lift cylinder closed length", 1240.0, "mm")
-TILT_CLOSED = Value("Bucket cylinder closed length", 1080.0, "mm")
+TILT_CLOSED = Value("Bucket cylinder closed length", 1130.0, "mm")
 STEER_CLOSED = Value("Steering cylinder closed length", 745.0, "mm")
 
 TYRE_SIZE = "26.5R25"

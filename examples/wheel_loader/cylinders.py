@@ -1,0 +1,86 @@
+"""Hydraulic cylinders, drawn in their own frame: barrel pin at the origin, rod along +x, pins along y. Millimetres.
+
+The piston meets the base cap at the closed length and the gland at closed length + stroke, so the drawn travel is the stroke.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from product import CHROME, GREY, STEEL, YELLOW, Assembly, Colour, Part
+from solids import X, Y, Z, bored, box, cut, fuse, plate, ring, rod, shift
+
+
+@dataclass(frozen=True, slots=True)
+class Cylinder:
+    """Sizes of one cylinder, millimetres; `drawn` is its pin-to-pin length in the file."""
+
+    name: str
+    bore: float
+    rod: float
+    stroke: float
+    closed: float
+    drawn: float
+    outside: float
+    pin: float
+    eye: float
+    eye_width: float
+    base: float
+    cap: float
+    piston: float
+    gland: float
+    colour: Colour = YELLOW
+
+    @property
+    def inside(self) -> float:
+        """Length of the bore between base cap and gland: stroke + piston."""
+        return self.stroke + self.piston
+
+    @property
+    def gland_face(self) -> float:
+        """Outer face of the gland, from the barrel pin."""
+        return self.base + self.inside + self.gland
+
+    @property
+    def rod_showing_closed(self) -> float:
+        """Gland face to rod pin at the closed length."""
+        return self.closed - self.gland_face
+
+
+PISTON_CLEARANCE = 0.25
+ROD_CLEARANCE = 0.25
+PIN_CLEARANCE = 0.2
+"""Radial clearances, millimetres."""
+
+
+def draw_cylinder(c: Cylinder, pin_fast_in_rod: bool = False) -> Assembly:
+    """The cylinder at its drawn length. Bodies are tagged "barrel" and "rod"; the user of the assembly names them.
+
+    `pin_fast_in_rod`: the rod's pin is held in the rod eye (bore of the pin's size) rather than in the other machine part.
+    """
+    tree = Assembly(c.name)
+    half = c.eye_width / 2
+    outer, inner = c.outside / 2, c.bore / 2
+    start = c.base - c.cap
+    port = rod((c.base + 35, 0, 0), Z, 22, outer + 28), rod((c.gland_face - c.gland - 40, 0, 0), Z, 22, outer + 28)
+    tube = fuse(rod((start, 0, 0), X, outer, c.cap + c.inside + c.gland - 30), *port)
+    tube = cut(tube, rod((c.base, 0, 0), X, inner, c.inside + c.gland))
+    tree.add(Part(f"{c.name} TUBE", tube, c.colour), "barrel")
+    lug = plate([(0, 0, c.eye), (start + 2, -c.eye * 0.9, 0), (start + 2, c.eye * 0.9, 0)], "xz", -half, half)
+    eye = bored(lug, Y, ((0, 0, 0), c.pin / 2 + PIN_CLEARANCE))
+    tree.add(Part(f"{c.name} BRL EYE", eye, c.colour), "barrel")
+    nose = rod((c.gland_face - 30, 0, 0), X, outer, 30.0)
+    gland = fuse(rod((c.gland_face - c.gland, 0, 0), X, inner, c.gland), nose)
+    gland = bored(gland, X, ((0, 0, 0), c.rod / 2 + ROD_CLEARANCE))
+    tree.add(Part(f"{c.name} GLAND", gland, GREY), "barrel")
+
+    piston_at = c.base + c.drawn - c.closed
+    head = c.drawn - c.eye * 0.8
+    tree.add(Part(f"{c.name} ROD", rod((piston_at, 0, 0), X, c.rod / 2, head - piston_at), CHROME), "rod")
+    piston = ring((piston_at, 0, 0), X, inner - PISTON_CLEARANCE, c.rod / 2, c.piston)
+    tree.add(Part(f"{c.name} PISTON", piston, STEEL), "rod")
+    shank = box(-c.eye * 0.8 - 12, 0, -half * 0.8, half * 0.8, -c.rod / 2 - 6, c.rod / 2 + 6)
+    shape = fuse(rod((0, -half, 0), Y, c.eye, c.eye_width), shank)
+    clearance = 0.0 if pin_fast_in_rod else PIN_CLEARANCE
+    tree.add(Part(f"{c.name} ROD EYE", bored(shape, Y, ((0, 0, 0), c.pin / 2 + clearance)), c.colour), "rod", at=shift(c.drawn))
+    return tree

@@ -1,0 +1,178 @@
+"""The product tree of the example: parts, assemblies, and the STEP file they are written to.
+
+Everything is designed in the machine frame (x forward, y left, z up; millimetres) and delivered in another: `TO_CAD` turns it so that
+CAD x points backward, y up and z left, with the origin in the middle of the rear axle, as the drawing office of this example has it.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import values as v
+from OCP.gp import gp_Ax3, gp_Dir, gp_Pnt, gp_Trsf
+from OCP.IFSelect import IFSelect_ReturnStatus
+from OCP.Interface import Interface_Static
+from OCP.Message import Message
+from OCP.Quantity import Quantity_Color, Quantity_TypeOfColor
+from OCP.STEPCAFControl import STEPCAFControl_Writer
+from OCP.STEPControl import STEPControl_StepModelType
+from OCP.TCollection import TCollection_ExtendedString
+from OCP.TDataStd import TDataStd_Name
+from OCP.TDF import TDF_Label
+from OCP.TDocStd import TDocStd_Document
+from OCP.TopLoc import TopLoc_Location
+from OCP.TopoDS import TopoDS_Shape
+from OCP.XCAFDoc import XCAFDoc_ColorType, XCAFDoc_DocumentTool, XCAFDoc_ShapeTool
+from solids import moved
+
+Colour = tuple[float, float, float]
+YELLOW: Colour = (0.98, 0.72, 0.07)
+GREY: Colour = (0.35, 0.36, 0.38)
+BLACK: Colour = (0.08, 0.08, 0.09)
+STEEL: Colour = (0.62, 0.64, 0.66)
+CHROME: Colour = (0.85, 0.86, 0.88)
+BRONZE: Colour = (0.72, 0.53, 0.25)
+GLASS: Colour = (0.55, 0.72, 0.80)
+RED: Colour = (0.75, 0.10, 0.08)
+AMBER: Colour = (1.0, 0.55, 0.0)
+
+ORIGIN = (-v.WHEELBASE.value / 2, 0.0, v.TYRE_DIAMETER.value / 2)
+"""CAD origin in the machine frame: the middle of the rear axle, millimetres."""
+
+
+def to_cad() -> gp_Trsf:
+    """Machine frame to CAD frame: CAD x = -x, y = z, z = y, about `ORIGIN`."""
+    t = gp_Trsf()
+    t.SetTransformation(gp_Ax3(), gp_Ax3(gp_Pnt(*ORIGIN), gp_Dir(0, 1, 0), gp_Dir(-1, 0, 0)))
+    return t
+
+
+@dataclass(eq=False)
+class Part:
+    """One shape of the file, used once or often."""
+
+    name: str
+    shape: TopoDS_Shape
+    colour: Colour = YELLOW
+    density: float = 7850.0
+
+
+@dataclass(frozen=True)
+class Use:
+    """One occurrence in an assembly. `body` and `role` are the truth; inside a shared assembly they are tags that the assembly's own
+    `Use.names` translates. A placement of None means that the child is drawn in the machine frame."""
+
+    child: Part | Assembly
+    placement: gp_Trsf | None = None
+    body: str = ""
+    role: str = ""
+    names: dict[str, str] = field(default_factory=dict)
+
+
+@dataclass(eq=False)
+class Assembly:
+    """A node of the product tree."""
+
+    name: str
+    uses: list[Use] = field(default_factory=list)
+
+    def add(self, child: Part | Assembly, body: str = "", role: str = "", at: gp_Trsf | None = None) -> None:
+        """One more occurrence; the role is the body's own unless given."""
+        self.uses.append(Use(child, at, body, role or body))
+
+
+@dataclass(frozen=True)
+class Occurrence:
+    """A leaf of the tree: its path of product names, its place in the machine frame, and the truth about it."""
+
+    path: str
+    part: Part
+    place: gp_Trsf
+    body: str
+    role: str
+
+
+def occurrences(root: Assembly) -> list[Occurrence]:
+    """Every leaf in tree order; the second of two equal paths ends in '#2', the third in '#3'."""
+    seen: dict[str, int] = {}
+    leaves: list[Occurrence] = []
+    for path, part, place, body, role in _walk(root, root.name, gp_Trsf(), ()):
+        seen[path] = seen.get(path, 0) + 1
+        unique = path if seen[path] == 1 else f"{path}#{seen[path]}"
+        leaves.append(Occurrence(unique, part, place, body, role))
+    return leaves
+
+
+def _walk(
+    node: Assembly, path: str, place: gp_Trsf, names: tuple[dict[str, str], ...]
+) -> Iterator[tuple[str, Part, gp_Trsf, str, str]]:
+    for use in node.uses:
+        here = place.Multiplied(use.placement) if use.placement else place
+        below = f"{path}/{use.child.name}"
+        if isinstance(use.child, Assembly):
+            yield from _walk(use.child, below, here, (use.names, *names))
+        else:
+            body, role = use.body, use.role
+            for table in names:
+                body, role = table.get(body, body), table.get(role, role)
+            yield below, use.child, here, body, role
+
+
+def write_step(root: Assembly, path: Path) -> None:
+    """The tree as one STEP AP214 file in the CAD frame; the same bytes every time."""
+    document = TDocStd_Document(TCollection_ExtendedString("BinXCAF"))
+    shapes = XCAFDoc_DocumentTool.ShapeTool_s(document.Main())
+    colours = XCAFDoc_DocumentTool.ColorTool_s(document.Main())
+    cad = to_cad()
+    made: dict[tuple[int, bool], TDF_Label] = {}
+
+    def name(label: TDF_Label, text: str) -> None:
+        TDataStd_Name.Set_s(label, TCollection_ExtendedString(text, True))
+
+    def label_of(node: Part | Assembly, own_frame: bool) -> TDF_Label:
+        key = (id(node), own_frame)
+        if key in made:
+            return made[key]
+        if isinstance(node, Part):
+            label = shapes.AddShape(node.shape if own_frame else moved(node.shape, cad), False)
+            tint = Quantity_Color(*node.colour, Quantity_TypeOfColor.Quantity_TOC_sRGB)
+            colours.SetColor(label, tint, XCAFDoc_ColorType.XCAFDoc_ColorSurf)
+        else:
+            label = shapes.NewShape()
+            for use in node.uses:
+                at = use.placement
+                child = label_of(use.child, own_frame or at is not None)
+                where = gp_Trsf() if at is None else (at if own_frame else cad.Multiplied(at))
+                name(shapes.AddComponent(label, child, TopLoc_Location(where)), use.child.name)
+        name(label, node.name)
+        made[key] = label
+        return label
+
+    label_of(root, False)
+    shapes.UpdateAssemblies()
+    XCAFDoc_ShapeTool.SetAutoNaming_s(False)
+    messenger = Message.DefaultMessenger_s()
+    messenger.RemovePrinters(messenger.Printers().First().DynamicType())
+    writer = STEPCAFControl_Writer()
+    Interface_Static.SetCVal_s("write.step.schema", "AP214IS")
+    Interface_Static.SetCVal_s("write.step.unit", "MM")
+    Interface_Static.SetIVal_s("write.surfacecurve.mode", 0)
+    writer.SetNameMode(True)
+    writer.SetColorMode(True)
+    writer.Transfer(document, STEPControl_StepModelType.STEPControl_AsIs)
+    if writer.Write(str(path)) != IFSelect_ReturnStatus.IFSelect_RetDone:
+        raise OSError(f"the STEP file could not be written: {path}")
+    _fix_header(path, root.name)
+
+
+def _fix_header(path: Path, title: str) -> None:
+    """A header without the time of day, the user or the machine it was written on."""
+    text = path.read_text(encoding="utf-8")
+    head = (
+        f"FILE_NAME('{title}','2025-01-01T00:00:00',('yellowiron example'),(''),"
+        "'Open CASCADE','yellowiron example','');"
+    )
+    path.write_text(re.sub(r"FILE_NAME\(.*?\);", lambda _: head, text, count=1, flags=re.S), encoding="utf-8", newline="\n")

@@ -1,0 +1,143 @@
+"""The truth about the drawn machine: what each part is, where each joint is, what the linkage gives. CAD frame, metres."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import values as v
+from cylinders import Cylinder
+from linkage import EDGE_DEPTH, FRONT_AXLE_X, LIFT_MAX, LIFT_MIN, TILT_MAX, TILT_MIN, TYRE_RADIUS, Linkage, Pose, Steering
+from numpy.typing import NDArray
+from product import ORIGIN, Assembly, occurrences
+
+Array = NDArray[np.float64]
+_TO_MACHINE = np.array([[-1.0, 0, 0], [0, 0, 1.0], [0, 1.0, 0]])
+"""CAD x is backward, y up, z left."""
+Y, Z, X = (0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (1.0, 0.0, 0.0)
+
+
+def frame_matrix() -> list[list[float]]:
+    """4x4, CAD metres to machine metres."""
+    m = np.eye(4)
+    m[:3, :3] = _TO_MACHINE
+    m[:3, 3] = np.array(ORIGIN) / 1000.0
+    return [[float(c) + 0.0 for c in row] for row in m]
+
+
+def _point(p: tuple[float, float, float]) -> list[float]:
+    return [round(float(c), 9) + 0.0 for c in _TO_MACHINE.T @ (np.array(p, dtype=float) - ORIGIN) / 1000.0]
+
+
+def _axis(a: tuple[float, float, float]) -> list[float]:
+    n = np.array(a, dtype=float)
+    return [round(float(c), 9) + 0.0 for c in _TO_MACHINE.T @ (n / np.linalg.norm(n))]
+
+
+def joints(k: Linkage, pose: Pose, s: Steering, steer_z: float, lift_y: float) -> dict[str, dict[str, Any]]:
+    """Every joint of the machine. Anchors and axes in the CAD frame; pitch axes towards the machine's left, slides outward."""
+    out: dict[str, dict[str, Any]] = {}
+
+    def add(name: str, kind: str, bodies: tuple[str, str], at: tuple[float, float, float], axis: tuple[float, float, float]) -> None:
+        out[name] = {"type": kind, "body0": bodies[0], "body1": bodies[1], "anchor": _point(at), "axis": _axis(axis)}
+
+    def pivot(a: str, b: str, at: tuple[float, float, float], axis: tuple[float, float, float] = Y) -> None:
+        add(f"{a}2{b}_joint", "revolute", (a, b), at, axis)
+
+    z = TYRE_RADIUS
+    add("rear2front_joint", "revolute", ("rear_frame", "front_frame"), (0, 0, 1060.0), Z)
+    pivot("rear_frame", "rear_axle", (-FRONT_AXLE_X, 0, z), X)
+    half = v.TREAD.value / 2
+    for end, parent, x in (("front", "front_frame", FRONT_AXLE_X), ("rear", "rear_axle", -FRONT_AXLE_X)):
+        for letter, y in (("l", half), ("r", -half)):
+            add(f"{end}_wheel_{letter}_joint", "revolute", (parent, f"{end}_wheel_{letter}"), (x, y, z), Y)
+    along = s.Q - s.P
+    for letter, sign in (("l", 1.0), ("r", -1.0)):
+        barrel, piston = f"steering_cylinder_barrel_{letter}", f"steering_piston_rod_{letter}"
+        p, q = (s.P[0], sign * s.P[1], steer_z), (s.Q[0], sign * s.Q[1], steer_z)
+        pivot("rear_frame", barrel, p, Z)
+        pivot("front_frame", piston, q, Z)
+        add(f"{barrel}2{piston}_joint", "prismatic", (barrel, piston), p, (along[0], sign * along[1], 0.0))
+    pivot("front_frame", "boom", (k.A[0], 0, k.A[1]))
+    d = pose.D - k.C
+    for letter, sign in (("l", 1.0), ("r", -1.0)):
+        barrel, piston = f"boom_cylinder_barrel_{letter}", f"boom_piston_rod_{letter}"
+        c = (k.C[0], sign * lift_y, k.C[1])
+        pivot("front_frame", barrel, c)
+        pivot("boom", piston, (pose.D[0], sign * lift_y, pose.D[1]))
+        add(f"{barrel}2{piston}_joint", "prismatic", (barrel, piston), c, (d[0], 0.0, d[1]))
+    e = (k.E[0], 0.0, k.E[1])
+    pivot("front_frame", "bucket_cylinder_barrel", e)
+    f = pose.F - k.E
+    slide = ("bucket_cylinder_barrel", "bucket_piston_rod")
+    add("bucket_piston_rod2bucket_cylinder_barrel_joint", "prismatic", slide, e, (f[0], 0.0, f[1]))
+    pivot("bucket_piston_rod", "rocker", (pose.F[0], 0, pose.F[1]))
+    pivot("boom", "rocker", (pose.G[0], 0, pose.G[1]))
+    pivot("rocker", "bucket_link", (pose.H[0], 0, pose.H[1]))
+    pivot("bucket_link", "bucket", (pose.J[0], 0, pose.J[1]))
+    pivot("boom", "bucket", (pose.B[0], 0, pose.B[1]))
+    return out
+
+
+def _slides(cylinders: dict[str, Cylinder]) -> dict[str, dict[str, float]]:
+    def one(c: Cylinder) -> dict[str, float]:
+        mm = {"stroke": c.stroke, "bore": c.bore, "rod_diameter": c.rod, "closed_length": c.closed, "drawn_length": c.drawn}
+        return {key: round(value / 1000.0, 9) for key, value in mm.items()}
+
+    out = {"bucket_piston_rod2bucket_cylinder_barrel_joint": one(cylinders["tilt"])}
+    for letter in "lr":
+        out[f"boom_cylinder_barrel_{letter}2boom_piston_rod_{letter}_joint"] = one(cylinders["lift"])
+        out[f"steering_cylinder_barrel_{letter}2steering_piston_rod_{letter}_joint"] = one(cylinders["steer"])
+    return out
+
+
+def measured(k: Linkage, s: Steering) -> dict[str, float]:
+    """What the solved linkage gives for the values it was solved for, by the value's name; millimetres and degrees."""
+    degrees = math.degrees
+    ground = k.lift_for_hinge(EDGE_DEPTH)
+    level = k.pose(ground, k.tilt_for_angle(ground, 0.0))
+    dump = k.pose(LIFT_MAX, k.tilt_for_angle(LIFT_MAX, math.radians(-45.0)))
+    low = k.pose(LIFT_MIN, k.tilt_for_angle(LIFT_MIN, 0.0))
+    closed, open_ = v.STEER_CLOSED.value, v.STEER_CLOSED.value + v.STEER_STROKE.value
+    lock = math.radians(v.STEER_ANGLE.value)
+    return {
+        v.HINGE_HEIGHT_MAX.name: float(dump.B[1]),
+        v.DUMP_CLEARANCE.name: float(dump.T[1]),
+        v.DUMP_REACH.name: float(dump.T[0] - FRONT_AXLE_X - TYRE_RADIUS),
+        v.OVERALL_LENGTH.name: float(level.T[0] + FRONT_AXLE_X + v.REAR_OVERHANG.value),
+        v.RACK_BACK_GROUND.name: degrees(k.pose(ground, TILT_MAX).bucket_angle),
+        v.RACK_BACK_MAX.name: degrees(k.pose(LIFT_MAX, TILT_MAX).bucket_angle),
+        v.DUMP_ANGLE_MAX.name: -degrees(k.pose(LIFT_MAX, TILT_MIN).bucket_angle),
+        v.DIG_DEPTH.name: -float(low.T[1]),
+        v.STEER_ANGLE.name: v.STEER_ANGLE.value + (closed - s.length(lock) + s.length(-lock) - open_),
+    }
+
+
+def truth(
+    root: Assembly, k: Linkage, pose: Pose, s: Steering, cylinders: dict[str, Cylinder], steer_z: float, lift_y: float
+) -> dict[str, Any]:
+    """The document written as `truth.json`."""
+    got = measured(k, s)
+    named = {value.name: value for value in (*v.PUBLISHED, *v.EXAMPLE)}
+    return {
+        "about": "CAD frame, metres. A part's key is its product names from the root joined by '/', in tree order; the second of two "
+        "equal keys ends in '#2', the third in '#3'.",
+        "frame": frame_matrix(),
+        "joints": joints(k, pose, s, steer_z, lift_y),
+        "parts": {leaf.path: {"body": leaf.body, "role": leaf.role} for leaf in occurrences(root)},
+        "cylinders": _slides(cylinders),
+        "drawn": {
+            "boom_angle": round(math.degrees(pose.boom_angle), 9),
+            "bucket_angle": round(math.degrees(pose.bucket_angle), 9),
+        },
+        "values": {
+            name: {
+                "target": named[name].value,
+                "linkage": round(value, 6),
+                "unit": named[name].unit,
+                "published": named[name].published,
+            }
+            for name, value in got.items()
+        },
+    }
