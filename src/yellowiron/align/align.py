@@ -1,0 +1,353 @@
+"""Alignment: which part plays which role. Reads as a method section; each step is a module of its own.
+
+1 solids and their features · 2 contacts: shafts in bores, flat faces on each other · 3 hydraulic cylinders · 4 wheels ·
+5 rigid clusters and the hinges between them · 6 names as weights · 7 clusters to bodies by CP-SAT, one variant against the other ·
+8 the machine's frame, then left and right · 9 pins, hardware and all the rest · 10 what a person said before.
+"""
+
+from __future__ import annotations
+
+import functools
+import itertools
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from yellowiron.align.clusters import Structure, structure_of
+from yellowiron.align.contacts import Flat, fits_of, flats_of, lines_of, neighbours
+from yellowiron.align.frame import MachineFrame, machine_frame
+from yellowiron.align.hydraulics import rams_of
+from yellowiron.align.names import name_scores
+from yellowiron.align.solids import Solid, solids_of
+from yellowiron.align.solve import Solution, solve
+from yellowiron.align.spread import Place, Spreader, pin_role
+from yellowiron.align.touch import Touch
+from yellowiron.align.wheels import Wheel, wheels_of
+from yellowiron.model.alignment import Alignment, PartAssignment
+from yellowiron.model.assembly import Assembly
+from yellowiron.model.errors import AlignmentError
+from yellowiron.model.finding import Finding
+from yellowiron.model.specification import Specifications
+from yellowiron.model.template import Template, choose
+
+REVIEW = 0.5
+"""Parts and roles below this confidence are for a person to look at."""
+CONTACT = 4e-5
+"""Two faces touch within this share of the machine's diagonal (0.4 mm on 10 m)."""
+NAME_WEIGHT = 40
+EXACT_WEIGHT = 70
+EDIT_WEIGHT = 150
+SIDE_WEIGHT = 20
+_SIDE = re.compile(r"(?<=_)([lr])(?=_|$)")
+
+
+@dataclass(frozen=True, eq=False)
+class _Seen:
+    """What geometry shows, before any role."""
+
+    solids: tuple[Solid, ...]
+    flats: list[Flat]
+    near: list[tuple[int, int]]
+    wheels: list[Wheel]
+    structure: Structure
+    weaker: Callable[[], Structure]
+    touch: Touch
+    size: float
+
+
+@dataclass(frozen=True, eq=False)
+class _Answer:
+    """One variant of the template, solved."""
+
+    choices: dict[str, str]
+    template: Template
+    solution: Solution
+    unary: dict[tuple[int, str], int]
+
+
+def align(
+    assembly: Assembly,
+    template: Template,
+    specifications: Specifications,
+    *,
+    edits: Alignment | None = None,
+    choices: Mapping[str, str] | None = None,
+) -> Alignment:
+    """Roles for the parts of a CAD model.
+
+    `template` may carry variants: those `decided_by` geometry are tried and the best is taken, unless `choices` fixes
+    them. `edits` is an earlier alignment, as a person left it (`read_alignment`): its parts with source `edited` keep
+    their role. `AlignmentError` for an assembly without parts, for an unknown choice, and for edits that name parts or
+    roles that do not exist. The result does not depend on the order, names (beyond their weight) or frame of the parts.
+    """
+    if not assembly.parts:
+        raise AlignmentError(
+            "The CAD model has no parts", where=assembly.name, hint="Check that the file holds solids."
+        )
+    edited = _edited(assembly, template, edits)
+    seen = _see(assembly, template)
+    scores = name_scores(tuple(s.part for s in seen.solids), template)
+    answer = _best(seen, template, choices or {}, scores, edited)
+    if not _whole(answer):
+        weaker = replace(seen, structure=seen.weaker())
+        other = _best(weaker, template, choices or {}, scores, edited)
+        if other.solution.score > answer.solution.score:
+            seen, answer = weaker, other
+    chosen, resolved, solution, unary = answer.choices, answer.template, answer.solution, answer.unary
+    frame = machine_frame(seen.solids, seen.structure, solution, seen.wheels, resolved) if seen.solids else None
+    if frame is not None and solution.body_of:
+        sided = _sides(seen, resolved, solution, frame, unary)
+        if sided != unary:
+            solution = solve(seen.structure, resolved, unary=sided)
+            frame = machine_frame(seen.solids, seen.structure, solution, seen.wheels, resolved)
+    spreader = Spreader(
+        seen.solids, seen.structure, solution, resolved, seen.flats, seen.near, seen.touch, scores, seen.size
+    )
+    places = spreader.run(seen.wheels)
+    return _report(assembly, resolved, seen, solution, places, edited, chosen, frame or MachineFrame(np.eye(4)))
+
+
+def _best(
+    seen: _Seen,
+    template: Template,
+    choices: Mapping[str, str],
+    scores: list[dict[str, float]],
+    edited: Mapping[str, str],
+) -> _Answer:
+    """The variant that the geometry fits best."""
+    best: _Answer | None = None
+    for chosen in _variants(template, choices):
+        resolved = choose(template, chosen)
+        unary = _unary(seen, resolved, scores, edited)
+        solution = solve(seen.structure, resolved, unary=unary)
+        if best is None or solution.score > best.solution.score:
+            best = _Answer(chosen, resolved, solution, unary)
+    assert best is not None
+    return best
+
+
+def _whole(answer: _Answer) -> bool:
+    """True where every body is played and every joint found."""
+    found = {*answer.solution.hinge_of, *answer.solution.slide_of}
+    joints = {j.name for j in answer.template.joints if j.type in ("revolute", "prismatic")}
+    bodies = {r.name for r in answer.template.roles if r.rigid and not r.optional}
+    return joints <= found and bodies <= set(answer.solution.body_of.values())
+
+
+def _see(assembly: Assembly, template: Template) -> _Seen:
+    solids = solids_of(assembly)
+    if not solids:
+        nothing = Structure((), (), (), ())
+        return _Seen((), [], [], [], nothing, lambda: nothing, Touch((), 0.0), 0.0)
+    size = float(np.linalg.norm(np.max([s.high for s in solids], axis=0) - np.min([s.low for s in solids], axis=0)))
+    tolerance = CONTACT * size
+    fits = fits_of(solids, tolerance)
+    lines = lines_of(fits, tolerance)
+    near = neighbours(solids, tolerance)
+    flats = flats_of(solids, near, tolerance)
+    rams = rams_of(solids) if any(r.kind in ("barrel", "rod") for r in template.roles) else []
+    taken = {i for r in rams for i in r.barrel | r.rod}
+    wheels = wheels_of(solids, sum(1 for r in template.roles if r.kind == "wheel" and r.rigid), taken)
+    touch = Touch(solids, tolerance)
+    cluster = functools.partial(
+        structure_of, solids, fits, lines, flats, rams, wheels, touching=touch.touching, near=near,
+        leaves=_has_leaves(template),
+    )  # fmt: skip
+    return _Seen(solids, flats, near, wheels, cluster(), lambda: cluster(weak=True), touch, size)
+
+
+def _has_leaves(template: Template) -> bool:
+    """True if a body other than a wheel hangs on a single joint."""
+    degree: dict[str, int] = {r.name: 0 for r in template.roles if r.rigid}
+    for joint in template.joints:
+        for body in template.bodies_of(joint):
+            if body is not None:
+                degree[body] += 1
+    kinds = {r.name: r.kind for r in template.roles}
+    return any(n == 1 and kinds[b] != "wheel" and b != template.root for b, n in degree.items())
+
+
+def _variants(template: Template, choices: Mapping[str, str]) -> list[dict[str, str]]:
+    """Every combination of the choices that geometry decides; what `choices` fixes is fixed."""
+    known = {v.name: v for v in template.variants}
+    for name, value in choices.items():
+        if name in known and value not in known[name].choices:
+            raise AlignmentError(
+                f"'{value}' is no choice of {name}",
+                where=template.equipment_type,
+                hint=f"Choose one of: {', '.join(known[name].choices)}.",
+            )
+    fixed = {n: v for n, v in choices.items() if n in known}
+    open_ones = [v for v in template.variants if v.decided_by == "geometry" and v.name not in fixed]
+    ordered = [sorted(v.choices, key=lambda c, v=v: c != v.default) for v in open_ones]
+    return [
+        {**fixed, **dict(zip((v.name for v in open_ones), combination, strict=True))}
+        for combination in itertools.product(*ordered)
+    ]
+
+
+def _unary(
+    seen: _Seen, template: Template, scores: list[dict[str, float]], edited: Mapping[str, str]
+) -> dict[tuple[int, str], int]:
+    """Weights of (cluster, body) from names and from what a person said; a found joint counts 100."""
+    unary: dict[tuple[int, str], int] = {}
+    bodies = {r.name for r in template.roles if r.rigid}
+    known = {r.name for r in template.roles}
+    for c, cluster in enumerate(seen.structure.clusters):
+        members = sorted(cluster.members)
+        telling = [i for i in members if scores[i]]
+        votes: dict[str, float] = {}
+        for i in telling:
+            for body, score in scores[i].items():
+                votes[body] = votes.get(body, 0.0) + score / len(telling)
+        for body in sorted(votes):
+            if body in bodies:
+                exact = votes[body] > 1
+                unary[c, body] = round(EXACT_WEIGHT if exact else NAME_WEIGHT * votes[body])
+        for i in members:
+            role = edited.get(seen.solids[i].part.id)
+            body_said = template.body_of(role) if role in known and role is not None else None
+            if body_said is not None:
+                unary[c, body_said] = unary.get((c, body_said), 0) + EDIT_WEIGHT
+    return unary
+
+
+def twin_role(name: str) -> str | None:
+    """The mirrored name: `boom_piston_rod_l_pin` → `boom_piston_rod_r_pin`; None without a side."""
+    swapped = _SIDE.sub(lambda m: "r" if m.group(1) == "l" else "l", name)
+    return swapped if swapped != name else None
+
+
+def _sides(
+    seen: _Seen, template: Template, solution: Solution, frame: MachineFrame, unary: dict[tuple[int, str], int]
+) -> dict[tuple[int, str], int]:
+    """Weights that put the left one of each mirrored pair on +Y."""
+    sided = dict(unary)
+    cluster_of = {b: c for c, b in solution.body_of.items()}
+
+    def y(cluster: int) -> float:
+        members = [seen.solids[i] for i in sorted(seen.structure.clusters[cluster].members)]
+        middle = np.mean([0.5 * (s.low + s.high) for s in members], axis=0)
+        return float(frame.matrix[1, :3] @ middle + frame.matrix[1, 3])
+
+    for name in sorted(cluster_of):
+        match = _SIDE.search(name)
+        twin = twin_role(name)
+        if match is None or twin is None or not any(r.name == twin for r in template.roles):
+            continue
+        own = cluster_of[name]
+        other = cluster_of.get(twin)
+        ahead = y(own) - (y(other) if other is not None else 0.0)
+        is_left = ahead > 0
+        left, right = (name, twin) if match.group(1) == "l" else (twin, name)
+        key = (own, left if is_left else right)
+        sided[key] = sided.get(key, 0) + SIDE_WEIGHT
+        wrong = (own, right if is_left else left)
+        sided[wrong] = sided.get(wrong, 0) - SIDE_WEIGHT
+    return sided
+
+
+def _edited(assembly: Assembly, template: Template, edits: Alignment | None) -> dict[str, str]:
+    """Part id → role, for the parts a person set."""
+    if edits is None:
+        return {}
+    parts = {p.id for p in assembly.parts}
+    roles = {r.name for r in template.roles}
+    found = {}
+    for item in edits.parts:
+        if item.source != "edited":
+            continue
+        if item.part not in parts:
+            raise AlignmentError(
+                f"The alignment names a part that is not in the CAD model: '{item.part}'",
+                where=item.part,
+                hint="Remove that entry, or align the CAD model it was made for.",
+            )
+        if item.role is not None and item.role not in roles:
+            raise AlignmentError(
+                f"'{item.role}' is no role of the template {template.equipment_type}",
+                where=item.part,
+                hint="`yellowiron templates show TYPE` lists the roles.",
+            )
+        found[item.part] = item.role or ""
+    return found
+
+
+def _report(
+    assembly: Assembly, template: Template, seen: _Seen, solution: Solution, places: Mapping[int, Place],
+    edited: Mapping[str, str], chosen: Mapping[str, str], frame: MachineFrame,
+) -> Alignment:  # fmt: skip
+    """The alignment, in CAD order, with what is missing and what is doubtful."""
+    by_id = {seen.solids[i].part.id: place for i, place in places.items()}
+    roles = {r.name for r in template.roles}
+    parts = []
+    for part in assembly.parts:
+        place = by_id.get(part.id)
+        if part.id in edited:
+            said: str | None = edited[part.id] or None
+            body = template.body_of(said) if said in roles and said is not None else None
+            before = place.role if place is not None and place.role != said else None
+            parts.append(PartAssignment(part.id, said, body, 1.0, "set by a person", "edited", before))
+        elif place is None:
+            parts.append(PartAssignment(part.id, None, None, 0.0, "nothing speaks for any role"))
+        else:
+            source = "name" if place.by_name else "solved"
+            confidence = round(min(max(place.confidence, 0.0), 1.0), 3)
+            parts.append(
+                PartAssignment(part.id, place.role, place.body, confidence, place.reason, source, place.runner_up)
+            )
+    played = {p.role for p in parts} | {p.body for p in parts}
+    missing = tuple(r.name for r in template.roles if _required(r.name, template) and r.name not in played)
+    findings = _findings(template, solution, missing, frame)
+    doubtful = tuple(p.part for p in parts if p.confidence < REVIEW)
+    return Alignment(
+        template.equipment_type, frame.matrix, tuple(parts), dict(chosen), missing, (*missing, *doubtful), findings
+    )
+
+
+def _required(name: str, template: Template) -> bool:
+    role = template.role(name)
+    if role.optional or role.many or role.kind in ("group", "tyre", "edge"):
+        return False
+    pins = {pin_role(j, template) for j in template.joints}
+    return role.rigid or name in pins
+
+
+def _findings(
+    template: Template, solution: Solution, missing: tuple[str, ...], frame: MachineFrame
+) -> tuple[Finding, ...]:
+    findings = []
+    pins = {pin_role(j, template): j for j in template.joints}
+    for name in missing:
+        joint = pins.get(name)
+        if joint is not None and joint.name in solution.hinge_of:
+            findings.append(
+                Finding(
+                    "ALN002",
+                    "info",
+                    name,
+                    f"No part of its own plays {name}; the joint {joint.name} is found all the same",
+                    "Its axis is that of the bores (or of the pin) the two bodies share.",
+                )  # fmt: skip
+            )
+        else:
+            findings.append(
+                Finding(
+                    "ALN001",
+                    "warning",
+                    name,
+                    f"No part plays {name}",
+                    "Set the role of the right part in alignment.json, or check that the CAD model has it.",
+                )  # fmt: skip
+            )
+    findings += [
+        Finding("ALN003", "warning", template.equipment_type, f"The machine's frame is partly a guess: {doubt}", "")
+        for doubt in frame.doubts
+    ]
+    if not solution.proven and solution.body_of:
+        findings.append(
+            Finding("ALN004", "warning", template.equipment_type, "The assignment was not proven the best one", "Review the roles.")
+        )  # fmt: skip
+    return tuple(replace(f) for f in findings)

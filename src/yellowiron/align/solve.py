@@ -1,0 +1,118 @@
+"""Which cluster is which body: an assignment over the template's joints, solved to the end by CP-SAT.
+
+x[c, b]: cluster c plays body b; z[j, h]: hinge (or slide) h of the CAD model is joint j of the template. In local-polytope form
+(the z that share an x sum to at most that x) the relaxation is tight and the search short.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from yellowiron.align.clusters import Structure
+from yellowiron.model.template import JointTemplate, Template
+
+JOINT_WEIGHT = 100
+MISSING_WEIGHT = 60
+SEED = 1
+EFFORT = 30.0
+"""CP-SAT's deterministic time, in its own seconds: the answer does not depend on the machine's load."""
+
+
+@dataclass(frozen=True)
+class Solution:
+    """Cluster → body, joint → hinge (index into `Structure.hinges`; slides: into `Structure.slides`), the score that
+    variants are compared by, and whether the search proved it the best."""
+
+    body_of: dict[int, str]
+    hinge_of: dict[str, int]
+    slide_of: dict[str, int]
+    score: int
+    proven: bool
+    margin: dict[int, int] = field(default_factory=dict)
+
+
+def solve(structure: Structure, template: Template, *, unary: Mapping[tuple[int, str], int] | None = None) -> Solution:
+    """The best assignment of clusters to the template's rigid roles (a resolved template, see `choose`).
+
+    `unary[(cluster, body)]` adds weight (a joint counts `JOINT_WEIGHT`); names, sizes and sides come in by it.
+    """
+    from ortools.sat.python import cp_model
+
+    unary = unary or {}
+    bodies = {r.name: r for r in template.roles if r.rigid}
+    model = cp_model.CpModel()
+    x: dict[tuple[int, str], cp_model.IntVar] = {}
+    linked = {i for h in structure.hinges for i in (h.a, h.b)} | {i for s in structure.slides for i in s[:2]}
+    named = {c for (c, _), weight in unary.items() if weight > 0}
+    for c, cluster in enumerate(structure.clusters):
+        if c not in linked and c not in named:
+            continue
+        for name, role in bodies.items():
+            typed = role.kind if role.kind in ("wheel", "barrel", "rod") else ""
+            if cluster.kind == typed:
+                x[c, name] = model.new_bool_var(f"x_{c}_{name}")
+    for c in range(len(structure.clusters)):
+        model.add_at_most_one([v for (k, _), v in x.items() if k == c])
+    for name in bodies:
+        model.add_at_most_one([v for (_, b), v in x.items() if b == name])
+
+    terms: list[tuple[int, cp_model.IntVar]] = []
+    pivots: dict[tuple[str, int], list[cp_model.IntVar]] = {}
+    slides: dict[tuple[str, int], list[cp_model.IntVar]] = {}
+    for joint in template.joints:
+        pair = template.bodies_of(joint)
+        if None in pair or pair[0] == pair[1]:
+            continue
+        edges = _edges(joint, structure)
+        by_end: dict[tuple[int, str], list[cp_model.IntVar]] = {}
+        every = []
+        for number, (a, b) in edges:
+            for ca, cb in ((a, b), (b, a)):
+                if (ca, pair[0]) not in x or (cb, pair[1]) not in x:
+                    continue
+                z = model.new_bool_var(f"z_{joint.name}_{number}_{ca}")
+                every.append(z)
+                by_end.setdefault((ca, str(pair[0])), []).append(z)
+                by_end.setdefault((cb, str(pair[1])), []).append(z)
+                table = slides if joint.type == "prismatic" else pivots
+                table.setdefault((joint.name, number), []).append(z)
+                terms.append((JOINT_WEIGHT, z))
+        model.add_at_most_one(every)
+        for (c, b), group in by_end.items():
+            model.add(sum(group) <= x[c, b])
+    for table in (pivots, slides):
+        by_number: dict[int, list[cp_model.IntVar]] = {}
+        for (_, number), group in table.items():
+            by_number.setdefault(number, []).extend(group)
+        for group in by_number.values():
+            model.add_at_most_one(group)
+    terms += [(weight, x[key]) for key, weight in sorted(unary.items()) if key in x and weight]
+    terms += [(1, v) for (c, _), v in sorted(x.items()) if c in linked]
+    model.maximize(sum(weight * v for weight, v in terms))
+
+    solver = cp_model.CpSolver()
+    solver.parameters.num_workers = 1
+    solver.parameters.random_seed = SEED
+    solver.parameters.max_deterministic_time = EFFORT
+    status = solver.solve(model)
+    if status not in (cp_model.OPTIMAL, cp_model.FEASIBLE):
+        return Solution({}, {}, {}, -MISSING_WEIGHT * len(bodies), False)
+    body_of = {c: b for (c, b), v in x.items() if solver.boolean_value(v)}
+    missing = sum(1 for name, role in bodies.items() if not role.optional and name not in body_of.values())
+    idle = sum(1 for c, k in enumerate(structure.clusters) if k.kind in ("barrel", "rod", "wheel") and c not in body_of)
+    return Solution(
+        body_of,
+        {j: n for (j, n), group in pivots.items() if any(solver.boolean_value(z) for z in group)},
+        {j: n for (j, n), group in slides.items() if any(solver.boolean_value(z) for z in group)},
+        round(solver.objective_value) - MISSING_WEIGHT * (missing + idle),
+        status == cp_model.OPTIMAL,
+    )
+
+
+def _edges(joint: JointTemplate, structure: Structure) -> list[tuple[int, tuple[int, int]]]:
+    if joint.type == "prismatic":
+        return [(k, (barrel, rod)) for k, (barrel, rod, _) in enumerate(structure.slides)]
+    if joint.type in ("revolute", "spherical"):
+        return [(k, (h.a, h.b)) for k, h in enumerate(structure.hinges)]
+    return []

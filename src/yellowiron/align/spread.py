@@ -1,0 +1,326 @@
+"""From bodies to every part: pins to their roles, then hardware, then whatever is left, nearest evidence first."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from yellowiron.align.clusters import Structure
+from yellowiron.align.contacts import Flat
+from yellowiron.align.names import exact_role, exact_roles
+from yellowiron.align.solids import Solid
+from yellowiron.align.solve import Solution
+from yellowiron.align.touch import Touch
+from yellowiron.align.wheels import Wheel
+from yellowiron.model.template import JointTemplate, Template
+
+NEIGHBOURHOOD = 0.04
+"""How far, in machine sizes, a floating part looks for a neighbour."""
+
+
+@dataclass(frozen=True)
+class Place:
+    """What is known of one part: role, body, confidence, reason, runner-up (a body), and whether a name decided it."""
+
+    role: str
+    body: str
+    confidence: float
+    reason: str
+    runner_up: str | None = None
+    by_name: bool = False
+
+
+@dataclass
+class Spreader:
+    """The state of the spreading: what each solid was found to be so far."""
+
+    solids: tuple[Solid, ...]
+    structure: Structure
+    solution: Solution
+    template: Template
+    flats: list[Flat]
+    near: list[tuple[int, int]]
+    touch: Touch
+    scores: list[dict[str, float]]
+    size: float
+
+    def __post_init__(self) -> None:
+        self.places: dict[int, Place] = {}
+        self.cluster_of = {b: c for c, b in self.solution.body_of.items()}
+
+    def run(self, wheels: list[Wheel]) -> dict[int, Place]:
+        """Every solid's place; solids that nothing speaks for are absent."""
+        self._bodies()
+        self._pins()
+        self._hosted()
+        self._by_contact()
+        self._on_pins()
+        self._by_contact()
+        self._by_touch()
+        self._by_exact_name()
+        self._nearest()
+        self._specific(wheels)
+        return self.places
+
+    # ---- the solved bodies ----
+    def _bodies(self) -> None:
+        for c, body in sorted(self.solution.body_of.items()):
+            joints = [j for j in self.template.joints if body in self.template.bodies_of(j)]
+            solved = [j.name for j in joints if j.name in self.solution.hinge_of or j.name in self.solution.slide_of]
+            share = len(solved) / len(joints) if joints else 0.0
+            confidence = 0.4 + 0.58 * share if solved else 0.35
+            words = f"{len(solved)} of {len(joints)} joints of {body} are found on its cluster"
+            words += f": {', '.join(solved)}" if solved else ""
+            if not self.solution.proven:
+                confidence, words = min(confidence, 0.7), words + " (the search was cut short)"
+            for i in self.structure.clusters[c].members:
+                rival = self._named_other(i, body)
+                drop = 0.1 if rival else 0.0
+                self.places[i] = Place(body, body, confidence - drop, words, rival)
+
+    def _named_other(self, i: int, body: str) -> str | None:
+        """The body that the part's name speaks for, if it clearly speaks for another."""
+        scores = self.scores[i]
+        if not scores:
+            return None
+        best = max(sorted(scores), key=lambda b: scores[b])
+        return best if best != body and scores[best] > scores.get(body, 0.0) + 0.4 else None
+
+    # ---- pins ----
+    def _pins(self) -> None:
+        for joint in self.template.joints:
+            hinge = self.solution.hinge_of.get(joint.name)
+            role = pin_role(joint, self.template)
+            if hinge is None or role is None:
+                continue
+            body = self.template.body_of(role) or role
+            a, b = self.template.bodies_of(joint)
+            for pin in self.structure.hinges[hinge].pins:
+                if pin in self.places:
+                    continue
+                fits = self.structure.hosts[pin]
+                gap = max(f.gap for f in fits)
+                radius = max(f.shaft.radius for f in fits)
+                words = f"pin Ø{2e3 * radius:.4g} through bores of {a} and {b}, coaxial within {1e3 * gap:.2g} mm"
+                share = min(self._sure(a), self._sure(b))
+                self.places[pin] = Place(role, body, min(0.99, share + 0.01), words)
+
+    def _sure(self, body: str | None) -> float:
+        members = self.structure.clusters[self.cluster_of[body]].members if body in self.cluster_of else ()
+        return max((self.places[i].confidence for i in members), default=0.5)
+
+    def _hosted(self) -> None:
+        """Bolts and shafts go with what they sit in."""
+        for pin, fits in self.structure.hosts.items():
+            if pin in self.places:
+                continue
+            votes: dict[str, float] = {}
+            sure = 1.0
+            for fit in fits:
+                place = self.places.get(fit.outer)
+                if place is not None:
+                    votes[place.body] = votes.get(place.body, 0.0) + fit.overlap
+                    sure = min(sure, place.confidence)
+            if votes:
+                self._vote(pin, votes, sure * 0.98, "sits in bores of {body}")
+
+    # ---- contact ----
+    def _vote(self, i: int, votes: dict[str, float], best: float, words: str) -> None:
+        ranked = sorted(votes, key=lambda b: (-round(votes[b], 9), b))
+        total = sum(votes.values()) or 1.0
+        share = votes[ranked[0]] / total
+        second = ranked[1] if len(ranked) > 1 else None
+        confidence = best * (0.55 + 0.45 * share if second else 1.0)
+        self.places[i] = Place(ranked[0], ranked[0], confidence, words.format(body=ranked[0]), second)
+
+    def _groups(self) -> list[list[int]]:
+        """Clusters and loose fasteners that are not placed yet."""
+        loose = [sorted(c.members) for c in self.structure.clusters if not any(i in self.places for i in c.members)]
+        inside = {i for c in self.structure.clusters for i in c.members}
+        loose += [[s.index] for s in self.solids if s.index not in inside and s.index not in self.places]
+        return sorted(loose)
+
+    def _by_contact(self) -> None:
+        """Flat contact with placed parts, spreading outward in rounds."""
+        across: dict[int, list[tuple[int, float]]] = {}
+        for flat in self.flats:
+            across.setdefault(flat.a, []).append((flat.b, flat.area))
+            across.setdefault(flat.b, []).append((flat.a, flat.area))
+        self._rounds(lambda i: across.get(i, []), 0.97, "lies flat against {body}")
+
+    def _by_touch(self) -> None:
+        """Meshes that touch or cut each other, parts counted."""
+        beside: dict[int, list[int]] = {}
+        for a, b in self.near:
+            beside.setdefault(a, []).append(b)
+            beside.setdefault(b, []).append(a)
+
+        def neighbours(i: int) -> list[tuple[int, float]]:
+            return [(j, 1.0) for j in beside.get(i, []) if j in self.places and self.touch.touching(i, j)]
+
+        self._rounds(neighbours, 0.92, "touches {body}")
+
+    def _rounds(self, neighbours: Callable[[int], list[tuple[int, float]]], best: float, words: str) -> None:
+        while True:
+            found: list[tuple[list[int], dict[str, float], float]] = []
+            for group in self._groups():
+                votes: dict[str, float] = {}
+                sure = 1.0
+                for i in group:
+                    for other, weight in neighbours(i):
+                        place = self.places.get(other)
+                        if place is None or place.role != place.body and self._is_pin(other):
+                            continue
+                        votes[place.body] = votes.get(place.body, 0.0) + weight
+                        sure = min(sure, place.confidence)
+                if votes:
+                    found.append((group, self._with_names(group, votes), sure))
+            if not found:
+                return
+            for group, votes, sure in found:
+                for i in group:
+                    self._vote(i, votes, best * sure, words)
+
+    def _is_pin(self, i: int) -> bool:
+        return i in self.structure.hosts
+
+    def _with_names(self, group: list[int], votes: dict[str, float]) -> dict[str, float]:
+        """Names and product structure tip the scales among bodies that geometry offers."""
+        if len(votes) < 2:
+            return votes
+        total = sum(votes.values())
+        scores = {b: sum(self.scores[i].get(b, 0.0) for i in group) / len(group) for b in votes}
+        kin = self._kin(group[0])
+        return {b: v + total * (0.8 * scores[b] + 0.5 * kin.get(b, 0.0)) for b, v in votes.items()}
+
+    def _kin(self, i: int) -> dict[str, float]:
+        """Share of each body among placed parts of the same assembly, where that assembly is mostly one body."""
+        path = self.solids[i].part.path
+        if len(path) < 2:
+            return {}
+        counts: dict[str, int] = {}
+        for j, place in self.places.items():
+            if self.solids[j].part.path == path:
+                counts[place.body] = counts.get(place.body, 0) + 1
+        total = sum(counts.values())
+        return {b: n / total for b, n in counts.items() if n > 0.6 * total} if total >= 3 else {}
+
+    def _on_pins(self) -> None:
+        """Rings, washers and keepers that only touch a pin go with the body that carries it."""
+        around: dict[int, list[tuple[int, float]]] = {}
+        for pin, fits in self.structure.hosts.items():
+            for fit in fits:
+                around.setdefault(fit.outer, []).append((pin, fit.overlap))
+        for flat in self.flats:
+            for i, pin in ((flat.a, flat.b), (flat.b, flat.a)):
+                if self._is_pin(pin):
+                    around.setdefault(i, []).append((pin, flat.width))
+        for group in self._groups():
+            votes: dict[str, float] = {}
+            sure = 1.0
+            for i in group:
+                for pin, weight in around.get(i, []):
+                    place = self.places.get(pin)
+                    if place is not None:
+                        votes[place.body] = votes.get(place.body, 0.0) + weight
+                        sure = min(sure, place.confidence)
+            if votes:
+                for i in group:
+                    self._vote(i, votes, 0.9 * sure, "sits on a pin of {body}")
+
+    def _by_exact_name(self) -> None:
+        """Parts that bear a role's very name, where geometry is silent."""
+        roles = exact_roles(self.template)
+        for group in self._groups():
+            for i in group:
+                role = exact_role(self.solids[i].part, roles)
+                body = self.template.body_of(role) if role is not None else None
+                if role is not None and body is not None:
+                    words = f"bears the name of the role {role}"
+                    self.places[i] = Place(role, body, 0.9, words, by_name=True)
+
+    def _nearest(self) -> None:
+        """What floats goes with what is nearest, and with its assembly."""
+        reach = NEIGHBOURHOOD * self.size
+        placed = sorted(self.places)
+        if not placed:
+            return
+        low = np.array([self.solids[j].low for j in placed])
+        high = np.array([self.solids[j].high for j in placed])
+        for group in self._groups():
+            far: dict[str, float] = {}
+            for i in group:
+                s = self.solids[i]
+                gap = np.linalg.norm(np.maximum(0, np.maximum(low - s.high, s.low - high)), axis=1)
+                limit = max(reach, float(gap.min()) * 1.2)
+                for k in np.flatnonzero(gap <= limit):
+                    j = placed[int(k)]
+                    body = self.places[j].body
+                    if gap[k] < far.get(body, np.inf):
+                        far[body] = min(far.get(body, np.inf), self.touch.distance(min(i, j), max(i, j)))
+            kin = self._kin(group[0])
+            weight = {b: 1.0 / (d + 0.02 * reach) * (1 + 3 * kin.get(b, 0.0)) for b, d in far.items()}
+            names = {b: max(self.scores[i].get(b, 0.0) for i in group) for b in weight}
+            weight = {b: w * (1 + names[b]) for b, w in weight.items()}
+            ranked = sorted(weight, key=lambda b: (-round(weight[b], 9), b))
+            if not ranked:
+                continue
+            rival = weight[ranked[1]] / weight[ranked[0]] if len(ranked) > 1 else 0.0
+            confidence = 0.45 + 0.45 * (1 - rival)
+            words = f"floats; {ranked[0]} is nearest, {1e3 * far[ranked[0]]:.3g} mm away"
+            for i in group:
+                self.places[i] = Place(ranked[0], ranked[0], confidence, words, ranked[1] if len(ranked) > 1 else None)
+
+    # ---- the most specific role ----
+    def _specific(self, wheels: list[Wheel]) -> None:
+        """Tyres, edges, and exact names of roles that move with the body found."""
+        roles = exact_roles(self.template)
+        for i, place in sorted(self.places.items()):
+            named = exact_role(self.solids[i].part, roles)
+            if named is not None and named != place.role and self.template.body_of(named) == place.body:
+                words = f"{place.reason}; bears the role's name"
+                self.places[i] = replace(place, role=named, reason=words)
+        for role in self.template.roles:
+            body = self.template.body_of(role.name)
+            if role.rigid or body is None or any(p.role == role.name for p in self.places.values()):
+                continue
+            if role.kind == "tyre" and body in self.cluster_of:
+                cluster = self.structure.clusters[self.cluster_of[body]]
+                if cluster.kind == "wheel":
+                    tyre = wheels[cluster.number].tyre
+                    words = "the outermost ring of the wheel"
+                    self.places[tyre] = replace(self.places[tyre], role=role.name, reason=words)
+            elif role.kind == "edge" and (edge := self._edge(body)) is not None:
+                words = f"the farthest part of {body} over most of its width"
+                self.places[edge] = replace(self.places[edge], role=role.name, reason=words)
+
+    def _edge(self, body: str) -> int | None:
+        """The part of a body that spans most of its width along its hinge and lies farthest from it."""
+        lines = [
+            self.structure.lines[self.structure.hinges[self.solution.hinge_of[j.name]].line]
+            for j in self.template.joints
+            if body in self.template.bodies_of(j) and j.name in self.solution.hinge_of
+        ]
+        members = [i for i, p in sorted(self.places.items()) if p.body == body and p.role == body]
+        if not lines or not members:
+            return None
+        line = lines[-1]
+        spans = {i: self.solids[i].span(line.origin, line.direction) for i in members}
+        width = max(b for _, b in spans.values()) - min(a for a, _ in spans.values())
+        wide = [i for i in members if spans[i][1] - spans[i][0] > 0.75 * width]
+
+        def far(i: int) -> float:
+            delta = self.solids[i].points - line.origin
+            return float(np.linalg.norm(delta - np.outer(delta @ line.direction, line.direction), axis=1).max())
+
+        return max(wide, key=lambda i: round(far(i), 6)) if len(wide) > 1 else None
+
+
+def pin_role(joint: JointTemplate, template: Template) -> str | None:
+    """The role of a joint's pin: the one of its two parts that is no body."""
+    for name in joint.parts:
+        if not template.role(name).rigid:
+            return name
+    return None

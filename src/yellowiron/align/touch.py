@@ -1,0 +1,43 @@
+"""Distances between meshes, asked only where a decision hangs on them."""
+
+from __future__ import annotations
+
+import functools
+from typing import Any
+
+import fcl
+import numpy as np
+
+from yellowiron.align.solids import Solid
+
+
+class Touch:
+    """Mesh distances of one assembly, remembered. `tolerance` metres counts as touching."""
+
+    def __init__(self, solids: tuple[Solid, ...], tolerance: float) -> None:
+        self._solids = solids
+        self._tolerance = tolerance
+        self._object = functools.cache(self._build)
+        self.distance = functools.cache(self._distance)
+
+    def _build(self, index: int) -> Any:
+        solid = self._solids[index]
+        model = fcl.BVHModel()
+        triangles = solid.shape.mesh.triangles
+        model.beginModel(len(solid.points), len(triangles))
+        model.addSubModel(np.ascontiguousarray(solid.points), np.ascontiguousarray(triangles))
+        model.endModel()
+        return fcl.CollisionObject(model)
+
+    def _distance(self, a: int, b: int) -> float:
+        """Metres between two solids; 0 where they cut each other."""
+        first, second = self._object(min(a, b)), self._object(max(a, b))
+        if fcl.collide(first, second, fcl.CollisionRequest(), fcl.CollisionResult()):
+            return 0.0
+        return max(0.0, float(fcl.distance(first, second, fcl.DistanceRequest(), fcl.DistanceResult())))
+
+    def touching(self, a: int, b: int) -> bool:
+        """True within the tolerance (boxes first)."""
+        sa, sb = self._solids[a], self._solids[b]
+        apart = np.maximum(sa.low - sb.high, sb.low - sa.high).max()
+        return bool(apart <= self._tolerance) and self.distance(min(a, b), max(a, b)) <= self._tolerance
