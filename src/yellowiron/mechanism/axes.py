@@ -37,6 +37,10 @@ class Line:
         offset = points - self.point
         return np.linalg.norm(offset - np.outer(offset @ self.direction, self.direction), axis=1)
 
+    def foot(self, point: Floats) -> Floats:
+        """The line's point nearest to a point."""
+        return self.at(float((point - self.point) @ self.direction))
+
     def at(self, coordinate: float) -> Floats:
         """The point at a coordinate along the line."""
         return self.point + coordinate * self.direction

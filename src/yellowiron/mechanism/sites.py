@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from yellowiron.mechanism.axes import Line
 from yellowiron.mechanism.body import vector
 from yellowiron.mechanism.frames import JointFrame
-from yellowiron.mechanism.placement import Placement
+from yellowiron.mechanism.placement import Placement, ancestors
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Site
@@ -30,7 +31,7 @@ def sites(
     """The template's sites whose place was found."""
     result = []
     for entry in template.sites:
-        site = _site(entry, frames, placement, findings) if placement.has_body(entry.body) else None
+        site = _site(entry, frames, template, placement, findings) if placement.has_body(entry.body) else None
         if site is None:
             findings.append(
                 Finding(
@@ -47,7 +48,11 @@ def sites(
 
 
 def _site(
-    entry: SiteTemplate, frames: Mapping[str, JointFrame], placement: Placement, findings: list[Finding]
+    entry: SiteTemplate,
+    frames: Mapping[str, JointFrame],
+    template: Template,
+    placement: Placement,
+    findings: list[Finding],
 ) -> Site | None:
     rule = entry.rule
     if "point" in rule:
@@ -58,28 +63,45 @@ def _site(
         return None
     if "joint" in rule:
         return Site(entry.name, entry.body, vector(frame.anchor), source=f"anchor of {name}")
-    return _edge_site(entry, frame, float(rule.get("spanning", 0.8)), placement, findings)
+    return _edge_site(entry, frame, float(rule.get("spanning", 0.8)), template, placement, findings)
+
+
+@dataclass(frozen=True, eq=False)
+class _Edge:
+    """A far edge of a wide part: its middle, and the plane that ends in it (its normal and its area on the whole
+    body)."""
+
+    rows: tuple[int, ...]
+    position: Floats
+    distance: float
+    normal: Floats | None
+    area: float
 
 
 def _edge_site(
-    entry: SiteTemplate, frame: JointFrame, spanning: float, placement: Placement, findings: list[Finding]
+    entry: SiteTemplate,
+    frame: JointFrame,
+    spanning: float,
+    template: Template,
+    placement: Placement,
+    findings: list[Finding],
 ) -> Site | None:
-    """The body's edge farthest from a joint's axis: at its middle, x along the plane that ends in it, away from the
-    axis."""
+    """A body's cutting edge, at its middle: x along the plane that ends in it, away from the joint's axis.
+
+    Every wide part (or row of equal parts, such as teeth) has an edge farthest from the axis. The cutting edge is where
+    the widest plane ends, a bucket's floor; of the edges in that plane the farthest. Parts of an `edge` role, where the
+    alignment knows any, rule other planes out.
+    """
     line = Line(frame.anchor, frame.axis)
     rows = placement.rows_of_body(entry.body)
-    wide = _wide_rows(rows, line, spanning, placement)
-    points = placement.points_of(wide)
-    if len(points) == 0:
+    edges = [_far_edge(group, rows, line, placement) for group in _wide_groups(rows, line, spanning, placement)]
+    if not edges:
         return None
-    distance = line.distance(points)
-    tip = _one_edge(points[distance > distance.max() - _EDGE], line)
-    along = line.along(tip)
-    middle = 0.5 * (along.min() + along.max())
-    position = tip.mean(axis=0) + (middle - along.mean()) * line.direction
-    outwards = position - line.at(float(middle))
-    normal = _plane_at(position, line, rows, placement)
-    if normal is None:
+    blades = [row for row in rows if (chain := ancestors(template, placement.roles[row])) and chain[0].kind == "edge"]
+    cutting = [e for e in edges if any(_planes_through(e.position, line, row, placement) for row in blades)] or edges
+    widest = max(cutting, key=lambda e: (e.area, e.distance))
+    if widest.normal is None:
+        widest = max(cutting, key=lambda e: e.distance)
         findings.append(
             Finding(
                 "MEC041",
@@ -88,21 +110,35 @@ def _edge_site(
                 "No plane of the body ends in its edge: angles are taken from the line between hinge and edge.",
             )
         )
-        x_axis = outwards
+        edge, x_axis = widest, widest.position - line.foot(widest.position)
     else:
+        normal = widest.normal
+        level = [e for e in cutting if abs((e.position - widest.position) @ normal) < _ON_PLANE]
+        edge = max(level, key=lambda e: e.distance)
         x_axis = np.cross(line.direction, normal)
-        x_axis = x_axis if x_axis @ outwards > 0.0 else -x_axis
+        x_axis = x_axis if x_axis @ (edge.position - line.foot(edge.position)) > 0.0 else -x_axis
     x_axis = x_axis - (x_axis @ line.direction) * line.direction
     x_axis /= np.linalg.norm(x_axis)
-    parts = ", ".join(placement.ids(row for row in wide if _reaches(placement.points(row), line, distance.max())))
     return Site(
         name=entry.name,
         body=entry.body,
-        position=vector(position),
+        position=vector(edge.position),
         x_axis=vector(x_axis),
         z_axis=vector(np.cross(x_axis, line.direction)),
-        source=f"edge of {parts}, farthest from {frame.joint.name}",
+        source=f"edge of {', '.join(placement.ids(edge.rows))}, far from {frame.joint.name}",
     )
+
+
+def _far_edge(group: tuple[int, ...], rows: Sequence[int], line: Line, placement: Placement) -> _Edge:
+    """The edge of a wide part, or row of equal parts, that is farthest from a line."""
+    points = placement.points_of(group)
+    distance = line.distance(points)
+    tip = _one_edge(points[distance > distance.max() - _EDGE], line)
+    along = line.along(tip)
+    middle = 0.5 * (along.min() + along.max())
+    position = tip.mean(axis=0) + (middle - along.mean()) * line.direction
+    normal, area = _plane_at(position, line, rows, placement)
+    return _Edge(group, position, float(distance.max()), normal, area)
 
 
 def _one_edge(tip: Floats, line: Line) -> Floats:
@@ -112,12 +148,8 @@ def _one_edge(tip: Floats, line: Line) -> Floats:
     return np.asarray(tip[np.linalg.norm(across - across[order[0]], axis=1) < 10.0 * _EDGE], dtype=np.float64)
 
 
-def _reaches(points: Floats, line: Line, distance: float) -> bool:
-    return bool(line.distance(points).max() > distance - _EDGE)
-
-
-def _wide_rows(rows: Sequence[int], line: Line, spanning: float, placement: Placement) -> list[int]:
-    """Parts that span a share of the body's width along the axis, alone or as a row of equal parts (teeth)."""
+def _wide_groups(rows: Sequence[int], line: Line, spanning: float, placement: Placement) -> list[tuple[int, ...]]:
+    """Parts that span a share of the body's width along the axis, alone or as a row of equal parts."""
     reach = {row: (line.along(p := placement.points(row)).min(), line.along(p).max()) for row in rows}
     width = max(high for _, high in reach.values()) - min(low for low, _ in reach.values())
     alike: dict[str, list[int]] = {}
@@ -127,12 +159,13 @@ def _wide_rows(rows: Sequence[int], line: Line, spanning: float, placement: Plac
     for equal in alike.values():
         covered = max(reach[r][1] for r in equal) - min(reach[r][0] for r in equal)
         if covered >= spanning * width:
-            wide += equal
-    return sorted(wide)
+            wide.append(tuple(equal))
+    return wide
 
 
-def _plane_at(position: Floats, line: Line, rows: Sequence[int], placement: Placement) -> Floats | None:
-    """Normal of the plane through the edge, parallel to the axis, on which the body has most area; None without any."""
+def _plane_at(position: Floats, line: Line, rows: Sequence[int], placement: Placement) -> tuple[Floats | None, float]:
+    """The plane through an edge, parallel to the axis, on which the body has most area: (normal, area), or (None,
+    0)."""
     found: list[tuple[Floats, float]] = []
     for row in rows:
         for normal, area in _planes_through(position, line, row, placement):
@@ -142,7 +175,7 @@ def _plane_at(position: Floats, line: Line, rows: Sequence[int], placement: Plac
                     break
             else:
                 found.append((normal, area))
-    return max(found, key=lambda pair: pair[1])[0] if found else None
+    return max(found, key=lambda pair: pair[1]) if found else (None, 0.0)
 
 
 def _planes_through(position: Floats, line: Line, row: int, placement: Placement) -> list[tuple[Floats, float]]:
