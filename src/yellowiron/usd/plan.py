@@ -47,9 +47,9 @@ class PlacedPart:
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """Paths by name. `root` is the machine's prim; `body_paths`, `joint_paths`, `site_paths`, `material_paths` are
-    absolute in the composed machine; `parts` holds each body's parts in the mechanism's order; `hull_paths` are in the geometry
-    layer."""
+    """Paths by name. `root` is the machine's prim; `body_paths`, `joint_paths`, `site_paths` and `material_paths` are
+    absolute in the composed machine; `hull_paths` are in the geometry layer. `parts` holds each body's parts in the
+    mechanism's order."""
 
     mechanism: Mechanism
     root: str
