@@ -211,6 +211,16 @@ class ClosedChain:
             states.append(state)
         return tuple(states)
 
+    def combined(self, one: State, component: Component, other: State) -> State:
+        """`other` with the coordinates of a component as they are in `one`: no solving is needed, as no loop couples
+        them to the rest."""
+        position = other.position.copy()
+        for name in (*component.drivers, *component.dependent):
+            first = self._body.joints[name][0]
+            index = slice(first, first + (4 if self._joints[name].type == "spherical" else 1))
+            position[index] = one.position[index]
+        return State(position, max(one.closure, other.closure))
+
     def _index(self, joint: str) -> int:
         if joint in self.independent or joint in self.idle:
             if self._joints[joint].type == "spherical":

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
 from yellowiron.kinematics.branches import branch_pivots, branch_sines
-from yellowiron.kinematics.chain import ClosedChain, Component, independent_joints
+from yellowiron.kinematics.chain import ClosedChain, Component, State, independent_joints
 from yellowiron.kinematics.grid import Grid, explore, joint_values
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
@@ -23,6 +22,7 @@ FREQUENCY = 2.0
 STRAIGHT = 0.05
 """|sine| at a triangle of pivots below which a loop is too near its dead point to have a branch."""
 _BACK = 2e-3
+_OTHERS = 40
 _PER_FREEDOM = {"fixed": 6, "revolute": 5, "prismatic": 5, "spherical": 3, "distance": 0}
 
 
@@ -269,25 +269,21 @@ def _velocity_gain(drive: Drive, joint: Joint, work: _Work) -> Drive:
 
 
 def _seen_masses(chain: ClosedChain, grids: list[Grid]) -> dict[str, float]:
-    """Driver → the largest mass it sees: over its own component's poses, and over its own range in the corners of the
-    other components (a steering cylinder turns a raised boom too)."""
+    """Driver → the largest mass it sees: over its own component's poses, and in its corners and its middle over the
+    poses of the other components (a steering cylinder turns a raised or outstretched boom too)."""
     masses: dict[str, float] = {}
 
-    def see(name: str, state: Any) -> None:
-        masses[name] = max(masses.get(name, 0.0), chain.effective_mass(state, name))
+    def see(names: tuple[str, ...], state: State) -> None:
+        for name in names:
+            masses[name] = max(masses.get(name, 0.0), chain.effective_mass(state, name))
 
-    for grid in grids:
+    for component, grid in zip(chain.components(), grids, strict=True):
         for state in grid.states:
-            for name in grid.drivers:
-                see(name, state)
+            see(grid.drivers, state)
+        own = [grid.states[index] for index in (*grid.corners, len(grid.states) // 2)] if grid.states else []
         for other in grids:
-            if other is grid:
-                continue
-            for corner in other.corners:
-                for index in sorted({*grid.corners, len(grid.states) // 2} if grid.states else ()):
-                    values: Mapping[str, float] = dict(zip(grid.drivers, grid.values[index].tolist(), strict=True))
-                    state, fraction = chain.reach(values, start=other.states[corner])
-                    if fraction == 1.0:
-                        for name in grid.drivers:
-                            see(name, state)
+            if other is not grid:
+                for pose in other.states[:: max(1, len(other.states) // _OTHERS)]:
+                    for state in own:
+                        see(grid.drivers, chain.combined(state, component, pose))
     return masses
