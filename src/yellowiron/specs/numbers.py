@@ -84,6 +84,11 @@ class Quantity:
         return self.half * unit.scale if unit else self.half
 
     @property
+    def si_digit(self) -> float:
+        """Half a unit of the last printed digit in SI, trailing zeros counted as digits."""
+        return self.si_half if self.value % 1 else self.si_half * min(1.0, 0.5 / self.half if self.half else 1.0)
+
+    @property
     def si_unit(self) -> str:
         """The SI unit of its dimension; "1" for a bare number."""
         unit = self.printed
@@ -362,7 +367,7 @@ def _counts(run: list[Quantity]) -> bool:
 
 
 def _shared_unit(run: list[Quantity]) -> tuple[Quantity, ...]:
-    """"95 x 441 mm": a factor without a unit has the next one's."""
+    """ "95 x 441 mm": a factor without a unit has the next one's."""
     shared: list[Quantity] = []
     for quantity in reversed(run):
         if not quantity.unit and shared:
@@ -385,7 +390,7 @@ def _paired(text: str, readings: list[tuple[Reading, int, int]]) -> list[tuple[R
 
 
 def _product_of_pairs(text: str, readings: list[tuple[Reading, int, int]]) -> list[tuple[Reading, int, int]]:
-    """"150 mm (5.9 in) x 764 mm (30.1 in)" is one product in two systems."""
+    """ "150 mm (5.9 in) x 764 mm (30.1 in)" is one product in two systems."""
     joined: list[tuple[Reading, int, int]] = []
     for reading, start, end in readings:
         if joined:

@@ -1,0 +1,188 @@
+"""Statements → claims: one property, one quantity. Products are taken apart, both systems of measurement compared."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+from yellowiron.specs.numbers import DecimalStyle, Quantity, Reading, read, same
+from yellowiron.specs.statement import Statement
+
+_CROSS = re.compile(r"\s+[x×✕*/]\s+|\s*[×✕]\s*|\s+(?:and|und|et|y)\s+(?=stroke|rod|Hub|course|carrera)", re.IGNORECASE)
+_COUNTED = re.compile(
+    r"(?:\b(?:number|no\.?|quantity|qty\.?) of (?:cylinders?|units)\b|\bAnzahl(?: der)? \w+\b|\bnombre de \w+\b|"
+    r"\bnúmero de \w+\b)\s*(?:[-–—,:/x×]\s*)?",
+    re.IGNORECASE,
+)
+
+
+@dataclass(frozen=True)
+class Claim:
+    """What a sheet says of one property. `words` name it (label and qualifier), `head` are its column's words.
+
+    `partner`: the same value in the other system; `doubt` says why a person should look.
+    """
+
+    statement: Statement
+    words: str
+    head: str
+    quantity: Quantity
+    partner: Quantity | None = None
+    ranged: bool = False
+    doubt: str = ""
+
+
+def claims_of(statements: Sequence[Statement], style: DecimalStyle) -> list[Claim]:
+    """The claims of all statements, in order; cells of one row and column in two systems become one claim."""
+    claims: list[Claim] = []
+    for statement in statements:
+        claims.extend(_expand(statement, style))
+    return _joined_systems(claims)
+
+
+def _expand(statement: Statement, style: DecimalStyle) -> Iterator[Claim]:
+    readings = [r for r in read(statement.text, unit=statement.unit, style=style) if not r.condition]
+    label = _without_conditions(statement.label)
+    kept: list[Reading] = []
+    for reading in readings:
+        if any(_restates(earlier, reading) for earlier in kept):
+            continue
+        kept.append(reading)
+    for reading in kept:
+        yield from _claims_of_reading(statement, label, reading)
+
+
+def _restates(a: Reading, b: Reading) -> bool:
+    """Whether a reading gives an earlier one again in a third unit: "31.4 MPa (320 kgf/cm2; 4,554 psi)"."""
+    return (
+        not b.qualifier
+        and len(a.numbers) == len(b.numbers)
+        and all(x.unit != y.unit and same(x, y) for x, y in zip(a.numbers, b.numbers, strict=True))
+    )
+
+
+def _claims_of_reading(statement: Statement, label: str, reading: Reading) -> Iterator[Claim]:
+    sign = " ±" if reading.numbers[0].sign == "±" else ""
+    words = f"{label} {reading.qualifier}{sign}".strip()
+    head = " ".join(statement.column)
+    if reading.kind == "product":
+        yield from _factors(statement, label, reading)
+        return
+    words = _COUNTED.sub(" ", words) if reading.count is not None else words
+    partner = reading.partner[0] if reading.partner else None
+    for index, quantity in enumerate(reading.numbers):
+        other = reading.partner[index] if index < len(reading.partner) else partner
+        yield _checked(Claim(statement, words, head, quantity, other, ranged=reading.kind == "range"))
+
+
+def _factors(statement: Statement, label: str, reading: Reading) -> Iterator[Claim]:
+    """A product's factors go to the properties that the label, a head or a sub-heading lists in the same order."""
+    places = [(label, "label"), *((h, "head") for h in reversed(statement.column))]
+    places += [(c, "context") for c in reversed(statement.context)]
+    for text, place in places:
+        names = enumerated(text, len(reading.numbers))
+        if not names:
+            continue
+        for index, (name, quantity) in enumerate(zip(names, reading.numbers, strict=True)):
+            partner = reading.partner[index] if len(reading.partner) == len(reading.numbers) else None
+            others = [label] if place != "label" else []
+            head = " ".join(h for h in statement.column if h != text)
+            yield _checked(Claim(statement, " ".join([*others, name]), head, quantity, partner))
+        return
+
+
+def enumerated(label: str, count: int) -> list[str]:
+    """The properties a label lists for a product of `count` factors, each with the words before the list.
+
+    ("Lift cylinders – bore x stroke", 2) → ["Lift cylinders bore", "Lift cylinders stroke"]; [] if it lists others.
+    """
+    bare = _COUNTED.sub(" ", label).strip()
+    parts = [p.strip(" ()[]") for p in _CROSS.split(bare)]
+    if len(parts) != count or not all(re.search(r"[^\W\d_]", p) for p in parts):
+        return []
+    first = re.match(r"^(.*[-–—,:(]|.*?)\s*((?:\S+)(?:\s+(?:diameter|dia\.?))?)$", parts[0])
+    prefix, name = (first.group(1), first.group(2)) if first else ("", parts[0])
+    if re.search(r"[-–—,:(]$", prefix.strip()):
+        name = re.split(r"[-–—,:(]\s*", parts[0])[-1] or name
+    prefix = prefix.strip(" -–—,:(")
+    last = re.match(r"^(\S+(?:\s+(?:diameter|dia\.?))?)(.*)$", parts[-1])
+    suffix = last.group(2).strip() if last else ""
+    parts[-1] = last.group(1) if last else parts[-1]
+    return [" ".join(f"{prefix} {p} {suffix}".split()) for p in [name, *parts[1:]]]
+
+
+def _without_conditions(label: str) -> str:
+    """A label without its circumstances in numbers with units: "Pump flow at 2,000 rpm" → "Pump flow"."""
+    for reading in reversed(read(label)):
+        first, last = reading.numbers[0], reading.numbers[-1]
+        if reading.condition and first.printed is not None and first.dimension != "angle":
+            head = re.sub(r"(?:\bat|@|\bbei|\bà)\s*$", "", label[: first.start], flags=re.IGNORECASE)
+            label = f"{head.rstrip(' (')} {label[last.end :].lstrip(' )')}"
+    return " ".join(label.split())
+
+
+def _checked(claim: Claim) -> Claim:
+    """The claim with its separator's doubt settled by its partner, and a doubt where the two disagree."""
+    quantity, partner = claim.quantity, claim.partner
+    if partner is None:
+        return claim
+    if same(quantity, partner):
+        return replace(claim, quantity=replace(quantity, other=None))
+    if quantity.other is not None:
+        swapped = replace(quantity, value=quantity.other, half=0.5, other=None)
+        if same(swapped, partner):
+            return replace(claim, quantity=swapped)
+    repaired = _unglued(quantity, partner)
+    if repaired is not None:
+        why = f"printed '{quantity.text}', and '{partner.text}' says that its first digit belongs to the label"
+        return replace(claim, quantity=repaired, doubt=why)
+    return replace(claim, doubt=f"the sheet prints '{quantity.text}' beside '{partner.text}', which differ")
+
+
+def _unglued(quantity: Quantity, partner: Quantity) -> Quantity | None:
+    """ "Forward 16.4 km/h 4.0 mph" is gear 1 at 6.4 km/h: the value without leading digits that the partner confirms."""
+    digits = re.match(r"\d+", quantity.text)
+    if digits is None or quantity.sign:
+        return None
+    for cut in range(1, len(digits.group(0))):
+        rest = read(quantity.text[cut:])
+        if rest and same(rest[0].numbers[0], partner):
+            found = rest[0].numbers[0]
+            return replace(found, start=quantity.start + cut, end=quantity.end)
+    return None
+
+
+def _joined_systems(claims: Sequence[Claim]) -> list[Claim]:
+    """Neighbouring cells of one row under the same heads, metric and imperial, become one claim."""
+    joined: list[Claim] = []
+    for claim in claims:
+        for index in range(len(joined) - 1, max(-1, len(joined) - 7), -1):
+            before = joined[index]
+            if before.partner is None and claim.partner is None and _are_twins(before, claim):
+                joined[index] = _checked(_metric_first(before, claim))
+                break
+        else:
+            joined.append(claim)
+    return joined
+
+
+def _are_twins(a: Claim, b: Claim) -> bool:
+    if a.statement.row != b.statement.row or a.statement is b.statement or a.ranged or b.ranged:
+        return False
+    ua, ub = a.quantity.printed, b.quantity.printed
+    return (
+        a.words == b.words
+        and a.statement.column == b.statement.column
+        and ua is not None
+        and ub is not None
+        and ua.dimension == ub.dimension
+        and {ua.system, ub.system} == {"metric", "imperial"}
+    )
+
+
+def _metric_first(a: Claim, b: Claim) -> Claim:
+    unit = a.quantity.printed
+    if unit is not None and unit.system == "metric":
+        return replace(a, partner=b.quantity)
+    return replace(b, partner=a.quantity)

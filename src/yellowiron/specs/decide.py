@@ -1,0 +1,238 @@
+"""Matches → one specification with a status. A wrong number is worse than none: whatever is in doubt says so."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from yellowiron.model.specification import Candidate, Evidence, Specification
+from yellowiron.model.template import Wanted
+from yellowiron.model.units import SI_UNIT
+from yellowiron.specs.asked import hint_for
+from yellowiron.specs.claims import Claim
+from yellowiron.specs.match import Match
+from yellowiron.specs.numbers import DecimalStyle, Quantity, read
+from yellowiron.specs.vocabulary import tokens
+
+_SURE = 0.7
+"""Score from which one undisputed claim is `ok`."""
+_NEAR = 0.15
+"""Claims this much weaker than the best still have a say."""
+
+
+@dataclass(frozen=True)
+class Sheets:
+    """What `decide` must know of the sheets, by the identity of statements: their file; the quantities of their column."""
+
+    files: Mapping[int, str]
+    columns: Mapping[int, frozenset[str]]
+
+
+def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str = "") -> Specification:
+    """The specification of a wanted value; `config` names the configuration that is meant ("standard boom, stock-pile
+    bucket"; a value of the column will do: "4.2 m3")."""
+    if not matches:
+        return missing(wanted)
+    chosen = _configured(matches, sheets, config)
+    best = max(m.score for m in chosen)
+    groups = _by_value(wanted, [m for m in chosen if m.score >= best - _NEAR])
+    if len(groups) > 1:
+        return _conflict(wanted, groups, sheets, config)
+    group = groups[0]
+    top = max(group, key=_preference)
+    quantity, doubt = _settled(wanted, top.claim)
+    if top.score < _SURE:
+        doubt = doubt or f"the label also says {', '.join(repr(t) for t in top.rest)}"
+    if top.claim.ranged:
+        doubt = doubt or "the sheet prints a range"
+    value = quantity.si_value
+    return Specification(
+        name=wanted.name,
+        value=value,
+        unit=SI_UNIT[wanted.dimension],
+        status="review" if doubt else "ok",
+        evidence=evidence_of(top, sheets),
+        text=quantity.text,
+        example=all(m.claim.statement.example for m in group),
+        confidence=round(min(top.score, 0.5 if doubt else 1.0), 3),
+        reason=doubt or _reason(top, group),
+        hint=f'Check it on the page; settle it with --set "{wanted.name}=VALUE UNIT".' if doubt else "",
+        candidates=(_candidate(top, sheets, value),),
+    )
+
+
+def missing(wanted: Wanted) -> Specification:
+    """The specification of a value that no sheet gives."""
+    return Specification(
+        name=wanted.name,
+        value=None,
+        unit=SI_UNIT[wanted.dimension],
+        status="missing",
+        reason="no sheet says it",
+        hint=hint_for(wanted),
+    )
+
+
+def unreadable(wanted: Wanted, files: Sequence[str]) -> Specification:
+    """The specification of a value that may stand in a sheet without a text layer."""
+    return Specification(
+        name=wanted.name,
+        value=None,
+        unit=SI_UNIT[wanted.dimension],
+        status="unreadable",
+        reason=f"{', '.join(files)} has no text that can be read",
+        hint=hint_for(wanted),
+    )
+
+
+def evidence_of(found: Match, sheets: Sheets) -> Evidence:
+    """Where a match stands."""
+    statement = found.claim.statement
+    box = tuple(round(v, 2) for v in statement.box)
+    return Evidence(sheets.files[id(statement)], statement.page, statement.quote, (box[0], box[1], box[2], box[3]))
+
+
+def _preference(found: Match) -> tuple[float, bool, bool, float]:
+    claim = found.claim
+    return (found.score, not claim.statement.example, claim.partner is not None, -claim.statement.page)
+
+
+# ---- configurations -----------------------------------------------------------------------------------------------------
+
+
+def configuration(found: Match) -> str:
+    """The column or variant that a match holds for, as the sheet words it."""
+    return ", ".join([*found.claim.statement.column, *found.rest])
+
+
+def _configured(matches: Sequence[Match], sheets: Sheets, config: str) -> list[Match]:
+    """The matches that fit the configuration asked for: each of its phrases keeps those whose column says it best."""
+    kept = list(matches)
+    for phrase in config.replace(";", ",").split(","):
+        words = set(tokens(_without_quantities(phrase))) | quantity_words(phrase)
+        if not words:
+            continue
+        shares = [len(words & _config_words(m, sheets)) / len(words) for m in kept]
+        if max(shares) >= 0.5 and max(shares) > min(shares):
+            kept = [m for m, share in zip(kept, shares, strict=True) if share == max(shares)]
+    return kept
+
+
+def quantity_words(text: str, unit: str = "", style: DecimalStyle = "point") -> set[str]:
+    """The quantities of a text as words that can be compared: "4.2 m3" → {"4.2 meter**3"}."""
+    found = set()
+    for reading in read(text, unit=unit, style=style):
+        for quantity in (*reading.numbers, *reading.partner):
+            if quantity.printed is not None:
+                found.add(f"{quantity.value:g} {quantity.printed.name}")
+    return found
+
+
+def _without_quantities(text: str) -> str:
+    for reading in reversed(read(text, style="point")):
+        for quantity in reversed((*reading.numbers, *reading.partner)):
+            if quantity.printed is not None:
+                text = f"{text[: quantity.start]} {text[quantity.end :]}"
+    return text
+
+
+def _config_words(found: Match, sheets: Sheets) -> set[str]:
+    statement = found.claim.statement
+    texts = [*statement.column, *statement.context, statement.section, found.claim.words]
+    return {t for text in texts for t in tokens(text)} | sheets.columns.get(id(statement), frozenset())
+
+
+# ---- values -------------------------------------------------------------------------------------------------------------
+
+
+def _by_value(wanted: Wanted, matches: Sequence[Match]) -> list[list[Match]]:
+    """Matches grouped by value, the best-scored group first; equal within their printed digits."""
+    groups: list[list[Match]] = []
+    for one in sorted(matches, key=_preference, reverse=True):
+        quantity, _ = _settled(wanted, one.claim)
+        for group in groups:
+            first, _ = _settled(wanted, group[0].claim)
+            slack = 1e-9 * abs(first.si_value)
+            if quantity.unit != first.unit:
+                slack += max(quantity.si_digit, first.si_digit)
+            if abs(quantity.si_value - first.si_value) <= slack:
+                group.append(one)
+                break
+        else:
+            groups.append([one])
+    return groups
+
+
+def _settled(wanted: Wanted, claim: Claim) -> tuple[Quantity, str]:
+    """The claim's quantity, metric where both are printed, and what is doubtful about it."""
+    quantity, doubt = claim.quantity, claim.doubt
+    if quantity.sign == "-" and wanted.minimum is not None and wanted.minimum >= 0:
+        doubt = doubt or f"'{quantity.text}' is negative"
+    if quantity.other is not None:
+        readings = [quantity.value, quantity.other]
+        scale = quantity.printed.scale if quantity.printed else 1.0
+        inside = [r for r in readings if _in_range(wanted, r * scale)]
+        if len(inside) == 1 and (wanted.minimum is not None or wanted.maximum is not None):
+            half = quantity.half if inside[0] == quantity.value else 0.5
+            return Quantity(inside[0], quantity.unit, half, quantity.text, quantity.start, quantity.end), doubt
+        doubt = doubt or f"'{quantity.text}' may be {quantity.value:g} or {quantity.other:g}"
+    elif claim.partner is not None and not doubt and quantity.printed is not None:
+        if quantity.printed.system == "imperial":  # the metric one is taken
+            quantity = claim.partner
+    if not _in_range(wanted, quantity.si_value):
+        doubt = doubt or f"'{quantity.text}' is outside what is usual for {wanted.name}"
+    return quantity, doubt
+
+
+def _in_range(wanted: Wanted, value: float) -> bool:
+    low = wanted.minimum if wanted.minimum is not None else float("-inf")
+    high = wanted.maximum if wanted.maximum is not None else float("inf")
+    return low <= value <= high
+
+
+def _candidate(found: Match, sheets: Sheets, value: float) -> Candidate:
+    return Candidate(
+        value=value,
+        unit=SI_UNIT[found.wanted.dimension],
+        evidence=evidence_of(found, sheets),
+        configuration=configuration(found),
+        confidence=round(found.score, 3),
+        reason=found.claim.doubt or f"matches '{found.phrase}'",
+    )
+
+
+def _conflict(wanted: Wanted, groups: Sequence[Sequence[Match]], sheets: Sheets, config: str) -> Specification:
+    candidates = tuple(
+        _candidate(one, sheets, _settled(wanted, one.claim)[0].si_value)
+        for one in (max(group, key=_preference) for group in groups)
+    )
+    names = [c.configuration for c in candidates if c.configuration]
+    texts = [_settled(wanted, max(group, key=_preference).claim)[0].text for group in groups]
+    hint = f'Give the value with --set "{wanted.name}=VALUE UNIT"'
+    if len(set(names)) > 1:
+        hint = (
+            f'Choose a configuration with --config "{names[0]}" (or {" | ".join(names[1:4])}); or give the value with '
+        )
+        hint += f'--set "{wanted.name}=VALUE UNIT"'
+    return Specification(
+        name=wanted.name,
+        value=None,
+        unit=SI_UNIT[wanted.dimension],
+        status="conflict",
+        evidence=candidates[0].evidence,
+        text=" | ".join(texts),
+        reason=f"the sheet gives {len(groups)} values" + (f", and '{config}' does not choose" if config else ""),
+        hint=hint + ".",
+        candidates=candidates,
+    )
+
+
+def _reason(top: Match, group: Sequence[Match]) -> str:
+    parts = [f"matches '{top.phrase}'"]
+    if top.claim.partner is not None:
+        parts.append(f"'{top.claim.partner.text}' agrees")
+    if len(group) > 1:
+        parts.append(f"said {len(group)} times")
+    if configuration(top):
+        parts.append(f"column '{configuration(top)}'" if top.claim.statement.column else "")
+    return "; ".join(p for p in parts if p)

@@ -1,0 +1,109 @@
+"""The values a template asks for, out of specification sheets, by rules and without any network."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from yellowiron.guard import run_guarded
+from yellowiron.model.errors import SheetError
+from yellowiron.model.finding import Finding
+from yellowiron.model.specification import Specification, Specifications
+from yellowiron.model.template import Template
+from yellowiron.specs.asked import asked
+from yellowiron.specs.claims import Claim, claims_of
+from yellowiron.specs.decide import Sheets, decide, missing, quantity_words, unreadable
+from yellowiron.specs.match import match
+from yellowiron.specs.reader import MEMORY_MB, TIMEOUT_S, Sheet, check_file
+
+
+def extract(template: Template, pdfs: Sequence[Path], *, config: str = "") -> Specifications:
+    """What the sheets say of every value the template asks for, in SI, each with its evidence and status.
+
+    `config` names the machine's configuration where a sheet has columns ("standard boom, stock-pile bucket").
+    Values that differ between columns or pages and that `config` does not settle are a `conflict`. Each PDF is read in
+    a guarded child process. `SheetError` for a file that is missing, empty, no PDF, truncated, damaged or encrypted.
+    """
+    return from_sheets(template, [read(path) for path in pdfs], config=config)
+
+
+def read(path: Path) -> Sheet:
+    """A PDF's statements, read in a guarded child process."""
+    path = Path(path)
+    check_file(path)
+    sheet = run_guarded(
+        "yellowiron.specs.reader:read_sheet",
+        path.resolve(),
+        where=str(path),
+        error=SheetError,
+        timeout_s=TIMEOUT_S,
+        memory_mb=MEMORY_MB,
+    )
+    assert isinstance(sheet, Sheet)
+    return sheet
+
+
+def from_sheets(template: Template, sheets: Sequence[Sheet], *, config: str = "") -> Specifications:
+    """`extract` on sheets that are already read."""
+    wanted = asked(template)
+    claims: list[Claim] = []
+    files: dict[int, str] = {}
+    columns: dict[int, frozenset[str]] = {}
+    for sheet in sheets:
+        claims.extend(claims_of(sheet.statements, sheet.style))
+        files.update((id(s), sheet.file) for s in sheet.statements)
+        columns.update(_columns(sheet))
+    matches = match(claims, wanted)
+    silent = [s.file for s in sheets if not s.statements and s.silent]
+    values: dict[str, Specification] = {}
+    for one in wanted:
+        found = matches[one.name]
+        if found:
+            values[one.name] = decide(one, found, Sheets(files, columns), config)
+        else:
+            values[one.name] = unreadable(one, silent) if silent else missing(one)
+    return Specifications(values, tuple(_findings(sheets)))
+
+
+def _columns(sheet: Sheet) -> dict[int, frozenset[str]]:
+    """For each statement in a column of a table, by identity: the quantities of that column's cells."""
+    words: dict[tuple[int, tuple[str, ...]], set[str]] = {}
+    for statement in sheet.statements:
+        if statement.column:
+            found = words.setdefault((statement.page, statement.column), set())
+            found.update(quantity_words(statement.text, statement.unit, sheet.style))
+    return {id(s): frozenset(words[s.page, s.column]) for s in sheet.statements if s.column}
+
+
+def _findings(sheets: Sequence[Sheet]) -> list[Finding]:
+    findings = []
+    for sheet in sheets:
+        if not sheet.silent:
+            continue
+        pages = _pages(sheet.silent)
+        whole = not sheet.statements
+        findings.append(
+            Finding(
+                code="SPC001",
+                severity="warning" if whole else "info",
+                where=f"{sheet.file}, {pages}",
+                message=f"{sheet.file} has no text layer on {pages}: nothing could be read there",
+                hint="Run it through text recognition (OCR) first, or give the values with --set."
+                if whole
+                else "Only if these pages hold specifications: run them through text recognition (OCR).",
+            )
+        )
+    return findings
+
+
+def _pages(numbers: Sequence[int]) -> str:
+    parts: list[str] = []
+    start = previous = numbers[0]
+    for number in [*numbers[1:], None]:
+        if number is not None and number == previous + 1:
+            previous = number
+            continue
+        parts.append(f"{start}" if start == previous else f"{start}–{previous}")
+        if number is not None:
+            start = previous = number
+    return f"page{'s' if len(numbers) > 1 else ''} {', '.join(parts)}"

@@ -1,0 +1,244 @@
+"""Tables drawn with vertical and horizontal rules → statements. pdfplumber finds the cells; spanned cells fill their span."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from yellowiron.specs.lines import Line, lines_of
+from yellowiron.specs.rows import marked_by_legend
+from yellowiron.specs.statement import (
+    EXAMPLE,
+    Piece,
+    Statement,
+    is_unit,
+    join_boxes,
+    looks_like_value,
+    split_inline,
+    unit_in_label,
+    without_key,
+)
+from yellowiron.specs.words import Box, Page, Rule, Word
+
+_SNAP = 3.0
+_WALL = 6.0
+"""A vertical rule shorter than this is a tick or part of a letter."""
+
+
+@dataclass(frozen=True)
+class Cell:
+    """A cell with the rows and columns of the grid that it covers (first, last + 1) and its words."""
+
+    box: Box
+    rows: tuple[int, int]
+    columns: tuple[int, int]
+    lines: tuple[Line, ...] = ()
+
+    @property
+    def pieces(self) -> tuple[Piece, ...]:
+        """All its pieces, line by line."""
+        return tuple(p for line in self.lines for p in line.pieces)
+
+    @property
+    def text(self) -> str:
+        """All its words without footnote signs and example marks."""
+        return EXAMPLE.sub("", " ".join(" ".join(p.bare for p in line.pieces) for line in self.lines)).strip()
+
+
+@dataclass(frozen=True)
+class Grid:
+    """A table: its cells on a grid of `rows` × `columns`."""
+
+    box: Box
+    cells: tuple[Cell, ...]
+    rows: int
+    columns: int
+
+    def at(self, row: int, column: int) -> Cell | None:
+        """The cell that covers a grid position."""
+        for cell in self.cells:
+            if cell.rows[0] <= row < cell.rows[1] and cell.columns[0] <= column < cell.columns[1]:
+                return cell
+        return None
+
+
+def grids_of(page: Page) -> list[Grid]:
+    """The tables of a page that have at least two rows, two columns and words in three cells."""
+    walls = [r for r in page.rules if not r.horizontal and r.bottom - r.top >= _WALL]
+    if len(walls) < 2:
+        return []
+    from pdfplumber.table import cells_to_tables, edges_to_intersections, intersections_to_cells, merge_edges
+
+    edges = merge_edges([_edge(r) for r in page.rules if r.horizontal or r in walls], _SNAP, _SNAP, _SNAP, _SNAP)
+    if not 4 <= len(edges) <= 3000:
+        return []
+    found = []
+    for boxes in cells_to_tables(intersections_to_cells(edges_to_intersections(edges, _SNAP, _SNAP))):
+        grid = _grid(boxes, page.words)
+        if grid.rows >= 2 and grid.columns >= 2 and sum(bool(c.lines) for c in grid.cells) >= 3 and not _is_frame(grid):
+            found.append(grid)
+    return sorted(found, key=lambda g: (g.box[1], g.box[0]))
+
+
+def _edge(rule: Rule) -> dict[str, object]:
+    return {
+        "x0": rule.x0,
+        "x1": rule.x1,
+        "top": rule.top,
+        "bottom": rule.bottom,
+        "width": rule.x1 - rule.x0,
+        "height": rule.bottom - rule.top,
+        "orientation": "h" if rule.horizontal else "v",
+        "object_type": "line",
+    }
+
+
+def _grid(boxes: Sequence[Box], words: Sequence[Word]) -> Grid:
+    xs, ys = (
+        _stops([b[0] for b in boxes] + [b[2] for b in boxes]),
+        _stops([b[1] for b in boxes] + [b[3] for b in boxes]),
+    )
+    cells = []
+    for box in sorted(boxes, key=lambda b: (b[1], b[0])):
+        inside = [
+            w
+            for w in words
+            if box[0] - 1 <= (w.x0 + w.x1) / 2 <= box[2] + 1 and box[1] <= (w.top + w.bottom) / 2 <= box[3]
+        ]
+        cells.append(
+            Cell(
+                box,
+                (_index(ys, box[1]), _index(ys, box[3])),
+                (_index(xs, box[0]), _index(xs, box[2])),
+                tuple(lines_of(inside)),
+            )
+        )
+    return Grid(join_boxes(boxes), tuple(cells), len(ys) - 1, len(xs) - 1)
+
+
+def _stops(values: Sequence[float]) -> list[float]:
+    stops: list[float] = []
+    for value in sorted(values):
+        if not stops or value - stops[-1] > _SNAP:
+            stops.append(value)
+    return stops
+
+
+def _index(stops: Sequence[float], value: float) -> int:
+    return min(range(len(stops)), key=lambda i: abs(stops[i] - value))
+
+
+def _is_frame(grid: Grid) -> bool:
+    """Frames around blocks of text are no table: a few big cells, each with many lines."""
+    crowded = sum(len(c.lines) >= 5 for c in grid.cells)
+    return crowded >= 1 and crowded >= 0.3 * sum(bool(c.lines) for c in grid.cells)
+
+
+def read_grid(page: Page, grid: Grid, first_row: int, section: str = "") -> list[Statement]:
+    """The statements of a table: a value's label is the words to its left, its column the heads above."""
+    found: list[Statement] = []
+    heads: list[int] = []
+    for row in range(grid.rows):
+        cells = _row_cells(grid, row)
+        filled = [c for c in cells if c.lines]
+        values = [c for c in filled if looks_like_value(c.text)] or [c for c in filled if split_inline(c.text)[0]]
+        if not values:
+            if len(filled) == 1 and filled[0].columns[1] - filled[0].columns[0] == grid.columns:
+                section = " ".join(p.text for p in filled[0].pieces)
+                continue
+            heads.append(row)
+            continue
+        if not _labels(cells, values[0]) and not heads:
+            heads.append(row)
+            continue
+        found.extend(_read_row(page, grid, row, cells, values, heads, first_row + row, section))
+    return found
+
+
+def _row_cells(grid: Grid, row: int) -> list[Cell]:
+    found: list[Cell] = []
+    for column in range(grid.columns):
+        cell = grid.at(row, column)
+        if cell is not None and cell not in found:
+            found.append(cell)
+    return found
+
+
+def _labels(cells: Sequence[Cell], value: Cell) -> list[Cell]:
+    return [c for c in cells if c.lines and c.columns[1] <= value.columns[0] and not looks_like_value(c.text)]
+
+
+def _read_row(
+    page: Page,
+    grid: Grid,
+    row: int,
+    cells: Sequence[Cell],
+    values: Sequence[Cell],
+    heads: Sequence[int],
+    number: int,
+    section: str,
+) -> list[Statement]:
+    labels: list[Cell] = []
+    seen = -1
+    found = []
+    for value in values:
+        fresh = [
+            c for c in cells if c.lines and not looks_like_value(c.text) and seen < c.columns[0] < value.columns[0]
+        ]
+        words = [c for c in fresh if not is_unit(c.text) and not _is_key(c.text)]
+        if words:
+            labels = words
+        after = labels[-1].columns[0] if labels else -1
+        units = [is_unit(c.text) for c in [*fresh, *cells] if is_unit(c.text) and c.columns[0] > after]
+        seen = value.columns[0]
+        over = _heads_over(grid, heads, value, labels)
+        found.append(_statement(page, value, labels, over, units[0] if units else "", number, section))
+    return found
+
+
+def _heads_over(grid: Grid, heads: Sequence[int], value: Cell, labels: Sequence[Cell]) -> list[Cell]:
+    over: list[Cell] = []
+    for row in heads:
+        if row >= value.rows[0]:
+            continue
+        cell = grid.at(row, value.columns[0])
+        if cell is not None and cell.lines and cell not in over and cell not in labels:
+            over.append(cell)
+    return over
+
+
+def _statement(
+    page: Page, value: Cell, labels: Sequence[Cell], over: Sequence[Cell], unit: str, number: int, section: str
+) -> Statement:
+    label = " ".join(c.text for c in labels if not _is_key(c.text))
+    label, label_unit = unit_in_label(without_key(label))
+    text = value.text
+    if not label:
+        inline = split_inline(text)
+        label, text = inline if inline[0] else (label, text)
+    column = [c for c in over if not is_unit(c.text)]
+    head_unit = next((u for c in reversed(over) if (u := is_unit(c.text) or unit_in_label(c.text)[1])), "")
+    pieces = [p for c in [*labels, *over, value] for p in c.pieces]
+    marked = any(EXAMPLE.search(" ".join(p.text for p in c.pieces)) for c in [*labels, *over, value])
+    quote = [line.text for c in [*labels, value] for line in c.lines]
+    if not labels:
+        quote = [line.text for c in column for line in c.lines] + quote
+    return Statement(
+        page=page.number,
+        row=number,
+        label=label,
+        text=text,
+        box=join_boxes([value.box, *(c.box for c in labels)]),
+        quote=" … ".join(quote),
+        section=EXAMPLE.sub("", section).strip(),
+        column=tuple(unit_in_label(c.text)[0] for c in column if c.text),
+        unit=unit or label_unit or head_unit,
+        example=marked or bool(EXAMPLE.search(section)) or marked_by_legend(page, pieces),
+        x0=value.box[0],
+        method="lattice",
+    )
+
+
+def _is_key(text: str) -> bool:
+    """A drawing's letter: "A", "B'", "12"."""
+    return len(text) <= 2 and (text[:1].isupper() or text.isdigit())

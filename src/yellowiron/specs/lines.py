@@ -1,0 +1,203 @@
+"""Words → pieces → visual rows, and the columns of text that stand side by side on a page."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from yellowiron.specs.statement import Piece, kind_of
+from yellowiron.specs.words import Box, Rule, Word
+
+_GAP = 0.75
+"""A gap wider than this times the type size parts a label from a value."""
+
+
+@dataclass(frozen=True)
+class Line:
+    """Pieces on one baseline, from left to right."""
+
+    pieces: tuple[Piece, ...]
+
+    @property
+    def top(self) -> float:
+        """Top of its highest word."""
+        return min(p.box[1] for p in self.pieces)
+
+    @property
+    def bottom(self) -> float:
+        """Bottom of its lowest word."""
+        return max(p.box[3] for p in self.pieces)
+
+    @property
+    def x0(self) -> float:
+        """Left edge."""
+        return self.pieces[0].x0
+
+    @property
+    def x1(self) -> float:
+        """Right edge."""
+        return max(p.x1 for p in self.pieces)
+
+    @property
+    def text(self) -> str:
+        """All its words."""
+        return " ".join(p.text for p in self.pieces)
+
+
+def lines_of(words: Sequence[Word], walls: Sequence[Rule] = ()) -> list[Line]:
+    """Words by baseline, parted where a wide gap or a vertical rule is between them; from top to bottom."""
+    rows: list[list[Word]] = []
+    for word in sorted(words, key=lambda w: (w.baseline, w.x0)):
+        if rows and abs(rows[-1][0].baseline - word.baseline) <= 0.25 * min(rows[-1][0].size, word.size):
+            rows[-1].append(word)
+        else:
+            rows.append([word])
+    lines = []
+    for row in rows:
+        row.sort(key=lambda w: w.x0)
+        pieces: list[list[Word]] = []
+        for word in row:
+            last = pieces[-1][-1] if pieces else None
+            if last is None or word.x0 - last.x1 > _GAP * max(word.size, last.size) or _walled(last, word, walls):
+                pieces.append([word])
+            else:
+                pieces[-1].append(word)
+        lines.append(Line(tuple(Piece(tuple(p)) for p in pieces)))
+    return lines
+
+
+def _walled(a: Word, b: Word, walls: Sequence[Rule]) -> bool:
+    return any(
+        not w.horizontal
+        and a.x1 - 1 <= w.x0 <= b.x0 + 1
+        and w.top < a.baseline
+        and w.bottom > a.baseline - 0.5 * a.size
+        for w in walls
+    )
+
+
+@dataclass(frozen=True)
+class Block:
+    """Lines that belong to one column of text, `x0` to `x1`."""
+
+    lines: tuple[Line, ...]
+    x0: float
+    x1: float
+
+
+def blocks_of(lines: Sequence[Line], bars: Sequence[Box] = ()) -> list[Block]:
+    """The columns of text, in reading order: what stands above a pair of columns, the left one, the right one, the rest.
+
+    A gutter is an x at which several lines begin a label anew, each with a value to its right, and which no piece
+    crosses; or at which a filled bar begins beside another.
+    """
+    if not lines:
+        return []
+    found = _gutter(lines, bars)
+    x0, x1 = min(line.x0 for line in lines), max(line.x1 for line in lines)
+    if found is None:
+        return [Block(tuple(lines), x0, x1)]
+    x, first, last = found
+    left: list[Line] = []
+    right: list[Line] = []
+    for line in lines[first:last]:
+        a = tuple(p for p in line.pieces if p.x0 < x - 2)
+        b = tuple(p for p in line.pieces if p.x0 >= x - 2)
+        if a:
+            left.append(Line(a))
+        if b:
+            right.append(Line(b))
+    return [
+        *blocks_of(lines[:first], bars),
+        *blocks_of(left, bars),
+        *blocks_of(right, bars),
+        *blocks_of(lines[last:], bars),
+    ]
+
+
+def _gutter(lines: Sequence[Line], bars: Sequence[Box]) -> tuple[float, int, int] | None:
+    """The best gutter: its x and the range of lines that it parts."""
+    starts: dict[int, list[tuple[float, bool]]] = {}
+    for line in lines:
+        for index, piece in enumerate(line.pieces[1:], start=1):
+            if kind_of(piece) != "text":
+                continue
+            paired = any(kind_of(p) == "value" for p in line.pieces[index + 1 : index + 4])
+            starts.setdefault(round(piece.x0 / 3), []).append((piece.x0, paired))
+    candidates: list[float] = []
+    for key in sorted(starts):
+        near = starts[key] + starts.get(key + 1, [])
+        if len(near) >= 4 and sum(paired for _, paired in near) >= max(3, 0.5 * len(near)):
+            candidates.append(min(x for x, _ in near))
+    by_bars = sorted({b[0] for b in bars if any(a[2] <= b[0] and a[1] < b[3] and b[1] < a[3] for a in bars)})
+    candidates += by_bars
+    best: tuple[int, float, int, int] | None = None
+    for x in candidates:
+        first, last, weight = _run(lines, x)
+        left_values = sum(
+            any(p.x0 < x - 2 and kind_of(p) == "value" for p in line.pieces) for line in lines[first:last]
+        )
+        if weight >= 3 and (left_values >= 2 or x in by_bars) and (best is None or weight > best[0]):
+            best = (weight, x, first, last)
+    return best[1:] if best else None
+
+
+def _run(lines: Sequence[Line], x: float) -> tuple[int, int, int]:
+    """The longest run of lines that no piece crosses at `x`, and how many of them stand on both sides (or one a side)."""
+    best = (0, 0, 0)
+    start = 0
+    for index in range(len(lines) + 1):
+        crossing = index == len(lines) or any(p.x0 < x - 2 and p.x1 > x - 2 for p in lines[index].pieces)
+        if not crossing:
+            continue
+        part = lines[start:index]
+        left = sum(any(p.x1 <= x - 2 for p in line.pieces) for line in part)
+        right = sum(any(p.x0 >= x - 2 for p in line.pieces) for line in part)
+        weight = min(left, right)
+        if weight > best[2]:
+            best = (start, index, weight)
+        start = index + 1
+    return best
+
+
+def visual_rows(lines: Sequence[Line]) -> list[tuple[Line, ...]]:
+    """Lines that overlap in height are one row: a label beside the two lines of its value."""
+    rows: list[list[Line]] = []
+    for line in sorted(lines, key=lambda one: one.top):
+        if rows:
+            bottom = max(one.bottom for one in rows[-1])
+            height = min(line.bottom - line.top, min(one.bottom - one.top for one in rows[-1]))
+            last = rows[-1][-1]
+            if bottom - line.top > 0.25 * height and not _same_columns(last, line):
+                rows[-1].append(line)
+                continue
+        rows.append([line])
+    return [tuple(row) for row in rows]
+
+
+def _same_columns(a: Line, b: Line) -> bool:
+    """Whether two lines overlapping in height are yet stacked: one has a piece right above the other's."""
+    return any(p.x0 < q.x1 and q.x0 < p.x1 and q.box[1] - p.box[1] < 0.5 * p.size for p in a.pieces for q in b.pieces)
+
+
+def bands(
+    lines: Sequence[Line], rules: Sequence[Rule], bars: Sequence[Box], x0: float, x1: float
+) -> list[tuple[Line, ...]]:
+    """Lines between two neighbouring horizontal rules that run along (most of) the block are one row.
+
+    Lines outside such a pair of rules are grouped by overlap alone; a line on a filled bar stands alone.
+    """
+    ys = sorted({round(r.top, 1) for r in rules if r.horizontal and min(r.x1, x1) - max(r.x0, x0) > 0.6 * (x1 - x0)})
+    edges = sorted({*ys, *(b[1] for b in bars), *(b[3] for b in bars)})
+    groups: dict[tuple[float, float], list[Line]] = {}
+    free: list[Line] = []
+    for line in lines:
+        middle = (line.top + line.bottom) / 2
+        above = max((y for y in edges if y < middle), default=None)
+        below = min((y for y in edges if y >= middle), default=None)
+        if above is None or below is None or below not in ys or below - above > 6.5 * line.pieces[0].size:
+            free.append(line)
+        else:
+            groups.setdefault((above, below), []).append(line)
+    rows = [tuple(group) for group in groups.values()] + visual_rows(free)
+    return sorted(rows, key=lambda row: (min(line.top for line in row), row[0].x0))

@@ -1,0 +1,140 @@
+"""Claims × wanted values: which claim speaks of which wanted value, and how surely."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from yellowiron.model.template import Wanted
+from yellowiron.specs.claims import Claim
+from yellowiron.specs.vocabulary import NEUTRAL, REVERSING, has_cjk, squeezed, tokens
+
+LEAST = 0.5
+"""Score below which a claim does not speak of a wanted value at all."""
+
+
+@dataclass(frozen=True)
+class Match:
+    """A claim that speaks of a wanted value. `score` 0…1: the share of its label that the wanted value's phrases
+    explain, less what is borrowed from headings. `rest` are the label's other words."""
+
+    wanted: Wanted
+    claim: Claim
+    score: float
+    phrase: str
+    rest: tuple[str, ...] = ()
+
+
+def match(claims: Sequence[Claim], wanted: Sequence[Wanted]) -> dict[str, list[Match]]:
+    """The matches by wanted name. A claim that one wanted value explains better does not count for another."""
+    found: dict[str, list[Match]] = {w.name: [] for w in wanted}
+    for claim in claims:
+        matches = [m for w in wanted if (m := match_one(w, claim)) is not None and m.score >= LEAST]
+        if not matches:
+            continue
+        best = max((m.score, _specific(m)) for m in matches)
+        for one in matches:
+            if one.score >= best[0] - 1e-9 and (one.score > 0.999 or _specific(one) >= best[1]):
+                found[one.wanted.name].append(one)
+    return found
+
+
+def _specific(found: Match) -> int:
+    return len(tokens(found.phrase))
+
+
+def match_one(wanted: Wanted, claim: Claim) -> Match | None:
+    """How well a claim speaks of a wanted value; None where it cannot: dimension, forbidden words, words that are
+    missing."""
+    if claim.quantity.dimension != wanted.dimension:
+        return None
+    statement = claim.statement
+    label, head = set(tokens(claim.words)), set(tokens(claim.head))
+    context = {t for c in statement.context for t in tokens(c)}
+    section = set(tokens(statement.section))
+    supported = any(set(tokens(s)) <= section for s in wanted.sections if tokens(s)) if section else False
+    if _forbidden(wanted, claim, label | head | context | (set() if supported else section)):
+        return None
+    if any(has_cjk(p) for p in phrases(wanted)) and (cjk := _cjk_match(wanted, claim)) is not None:
+        return cjk
+    everything = label | head | context | section
+    explained: set[str] = set()
+    from_head: set[str] = set()
+    best = ""
+    for phrase in phrases(wanted):
+        words = set(tokens(phrase))
+        if not words or not words <= everything or not _anchored(words, label, head, context | section):
+            continue
+        if len(words) == 1 and not supported and label - words - NEUTRAL:
+            continue
+        explained |= words
+        from_head |= words - label - context - section
+        if len(words) > len(set(tokens(best))):
+            best = phrase
+    if not explained:
+        return None
+    primary = (label if explained & label else set()) | (head if from_head else set()) or context | section
+    rest = {t for t in primary - explained - NEUTRAL if not _is_number(t)}
+    if rest & REVERSING or (label - explained) & REVERSING:
+        return None
+    score = 1.0 - len(rest) / max(len(primary - NEUTRAL), 1)
+    borrowed = explained - label - head
+    score -= 0.05 * bool(borrowed) + 0.05 * bool(borrowed - context)
+    return Match(wanted, claim, max(score, 0.0), best, tuple(sorted(rest)))
+
+
+@functools.lru_cache(maxsize=1024)
+def _phrases(name: str, synonyms: tuple[tuple[str, ...], ...]) -> tuple[str, ...]:
+    return tuple(dict.fromkeys([name, *(s for group in synonyms for s in group)]))
+
+
+def phrases(wanted: Wanted) -> tuple[str, ...]:
+    """A wanted value's name and synonyms in every language."""
+    return _phrases(wanted.name, tuple(tuple(group) for group in wanted.synonyms.values()))
+
+
+def _anchored(words: set[str], label: set[str], head: set[str], above: set[str]) -> bool:
+    """Whether the statement's own label or head holds part of a phrase: headings alone name no property, unless the
+    value has no label at all."""
+    if words & label:
+        return True
+    if words & head:
+        return len(words & head) >= 1
+    return not label and not head and words <= above
+
+
+def _is_number(token: str) -> bool:
+    return token[0].isdigit()
+
+
+def _forbidden(wanted: Wanted, claim: Claim, words: set[str]) -> bool:
+    text = f"{claim.words} {claim.head}".casefold()
+    for phrase in wanted.forbidden:
+        parts = set(tokens(phrase))
+        if has_cjk(phrase):
+            if squeezed(phrase) in squeezed(text + claim.statement.section):
+                return True
+        elif (parts and parts <= words) or (not parts and phrase.casefold() in text):
+            return True
+    return False
+
+
+def _cjk_match(wanted: Wanted, claim: Claim) -> Match | None:
+    """Scripts without spaces: a phrase that the label contains, or the label and its sub-heading together."""
+    label = squeezed(claim.words)
+    whole = squeezed("".join([*claim.statement.context, claim.words]))
+    best: tuple[float, str] | None = None
+    for phrase in phrases(wanted):
+        if not has_cjk(phrase):
+            continue
+        bare = squeezed(phrase)
+        if bare in label:
+            score = len(bare) / len(label)
+        elif label and bare in whole:
+            score = 0.95 * len(bare) / len(whole)
+        else:
+            continue
+        if best is None or score > best[0]:
+            best = (score, phrase)
+    return Match(wanted, claim, *best) if best else None

@@ -1,0 +1,104 @@
+"""Opens a PDF and reads its pages into statements. Runs in the guarded child process."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from yellowiron.model.errors import SheetError
+from yellowiron.specs.layout import statements_of
+from yellowiron.specs.numbers import DecimalStyle, decimal_style
+from yellowiron.specs.statement import Statement
+from yellowiron.specs.words import read_page
+
+TIMEOUT_S = 120.0
+MEMORY_MB = 4096
+_MOST_PAGES = 400
+_MOST_BYTES = 512 * 1024 * 1024
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """A read PDF. `silent` are the pages with pictures or marks but no readable text; `style` how it writes decimals."""
+
+    file: str
+    pages: int
+    statements: tuple[Statement, ...]
+    silent: tuple[int, ...]
+    style: DecimalStyle
+
+
+def read_sheet(path: Path) -> Sheet:
+    """A PDF's statements, page by page. `SheetError` if it is missing, empty, no PDF, truncated, damaged or encrypted."""
+    import pypdfium2
+
+    check_file(path)
+    try:
+        document = pypdfium2.PdfDocument(path)
+    except pypdfium2.PdfiumError as error:
+        raise _open_error(path, str(error)) from error
+    try:
+        if len(document) > _MOST_PAGES:
+            raise SheetError(
+                f"{path.name} has {len(document)} pages, more than {_MOST_PAGES}",
+                where=str(path),
+                hint="Give the pages with the specifications only.",
+            )
+        statements: list[Statement] = []
+        silent: list[int] = []
+        texts: list[str] = []
+        for number in range(1, len(document) + 1):
+            try:
+                page = read_page(document[number - 1], number)
+            except pypdfium2.PdfiumError as error:
+                raise SheetError(
+                    f"Page {number} of {path.name} cannot be read: the file is damaged",
+                    where=f"{path}, page {number}",
+                    hint="Get the file again, or print it to a new PDF.",
+                ) from error
+            if page.readable:
+                statements.extend(statements_of(page))
+                texts.append(" ".join(w.text for w in page.words))
+            elif page.images or page.characters or page.rules:
+                silent.append(number)
+        return Sheet(path.name, len(document), tuple(statements), tuple(silent), decimal_style(texts))
+    finally:
+        document.close()
+
+
+def check_file(path: Path) -> None:
+    """`SheetError` for what can be told from the bytes: no file, empty, too big, no PDF, cut short."""
+    try:
+        size = path.stat().st_size
+        with path.open("rb") as stream:
+            head = stream.read(1024)
+            stream.seek(max(0, size - 8192))
+            tail = stream.read()
+    except OSError as error:
+        raise SheetError(
+            f"{path.name} cannot be opened: {error.strerror or error}", where=str(path), hint="Check the path."
+        ) from error
+    if size == 0:
+        raise SheetError(f"{path.name} is empty", where=str(path), hint="Get the file again.")
+    if size > _MOST_BYTES:
+        raise SheetError(
+            f"{path.name} is larger than 512 MB", where=str(path), hint="Give the specification pages only."
+        )
+    if b"%PDF-" not in head:
+        raise SheetError(f"{path.name} is not a PDF", where=str(path), hint="Give the sheet as a PDF file.")
+    if b"%%EOF" not in tail:
+        raise SheetError(
+            f"{path.name} is cut short: its end is missing", where=str(path), hint="Download or copy the file again."
+        )
+
+
+def _open_error(path: Path, message: str) -> SheetError:
+    if "password" in message.lower() or "security" in message.lower():
+        return SheetError(
+            f"{path.name} is encrypted and asks for a password",
+            where=str(path),
+            hint="Open it with its password and print it to a new PDF without one.",
+        )
+    return SheetError(
+        f"{path.name} is a damaged PDF", where=str(path), hint="Get the file again, or print it to a new PDF."
+    )

@@ -1,0 +1,352 @@
+"""Rows without a grid → statements: labels, sub-headings, section headings and column heads by position alone."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, replace
+
+from yellowiron.specs.lines import Block, Line, bands
+from yellowiron.specs.numbers import FEET_INCHES
+from yellowiron.specs.statement import (
+    EXAMPLE,
+    Piece,
+    Statement,
+    is_unit,
+    join_boxes,
+    kind_of,
+    split_inline,
+    unit_in_label,
+    without_key,
+)
+from yellowiron.specs.words import Box, Page
+
+
+_LONGEST_LABEL = 12
+"""Words; more are prose."""
+
+
+@dataclass
+class _State:
+    """What the rows above say about the rows below."""
+
+    section: str = ""
+    section_box: Box | None = None
+    context: list[Piece] = field(default_factory=list)
+    pending: list[Piece] = field(default_factory=list)
+    heads: list[tuple[Piece, ...]] = field(default_factory=list)
+    data_since_heads: bool = False
+
+
+def read_block(page: Page, block: Block, first_row: int, section: str = "") -> tuple[list[Statement], str]:
+    """The statements of a column of text, and the section that holds at its end. `first_row` numbers its rows."""
+    state = _State(section=section)
+    found: list[Statement] = []
+    size = _body_size(block)
+    for index, row in enumerate(bands(block.lines, page.rules, _bars_of(page, block), block.x0, block.x1)):
+        for line in _split_if_separate(row):
+            _read_row(page, block, line, state, size, first_row + len(found) + index, found)
+    return found, state.section
+
+
+def _read_row(
+    page: Page, block: Block, row: Sequence[Line], state: _State, size: float, number: int, found: list[Statement]
+) -> None:
+    pieces = [p for line in row for p in line.pieces]
+    kinds = [kind_of(p) for p in pieces]
+    if "value" not in kinds:
+        inline = [s for p in pieces if (s := split_inline(p.bare))[0]]
+        if not inline:
+            for line in sorted(row, key=lambda one: one.top):
+                _read_words(page, block, line, state, size)
+            return
+    _read_values(page, row, state, number, found)
+    state.data_since_heads = True
+
+
+# ---- rows without a value -----------------------------------------------------------------------------------------------
+
+
+def _read_words(page: Page, block: Block, line: Line, state: _State, size: float) -> None:
+    """A heading, a sub-heading, column heads, or the first line of a label."""
+    pieces = line.pieces
+    texts = [p for p in pieces if kind_of(p) != "mark"]
+    if not texts:
+        if state.heads and not state.data_since_heads:
+            state.heads.append(tuple(pieces))
+        return
+    at_label = texts[0].x0 < block.x0 + 0.12 * (block.x1 - block.x0) + 4
+    bar = _bar_under(page, texts[0])
+    if bar is not None or (len(texts) == 1 and at_label and _is_heading(texts[0], size)):
+        same_bar = [p for p in pieces if bar is None or _inside(p.box, bar)]
+        heading = texts[0]
+        rest = [p for p in texts[1:] if p.x0 > heading.x1]
+        state.section = heading.text if rest else " ".join(p.text for p in same_bar)
+        state.section_box = heading.box
+        state.context, state.pending, state.heads = [], [], [tuple(rest)] if rest else []
+        state.data_since_heads = False
+        return
+    units = all(is_unit(p.bare) for p in texts)
+    in_values = [p for p in texts if p.x0 >= block.x0 + 0.12 * (block.x1 - block.x0) + 4]
+    bold = all(p.bold for p in texts)
+    if (
+        units
+        or len(in_values) >= 2
+        or (in_values and not at_label and (bold or not state.pending))
+        or (len(texts) == 2 and at_label and bold)
+    ):
+        if state.data_since_heads:
+            state.heads = []
+            state.data_since_heads = False
+        state.heads.append(tuple(texts))
+        if at_label and not units:
+            state.pending = []
+        return
+    if at_label and len(texts) == 1 and len(texts[0].words) <= _LONGEST_LABEL:
+        if texts[0].bold:
+            state.context, state.pending = [texts[0]], []
+        elif state.pending and _stacked(state.pending[-1], texts[0]) and not state.data_since_heads:
+            state.pending = [*state.pending, texts[0]]
+        else:
+            state.pending = [texts[0]]
+        state.data_since_heads = False if not state.heads else state.data_since_heads
+        return
+    state.pending = []
+
+
+def _is_heading(piece: Piece, size: float) -> bool:
+    text = EXAMPLE.sub("", piece.text)
+    letters = [c for c in text if c.isalpha()]
+    capitals = len(letters) >= 4 and sum(c.isupper() for c in letters) > 0.85 * len(letters)
+    return len(text.split()) <= 9 and (
+        piece.size > 1.12 * size or (capitals and piece.bold) or (capitals and len(letters) > 5)
+    )
+
+
+def _bar_under(page: Page, piece: Piece) -> Box | None:
+    """The filled bar a piece is printed on, if that is no higher than a heading needs."""
+    for bar in page.bars:
+        if bar[3] - bar[1] < 3.2 * piece.size and bar[2] - bar[0] > 6 * piece.size and _inside(piece.box, bar):
+            return bar
+    return None
+
+
+def _inside(box: Box, outer: Box) -> bool:
+    return outer[0] - 2 <= box[0] and box[2] <= outer[2] + 2 and outer[1] - 2 <= (box[1] + box[3]) / 2 <= outer[3] + 2
+
+
+def _stacked(a: Piece, b: Piece) -> bool:
+    return abs(a.x0 - b.x0) < 2 * a.size and 0 < b.box[1] - a.box[3] < 0.9 * a.size
+
+
+def _bars_of(page: Page, block: Block) -> list[Box]:
+    """The filled bars that stand in a block and are no higher than a heading."""
+    return [b for b in page.bars if b[0] < block.x1 and block.x0 < b[2] and b[3] - b[1] < 40]
+
+
+def _body_size(block: Block) -> float:
+    """The type size that most characters of a block have."""
+    sizes: dict[float, int] = {}
+    for line in block.lines:
+        for piece in line.pieces:
+            for word in piece.words:
+                key = round(word.size, 1)
+                sizes[key] = sizes.get(key, 0) + len(word.text)
+    return max(sizes, key=lambda s: (sizes[s], -s)) if sizes else 8.0
+
+
+# ---- rows with values ---------------------------------------------------------------------------------------------------
+
+
+def _split_if_separate(row: Sequence[Line]) -> Iterator[Sequence[Line]]:
+    """A band that holds several labelled values of its own is several rows."""
+    labelled = 0
+    for line in row:
+        kinds = [kind_of(p) for p in line.pieces]
+        if kinds[0] == "text" and "value" in kinds[1:]:
+            labelled += 1
+    if labelled >= 2:
+        for line in row:
+            yield (line,)
+    else:
+        yield row
+
+
+@dataclass
+class _Cell:
+    label: list[Piece]
+    values: list[Piece]
+    notes: list[Piece] = field(default_factory=list)
+    unit: str = ""
+
+
+def _read_values(page: Page, row: Sequence[Line], state: _State, number: int, found: list[Statement]) -> None:
+    cells = _cells(row)
+    pending, state.pending = state.pending, []
+    has_label = any(c.label for c in cells)
+    if not has_label and not pending and found and _continues(found, cells):
+        _continue(found, cells)
+        return
+    context = [*state.context, *pending]
+    row_marked = any(EXAMPLE.search(p.text) for c in cells for p in [*c.notes, *c.label, *c.values])
+    for cell in cells:
+        label_text = " ".join(p.bare for p in cell.label)
+        value_text = " ".join(p.text for p in cell.values)
+        if not cell.label:
+            inline_label, inline_value = split_inline(" ".join(p.bare for p in cell.values))
+            if inline_label:
+                label_text, value_text = inline_label, inline_value
+        if len(label_text.split()) > _LONGEST_LABEL:
+            continue
+        box = join_boxes(p.box for p in cell.values)
+        heads = _heads_over(state.heads, box)
+        column = [h for h in heads if not is_unit(h.bare)]
+        unit = next((u for h in reversed(heads) if (u := is_unit(h.bare) or unit_in_label(h.bare)[1])), "")
+        bare_label, label_unit = unit_in_label(without_key(label_text))
+        unit = cell.unit or label_unit or unit
+        marked = (
+            row_marked or any(EXAMPLE.search(p.text) for p in [*heads, *context]) or bool(EXAMPLE.search(state.section))
+        )
+        found.append(
+            Statement(
+                page=page.number,
+                row=number,
+                label=bare_label,
+                text=EXAMPLE.sub("", value_text).strip(),
+                box=join_boxes([box, *(p.box for p in cell.label)]),
+                quote=_quote(
+                    row, context if not cell.label or pending else [], cell, [*column] if not cell.label else []
+                ),
+                context=tuple(p.bare for p in context),
+                section=EXAMPLE.sub("", state.section).strip(),
+                column=tuple(unit_in_label(h.bare)[0] for h in column if h.bare),
+                unit=unit,
+                example=marked or marked_by_legend(page, [*cell.label, *cell.values, *heads]),
+                x0=box[0],
+                method="bands" if len(row) > 1 else "gaps",
+            )
+        )
+        if not has_label:
+            # A value under a label of its own line, its partner beneath: "25,510 kg" / "56,240 lb".
+            state.pending = pending
+
+
+def _cells(row: Sequence[Line]) -> list[_Cell]:
+    """The row's values, each with the labels to its left back to the value before."""
+    pieces = sorted((p for line in row for p in line.pieces), key=lambda p: (p.words[0].baseline, p.x0))
+    kinds = {id(p): kind_of(p) for p in pieces}
+    values = [p for p in pieces if kinds[id(p)] == "value"]
+    if not values:
+        values = [p for p in pieces if split_inline(p.bare)[0]]
+    columns: list[list[Piece]] = []
+    for piece in sorted(values, key=lambda p: (p.x0, p.box[1])):
+        if columns and any(p.x0 < piece.x1 and piece.x0 < p.x1 for p in columns[-1]):
+            columns[-1].append(piece)
+        else:
+            columns.append([piece])
+    cells: list[_Cell] = []
+    others = [p for p in pieces if not any(p is v for v in values)]
+    left_edge = float("-inf")
+    for column in columns:
+        x0 = min(p.x0 for p in column)
+        x1 = max(p.x1 for p in column)
+        label = [p for p in others if left_edge <= p.x0 < x0 and kinds[id(p)] == "text"]
+        units = [p for p in others if left_edge <= p.x0 < x0 and kinds[id(p)] == "unit"]
+        if not label and cells:
+            label = cells[-1].label
+            units = units or []
+        unit = is_unit(units[-1].bare) if units else (cells[-1].unit if cells and label is cells[-1].label else "")
+        cells.append(_Cell(label, sorted(column, key=lambda p: (p.words[0].baseline, p.x0)), unit=unit))
+        left_edge = x1
+    if cells:
+        last = [p for p in others if p.x0 >= left_edge]
+        cells[-1].notes = last
+        trailing = [is_unit(p.bare) for p in last if kinds[id(p)] == "unit"]
+        if trailing and all(not c.unit for c in cells):
+            cells = [replace(c, unit=trailing[0]) for c in cells]
+        for note in last:  # the words after a value may say which it is
+            if kinds[id(note)] == "text" and len(note.words) <= 8:
+                cells[-1].values.append(note)
+    return cells
+
+
+def _heads_over(heads: Sequence[tuple[Piece, ...]], box: Box) -> list[Piece]:
+    """The head of each head line that stands over a value: the one that overlaps it, else the nearest one."""
+    over: list[Piece] = []
+    for line in heads:
+        overlap = [(min(p.x1, box[2]) - max(p.x0, box[0]), p) for p in line]
+        best = max(overlap, key=lambda pair: pair[0])
+        if best[0] > 0:
+            over.extend(p for _, p in overlap if p is best[1])
+        elif len(line) >= 2 or best[0] > -40:
+            nearest = max(overlap, key=lambda pair: pair[0])
+            if nearest[0] > -60:
+                over.append(nearest[1])
+    return over
+
+
+def _continues(found: Sequence[Statement], cells: Sequence[_Cell]) -> bool:
+    """Whether values without a label stand under those of the statements before (their imperial line)."""
+    return all(_above(found, c) is not None for c in cells)
+
+
+def _above(found: Sequence[Statement], cell: _Cell) -> int | None:
+    box = join_boxes(p.box for p in cell.values)
+    last = found[-1].row
+    for index in range(len(found) - 1, -1, -1):
+        statement = found[index]
+        if statement.row != last:
+            return None
+        if statement.x0 < box[2] and box[0] < statement.box[2] and 0 <= box[1] - statement.box[3] < (box[3] - box[1]):
+            return index
+    return None
+
+
+def _continue(found: list[Statement], cells: Sequence[_Cell]) -> None:
+    for cell in cells:
+        index = _above(found, cell)
+        if index is not None:
+            text = " ".join(p.text for p in cell.values)
+            statement = found[index]
+            first, second = statement.text, EXAMPLE.sub("", text).strip()
+            if cell.unit and cell.unit != statement.unit:
+                first, second = f"{first} {statement.unit}".strip(), f"{second} {cell.unit}"
+            found[index] = replace(
+                statement,
+                text=f"{first} {second}",
+                unit="" if cell.unit and cell.unit != statement.unit else statement.unit,
+                quote=f"{statement.quote} … {text}",
+                box=join_boxes([statement.box, *(p.box for p in cell.values)]),
+            )
+
+
+def _quote(row: Sequence[Line], context: Sequence[Piece], cell: _Cell, heads: Sequence[Piece]) -> str:
+    """What the page prints: sub-heading or head, then each line of the row from the label to the value."""
+    parts = [p.text for p in [*heads, *context]]
+    chosen = [*cell.label, *cell.values]
+    for line in row:
+        mine = [i for i, p in enumerate(line.pieces) if any(p is q for q in chosen)]
+        if mine:
+            parts.append(" ".join(p.text for p in line.pieces[mine[0] : mine[-1] + 1]))
+    return " … ".join(dict.fromkeys(parts))
+
+
+def marked_by_legend(page: Page, pieces: Sequence[Piece]) -> bool:
+    """Whether a footnote sign at one of the pieces stands for "example value" at the foot of the page."""
+    marks = "".join(p.marks for p in pieces)
+    return any(mark in marks and EXAMPLE.search(text) for mark, text in page.legend.items())
+
+
+def legend_of(lines: Sequence[Line]) -> dict[str, str]:
+    """Footnote signs and what they mean: lines that begin with one."""
+    found: dict[str, str] = {}
+    for line in lines:
+        match = re.match(r"^([*†‡§¤◊]+|\d\))\s*(\S.*)$", line.text)
+        if match:
+            found.setdefault(match.group(1), match.group(2))
+        elif line.pieces[0].words[0].marks and len(line.text.split()) > 1:
+            found.setdefault(line.pieces[0].words[0].marks, line.text)
+    return found
+
+
+__all__ = ["FEET_INCHES", "legend_of", "read_block"]

@@ -1,0 +1,182 @@
+"""The unit of a sheet: one value cell with the words that say what it is."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from yellowiron.specs.numbers import FEET_INCHES, Reading, read
+from yellowiron.specs.printed_units import printed_unit, unit_pattern
+from yellowiron.specs.words import Box, Word
+
+EXAMPLE = re.compile(
+    r"[(\[]?\s*\b(?:example values?|beispielwerte?|valeurs? d'exemple|valor(?:es)? de ejemplo)\b\s*[)\]]?",
+    re.IGNORECASE,
+)
+"""How a sheet marks a value as its publisher's own example."""
+_MARK = re.compile(r"(?<=[\w)\"'°³²%])\s*(?:[*†‡§¤◊]+|\d\))$|^(?:[*†‡§¤◊]+)")
+_FEET_HEAD = re.compile(r"\(?\s*(?:ft\.?|feet|′|')\s*[-·.,&/ ]*\s*(?:in\.?|inch(?:es)?|″|\")\s*\)?", re.IGNORECASE)
+
+
+@dataclass(frozen=True)
+class Piece:
+    """Neighbouring words on one line without a wide gap: a label, a value, a head."""
+
+    words: tuple[Word, ...]
+
+    @property
+    def text(self) -> str:
+        """The words, a space between them."""
+        return " ".join(w.text for w in self.words)
+
+    @property
+    def box(self) -> Box:
+        """x0, top, x1, bottom."""
+        return join_boxes(w.box for w in self.words)
+
+    @property
+    def x0(self) -> float:
+        """Left edge."""
+        return self.words[0].x0
+
+    @property
+    def x1(self) -> float:
+        """Right edge."""
+        return max(w.x1 for w in self.words)
+
+    @property
+    def size(self) -> float:
+        """Size of its largest word."""
+        return max(w.size for w in self.words)
+
+    @property
+    def bold(self) -> bool:
+        """Whether every word is bold."""
+        return all(w.bold for w in self.words)
+
+    @property
+    def marks(self) -> str:
+        """Footnote signs at its words."""
+        found = "".join(w.marks for w in self.words)
+        match = _MARK.search(self.text)
+        return found + (match.group(0).strip() if match else "")
+
+    @property
+    def bare(self) -> str:
+        """The text without footnote signs and example marks."""
+        text = EXAMPLE.sub("", self.text).strip()
+        return _MARK.sub("", text).strip()
+
+
+@dataclass(frozen=True)
+class Statement:
+    """One value cell. `label` is its row's, `context` the sub-headings above it (nearest last), `section` the heading,
+    `column` the heads over it, `text` what it says; `unit` comes from its head or label, for numbers without one.
+
+    `row` groups the cells of one row. `quote` is what the page prints, pieces that stand apart joined by " … ".
+    """
+
+    page: int
+    row: int
+    label: str
+    text: str
+    box: Box
+    quote: str
+    context: tuple[str, ...] = ()
+    section: str = ""
+    column: tuple[str, ...] = ()
+    unit: str = ""
+    example: bool = False
+    x0: float = 0.0
+    method: str = ""
+
+
+def join_boxes(boxes: Iterable[Box]) -> Box:
+    """The box around all."""
+    every = list(boxes)
+    return (min(b[0] for b in every), min(b[1] for b in every), max(b[2] for b in every), max(b[3] for b in every))
+
+
+def is_unit(text: str) -> str:
+    """The unit that a text is and nothing else ("mm", "(kg)", "ft in"); "" if it is not one."""
+    bare = text.strip()
+    if _FEET_HEAD.fullmatch(bare):
+        return FEET_INCHES
+    bare = bare.strip("()[]{}: ")
+    return bare if bare and re.fullmatch(unit_pattern(), bare) and printed_unit(bare) else ""
+
+
+def unit_in_label(text: str) -> tuple[str, str]:
+    """A label without the unit at its end, and that unit: "Boom length (m)" → ("Boom length", "m")."""
+    match = re.search(r"^(.*?)\s*[(\[]\s*([^()\[\]]+?)\s*[)\]]\s*:?$", text) or re.search(
+        r"^(.*?)\s*,\s*([^,]+?)\s*:?$", text
+    )
+    match = match or re.search(r"^(.*\w)\s+(mm|cm|kg|kPa|MPa|kN|l/min|L/min|m³|m3|km/h)$", text)
+    if match and (unit := is_unit(match.group(2))):
+        return match.group(1), unit
+    return text, ""
+
+
+def kind_of(piece: Piece) -> str:
+    """`value`, `unit`, `mark` (an example mark alone) or `text`."""
+    bare = piece.bare
+    if not bare:
+        return "mark"
+    if is_unit(bare):
+        return "unit"
+    return "value" if looks_like_value(bare) else "text"
+
+
+_VALUE_START = re.compile(
+    r"^(?:(?:approx\.?|approximately|about|ca\.?|max\.?|min\.?|up to|bis|env\.?)\s*)?[(\[]?\s*[<>≤≥~≈±Øø⌀+\-–−]*\s*(?:[\d½¼¾⅛⅜⅝⅞]|[.,]\d)",
+    re.IGNORECASE,
+)
+_NOT_A_VALUE = re.compile(
+    r"^\d+(?:st|nd|rd|th)\b|^\d+[A-Za-z]{2,}\d|^\d+(?:[.,]\d+)?\s?R\s?\d|^\d+[-/]?[A-Z]{2,}\b|^\d+-(?!\d)[A-Za-z]"
+)
+
+
+def looks_like_value(text: str) -> bool:
+    """Whether a piece of text is a value rather than a label: it begins with a number and is mostly numbers."""
+    if not _VALUE_START.match(text) or _NOT_A_VALUE.match(text):
+        return False
+    readings = read(text)
+    if not readings:
+        return False
+    return len(words_beside_numbers(text, readings)) <= 8
+
+
+def words_beside_numbers(text: str, readings: Sequence[Reading]) -> list[str]:
+    """The words of a text that belong to no quantity."""
+    rest = text
+    for quantity in sorted(
+        (q for r in readings for q in (*r.numbers, *r.partner)), key=lambda q: q.start, reverse=True
+    ):
+        rest = rest[: quantity.start] + " " + rest[quantity.end :]
+    return re.findall(r"[^\W\d_]{2,}", rest)
+
+
+def split_inline(text: str) -> tuple[str, str]:
+    """A piece that holds a label and its value: ("Wheelbase", "3,450 mm"); ("", "") if it does not.
+
+    The value is what follows a colon, or the quantities with units at the end.
+    """
+    colon = re.match(r"^(.*?[^\W\d].*?)\s*[:=]\s+(.+)$", text)
+    if colon and looks_like_value(colon.group(2)):
+        return colon.group(1), colon.group(2)
+    readings = [r for r in read(text) if not r.condition and all(q.unit for q in r.numbers)]
+    for reading in readings:
+        start = min(q.start for q in reading.numbers)
+        label, value = text[:start].rstrip(" (:-–"), text[start:]
+        if re.search(r"[^\W\d_]{2,}", label) and looks_like_value(value) and len(label.split()) <= 12:
+            tail = words_beside_numbers(value, read(value))
+            if len(tail) <= 4:
+                return label, value
+    return "", ""
+
+
+def without_key(label: str) -> str:
+    """A label without its drawing's letter key: "B Hinge pin height" → "Hinge pin height"."""
+    match = re.match(r"^(?:[A-Z]{1,2}[′'\"]?|\d{1,2})[.):]?\s+(?=[A-ZÀ-Ý(][^\W\d_]+)(.+)$", label)
+    return match.group(1) if match else label

@@ -1,0 +1,369 @@
+"""A PDF page as words, rulings and filled bars. Points, origin at the page's top left, y down.
+
+Only reading is done here; what belongs together is decided in `layout`.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import math
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+Box = tuple[float, float, float, float]
+"""x0, top, x1, bottom."""
+
+_SUPERSCRIPT_UNITS = re.compile(r"(?:^|[\d\s(/])(?:m|cm|mm|dm|in|ft|yd)$")
+_LEADER = re.compile(r"[.·•_…]{3,}|(?:[.·•_…]\s){3,}")
+_THIN = 2.5
+"""A filled rectangle thinner than this is a rule."""
+
+
+@dataclass(frozen=True)
+class Word:
+    """A run of characters without a gap. `size` in points, `baseline` its y; `marks` are raised footnote signs."""
+
+    text: str
+    x0: float
+    x1: float
+    baseline: float
+    size: float
+    bold: bool = False
+    marks: str = ""
+
+    @property
+    def top(self) -> float:
+        """About the height of a capital letter above the baseline."""
+        return self.baseline - 0.75 * self.size
+
+    @property
+    def bottom(self) -> float:
+        """About where descenders end."""
+        return self.baseline + 0.2 * self.size
+
+    @property
+    def box(self) -> Box:
+        """x0, top, x1, bottom."""
+        return (self.x0, self.top, self.x1, self.bottom)
+
+
+@dataclass(frozen=True)
+class Rule:
+    """A straight rule, horizontal (`top == bottom`) or vertical (`x0 == x1`)."""
+
+    x0: float
+    top: float
+    x1: float
+    bottom: float
+
+    @property
+    def horizontal(self) -> bool:
+        """True for a horizontal rule."""
+        return self.top == self.bottom
+
+
+@dataclass(frozen=True)
+class Page:
+    """What stands on a page. `number` counts from 1; `unmapped` characters have no Unicode meaning in the file."""
+
+    number: int
+    width: float
+    height: float
+    words: tuple[Word, ...] = ()
+    rules: tuple[Rule, ...] = ()
+    bars: tuple[Box, ...] = ()
+    characters: int = 0
+    unmapped: int = 0
+    images: int = 0
+    legend: dict[str, str] = field(default_factory=dict)
+
+    @property
+    def readable(self) -> bool:
+        """Whether the page has a text layer that means something."""
+        return self.characters >= 3 and self.unmapped < 0.3 * self.characters
+
+
+@dataclass
+class _Glyph:
+    text: str
+    x0: float
+    x1: float
+    baseline: float
+    size: float
+    bold: bool
+
+
+def read_page(page: Any, number: int) -> Page:
+    """A pypdfium2 page as words, rules and bars. Text that is not horizontal is left out."""
+    width, height = page.get_size()
+    place = _placement(page)
+    textpage = page.get_textpage()
+    try:
+        glyphs, characters, unmapped = _glyphs(textpage, place)
+    finally:
+        textpage.close()
+    rules, bars, images = _strokes(page, place)
+    return Page(
+        number=number,
+        width=width,
+        height=height,
+        words=tuple(_words(glyphs)),
+        rules=tuple(rules),
+        bars=tuple(bars),
+        characters=characters,
+        unmapped=unmapped,
+        images=images,
+    )
+
+
+def _placement(page: Any) -> Callable[[float, float], tuple[float, float]]:
+    """PDF user space → points from the top left of the page as shown (its crop box and rotation applied)."""
+    left, bottom, right, top = page.get_bbox()
+    turns = (page.get_rotation() // 90) % 4
+
+    def place(x: float, y: float) -> tuple[float, float]:
+        if turns == 1:
+            return (y - bottom, x - left)
+        if turns == 2:
+            return (right - x, y - bottom)
+        if turns == 3:
+            return (top - y, right - x)
+        return (x - left, top - y)
+
+    return place
+
+
+def _glyphs(textpage: Any, place: Callable[[float, float], tuple[float, float]]) -> tuple[list[_Glyph], int, int]:
+    import pypdfium2.raw as pdfium
+
+    left, right, bottom, top = (ctypes.c_double() for _ in range(4))
+    ox, oy = ctypes.c_double(), ctypes.c_double()
+    rect = pdfium.FS_RECTF()
+    matrix = pdfium.FS_MATRIX()
+    styles: dict[int, tuple[float, bool]] = {}
+    found: list[_Glyph] = []
+    characters = unmapped = 0
+    for index in range(textpage.count_chars()):
+        code = pdfium.FPDFText_GetUnicode(textpage, index)
+        if code in (0x0D, 0x0A) or pdfium.FPDFText_IsGenerated(textpage, index) == 1:
+            continue
+        if code == 0x20 or code == 0xA0:
+            found.append(_Glyph(" ", 0, 0, 0, 0, False))
+            continue
+        characters += 1
+        if (
+            code in (0, 0xFFFD, 0xFFFE)
+            or 0xE000 <= code <= 0xF8FF
+            or pdfium.FPDFText_HasUnicodeMapError(textpage, index) == 1
+        ):
+            unmapped += 1
+            continue
+        if not pdfium.FPDFText_GetLooseCharBox(textpage, index, rect):
+            continue
+        pdfium.FPDFText_GetCharOrigin(textpage, index, ox, oy)
+        owner = pdfium.FPDFText_GetTextObject(textpage, index)
+        key = ctypes.cast(owner, ctypes.c_void_p).value or 0
+        if key not in styles:
+            pdfium.FPDFText_GetMatrix(textpage, index, matrix)
+            scale = math.hypot(matrix.c, matrix.d)
+            styles[key] = (pdfium.FPDFText_GetFontSize(textpage, index) * scale, _bold(textpage, index))
+        size, bold = styles[key]
+        x0, _ = place(rect.left, oy.value)
+        x1, _ = place(rect.right, oy.value)
+        _, baseline = place(ox.value, oy.value)
+        if x1 <= x0:  # text that runs down the page, or mirrored
+            continue
+        text = _LIGATURES.get(code) or chr(code)
+        found.append(_Glyph(text, x0, x1, baseline, size if size > 0.5 else rect.top - rect.bottom, bold))
+    del left, right, bottom, top
+    return found, characters, unmapped
+
+
+_LIGATURES = {
+    0xFB00: "ff",
+    0xFB01: "fi",
+    0xFB02: "fl",
+    0xFB03: "ffi",
+    0xFB04: "ffl",
+    0xAD: "-",
+    0x2010: "-",
+    0x2011: "-",
+}
+
+
+def _bold(textpage: Any, index: int) -> bool:
+    import pypdfium2.raw as pdfium
+
+    if pdfium.FPDFText_GetFontWeight(textpage, index) >= 600:
+        return True
+    buffer = ctypes.create_string_buffer(128)
+    flags = ctypes.c_int()
+    pdfium.FPDFText_GetFontInfo(textpage, index, buffer, 128, flags)
+    return re.search(rb"bold|black|heavy|demi", buffer.value, re.IGNORECASE) is not None
+
+
+def _words(glyphs: list[_Glyph]) -> Iterator[Word]:
+    """Characters that follow each other without a gap; then raised ones go to the word before them."""
+    runs: list[list[_Glyph]] = []
+    broken = True
+    for glyph in glyphs:
+        if glyph.text == " ":
+            broken = True
+            continue
+        last = runs[-1][-1] if runs and not broken else None
+        if (
+            last is not None
+            and abs(last.baseline - glyph.baseline) < 0.1 * last.size
+            and abs(last.size - glyph.size) < 0.2 * last.size
+            and -0.5 * last.size < glyph.x0 - last.x1 < 0.22 * last.size
+        ):
+            runs[-1].append(glyph)
+        else:
+            runs.append([glyph])
+        broken = False
+    words: list[Word] = []
+    seen: set[tuple[str, int, int]] = set()
+    for run in runs:
+        first = run[0]
+        word = Word("".join(g.text for g in run), first.x0, run[-1].x1, first.baseline, first.size, first.bold)
+        key = (word.text, round(word.x0), round(word.baseline))
+        if key in seen:  # printed twice to look bold
+            continue
+        seen.add(key)
+        words.extend(_without_leaders(word))
+    yield from _with_superscripts(words)
+
+
+def _without_leaders(word: Word) -> Iterator[Word]:
+    """The word without dotted leaders; what stands on both sides of one becomes two words."""
+    position = 0
+    per = (word.x1 - word.x0) / max(len(word.text), 1)
+    for match in [*_LEADER.finditer(word.text), None]:
+        end = match.start() if match else len(word.text)
+        if end > position:
+            whole = position == 0 and end == len(word.text)
+            x0, x1 = (word.x0, word.x1) if whole else (word.x0 + per * position, word.x0 + per * end)
+            yield replace(word, text=word.text[position:end], x0=x0, x1=x1)
+        position = match.end() if match else position
+
+
+def _with_superscripts(words: list[Word]) -> list[Word]:
+    """Raised small characters joined to the word they follow: an exponent of a unit, or a footnote's sign."""
+    small = [w for w in words if len(w.text) <= 4]
+    hosts: dict[int, int] = {}
+    for raised in small:
+        best: tuple[float, int] | None = None
+        for index, host in enumerate(words):
+            gap = raised.x0 - host.x1
+            lift = host.baseline - raised.baseline
+            if (
+                host is not raised
+                and raised.size < 0.85 * host.size
+                and -0.3 * host.size < gap < 0.35 * host.size
+                and 0.12 * host.size < lift < 0.85 * host.size
+                and (best is None or abs(gap) < best[0])
+            ):
+                best = (abs(gap), index)
+        if best is not None:
+            hosts[id(raised)] = best[1]
+    joined = list(words)
+    for raised in small:
+        index = hosts.get(id(raised), -1)
+        if index < 0:
+            continue
+        host = joined[index]
+        if raised.text in ("2", "3") and _SUPERSCRIPT_UNITS.search(host.text):
+            joined[index] = replace(host, text=host.text + raised.text, x1=max(host.x1, raised.x1))
+        else:
+            joined[index] = replace(host, marks=host.marks + raised.text, x1=max(host.x1, raised.x1))
+    return [w for original, w in zip(words, joined, strict=True) if id(original) not in hosts]
+
+
+def _strokes(page: Any, place: Callable[[float, float], tuple[float, float]]) -> tuple[list[Rule], list[Box], int]:
+    """Straight rules, filled bars (at least as high as a line of text), and the number of images."""
+    import pypdfium2.raw as pdfium
+
+    rules: list[Rule] = []
+    bars: list[Box] = []
+    images = 0
+    for item in page.get_objects(filter=(pdfium.FPDF_PAGEOBJ_PATH, pdfium.FPDF_PAGEOBJ_IMAGE)):
+        if item.type == pdfium.FPDF_PAGEOBJ_IMAGE:
+            images += 1
+            continue
+        mode, stroked = ctypes.c_int(), ctypes.c_int()
+        pdfium.FPDFPath_GetDrawMode(item.raw, mode, stroked)
+        if not (mode.value or stroked.value):
+            continue
+        points = _polylines(item)
+        for line in points:
+            placed = [place(x, y) for x, y in line]
+            box = _extent(placed)
+            if mode.value and _is_rectangle(placed):
+                if min(box[2] - box[0], box[3] - box[1]) < _THIN:
+                    rules.append(_as_rule(box))
+                    continue
+                if box[3] - box[1] >= 6:
+                    bars.append(box)
+            if stroked.value:
+                rules.extend(_edges(placed))
+    return rules, bars, images
+
+
+def _polylines(item: Any) -> list[list[tuple[float, float]]]:
+    """The straight parts of a path in page space (containers' matrices applied)."""
+    import pypdfium2.raw as pdfium
+
+    matrix = item.get_matrix()
+    container = getattr(item, "container", None)
+    while container is not None:
+        matrix = matrix.multiply(container.get_matrix())
+        container = getattr(container, "container", None)
+    lines: list[list[tuple[float, float]]] = []
+    x, y = ctypes.c_float(), ctypes.c_float()
+    for index in range(min(pdfium.FPDFPath_CountSegments(item.raw), 20000)):
+        segment = pdfium.FPDFPath_GetPathSegment(item.raw, index)
+        pdfium.FPDFPathSegment_GetPoint(segment, x, y)
+        point = matrix.on_point(x.value, y.value)
+        kind = pdfium.FPDFPathSegment_GetType(segment)
+        if kind == pdfium.FPDF_SEGMENT_MOVETO or not lines:
+            lines.append([point])
+        elif kind == pdfium.FPDF_SEGMENT_LINETO:
+            lines[-1].append(point)
+        else:  # a curve ends the straight part
+            lines.append([point])
+        if pdfium.FPDFPathSegment_GetClose(segment) and len(lines[-1]) > 2:
+            lines[-1].append(lines[-1][0])
+    return [line for line in lines if len(line) > 1]
+
+
+def _extent(points: list[tuple[float, float]]) -> Box:
+    xs, ys = [p[0] for p in points], [p[1] for p in points]
+    return (min(xs), min(ys), max(xs), max(ys))
+
+
+def _is_rectangle(points: list[tuple[float, float]]) -> bool:
+    if not 4 <= len(points) <= 6:
+        return False
+    x0, top, x1, bottom = _extent(points)
+    return all(min(abs(x - x0), abs(x - x1)) < 0.1 and min(abs(y - top), abs(y - bottom)) < 0.1 for x, y in points)
+
+
+def _as_rule(box: Box) -> Rule:
+    x0, top, x1, bottom = box
+    if x1 - x0 >= bottom - top:
+        middle = (top + bottom) / 2
+        return Rule(x0, middle, x1, middle)
+    middle = (x0 + x1) / 2
+    return Rule(middle, top, middle, bottom)
+
+
+def _edges(points: list[tuple[float, float]]) -> Iterator[Rule]:
+    for (xa, ya), (xb, yb) in zip(points, points[1:], strict=False):
+        if abs(ya - yb) < 0.5 and abs(xa - xb) > 3:
+            y = (ya + yb) / 2
+            yield Rule(min(xa, xb), y, max(xa, xb), y)
+        elif abs(xa - xb) < 0.5 and abs(ya - yb) > 3:
+            x = (xa + xb) / 2
+            yield Rule(x, min(ya, yb), x, max(ya, yb))
