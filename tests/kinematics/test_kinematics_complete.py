@@ -234,6 +234,17 @@ def test_stated_gains_stay():
     assert undamped.stiffness == 5e6 and undamped.damping == pytest.approx(2.0 * math.sqrt(5e6 * 1e5))
 
 
+def test_provisional_gains_do_not_stay_unless_the_template_states_them():
+    omega = 4.0 * math.pi
+    drive = Drive("position", 1e9, 1e9, 1e6, 0.2, "pressure times area: 400 kN; gains provisional")
+    found = position_gains(drive, 1e5)
+    assert found.stiffness == pytest.approx(1e5 * omega**2) and found.damping == pytest.approx(2e5 * omega)
+    assert "pressure times area: 400 kN; gains: 2 Hz" in found.source and "provisional" not in found.source
+    assert position_gains(found, 2e5) == found
+    partly = position_gains(replace(drive, source=drive.source + "; template states damping"), 1e5)
+    assert partly.damping == 1e9 and partly.stiffness == pytest.approx(1e5 * omega**2)
+
+
 def test_velocity_drives_get_damping(machine, done):
     drive = done.joint("rear_wheel_l_joint").drive
     assert drive.stiffness == 0.0

@@ -19,6 +19,10 @@ SLIDE_MARGIN = 2e-3
 """Metres added to a passive slide's range from the loop."""
 FREQUENCY = 2.0
 """Hertz of a position drive on the mass it moves: what every engine held at any step size that was tried."""
+PROVISIONAL = "gains provisional"
+"""In a drive's source: its gains wait for the mass that only the kinematics knows."""
+STATED = "template states "
+"""In a drive's source: before the names of the gains that stay all the same."""
 STRAIGHT = 0.05
 """|sine| at a triangle of pivots below which a loop is too near its dead point to have a branch."""
 _BACK = 2e-3
@@ -46,9 +50,9 @@ def complete(mechanism: Mechanism) -> Mechanism:
       small margin; limits that are already there stay.
     - The stroke of a driven slide ends where the linkage locks.
     - `Loop.branch`: the sign of each loop's triangle of pivots (`branches.branch_pivots`).
-    - Gains of drives that have none (stiffness 0, or damping 0 for a velocity drive): k = m(2πf)², d = 2k/(2πf), m the
-      mass the drive sees through the linkage at most, f = 2 Hz. A velocity drive gives its full force at standstill
-      and none at full speed.
+    - Gains of position drives that have none, or only provisional ones (`position_gains`): k = m(2πf)², d = 2k/(2πf),
+      m the mass the drive sees through the linkage at most, f = 2 Hz. A velocity drive without damping gets the one
+      that gives full force at standstill and none at full speed.
 
     Findings: KIN001 stroke past a dead point, KIN002 unreachable combination of strokes, KIN003 branch, KIN004 passive
     twin out of stroke, KIN005 mobility, KIN006 stated limit against the loop's, KIN007 drive without force or speed.
@@ -238,20 +242,26 @@ def _gains(mechanism: Mechanism, grids: list[Grid], work: _Work) -> None:
 
 def position_gains(drive: Drive, mass: float, unit: str = "kg", *, frequency: float = FREQUENCY) -> Drive:
     """A position drive with gains for a mass (kg, or kg·m² for a pivot): k = m(2πf)², d = 2k/(2πf), critically damped.
-    A stiffness that is there stays, and gets the damping d = 2√(km) where it has none."""
+
+    Gains that the drive has stay, unless its source calls them provisional; those that "template states" names after
+    that stay too. A stiffness that stays gets the damping d = 2√(km) where it has none.
+    """
+    provisional = PROVISIONAL in drive.source
+    stated = drive.source.partition(STATED)[2]
+    keep_stiffness = drive.stiffness > 0.0 and (not provisional or "stiffness" in stated)
+    keep_damping = drive.damping > 0.0 and (not provisional or "damping" in stated)
+    if keep_stiffness and keep_damping:
+        return drive
     omega = 2.0 * math.pi * frequency
-    if drive.stiffness > 0.0:
-        damping = drive.damping if drive.damping > 0.0 else 2.0 * math.sqrt(drive.stiffness * mass)
-        return replace(drive, damping=damping)
-    stiffness = mass * omega * omega
+    stiffness = drive.stiffness if keep_stiffness else mass * omega * omega
+    damping = drive.damping if keep_damping else 2.0 * math.sqrt(stiffness * mass)
     shown = f"{1e-3 * mass:.4g} t" if unit == "kg" else f"{mass:.4g} {unit}"
-    source = f"gains: {frequency:g} Hz, critically damped, on the {shown} it sees through the linkage at most"
-    return replace(
-        drive,
-        stiffness=stiffness,
-        damping=2.0 * stiffness / omega,
-        source="; ".join(text for text in (drive.source, source) if text),
+    at = "" if keep_stiffness else f"{frequency:g} Hz, "
+    gains = f"gains: {at}critically damped on the {shown} it sees through the linkage at most"
+    source = (
+        drive.source.replace(PROVISIONAL, gains) if provisional else "; ".join(t for t in (drive.source, gains) if t)
     )
+    return replace(drive, stiffness=stiffness, damping=damping, source=source)
 
 
 def _velocity_gain(drive: Drive, joint: Joint, work: _Work) -> Drive:
