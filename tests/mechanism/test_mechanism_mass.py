@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 from mechanism_machine import box, machine, specifications, template
 
 from yellowiron.mechanism import build_mechanism
-from yellowiron.mechanism.mass import Moments, choose_entry, combine, shell_moments, solid_moments
+from yellowiron.mechanism.choice import Choice
+from yellowiron.mechanism.mass import Moments, combine, shell_moments, solid_moments
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Mechanism
 
@@ -111,8 +112,8 @@ def test_component_weights_above_the_operating_weight_are_a_finding() -> None:
 def test_entries_win_in_order() -> None:
     documents = {"BASE": "part", "arm": "document role", "*": "document star"}
     own = {"arm": "template role", "base": "template ancestor", "*": "star"}
-    plan = template()
-    pick = [choose_entry(p, r, plan, documents, own) for p, r in (("base", None), ("X", "arm"), ("X", "rod_pin"))]
+    choice = Choice(template(), documents, own)
+    pick = [choice.of(p, r) for p, r in (("base", None), ("X", "arm"), ("X", "rod_pin"))]
     assert [p[0] if p else None for p in pick] == ["part", "document role", "document role"]
-    assert choose_entry("X", "arm_pin", plan, {}, own) == ("template ancestor", "template: role 'base'")
-    assert choose_entry("X", None, plan, {}, {}) is None
+    assert Choice(template(), {}, own).of("X", "arm_pin") == ("template ancestor", "template: role 'base'")
+    assert Choice(template(), {}, {}).of("X", None) is None

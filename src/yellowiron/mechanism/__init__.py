@@ -2,7 +2,8 @@
 
 One concept a module: `placement` (the aligned CAD in the machine frame), `axes` (lines through cylinder features),
 `frames` (where a joint is), `planarity` (parallel axes made exactly so), `tree` (loops and cuts), `values`, `rams`
-(what the CAD shows of a cylinder), `cylinders`, `drives`, `mass`, `body`, `sites`; `build` puts them in order.
+(what the CAD shows of a cylinder), `cylinders`, `drives`, `choice` (which document speaks for a part), `mass`,
+`body`, `sites`; `build` puts them in order.
 
 Findings:
 

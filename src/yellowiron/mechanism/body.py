@@ -7,7 +7,8 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
-from yellowiron.mechanism.mass import Factor, Moments, PartMaterial, choose_entry, combine
+from yellowiron.mechanism.choice import Choice
+from yellowiron.mechanism.mass import Factor, Moments, PartMaterial, combine
 from yellowiron.mechanism.placement import Placement
 from yellowiron.model.geometry import Floats, Mesh
 from yellowiron.model.mechanism import Body, BodyPart, Vector
@@ -30,6 +31,7 @@ def bodies(
     """The bodies of those names, in that order, machine frame. `collision` are the documents' tokens by part or
     role."""
     hulls = _Hulls()
+    tokens = Choice(template, collision, template.collision)
     result = []
     for name in names:
         rows = placement.rows_of_body(name)
@@ -38,10 +40,7 @@ def bodies(
         parts = []
         for row in rows:
             part, role = placement.parts[row], placement.roles[row]
-            token, told = choose_entry(part.name, role, template, collision, template.collision) or (
-                COLLISION,
-                "default",
-            )
+            token, told = tokens.of(part.name, role) or (COLLISION, "default")
             parts.append(
                 BodyPart(
                     part=part.id,
@@ -75,11 +74,10 @@ def vector(values: Floats) -> Vector:
 
 def hull_corners(mesh: Mesh) -> Floats:
     """(n, 3) corners of a mesh's convex hull, in the mesh's order; of a flat or tiny one its distinct points."""
-    points = np.unique(mesh.points, axis=0)
     try:
-        return np.asarray(points[np.sort(ConvexHull(points).vertices)], dtype=np.float64)
+        return np.asarray(mesh.points[np.sort(ConvexHull(mesh.points).vertices)], dtype=np.float64)
     except (QhullError, ValueError):
-        return points
+        return np.unique(mesh.points, axis=0)
 
 
 class _Hulls:

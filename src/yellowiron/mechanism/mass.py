@@ -9,19 +9,17 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TypeVar
 
 import numpy as np
 
-from yellowiron.mechanism.placement import Placement, ancestors
+from yellowiron.mechanism.choice import Choice
+from yellowiron.mechanism.placement import Placement
 from yellowiron.mechanism.values import known
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats, Shape
-from yellowiron.model.specification import Specifications, fold
+from yellowiron.model.specification import Specifications
 from yellowiron.model.template import Material, Template
 from yellowiron.model.text import display
-
-Entry = TypeVar("Entry")
 
 STEEL = 7850.0
 """Density where a material states none, kg/m³."""
@@ -105,35 +103,15 @@ class PartMaterial:
     source: str
 
 
-def choose_entry(
-    part: str, role: str | None, template: Template, by_document: Mapping[str, Entry], by_template: Mapping[str, Entry]
-) -> tuple[Entry, str] | None:
-    """What documents and template say of a part, and which entry said it. The most telling entry wins: the CAD
-    part's name in a document, its role there, its role in the template, then the nearest ancestor in either, then
-    `*`."""
-    documents = {fold(k): v for k, v in by_document.items()}
-    own = {fold(k): v for k, v in by_template.items()}
-    if fold(part) in documents:
-        return documents[fold(part)], f"data: part '{part}'"
-    for ancestor in ancestors(template, role):
-        for entries, origin in ((documents, "data"), (own, "template")):
-            if fold(ancestor.name) in entries:
-                return entries[fold(ancestor.name)], f"{origin}: role '{ancestor.name}'"
-    for entries, origin in ((documents, "data"), (own, "template")):
-        if "*" in entries:
-            return entries["*"], f"{origin}: '*'"
-    return None
-
-
 def part_materials(
     placement: Placement, template: Template, by_document: Mapping[str, Material]
 ) -> tuple[tuple[PartMaterial, ...], dict[str, Material]]:
     """The material of every placed part, and the materials in use by key (their name; numbered where two differ)."""
     keys: dict[str, Material] = {}
     chosen = []
+    choice = Choice(template, by_document, template.materials)
     for part, role in zip(placement.parts, placement.roles, strict=True):
-        entry = choose_entry(part.name, role, template, by_document, template.materials)
-        material, source = entry or (Material("steel", density=STEEL), "default")
+        material, source = choice.of(part.name, role) or (Material("steel", density=STEEL), "default")
         key, number = material.name, 2
         while keys.setdefault(key, material) != material:
             key, number = f"{material.name} {number}", number + 1

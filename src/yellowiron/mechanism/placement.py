@@ -190,6 +190,8 @@ def _place(shape: Shape, matrix: Floats, row: int) -> Features:
 def _cross_scale(axes: Floats, linear: Floats, placed: Floats) -> tuple[Floats, NDArray[np.bool_]]:
     """How a linear map scales the cross-section of cylinders about `axes` (n, 3): (scale (n,), still a cylinder
     (n,))."""
+    if np.abs(linear.T @ linear - np.eye(3)).max() < 1e-9:
+        return np.ones(len(axes)), np.ones(len(axes), dtype=bool)
     helper = np.eye(3)[np.argmin(np.abs(axes), axis=1)]
     u = np.cross(axes, helper)
     u /= np.linalg.norm(u, axis=1)[:, None]

@@ -119,13 +119,14 @@ def _edge_site(
         x_axis = x_axis if x_axis @ (edge.position - line.foot(edge.position)) > 0.0 else -x_axis
     x_axis = x_axis - (x_axis @ line.direction) * line.direction
     x_axis /= np.linalg.norm(x_axis)
+    also = f" and {len(edge.rows) - 1} like it" if len(edge.rows) > 1 else ""
     return Site(
         name=entry.name,
         body=entry.body,
         position=vector(edge.position),
         x_axis=vector(x_axis),
         z_axis=vector(np.cross(x_axis, line.direction)),
-        source=f"edge of {', '.join(placement.ids(edge.rows))}, far from {frame.joint.name}",
+        source=f"edge of {placement.parts[edge.rows[0]].id}{also}, far from {frame.joint.name}",
     )
 
 
