@@ -147,7 +147,8 @@ class _Reader:
     def read(self, kind: str, document: Document) -> None:
         if kind == "materials":
             for key, entry in document.data.items():
-                material = read_material(document, key, entry)
+                # What a person states of a part's look replaces what the CAD file shows.
+                material = replace(read_material(document, key, entry), repaint=True)
                 _check_texture(material, document, key)
                 self.materials.update(dict.fromkeys(self.names(key, document.at(key)), material))
         elif kind == "collision":
