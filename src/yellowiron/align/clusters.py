@@ -156,7 +156,7 @@ def structure_of(
     wheel_lines = _wheel_lines(groups, solids, wheels, fasteners)
     _absorb_leaves(groups, solids, turning, lines_by_group, wheel_lines, leaves=leaves)
     if weak:
-        _join_touching(groups, near, touching, lines_by_group, fasteners)
+        _join_touching(groups, near, touching, about, fasteners)
         _join_doubly_pinned(groups, lines_by_group)
     return _collect(solids, groups, fasteners, hosts, direct, lines, line_of, fits, rams, wheels)
 
@@ -294,19 +294,21 @@ def _absorb_leaves(
 
 
 def _join_touching(
-    groups: _Groups, near: list[tuple[int, int]], touching: Callable[[int, int], bool],
-    lines_by_group: Callable[[], dict[int, set[int]]], fasteners: set[int],
-) -> None:  # fmt: skip
-    """Groups on pin lines that touch and share none belong together (a bracket drawn into its plate)."""
-    on = lines_by_group()
+    groups: _Groups,
+    near: list[tuple[int, int]],
+    touching: Callable[[int, int], bool],
+    about: dict[int, set[int]],
+    fasteners: set[int],
+) -> None:
+    """Parts drawn into each other, or touching, belong together unless both lie about one pin line."""
     for a, b in near:
-        ga, gb = groups.find(a), groups.find(b)
-        if ga == gb or a in fasteners or b in fasteners or not on.get(ga) or not on.get(gb) or on[ga] & on[gb]:
+        if a in fasteners or b in fasteners or about[a] & about[b]:
             continue
-        if "wheel" in (groups.kind(ga), groups.kind(gb)) or (groups.kind(ga) and groups.kind(gb)):
+        kinds = groups.kind(a), groups.kind(b)
+        if groups.find(a) == groups.find(b) or "wheel" in kinds or all(kinds):
             continue
-        if touching(a, b) and groups.join(a, b):
-            on = lines_by_group()
+        if touching(a, b):
+            groups.join(a, b)
 
 
 def _collect(

@@ -206,7 +206,7 @@ def _shaft(cylinders: tuple[Cyl, ...], points: Floats, volume: float) -> Cyl | N
     if 2 * bar.half < bar.radius:
         return None
     hollow = any(
-        c.inner and c.full and c.radius > 0.6 * bar.radius and c.half > 0.4 * bar.half and coaxial(c, bar, 0.05)
+        c.inner and c.full and c.radius > 0.4 * bar.radius and c.half > 0.4 * bar.half and coaxial(c, bar, 0.05)
         for c in cylinders
     )
     reach, start, end = _extent(bar, points)
