@@ -2,34 +2,60 @@
 
     python sheet.py [FOLDER]
 
-Values come from `values.py`. A published one is printed as it is; one of our own carries the words "example value" (beside
-the number, in its column's head or in its section's bar). The distractors a real brochure has (engine, tyres, capacities,
-other buckets, a high-lift boom) are our own as well. Same bytes every time.
+Values come from `values.py`. A published one is printed as it is; one of our own carries the words "example value"
+(beside the number, in its column's head or in its section's bar). The distractors a real brochure has (engine, tyres,
+capacities, other buckets, a high-lift boom) are our own as well. Same bytes every time.
 """
 
 from __future__ import annotations
 
-import math
 import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import values as v
-from reportlab.lib.colors import Color, HexColor, white
+from reportlab.lib.colors import white
 from reportlab.lib.pagesizes import A4
-from reportlab.pdfbase.pdfmetrics import stringWidth
 from reportlab.pdfgen.canvas import Canvas
+from sheet_parts import (
+    AMBER,
+    BOLD,
+    COLUMN,
+    EXAMPLE_MARK,
+    GREY,
+    HEIGHT,
+    INK,
+    ITALIC,
+    LEFT,
+    MARGIN,
+    PALE,
+    REGULAR,
+    RIGHT,
+    WIDTH,
+    Row,
+    bar,
+    bore_by_stroke,
+    dual_flow,
+    dual_mm,
+    dual_pressure,
+    feet,
+    gallons,
+    grid_row,
+    grouped,
+    inches,
+    leader_rows,
+    paragraph,
+    pounds,
+    rule,
+    ruled_rows,
+    text,
+    yards,
+)  # fmt: skip
+from sheet_views import keys, machine
 from values import Value
 
-WIDTH, HEIGHT = A4
-MARGIN, GUTTER = 36.0, 22.0
-COLUMN = (WIDTH - 2 * MARGIN - GUTTER) / 2
-LEFT, RIGHT = MARGIN, MARGIN + COLUMN + GUTTER
-INK, SLATE, AMBER, PALE, GREY = (HexColor(c) for c in ("#1d2429", "#35424a", "#e8a317", "#f1f3f4", "#7b868d"))
-REGULAR, BOLD, ITALIC = "Helvetica", "Helvetica-Bold", "Helvetica-Oblique"
 TITLE = "Example wheel loader (WA475-10 class)"
-EXAMPLE_MARK = "example value"
 SOURCE = (
     f"Published values: {v.MAKE} {v.MODEL} brochure AESS942-0225, pages 18 and 19, as collected in EXO-Robotics/"
     "exo-equipment-atlas (machines/komatsu-wa475-10/evidence/facts.json)."
@@ -40,7 +66,7 @@ DISCLAIMER = (
 )
 
 
-# ---- the distractors: our own, and marked so ---------------------------------------------------------------------------
+# ---- the distractors: our own, and marked so -----------------------------------------------------------------------
 @dataclass(frozen=True, slots=True)
 class Bucket:
     """One column of the bucket table; lengths mm, masses kg, capacities m3, force kN."""
@@ -103,103 +129,6 @@ BUCKETS = (
 )
 
 
-# ---- numbers as a brochure prints them -----------------------------------------------------------------------------------
-def grouped(value: float, decimals: int = 0) -> str:
-    """1234.5 → "1,234.5"."""
-    return f"{value:,.{decimals}f}"
-
-
-def feet(mm: float) -> str:
-    """Millimetres as feet and inches: 14'4"."""
-    inches = round(mm / 25.4)
-    return f"{inches // 12}'{inches % 12}\""
-
-
-def inches(mm: float) -> str:
-    """Millimetres as inches to a tenth, without the unit."""
-    return f"{mm / 25.4:.1f}"
-
-
-def pounds(kg: float) -> str:
-    """Kilograms as pounds to the nearest 5."""
-    return grouped(5 * round(kg / 0.45359237 / 5))
-
-
-def yards(m3: float) -> str:
-    """Cubic metres as cubic yards."""
-    return f"{m3 / 0.764554857984:.1f}"
-
-
-def gallons(litres: float, decimals: int = 0) -> str:
-    """Litres as US gallons."""
-    return grouped(litres / 3.785411784, decimals)
-
-
-def psi(mpa: float) -> str:
-    """Megapascals as pounds a square inch."""
-    return grouped(mpa / 0.00689475729)
-
-
-def dual_mm(value: Value) -> str:
-    """A short length in both systems: 90 mm (3.5 in)."""
-    return f"{grouped(value.value)} mm ({inches(value.value)} in)"
-
-
-def bore_by_stroke(count: Value, bore: Value, stroke: Value) -> str:
-    """ "2 - 150 x 764 mm"."""
-    return f"{count.value:.0f} - {bore.value:.0f} x {stroke.value:.0f} mm"
-
-
-# ---- drawing ------------------------------------------------------------------------------------------------------------
-def text(
-    c: Canvas,
-    x: float,
-    y: float,
-    words: str,
-    *,
-    size: float = 7.2,
-    font: str = REGULAR,
-    ink: Color = INK,
-    align: str = "l",
-) -> float:
-    """Prints words at a baseline; returns their width. `align`: l, c or r of `x`."""
-    width = stringWidth(words, font, size)
-    c.setFont(font, size)
-    c.setFillColor(ink)
-    c.drawString(x - {"l": 0.0, "c": width / 2, "r": width}[align], y, words)
-    return width
-
-
-def paragraph(c: Canvas, x: float, y: float, words: str, width: float, *, size: float = 7.2, ink: Color = INK) -> float:
-    """Prints wrapped text; returns the baseline below it."""
-    line = ""
-    for word in words.split():
-        longer = f"{line} {word}".strip()
-        if stringWidth(longer, REGULAR, size) > width:
-            text(c, x, y, line, size=size, ink=ink)
-            y, longer = y - 1.35 * size, word
-        line = longer
-    text(c, x, y, line, size=size, ink=ink)
-    return y - 1.35 * size
-
-
-def bar(c: Canvas, x: float, y: float, words: str, width: float = COLUMN) -> float:
-    """A section's bar with its top at `y`; returns the first baseline under it."""
-    c.setFillColor(SLATE)
-    c.rect(x, y - 14, width, 14, stroke=0, fill=1)
-    c.setFillColor(AMBER)
-    c.rect(x, y - 14, 4, 14, stroke=0, fill=1)
-    text(c, x + 10, y - 10.2, words, size=8, font=BOLD, ink=white)
-    return y - 25
-
-
-def rule(c: Canvas, x0: float, y: float, x1: float, *, weight: float = 0.4, ink: Color = GREY) -> None:
-    """A horizontal rule."""
-    c.setStrokeColor(ink)
-    c.setLineWidth(weight)
-    c.line(x0, y, x1, y)
-
-
 def furniture(c: Canvas, page: int, heading: str) -> None:
     """Header and footer of an inner page."""
     c.setFillColor(AMBER)
@@ -212,52 +141,7 @@ def furniture(c: Canvas, page: int, heading: str) -> None:
     text(c, WIDTH - MARGIN, 24, str(page), size=7, font=BOLD, align="r")
 
 
-@dataclass(frozen=True, slots=True)
-class Row:
-    """A label and what is printed beside it; `ours` prints the mark. `label` may have a second line."""
-
-    label: str
-    value: str
-    ours: bool = False
-
-
-def leader_rows(c: Canvas, x: float, y: float, rows: Sequence[Row], width: float = COLUMN) -> float:
-    """Rows with dotted leaders, no rules; returns the next bar's top."""
-    for row in rows:
-        *head, last = row.label.split("\n")
-        for line in head:
-            text(c, x, y, line)
-            y -= 9
-        start = x + text(c, x, y, last) + 3
-        right = x + width
-        if row.ours:
-            right -= text(c, right, y, EXAMPLE_MARK, size=5, font=ITALIC, ink=GREY, align="r") + 3
-        end = right - text(c, right, y, row.value, align="r") - 3
-        dots = int((end - start) / stringWidth(".", REGULAR, 7.2))
-        text(c, end, y, "." * dots, ink=GREY, align="r")
-        y -= 11.5
-    return y - 4
-
-
-def ruled_rows(c: Canvas, x: float, y: float, rows: Sequence[Row], width: float = COLUMN) -> float:
-    """Rows with a hair rule under each; returns the next bar's top."""
-    for row in rows:
-        lines = row.label.split("\n")
-        value_y = y - 4.5 * (len(lines) - 1)
-        right = x + width
-        if row.ours:
-            right -= text(c, right, value_y, EXAMPLE_MARK, size=5, font=ITALIC, ink=GREY, align="r") + 3
-        text(c, right, value_y, row.value, align="r")
-        for line in lines:
-            text(c, x, y, line)
-            y -= 9
-        y += 5.5
-        rule(c, x, y, x + width, weight=0.3)
-        y -= 9
-    return y - 3
-
-
-# ---- page 1: title and headline figures ---------------------------------------------------------------------------------
+# ---- page 1: title and headline figures ----------------------------------------------------------------------------
 def cover(c: Canvas) -> None:
     """Title, drawing, three headline figures."""
     c.setFillColor(INK)
@@ -291,17 +175,17 @@ def cover(c: Canvas) -> None:
         text(c, x + 12, 286, imperial, size=11, ink=GREY)
     y = 236.0
     for words in (
-        "Figures are for the standard boom with the 4.2 m³ stock-pile bucket with bolt-on edge and 26.5R25 tyres unless a "
-        "table says otherwise.",
-        f'Figures marked "{EXAMPLE_MARK}" were chosen for this example: they are plausible for the class, and published '
-        "by nobody. All other figures are published ones.",
+        "Figures are for the standard boom with the 4.2 m³ stock-pile bucket with bolt-on edge and 26.5R25 tyres "
+        "unless a table says otherwise.",
+        f'Figures marked "{EXAMPLE_MARK}" were chosen for this example: they are plausible for the class, and '
+        "published by nobody. All other figures are published ones.",
         SOURCE,
         DISCLAIMER,
     ):
         y = paragraph(c, MARGIN, y, words, WIDTH - 2 * MARGIN, size=8) - 6
 
 
-# ---- page 2: specifications in two columns ------------------------------------------------------------------------------
+# ---- page 2: specifications in two columns -------------------------------------------------------------------------
 def specifications(c: Canvas) -> None:
     """Engine, transmission, axles, tyres | steering, hydraulics, refills, sound."""
     furniture(c, 2, "Specifications")
@@ -376,10 +260,9 @@ def specifications(c: Canvas) -> None:
                 bore_by_stroke(v.STEER_COUNT, v.STEER_BORE, v.STEER_STROKE),
             ),
             Row("Steering cylinder, rod diameter", dual_mm(v.STEER_ROD), ours=True),
-            Row("Steering pump flow", f"{v.STEER_PUMP_FLOW.value:.0f} L/min ({gallons(v.STEER_PUMP_FLOW.value, 1)} gal/min)",
-                ours=True),
-            Row("Steering relief pressure", f"{v.STEER_PRESSURE.value} MPa ({psi(v.STEER_PRESSURE.value)} psi)", ours=True),
-            Row("Minimum turning radius, tyre centre", "6,170 mm (20'3\")", ours=True),
+            Row("Steering pump flow", dual_flow(v.STEER_PUMP_FLOW), ours=True),
+            Row("Steering relief pressure", dual_pressure(v.STEER_PRESSURE), ours=True),
+            Row("Minimum turning radius, centre of outside tyre", "6,170 mm (20'3\")", ours=True),
         ),
     )  # fmt: skip
     y = bar(c, RIGHT, y, "HYDRAULIC SYSTEM")
@@ -388,13 +271,8 @@ def specifications(c: Canvas) -> None:
         RIGHT,
         y,
         (
-            Row(
-                "Work equipment pump flow at 2,000 rpm",
-                f"{v.WORK_PUMP_FLOW.value:.0f} L/min ({gallons(v.WORK_PUMP_FLOW.value, 1)} gal/min)",
-                ours=True,
-            ),
-            Row("Main relief pressure, work equipment", f"{v.WORK_PRESSURE.value} MPa ({psi(v.WORK_PRESSURE.value)} psi)",
-                ours=True),
+            Row("Work equipment pump flow at 2,000 rpm", dual_flow(v.WORK_PUMP_FLOW), ours=True),
+            Row("Main relief pressure, work equipment", dual_pressure(v.WORK_PRESSURE), ours=True),
             Row("Pilot pressure", "3.7 MPa (537 psi)", ours=True),
             Row("Lift cylinders\nNumber of cylinders – bore x stroke",
                 bore_by_stroke(v.LIFT_COUNT, v.LIFT_BORE, v.LIFT_STROKE)),
@@ -431,41 +309,41 @@ def specifications(c: Canvas) -> None:
 
 def speeds(c: Canvas, x: float, y: float) -> float:
     """Travel speeds by gear: a small table with its own heads, no rules."""
-    stops = (x + 52, x + 104, x + 156, x + 208, x + COLUMN)
+    stops = (x + 92, x + 130, x + 168, x + 206, x + COLUMN)
     top = v.TRAVEL_SPEED_MAX.value
     forward, reverse = (7.1, 12.4, 22.6, top), (7.4, 13.0, 23.7, top)
-    text(c, x, y, "Travel speed", font=BOLD)
+    text(c, x, y, "Gear", font=BOLD)
     for stop, head in zip(stops, ("1st", "2nd", "3rd", "4th"), strict=False):
         text(c, stop, y, head, font=BOLD, align="r")
-    y -= 11.5
+    y -= 13
     for name, row in (("Forward", forward), ("Reverse", reverse)):
         for unit, factor in (("km/h", 1.0), ("mph", 1 / 1.609344)):
             text(c, x, y, name if unit == "km/h" else "")
             for stop, speed in zip(stops, row, strict=False):
                 text(c, stop, y, f"{speed * factor:.1f}", align="r")
             text(c, stops[4], y, unit, align="r")
-            y -= 10.5
-    return y - 5
+            y -= 11
+    return leader_rows(c, x, y - 2, (Row("Maximum travel speed", f"{top} km/h ({top / 1.609344:.1f} mph)"),))
 
 
-# ---- page 3: dimensions -------------------------------------------------------------------------------------------------
+# ---- page 3: dimensions --------------------------------------------------------------------------------------------
 def dimensions(c: Canvas) -> None:
     """Letter-keyed drawing; table with the standard boom beside the high-lift boom; bucket angles."""
     furniture(c, 3, "Dimensions")
-    scale = (WIDTH - 2 * MARGIN - 110) / 9400
-    origin_x, ground = MARGIN + 62 + 4300 * scale, 512.0
+    scale = (WIDTH - 2 * MARGIN - 60) / 9650
+    origin_x, ground = MARGIN + 34 + 4300 * scale, 476.0
     machine(c, origin_x, ground, scale, raised=True)
     keys(c, origin_x, ground, scale)
-    y = bar(c, MARGIN, 452, "MACHINE DIMENSIONS WITH STOCK-PILE BUCKET", WIDTH - 2 * MARGIN)
+    y = bar(c, MARGIN, 416, "MACHINE DIMENSIONS WITH STOCK-PILE BUCKET", WIDTH - 2 * MARGIN)
     right = WIDTH - MARGIN
     stops = (right - 190, right - 132, right - 62, right)
     text(c, (stops[0] + stops[1]) / 2 - 14, y, "Standard boom", font=BOLD, align="c")
     text(c, (stops[2] + stops[3]) / 2 - 14, y, "High-lift boom", font=BOLD, align="c")
-    y -= 9
-    text(c, (stops[2] + stops[3]) / 2 - 14, y, EXAMPLE_MARK, size=5, font=ITALIC, ink=GREY, align="c")
+    text(c, (stops[2] + stops[3]) / 2 - 14, y - 7, EXAMPLE_MARK, size=5, font=ITALIC, ink=GREY, align="c")
+    y -= 16
     for stop, unit in zip(stops, ("mm", "ft in", "mm", "ft in"), strict=True):
-        text(c, stop, y - 3, unit, size=6.2, ink=GREY, align="r")
-    y -= 8
+        text(c, stop, y, unit, size=6.2, ink=GREY, align="r")
+    y -= 5
     rule(c, MARGIN, y, right, weight=0.8, ink=INK)
     y -= 10
     rows = (
@@ -488,9 +366,9 @@ def dimensions(c: Canvas) -> None:
             text(c, MARGIN + 22 + width, y, EXAMPLE_MARK, size=5, font=ITALIC, ink=GREY)
         for stop, cell in zip(stops, (grouped(value.value), feet(value.value), grouped(high), feet(high)), strict=True):
             text(c, stop, y, cell, align="r")
-        rule(c, MARGIN, y - 3.6, right, weight=0.3)
-        y -= 13
-    y = bar(c, MARGIN, y - 4, "BUCKET ANGLES, STANDARD BOOM (example values)", WIDTH - 2 * MARGIN)
+        rule(c, MARGIN, y - 4.6, right, weight=0.3)
+        y -= 15.5
+    y = bar(c, MARGIN, y - 6, "BUCKET ANGLES, STANDARD BOOM (example values)", WIDTH - 2 * MARGIN)
     pairs = (
         (("Rack back at ground", v.RACK_BACK_GROUND), ("Rack back at maximum lift", v.RACK_BACK_MAX)),
         (("Dump angle at maximum lift", v.DUMP_ANGLE_MAX), ("Approach angle, carry", v.APPROACH_ANGLE_CARRY)),
@@ -499,10 +377,10 @@ def dimensions(c: Canvas) -> None:
         for x, (label, value) in zip((LEFT, RIGHT), pair, strict=True):
             text(c, x, y, label)
             text(c, x + COLUMN - 40, y, f"{value.value:.0f}°", align="r")
-        y -= 12
+        y -= 14
 
 
-# ---- page 4: buckets ----------------------------------------------------------------------------------------------------
+# ---- page 4: buckets -----------------------------------------------------------------------------------------------
 def buckets(c: Canvas) -> None:
     """The selection table: a full grid, one column a bucket, metric above imperial in each cell."""
     furniture(c, 4, "Bucket selection")
@@ -524,34 +402,61 @@ def buckets(c: Canvas) -> None:
         ("", ("Bucket weight",), lambda b: (f"{grouped(b.weight)} kg", f"{pounds(b.weight)} lb")),
         ("", ("Static tipping load, straight",), lambda b: _mass(b.tipping_straight)),
         ("", ("Static tipping load, 40° full turn",), lambda b: _mass(b.tipping_turned)),
-        ("", ("Breakout force (example value)",), lambda b: (f"{b.breakout:.0f} kN", f"{grouped(b.breakout * 224.809)} lbf")),
+        ("", ("Breakout force (example value)",), lambda b: _force(b.breakout)),
         ("H", ("Dumping clearance, max. lift", "and 45° dump angle"), lambda b: _length(b.clearance)),
         ("I", ("Reach at max. lift", "and 45° dump angle"), lambda b: _length(b.reach)),
-        ("K", ("Digging depth, bucket level", "(example value)"), lambda b: (f"{b.dig_depth:.0f} mm", f"{inches(b.dig_depth)} in")),
+        ("K", ("Digging depth, bucket level", "(example value)"), lambda b: _short(b.dig_depth)),
         ("L", ("Operating height, fully raised",), lambda b: _length(b.operating_height)),
         ("M", ("Overall length, bucket on ground",), lambda b: _length(b.overall_length)),
         ("", ("Operating weight",), lambda b: _mass(b.operating_weight)),
     )  # fmt: skip
     for key, label, cells in rows:
-        height = 25.0
-        _grid_row(c, edges, y, height)
-        text(c, (edges[0] + edges[1]) / 2, y - 15, key, font=BOLD, align="c")
+        height = 29.0
+        grid_row(c, edges, y, height)
+        text(c, (edges[0] + edges[1]) / 2, y - 17, key, font=BOLD, align="c")
         for index, line in enumerate(label):
-            text(c, edges[1] + 5, y - 15 + 4.6 * (len(label) - 1) - 9.2 * index, line)
+            text(c, edges[1] + 5, y - 17 + 4.6 * (len(label) - 1) - 9.2 * index, line)
         for column, bucket in enumerate(BUCKETS):
             metric, imperial = cells(bucket)
             centre = (edges[2 + column] + edges[3 + column]) / 2
-            text(c, centre, y - 10.5, metric, align="c", font=BOLD if column == 0 else REGULAR)
-            text(c, centre, y - 20, imperial, size=6.4, ink=GREY, align="c")
+            text(c, centre, y - 12.5, metric, align="c", font=BOLD if column == 0 else REGULAR)
+            text(c, centre, y - 22.5, imperial, size=6.4, ink=GREY, align="c")
         y -= height
-    paragraph(
+    y = paragraph(
         c,
         MARGIN,
-        y - 16,
-        "Capacities after ISO 7546, static tipping loads after ISO 14397-1 with rigid tyres, dimensions after ISO 7131. "
-        "The other three buckets are of our own choosing, to stand where a brochure offers alternatives.",
+        y - 14,
+        "Capacities after ISO 7546, static tipping loads after ISO 14397-1 with rigid tyres, dimensions after ISO "
+        "7131. The other three buckets are of our own choosing, to stand where a brochure offers alternatives.",
         WIDTH - 2 * MARGIN,
+        size=6.5,
     )
+    tyre_options(c, bar(c, MARGIN, y - 4, "OTHER TYRES: CHANGES (example values)", WIDTH - 2 * MARGIN) + 6)
+
+
+def tyre_options(c: Canvas, y: float) -> None:
+    """What other tyres change: a grid whose heads name the properties and whose rows are the options."""
+    edges = [MARGIN + (WIDTH - 2 * MARGIN) * i / 5 for i in range(6)]
+    heads = (
+        "Tyre",
+        "Change in operating weight",
+        "Change in tipping load, 40°",
+        "Change in overall width",
+        "Change in height",
+    )
+    rows = (
+        ("26.5R25 L5", "+580 kg", "+420 kg", "0 mm", "+15 mm"),
+        ("775/65R29", "+240 kg", "+170 kg", "+95 mm", "-10 mm"),
+        ("Solid 26.5", "+1,900 kg", "+1,370 kg", "+5 mm", "-20 mm"),
+    )
+    for index, row in enumerate((heads, *rows)):
+        if index == 0:
+            c.setFillColor(PALE)
+            c.rect(edges[0], y - 17, edges[-1] - edges[0], 17, stroke=0, fill=1)
+        grid_row(c, edges, y, 17)
+        for left, right, words in zip(edges, edges[1:], row, strict=False):
+            text(c, (left + right) / 2, y - 11, words, align="c", font=BOLD if index == 0 else REGULAR, size=6.8)
+        y -= 17
 
 
 def _heads(c: Canvas, edges: Sequence[float], y: float) -> float:
@@ -575,122 +480,20 @@ def _heads(c: Canvas, edges: Sequence[float], y: float) -> float:
     return y - 44
 
 
-def _grid_row(c: Canvas, edges: Sequence[float], y: float, height: float) -> None:
-    c.setStrokeColor(GREY)
-    c.setLineWidth(0.5)
-    for x0, x1 in zip(edges, edges[1:], strict=False):
-        c.rect(x0, y - height, x1 - x0, height)
-
-
 def _length(mm: float) -> tuple[str, str]:
     return f"{grouped(mm)} mm", feet(mm)
 
 
+def _short(mm: float) -> tuple[str, str]:
+    return f"{mm:.0f} mm", f"{inches(mm)} in"
+
+
+def _force(kn: float) -> tuple[str, str]:
+    return f"{kn:.0f} kN", f"{grouped(kn * 224.809)} lbf"
+
+
 def _mass(kg: float) -> tuple[str, str]:
     return f"{grouped(kg)} kg", f"{pounds(kg)} lb"
-
-
-# ---- the drawings -------------------------------------------------------------------------------------------------------
-def machine(c: Canvas, x0: float, ground: float, scale: float, *, raised: bool) -> None:
-    """A schematic side view: x0 is the articulation axis, millimetres times `scale` are points."""
-
-    def at(x: float, z: float) -> tuple[float, float]:
-        return x0 + x * scale, ground + z * scale
-
-    def shape(points: Sequence[tuple[float, float]], fill: Color, *, dashed: bool = False) -> None:
-        path = c.beginPath()
-        path.moveTo(*at(*points[0]))
-        for point in points[1:]:
-            path.lineTo(*at(*point))
-        path.close()
-        c.saveState()
-        c.setStrokeColor(GREY if dashed else INK)
-        c.setLineWidth(0.7)
-        if dashed:
-            c.setDash(3, 2)
-        c.setFillColor(fill)
-        c.drawPath(path, stroke=1, fill=0 if dashed else 1)
-        c.restoreState()
-
-    rule(c, *at(-4500, 0), at(5100, 0)[0], weight=0.8, ink=INK)
-    axle, radius = v.WHEELBASE.value / 2, v.TYRE_DIAMETER.value / 2
-    rear = -axle - v.REAR_OVERHANG.value
-    tip = v.OVERALL_LENGTH.value + rear
-    shape(((rear, 700), (rear, 2150), (-3900, 2500), (-1250, 2600), (-1250, 1000), (-900, 700)), AMBER)
-    shape(((-1250, 1150), (-1250, 2600), (-1100, 3450), (350, 3500), (420, 1750), (250, 1150)), PALE)
-    shape(((-3100, 2500), (-3100, 3450), (-2960, 3450), (-2960, 2500)), SLATE)
-    shape(((150, 700), (150, 1250), (900, 2350), (1150, 2300), (1600, 1000), (1500, 700)), SLATE)
-    boom = (850.0, 2150.0)
-    carry = (3330.0, 290.0)
-    shape(_arm(boom, carry, 190), AMBER)
-    shape(_bucket(carry, 0.0, tip - carry[0]), SLATE)
-    if raised:
-        high = (2680.0, v.HINGE_HEIGHT_MAX.value)
-        shape(_arm(boom, high, 190), AMBER, dashed=True)
-        shape(_bucket(high, -math.pi / 4, tip - carry[0]), SLATE, dashed=True)
-    for x in (-axle, axle):
-        for r, fill in ((radius, INK), (radius * 0.55, AMBER), (radius * 0.2, SLATE)):
-            c.setFillColor(fill)
-            c.circle(*at(x, radius), r * scale, stroke=0, fill=1)
-
-
-def _arm(a: tuple[float, float], b: tuple[float, float], half: float) -> list[tuple[float, float]]:
-    dx, dz = b[0] - a[0], b[1] - a[1]
-    length = math.hypot(dx, dz)
-    nx, nz = -dz / length * half, dx / length * half
-    return [
-        (a[0] + nx, a[1] + nz),
-        (b[0] + nx / 2, b[1] + nz / 2),
-        (b[0] - nx / 2, b[1] - nz / 2),
-        (a[0] - nx, a[1] - nz),
-    ]
-
-
-def _bucket(pin: tuple[float, float], angle: float, reach: float) -> list[tuple[float, float]]:
-    outline = (
-        (reach, -290.0),
-        (250.0, -290.0),
-        (-200.0, -60.0),
-        (-260.0, 500.0),
-        (120.0, 1010.0),
-        (360.0, 1060.0),
-        (520, 430),
-    )
-    s, k = math.sin(angle), math.cos(angle)
-    return [(pin[0] + k * x - s * z, pin[1] + s * x + k * z) for x, z in outline]
-
-
-def keys(c: Canvas, x0: float, ground: float, scale: float) -> None:
-    """The letter keys with their dimension lines."""
-    c.setStrokeColor(INK)
-
-    def span(x: float, low: float, high: float, key: str) -> None:
-        px, pl, ph = x0 + x * scale, ground + low * scale, ground + high * scale
-        rule(c, px - 3, pl, px + 3)
-        rule(c, px - 3, ph, px + 3)
-        c.line(px, pl, px, ph)
-        text(c, px + 3, (pl + ph) / 2 - 2, key, size=7, font=BOLD)
-
-    def across(z: float, left: float, right: float, key: str) -> None:
-        pz, pl, pr = ground + z * scale, x0 + left * scale, x0 + right * scale
-        c.setLineWidth(0.4)
-        c.line(pl, pz, pr, pz)
-        c.line(pl, pz - 3, pl, pz + 3)
-        c.line(pr, pz - 3, pr, pz + 3)
-        text(c, (pl + pr) / 2, pz + 2, key, size=7, font=BOLD, align="c")
-
-    axle = v.WHEELBASE.value / 2
-    rear = -axle - v.REAR_OVERHANG.value
-    span(5150, 0, v.OPERATING_HEIGHT.value, "L")
-    span(4700, 0, v.DUMP_CLEARANCE.value, "H")
-    span(2300, 0, v.HINGE_HEIGHT_MAX.value, "B")
-    span(-250, 0, v.GROUND_CLEARANCE.value, "D")
-    span(rear - 150, 0, v.HITCH_HEIGHT.value, "E")
-    span(-3500, 0, v.STACK_HEIGHT.value, "F")
-    span(500, 0, v.CAB_HEIGHT.value, "G")
-    across(-350, -axle, axle, "A")
-    across(-350, rear, -axle, "J")
-    across(-750, rear, v.OVERALL_LENGTH.value + rear, "M")
 
 
 def write(path: Path) -> None:

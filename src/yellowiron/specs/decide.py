@@ -52,7 +52,7 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
         unit=SI_UNIT[wanted.dimension],
         status="review" if doubt else "ok",
         evidence=evidence_of(top, sheets),
-        text=quantity.text,
+        text=_printed(quantity),
         example=all(m.claim.statement.example for m in group),
         confidence=round(min(top.score, 0.5 if doubt else 1.0), 3),
         reason=doubt or _reason(top, group),
@@ -184,6 +184,12 @@ def _settled(wanted: Wanted, claim: Claim) -> tuple[Quantity, str]:
     return quantity, doubt
 
 
+def _printed(quantity: Quantity) -> str:
+    """A quantity as printed, with the unit that its column or product gives it."""
+    bare = quantity.text.lstrip("±+-−–/ ").replace(",", "").replace(".", "").replace(" ", "").isdigit()
+    return f"{quantity.text} {quantity.unit}".strip() if bare else quantity.text
+
+
 def _in_range(wanted: Wanted, value: float) -> bool:
     low = wanted.minimum if wanted.minimum is not None else float("-inf")
     high = wanted.maximum if wanted.maximum is not None else float("inf")
@@ -207,7 +213,7 @@ def _conflict(wanted: Wanted, groups: Sequence[Sequence[Match]], sheets: Sheets,
         for one in (max(group, key=_preference) for group in groups)
     )
     names = [c.configuration for c in candidates if c.configuration]
-    texts = [_settled(wanted, max(group, key=_preference).claim)[0].text for group in groups]
+    texts = [_printed(_settled(wanted, max(group, key=_preference).claim)[0]) for group in groups]
     hint = f'Give the value with --set "{wanted.name}=VALUE UNIT"'
     if len(set(names)) > 1:
         hint = (

@@ -141,7 +141,9 @@ def read_grid(page: Page, grid: Grid, first_row: int, section: str = "") -> list
     for row in range(grid.rows):
         cells = _row_cells(grid, row)
         filled = [c for c in cells if c.lines]
-        values = [c for c in filled if looks_like_value(c.text)] or [c for c in filled if split_inline(c.text)[0]]
+        values = [c for c in filled if looks_like_value(c.text)]
+        if not values and all(split_inline(c.text)[0] for c in filled):
+            values = filled
         if not values:
             if len(filled) == 1 and filled[0].columns[1] - filled[0].columns[0] == grid.columns:
                 section = " ".join(p.text for p in filled[0].pieces)

@@ -75,7 +75,7 @@ class Quantity:
     def si_value(self) -> float:
         """The value in the SI unit of its dimension."""
         unit = self.printed
-        return self.value * unit.scale if unit else self.value
+        return float(f"{self.value * unit.scale:.15g}") if unit else self.value
 
     @property
     def si_half(self) -> float:

@@ -36,6 +36,7 @@ class _State:
     pending: list[Piece] = field(default_factory=list)
     heads: list[tuple[Piece, ...]] = field(default_factory=list)
     data_since_heads: bool = False
+    values_in_row: int = 0
 
 
 def read_block(page: Page, block: Block, first_row: int, section: str = "") -> tuple[list[Statement], str]:
@@ -187,6 +188,9 @@ def _read_values(page: Page, row: Sequence[Line], state: _State, number: int, fo
     if not has_label and not pending and found and _continues(found, cells):
         _continue(found, cells)
         return
+    if state.data_since_heads and 2 * len(cells) < state.values_in_row:
+        state.heads = []  # a narrower row than the table's: the table has ended
+    state.values_in_row = len(cells)
     context = [*state.context, *pending]
     row_marked = any(EXAMPLE.search(p.text) for c in cells for p in [*c.notes, *c.label, *c.values])
     for cell in cells:
