@@ -25,7 +25,7 @@ Color = tuple[float, float, float]
 
 @dataclass(eq=False)
 class Node:
-    """A product: a leaf with a `shape` (mm), or an assembly with `children`. Used twice, it is one product, two instances."""
+    """A product: a leaf with a `shape` (mm), or an assembly with `children`. Used twice: one product, two instances."""
 
     name: str
     shape: Any = None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -15,6 +16,7 @@ from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeSolid
 from OCP.BRepGProp import BRepGProp
 from OCP.gp import gp_Pnt
 from OCP.GProp import GProp_GProps
+from OCP.Standard import Standard_Failure
 from OCP.TopAbs import TopAbs_FACE, TopAbs_SHELL, TopAbs_SOLID
 from OCP.TopExp import TopExp_Explorer
 from OCP.TopoDS import TopoDS
@@ -50,11 +52,9 @@ class Body:
         """Of the bounding box, mm."""
         return float(np.linalg.norm(self.box[1] - self.box[0]))
 
-    @property
-    def sound(self) -> bool:
-        """False where a coordinate or a measure is not a finite number."""
-        numbers = (self.box, self.volume, self.area, self.centroid, self.inertia)
-        return all(bool(np.isfinite(value).all()) for value in numbers)
+
+LARGEST = 1e6
+"""Millimetres. Nothing in a machine is larger: a wrong unit, or a coordinate that is damaged."""
 
 
 def measure(
@@ -62,20 +62,32 @@ def measure(
 ) -> Body:
     """A body from a solid, compsolid, shell or compound of faces in its own frame.
 
-    A closed shell counts as the solid it bounds; a solid turned inside out is turned back.
+    A closed shell counts as the solid it bounds; a solid turned inside out is turned back. `ValueError`, its text a
+    predicate ("its geometry is broken"), if the shape cannot be a part.
     """
+    try:
+        body = _measure(name, shape, color, face_colors)
+    except Standard_Failure as error:
+        raise ValueError("its geometry is broken") from error
+    numbers = (body.volume, body.area, body.centroid, body.inertia)
+    if not all(bool(np.isfinite(value).all()) for value in numbers):
+        raise ValueError("its volume is not a finite number")
+    return body
+
+
+def _measure(name: str, shape: Any, color: Color | None, face_colors: Sequence[Color | None] | None) -> Body:
     shape, closed = _close(shape)
-    box = _box(shape)
+    _check_size(shape)
+    box = _box(shape, optimal=True)
     faces = subshapes(shape, TopAbs_FACE)
-    properties = GProp_GProps(gp_Pnt(*box.mean(axis=0))) if np.isfinite(box).all() else GProp_GProps()
+    surveyed = features.survey(faces)
     if closed:
-        BRepGProp.VolumeProperties_s(shape, properties)
+        properties = _integrate(shape, box, surveyed)
         if properties.Mass() < 0.0:
             shape = shape.Reversed()
             faces = subshapes(shape, TopAbs_FACE)
-            properties = GProp_GProps(gp_Pnt(*box.mean(axis=0)))
-            BRepGProp.VolumeProperties_s(shape, properties)
-    surveyed = features.survey(faces)
+            surveyed = features.survey(faces)
+            properties = _integrate(shape, box, surveyed)
     area = sum(face.area for face in surveyed)
     if closed:
         centroid = np.array(properties.CentreOfMass().Coord())
@@ -106,6 +118,16 @@ def measure(
     )
 
 
+def _integrate(shape: Any, box: Floats, surveyed: Sequence[features.Face]) -> Any:
+    """Volume properties about the middle of the box: far from the origin, inertia would drown in rounding."""
+    properties = GProp_GProps(gp_Pnt(*box.mean(axis=0)))
+    if any(face.freeform for face in surveyed):
+        BRepGProp.VolumeProperties_s(shape, properties, features.INTEGRATION, False, False)
+    else:
+        BRepGProp.VolumeProperties_s(shape, properties)
+    return properties
+
+
 def subshapes(shape: Any, kind: Any) -> list[Any]:
     """The sub-shapes of a kind in exploration order, cast to their type."""
     cast = {TopAbs_FACE: TopoDS.Face, TopAbs_SHELL: TopoDS.Shell, TopAbs_SOLID: TopoDS.Solid}[kind]
@@ -124,10 +146,22 @@ def _close(shape: Any) -> tuple[Any, bool]:
     return shape, closed and bool(subshapes(shape, TopAbs_SOLID))
 
 
-def _box(shape: Any) -> Floats:
-    """(2, 3) exact bounds, mm; infinite or NaN where the shape has none."""
+def _check_size(shape: Any) -> None:
+    """`ValueError` where a shape is not of this world: integrals over it would overflow, or never end."""
+    size = float(np.linalg.norm(np.ptp(_box(shape, optimal=False), axis=0)))
+    if not math.isfinite(size):
+        raise ValueError("its coordinates are not finite numbers")
+    if size > LARGEST:
+        raise ValueError(f"it would be {size * MILLIMETRE:.3g} m large")
+
+
+def _box(shape: Any, *, optimal: bool) -> Floats:
+    """(2, 3) bounds, mm: exact ones, or loose ones in a fraction of the time. Infinite or NaN where there are none."""
     box = Bnd_Box()
-    BRepBndLib.AddOptimal_s(shape, box, False, False)
+    if optimal:
+        BRepBndLib.AddOptimal_s(shape, box, False, False)
+    else:
+        BRepBndLib.Add_s(shape, box, False)
     if box.IsVoid() or box.IsOpen():
         return np.full((2, 3), np.nan)
     low, high = box.CornerMin(), box.CornerMax()
@@ -141,13 +175,15 @@ def _key(body: Body) -> str:
     export or unit do not matter. The first 32 characters are the geometry alone; coloured bodies have 9 more.
     """
     size = body.diagonal
-    if not body.sound or size <= 0.0:
-        return hashlib.sha256(body.name.encode()).hexdigest()[:32]
     step = max(1e-4, 1e-6 * size)
     rows = sorted(
         (face.kind, round(face.area / (step * size)), *(round(c / step) for c in face.center)) for face in body.survey
     )
-    whole = [round(body.volume / (step * size**2)), *(round(c / step) for c in body.centroid)]
+    whole = [
+        round(math.log10(size) * 1e5),
+        round(body.volume / (step * size**2)),
+        *(round(c / step) for c in body.centroid),
+    ]
     whole += [round(float(value) / (step * size**4)) for value in body.inertia.ravel()]
     geometry = hashlib.sha256(repr((rows, whole, body.closed)).encode()).hexdigest()[:32]
     if body.color is None and body.face_colors is None:

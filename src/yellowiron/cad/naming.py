@@ -12,8 +12,8 @@ _GENERIC = re.compile(
     re.IGNORECASE,
 )
 
-_HAN_COMMON = {"gb18030": (0xB0, 0xD7), "big5": (0xA4, 0xC6), "cp932": (0x88, 0x97), "cp949": (0xB0, 0xC8)}
-"""Lead bytes of each encoding's everyday characters (level 1 hanzi and kanji; the common Hangul)."""
+_HAN_COMMON = {"gb18030": (0xB0, 0xD7), "big5": (0xA4, 0xC6), "cp932": (0x88, 0x97)}
+"""Lead bytes of each encoding's everyday characters (level 1 hanzi and kanji)."""
 
 _ISOLATED = re.compile(rb"(?<![\x80-\xff])[\x80-\xff](?![\x80-\xff])")
 
@@ -23,13 +23,31 @@ def sniff_encoding(names: Sequence[bytes]) -> str:
 
     ISO 10303-21 allows ASCII only, with escapes that every reader knows; CAD systems write their computer's own
     encoding all the same. ASCII and UTF-8 come out as 'utf-8'; otherwise the candidate whose decoded text is made of
-    its script's everyday characters wins: GB 18030, Shift-JIS (CP932), Big5, Korean (CP949), Western (CP1252).
+    its script's everyday characters wins: GB 18030, Shift-JIS (CP932), EUC-JP, Big5, Korean (CP949), Western (CP1252).
     """
     high = [name for name in names if any(byte > 0x7F for byte in name)]
     if not high or all(_decodes(name, "utf-8") for name in high):
         return "utf-8"
-    scores = {codec: sum(_plausibility(name, codec) for name in high) for codec in (*_HAN_COMMON, "cp1252")}
-    return max(scores, key=lambda codec: scores[codec])
+    scores: dict[str, float] = {
+        codec: sum(_plausibility(name, codec) for name in high) for codec in (*_HAN_COMMON, "cp1252")
+    }
+    best = max(scores, key=lambda codec: scores[codec])
+    return _sibling_of_gb(high) if best == "gb18030" else best
+
+
+def _sibling_of_gb(names: Sequence[bytes]) -> str:
+    """'gb18030', or the encoding with the same byte ranges that the names are really in.
+
+    Korean syllables and Japanese kana have rows of their own there; Chinese text has characters beyond the first and
+    hardly ever one of the second.
+    """
+    chinese = [character for name in names for character in name.decode("gb18030", "replace")]
+    if sum(map(_is_kana, chinese)) * 4 >= sum(character > "\x7f" for character in chinese):
+        return "euc_jp"
+    korean = {character for name in names for character in name.decode("cp949", "replace") if character > "\x7f"}
+    if len(korean) >= 8 and all("\uac00" <= character <= "\ud7a3" for character in korean):
+        return "cp949"
+    return "gb18030"
 
 
 def _decodes(name: bytes, codec: str) -> bool:
@@ -57,7 +75,7 @@ def _plausibility(name: bytes, codec: str) -> float:
         if codec == "cp932" and len(raw) == 1:
             score += 0.45  # half-width katakana; GB text read as Shift-JIS is full of them, two for each character
         elif len(raw) == 2 and (first <= raw[0] <= last or _is_kana(character)):
-            # An ASCII second byte is legal in three of the four, and in Western text read as one of them.
+            # An ASCII second byte is legal in all but GB 2312, and in Western text read as one of them.
             score += 2.0 if raw[1] > 0x7F else 1.4
         else:
             score += 0.6 if raw[-1] > 0x7F else -0.5

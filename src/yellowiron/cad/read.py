@@ -7,9 +7,9 @@ Findings:
 | code   | severity | says                                                                                       |
 |--------|----------|--------------------------------------------------------------------------------------------|
 | CAD001 | warning  | fewer occurrences were read than the file declares                                         |
-| CAD002 | info     | products without geometry                                                                  |
-| CAD003 | error    | a body left out: a coordinate is not a finite number                                       |
-| CAD004 | error, warning | a body left out for its size; a model too small or large to be a machine             |
+| CAD002 | info     | products without usable geometry                                                                  |
+| CAD003 | error    | a body left out: not finite, larger than anything in a machine, or broken                  |
+| CAD004 | warning  | a model too small or too large to be a machine                                             |
 | CAD005 | info     | sheets: not closed, so without a volume                                                    |
 | CAD006 | warning  | faces that could not be meshed                                                             |
 | CAD007 | warning  | a solid whose exact volume is not usable; its mesh's was taken                             |

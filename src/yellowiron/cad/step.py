@@ -68,8 +68,6 @@ UNITS = {
 }
 """Unit names of STEP files, lower case, to metres."""
 
-LARGEST = 1e3
-"""A part or machine larger than this (metres) has the wrong unit, or a coordinate that is damaged."""
 _EXPORT_AGAIN = "Export the file again as STEP AP214 or AP242, solids included."
 
 
@@ -89,7 +87,7 @@ class Piece:
     """One solid or sheet of a product, in its own frame, with where the product has it."""
 
     name: str
-    body: int
+    body: brep.Body
     location: Any
 
 
@@ -118,10 +116,10 @@ def read_step(path: str) -> Assembly:
     leaves = list(tree.leaves())
     collector = _Bodies(tree)
     pieces = [collector.pieces(leaf) for leaf in leaves]
-    findings += _missing(path, facts, leaves, pieces)
+    findings += _missing(path, facts, leaves, pieces) + collector.findings
     shapes, shape_findings = _shapes(collector.bodies)
     findings += shape_findings
-    parts = _parts(leaves, pieces, collector.bodies, shapes)
+    parts = _parts(leaves, pieces, shapes)
     if not parts:
         raise CadError("The STEP file holds no solid and no surface", where=path, hint=_EXPORT_AGAIN)
     used = {part.shape for part in parts}
@@ -251,7 +249,9 @@ class _Bodies:
     def __init__(self, tree: _Tree) -> None:
         self.tree = tree
         self.bodies: list[brep.Body] = []
+        self.findings: list[Finding] = []
         self._known = IndexedMap_TopoDS_Shape_TopTools_ShapeMapHasher()
+        self._measured: list[brep.Body | None] = []
         self._pieces: dict[int, list[Piece]] = {}
         self._labels = IndexedMap_TopoDS_Shape_TopTools_ShapeMapHasher()
 
@@ -277,16 +277,24 @@ class _Bodies:
             known = self._known.FindIndex(local)
             if known == 0:
                 known = self._known.Add(local)
-                faces = brep.subshapes(local, TopAbs_FACE)
-                self.bodies.append(
-                    brep.measure(
-                        body_name, local, color=color or label_color(leaf.label), face_colors=styles.of_faces(faces)
-                    )
-                )
+                self._measured.append(self._measure(body_name, local, color or label_color(leaf.label), styles))
+            body = self._measured[known - 1]
+            if body is None:
+                continue
             suffix = f"#{number}" if len(units) > 1 else ""
             own = name if name and not is_generic(name) and len(units) > 1 else ""
-            pieces.append(Piece(own or suffix, known - 1, unit.Location()))
+            pieces.append(Piece(own or suffix, body, unit.Location()))
         return pieces
+
+    def _measure(self, name: str, shape: Any, color: Color | None, styles: _Styles) -> brep.Body | None:
+        face_colors = styles.of_faces(brep.subshapes(shape, TopAbs_FACE))
+        try:
+            body = brep.measure(name, shape, color=color, face_colors=face_colors)
+        except ValueError as error:
+            self.findings.append(_finding("CAD003", "error", name, f"Left out: {error}", _EXPORT_AGAIN))
+            return None
+        self.bodies.append(body)
+        return body
 
 
 def _units(shape: Any) -> Iterator[Any]:
@@ -350,7 +358,7 @@ def _missing(
             )
         )
     if empty:
-        findings.append(_finding("CAD002", "info", path, f"Without geometry: {_listed(empty)}"))
+        findings.append(_finding("CAD002", "info", path, f"Without usable geometry: {_listed(empty)}"))
     folder = Path(path).absolute().parent
     gone = [name for name in dict.fromkeys(facts.documents) if not (folder / name.decode(errors="replace")).exists()]
     if gone and empty:
@@ -372,8 +380,7 @@ def _shapes(bodies: Sequence[brep.Body]) -> tuple[dict[str, Shape], list[Finding
     """Distinct sound bodies by key, meshed; equal ones are meshed once."""
     distinct: dict[str, brep.Body] = {}
     for body in bodies:
-        if body.sound and body.diagonal * MILLIMETRE < LARGEST:
-            distinct.setdefault(body.key, body)
+        distinct.setdefault(body.key, body)
     mesh_shapes((body.shape, body.diagonal) for body in distinct.values())
     shapes, findings = {}, []
     for key, body in distinct.items():
@@ -388,25 +395,18 @@ def _shapes(bodies: Sequence[brep.Body]) -> tuple[dict[str, Shape], list[Finding
             )
         if len(shape.mesh.triangles):
             shapes[key] = shape
-    for body in bodies:
-        if not body.sound:
-            findings.append(_finding("CAD003", "error", body.name, "Left out: its coordinates are not finite numbers"))
-        elif body.diagonal * MILLIMETRE >= LARGEST:
-            size = body.diagonal * MILLIMETRE
-            findings.append(_finding("CAD004", "error", body.name, f"Left out: it would be {size:.3g} m large"))
     return shapes, findings
 
 
 def _parts(
     leaves: Sequence[Leaf],
     pieces: Sequence[Sequence[Piece]],
-    bodies: Sequence[brep.Body],
     shapes: dict[str, Shape],
 ) -> list[Part]:
     found: list[tuple[str, tuple[str, ...], str, Floats, Color | None]] = []
     for leaf, own in zip(leaves, pieces, strict=True):
         for piece in own:
-            key = bodies[piece.body].key
+            key = piece.body.key
             if key not in shapes:
                 continue
             path, name = leaf.path, leaf.name
@@ -414,9 +414,7 @@ def _parts(
                 name += piece.name
             elif piece.name:
                 path, name = (*path, name), piece.name
-            found.append(
-                (name, path, key, _matrix(leaf.location * piece.location), leaf.color or bodies[piece.body].color)
-            )
+            found.append((name, path, key, _matrix(leaf.location * piece.location), leaf.color or piece.body.color))
     ids = unique_ids((*path, name) for name, path, *_ in found)
     return [Part(id, *fields) for id, fields in zip(ids, found, strict=True)]
 
@@ -439,7 +437,7 @@ def _plausibility(assembly: Assembly, path: str) -> list[Finding]:
         )
     corners = np.concatenate([_corners(assembly, part) for part in assembly.parts])
     size = float(np.linalg.norm(np.ptp(corners, axis=0)))
-    if not 1e-3 < size < LARGEST:
+    if not 1e-3 < size < brep.LARGEST * MILLIMETRE:
         findings.append(
             _finding("CAD004", "warning", path, f"The model is {size:.3g} m large: check the unit it was exported in")
         )
