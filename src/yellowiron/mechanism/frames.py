@@ -14,6 +14,8 @@ from typing import Any
 import numpy as np
 
 from yellowiron.mechanism.axes import (
+    SAME_ANGLE,
+    SAME_OFFSET,
     Line,
     axis_of,
     coaxial_groups,
@@ -28,8 +30,8 @@ from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
 from yellowiron.model.template import JointTemplate, Template
 
-_OUT_OF_LINE_ANGLE = math.radians(0.05)
-_OUT_OF_LINE_OFFSET = 1e-4
+_OUT_OF_LINE = {True: (math.radians(0.05), 1e-4), False: (math.radians(0.2), 3e-4)}
+"""Angle (rad) and offset (m) from which features are out of line; exact ones, and fitted ones."""
 _GAP = 0.02
 """Bores of two bodies belong to one pin only if no more than this is between them along the axis, metres."""
 _RIVAL = 0.5
@@ -38,8 +40,9 @@ _RIVAL = 0.5
 
 @dataclass(frozen=True, eq=False)
 class JointFrame:
-    """A joint with its place: `bodies` in the template's order, `anchor` a point on the unit vector `axis`, `weight`
-    (m²) the cylinder area behind it, `source` the evidence."""
+    """A joint with its place: `bodies` in the template's order, `anchor` a point on the unit vector `axis`, `source`
+    the evidence. `weight` says how well the direction is known: the square of the length (m²) that its cylinders
+    span; `exact` whether any of them is one of the file's own, not one fitted to facets."""
 
     joint: JointTemplate
     bodies: tuple[str, str]
@@ -47,6 +50,7 @@ class JointFrame:
     axis: Floats
     weight: float
     source: Mapping[str, Any]
+    exact: bool = True
 
 
 @dataclass(frozen=True, eq=False)
@@ -242,7 +246,7 @@ def _slide(
     ends = [_end_pivot(body, bodies, pivots) for body in bodies]
     axis = _from_shared(bodies, placement)
     if axis is not None:
-        axis = replace(axis, doubt=axis.doubt if axis.doubt and axis.doubt[0] != "MEC006" else None)
+        axis = _steadied(replace(axis, doubt=None), ends)
     if axis is None and ends[0] is not None and ends[1] is not None:
         between = ends[1].anchor - ends[0].anchor
         length = float(np.linalg.norm(between))
@@ -271,6 +275,26 @@ def _slide(
     ]
     line = axis.line if (tips[1] - tips[0]) @ axis.line.direction >= 0.0 else axis.line.flipped()
     return _frame(joint, bodies, placement, axis, line, float(line.along(tips[bodies.index(rod)][None])[0]))
+
+
+def _steadied(axis: _Axis, ends: list[JointFrame | None]) -> _Axis:
+    """A slide's axis fitted to facets, made better by its pivots where they agree with it: they are farther apart
+    than any facet is long. Exact axes stay."""
+    barrel, rod = ends
+    if axis.features.exact.any() or barrel is None or rod is None:
+        return axis
+    normal = barrel.axis
+    across = rod.anchor - barrel.anchor
+    across = across - (across @ normal) * normal
+    length = float(np.linalg.norm(across))
+    if length == 0.0:
+        return axis
+    through = Line(barrel.anchor + ((axis.line.point - barrel.anchor) @ normal) * normal, across / length)
+    lean = float(np.linalg.norm(np.cross(through.direction, axis.line.direction)))
+    apart = float(through.distance(axis.line.point[None])[0])
+    if lean > math.sin(SAME_ANGLE) or apart > 2.0 * SAME_OFFSET:
+        return axis
+    return replace(axis, line=through, method=f"{axis.method}, steadied by its pivots")
 
 
 def _end_pivot(body: str, slide: tuple[str, str], pivots: Mapping[str, JointFrame]) -> JointFrame | None:
@@ -312,7 +336,8 @@ def _judge(joint: JointTemplate, axis: _Axis, findings: list[Finding]) -> None:
     if len(axis.features) == 0:
         return
     angle, offset = residuals(axis.features, axis.line)
-    if angle > _OUT_OF_LINE_ANGLE or offset > _OUT_OF_LINE_OFFSET:
+    most = _OUT_OF_LINE[bool(axis.features.exact.any())]
+    if angle > most[0] or offset > most[1]:
         findings.append(
             Finding(
                 "MEC004",
@@ -334,5 +359,7 @@ def _frame(
         source["parts"] = placement.ids(axis.features.part)
         source["residual_deg"] = round(math.degrees(angle), 9)
         source["residual_mm"] = round(offset * 1e3, 9)
-        weight = float(axis.features.area.sum())
-    return JointFrame(joint, bodies, line.at(coordinate), line.direction, weight, source)
+        low, high = span(axis.features, axis.line)
+        weight = (high - low) ** 2
+    exact = bool(axis.features.exact.any())
+    return JointFrame(joint, bodies, line.at(coordinate), line.direction, weight, source, exact)

@@ -13,8 +13,8 @@ from yellowiron.mechanism.frames import JointFrame
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
 
-DRAWING_ACCURACY = math.radians(0.01)
-"""Axes that differ by less than this were meant to be parallel, and nothing is said."""
+_ACCURACY = {True: math.radians(0.01), False: math.radians(0.05)}
+"""Axes that differ by less than this were meant to be parallel, and nothing is said; exact ones, and fitted ones."""
 _MEANT_PARALLEL = math.radians(0.5)
 """Up to here they are made parallel with a finding; beyond it the loop is taken to be spatial."""
 
@@ -47,7 +47,7 @@ def make_parallel(
 
 
 def _families(pivots: Mapping[str, JointFrame]) -> list[list[JointFrame]]:
-    """Pivots by direction, those with the largest cylinders first."""
+    """Pivots by direction, the best known first."""
     left = sorted(pivots.values(), key=lambda f: -f.weight)
     families = []
     while left:
@@ -78,7 +78,7 @@ def _turn(result: dict[str, JointFrame], frame: JointFrame, axis: Floats, findin
     moved = math.asin(min(1.0, float(np.linalg.norm(np.cross(frame.axis, axis)))))
     source = {**frame.source, "planarity_deg": round(math.degrees(moved), 9)}
     result[frame.joint.name] = replace(frame, axis=axis, source=source)
-    if moved > DRAWING_ACCURACY:
+    if moved > _ACCURACY[frame.exact]:
         findings.append(
             Finding(
                 "MEC010",

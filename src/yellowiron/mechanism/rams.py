@@ -9,8 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from yellowiron.mechanism.axes import Line, on_line
-from yellowiron.mechanism.placement import Placement
+from yellowiron.mechanism.axes import Line, on_line, span
+from yellowiron.mechanism.placement import Features, Placement
 from yellowiron.model.geometry import Floats
 
 _TOUCH = 1e-4
@@ -21,6 +21,10 @@ _OVER_ROD = 1.02
 """What is this much thicker than the rod is piston or eye, not rod."""
 _FIT = 1.001
 """A piston may be this much larger than its bore (facets, tolerances)."""
+_PISTON = 0.85
+"""What is this much of the bore's radius is a piston, where the rod is not known."""
+_HEAD = 1.5
+"""The barrel's head is what is within this much of the bore's radius; ports and pipes are farther out."""
 
 
 @dataclass(frozen=True)
@@ -50,39 +54,42 @@ def measure_ram(placement: Placement, barrel: str, rod: str, line: Line) -> Ram:
     barrel_rows, rod_rows = placement.rows_of_body(barrel), placement.rows_of_body(rod)
     inside, outside = placement.features(barrel_rows), placement.features(rod_rows)
     bores = inside.take(on_line(inside, line) & inside.inner)
-    shafts = outside.take(on_line(outside, line) & ~outside.inner)
-    if len(bores) == 0 or len(shafts) == 0:
+    if len(bores) == 0:
         return Ram()
-    main = int(np.argmax(bores.area))
-    bore = float(bores.radius[main])
-    middle = float(line.along(bores.center[main][None])[0])
-    start, end = middle - bores.length[main] / 2, middle + bores.length[main] / 2
-    thinner = shafts.take(shafts.radius < bore * _FIT)
-    if len(thinner) == 0:
-        return Ram(bore=2.0 * bore)
-    shaft = float(thinner.radius[int(np.argmax(thinner.length))])
+    main = bores.take(bores.area == bores.area.max())
+    bore = float(main.radius[0])
+    start, end = span(main, line)
+
+    # The rod is what comes out of the barrel: the longest shaft that reaches beyond the bore.
+    thin = outside.take(on_line(outside, line) & ~outside.inner & (outside.radius < bore / _FIT))
+    out = thin.take(line.along(thin.center) + thin.length / 2 > end + _TOUCH)
+    shaft = float(out.radius[int(np.argmax(out.length))]) if len(out) else _gland(bores, bore)
+    thick = shaft * _OVER_ROD if shaft is not None else _PISTON * bore
 
     points = placement.points_of(rod_rows)
     along, radial = line.along(points), line.distance(points)
-    piston = along[
-        (radial > shaft * _OVER_ROD) & (radial < bore * _FIT) & (along > start - _TOUCH) & (along < end + _TOUCH)
-    ]
-    in_bore = along[(radial < bore * _FIT) & (along > start - _TOUCH)]
-    beyond = along[(radial > shaft * _OVER_ROD) & (along > end + _TOUCH)]
+    in_bore = (radial < bore * _FIT) & (along > start - _TOUCH) & (along < end + _TOUCH)
+    piston = along[in_bore & (radial > thick)]
+    eye = along[(radial > thick) & (along > end + _TOUCH)]
 
     to_base = to_gland = to_eye = None
     if len(piston):
-        bottom = _face(placement, barrel_rows, line, bore, sense=1.0, before=float(in_bore.min()) + _TOUCH)
-        if bottom is not None:
-            to_base = max(0.0, float(in_bore.min()) - bottom)
-        gland = _face(placement, barrel_rows, line, bore, sense=-1.0, before=-float(piston.max()) + _TOUCH)
-        if gland is not None:
-            to_gland = max(0.0, -gland - float(piston.max()))
-    if len(beyond):
+        low, high = float(along[in_bore].min()), float(piston.max())
+        bottom = _face(placement, barrel_rows, line, bore, sense=1.0, before=low + _TOUCH)
+        to_base = max(0.0, low - bottom) if bottom is not None else None
+        gland = _face(placement, barrel_rows, line, bore, sense=-1.0, before=-high + _TOUCH)
+        to_gland = max(0.0, -gland - high) if gland is not None else None
+    if len(eye):
         shell = placement.points_of(barrel_rows)
-        head = line.along(shell[line.distance(shell) < 1.5 * bore]).max()
-        to_eye = max(0.0, float(beyond.min() - head))
-    return Ram(2.0 * bore, 2.0 * shaft, to_base, to_gland, to_eye)
+        head = line.along(shell[line.distance(shell) < _HEAD * bore]).max()
+        to_eye = max(0.0, float(eye.min() - head))
+    return Ram(2.0 * bore, 2.0 * shaft if shaft is not None else None, to_base, to_gland, to_eye)
+
+
+def _gland(bores: Features, bore: float) -> float | None:
+    """Radius of the smallest hole that is coaxial with a bore, where the rod runs; None if there is none."""
+    smaller = bores.radius[bores.radius < bore / _FIT]
+    return float(smaller.min()) if len(smaller) else None
 
 
 def _face(

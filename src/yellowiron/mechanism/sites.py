@@ -17,7 +17,7 @@ from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Site
 from yellowiron.model.template import SiteTemplate, Template
 
-_EDGE = 1e-4
+_EDGE = 5e-4
 """Points this near to the farthest one belong to the edge, metres."""
 _ON_PLANE = 1e-3
 """A plane this near to the edge contains it, metres."""
@@ -146,7 +146,7 @@ def _one_edge(tip: Floats, line: Line) -> Floats:
     """Of points equally far from a line those on one parallel to it: of several edges the foremost, then the lowest."""
     across = tip - np.outer(line.along(tip), line.direction)
     order = np.lexsort((across[:, 2], np.round(-across[:, 0] / _EDGE)))
-    return np.asarray(tip[np.linalg.norm(across - across[order[0]], axis=1) < 10.0 * _EDGE], dtype=np.float64)
+    return np.asarray(tip[np.linalg.norm(across - across[order[0]], axis=1) < 4.0 * _EDGE], dtype=np.float64)
 
 
 def _wide_groups(rows: Sequence[int], line: Line, spanning: float, placement: Placement) -> list[tuple[int, ...]]:

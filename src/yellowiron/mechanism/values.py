@@ -51,7 +51,7 @@ def default(actuator: ActuatorTemplate, quantity: str, findings: list[Finding]) 
             f'--set "{name}=…"',
         )
     )
-    return Known(value, f"template: {actuator.source or 'default'}")
+    return Known(value, "template's default")
 
 
 def limit(entry: float | str | None, specifications: Specifications) -> tuple[float | None, dict[str, Any]]:
