@@ -1,9 +1,9 @@
-"""Closed-chain kinematics timed on a Z-bar loader with twin lift cylinders and articulated steering: 6 loops, 8 freedoms.
+"""Closed-chain kinematics, timed on a Z-bar loader with twin lift cylinders and articulated steering: 6 loops.
 
     python benchmarks/bench_kinematics.py
 
 Prints the median wall time of five runs: building the chain, sweeping 1000 points with all cylinders moving, completing
-(mobility, limits, branches, gains) and measuring; and the sweep's largest error against the closed-form planar solution.
+(mobility, limits, branches, gains) and measuring; and the largest error of the sweep against the planar solution.
 """
 
 from __future__ import annotations

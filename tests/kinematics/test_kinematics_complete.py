@@ -107,6 +107,14 @@ def test_a_stroke_past_the_dead_point_is_cut_short(planar, machine):
     chain.solve({"lift_l": found.joint("lift_l").upper})
 
 
+def test_pins_out_of_parallel_are_found(machine):
+    skew = (math.sin(0.01), math.cos(0.01), 0.0)
+    for joint in ("bucket_pin", "tilt_rod_joint"):
+        assert "KIN008" in [f.code for f in complete(changed(machine, joint, axis=skew)).findings]
+    # A ball in its place does not care.
+    assert complete(changed(machine, "bucket_pin", axis=skew, type="spherical")).findings == ()
+
+
 def test_a_twin_of_another_stroke_is_found(machine):
     cylinders = tuple(
         replace(c, closed_length=c.closed_length + 0.05) if c.name == "lift_r" else c for c in machine.cylinders

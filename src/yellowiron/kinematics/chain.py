@@ -26,6 +26,7 @@ RANK = 1e-3
 _STEP = {"prismatic": 0.2, "revolute": 0.35}
 _ITERATIONS = 12
 _SHORTEST = 1e-7
+_NEAR, _SMALL = 1e-3, 0.05
 
 
 class KinematicsError(MechanismError):
@@ -95,6 +96,16 @@ class ClosedChain:
         tiers = [np.array([3 * p + row for p in points for row in (1, 2, 0)], dtype=int) for points in (first, further)]
         self._rows = _independent_rows(jacobian, tiers)
         chosen = _independent_rows(jacobian[self._rows].T, [np.arange(len(loose))])
+        if len(chosen) < len(self._rows):  # a drawn pose next to a dead point
+            self._rows = self._rows[
+                _independent_rows(jacobian[np.ix_(self._rows, chosen)], [np.arange(len(self._rows))])
+            ]
+        if len(chosen) != len(self._rows):
+            raise MechanismError(
+                "the drawn pose is at a dead point of a loop",
+                where=", ".join(self._body.cuts),
+                hint="Draw another pose.",
+            )
         self._columns = loose[chosen]
         self._block = np.ix_(self._rows, self._columns)
         dependent = {int(column) for column in self._columns}
@@ -193,21 +204,20 @@ class ClosedChain:
         table = np.array([np.asarray(paths[name], dtype=np.float64) for name in names]).T
         state = self.drawn if start is None else start
         states: list[State] = []
-        before: Floats | None = None
+        plain = self._model.nq == self._model.nv
         for row in table:
-            # Constant increments are the common case: guess the dependent coordinates from the last two states.
-            guess = state.position if before is None else 2.0 * state.position - before
-            position = guess.copy()
+            # Paths are mostly smooth: guess the dependent coordinates from the last states.
+            position = _continued(states) if plain and len(states) >= 3 else state.position.copy()
+            near = float(np.abs(row - position[indices]).max(initial=0.0)) < _NEAR
+            small = float(np.abs(row - state.position[indices]).max(initial=0.0)) < _SMALL
             position[indices] = row
-            near = before is None or float(np.max(np.abs(row - guess[indices]), initial=0.0)) < 1e-3
-            small = float(np.max(np.abs(row - state.position[indices]), initial=0.0)) < 0.05
-            if near and small and self._model.nq == self._model.nv and self._close(position):
-                before, state = state.position, self._accept(position)
+            if near and small and self._close(position):
+                state = self._accept(position)
             else:
                 after, fraction = self.reach(dict(zip(names, row.tolist(), strict=True)), start=state)
                 if fraction < 1.0:
                     break
-                before, state = state.position, after
+                state = after
             states.append(state)
         return tuple(states)
 
@@ -241,7 +251,7 @@ class ClosedChain:
         for _ in range(_ITERATIONS):
             self._evaluate(position)
             gaps = self._gaps[self._rows]
-            worst = float(np.max(np.abs(gaps), initial=0.0))
+            worst = float(np.abs(gaps).max(initial=0.0))
             if worst <= self._tolerance:
                 return self._orientation() == self._sign
             if not worst < previous:  # also catches NaN
@@ -251,7 +261,7 @@ class ClosedChain:
                 correction = np.linalg.solve(self._jacobian[self._block], -gaps)
             except np.linalg.LinAlgError:
                 return False
-            if float(np.max(np.abs(correction))) > 1.0:
+            if float(np.abs(correction).max()) > 1.0:
                 return False
             step[self._columns] = correction
             mujoco.mj_integratePos(self._model, position, step, 1.0)
@@ -263,7 +273,7 @@ class ClosedChain:
 
     def _accept(self, position: Floats) -> State:
         """The state of a position whose residual was just evaluated."""
-        state = State(position, float(np.max(np.abs(self._gaps), initial=0.0)))
+        state = State(position, float(np.abs(self._gaps).max(initial=0.0)))
         self._placed = state
         return state
 
@@ -401,6 +411,11 @@ def independent_joints(mechanism: Mechanism) -> tuple[str, ...]:
         and joint.name not in passive
         and (joint.name in actuated or joint.free or joint.drive is not None)
     )
+
+
+def _continued(states: Sequence[State]) -> Floats:
+    """Where the last three positions of a sweep lead to: a parabola through them, one step on."""
+    return 3.0 * (states[-1].position - states[-2].position) + states[-3].position
 
 
 def _independent_rows(matrix: Floats, tiers: Sequence[np.ndarray]) -> np.ndarray:

@@ -25,6 +25,8 @@ STATED = "template states "
 """In a drive's source: before the names of the gains that stay all the same."""
 STRAIGHT = 0.05
 """|sine| at a triangle of pivots below which a loop is too near its dead point to have a branch."""
+PARALLEL = 1e-4
+"""Metres: gap at a loop's pins, half a metre along the axis included, that pins of a sound drawing do not leave."""
 _BACK = 2e-3
 _OTHERS = 40
 _PER_FREEDOM = {"fixed": 6, "revolute": 5, "prismatic": 5, "spherical": 3, "distance": 0}
@@ -55,7 +57,8 @@ def complete(mechanism: Mechanism) -> Mechanism:
       that gives full force at standstill and none at full speed.
 
     Findings: KIN001 stroke past a dead point, KIN002 unreachable combination of strokes, KIN003 branch, KIN004 passive
-    twin out of stroke, KIN005 mobility, KIN006 stated limit against the loop's, KIN007 drive without force or speed.
+    twin out of stroke, KIN005 mobility, KIN006 stated limit against the loop's, KIN007 drive without force or speed,
+    KIN008 pins out of parallel.
     Raises `MechanismError` where the joints are no tree with cuts.
     """
     chain = ClosedChain(mechanism)
@@ -63,8 +66,9 @@ def complete(mechanism: Mechanism) -> Mechanism:
     mobility = _mobility(mechanism, work)
     grids = [explore(chain, ranges) for ranges in _ranges(work)]
     placed = [chain.placements(grid.states) for grid in grids]
-    for grid in grids:
+    for component, grid in zip(chain.components(), grids, strict=True):
         _report_unreachable(grid, work)
+        _report_gap(component, grid, work)
     for component, grid, (rotations, _) in zip(chain.components(), grids, placed, strict=True):
         _limit(component, grid, rotations, work)
     _check_twins(mechanism, work)
@@ -145,6 +149,18 @@ def _report_unreachable(grid: Grid, work: _Work) -> None:
         f"{share:.0f} % of the combinations of these strokes lie past a dead point, for one {at}",
         "Limits are taken from the others.",
     )
+
+
+def _report_gap(component: Component, grid: Grid, work: _Work) -> None:
+    gap = max((state.closure for state in grid.states), default=0.0)
+    if gap > PARALLEL:
+        work.find(
+            "KIN008",
+            "warning",
+            ", ".join(component.cuts),
+            f"over the strokes these loops' pins come {1e3 * gap:.2g} mm apart: they are not parallel",
+            "Check the axes of these joints; the linkage is solved as far as it closes.",
+        )
 
 
 def _limit(component: Component, grid: Grid, rotations: Floats, work: _Work) -> None:
