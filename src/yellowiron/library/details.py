@@ -110,7 +110,9 @@ def by_role(document: Document, entries: Mapping[str, T], roles: tuple[Role, ...
         fits = [r.name for r in roles if fold(r.name) == fold(key) or (EVERYTHING in key and matches(r.name, key))]
         if not fits and key != EVERYTHING:
             raise TemplateError(
-                f"'{key}' is no role of the template", where=document.at(key), hint=near(key, (r.name for r in roles))
+                f"'{key}' is no role of the template",
+                where=document.at(key),
+                hint=near(key, (r.name for r in roles)) or "hierarchy.json has the roles.",
             )
         if EVERYTHING not in key:
             exact[fits[0]] = entry

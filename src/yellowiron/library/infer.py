@@ -13,7 +13,6 @@ from dataclasses import replace
 from yellowiron.library.joints import split_index
 from yellowiron.library.reading import Document
 from yellowiron.model.errors import TemplateError
-from yellowiron.model.specification import fold
 from yellowiron.model.template import ActuatorTemplate, CylinderTemplate, JointTemplate, Role, Template
 
 _SIDE = re.compile(r"_([lr])(?=_|2|$)")
@@ -30,13 +29,20 @@ def infer_roles(
     `TemplateError` where a pin's body cannot be told.
     """
     bodies = _bodies(joints)
-    carriers: dict[str, str] = {}
-    for joint in joints:
-        for part in joint.parts:
-            if part not in bodies:
-                carriers[part] = _carrier(joint, part, bodies, document)
-    bodies += [c for c in dict.fromkeys(carriers.values()) if c not in bodies]
-    ends = {j.name: tuple(carriers.get(p, p) for p in j.parts) for j in joints}
+    pins = [(joint, part) for joint in joints for part in joint.parts if part not in bodies]
+    # Names spelled out first: `rear` is then short for a body that another joint names in full.
+    carriers = {part: _carrier(joint, part, bodies, spelled=True) for joint, part in pins}
+    bodies += [c for c in dict.fromkeys(carriers.values()) if c is not None and c not in bodies]
+    for joint, part in pins:
+        carriers[part] = carriers[part] or _carrier(joint, part, bodies, spelled=False)
+        if carriers[part] is None:
+            raise TemplateError(
+                f"Which body carries '{part}' of joint '{joint.name}' cannot be told",
+                where=document.at(joint.name, "Body"),
+                hint="Add a hierarchy.json, or name the joint after its two bodies: front_frame2boom_joint.",
+            )
+    bodies += [c for c in dict.fromkeys(carriers.values()) if c is not None and c not in bodies]
+    ends = {j.name: tuple(carriers.get(p) or p for p in j.parts) for j in joints}
     root = _root(joints, ends, bodies)
     welded = _welded(joints, ends, root)
     roles = [_role(name, welded.get(name), rigid=name not in welded) for name in bodies]
@@ -44,7 +50,7 @@ def infer_roles(
     # Parents first.
     ordered = sorted(roles, key=lambda r: r.parent is not None)
     loose = _bridges({n: _through(welded, e) for n, e in ends.items()})
-    return tuple(ordered), tuple(replace(j, free=j.drive is None and j.name in loose) for j in joints), root
+    return tuple(ordered), tuple(replace(j, free=j.free or (j.drive is None and j.name in loose)) for j in joints), root
 
 
 def infer_actuators(template: Template) -> tuple[ActuatorTemplate, ...]:
@@ -82,6 +88,16 @@ def words_of(name: str) -> list[str]:
     return [w for w in re.split(r"[\s_-]+", name.casefold()) if w]
 
 
+def _joined(name: str) -> str:
+    """A name in lower case, its words joined by one `_`."""
+    return "_".join(words_of(name))
+
+
+def _begins(name: str, words: str) -> bool:
+    """Whether a name begins with all of some words: `front_frame` with `front`."""
+    return bool(words_of(words)) and words_of(name)[: len(words_of(words))] == words_of(words)
+
+
 def _pivot(template: Template, slide: JointTemplate, part: str) -> str:
     """The joint by which a barrel or rod turns on its frame; empty where it is welded to it."""
     role = template.role(split_index(part)[0])
@@ -108,7 +124,7 @@ def _bodies(joints: Iterable[JointTemplate]) -> list[str]:
     for joint in joints:
         sides = _sides(joint)
         for part in joint.parts:
-            if not sides or any(fold(part) in (fold(a), fold(b)) for a, b in sides):
+            if not sides or any(_joined(part) in (_joined(a), _joined(b)) for a, b in sides):
                 found[part] = None
     # Neither part spelled out by this name nor by another: take both for bodies.
     for joint in joints:
@@ -117,29 +133,24 @@ def _bodies(joints: Iterable[JointTemplate]) -> list[str]:
     return list(found)
 
 
-def _carrier(joint: JointTemplate, pin: str, bodies: list[str], document: Document) -> str:
-    """The body that a pin moves with: the one the joint's name has and `Body` has not."""
+def _carrier(joint: JointTemplate, pin: str, bodies: list[str], *, spelled: bool) -> str | None:
+    """The body that a pin moves with: the one the joint's name has and `Body` has not. `spelled`: the name has the
+    other body in full; else it may be shortened."""
     other = joint.parts[1] if joint.parts[0] == pin else joint.parts[0]
-    for spelled in (True, False):
-        for a, b in _sides(joint):
-            for here, missing in ((a, b), (b, a)):
-                if fold(here) == fold(other) if spelled else fold(other).startswith(fold(here)):
-                    return _named(missing, other, bodies)
-    raise TemplateError(
-        f"Which body carries '{pin}' of joint '{joint.name}' cannot be told",
-        where=document.at(joint.name, "Body"),
-        hint="Add a hierarchy.json, or name the joint after its two bodies: front_frame2boom_joint.",
-    )
+    for a, b in _sides(joint):
+        for here, missing in ((a, b), (b, a)):
+            if _joined(here) == _joined(other) if spelled else _begins(other, here):
+                return _named(missing, other, bodies)
+    return None
 
 
 def _named(name: str, other: str, bodies: list[str]) -> str:
-    """The body of that name, or the one whose name begins with it: a frame before anything else."""
+    """The body of that name, or the frame whose name begins with it (`rear`: `rear_frame`), else a new body."""
     for body in bodies:
-        if fold(body) == fold(name):
+        if _joined(body) == _joined(name):
             return body
-    longer = [b for b in bodies if b != other and fold(b).startswith(fold(name))]
-    frames = [b for b in longer if words_of(b)[-1] in _BASES]
-    return (frames or longer or [name])[0]
+    frames = [b for b in bodies if b != other and _begins(b, name) and words_of(b)[-1] in _BASES]
+    return (frames or [name])[0]
 
 
 def _root(joints: Iterable[JointTemplate], ends: Mapping[str, tuple[str, ...]], bodies: list[str]) -> str:
@@ -149,8 +160,8 @@ def _root(joints: Iterable[JointTemplate], ends: Mapping[str, tuple[str, ...]], 
         first, second = ends[joint.name]
         leads_to = second
         for a, b in _sides(joint):
-            if fold(first) == fold(b) or fold(second) == fold(a) or (fold(first).startswith(fold(b)) and
-                                                                     fold(second).startswith(fold(a))):  # fmt: skip
+            spelled = _joined(first) == _joined(b) or _joined(second) == _joined(a)
+            if spelled or (_begins(first, b) and _begins(second, a)):
                 leads_to = first
         reached.add(leads_to)
     order = [b for b in dict.fromkeys(e for j in joints for e in ends[j.name]) if b not in reached]

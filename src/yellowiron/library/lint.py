@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from yellowiron.library.joints import DIMENSION, split_index
@@ -48,6 +48,7 @@ def lint(template: Template) -> LintReport:
         figures.append(mobility(chosen, choices))
         for group in figures[-1].groups:
             findings.update(dict.fromkeys(_movement(chosen, group)))
+        findings.update(dict.fromkeys(_loose(chosen, figures[-1].loose)))
     if next(combinations, None) is not None:
         findings[
             Finding(
@@ -306,7 +307,7 @@ def _movement(template: Template, group: Group) -> Iterator[Finding]:
     name = _name_of(template, group)
     figures = f"planar mobility {group.grubler}, {group.expected} expected"
     if group.computed < group.expected:
-        pivots = _missing_pivots(template, group)
+        pivots = _missing_pivots(template, group.joints)
         message = f"The {name} is locked ({figures})"
         if pivots:
             listed = " and ".join(f"from '{frame}' to '{part}'" for frame, part in pivots)
@@ -333,10 +334,25 @@ def _name_of(template: Template, group: Group) -> str:
     return " and ".join(dict.fromkeys(short)) or f"loop of {group.joints[0]}"
 
 
-def _missing_pivots(template: Template, group: Group) -> list[tuple[str, str]]:
-    """(frame, part) for every half of a cylinder in the group that has no pivot of its own."""
+def _loose(template: Template, joints: Sequence[str]) -> Iterator[Finding]:
+    """Joints that no loop holds, nothing drives, and nobody declared free."""
+    if joints:
+        pivots = _missing_pivots(template, joints)
+        listed = " and ".join(f"'{part}'" for _, part in pivots)
+        message = "No loop holds these joints and nothing drives them: " + ", ".join(joints)
+        yield Finding(
+            "TPL003",
+            "error",
+            joints[0],
+            f"{message}; {listed} has no pivot on its frame." if pivots else f"{message}.",
+            'Add the missing joint, give them a Drive, or declare them "free": "Y".',
+        )
+
+
+def _missing_pivots(template: Template, joints: Iterable[str]) -> list[tuple[str, str]]:
+    """(frame, part) for every half of a cylinder that has no pivot of its own."""
     found = []
-    for name in group.joints:
+    for name in joints:
         joint = template.joint(name)
         for part in joint.parts if joint.type == "prismatic" else ():
             role = template.role(split_index(part)[0])

@@ -40,7 +40,7 @@ class Group:
 class TemplateMobility:
     """Degrees of freedom relative to the root under one set of `choices`: `computed` by the generic rank, `expected`
     the driven and free coordinates, `planar` and `spatial` by Grübler's count (a planar loop counts 3 too few in
-    space)."""
+    space). `loose` are joints in no loop that are neither driven nor free."""
 
     choices: Mapping[str, str]
     computed: int
@@ -48,6 +48,7 @@ class TemplateMobility:
     planar: int
     spatial: int
     groups: tuple[Group, ...] = ()
+    loose: tuple[str, ...] = ()
 
 
 def mobility(template: Template, choices: Mapping[str, str]) -> TemplateMobility:
@@ -55,13 +56,14 @@ def mobility(template: Template, choices: Mapping[str, str]) -> TemplateMobility
     joints = [j for j in template.joints if not any(split_index(p)[1] for p in j.parts)]
     ends = welded_ends(template, joints)
     coordinates = coordinates_of(template)
-    groups = []
+    groups, loose = [], []
     computed = planar = 0
     for names in blocks(ends):
         members = [template.joint(n) for n in names]
         if len(members) == 1:
             computed += SPATIAL_FREEDOM[members[0].type]
             planar += SPATIAL_FREEDOM[members[0].type]
+            loose += [n for n in names if n not in coordinates]
             continue
         bodies = tuple(dict.fromkeys(b for n in names for b in ends[n]))
         count = 3 * (len(bodies) - 1) - sum(3 - _PLANAR_FREEDOM[j.type] for j in members)
@@ -71,7 +73,7 @@ def mobility(template: Template, choices: Mapping[str, str]) -> TemplateMobility
         planar += count
     bodies = tuple(dict.fromkeys(b for pair in ends.values() for b in pair))
     spatial = 6 * (len(bodies) - 1) - sum(6 - SPATIAL_FREEDOM[template.joint(n).type] for n in ends)
-    return TemplateMobility(choices, computed, len(coordinates), planar, spatial, tuple(groups))
+    return TemplateMobility(choices, computed, len(coordinates), planar, spatial, tuple(groups), tuple(loose))
 
 
 def coordinates_of(template: Template) -> tuple[str, ...]:

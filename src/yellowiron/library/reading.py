@@ -186,6 +186,7 @@ def _explain(error: ValidationError) -> tuple[str, str]:
     instance: Any = error.instance
     value: Any = error.validator_value
     schema: Any = error.schema
+    meaning = f"{schema['description'].rstrip('.')}. {_FORMAT_HINT}" if "description" in schema else _FORMAT_HINT
     if error.validator == "required":
         return f"'{next(key for key in value if key not in instance)}' is missing", _FORMAT_HINT
     if error.validator == "additionalProperties" and isinstance(instance, dict):
@@ -193,20 +194,20 @@ def _explain(error: ValidationError) -> tuple[str, str]:
         odd = next(key for key in instance if key not in known)
         return f"'{odd}' is no key of this entry", near(odd, known) or f"Known: {', '.join(known)}."
     if error.validator == "enum":
-        choices = [str(w) for w in value if w not in (None, True, False, "")]
+        choices = [str(w) for w in value if w not in (None, "") and not isinstance(w, bool)]
         hint = near(str(instance), choices) or f"Known: {', '.join(choices[:_ENUM_WORDS])}."
         return f"'{_short(instance)}' is none of the words this key knows", hint
     if error.validator == "type":
         kinds = [value] if isinstance(value, str) else list(value)
-        return f"'{_short(instance)}' should be {_kinds(kinds)}", _FORMAT_HINT
+        return f"'{_short(instance)}' should be {_kinds(kinds)}", meaning
     if error.validator in ("minProperties", "minItems") and not instance:
-        return "There is nothing in it", _FORMAT_HINT
+        return "There is nothing in it", meaning
     if error.validator in ("minItems", "maxItems"):
-        return f"The list has {len(instance)} items, not {value}", _FORMAT_HINT
+        return f"The list has {len(instance)} items, not {value}", meaning
     bounds = {"minimum": "at least", "maximum": "at most", "exclusiveMinimum": "more than"}
     if error.validator in bounds:
-        return f"{instance} should be {bounds[str(error.validator)]} {value}", _FORMAT_HINT
-    return f"'{_short(instance)}' does not fit: {_short(error.message)}", _FORMAT_HINT
+        return f"{instance} should be {bounds[str(error.validator)]} {value}", meaning
+    return f"'{_short(instance)}' does not fit: {_short(error.message)}", meaning
 
 
 def _kinds(kinds: list[str]) -> str:

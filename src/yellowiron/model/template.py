@@ -190,8 +190,9 @@ class Template:
         raise KeyError(name)
 
     def body_of(self, role_name: str) -> str | None:
-        """The rigid role that a role is or moves with; None for a group above all bodies."""
-        role: Role | None = self.role(role_name)
+        """The rigid role that a role (or a part of a row, `shoe[i]`) is or moves with; None for a group above all
+        bodies."""
+        role: Role | None = self.role(role_name.partition("[")[0])
         while role is not None and not role.rigid:
             role = self.role(role.parent) if role.parent is not None else None
         return role.name if role is not None else None
