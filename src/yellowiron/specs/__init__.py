@@ -7,6 +7,7 @@ between sources; `draw_evidence` shows on pictures of the pages where each value
 from __future__ import annotations
 
 from yellowiron.specs.extract import extract
+from yellowiron.specs.picture import draw_evidence
 from yellowiron.specs.settings import merge, parse_settings, split_settings
 
-__all__ = ["extract", "merge", "parse_settings", "split_settings"]
+__all__ = ["draw_evidence", "extract", "merge", "parse_settings", "split_settings"]

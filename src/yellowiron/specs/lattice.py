@@ -230,7 +230,7 @@ def _statement(
         row=number,
         label=label,
         text=text,
-        box=join_boxes([value.box, *(c.box for c in labels)]),
+        box=value.box,
         quote=" … ".join(quote),
         section=EXAMPLE.sub("", section).strip(),
         column=tuple(unit_in_label(c.text)[0] for c in column if c.text),

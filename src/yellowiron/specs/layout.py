@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from yellowiron.specs.lattice import grids_of, read_grid
 from yellowiron.specs.lines import blocks_of, lines_of
-from yellowiron.specs.rows import legend_of, read_block
+from yellowiron.specs.rows import Heading, legend_of, read_block
 from yellowiron.specs.statement import Statement
 from yellowiron.specs.words import Page
 
@@ -31,16 +31,19 @@ def statements_of(page: Page) -> list[Statement]:
     found: list[Statement] = []
     row = 1000 * page.number
     walls = [r for r in page.rules if not r.horizontal]
-    headings: list[tuple[float, float, float, str]] = []
+    headings: list[Heading] = []
     for block in blocks_of(lines_of(outside, walls), page.bars):
-        above = [h for h in headings if h[0] <= block.lines[0].top + 2 and h[1] < block.x1 and block.x0 < h[2]]
-        statements, section = read_block(page, block, row, max(above)[3] if above else "")
-        headings.append((block.lines[-1].bottom, block.x0, block.x1, section))
+        statements, more = read_block(page, block, row, _heading_above(headings, block.lines[0].top, block.x0, block.x1))
+        headings.extend(more)
         row += len(statements) + len(block.lines) + 1
         found.extend(statements)
     for grid in grids:
-        above = [h for h in headings if h[0] <= grid.box[1] + 2 and h[1] < grid.box[2] and grid.box[0] < h[2]]
-        title = max(above)[3] if above else ""
-        found.extend(read_grid(page, grid, row, title))
+        found.extend(read_grid(page, grid, row, _heading_above(headings, grid.box[1], grid.box[0], grid.box[2])))
         row += grid.rows + 1
     return found
+
+
+def _heading_above(headings: list[Heading], top: float, x0: float, x1: float) -> str:
+    """The nearest heading above a place, in a column of text that it overlaps."""
+    above = [h for h in headings if h.bottom <= top + 2 and h.x0 < x1 and x0 < h.x1]
+    return max(above, key=lambda h: h.bottom).text if above else ""

@@ -26,28 +26,40 @@ _LONGEST_LABEL = 12
 """Words; more are prose."""
 
 
+@dataclass(frozen=True)
+class Heading:
+    """A section's heading: where it ends, its column's extent, its words."""
+
+    bottom: float
+    x0: float
+    x1: float
+    text: str
+
+
 @dataclass
 class _State:
     """What the rows above say about the rows below."""
 
     section: str = ""
-    section_box: Box | None = None
     context: list[Piece] = field(default_factory=list)
     pending: list[Piece] = field(default_factory=list)
     heads: list[tuple[Piece, ...]] = field(default_factory=list)
     data_since_heads: bool = False
     values_in_row: int = 0
+    headings: list[Heading] = field(default_factory=list)
 
 
-def read_block(page: Page, block: Block, first_row: int, section: str = "") -> tuple[list[Statement], str]:
-    """The statements of a column of text, and the section that holds at its end. `first_row` numbers its rows."""
+def read_block(
+    page: Page, block: Block, first_row: int, section: str = ""
+) -> tuple[list[Statement], list[Heading]]:
+    """The statements of a column of text, and its headings. `first_row` numbers its rows."""
     state = _State(section=section)
     found: list[Statement] = []
     size = _body_size(block)
     for index, row in enumerate(bands(block.lines, page.rules, _bars_of(page, block), block.x0, block.x1)):
         for line in _split_if_separate(row):
             _read_row(page, block, line, state, size, first_row + len(found) + index, found)
-    return found, state.section
+    return found, state.headings
 
 
 def _read_row(
@@ -83,7 +95,7 @@ def _read_words(page: Page, block: Block, line: Line, state: _State, size: float
         heading = texts[0]
         rest = [p for p in texts[1:] if p.x0 > heading.x1]
         state.section = heading.text if rest else " ".join(p.text for p in same_bar)
-        state.section_box = heading.box
+        state.headings.append(Heading(line.bottom, block.x0, block.x1, state.section))
         state.context, state.pending, state.heads = [], [], [tuple(rest)] if rest else []
         state.data_since_heads = False
         return
@@ -217,7 +229,7 @@ def _read_values(page: Page, row: Sequence[Line], state: _State, number: int, fo
                 row=number,
                 label=bare_label,
                 text=EXAMPLE.sub("", value_text).strip(),
-                box=join_boxes([box, *(p.box for p in cell.label)]),
+                box=box,
                 quote=_quote(
                     row, context if not cell.label or pending else [], cell, [*column] if not cell.label else []
                 ),

@@ -133,7 +133,7 @@ _VALUE_START = re.compile(
     re.IGNORECASE,
 )
 _NOT_A_VALUE = re.compile(
-    r"^\d+(?:st|nd|rd|th)\b|^\d+[A-Za-z]{2,}\d|^\d+(?:[.,]\d+)?\s?R\s?\d|^\d+[-/]?[A-Z]{2,}\b|^\d+-(?!\d)[A-Za-z]"
+    r"^\d+(?:st|nd|rd|th)\b|^\d+[A-Za-z]{2,}\d|^\d+(?:[.,/x]\d+)*\s?R\s?\d|^\d+[-/]?[A-Z]{2,}\b|^\d+-(?!\d)[A-Za-z]"
 )
 
 

@@ -1,0 +1,107 @@
+"""Pictures of a sheet's pages with a box around every value that was read, for a person who checks."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from yellowiron.guard import run_guarded
+from yellowiron.model.errors import OutputError, SheetError
+from yellowiron.model.specification import Evidence, Specifications
+from yellowiron.specs.reader import MEMORY_MB, TIMEOUT_S, check_file
+
+_SCALE = 1.6
+"""Pixels a point."""
+_MARGIN = 330
+_COLORS = {"ok": (24, 128, 56), "example": (32, 96, 190), "review": (214, 118, 0), "conflict": (200, 30, 30)}
+Mark = tuple[int, tuple[float, float, float, float], str, str]
+"""Page, box in points, kind (a key of the colours), caption."""
+
+
+def draw_evidence(pdfs: Sequence[Path], specifications: Specifications, folder: Path) -> tuple[Path, ...]:
+    """Writes a PNG of each page that gave evidence into `folder`, with a captioned box around each value.
+
+    Green: `ok`; blue: an example value; orange: to review; red: one candidate of a conflict. Returns the paths written.
+    `SheetError` for a PDF that cannot be read, `OutputError` for a folder that cannot be written.
+    """
+    folder = Path(folder)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OutputError(
+            f"{folder.name} cannot be made: {error.strerror or error}", where=str(folder), hint="Choose another folder."
+        ) from error
+    written: list[Path] = []
+    for pdf in pdfs:
+        marks = _marks(specifications, Path(pdf).name)
+        if not marks:
+            continue
+        check_file(Path(pdf))
+        pages = run_guarded(
+            "yellowiron.specs.picture:draw_pages",
+            Path(pdf).resolve(),
+            marks,
+            folder.resolve(),
+            where=str(pdf),
+            error=SheetError,
+            timeout_s=TIMEOUT_S,
+            memory_mb=MEMORY_MB,
+        )
+        written.extend(folder / name for name in pages)
+    return tuple(written)
+
+
+def _marks(specifications: Specifications, file: str) -> list[Mark]:
+    marks: list[Mark] = []
+    for specification in specifications:
+        kind = "example" if specification.example and specification.status == "ok" else specification.status
+        if specification.status == "conflict":
+            shown: list[Evidence | None] = [c.evidence for c in specification.candidates]
+        else:
+            shown = [specification.evidence]
+        for evidence in shown:
+            if evidence is not None and evidence.box is not None and evidence.file == file and kind in _COLORS:
+                marks.append((evidence.page, evidence.box, kind, specification.name))
+    return marks
+
+
+def draw_pages(pdf: Path, marks: Sequence[Mark], folder: Path) -> list[str]:
+    """Draws the marked pages of one PDF (runs in the guarded child); the names of the files written."""
+    import pypdfium2
+    from PIL import Image, ImageDraw
+
+    names: list[str] = []
+    document = pypdfium2.PdfDocument(pdf)
+    try:
+        for number in sorted({mark[0] for mark in marks}):
+            page = document[number - 1].render(scale=_SCALE).to_pil().convert("RGB")
+            image = Image.new("RGB", (page.width + _MARGIN, page.height), (250, 250, 250))
+            image.paste(page, (0, 0))
+            _draw(ImageDraw.Draw(image, "RGBA"), page.width, [m for m in marks if m[0] == number])
+            name = f"{pdf.stem}-page-{number}.png"
+            image.save(folder / name)
+            names.append(name)
+    finally:
+        document.close()
+    return names
+
+
+def _draw(draw: Any, width: int, marks: Sequence[Mark]) -> None:
+    """A box around each value; its names in the margin at its height, below each other, with a line between."""
+    from PIL import ImageFont
+
+    font = ImageFont.load_default(size=11)
+    captions: dict[tuple[tuple[float, float, float, float], str], list[str]] = {}
+    for _, box, kind, name in marks:
+        captions.setdefault((box, kind), []).append(name)
+    free = 6.0
+    for (box, kind), names in sorted(captions.items(), key=lambda item: (item[0][0][1], item[0][0][0])):
+        color = _COLORS[kind]
+        x0, top, x1, bottom = (v * _SCALE for v in box)
+        draw.rectangle((x0 - 3, top - 3, x1 + 3, bottom + 3), outline=(*color, 255), fill=(*color, 24), width=2)
+        middle = (top + bottom) / 2
+        y = max(middle - 7, free)
+        draw.line((x1 + 3, middle, width + 4, y + 7), fill=(*color, 110), width=1)
+        draw.text((width + 8, y), ", ".join(names), fill=(*color, 255), font=font)
+        free = y + 15
