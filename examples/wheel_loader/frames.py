@@ -10,8 +10,8 @@ import values as v
 from front_end import PIN_A
 from hardware import bolt, bush, fit_pin
 from linkage import Linkage, Steering
-from product import GREY, STEEL, YELLOW, Assembly, Colour, Part
-from solids import X, Y, Z, bored, box, cut, fuse, mirrored, plate, ring, rod, shift, turn
+from product import BLACK, GREY, STEEL, YELLOW, Assembly, Colour, Part
+from solids import X, Y, Z, bored, box, cut, fuse, mirrored, pipe, plate, ring, rod, shift, turn
 from OCP.TopoDS import TopoDS_Shape
 
 HINGES = ((690.0, 770.0), (1350.0, 1430.0))
@@ -53,6 +53,13 @@ def draw_front_frame(k: Linkage, s: Steering, hardware: Assembly) -> Assembly:
         tree.add(Part(name, bored(tongue, Z, ((0, 0, 0), 75.0))), body)
         place = shift(0, 0, low).Multiplied(turn(X, 90.0))
         tree.add(bush(150, PIN_ARTICULATION, high - low), body, at=place)
+
+    tree.add(Part("MAIN VALVE", box(760, 960, -120, 120, 670, 812), GREY), body)
+    shaft = fuse(rod((620, 0, AXLE_Z), X, 42, 640), rod((1225, 0, AXLE_Z), X, 85, 34), rod((620, 0, AXLE_Z), X, 85, 34))
+    tree.add(Part("PROP SHAFT FRT", shaft, GREY), body)
+    hose = Part("HOSE 3/4", pipe([(0, 0, 0), (0, 0, 500), (120, 0, 620), (120, 0, 1090)], 14, 90), BLACK)
+    for y in (-95, -65, 65, 95):
+        tree.add(hose, body, at=shift(790, y, 811))
 
     tower = Assembly("TOWER")
     tree.add(tower)
@@ -161,6 +168,9 @@ def draw_rear_frame(s: Steering, hardware: Assembly) -> Assembly:
             hardware, (px, sign * py, STEER_Z - 75), PIN_STEER, 150, body, f"steering_cylinder_barrel_{letter}_pin",
             upright=True, keep=(1.0,), turned=90,
         )  # fmt: skip
+    hose = Part("SCHLAUCH", pipe([(0, 0, 0), (0, -90, 0), (0, -90, 150), (0, -175, 150)], 16, 35), BLACK)
+    for x in (-775, -735):
+        tree.add(hose, body, at=shift(x, 562, 1180))
     return tree
 
 
@@ -187,7 +197,7 @@ def draw_counterweight(hardware: Assembly) -> Assembly:
     )  # fmt: skip
     jaw = box(x - 10, x + 130, -75, 75, 1130, 1270)
     hole = rod((x + 65, 0, 1000), Z, 26, 400)
-    tree.add(Part("CWT", cut(block, jaw, hole), GREY, 7200.0), body)
+    tree.add(Part("CWT", cut(block, jaw, hole), GREY), body)
     hardware.add(Part("HITCH PIN", rod((x + 65, 0, v.HITCH_HEIGHT.value - 150), Z, 26, 300), STEEL), body)
     big = bolt(30, 60)
     for y in (-300, -150, 150, 300):

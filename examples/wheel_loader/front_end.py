@@ -12,6 +12,7 @@ import values as v
 from hardware import CLEARANCE, bush, fit_pin, placed
 from linkage import EDGE_DEPTH, FRONT_AXLE_X, TYRE_RADIUS, Linkage, Pose, direction
 from OCP.gp import gp_Trsf
+from scipy.optimize import brentq
 from product import GREY, STEEL, YELLOW, Assembly, Colour, Part
 from solids import Y, bored, box, cut, fuse, mirrored, moved, plate, prism, ring, rod, shift
 from OCP.TopoDS import TopoDS_Shape
@@ -20,9 +21,11 @@ PIN_A, PIN_B, PIN_D, PIN_F, PIN_G, PIN_H, PIN_J = 100.0, 90.0, 80.0, 100.0, 120.
 NOSE = 98.0
 TUBE = (1700.0, 50.0, 130.0)
 """Boom cross tube in the boom's frame: x, z, radius."""
-WALL = 25.0
+WALL = 16.0
 HEEL = 250.0
 """Bucket wrapper: thickness, and outer radius of the heel."""
+SIDE = 16.0
+"""Thickness of the bucket's side plates."""
 
 
 def _both(tree: Assembly, name: str, shape: TopoDS_Shape, at: gp_Trsf, body: str, colour: Colour = YELLOW) -> None:
@@ -37,7 +40,7 @@ def draw_boom(k: Linkage, pose: Pose, hardware: Assembly) -> Assembly:
     tree = Assembly("LIFT ARM ASSY")
     (du, dw), (gu, gw) = k.D, k.G
     arm = plate(
-        [(0, 0, 140), (du, dw, 115), (2500, -60, 110), (k.boom, 0, NOSE), (2250, 190, 110), (1500, 190, 140)], "xz", 560, 640
+        [(0, 0, 140), (du, dw, 100), (2500, -45, 100), (k.boom, 0, NOSE), (2250, 190, 110), (1500, 190, 140)], "xz", 560, 640
     )
     arm = bored(arm, Y, ((0, 0, 0), 60.0), ((k.boom, 0, 0), 55.0), ((du, 0, dw), PIN_D / 2), ((TUBE[0], 0, TUBE[1]), TUBE[2]))
     _both(tree, "BOOM", arm, at, "boom")
@@ -46,7 +49,7 @@ def draw_boom(k: Linkage, pose: Pose, hardware: Assembly) -> Assembly:
     bracket = plate([(TUBE[0], TUBE[1], TUBE[2] + 55), (gu, gw, 125), (TUBE[0] + 40, TUBE[1] + 250, 60)], "xz", 130, 175)
     bracket = bored(bracket, Y, ((gu, 0, gw), PIN_G / 2 + CLEARANCE), ((TUBE[0], 0, TUBE[1]), TUBE[2]))
     _both(tree, "BELLCRANK BRKT", bracket, at, "boom")
-    cheek = plate([(du, dw, 105), (du + 190, dw - 40, 40), (du + 190, dw + 60, 40)], "xz", 350, 390)
+    cheek = plate([(du, dw, 95), (du + 190, dw + 10, 40), (du + 190, dw + 60, 40)], "xz", 350, 390)
     _both(tree, "LIFT CYL CHEEK", bored(cheek, Y, ((du, 0, dw), PIN_D / 2)), at, "boom")
     web = plate([(du + 130, dw - 70, 0), (du + 165, dw - 70, 0), (du + 165, dw + 90, 0), (du + 130, dw + 90, 0)], "xz", 390, 560)
     _both(tree, "WEB", web, at, "boom")
@@ -87,7 +90,7 @@ def draw_rocker(k: Linkage, pose: Pose, hardware: Assembly) -> Assembly:
     tree.add(Part("Bellcrank RH", moved(mirrored(side), at)), "rocker")
     tree.add(Part("BELLCRANK HUB", moved(ring((0, -120, 0), Y, 110, PIN_G / 2, 240), at), GREY), "rocker")
     for x, z in ((0.42 * f, 0.0), (0.45 * hx, 0.45 * hz)):
-        tree.add(Part("SPACER", moved(rod((x, -75, z), Y, 45, 150), at)), "rocker")
+        tree.add(Part("隔套", moved(rod((x, -75, z), Y, 45, 150), at)), "rocker")
     # fast in the hub, loose in the boom's brackets; end discs hold it
     fit_pin(hardware, (pose.G[0], -180, pose.G[1]), PIN_G, 360, "rocker", "rocker_pin")
     for y in (180.0, -190.0):
@@ -143,16 +146,21 @@ class BucketShape:
     def __init__(self, heel: float) -> None:
         self.heel = heel
         self.back = heel - HEEL
-        self.bend = 600.0
+        self.bend = 800.0
         self.arc = math.radians(v.RACK_BACK_MAX.value)
         """The top of the wrapper leans forward so that its edge is level in the highest position."""
-        self.top = 748.0
+        self.top = 150.0
         u = (math.sin(self.arc), math.cos(self.arc))
         cx = self.back + self.bend
         end = (cx - self.bend * math.cos(self.arc), self.top + self.bend * math.sin(self.arc))
         height = v.OPERATING_HEIGHT.value - v.HINGE_HEIGHT_MAX.value
         self.straight = height - (end[0] * u[0] + end[1] * u[1])
         self.end, self.u, self.centre = end, u, (cx, self.top)
+        inside = (v.BUCKET_WIDTH.value - 2 * SIDE) * 1e-9
+        self.lip_at = float(
+            brentq(lambda s: self.struck_area(s) * inside - v.BUCKET_CAPACITY_STRUCK.value, 0.0, self.straight, xtol=1e-9)
+        )
+        """How far up the straight top the wrapper reaches, from the published struck capacity; the spill guard goes on."""
 
     def skin(self, inset: float, length: float, front: float) -> list[tuple[tuple[float, float], ...]]:
         """Floor, heel, back and top from the front of the floor to `length` up the straight top; inset from the outside."""
@@ -203,10 +211,6 @@ def _sampled(seg: tuple[tuple[float, float], ...]) -> list[tuple[float, float]]:
     return [(ox + r * math.cos(start + sweep * i / 24), oy + r * math.sin(start + sweep * i / 24)) for i in range(25)]
 
 
-LIP = 300.0
-"""Straight part of the wrapper's top up to where the spill guard begins."""
-
-
 def draw_bucket(k: Linkage, pose: Pose, heel: float, hardware: Assembly) -> Assembly:
     """Wrapper, sides, edge, teeth, spill guard and the ears of its pins."""
     at = placed((pose.B[0], 0, pose.B[1]), pose.bucket_angle)
@@ -218,26 +222,26 @@ def draw_bucket(k: Linkage, pose: Pose, heel: float, hardware: Assembly) -> Asse
     def put(name: str, body: TopoDS_Shape, colour: Colour = YELLOW) -> None:
         tree.add(Part(name, moved(body, at), colour), "bucket")
 
-    put("WRAPPER", prism(shape.sheet(WALL, 0.0, LIP, 1180.0), "xz", -half + 30, half - 30))
+    put("WRAPPER", prism(shape.sheet(WALL, 0.0, shape.lip_at, 1180.0), "xz", -half + SIDE, half - SIDE))
     tip = shape.lip(shape.straight, 0.0)
-    low, low_in = shape.lip(LIP, 0.0), shape.lip(LIP, 20.0)
+    low, low_in = shape.lip(shape.lip_at, 0.0), shape.lip(shape.lip_at, 20.0)
     tip_in = shape.lip(shape.straight, 20.0)
     guard = [(tip_in, low_in), (low_in, low), (low, tip), (tip, tip_in)]
     put("SPILL GUARD", prism(guard, "xz", -half + 300, half - 300))
     edge = [(1150, floor, 0), (1430, floor, 0), (1430, floor + 18, 0), (1395, floor + 40, 0), (1150, floor + 40, 0)]
     put("CUTTING EDGE", plate(edge, "xz", -half, half), GREY)
-    outer = shape.skin(0.0, LIP, 1150.0)
-    near = shape.lip(LIP, 0.0)
+    outer = shape.skin(0.0, shape.lip_at, 1150.0)
+    near = shape.lip(shape.lip_at, 0.0)
     rim = [*outer, (near, (1395.0, floor + 170)), ((1395.0, floor + 170), (1395.0, floor + 40))]
     rim += [((1395.0, floor + 40), (1150.0, floor + 40)), ((1150.0, floor + 40), (1150.0, floor))]
-    wall = prism(rim, "xz", half - 30, half)
+    wall = prism(rim, "xz", half - SIDE, half)
     _both(tree, "SIDE PL", wall, at, "bucket")
     lip_x, lip_z = near
     cutter = plate(
         [(1290, floor + 40, 0), (1425, floor + 40, 0), (1425, floor + 190, 0), (lip_x + 90, lip_z - 60, 0), (lip_x - 10, lip_z - 90, 0)],
         "xz",
-        half - 55,
-        half - 30,
+        half - SIDE - 25,
+        half - SIDE,
     )
     _both(tree, "SIDE CUTTER", cutter, at, "bucket", GREY)
     end = k.T[0]
@@ -247,7 +251,7 @@ def draw_bucket(k: Linkage, pose: Pose, heel: float, hardware: Assembly) -> Asse
     for i in range(8):
         y = (i - 3.5) * (2 * half - 190) / 7
         tree.add(tooth_part, "bucket", at=at.Multiplied(shift(0, y, 0)))
-    wear = Part("WEAR PL", box(heel + 60, 1100, -140, 140, floor + WALL, floor + WALL + 16), GREY)
+    wear = Part("WEAR PL", box(heel + 60, 1100, -140, 140, floor + WALL, floor + WALL + 12), GREY)
     for y in (-1180, -590, 0, 590, 1180):
         tree.add(wear, "bucket", at=at.Multiplied(shift(0, y, 0)))
     back = shape.back + 5

@@ -165,14 +165,53 @@ def write_step(root: Assembly, path: Path) -> None:
     writer.Transfer(document, STEPControl_StepModelType.STEPControl_AsIs)
     if writer.Write(str(path)) != IFSelect_ReturnStatus.IFSelect_RetDone:
         raise OSError(f"the STEP file could not be written: {path}")
-    _fix_header(path, root.name)
-
-
-def _fix_header(path: Path, title: str) -> None:
-    """A header without the time of day, the user or the machine it was written on."""
     text = path.read_text(encoding="utf-8")
+    path.write_text(_sorted_colours(_plain_header(text, root.name)), encoding="utf-8", newline="\n")
+
+
+def _plain_header(text: str, title: str) -> str:
+    """A header without the time of day, the user or the machine it was written on."""
     head = (
         f"FILE_NAME('{title}','2025-01-01T00:00:00',('yellowiron example'),(''),"
         "'Open CASCADE','yellowiron example','');"
     )
-    path.write_text(re.sub(r"FILE_NAME\(.*?\);", lambda _: head, text, count=1, flags=re.S), encoding="utf-8", newline="\n")
+    return re.sub(r"FILE_NAME\(.*?\);", lambda _: head, text, count=1, flags=re.S)
+
+
+def _sorted_colours(text: str) -> str:
+    """The colours at the end of the file in the order of what they colour; OpenCascade writes them in the order of its memory."""
+    start = text.rindex("\n", 0, text.index("MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION")) + 1
+    end = text.index("ENDSEC;", start)
+    statements = dict(re.findall(r"(#\d+) = (.*?);\n", text[start:end], flags=re.S))
+    colours: list[tuple[int, str, str, str]] = []
+    for statement in statements.values():
+        if not statement.startswith("STYLED_ITEM"):
+            continue
+        style, item = re.findall(r"#\d+", statement)
+        while not statements[style].startswith("COLOUR_RGB"):
+            style = re.findall(r"#\d+", statements[style])[-1]
+        own = next(key for key, value in statements.items() if value == statement)
+        group = next(v for v in statements.values() if v.startswith("MECHANICAL") and re.findall(r"#\d+", v)[0] == own)
+        rgb = ",".join(f"{float(c):.6g}" for c in re.findall(r"[\d.]+E?-?\d*", statements[style].split("'',")[1]))
+        colours.append((int(item[1:]), item, re.findall(r"#\d+", group)[-1], rgb))
+    n = int(text[start + 1 : text.index(" ", start)])
+    lines: list[str] = []
+    number: dict[str, int] = {}
+    for _, item, context, rgb in sorted(colours):
+        if rgb not in number:
+            number[rgb] = n
+            red_green_blue = ",".join(c if "." in c else f"{c}." for c in rgb.split(","))
+            lines.append(f"#{n} = COLOUR_RGB('',{red_green_blue});")
+            n += 1
+        lines += [
+            f"#{n} = MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION('',(#{n + 1}),{context});",
+            f"#{n + 1} = STYLED_ITEM('color',(#{n + 2}),{item});",
+            f"#{n + 2} = PRESENTATION_STYLE_ASSIGNMENT((#{n + 3}));",
+            f"#{n + 3} = SURFACE_STYLE_USAGE(.BOTH.,#{n + 4});",
+            f"#{n + 4} = SURFACE_SIDE_STYLE('',(#{n + 5}));",
+            f"#{n + 5} = SURFACE_STYLE_FILL_AREA(#{n + 6});",
+            f"#{n + 6} = FILL_AREA_STYLE('',(#{n + 7}));",
+            f"#{n + 7} = FILL_AREA_STYLE_COLOUR('',#{number[rgb]});",
+        ]
+        n += 8
+    return text[:start] + "\n".join(lines) + "\n" + text[end:]

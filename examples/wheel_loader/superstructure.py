@@ -49,21 +49,21 @@ def draw_cab() -> Assembly:
     for name, x0, x1 in (("GLASS QTR", -1660.0, -1100.0), ("DOOR GLASS", -1010.0, -440.0)):
         for side, y in (("LH", 740.0), ("RH", -748.0)):
             glazing.add(Part(f"{name} {side}", box(x0, x1, y, y + 8, FLOOR + 500, top - 80), *pane), BODY)
-    panel = Part("DOOR PANEL", box(0, 570, 0, 30, 0, 500), YELLOW, 2600.0)
+    panel = Part("DOOR PANEL", box(0, 570, 0, 6, 0, 505), YELLOW)
     for x in (-1010.0, -1665.0):
-        for y in (735.0, -765.0):
+        for y in (742.0, -748.0):
             tree.add(panel, BODY, at=shift(x, y, FLOOR))
-    tree.add(Part("REAR WALL", box(-1740, -1715, -690, 690, FLOOR, FLOOR + 350), YELLOW, 2600.0), BODY)
-    seat = fuse(box(-1350, -900, -230, 230, FLOOR + 350, FLOOR + 460), box(-1370, -1280, -230, 230, FLOOR + 400, FLOOR + 1050))
-    tree.add(Part("Fahrersitz", seat, BLACK, 300.0), BODY)
-    tree.add(Part("SEAT BASE", box(-1280, -980, -150, 150, FLOOR, FLOOR + 350), BLACK, 1500.0), BODY)
-    tree.add(Part("STRG COLUMN", rod((-560, 0, FLOOR), (-0.25, 0, 0.97), 45, 720), BLACK, 2500.0), BODY)
+    tree.add(Part("REAR WALL", box(-1736, -1730, -690, 690, FLOOR, FLOOR + 352), YELLOW), BODY)
+    seat = fuse(box(-1350, -900, -230, 230, FLOOR + 350, FLOOR + 380), box(-1370, -1340, -230, 230, FLOOR + 350, FLOOR + 1050))
+    tree.add(Part("Fahrersitz", seat, BLACK), BODY)
+    tree.add(Part("SEAT BASE", ring((-1130, 0, FLOOR), Z, 120, 110, 350), BLACK), BODY)
+    tree.add(Part("STRG COLUMN", rod((-560, 0, FLOOR), (-0.25, 0, 0.97), 45, 720), BLACK), BODY)
     wheel = turned([(-14, 175), (14, 175), (14, 200), (-14, 200)], axis=Z)
     spokes = fuse(rod((0, 0, -15), Z, 48, 30), box(-180, 180, -15, 15, -8, 8), box(-15, 15, -180, 180, -8, 8))
     lean = shift(-738, 0, FLOOR + 690).Multiplied(turn(Y, -14.45))
-    tree.add(Part("STEERING WHEEL", fuse(wheel, spokes), BLACK, 1500.0), BODY, at=lean)
-    tree.add(Part("CONSOLE", box(-1250, -850, -420, -260, FLOOR, FLOOR + 560), BLACK, 600.0), BODY)
-    lamp = Part("WORK LAMP", fuse(box(0, 70, -80, 80, 0, 110), rod((70, 0, 55), X, 45, 12)), AMBER, 1500.0)
+    tree.add(Part("STEERING WHEEL", fuse(wheel, spokes), BLACK), BODY, at=lean)
+    tree.add(Part("CONSOLE", cut(box(-1250, -850, -420, -260, FLOOR, FLOOR + 560), box(-1246, -854, -416, -264, FLOOR - 1, FLOOR + 556)), BLACK), BODY)
+    lamp = Part("WORK LAMP", fuse(box(0, 70, -80, 80, 0, 110), rod((70, 0, 55), X, 45, 12)), AMBER)
     for y in (-560.0, 560.0):
         tree.add(lamp, BODY, at=shift(-342, y, top - 125))
     return tree
@@ -80,10 +80,10 @@ def draw_hood() -> Assembly:
     slat = Part("GRILLE BAR", box(-3990, -3975, -470, 470, 0, 25), GREY)
     for i in range(5):
         tree.add(slat, BODY, at=shift(0, 0, DECK + 180 + 100 * i))
-    stack = fuse(rod((-2150, 250, 2560), Z, 130, 420), ring((-2150, 250, 2900), Z, 75, 68, v.STACK_HEIGHT.value - 2900))
-    tree.add(Part("EXHAUST STACK", stack, GREY, 1500.0), BODY)
-    intake = fuse(rod((-2150, -250, 2600), Z, 70, 320), rod((-2150, -250, 2880), Z, 140, 190))
-    tree.add(Part("PRE-CLEANER", intake, BLACK, 900.0), BODY)
+    stack = fuse(ring((-2150, 250, 2560), Z, 130, 124, 420), ring((-2150, 250, 2960), Z, 130, 70, 8), ring((-2150, 250, 2900), Z, 75, 70, v.STACK_HEIGHT.value - 2900))
+    tree.add(Part("EXHAUST STACK", stack, GREY), BODY)
+    intake = cut(fuse(rod((-2150, -250, 2600), Z, 70, 320), rod((-2150, -250, 2880), Z, 140, 190)), rod((-2150, -250, 2590), Z, 64, 440))
+    tree.add(Part("PRE-CLEANER", intake, BLACK), BODY)
     sheet = [(-2620, 1980, 0), (-2400, 2120, 0), (-1765, 2120, 0), (-1765, 2128, 0), (-2404, 2128, 0), (-2626, 1988, 0)]
     sheet = [(x, z + 60 if x < -2500 else z, r) for x, z, r in sheet]
     _pair(tree, "RR FENDER", plate(sheet, "xz", 588, 1480))
@@ -97,11 +97,14 @@ def draw_power_train() -> Assembly:
     """Engine, radiator, transmission; blocks, their density that of the real thing."""
     tree = Assembly("POWER TRAIN")
     engine = fuse(box(-3350, -2250, -330, 330, DECK, 2150), box(-3250, -2350, -180, 180, 2150, 2450))
-    tree.add(Part("ENGINE", engine, GREY, 2300.0), BODY)
-    tree.add(Part("RADIATOR", box(-3900, -3700, -520, 520, DECK, 2330), BLACK, 1500.0), BODY)
-    tree.add(Part("FAN SHROUD", ring((-3701, 0, 1960), X, 400, 385, 150), BLACK, 1500.0), BODY)
+    engine = cut(engine, box(-3320, -2280, -300, 300, DECK + 30, 2120), box(-3220, -2380, -150, 150, 2119, 2420))
+    tree.add(Part("ENGINE", engine, GREY), BODY)
+    tree.add(Part("RADIATOR", cut(box(-3900, -3700, -520, 520, DECK, 2330), box(-3950, -3600, -470, 470, DECK + 50, 2280)), BLACK), BODY)
+    tree.add(Part("COOLER CORE", box(-3812, -3800, -471, 471, DECK + 49, 2281), GREY), BODY)
+    tree.add(Part("FAN SHROUD", ring((-3801, 0, 1960), X, 400, 392, 250), BLACK), BODY)
     case = fuse(box(-1060, -720, -250, 250, 800, 1330), rod((-1000, 0, 1080), X, 240, 330))
-    tree.add(Part("TRANSMISSION", case, GREY, 3600.0), BODY)
+    case = cut(case, box(-1035, -745, -225, 225, 825, 1305), rod((-980, 0, 1080), X, 215, 285))
+    tree.add(Part("TRANSMISSION", case, GREY), BODY)
     _pair(tree, "T/M MOUNT", box(-960, -840, 248, 352, 1150, 1230), BLACK)
     return tree
 

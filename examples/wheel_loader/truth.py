@@ -8,9 +8,15 @@ from typing import Any
 import numpy as np
 import values as v
 from cylinders import Cylinder
+from hardware import placed
 from linkage import EDGE_DEPTH, FRONT_AXLE_X, LIFT_MAX, LIFT_MIN, TILT_MAX, TILT_MIN, TYRE_RADIUS, Linkage, Pose, Steering
 from numpy.typing import NDArray
-from product import ORIGIN, Assembly, occurrences
+from OCP.Bnd import Bnd_Box
+from OCP.BRepBndLib import BRepBndLib
+from OCP.gp import gp_Trsf
+from product import ORIGIN, Assembly, Occurrence, occurrences
+from scipy.optimize import brentq
+from solids import moved, turn
 
 Array = NDArray[np.float64]
 _TO_MACHINE = np.array([[-1.0, 0, 0], [0, 0, 1.0], [0, 1.0, 0]])
@@ -114,11 +120,64 @@ def measured(k: Linkage, s: Steering) -> dict[str, float]:
     }
 
 
+def _extent(leaves: list[Occurrence], where: gp_Trsf | None = None) -> Array:
+    """[[lowest x, y, z], [highest x, y, z]] of the parts in the machine frame, moved by `where`; exact, millimetres."""
+    bounds = Bnd_Box()
+    for leaf in leaves:
+        place = where.Multiplied(leaf.place) if where else leaf.place
+        BRepBndLib.AddOptimal_s(moved(leaf.part.shape, place), bounds, False, False)
+    low, high = bounds.CornerMin(), bounds.CornerMax()
+    return np.array([[low.X(), low.Y(), low.Z()], [high.X(), high.Y(), high.Z()]])
+
+
+def drawn(root: Assembly, k: Linkage, pose: Pose) -> dict[str, float]:
+    """What the drawn shapes give for the published values, by the value's name; millimetres."""
+    leaves = occurrences(root)
+
+    def of(*bodies: str) -> list[Occurrence]:
+        return [leaf for leaf in leaves if leaf.body in bodies]
+
+    def named(name: str) -> list[Occurrence]:
+        return [leaf for leaf in leaves if leaf.part.name.startswith(name)]
+
+    bucket, fixed = of("bucket"), of("rear_frame", "rear_axle", "front_frame")
+    tyres = _extent(named("TYRE"))
+    at = placed((pose.B[0], 0, pose.B[1]), pose.bucket_angle).Inverted()
+
+    def put(other: Pose) -> gp_Trsf:
+        return placed((other.B[0], 0, other.B[1]), other.bucket_angle).Multiplied(at)
+
+    ground = k.lift_for_hinge(EDGE_DEPTH)
+    level = _extent(bucket, put(k.pose(ground, k.tilt_for_angle(ground, 0.0))))
+    high = _extent(bucket, put(k.pose(LIFT_MAX, TILT_MAX)))
+    dump = _extent(bucket, put(k.pose(LIFT_MAX, k.tilt_for_angle(LIFT_MAX, math.radians(-45.0)))))
+    slope = turn(Y, v.APPROACH_ANGLE_CARRY.value, (FRONT_AXLE_X, 0.0, TYRE_RADIUS))
+    heel = [leaf for leaf in bucket if leaf.part.name.startswith(("WRAPPER", "HINGE EAR", "SIDE PL"))]
+
+    def above(hinge: float) -> float:
+        return float(_extent(heel, slope.Multiplied(put(k.pose(k.lift_for_hinge(hinge), TILT_MAX))))[0, 2])
+
+    return {
+        v.WHEELBASE.name: float(_extent(of("front_wheel_l")).mean(0)[0] - _extent(of("rear_wheel_l")).mean(0)[0]),
+        v.WIDTH_OVER_TYRES.name: float(tyres[1, 1] - tyres[0, 1]),
+        v.BUCKET_WIDTH.name: float(level[1, 1] - level[0, 1]),
+        v.OVERALL_LENGTH.name: float(level[1, 0] - _extent(fixed)[0, 0]),
+        v.OPERATING_HEIGHT.name: float(high[1, 2]),
+        v.DUMP_CLEARANCE.name: float(dump[0, 2]),
+        v.HINGE_HEIGHT_CARRY.name: float(brentq(above, 500.0, 700.0, xtol=1e-6)),
+        v.GROUND_CLEARANCE.name: float(_extent(fixed)[0, 2]),
+        v.HITCH_HEIGHT.name: float(_extent(named("HITCH PIN")).mean(0)[2]),
+        v.STACK_HEIGHT.name: float(_extent(named("EXHAUST STACK"))[1, 2]),
+        v.CAB_HEIGHT.name: float(_extent(named("ROOF"))[1, 2]),
+    }
+
+
 def truth(
     root: Assembly, k: Linkage, pose: Pose, s: Steering, cylinders: dict[str, Cylinder], steer_z: float, lift_y: float
 ) -> dict[str, Any]:
     """The document written as `truth.json`."""
     got = measured(k, s)
+    shapes = drawn(root, k, pose)
     named = {value.name: value for value in (*v.PUBLISHED, *v.EXAMPLE)}
     return {
         "about": "CAD frame, metres. A part's key is its product names from the root joined by '/', in tree order; the second of two "
@@ -127,17 +186,20 @@ def truth(
         "joints": joints(k, pose, s, steer_z, lift_y),
         "parts": {leaf.path: {"body": leaf.body, "role": leaf.role} for leaf in occurrences(root)},
         "cylinders": _slides(cylinders),
+        "sites": {"bucket_edge": _point((pose.T[0], 0.0, pose.T[1])), "bucket_hinge": _point((pose.B[0], 0.0, pose.B[1]))},
         "drawn": {
             "boom_angle": round(math.degrees(pose.boom_angle), 9),
             "bucket_angle": round(math.degrees(pose.bucket_angle), 9),
         },
         "values": {
             name: {
-                "target": named[name].value,
-                "linkage": round(value, 6),
-                "unit": named[name].unit,
-                "published": named[name].published,
+                "target": value.value,
+                "unit": value.unit,
+                "published": value.published,
+                **({"linkage": round(got[name], 5)} if name in got else {}),
+                **({"drawn": round(shapes[name], 3)} if name in shapes else {}),
             }
-            for name, value in got.items()
+            for name, value in named.items()
+            if name in got or name in shapes
         },
     }

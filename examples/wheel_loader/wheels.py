@@ -33,8 +33,8 @@ def draw_wheel() -> Assembly:
     hub = turned([(-215, 95.2), (66, 95.2), (66, 270), (34, 270), (20, 180), (-120, 180), (-215, 150)])
     hub = cut(hub, *(rod((x, 0, z), Y, 11, 200) for x, z in circle))
     tree.add(Part("HUB", hub, GREY), "wheel")
-    cap = turned([(66, 0), (66, 188), (150, 178), (185, 120), (185, 0)])
-    tree.add(Part("PLANET COVER", cap, YELLOW, 5000.0), "wheel")
+    cap = turned([(66, 70), (66, 188), (150, 178), (185, 120), (185, 0), (160, 0), (160, 70)])
+    tree.add(Part("PLANET COVER", cap, YELLOW), "wheel")
     for x, z in circle:
         tree.add(bolt(22, 60), "wheel", at=shift(x, 90, z))
     return tree
@@ -45,8 +45,9 @@ def axle_housing() -> Part:
     half = v.TREAD.value / 2
     ball = [(BANJO * math.cos(math.radians(a)), BANJO * math.sin(math.radians(a))) for a in range(138, 41, -12)]
     left = [(-s, q) for s, q in _beam(half)]
-    shape = turned([*left, *ball, *reversed(_beam(half))])
-    return Part("AXLE HOUSING", shape, GREY, 5200.0)
+    hollow = [(-820, 0), (-820, 120), (-345, 125), *[(c * 0.86, r * 0.86) for c, r in ball], (345, 125), (820, 120), (820, 0)]
+    shape = cut(turned([*left, *ball, *reversed(_beam(half))]), turned(hollow))
+    return Part("AXLE HOUSING", shape, GREY)
 
 
 def _beam(half: float) -> list[tuple[float, float]]:
@@ -57,7 +58,8 @@ def _beam(half: float) -> list[tuple[float, float]]:
 
 def pinion_nose() -> Part:
     """Housing of the bevel pinion, from the axle's middle along +x."""
-    return Part("PINION NOSE", turned([(300, 0), (300, 190), (380, 150), (470, 140), (470, 0)], axis=X), GREY, 5200.0)
+    profile = [(300, 60), (300, 190), (380, 150), (470, 140), (470, 0), (455, 0), (455, 60)]
+    return Part("PINION NOSE", turned(profile, axis=X), GREY)
 
 
 def draw_front_axle() -> Assembly:
@@ -67,14 +69,15 @@ def draw_front_axle() -> Assembly:
     at = shift(x, 0, z)
     tree.add(axle_housing_part, "front_frame", at=at)
     tree.add(nose_part, "front_frame", at=at.Multiplied(turn((0, 0, 1), 180)))
-    pad = cut(box(-120, 120, 232, 375, 100, 240), rod((0, 0, 0), Y, 155, 600))
+    pad = fuse(box(-120, 120, 232, 312, 100, 240), box(-120, 120, 300, 344, 100, 205))
+    pad = cut(pad, rod((0, 0, 0), Y, 155, 600))
     pad_part = Part("AXLE PAD", pad)
     tree.add(pad_part, "front_frame", at=at)
     tree.add(pad_part, "front_frame", at=at.Multiplied(turn((0, 0, 1), 180)))
-    stud = bolt(36, 90)
+    stud = bolt(20, 60)
     for dx in (-90, 90):
-        for y in (-345, 345):
-            tree.add(stud, "front_frame", at=shift(x + dx, y, z + 240).Multiplied(turn(X, 90)))
+        for y in (-326, 326):
+            tree.add(stud, "front_frame", at=shift(x + dx, y, z + 205).Multiplied(turn(X, 90)))
     plug = Part("DRAIN PLUG", rod((0, 0, 0), X, 15, 20), STEEL)
     tree.add(plug, "front_frame", at=at.Multiplied(shift(345, 0, 30)))
     return tree
