@@ -125,8 +125,8 @@ def shape_of(mesh: trimesh.Trimesh, cylinders: tuple[CylinderFeature, ...] = ())
         mesh=Mesh(np.array(mesh.vertices), np.array(mesh.faces, dtype=np.int32)),
         volume=float(mesh.volume),
         area=float(mesh.area),
-        centroid=np.array(mesh.center_mass),
-        inertia=np.array(mesh.moment_inertia),
+        centroid=np.zeros(3),
+        inertia=np.eye(3),
         cylinders=cylinders,
     )
 

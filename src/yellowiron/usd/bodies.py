@@ -85,15 +85,22 @@ def _write_colliders(
 
 def is_mirrored(matrix: Floats) -> bool:
     """Whether a transform turns a right hand into a left one."""
-    return bool(np.linalg.det(matrix[:3, :3]) < 0.0)
+    return _determinant(matrix) < 0.0
+
+
+def _determinant(matrix: Floats) -> float:
+    a, b, c = matrix[:3, :3].tolist()
+    return float(
+        a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0])
+    )
 
 
 def uniform_scale(matrix: Floats) -> float | None:
     """The one factor by which a transform scales (mirrored or not), or None where the axes differ or shear."""
     linear = matrix[:3, :3]
-    factor = float(abs(np.linalg.det(linear)) ** (1.0 / 3.0))
-    same = np.allclose(linear.T @ linear, factor**2 * np.eye(3), rtol=0.0, atol=_SCALE_TOLERANCE * factor**2)
-    return factor if factor > 0.0 and same else None
+    factor = abs(_determinant(matrix)) ** (1.0 / 3.0)
+    off = np.abs(linear.T @ linear - factor**2 * np.eye(3)).max()
+    return factor if factor > 0.0 and off <= _SCALE_TOLERANCE * factor**2 else None
 
 
 def _write_mesh_collider(layer: Sdf.Layer, path: str, placed: PlacedPart) -> None:

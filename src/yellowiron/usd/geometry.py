@@ -91,7 +91,9 @@ def write_mesh(spec: Sdf.PrimSpec, shape: Shape, mesh: Mesh) -> None:
     elif len(points) == len(mesh.points):
         set_attribute(spec, "normals", Types.Normal3fArray, _single(mesh.normals), interpolation="vertex")
     else:
-        _write_indexed(spec, "normals", Types.Normal3fArray, _single(mesh.normals), mesh.triangles[kept])
+        normals, ranks = _distinct(mesh.normals)
+        indices = ranks[mesh.triangles[kept]]
+        _write_indexed(spec, "normals", Types.Normal3fArray, Vt.Vec3fArray.FromNumpy(normals), indices)
     if mesh.triangle_colors is not None:
         colors = _single(mesh.triangle_colors[kept])
         set_attribute(spec, "primvars:displayColor", Types.Color3fArray, colors, interpolation="uniform")
@@ -103,19 +105,27 @@ def _single(values: Floats) -> Vt.Vec3fArray:
 
 def _weld(mesh: Mesh) -> tuple[Singles, Ints, NDArray[np.bool_]]:
     """Points without repetition (in order of first use), triangles on them, and which of the mesh's triangles stay."""
-    points = np.ascontiguousarray(mesh.points, dtype=np.float32) + np.float32(0.0)
-    order = np.lexsort(points.T)
-    ordered = points[order]
-    new = np.ones(len(points), dtype=bool)
-    new[1:] = (ordered[1:] != ordered[:-1]).any(axis=1)
-    group = np.empty(len(points), dtype=np.int64)
-    group[order] = np.cumsum(new) - 1
-    first = np.minimum.reduceat(order, np.flatnonzero(new)) if len(points) else order
-    rank = np.empty(len(first), dtype=np.int32)
-    rank[np.argsort(first)] = np.arange(len(first), dtype=np.int32)
-    triangles = rank[group][np.asarray(mesh.triangles, dtype=np.int64)].reshape(-1, 3)
+    points, ranks = _distinct(mesh.points)
+    triangles = ranks[np.asarray(mesh.triangles, dtype=np.int64)].reshape(-1, 3)
     kept = (triangles != np.roll(triangles, 1, axis=1)).all(axis=1)
-    return points[np.sort(first)], triangles[kept], kept
+    return points, triangles[kept], kept
+
+
+def _distinct(rows: Floats) -> tuple[Singles, Ints]:
+    """Rows in single precision without repetition, in order of first use, and the rank of every given row in them."""
+    single = np.ascontiguousarray(rows, dtype=np.float32) + np.float32(0.0)
+    if not len(single):
+        return single, np.zeros(0, dtype=np.int32)
+    order = np.lexsort(single.T)
+    ordered = single[order]
+    new = np.ones(len(single), dtype=bool)
+    new[1:] = (ordered[1:] != ordered[:-1]).any(axis=1)
+    group = np.empty(len(single), dtype=np.int64)
+    group[order] = np.cumsum(new) - 1
+    first = np.minimum.reduceat(order, np.flatnonzero(new))
+    ranks = np.empty(len(first), dtype=np.int32)
+    ranks[np.argsort(first)] = np.arange(len(first), dtype=np.int32)
+    return single[np.sort(first)], ranks[group]
 
 
 def _write_indexed(

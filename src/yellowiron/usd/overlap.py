@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from yellowiron.model.geometry import Floats
@@ -17,37 +19,38 @@ def overlapping_bodies(plan: Plan, tolerance: float = TOLERANCE) -> list[tuple[s
     Boxes enclose their parts, so no overlapping pair is missed; a part that only sits inside another's box may be
     filtered needlessly, which costs a contact that self-collision would have found.
     """
-    names, centers, axes, halves = [], [], [], []
-    for body in plan.mechanism.bodies:
-        for placed in plan.parts[body.name]:
-            if placed.approximation.usd and len(placed.prototype.shape.mesh.points):
-                center, rotation, half = _box(placed, np.asarray(body.origin))
-                names.append(body.name)
-                centers.append(center)
-                axes.append(rotation)
-                halves.append(half)
-    if not names:
-        return []
-    order = {body.name: index for index, body in enumerate(plan.mechanism.bodies)}
-    owner = np.array([order[name] for name in names])
-    first, second = np.nonzero(owner[:, None] < owner[None, :])
-    hit = _boxes_overlap(np.array(centers), np.array(axes), np.array(halves), first, second, tolerance)
-    pairs = sorted({(int(owner[i]), int(owner[j])) for i, j in zip(first[hit], second[hit], strict=True)})
     bodies = plan.mechanism.bodies
+    colliding = [
+        (index, placed, body.origin)
+        for index, body in enumerate(bodies)
+        for placed in plan.parts[body.name]
+        if placed.approximation.usd and len(placed.prototype.shape.mesh.points)
+    ]
+    if not colliding:
+        return []
+    owner = np.array([index for index, _, _ in colliding])
+    centers, axes, halves = _boxes([placed for _, placed, _ in colliding], np.array([o for _, _, o in colliding]))
+    first, second = np.nonzero(owner[:, None] < owner[None, :])
+    hit = _boxes_overlap(centers, axes, halves, first, second, tolerance)
+    pairs = sorted({(int(owner[i]), int(owner[j])) for i, j in zip(first[hit], second[hit], strict=True)})
     return [(bodies[i].name, bodies[j].name) for i, j in pairs]
 
 
-def _box(placed: PlacedPart, origin: Floats) -> tuple[Floats, Floats, Floats]:
-    """Centre, axes (columns) and half edges of a part's box, machine frame. A shear keeps its first axis."""
-    points = placed.prototype.shape.mesh.points
-    lower, upper = points.min(axis=0), points.max(axis=0)
-    linear = placed.matrix[:3, :3]
-    rotation, _ = np.linalg.qr(linear)
-    corners = np.stack(np.meshgrid(*np.stack([lower, upper], axis=1), indexing="ij"), axis=-1).reshape(-1, 3)
-    local = (corners @ linear.T) @ rotation
-    low, high = local.min(axis=0), local.max(axis=0)
-    center = rotation @ (0.5 * (low + high)) + placed.matrix[:3, 3] + origin
-    return center, rotation, 0.5 * (high - low)
+def _boxes(parts: Sequence[PlacedPart], origins: Floats) -> tuple[Floats, Floats, Floats]:
+    """Centres (n, 3), axes (n, 3, 3; columns) and half edges (n, 3) of the parts' boxes, machine frame. A sheared part
+    keeps its first axis."""
+    bounds = {}
+    for placed in parts:
+        shape = placed.prototype.shape
+        if shape.key not in bounds:
+            bounds[shape.key] = np.stack([shape.mesh.points.min(axis=0), shape.mesh.points.max(axis=0)])
+    limits = np.array([bounds[placed.prototype.shape.key] for placed in parts])
+    matrices = np.array([placed.matrix for placed in parts])
+    axes, triangular = np.linalg.qr(matrices[:, :3, :3])
+    middle, half = limits.mean(axis=1), 0.5 * (limits[:, 1] - limits[:, 0])
+    centers = np.einsum("nij,nj->ni", matrices[:, :3, :3], middle) + matrices[:, :3, 3] + origins
+    # The linear part is axes @ triangular: a box's half edges along the axes are |triangular| times its own.
+    return centers, axes, np.einsum("nij,nj->ni", np.abs(triangular), half)
 
 
 def _boxes_overlap(

@@ -46,7 +46,7 @@ def fit_primitive(shape: Shape, *, max_excess: float = MAX_EXCESS) -> Primitive 
 
     Axes are tried where the shape has fitted cylinders, and along its own frame otherwise.
     """
-    points = shape.mesh.points[np.unique(shape.mesh.triangles)] if len(shape.mesh.triangles) else shape.mesh.points
+    points = shape.mesh.points
     if len(points) < 4:
         return None
     hull_points, hull_volume = _convex_hull(points)

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.spatial.transform import Rotation
+from pxr import Gf
 
 from yellowiron.model.geometry import Floats
 
@@ -14,7 +17,9 @@ Quaternion = tuple[float, float, float, float]
 
 def quaternion_of(rotation: Floats) -> Quaternion:
     """The quaternion of a rotation matrix (3, 3)."""
-    return _canonical(Rotation.from_matrix(rotation).as_quat(canonical=True, scalar_first=True))
+    matrix = Gf.Matrix4d(1.0).SetRotateOnly(Gf.Matrix3d(np.asarray(rotation).T.tolist()))
+    found = matrix.ExtractRotationQuat()
+    return _canonical([found.GetReal(), *found.GetImaginary()])
 
 
 def quaternion_to(axis: ArrayLike) -> Quaternion:
@@ -25,13 +30,13 @@ def quaternion_to(axis: ArrayLike) -> Quaternion:
         return (0.0, 0.0, 0.0, 1.0)
     # 1 + x, without the cancellation near −X.
     real = 1.0 + x if x >= 0.0 else across / (1.0 - x)
-    return _canonical(np.array([real, 0.0, -z, y]))
+    return _canonical([real, 0.0, -z, y])
 
 
 def axis_of(quaternion: Quaternion) -> tuple[float, float, float]:
     """Where a rotation takes +X."""
-    x, y, z = Rotation.from_quat(quaternion, scalar_first=True).apply([1.0, 0.0, 0.0])
-    return (float(x), float(y), float(z))
+    x, y, z = Gf.Quatd(*quaternion).Transform(Gf.Vec3d.XAxis())
+    return (x, y, z)
 
 
 def principal_axes(inertia: Floats) -> tuple[tuple[float, float, float], Quaternion]:
@@ -62,11 +67,9 @@ def _nearest_order(weights: Floats) -> list[int]:
     return order
 
 
-def _canonical(quaternion: Floats) -> Quaternion:
+def _canonical(quaternion: Sequence[float]) -> Quaternion:
     """Unit length, first nonzero component positive, no negative zeros."""
-    q = np.asarray(quaternion, dtype=np.float64)
-    q = q / np.linalg.norm(q)
-    leading = next((v for v in q if abs(v) > 1e-15), 1.0)
-    q = np.copysign(1.0, leading) * q + 0.0
-    w, x, y, z = (float(v) for v in q)
+    length = math.hypot(*quaternion)
+    leading = next((v for v in quaternion if abs(v) > 1e-15 * length), 1.0)
+    w, x, y, z = (v / math.copysign(length, leading) + 0.0 for v in quaternion)
     return (w, x, y, z)
