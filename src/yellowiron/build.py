@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import sys
 import time
+import types
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -131,3 +133,13 @@ def build(
         folder=out,
         fell_short=tuple(report.fell_short(document)),
     )
+
+
+class _Callable(types.ModuleType):
+    """`yellowiron.build` is this module, and to a user the function: importing the one must not hide the other."""
+
+    def __call__(self, *args: Any, **kwargs: Any) -> Machine:
+        return build(*args, **kwargs)
+
+
+sys.modules[__name__].__class__ = _Callable

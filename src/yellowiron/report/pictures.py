@@ -19,14 +19,14 @@ from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Mechanism
 
 _SUN = np.array([0.35, -0.70, 1.0]) / math.sqrt(0.35**2 + 0.70**2 + 1.0)
-_SKY = np.array([0.93, 0.95, 0.97])
-_GROUND = np.array([0.90, 0.895, 0.88])
-_YELLOW = (0.94, 0.72, 0.10)
+_SKY = np.array([0.85, 0.89, 0.93])
+_GROUND = np.array([0.78, 0.77, 0.74])
+_YELLOW = (0.87, 0.47, 0.01)
 _PALETTE = (
     (0.90, 0.62, 0.00), (0.34, 0.71, 0.91), (0.00, 0.62, 0.45), (0.94, 0.89, 0.26), (0.00, 0.45, 0.70),
     (0.84, 0.37, 0.00), (0.80, 0.47, 0.65), (0.60, 0.60, 0.60), (0.55, 0.34, 0.29), (0.50, 0.80, 0.40),
 )  # fmt: skip
-"""Okabe and Ito's colours, distinguishable by colour-blind readers, and three more."""
+"""Okabe and Ito's colours (sRGB), distinguishable by colour-blind readers, and three more."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,7 +98,7 @@ def machine_soup(
                 turned = shape.mesh.normals @ np.linalg.inv(place[:3, :3])
                 turned /= np.maximum(np.linalg.norm(turned, axis=1, keepdims=True), 1e-30)
                 corner_normals = turned[triangles]
-            color = _PALETTE[index % len(_PALETTE)] if by_body else (part.color or shape.color or _YELLOW)
+            color = _linear(_PALETTE[index % len(_PALETTE)]) if by_body else (part.color or shape.color or _YELLOW)
             corners.append(soup)
             normals.append(corner_normals)
             colors.append(np.broadcast_to(np.asarray(color, dtype=np.float64), (len(soup), 3)))
@@ -143,58 +143,57 @@ def render(soup: Soup, camera: Camera, *, supersample: int = 2) -> Image.Image:
     from embreex.mesh_construction import TriangleMesh
 
     width, height = camera.width * supersample, camera.height * supersample
-    scale = camera.scale * supersample
-    columns, rows = np.meshgrid(np.arange(width) + 0.5, np.arange(height) + 0.5)
+    scale = np.float32(camera.scale * supersample)
+    eye, sun_direction = camera.eye.astype(np.float32), _SUN.astype(np.float32)
+    columns, rows = np.meshgrid(np.arange(width, dtype=np.float32) + 0.5, np.arange(height, dtype=np.float32) + 0.5)
     directions = (
-        camera.forward
-        + ((columns - width / 2) / scale)[..., None] * camera.right
-        - ((rows - height / 2) / scale)[..., None] * camera.up
+        camera.forward.astype(np.float32)
+        + ((columns - width / 2) / scale)[..., None] * camera.right.astype(np.float32)
+        - ((rows - height / 2) / scale)[..., None] * camera.up.astype(np.float32)
     ).reshape(-1, 3)
-    directions /= np.linalg.norm(directions, axis=1, keepdims=True)
+    directions /= np.sqrt(np.einsum("ij,ij->i", directions, directions))[:, None]
     scene = rtcore_scene.EmbreeScene()
     TriangleMesh(scene, soup.corners.astype(np.float32))
-    origins = np.broadcast_to(camera.eye, directions.shape).astype(np.float32)
-    hit = scene.run(origins, directions.astype(np.float32), output=True)
+    hit = scene.run(np.broadcast_to(eye, directions.shape).copy(), directions, output=True)
     face = hit["primID"].astype(np.int64)
     seen = face >= 0
-    distance = np.where(seen, hit["tfar"], np.inf)
 
+    # What each ray meets: a part, else the ground, else the sky.
+    color = np.tile(_SKY.astype(np.float32), (len(directions), 1))
     normals = np.zeros_like(directions)
+    ground = ~seen & (directions[:, 2] < 0)
     u, v = hit["u"][seen, None], hit["v"][seen, None]
-    corner = soup.normals[face[seen]]
-    normals[seen] = (1 - u - v) * corner[:, 0] + u * corner[:, 1] + v * corner[:, 2]
-    lengths = np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
-    normals /= lengths
-    normals *= np.where(np.einsum("ij,ij->i", normals, directions) > 0, -1.0, 1.0)[:, None]
-
-    with np.errstate(divide="ignore", invalid="ignore"):
-        to_ground = np.where(directions[:, 2] < 0, -camera.eye[2] / directions[:, 2], np.inf)
-    ground = ~seen & np.isfinite(to_ground)
-    distance[ground] = to_ground[ground]
+    corner = soup.normals.astype(np.float32)[face[seen]]
+    normal = (1 - u - v) * corner[:, 0] + u * corner[:, 1] + v * corner[:, 2]
+    normal /= np.maximum(np.sqrt(np.einsum("ij,ij->i", normal, normal)), 1e-12)[:, None]
+    normal *= np.where(np.einsum("ij,ij->i", normal, directions[seen]) > 0, -1.0, 1.0)[:, None]
+    normals[seen] = normal
     normals[ground] = (0.0, 0.0, 1.0)
-    lit = seen | ground
-    points = camera.eye + directions[lit] * distance[lit, None]
 
-    sun = np.clip(normals[lit] @ _SUN, 0.0, 1.0)
-    start = points + normals[lit] * 2e-3
-    shadow = scene.run(start.astype(np.float32), np.tile(_SUN, (len(start), 1)).astype(np.float32), query="OCCLUDED")
-    sun = np.where(shadow >= 0, 0.0, sun)
-    sky = 0.5 + 0.5 * normals[lit][:, 2]
-    light = 0.36 + 0.26 * sky + 0.50 * sun
-    color = np.tile(_SKY, (len(directions), 1))
-    albedo = np.where(seen[:, None], soup.colors[np.maximum(face, 0)] if len(soup.colors) else 0.0, _GROUND)
-    color[lit] = albedo[lit] * light[:, None]
-    color[ground] = np.minimum(color[ground] * 0.90, 1.0)
-    # The ground fades into the sky, so that it has no edge.
-    spread = np.linalg.norm((camera.eye + directions[ground] * distance[ground, None])[:, :2], axis=1)
-    fade = np.clip(spread / 14.0, 0.0, 1.0)[:, None] ** 2
-    color[ground] = color[ground] * (1 - fade) + _SKY * fade
+    def shade(rays: NDArray[np.bool_], distance: NDArray[np.float32], albedo: Floats | NDArray[np.float32]) -> None:
+        points = eye + directions[rays] * distance[:, None]
+        facing = normals[rays]
+        start = points + facing * np.float32(2e-3)
+        blocked = scene.run(start, np.broadcast_to(sun_direction, start.shape).copy(), query="OCCLUDED") >= 0
+        sun = np.where(blocked, 0.0, np.clip(facing @ sun_direction, 0.0, 1.0))
+        light = 0.22 + 0.24 * (0.5 + 0.5 * facing[:, 2]) + 0.62 * sun
+        color[rays] = albedo * light[:, None]
+
+    if seen.any():
+        shade(seen, hit["tfar"][seen], soup.colors.astype(np.float32)[face[seen]])
+    if ground.any():
+        to_ground = -eye[2] / directions[ground, 2]
+        shade(ground, to_ground, _GROUND.astype(np.float32))
+        # The ground fades into the sky, so that it has no edge.
+        spread = np.linalg.norm((eye + directions[ground] * to_ground[:, None])[:, :2], axis=1)
+        fade = np.clip(spread / 14.0, 0.0, 1.0)[:, None] ** 2
+        color[ground] = color[ground] * (1 - fade) + _SKY.astype(np.float32) * fade
 
     label = np.where(seen, soup.parts[np.maximum(face, 0)] if len(soup.parts) else -1, -1)
     edges = _edges(label.reshape(height, width), normals.reshape(height, width, 3), seen.reshape(height, width))
     image = color.reshape(height, width, 3)
-    image[edges] *= 0.45
-    pixels = (np.clip(image, 0.0, 1.0) * 255.0 + 0.5).astype(np.uint8)
+    image[edges] *= 0.2
+    pixels = (_display(np.clip(image, 0.0, 1.0)) * 255.0 + 0.5).astype(np.uint8)
     return Image.fromarray(pixels).resize((camera.width, camera.height), Image.Resampling.BOX)
 
 
@@ -212,6 +211,17 @@ def contact_sheet(images: Sequence[Image.Image]) -> Image.Image:
     for index, image in enumerate(images):
         sheet.paste(image, (index * width, 0))
     return sheet
+
+
+def _linear(color: tuple[float, float, float]) -> tuple[float, float, float]:
+    """sRGB to linear (IEC 61966-2-1, as a power of 2.2)."""
+    red, green, blue = color
+    return (red**2.2, green**2.2, blue**2.2)
+
+
+def _display(linear: Floats) -> Floats:
+    """Linear to sRGB (IEC 61966-2-1, as a power of 2.2)."""
+    return np.asarray(linear ** (1.0 / 2.2), dtype=np.float64)
 
 
 def _edges(label: NDArray[np.int64], normals: Floats, seen: NDArray[np.bool_]) -> NDArray[np.bool_]:
