@@ -6,12 +6,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, Protocol
 
-import numpy as np
-
 from yellowiron.mechanism import body, cylinders, drives, mass, sites, values
 from yellowiron.mechanism.body import vector
 from yellowiron.mechanism.cylinders import FittedCylinder
-from yellowiron.mechanism.frames import JointFrame, joint_frames
+from yellowiron.mechanism.frames import JointFrame, joint_frames, weld
 from yellowiron.mechanism.placement import Placement, ancestors, place
 from yellowiron.mechanism.planarity import make_parallel
 from yellowiron.mechanism.tree import Tree, links, loop_groups, loose_bodies, span_tree
@@ -119,38 +117,21 @@ def _weld_loose(
         above = [r.name for r in ancestors(template, loose)[1:] if r.rigid and placement.has_body(r.name)]
         holder = above[0] if above else template.root
         joint = JointTemplate(f"{holder}2{loose}_weld_joint", "fixed", (holder, loose))
-        points = placement.points_of(placement.rows_of_body(loose))
-        result[joint.name] = JointFrame(
-            joint,
-            (holder, loose),
-            0.5 * (points.min(axis=0) + points.max(axis=0)),
-            np.array([1.0, 0.0, 0.0]),
-            0.0,
-            {"template": "", "method": "weld: no joint leads to this body"},
-        )
-        findings.append(
-            Finding(
-                "MEC011",
-                "error",
-                loose,
-                f"No joint leads to the body '{loose}': it was welded to '{holder}'.",
-                "See the findings on its joints; check its pins in the alignment.",
-            )
-        )
+        result[joint.name] = weld(joint, (holder, loose), placement, method="weld: no joint leads to this body")
+        words = f"No joint leads to the body '{loose}': it was welded to '{holder}'."
+        hint = "See the findings on its joints; check its pins in the alignment."
+        findings.append(Finding("MEC011", "error", loose, words, hint))
     return result
 
 
 def _uncuttable(tree: Tree, frames: Mapping[str, JointFrame]) -> list[Finding]:
+    """Findings on loops in which nothing but a weld or a slide was left to cut."""
+    words = "Its loop has no pin that could be cut, so the {} joint was."
+    kinds = {name: frames[name].joint.type for name in tree.cuts}
     return [
-        Finding(
-            "MEC012",
-            "error",
-            name,
-            f"Its loop has no pin that could be cut, so the {frames[name].joint.type} joint was.",
-            "Check the joints of the template.",
-        )
-        for name in tree.cuts
-        if frames[name].joint.type in ("fixed", "prismatic")
+        Finding("MEC012", "error", name, words.format(kind), "Check the joints of the template.")
+        for name, kind in kinds.items()
+        if kind in ("fixed", "prismatic")
     ]
 
 
@@ -202,15 +183,8 @@ def _limits(
         source |= {f"{side}_{key}": value for key, value in evidence.items()}
         found.append(number)
         if "missing" in evidence:
-            findings.append(
-                Finding(
-                    "MEC050",
-                    "warning",
-                    entry.name,
-                    f"Its {side} limit '{evidence['missing']}' is not known: it is not limited there.",
-                    f'--set "{evidence["missing"]}=…"',
-                )
-            )
+            words = f"Its {side} limit '{evidence['missing']}' is not known: it is not limited there."
+            findings.append(Finding("MEC050", "warning", entry.name, words, f'--set "{evidence["missing"]}=…"'))
     lower, upper = found
     if lower is not None and upper is not None and lower > upper:
         lower, upper = upper, lower
