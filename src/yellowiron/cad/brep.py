@@ -21,14 +21,18 @@ from OCP.TopAbs import TopAbs_FACE, TopAbs_SHELL, TopAbs_SOLID
 from OCP.TopExp import TopExp_Explorer
 from OCP.TopoDS import TopoDS
 
-from yellowiron.cad import features
+from yellowiron.cad import features, meshed
 from yellowiron.cad.tessellate import MILLIMETRE, mesh_of
-from yellowiron.model.geometry import Color, Floats, Mesh, Shape
+from yellowiron.model.geometry import Color, Floats, Shape
 
 
 @dataclass(eq=False)
 class Body:
-    """One distinct solid or sheet, measured but not yet meshed. Lengths in mm, as Open CASCADE keeps them."""
+    """One distinct solid or sheet, measured but not yet meshed. Lengths in mm, as Open CASCADE keeps them.
+
+    The first 32 characters of `key` are a hash of the geometry alone; coloured bodies have 9 more, so that one key
+    is one look too. `tessellated`: the file has triangles and no surfaces.
+    """
 
     name: str
     shape: Any
@@ -42,10 +46,11 @@ class Body:
     box: Floats
     color: Color | None
     face_colors: list[Color | None] | None
+    tessellated: bool = False
     key: str = field(init=False)
 
     def __post_init__(self) -> None:
-        self.key = _key(self)
+        self.key = _painted(meshed.content_key(mesh_of(self.faces)[0]) if self.tessellated else _key(self), self)
 
     @property
     def diagonal(self) -> float:
@@ -81,6 +86,11 @@ def _measure(name: str, shape: Any, color: Color | None, face_colors: Sequence[C
     box = _box(shape, optimal=True)
     faces = subshapes(shape, TopAbs_FACE)
     surveyed = features.survey(faces)
+    colors = None if face_colors is None else list(face_colors)
+    if colors is not None and len(set(colors)) == 1:
+        color, colors = colors[0] or color, None
+    if not surveyed:
+        return _tessellated(name, shape, faces, color, colors)
     if closed:
         properties = _integrate(shape, box, surveyed)
         if properties.Mass() < 0.0:
@@ -99,9 +109,6 @@ def _measure(name: str, shape: Any, color: Color | None, face_colors: Sequence[C
         centers = np.array([face.center for face in surveyed]).reshape(-1, 3)
         centroid = weights @ centers / weights.sum() if weights.sum() > 0.0 else box.mean(axis=0)
         inertia = np.zeros((3, 3))
-    colors = None if face_colors is None else list(face_colors)
-    if colors is not None and len(set(colors)) == 1:
-        color, colors = colors[0] or color, None
     return Body(
         name=name,
         shape=shape,
@@ -115,6 +122,35 @@ def _measure(name: str, shape: Any, color: Color | None, face_colors: Sequence[C
         box=box,
         color=color,
         face_colors=colors,
+    )
+
+
+def _tessellated(
+    name: str, shape: Any, faces: list[Any], color: Color | None, face_colors: list[Color | None] | None
+) -> Body:
+    """A body whose faces are triangles and have no surface (AP242 tessellated solids)."""
+    mesh, _ = mesh_of(faces)
+    if not len(mesh.triangles):
+        raise ValueError("it has neither surfaces nor triangles")
+    closed = meshed.is_closed(mesh)
+    area, centroid = meshed.area_properties(mesh)
+    volume, inertia = 0.0, np.zeros((3, 3))
+    if closed:
+        volume, centroid, inertia = meshed.volume_properties(mesh)
+    return Body(
+        name=name,
+        shape=shape,
+        faces=faces,
+        survey=[],
+        closed=closed,
+        volume=volume / MILLIMETRE**3,
+        area=area / MILLIMETRE**2,
+        centroid=centroid / MILLIMETRE,
+        inertia=inertia / MILLIMETRE**5,
+        box=meshed.bounds(mesh) / MILLIMETRE,
+        color=color,
+        face_colors=face_colors,
+        tessellated=True,
     )
 
 
@@ -161,7 +197,7 @@ def _box(shape: Any, *, optimal: bool) -> Floats:
     if optimal:
         BRepBndLib.AddOptimal_s(shape, box, False, False)
     else:
-        BRepBndLib.Add_s(shape, box, False)
+        BRepBndLib.Add_s(shape, box, True)
     if box.IsVoid() or box.IsOpen():
         return np.full((2, 3), np.nan)
     low, high = box.CornerMin(), box.CornerMax()
@@ -169,13 +205,14 @@ def _box(shape: Any, *, optimal: bool) -> Floats:
 
 
 def _key(body: Body) -> str:
-    """A hash of what the body is: its faces' kinds, areas and centres, its volume and inertia; then its colours.
+    """A hash of what the body is: its faces' kinds, areas and centres, its volume and inertia.
 
     Lengths are taken to 1e-4 mm or a millionth of the size, whichever is more, so that the last digits of another
-    export or unit do not matter. The first 32 characters are the geometry alone; coloured bodies have 9 more.
+    export or unit do not matter.
     """
     size = body.diagonal
     step = max(1e-4, 1e-6 * size)
+    # The size itself goes in too: measured in steps of itself, a shape twice as large is the same.
     rows = sorted(
         (face.kind, round(face.area / (step * size)), *(round(c / step) for c in face.center)) for face in body.survey
     )
@@ -185,7 +222,11 @@ def _key(body: Body) -> str:
         *(round(c / step) for c in body.centroid),
     ]
     whole += [round(float(value) / (step * size**4)) for value in body.inertia.ravel()]
-    geometry = hashlib.sha256(repr((rows, whole, body.closed)).encode()).hexdigest()[:32]
+    return hashlib.sha256(repr((rows, whole, body.closed)).encode()).hexdigest()[:32]
+
+
+def _painted(geometry: str, body: Body) -> str:
+    """A key with the body's colours, if it has any."""
     if body.color is None and body.face_colors is None:
         return geometry
     paint = repr((_rounded(body.color), [_rounded(color) for color in body.face_colors or ()]))
@@ -202,10 +243,11 @@ def finish(body: Body) -> tuple[Shape, int]:
     if colors is not None:
         colors = [color or body.color for color in colors]
     mesh, missing = mesh_of(body.faces, colors)
-    volume, centroid, inertia, exact = body.volume, body.centroid * MILLIMETRE, body.inertia * MILLIMETRE**5, True
+    volume, centroid = body.volume, body.centroid * MILLIMETRE
+    inertia, exact = body.inertia * MILLIMETRE**5, not body.tessellated
     volume *= MILLIMETRE**3
-    if body.closed and not 0.0 < body.volume <= float(np.prod(body.box[1] - body.box[0])) * (1.0 + 1e-6):
-        volume, centroid, inertia = mesh_properties(mesh)
+    if exact and body.closed and not 0.0 < body.volume <= float(np.prod(body.box[1] - body.box[0])) * (1.0 + 1e-6):
+        volume, centroid, inertia = meshed.volume_properties(mesh)
         exact = False
     shape = Shape(
         key=body.key,
@@ -223,19 +265,3 @@ def finish(body: Body) -> tuple[Shape, int]:
         bounds=body.box * MILLIMETRE,
     )
     return shape, missing
-
-
-def mesh_properties(mesh: Mesh) -> tuple[float, Floats, Floats]:
-    """Volume, centroid and inertia (density 1, about the centroid) of what a mesh encloses, from signed tetrahedra."""
-    a, b, c = (mesh.points[mesh.triangles[:, i]] for i in range(3))
-    volumes = np.einsum("ij,ij->i", a, np.cross(b, c)) / 6.0
-    volume = float(volumes.sum())
-    if volume == 0.0:
-        return 0.0, np.asarray(mesh.points.mean(axis=0)), np.zeros((3, 3))
-    corners = np.stack([a, b, c])
-    total = corners.sum(axis=0)
-    centroid = volumes @ total / (4.0 * volume)
-    # Second moments of a tetrahedron with one corner at the origin: V/20 (Σ xᵢxᵢᵀ + (Σxᵢ)(Σxᵢ)ᵀ).
-    moments = np.einsum("kni,knj,n->ij", corners, corners, volumes) + np.einsum("ni,nj,n->ij", total, total, volumes)
-    covariance = moments / 20.0 - volume * np.outer(centroid, centroid)
-    return volume, centroid, np.trace(covariance) * np.eye(3) - covariance

@@ -23,7 +23,8 @@ def sniff_encoding(names: Sequence[bytes]) -> str:
 
     ISO 10303-21 allows ASCII only, with escapes that every reader knows; CAD systems write their computer's own
     encoding all the same. ASCII and UTF-8 come out as 'utf-8'; otherwise the candidate whose decoded text is made of
-    its script's everyday characters wins: GB 18030, Shift-JIS (CP932), EUC-JP, Big5, Korean (CP949), Western (CP1252).
+    its script's everyday characters wins: GB 18030, Shift-JIS (CP932), EUC-JP, Big5, Korean (CP949) or Western
+    (CP1252).
     """
     high = [name for name in names if any(byte > 0x7F for byte in name)]
     if not high or all(_decodes(name, "utf-8") for name in high):

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 _STRING = rb"(?:'(?:[^']|'')*'|\$)"
 _PRODUCT = re.compile(rb"=\s*PRODUCT\s*\(\s*(" + _STRING + rb")\s*,\s*(" + _STRING + rb")")
 _NAUO = re.compile(
-    rb"=\s*NEXT_ASSEMBLY_USAGE_OCCURRENCE\s*\(\s*"
+    rb"#(\d+)\s*=\s*NEXT_ASSEMBLY_USAGE_OCCURRENCE\s*\(\s*"
     + _STRING
     + rb"\s*,\s*("
     + _STRING
@@ -17,9 +17,7 @@ _NAUO = re.compile(
     + _STRING
     + rb"\s*,\s*#(\d+)\s*,\s*#(\d+)"
 )
-_DEFINITION = re.compile(
-    rb"#(\d+)\s*=\s*PRODUCT_DEFINITION(?:_WITH_ASSOCIATED_DOCUMENTS)?\s*\(\s*" + _STRING + rb"\s*,\s*" + _STRING
-)
+_SHAPED = re.compile(rb"=\s*PRODUCT_DEFINITION_SHAPE\s*\(\s*" + _STRING + rb"\s*,\s*" + _STRING + rb"\s*,\s*#(\d+)")
 _SOLID = re.compile(rb"(?:MANIFOLD_SOLID_BREP|BREP_WITH_VOIDS|FACETED_BREP)\s*\(\s*(" + _STRING + rb")")
 _DOCUMENT = re.compile(rb"=\s*DOCUMENT_FILE\s*\(\s*(" + _STRING + rb")")
 _DEEPEST = 200
@@ -46,14 +44,16 @@ def scan(data: bytes) -> Part21:
     names = [group for match in _PRODUCT.finditer(data) for group in match.groups()]
     names += [match.group(1) for match in _SOLID.finditer(data)]
     uses: list[tuple[int, int]] = []
+    occurrences: set[int] = set()
     for match in _NAUO.finditer(data):
-        names.append(match.group(1))
-        uses.append((int(match.group(2)), int(match.group(3))))
-    definitions = [int(match.group(1)) for match in _DEFINITION.finditer(data)]
+        names.append(match.group(2))
+        occurrences.add(int(match.group(1)))
+        uses.append((int(match.group(3)), int(match.group(4))))
+    shaped = [int(match.group(1)) for match in _SHAPED.finditer(data)]
     tail = data[-4096:]
     return Part21(
         names=tuple(name.strip(b"'") for name in names),
-        occurrences=_expand(definitions, uses),
+        occurrences=_expand(shaped, uses, occurrences),
         documents=tuple(match.group(1).strip(b"'") for match in _DOCUMENT.finditer(data)),
         complete=re.search(rb"ENDSEC\s*;\s*(?:END-|SIGNATURE|$)", tail) is not None or _is_closed(data),
         ended=b"END-ISO-10303-21" in tail,
@@ -66,8 +66,8 @@ def _is_closed(data: bytes) -> bool:
     return last_section > data.rfind(b"DATA;") and last_section > data.find(b"ENDSEC") and last_section > 0
 
 
-def _expand(definitions: list[int], uses: list[tuple[int, int]]) -> int | None:
-    """Leaf occurrences below the definitions that nothing uses."""
+def _expand(shaped: list[int], uses: list[tuple[int, int]], occurrences: set[int]) -> int | None:
+    """Leaf occurrences below the product definitions that nothing uses; one alone counts if it has a shape."""
     children: dict[int, list[int]] = {}
     used: set[int] = set()
     for parent, child in uses:
@@ -81,9 +81,32 @@ def _expand(definitions: list[int], uses: list[tuple[int, int]]) -> int | None:
         below = children.get(definition)
         return 1 if below is None else sum(leaves(child, depth + 1) for child in below)
 
-    # Without a definition of its own the structure is still there in its uses.
-    roots = [d for d in dict.fromkeys([*definitions, *(parent for parent, _ in uses)]) if d not in used]
+    # An occurrence has a shape of its own too, which says where it is.
+    roots = [d for d in dict.fromkeys([*shaped, *children]) if d not in used and d not in occurrences]
     try:
         return sum(leaves(root) for root in roots) if roots else None
     except RecursionError:
         return None
+
+
+_REFERENCE = re.compile(rb"#(\d+)(?=\s*[,)])")
+_ENTITY = re.compile(rb"(?:^|;|\*/)\s*#(\d+)\s*=")
+_NO_NUMBER = re.compile(rb"[(,]\s*[-+]?(?:nan|inf|1\.#)", re.IGNORECASE)
+_HUGE = re.compile(rb"[(,]\s*(-?\d+\.\d*E\+?(?:[1-9]\d|\d{3,}))\s*[,)]", re.IGNORECASE)
+
+
+def diagnose(data: bytes) -> str:
+    """What is wrong with a STEP file that broke its reader, as one sentence; empty if nothing is seen. Slow."""
+    defined = [int(match.group(1)) for match in _ENTITY.finditer(data)]
+    known = set(defined)
+    lost = sorted({int(match.group(1)) for match in _REFERENCE.finditer(data)} - known)
+    if lost:
+        return f"The STEP file is damaged: it refers to {len(lost)} entities that it does not have, such as #{lost[0]}"
+    if len(known) < len(defined):
+        return f"The STEP file is damaged: {len(defined) - len(known)} of its entity numbers are there twice"
+    if _NO_NUMBER.search(data):
+        return "The STEP file is damaged: it has coordinates that are not numbers"
+    huge = _HUGE.search(data)
+    if huge:
+        return f"The STEP file is damaged: it has a coordinate of {huge.group(1).decode()}"
+    return ""

@@ -7,8 +7,8 @@ Findings:
 | code   | severity | says                                                                                       |
 |--------|----------|--------------------------------------------------------------------------------------------|
 | CAD001 | warning  | fewer occurrences were read than the file declares                                         |
-| CAD002 | info     | products without usable geometry                                                                  |
-| CAD003 | error    | a body left out: not finite, larger than anything in a machine, or broken                  |
+| CAD002 | info     | products without usable geometry                                                           |
+| CAD003 | error    | a body left out: not finite, too large, or broken                                          |
 | CAD004 | warning  | a model too small or too large to be a machine                                             |
 | CAD005 | info     | sheets: not closed, so without a volume                                                    |
 | CAD006 | warning  | faces that could not be meshed                                                             |
@@ -17,13 +17,14 @@ Findings:
 | CAD009 | warning  | the end of the file is missing after its last section                                      |
 | CAD010 | warning, info | the unit of length is unknown; units are mixed                                        |
 | CAD011 | info     | names are not in a standard encoding, and which was taken                                  |
+| CAD012 | info     | a body of triangles without surfaces: no exact measures, no features                       |
 """
 
 from __future__ import annotations
 
 from pathlib import Path
 
-from yellowiron.cad import sniff
+from yellowiron.cad import part21, sniff
 from yellowiron.guard import run_guarded
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import CadError
@@ -37,12 +38,19 @@ def read_cad(path: str | Path, *, timeout_s: float = 600.0, memory_mb: int = 819
     """
     source = Path(path)
     sniff.require_step(source)
-    assembly: Assembly = run_guarded(
-        "yellowiron.cad.step:read_step",
-        str(source),
-        where=str(source),
-        error=CadError,
-        timeout_s=timeout_s,
-        memory_mb=memory_mb,
-    )
+    try:
+        assembly: Assembly = run_guarded(
+            "yellowiron.cad.step:read_step",
+            str(source),
+            where=str(source),
+            error=CadError,
+            timeout_s=timeout_s,
+            memory_mb=memory_mb,
+        )
+    except CadError as error:
+        # What the reader says itself is better than a guess; a crash or hang says nothing.
+        cause = part21.diagnose(source.read_bytes()) if error.message.startswith("The reader") else ""
+        if not cause:
+            raise
+        raise CadError(f"{cause} ({error.message.lower()})", where=error.where, hint=error.hint) from error
     return assembly

@@ -1,4 +1,4 @@
-"""STEP through Open CASCADE's XCAF: product tree, names, colours, instances. Runs in the guard's child process."""
+"""A STEP file to an `Assembly`: every solid of every occurrence. Runs in the guard's child process."""
 
 from __future__ import annotations
 
@@ -8,38 +8,16 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from OCP.collections import IndexedMap_TopoDS_Shape_TopTools_ShapeMapHasher, Sequence_TCollection_AsciiString
-from OCP.collections import Sequence_TDF_Label as LabelSequence
-from OCP.IFSelect import IFSelect_ReturnStatus
-from OCP.Interface import Interface_Static
-from OCP.Quantity import Quantity_Color
-from OCP.STEPCAFControl import STEPCAFControl_Controller, STEPCAFControl_Reader
-from OCP.TCollection import TCollection_ExtendedString
-from OCP.TDataStd import TDataStd_Name
-from OCP.TDF import TDF_Label
-from OCP.TDocStd import TDocStd_Document
-from OCP.TopAbs import (
-    TopAbs_COMPOUND,
-    TopAbs_COMPSOLID,
-    TopAbs_FACE,
-    TopAbs_SHELL,
-    TopAbs_SOLID,
-)
+from OCP.collections import IndexedMap_TopoDS_Shape_TopTools_ShapeMapHasher
+from OCP.TopAbs import TopAbs_COMPOUND, TopAbs_COMPSOLID, TopAbs_FACE, TopAbs_SHELL, TopAbs_SOLID
 from OCP.TopLoc import TopLoc_Location
 from OCP.TopoDS import TopoDS_Iterator
-from OCP.XCAFApp import XCAFApp_Application
-from OCP.XCAFDoc import (
-    XCAFDoc_ColorGen,
-    XCAFDoc_ColorSurf,
-    XCAFDoc_ColorTool,
-    XCAFDoc_DocumentTool,
-    XCAFDoc_LengthUnit,
-    XCAFDoc_ShapeTool,
-)
+from OCP.XCAFDoc import XCAFDoc_ShapeTool
 
 from yellowiron.cad import brep, part21
-from yellowiron.cad.naming import decode_name, is_generic, occurrence_name, sniff_encoding, unique_ids
+from yellowiron.cad.naming import is_generic, sniff_encoding, unique_ids
 from yellowiron.cad.tessellate import MILLIMETRE, mesh_shapes
+from yellowiron.cad.xcaf import EXPORT_AGAIN, Leaf, Styles, Tree, label_color, open_step
 from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.errors import CadError
 from yellowiron.model.finding import Finding
@@ -67,19 +45,6 @@ UNITS = {
     "mile": 1609.344,
 }
 """Unit names of STEP files, lower case, to metres."""
-
-_EXPORT_AGAIN = "Export the file again as STEP AP214 or AP242, solids included."
-
-
-@dataclass(frozen=True, eq=False)
-class Leaf:
-    """One occurrence of a product without components: where it hangs, its label, placement and inherited colour."""
-
-    name: str
-    path: tuple[str, ...]
-    label: Any
-    location: Any
-    color: Color | None
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,9 +75,9 @@ def read_step(path: str) -> Assembly:
         findings.append(
             _finding("CAD011", "info", path, f"Names are not in a standard encoding; they were read as {encoding}")
         )
-    document, unit, unit_findings = _transfer(path, encoding)
+    tree, unit_names = open_step(path, encoding)
+    unit, unit_findings = _unit(unit_names, path)
     findings += unit_findings
-    tree = _Tree(document, encoding)
     leaves = list(tree.leaves())
     collector = _Bodies(tree)
     pieces = [collector.pieces(leaf) for leaf in leaves]
@@ -121,7 +86,10 @@ def read_step(path: str) -> Assembly:
     findings += shape_findings
     parts = _parts(leaves, pieces, shapes)
     if not parts:
-        raise CadError("The STEP file holds no solid and no surface", where=path, hint=_EXPORT_AGAIN)
+        for finding in findings:
+            if finding.severity == "error":
+                raise CadError(f"Nothing can be read: {finding.message}", where=finding.where, hint=finding.hint)
+        raise CadError("The STEP file holds no solid and no surface", where=path, hint=EXPORT_AGAIN)
     used = {part.shape for part in parts}
     assembly = Assembly(
         name=tree.name or Path(path).stem,
@@ -138,32 +106,6 @@ def _finding(code: str, severity: Any, where: str, message: str, hint: str = "")
     return Finding(code, severity, where, message, hint)
 
 
-def _transfer(path: str, encoding: str) -> tuple[Any, float, list[Finding]]:
-    """The XCAF document of a file, the file's unit in metres, and findings about units and references."""
-    STEPCAFControl_Controller.Init_s()
-    # Bytes that are not UTF-8 pass through as they are, one character each; `decode_name` knows what they mean.
-    Interface_Static.SetCVal_s("read.step.codepage", "UTF8" if encoding == "utf-8" else "iso8859-1")
-    Interface_Static.SetCVal_s("xstep.cascade.unit", "MM")
-    Interface_Static.SetCVal_s("read.stepcaf.subshapes.name", "On")
-    reader = STEPCAFControl_Reader()
-    reader.SetNameMode(True)
-    reader.SetColorMode(True)
-    for switch in (reader.SetGDTMode, reader.SetLayerMode, reader.SetMatMode, reader.SetPropsMode, reader.SetViewMode):
-        switch(False)
-    # A relative path would silently lose every external reference.
-    if reader.ReadFile(str(Path(path).absolute())) != IFSelect_ReturnStatus.IFSelect_RetDone:
-        raise CadError("The STEP file cannot be read: its syntax is broken", where=path, hint=_EXPORT_AGAIN)
-    document = TDocStd_Document(TCollection_ExtendedString("yellowiron"))
-    XCAFApp_Application.GetApplication_s().NewDocument(TCollection_ExtendedString("BinXCAF"), document)
-    if not reader.Transfer(document):
-        raise CadError("The STEP file holds nothing that can be read as a part", where=path, hint=_EXPORT_AGAIN)
-    lengths, angles, solid_angles = (Sequence_TCollection_AsciiString() for _ in range(3))
-    reader.ChangeReader().FileUnits(lengths, angles, solid_angles)
-    names = [lengths.Value(i).ToCString() for i in range(1, lengths.Length() + 1)]
-    unit, findings = _unit(names, path)
-    return document, unit, findings
-
-
 def _unit(names: Sequence[str], path: str) -> tuple[float, list[Finding]]:
     known = [UNITS[name.lower()] for name in names if name.lower() in UNITS]
     unit = known[0] if known else 1e-3
@@ -178,75 +120,10 @@ def _unit(names: Sequence[str], path: str) -> tuple[float, list[Finding]]:
     return unit, []
 
 
-class _Tree:
-    """The product tree of an XCAF document."""
-
-    def __init__(self, document: Any, encoding: str) -> None:
-        self.encoding = encoding
-        main = document.Main()
-        self.tool = XCAFDoc_DocumentTool.ShapeTool_s(main)
-        unit, root = XCAFDoc_LengthUnit(), main.Root()
-        stated = root.IsAttribute(XCAFDoc_LengthUnit.GetID_s()) and root.FindAttribute(
-            XCAFDoc_LengthUnit.GetID_s(), unit
-        )
-        # Whatever the file's unit, the geometry must arrive in the unit that was asked for.
-        if stated and abs(unit.GetUnitValue() - MILLIMETRE) > 1e-12:
-            raise CadError(f"The reader delivered units of {unit.GetUnitValue():g} m instead of millimetres")
-        roots = LabelSequence()
-        self.tool.GetFreeShapes(roots)
-        self.roots = _labels(roots)
-        self.name = self.product_name(self.roots[0]) if len(self.roots) == 1 else ""
-
-    def leaves(self) -> Iterator[Leaf]:
-        """Every occurrence of a product without components, in tree order."""
-        for root in self.roots:
-            yield from self._walk(root, self.product_name(root), (), TopLoc_Location(), None)
-
-    def _walk(self, label: Any, name: str, path: tuple[str, ...], location: Any, color: Color | None) -> Iterator[Leaf]:
-        if not XCAFDoc_ShapeTool.IsAssembly_s(label):
-            yield Leaf(name or "Part", path, label, location, color)
-            return
-        color = label_color(label) or color
-        components = LabelSequence()
-        XCAFDoc_ShapeTool.GetComponents_s(label, components)
-        for component in _labels(components):
-            product = TDF_Label()
-            if not XCAFDoc_ShapeTool.GetReferredShape_s(component, product):
-                continue
-            yield from self._walk(
-                product,
-                occurrence_name(self.product_name(component), self.product_name(product)),
-                (*path, name or "Assembly"),
-                location * XCAFDoc_ShapeTool.GetLocation_s(component),
-                label_color(component) or color,
-            )
-
-    def product_name(self, label: Any) -> str:
-        """A label's name, decoded; empty if it has none."""
-        if not label.IsAttribute(TDataStd_Name.GetID_s()):
-            return ""  # asking for an attribute that is not there crashes the binding
-        name = TDataStd_Name()
-        label.FindAttribute(TDataStd_Name.GetID_s(), name)
-        return decode_name(name.Get().ToExtString(), self.encoding)
-
-
-def _labels(sequence: Any) -> list[Any]:
-    return [sequence.Value(i) for i in range(1, sequence.Length() + 1)]
-
-
-def label_color(label: Any) -> Color | None:
-    """The colour on a label (linear RGB), surface colour first."""
-    color = Quantity_Color()
-    for kind in (XCAFDoc_ColorSurf, XCAFDoc_ColorGen):
-        if XCAFDoc_ColorTool.GetColor_s(label, kind, color):
-            return (color.Red(), color.Green(), color.Blue())
-    return None
-
-
 class _Bodies:
     """The distinct solids and sheets of a document, each measured once, however many products or instances have it."""
 
-    def __init__(self, tree: _Tree) -> None:
+    def __init__(self, tree: Tree) -> None:
         self.tree = tree
         self.bodies: list[brep.Body] = []
         self.findings: list[Finding] = []
@@ -266,7 +143,7 @@ class _Bodies:
         return self._pieces[index]
 
     def _split(self, leaf: Leaf, shape: Any) -> list[Piece]:
-        styles = _Styles(self.tree, leaf.label)
+        styles = Styles(self.tree, leaf.label)
         product = self.tree.product_name(leaf.label) or leaf.name
         units = list(_units(shape))
         pieces = []
@@ -286,12 +163,12 @@ class _Bodies:
             pieces.append(Piece(own or suffix, body, unit.Location()))
         return pieces
 
-    def _measure(self, name: str, shape: Any, color: Color | None, styles: _Styles) -> brep.Body | None:
+    def _measure(self, name: str, shape: Any, color: Color | None, styles: Styles) -> brep.Body | None:
         face_colors = styles.of_faces(brep.subshapes(shape, TopAbs_FACE))
         try:
             body = brep.measure(name, shape, color=color, face_colors=face_colors)
         except ValueError as error:
-            self.findings.append(_finding("CAD003", "error", name, f"Left out: {error}", _EXPORT_AGAIN))
+            self.findings.append(_finding("CAD003", "error", name, f"Left out: {error}", EXPORT_AGAIN))
             return None
         self.bodies.append(body)
         return body
@@ -307,38 +184,6 @@ def _units(shape: Any) -> Iterator[Any]:
         while children.More():
             yield from _units(children.Value())
             children.Next()
-
-
-class _Styles:
-    """Names and colours that a product gives to its sub-shapes."""
-
-    def __init__(self, tree: _Tree, label: Any) -> None:
-        self._map = IndexedMap_TopoDS_Shape_TopTools_ShapeMapHasher()
-        self._styles: list[tuple[str, Color | None]] = []
-        self.has_face_colors = False
-        labels = LabelSequence()
-        XCAFDoc_ShapeTool.GetSubShapes_s(label, labels)
-        for sub in _labels(labels):
-            shape = XCAFDoc_ShapeTool.GetShape_s(sub)
-            if shape is None or shape.IsNull():
-                continue
-            color = label_color(sub)
-            size = self._map.Size()
-            if self._map.Add(shape.Located(TopLoc_Location())) > size:
-                self._styles.append((tree.product_name(sub), color))
-                self.has_face_colors |= color is not None and shape.ShapeType() == TopAbs_FACE
-
-    def of(self, shape: Any) -> tuple[str, Color | None]:
-        """A sub-shape's own name and colour."""
-        index = self._map.FindIndex(shape.Located(TopLoc_Location())) if self._styles else 0
-        return self._styles[index - 1] if index else ("", None)
-
-    def of_faces(self, faces: Sequence[Any]) -> list[Color | None] | None:
-        """One colour a face, where faces have any."""
-        if not self.has_face_colors:
-            return None
-        colors = [self.of(face)[1] for face in faces]
-        return colors if any(color is not None for color in colors) else None
 
 
 def _missing(
@@ -381,7 +226,7 @@ def _shapes(bodies: Sequence[brep.Body]) -> tuple[dict[str, Shape], list[Finding
     distinct: dict[str, brep.Body] = {}
     for body in bodies:
         distinct.setdefault(body.key, body)
-    mesh_shapes((body.shape, body.diagonal) for body in distinct.values())
+    mesh_shapes((body.shape, body.diagonal) for body in distinct.values() if not body.tessellated)
     shapes, findings = {}, []
     for key, body in distinct.items():
         shape, missing = brep.finish(body)
@@ -389,7 +234,11 @@ def _shapes(bodies: Sequence[brep.Body]) -> tuple[dict[str, Shape], list[Finding
             findings.append(
                 _finding("CAD006", "warning", body.name, f"{missing} of {len(body.faces)} faces could not be meshed")
             )
-        if not shape.exact:
+        if body.tessellated:
+            findings.append(
+                _finding("CAD012", "info", body.name, "Triangles without surfaces: no exact measures, no features")
+            )
+        elif not shape.exact:
             findings.append(
                 _finding("CAD007", "warning", body.name, "The solid's exact volume is not usable; its mesh's was taken")
             )
@@ -414,7 +263,15 @@ def _parts(
                 name += piece.name
             elif piece.name:
                 path, name = (*path, name), piece.name
-            found.append((name, path, key, _matrix(leaf.location * piece.location), leaf.color or piece.body.color))
+            found.append(
+                (
+                    name,
+                    path,
+                    key,
+                    _matrix(leaf.location * piece.location),
+                    leaf.color or piece.body.color or leaf.inherited,
+                )
+            )
     ids = unique_ids((*path, name) for name, path, *_ in found)
     return [Part(id, *fields) for id, fields in zip(ids, found, strict=True)]
 

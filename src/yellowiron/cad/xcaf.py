@@ -1,0 +1,180 @@
+"""The XCAF document of a STEP file: product tree, names, colours, placements. Runs in the guard's child process."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from OCP.collections import IndexedMap_TopoDS_Shape_TopTools_ShapeMapHasher, Sequence_TCollection_AsciiString
+from OCP.collections import Sequence_TDF_Label as LabelSequence
+from OCP.IFSelect import IFSelect_ReturnStatus
+from OCP.Interface import Interface_Static
+from OCP.Quantity import Quantity_Color
+from OCP.STEPCAFControl import STEPCAFControl_Controller, STEPCAFControl_Reader
+from OCP.TCollection import TCollection_ExtendedString
+from OCP.TDataStd import TDataStd_Name
+from OCP.TDF import TDF_Label
+from OCP.TDocStd import TDocStd_Document
+from OCP.TopAbs import TopAbs_FACE
+from OCP.TopLoc import TopLoc_Location
+from OCP.XCAFApp import XCAFApp_Application
+from OCP.XCAFDoc import (
+    XCAFDoc_ColorGen,
+    XCAFDoc_ColorSurf,
+    XCAFDoc_ColorTool,
+    XCAFDoc_DocumentTool,
+    XCAFDoc_LengthUnit,
+    XCAFDoc_ShapeTool,
+)
+
+from yellowiron.cad.naming import decode_name, occurrence_name
+from yellowiron.cad.tessellate import MILLIMETRE
+from yellowiron.model.errors import CadError
+from yellowiron.model.geometry import Color
+
+EXPORT_AGAIN = "Export the file again as STEP AP214 or AP242, solids included."
+
+
+@dataclass(frozen=True, eq=False)
+class Leaf:
+    """One occurrence of a product without components: where it hangs, its label and placement.
+
+    `color` is the occurrence's own, stronger than the product's; `inherited` an assembly's above it, weaker.
+    """
+
+    name: str
+    path: tuple[str, ...]
+    label: Any
+    location: Any
+    color: Color | None = None
+    inherited: Color | None = None
+
+
+def open_step(path: str, encoding: str) -> tuple[Tree, list[str]]:
+    """The product tree of a STEP file, and the names of the units of length in it. `CadError` if it has no content."""
+    STEPCAFControl_Controller.Init_s()
+    # Bytes that are not UTF-8 pass through as they are, one character each; `decode_name` knows what they mean.
+    Interface_Static.SetCVal_s("read.step.codepage", "UTF8" if encoding == "utf-8" else "iso8859-1")
+    Interface_Static.SetCVal_s("xstep.cascade.unit", "MM")
+    Interface_Static.SetCVal_s("read.stepcaf.subshapes.name", "On")
+    reader = STEPCAFControl_Reader()
+    reader.SetNameMode(True)
+    reader.SetColorMode(True)
+    for switch in (reader.SetGDTMode, reader.SetLayerMode, reader.SetMatMode, reader.SetPropsMode, reader.SetViewMode):
+        switch(False)
+    # A relative path would silently lose every external reference.
+    if reader.ReadFile(str(Path(path).absolute())) != IFSelect_ReturnStatus.IFSelect_RetDone:
+        raise CadError("The STEP file cannot be read: its syntax is broken", where=path, hint=EXPORT_AGAIN)
+    document = TDocStd_Document(TCollection_ExtendedString("yellowiron"))
+    XCAFApp_Application.GetApplication_s().NewDocument(TCollection_ExtendedString("BinXCAF"), document)
+    if not reader.Transfer(document):
+        raise CadError("The STEP file holds nothing that can be read as a part", where=path, hint=EXPORT_AGAIN)
+    lengths, angles, solid_angles = (Sequence_TCollection_AsciiString() for _ in range(3))
+    reader.ChangeReader().FileUnits(lengths, angles, solid_angles)
+    names = [lengths.Value(i).ToCString() for i in range(1, lengths.Length() + 1)]
+    return Tree(document, encoding), names
+
+
+class Tree:
+    """The product tree of an XCAF document."""
+
+    def __init__(self, document: Any, encoding: str) -> None:
+        self.encoding = encoding
+        self._document = document  # its labels die with it
+        main = document.Main()
+        self.tool = XCAFDoc_DocumentTool.ShapeTool_s(main)
+        unit, root = XCAFDoc_LengthUnit(), main.Root()
+        stated = root.IsAttribute(XCAFDoc_LengthUnit.GetID_s()) and root.FindAttribute(
+            XCAFDoc_LengthUnit.GetID_s(), unit
+        )
+        # Whatever the file's unit, the geometry must arrive in the unit that was asked for.
+        if stated and abs(unit.GetUnitValue() - MILLIMETRE) > 1e-12:
+            raise CadError(f"The reader delivered units of {unit.GetUnitValue():g} m instead of millimetres")
+        roots = LabelSequence()
+        self.tool.GetFreeShapes(roots)
+        self.roots = labels(roots)
+        self.name = self.product_name(self.roots[0]) if len(self.roots) == 1 else ""
+
+    def leaves(self) -> Iterator[Leaf]:
+        """Every occurrence of a product without components, in tree order."""
+        for root in self.roots:
+            yield from self._walk(Leaf(self.product_name(root) or "Assembly", (), root, TopLoc_Location()))
+
+    def _walk(self, at: Leaf) -> Iterator[Leaf]:
+        if not XCAFDoc_ShapeTool.IsAssembly_s(at.label):
+            yield at
+            return
+        inherited = at.color or label_color(at.label) or at.inherited
+        components = LabelSequence()
+        XCAFDoc_ShapeTool.GetComponents_s(at.label, components)
+        for component in labels(components):
+            product = TDF_Label()
+            if not XCAFDoc_ShapeTool.GetReferredShape_s(component, product):
+                continue
+            name = occurrence_name(self.product_name(component), self.product_name(product))
+            yield from self._walk(
+                Leaf(
+                    name=name or ("Assembly" if XCAFDoc_ShapeTool.IsAssembly_s(product) else "Part"),
+                    path=(*at.path, at.name),
+                    label=product,
+                    location=at.location * XCAFDoc_ShapeTool.GetLocation_s(component),
+                    color=label_color(component),
+                    inherited=inherited,
+                )
+            )
+
+    def product_name(self, label: Any) -> str:
+        """A label's name, decoded; empty if it has none."""
+        if not label.IsAttribute(TDataStd_Name.GetID_s()):
+            return ""  # asking for an attribute that is not there crashes the binding
+        name = TDataStd_Name()
+        label.FindAttribute(TDataStd_Name.GetID_s(), name)
+        return decode_name(name.Get().ToExtString(), self.encoding)
+
+
+def labels(sequence: Any) -> list[Any]:
+    """An Open CASCADE sequence of labels as a list."""
+    return [sequence.Value(i) for i in range(1, sequence.Length() + 1)]
+
+
+def label_color(label: Any) -> Color | None:
+    """The colour on a label (linear RGB), surface colour first."""
+    color = Quantity_Color()
+    for kind in (XCAFDoc_ColorSurf, XCAFDoc_ColorGen):
+        if XCAFDoc_ColorTool.GetColor_s(label, kind, color):
+            return (color.Red(), color.Green(), color.Blue())
+    return None
+
+
+class Styles:
+    """Names and colours that a product gives to its sub-shapes."""
+
+    def __init__(self, tree: Tree, label: Any) -> None:
+        self._map = IndexedMap_TopoDS_Shape_TopTools_ShapeMapHasher()
+        self._styles: list[tuple[str, Color | None]] = []
+        self.has_face_colors = False
+        found = LabelSequence()
+        XCAFDoc_ShapeTool.GetSubShapes_s(label, found)
+        for sub in labels(found):
+            shape = XCAFDoc_ShapeTool.GetShape_s(sub)
+            if shape is None or shape.IsNull():
+                continue
+            color = label_color(sub)
+            size = self._map.Size()
+            if self._map.Add(shape.Located(TopLoc_Location())) > size:
+                self._styles.append((tree.product_name(sub), color))
+                self.has_face_colors |= color is not None and shape.ShapeType() == TopAbs_FACE
+
+    def of(self, shape: Any) -> tuple[str, Color | None]:
+        """A sub-shape's own name and colour."""
+        index = self._map.FindIndex(shape.Located(TopLoc_Location())) if self._styles else 0
+        return self._styles[index - 1] if index else ("", None)
+
+    def of_faces(self, faces: Sequence[Any]) -> list[Color | None] | None:
+        """One colour a face, where faces have any."""
+        if not self.has_face_colors:
+            return None
+        colors = [self.of(face)[1] for face in faces]
+        return colors if any(color is not None for color in colors) else None
