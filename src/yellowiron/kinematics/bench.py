@@ -11,7 +11,7 @@ from scipy.optimize import brentq, least_squares
 
 from yellowiron.kinematics.chain import ClosedChain, KinematicsError, State
 from yellowiron.kinematics.grid import Grid, explore
-from yellowiron.kinematics.quantities import Posed, Unmeasurable, evaluate
+from yellowiron.kinematics.quantities import Posed, Unmeasurable, evaluate, wheels
 from yellowiron.model.mechanism import Actuator, Mechanism
 from yellowiron.model.units import parse_quantity
 
@@ -36,6 +36,7 @@ class Bench:
         self._ranges = dict(ranges or {})
         self._joints = {joint.name: joint for joint in mechanism.joints}
         self._cylinders = {cylinder.name: cylinder for cylinder in mechanism.cylinders}
+        self._wheels = wheels(mechanism)
         self._grids: dict[tuple[str, ...], Grid] = {}
         self._states: dict[str, State] = {}
         self._straight: State | None = None
@@ -92,7 +93,7 @@ class Bench:
 
     def value(self, quantity: Mapping[str, Any], state: State) -> float:
         """A quantity in a state, SI."""
-        return evaluate(quantity, Posed(self.chain, self.mechanism, state, self.straight))
+        return evaluate(quantity, Posed(self.chain, self.mechanism, state, self.straight, self._wheels))
 
     def _step(self, step: Mapping[str, Any], state: State) -> State:
         if "set" in step:

@@ -20,8 +20,10 @@ UNKNOWN = "unknown"
 """How a cylinder's `sources["closed_length"]` begins where nothing says it."""
 _SCALE = {"m": 1e-3, "rad": 1e-3}
 _LOST = 1e3
-_COARSE = 9
-_GOOD = 0.5
+_COARSE = 17
+_NUDGE = 1e-3
+_MOVED = 1e-3
+_GOOD = 10.0
 
 
 @dataclass(frozen=True)
@@ -37,22 +39,36 @@ def calibrate(mechanism: Mechanism) -> Mechanism:
     """The mechanism with every unknown closed length placed where the specifications that depend on it come out best.
 
     Only cylinders whose `sources["closed_length"]` begins with "unknown" are touched; the cylinders of one actuator
-    share one closed length. Weighs published and example values alike, a millimetre as much as a milliradian. The
-    slides' limits become −extension … stroke − extension; the source then begins with `CALIBRATED` and names
-    the specifications, so that their measurements are reported as `calibrated` and never as accuracy.
+    share one closed length. Used are measurements that set the actuator to a share of its stroke, those that solve for
+    several actuators at once only where there is no other; published and example values weigh alike, a millimetre as
+    much as a milliradian. The slides' limits become −extension … stroke − extension; the source then begins with
+    `CALIBRATED` and names the specifications, so that their measurements are reported as `calibrated` and never as
+    accuracy.
 
-    Findings: KIN010 (info) what was placed on what and how well, KIN011 (warning) nothing to place it on.
+    Findings: KIN010 what was placed on what and how well (info; a warning where it fits badly), KIN011 nothing to
+    place it on (warning).
     """
     unknown = _unknown(mechanism)
     if not unknown:
         return mechanism
     chain = ClosedChain(mechanism)
     findings: list[Finding] = []
-    usable = [t for t in mechanism.measurements if specified(mechanism, t.specification)[0] is not None and t.steps]
-    middle = np.array([0.5 * u.driven.stroke for u in unknown])
-    depends = {
-        u.actuator: _dependent(mechanism, chain, unknown, number, usable, middle) for number, u in enumerate(unknown)
-    }
+    depends = {u.actuator: _settled_by(u.actuator, mechanism) for u in unknown}
+    for group in _groups([u for u in unknown if depends[u.actuator]], depends):
+        found = _solve(mechanism, chain, group, depends)
+        templates = _templates(mechanism, group, depends)
+        residuals = _residuals(mechanism, chain, templates, _ranges(group, found))
+        settled = {}
+        for number, u in enumerate(group):
+            nudged = found.copy()
+            nudged[number] += _NUDGE if found[number] < 0.5 * u.driven.stroke else -_NUDGE
+            moved = np.abs(_residuals(mechanism, chain, templates, _ranges(group, nudged)) - residuals) > _MOVED
+            settled[u.actuator] = tuple(t for t, m in zip(templates, moved, strict=True) if m)
+        depends.update(settled)
+        for u, extension in zip(group, found, strict=True):
+            if depends[u.actuator]:
+                mechanism = _placed(mechanism, u, float(extension), depends[u.actuator])
+                findings.append(_report(u, float(extension), depends[u.actuator], templates, residuals))
     for u in unknown:
         if not depends[u.actuator]:
             findings.append(
@@ -64,16 +80,24 @@ def calibrate(mechanism: Mechanism) -> Mechanism:
                     f"Give the closed length of the {u.actuator} cylinder, or a value such as a height at full stroke.",
                 )
             )
-    solvable = [u for u in unknown if depends[u.actuator]]
-    if solvable:
-        names = {t.name for u in solvable for t in depends[u.actuator]}
-        templates = [t for t in usable if t.name in names]
-        found = _solve(mechanism, chain, solvable, templates)
-        mechanism = _placed(mechanism, solvable, found, depends, findings)
-        residuals = _residuals(mechanism, chain, templates, {})
-        for u, extension in zip(solvable, found, strict=True):
-            findings.append(_report(u, float(extension), depends[u.actuator], templates, residuals))
     return replace(mechanism, findings=(*mechanism.findings, *findings))
+
+
+def _settled_by(actuator: str, mechanism: Mechanism) -> tuple[MeasurementTemplate, ...]:
+    """Measurements with a known specification whose steps leave the actuator at a share of its stroke."""
+    found: list[MeasurementTemplate] = []
+    for template in mechanism.measurements:
+        if specified(mechanism, template.specification)[0] is None:
+            continue
+        last: object = None
+        for step in template.steps:
+            last = step.get("set", {}).get(actuator, last)
+            if any(condition["actuator"] == actuator for condition in step.get("solve", ())):
+                last = None
+        if last is not None and last not in ("drawn", "straight"):
+            found.append(template)
+    quick = [t for t in found if all(len(step.get("solve", ())) < 2 for step in t.steps)]
+    return tuple(quick or found)
 
 
 def _unknown(mechanism: Mechanism) -> list[_Unknown]:
@@ -112,71 +136,70 @@ def _residuals(
     return np.array(values)
 
 
-def _dependent(
-    mechanism: Mechanism,
-    chain: ClosedChain,
-    unknown: Sequence[_Unknown],
-    number: int,
-    templates: Sequence[MeasurementTemplate],
-    middle: np.ndarray,
-) -> tuple[MeasurementTemplate, ...]:
-    """Templates whose value changes with one unknown extension."""
-    tables = []
-    for share in (0.25, 0.45, 0.5, 0.55, 0.75):
-        at = middle.copy()
-        at[number] = share * unknown[number].driven.stroke
-        tables.append(_residuals(mechanism, chain, templates, _ranges(unknown, at)))
-    table = np.array(tables)
-    moved = np.ptp(np.where(table >= _LOST, np.nan, table), axis=0)
-    return tuple(t for t, change in zip(templates, np.nan_to_num(moved), strict=True) if change > 1e-3)
+def _groups(unknown: Sequence[_Unknown], depends: Mapping[str, Sequence[MeasurementTemplate]]) -> list[list[_Unknown]]:
+    """Unknowns that some measurement ties together."""
+    groups: list[list[_Unknown]] = []
+    for u in unknown:
+        names = {t.name for t in depends[u.actuator]}
+        tied = [g for g in groups if any(names & {t.name for t in depends[o.actuator]} for o in g)]
+        groups = [g for g in groups if g not in tied] + [[*(o for g in tied for o in g), u]]
+    return groups
+
+
+def _templates(
+    mechanism: Mechanism, unknown: Sequence[_Unknown], depends: Mapping[str, Sequence[MeasurementTemplate]]
+) -> list[MeasurementTemplate]:
+    names = {t.name for u in unknown for t in depends[u.actuator]}
+    return [t for t in mechanism.measurements if t.name in names]
 
 
 def _solve(
-    mechanism: Mechanism, chain: ClosedChain, unknown: Sequence[_Unknown], templates: Sequence[MeasurementTemplate]
+    mechanism: Mechanism,
+    chain: ClosedChain,
+    unknown: Sequence[_Unknown],
+    depends: Mapping[str, Sequence[MeasurementTemplate]],
 ) -> np.ndarray:
+    """Extensions in metres: each over a coarse row on its own measurements, twice where several are tied; then all."""
     strokes = np.array([u.driven.stroke for u in unknown])
 
-    def residual(shares: np.ndarray) -> np.ndarray:
+    def residual(shares: np.ndarray, templates: Sequence[MeasurementTemplate]) -> np.ndarray:
         return np.clip(_residuals(mechanism, chain, templates, _ranges(unknown, shares * strokes)), -_LOST, _LOST)
 
-    # One after the other over a coarse row, twice; then all together.
     best = np.full(len(unknown), 0.5)
     for _ in range(2 if len(unknown) > 1 else 1):
-        for k in range(len(unknown)):
+        for k, u in enumerate(unknown):
             tried = []
             for share in np.linspace(0.0, 1.0, _COARSE):
                 at = best.copy()
                 at[k] = share
-                tried.append((float(np.sum(residual(at) ** 2)), float(share)))
+                tried.append((float(np.sum(residual(at, depends[u.actuator]) ** 2)), float(share)))
             best[k] = min(tried)[1]
-    start = np.clip(best, 1e-6, 1.0 - 1e-6)
     solved = least_squares(
-        residual, start, bounds=(0.0, 1.0), diff_step=[1e-5] * len(start), xtol=1e-12, ftol=1e-12, gtol=1e-12
+        residual,
+        np.clip(best, 1e-6, 1.0 - 1e-6),
+        args=(_templates(mechanism, unknown, depends),),
+        bounds=(0.0, 1.0),
+        diff_step=[1e-6] * len(best),
+        xtol=1e-14,
+        ftol=1e-14,
+        gtol=1e-14,
     )
     return np.asarray(solved.x * strokes)
 
 
 def _placed(
-    mechanism: Mechanism,
-    unknown: Sequence[_Unknown],
-    extensions: np.ndarray,
-    depends: Mapping[str, Sequence[MeasurementTemplate]],
-    findings: list[Finding],
+    mechanism: Mechanism, unknown: _Unknown, extension: float, depends: Sequence[MeasurementTemplate]
 ) -> Mechanism:
-    cylinders = {cylinder.name: cylinder for cylinder in mechanism.cylinders}
-    joints = {joint.name: joint for joint in mechanism.joints}
-    for u, extension in zip(unknown, extensions, strict=True):
-        closed = u.driven.drawn_length - float(extension)
-        source = CALIBRATED + "; ".join(dict.fromkeys(t.specification for t in depends[u.actuator]))
-        for cylinder in (u.driven, *u.others):
-            sources = {**cylinder.sources, "closed_length": source}
-            placed = replace(cylinder, closed_length=closed, sources=sources)
-            cylinders[cylinder.name] = placed
-            joints[cylinder.slide] = _limited(joints[cylinder.slide], placed, source)
+    closed = unknown.driven.drawn_length - extension
+    source = CALIBRATED + "; ".join(dict.fromkeys(t.specification for t in depends))
+    placed = {
+        c.slide: replace(c, closed_length=closed, sources={**c.sources, "closed_length": source})
+        for c in (unknown.driven, *unknown.others)
+    }
     return replace(
         mechanism,
-        cylinders=tuple(cylinders[cylinder.name] for cylinder in mechanism.cylinders),
-        joints=tuple(joints[joint.name] for joint in mechanism.joints),
+        cylinders=tuple(placed.get(c.slide, c) for c in mechanism.cylinders),
+        joints=tuple(_limited(j, placed[j.name], source) if j.name in placed else j for j in mechanism.joints),
     )
 
 
@@ -200,13 +223,14 @@ def _report(
     residuals: np.ndarray,
 ) -> Finding:
     own = [float(r) for t, r in zip(templates, residuals, strict=True) if t in depends]
-    worst = max(map(abs, own))
+    worst = max((abs(r) for r in own if r < _LOST), default=_LOST)
+    lost = sum(r >= _LOST for r in own)
     names = "; ".join(dict.fromkeys(t.specification for t in depends))
     return Finding(
         "KIN010",
-        "info" if worst <= _GOOD * 20.0 else "warning",
+        "info" if worst <= _GOOD and not lost else "warning",
         u.driven.slide,
         f"its closed length is {1e3 * (u.driven.drawn_length - extension):.1f} mm, {1e3 * extension:.1f} mm less than "
-        f"drawn, calibrated on {names}: within {worst:.2g} mm or mrad",
+        f"drawn, calibrated on {names}: within {worst:.2g} mm or mrad{f', {lost} of them out of reach' if lost else ''}",
         "These values place the cylinder, so they prove nothing; the closed length from the sheet would be better.",
     )

@@ -22,12 +22,13 @@ class Unmeasurable(Exception):  # noqa: N818 - it ends one measurement with a re
 
 @dataclass(frozen=True, eq=False)
 class Posed:
-    """A machine in a pose. `straight` gives a joint's coordinate in the straight machine."""
+    """A machine in a pose. `straight` gives a joint's coordinate in the straight machine; `rolling`: its wheels."""
 
     chain: ClosedChain
     mechanism: Mechanism
     state: State
     straight: Callable[[str], float]
+    rolling: Sequence[tuple[Joint, float]]
 
     def point(self, body: str, position: Sequence[float]) -> Floats:
         """A point of a body, given in the drawn pose, where it is now: machine frame (3,)."""
@@ -109,7 +110,7 @@ def _angle(quantity: Mapping[str, Any], posed: Posed) -> float:
 def _reach(quantity: Mapping[str, Any], posed: Posed) -> float:
     """Level distance along x from the front of the front-most tyres (of `bodies`, where named) to a site or joint,
     positive ahead of them."""
-    rolling = [each for each in wheels(posed.mechanism) if each[0].body1 in quantity.get("bodies", each[0].body1)]
+    rolling = [each for each in posed.rolling if each[0].body1 in quantity.get("bodies", each[0].body1)]
     if not rolling:
         raise Unmeasurable("the machine has no wheels to measure the reach from")
     front = max(float(posed.point(j.body0, j.anchor)[0]) + radius for j, radius in rolling)
@@ -162,11 +163,12 @@ def _approach_angle(quantity: Mapping[str, Any], posed: Posed) -> float:
     """Steepest ramp (from level) that touches the front-most tyres and that no corner of the bodies ahead of them
     reaches into: the least angle between the ground and the tangent from a corner to the tyres. Wheels do not count
     among the bodies."""
-    rolling = wheels(posed.mechanism)
-    if not rolling:
+    if not posed.rolling:
         raise Unmeasurable("the machine has no wheels to approach a ramp with")
-    centre, radius = max(((posed.point(j.body0, j.anchor), r) for j, r in rolling), key=lambda each: float(each[0][0]))
-    turning = {joint.body1 for joint, _ in rolling}
+    centre, radius = max(
+        ((posed.point(j.body0, j.anchor), r) for j, r in posed.rolling), key=lambda each: float(each[0][0])
+    )
+    turning = {joint.body1 for joint, _ in posed.rolling}
     hulls = [posed.hull(body) for body in _bodies(quantity, posed) if body.name not in turning]
     corners = np.concatenate([np.zeros((0, 3)), *hulls])[:, [0, 2]] - centre[[0, 2]]
     far = np.hypot(corners[:, 0], corners[:, 1])
