@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from yellowiron.mechanism.axes import coaxial_groups, fit_line, machine_sense, on_line, symmetry_axis
@@ -31,6 +31,7 @@ def features(center: np.ndarray, direction: np.ndarray, length: np.ndarray, *, e
     )
 
 
+@settings(deadline=None)
 @given(
     point=vectors,
     direction=directions,

@@ -19,6 +19,7 @@ from yellowiron.model.mechanism import Mechanism
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import choose
 
+pytestmark = pytest.mark.slow
 ANGLE, OFFSET = math.radians(0.01), 1e-5
 """The bar: 0.01° and 0.01 mm."""
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from mechanism_machine import box, machine, specifications, template
 
@@ -22,6 +22,7 @@ def box_inertia(mass: float, a: float, b: float, c: float) -> Floats:
     return mass / 12.0 * np.diag([b * b + c * c, a * a + c * c, a * a + b * b])
 
 
+@settings(deadline=None)
 @given(a=scale, b=scale, c=scale, mirror=st.booleans(), at=st.tuples(number, number, number))
 def test_a_scaled_and_mirrored_box_is_the_box_of_that_size(
     a: float, b: float, c: float, mirror: bool, at: tuple[float, float, float]
@@ -35,6 +36,7 @@ def test_a_scaled_and_mirrored_box_is_the_box_of_that_size(
     assert found.inertia == pytest.approx(box_inertia(mass, a, 2.0 * b, 0.5 * c))
 
 
+@settings(deadline=None)
 @given(rows=st.lists(st.tuples(number, number, number), min_size=3, max_size=3))
 def test_inertia_is_physically_valid_under_any_map(rows: list[tuple[float, float, float]]) -> None:
     matrix = np.eye(4)

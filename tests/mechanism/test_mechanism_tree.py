@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from yellowiron.mechanism.tree import Link, LinkKind, Tree, loop_groups, loose_bodies, span_tree
@@ -87,6 +87,7 @@ def test_cuts_are_those_that_ran_best(machine: str) -> None:
 
 
 @pytest.mark.parametrize("machine", MACHINES)
+@settings(deadline=None)
 @given(st.randoms(use_true_random=False))
 def test_cuts_do_not_hang_on_the_order_of_the_template(machine: str, random: object) -> None:
     edges, root, cuts = MACHINES[machine]

@@ -27,10 +27,15 @@ from yellowiron.model.text import display
 
 _SIZE_TOLERANCE = 0.02
 """Relative difference of bore or rod between sheet and CAD that is worth a finding."""
-_STROKE_TOLERANCE = 0.002
-"""Relative difference of the piston's travel in CAD and the stroke that is worth a finding (at least 0.5 mm)."""
+_STROKE_TOLERANCE, _STROKE_SHARE = 5e-4, 0.002
+"""Difference of the piston's travel in CAD and the stroke that is worth a finding: metres, and relative."""
 _PASSIVE_ROOM = 0.05
 """A passive cylinder's limits are wider than its stroke by this share at each end: it must never stop its twin."""
+_DRAWN_OUTSIDE = 1e-6
+"""How far outside its limits a cylinder may be drawn before it is a finding, metres."""
+_PARALLEL = math.radians(0.5)
+"""Pivots within this angle are parallel."""
+_BY_EYE = "geometry: rod eye against gland"
 UNKNOWN = "unknown"
 """How the source of a quantity begins that nothing gives."""
 
@@ -46,6 +51,33 @@ class FittedCylinder:
     evidence: Mapping[str, Any]
     retract_speed: float
     sign: int
+
+
+@dataclass(frozen=True, eq=False)
+class _Work:
+    """What every step needs, and where its findings go."""
+
+    actuator: ActuatorTemplate
+    placement: Placement
+    frames: Mapping[str, JointFrame]
+    specifications: Specifications
+    findings: list[Finding]
+
+    def printed(self, quantity: str) -> Known | None:
+        """What a sheet (or the user) gives for one of the actuator's quantities."""
+        return known(self.specifications, self.actuator.specifications.get(quantity))
+
+    def assumed(self, quantity: str) -> Known | None:
+        """What the template assumes, with a finding."""
+        return default(self.actuator, quantity, self.findings)
+
+    def warn(self, code: str, where: str, words: str, hint: str) -> None:
+        """A warning."""
+        self.findings.append(Finding(code, "warning", where, words, hint))
+
+    def setting(self, quantity: str) -> str:
+        """How a user gives a length by hand."""
+        return f'--set "{self.actuator.specifications.get(quantity, quantity)}=… mm"'
 
 
 @dataclass(frozen=True)
@@ -75,59 +107,21 @@ def fit_cylinders(
     findings: list[Finding] = []
     fitted = {}
     for actuator in template.actuators:
-        if actuator.kind != "cylinder":
-            continue
-        whole = [c for c in actuator.cylinders if {c.slide, c.barrel_joint, c.rod_joint} <= frames.keys()]
-        sizes = [_sizes(c, actuator, placement, frames, specifications, findings) for c in whole]
-        # sorted() is stable: the template's order within driven and passive
-        fitted[actuator.name] = tuple(
-            _fit(one, sizes, actuator, placement, frames, specifications, findings)
-            for one in sorted(sizes, key=lambda s: s.template.passive)
-        )
+        if actuator.kind == "cylinder":
+            work = _Work(actuator, placement, frames, specifications, findings)
+            whole = [c for c in actuator.cylinders if {c.slide, c.barrel_joint, c.rod_joint} <= frames.keys()]
+            sizes = [_sizes(c, work) for c in whole]
+            # sorted() is stable: the template's order within driven and passive
+            driven_first = sorted(sizes, key=lambda s: s.template.passive)
+            fitted[actuator.name] = tuple(_fit(one, sizes, work) for one in driven_first)
     return fitted, findings
-
-
-def _sizes(
-    entry: CylinderTemplate,
-    actuator: ActuatorTemplate,
-    placement: Placement,
-    frames: Mapping[str, JointFrame],
-    specifications: Specifications,
-    findings: list[Finding],
-) -> _Sizes:
-    slide, hung = frames[entry.slide], frames[entry.barrel_joint]
-    barrel = next((b for b in slide.bodies if b in hung.bodies), slide.bodies[0])
-    rod = next(b for b in slide.bodies if b != barrel)
-    ram = measure_ram(placement, barrel, rod, extension_line(entry, frames))
-
-    def size(quantity: str, drawn: float | None) -> Known:
-        printed = known(specifications, actuator.specifications.get(quantity))
-        if printed and drawn is not None and abs(drawn - printed.value) > _SIZE_TOLERANCE * printed.value:
-            findings.append(
-                Finding(
-                    "MEC020",
-                    "warning",
-                    entry.slide,
-                    f"The {_plain(quantity)} is {_mm(printed.value)} on the sheet and {_mm(drawn)} in the CAD "
-                    "model; the sheet's is used.",
-                    "Check that sheet and CAD model are of one machine.",
-                )
-            )
-        if printed:
-            drawn_words = f"; CAD {_mm(drawn)}" if drawn is not None else ""
-            return Known(printed.value, printed.source + drawn_words)
-        if drawn is not None:
-            return Known(drawn, f"geometry: {_mm(drawn)}")
-        return default(actuator, quantity, findings) or Known(0.0, UNKNOWN)
-
-    return _Sizes(entry, barrel, rod, ram, size("bore", ram.bore), size("rod_diameter", ram.rod_diameter))
 
 
 def extension_line(entry: CylinderTemplate, frames: Mapping[str, JointFrame]) -> Line:
     """A slide's line, from the foot of the barrel's pivot towards the rod's pivot."""
     slide, hung, held = frames[entry.slide], frames[entry.barrel_joint], frames[entry.rod_joint]
     axis = slide.axis if (held.anchor - hung.anchor) @ slide.axis >= 0.0 else -slide.axis
-    return Line(slide.anchor + ((hung.anchor - slide.anchor) @ axis) * axis, axis)
+    return Line(Line(slide.anchor, axis).foot(hung.anchor), axis)
 
 
 def pivot_distance(hung: JointFrame, held: JointFrame) -> float:
@@ -135,27 +129,43 @@ def pivot_distance(hung: JointFrame, held: JointFrame) -> float:
     anchors."""
     between: Floats = held.anchor - hung.anchor
     hinges = hung.joint.type == "revolute" and held.joint.type == "revolute"
-    if hinges and np.linalg.norm(np.cross(hung.axis, held.axis)) < math.sin(math.radians(0.5)):
+    if hinges and np.linalg.norm(np.cross(hung.axis, held.axis)) < math.sin(_PARALLEL):
         between = between - (between @ hung.axis) * hung.axis
     return float(np.linalg.norm(between))
 
 
-def _fit(
-    one: _Sizes,
-    group: list[_Sizes],
-    actuator: ActuatorTemplate,
-    placement: Placement,
-    frames: Mapping[str, JointFrame],
-    specifications: Specifications,
-    findings: list[Finding],
-) -> FittedCylinder:
+def _sizes(entry: CylinderTemplate, work: _Work) -> _Sizes:
+    slide, hung = work.frames[entry.slide], work.frames[entry.barrel_joint]
+    barrel = next((b for b in slide.bodies if b in hung.bodies), slide.bodies[0])
+    rod = next(b for b in slide.bodies if b != barrel)
+    ram = measure_ram(work.placement, barrel, rod, extension_line(entry, work.frames))
+    bore = _size("bore", ram.bore, entry.slide, work)
+    return _Sizes(entry, barrel, rod, ram, bore, _size("rod_diameter", ram.rod_diameter, entry.slide, work))
+
+
+def _size(quantity: str, drawn: float | None, slide: str, work: _Work) -> Known:
+    """A diameter: the sheet's, else the CAD model's, else the template's; 0 where nothing gives it."""
+    printed = work.printed(quantity)
+    if printed is None:
+        if drawn is not None:
+            return Known(drawn, f"geometry: {_mm(drawn)}")
+        return work.assumed(quantity) or Known(0.0, UNKNOWN)
+    if drawn is None:
+        return printed
+    if abs(drawn - printed.value) > _SIZE_TOLERANCE * printed.value:
+        name = quantity.replace("_", " ")
+        words = f"The {name} is {_mm(printed.value)} on the sheet, which is used, and {_mm(drawn)} in the CAD model."
+        work.warn("MEC020", slide, words, "Check that sheet and CAD model are of one machine.")
+    return Known(printed.value, f"{printed.source}; CAD {_mm(drawn)}")
+
+
+def _fit(one: _Sizes, group: list[_Sizes], work: _Work) -> FittedCylinder:
     entry = one.template
-    drawn = pivot_distance(frames[entry.barrel_joint], frames[entry.rod_joint])
-    stroke = _stroke(one, actuator, specifications, findings)
-    closed = _closed_length(one, actuator, drawn, stroke.value, specifications, findings)
-    pressure = known(specifications, actuator.specifications.get("pressure"))
-    pressure = pressure or default(actuator, "pressure", findings) or Known(0.0, UNKNOWN)
-    extend, retract = _speeds(one, group, actuator, stroke.value, specifications, findings)
+    drawn = pivot_distance(work.frames[entry.barrel_joint], work.frames[entry.rod_joint])
+    stroke = _stroke(one, work)
+    closed = _closed_length(one, drawn, stroke.value, work)
+    pressure = work.printed("pressure") or work.assumed("pressure") or Known(0.0, UNKNOWN)
+    extend, retract = _speeds(one, group, stroke.value, work)
     cylinder = Cylinder(
         name=_name(one),
         barrel=one.barrel,
@@ -183,154 +193,110 @@ def _fit(
             "speed": extend.source,
         },
     )
-    lower, upper, evidence = _limits(cylinder, frames, specifications, findings)
+    lower, upper, evidence = _limits(cylinder, work)
     return FittedCylinder(cylinder, lower, upper, evidence, retract.value, entry.sign)
 
 
-def _stroke(one: _Sizes, actuator: ActuatorTemplate, specifications: Specifications, findings: list[Finding]) -> Known:
-    printed = known(specifications, actuator.specifications.get("stroke"))
-    travel = one.ram.travel
-    where = one.template.slide
-    if printed is not None:
-        if travel is None:
-            return printed
-        if abs(travel - printed.value) > max(5e-4, _STROKE_TOLERANCE * printed.value):
-            findings.append(
-                Finding(
-                    "MEC021",
-                    "warning",
-                    where,
-                    f"The piston can travel {_mm(travel)} in the CAD model, and the sheet's stroke is "
-                    f"{_mm(printed.value)}.",
-                    "Check the stroke; the extension in the CAD model is only known to that difference.",
-                )
-            )
+def _stroke(one: _Sizes, work: _Work) -> Known:
+    """The stroke: the sheet's, else the piston's travel in the CAD model, else the template's; 0 where nothing gives
+    it."""
+    printed, travel, slide = work.printed("stroke"), one.ram.travel, one.template.slide
+    if printed is not None and travel is None:
+        return printed
+    if printed is not None and travel is not None:
+        if abs(travel - printed.value) > max(_STROKE_TOLERANCE, _STROKE_SHARE * printed.value):
+            words = f"The piston can travel {_mm(travel)} in the CAD model; the stroke is {_mm(printed.value)}."
+            hint = "Check the stroke; the extension in the CAD model is only known to that difference."
+            work.warn("MEC021", slide, words, hint)
         return Known(printed.value, f"{printed.source}; CAD: piston travel {_mm(travel)}")
     if travel is not None:
         found = Known(travel, f"geometry: piston travel {_mm(travel)}")
         words = f"it is the piston's travel in the CAD model, {_mm(travel)}"
-    elif (assumed := default(actuator, "stroke", findings)) is not None:
-        found, words = assumed, f"it is the template's default, {_mm(assumed.value)}"
+    elif (assumed := work.assumed("stroke")) is not None:
+        found, words = assumed, f"it is the template's, {_mm(assumed.value)}"
     else:
         found, words = Known(0.0, UNKNOWN), "the slide is not limited"
-    name = actuator.specifications.get("stroke", "the stroke")
-    findings.append(Finding("MEC023", "warning", where, f"No sheet gives '{name}': {words}.", f'--set "{name}=… mm"'))
+    name = work.actuator.specifications.get("stroke", "the stroke")
+    work.warn("MEC023", slide, f"No sheet gives '{name}': {words}.", work.setting("stroke"))
     return found
 
 
-def _closed_length(
-    one: _Sizes,
-    actuator: ActuatorTemplate,
-    drawn: float,
-    stroke: float,
-    specifications: Specifications,
-    findings: list[Finding],
-) -> Known:
+def _closed_length(one: _Sizes, drawn: float, stroke: float, work: _Work) -> Known:
     """The closed length by the best way there is; the source names what every other way gives."""
-    printed = known(specifications, actuator.specifications.get("closed_length"))
-    ways: list[Known] = []
-    if printed is not None:
-        ways.append(printed)
+    printed = work.printed("closed_length")
+    ways = [printed] if printed is not None else []
     if one.ram.to_base is not None:
         ways.append(Known(drawn - one.ram.to_base, "geometry: piston against base"))
     if one.ram.to_eye is not None:
-        ways.append(Known(drawn - one.ram.to_eye, "geometry: rod eye against gland"))
-    if ways:
-        best, others = ways[0], ways[1:]
-        compared = "".join(f"; {o.source}: {_mm(o.value)} ({(o.value - best.value) * 1e3:+.2f} mm)" for o in others)
-        if best.source.endswith("gland"):
-            findings.append(
-                Finding(
-                    "MEC022",
-                    "warning",
-                    one.template.slide,
-                    "Its closed length is where the rod's eye would touch the gland: too short by the clearance there.",
-                    _closed_hint(actuator),
-                )
-            )
-        return Known(best.value, f"{best.source}: {_mm(best.value)}{compared}")
-    findings.append(
-        Finding(
-            "MEC022",
-            "warning",
-            one.template.slide,
-            "Neither sheet nor CAD model shows its closed length: drawn at mid-stroke until it is calibrated.",
-            _closed_hint(actuator),
-        )
-    )
-    return Known(drawn - 0.5 * stroke, f"{UNKNOWN}: mid-stroke assumed")
+        ways.append(Known(drawn - one.ram.to_eye, _BY_EYE))
+    slide, hint = one.template.slide, work.setting("closed_length")
+    if not ways:
+        words = "Neither sheet nor CAD model shows its closed length: drawn at mid-stroke until it is calibrated."
+        work.warn("MEC022", slide, words, hint)
+        return Known(drawn - 0.5 * stroke, f"{UNKNOWN}: mid-stroke assumed")
+    best, *others = ways
+    if best.source == _BY_EYE:
+        words = "Its closed length is where the rod's eye would touch the gland: too short by the clearance there."
+        work.warn("MEC022", slide, words, hint)
+    compared = [f"{o.source}: {_mm(o.value)} ({(o.value - best.value) * 1e3:+.2f} mm)" for o in others]
+    return Known(best.value, "; ".join((f"{best.source}: {_mm(best.value)}", *compared)))
 
 
-def _speeds(
-    one: _Sizes,
-    group: list[_Sizes],
-    actuator: ActuatorTemplate,
-    stroke: float,
-    specifications: Specifications,
-    findings: list[Finding],
-) -> tuple[Known, Known]:
+def _speeds(one: _Sizes, group: list[_Sizes], stroke: float, work: _Work) -> tuple[Known, Known]:
     """Speeds extending and retracting, m/s: as printed, from the cycle time over the stroke, else the flow over the
     area it has to fill. Cylinders of one actuator share the flow; one of opposite sign takes it on its rod side."""
-    flow = known(specifications, actuator.specifications.get("flow"))
-    speed = known(specifications, actuator.specifications.get("speed"))
     alike = [s for s in group if s.template.sign == one.template.sign]
     against = [s for s in group if s.template.sign != one.template.sign]
     out_area = sum(s.push_area for s in alike) + sum(s.pull_area for s in against)
     in_area = sum(s.pull_area for s in alike) + sum(s.push_area for s in against)
-
-    def one_way(time_name: str, area: float) -> Known | None:
-        timed = known(specifications, actuator.specifications.get(time_name))
-        by_time = Known(stroke / timed.value, timed.source) if timed and timed.value > 0.0 and stroke > 0.0 else None
-        by_flow = Known(flow.value / area, f"{flow.source} over {area * 1e4:.1f} cm²") if flow and area > 0.0 else None
-        if by_time and by_flow:
-            return Known(by_time.value, f"{by_time.source}; by flow {by_flow.value:.3f} m/s")
-        return speed or by_time or by_flow
-
-    extend, retract = one_way("extend_time", out_area), one_way("retract_time", in_area)
+    if not (out_area > 0.0 and in_area > 0.0):
+        speed = work.printed("speed") or work.assumed("speed") or Known(0.0, UNKNOWN)
+        return speed, speed
+    flow = work.printed("flow")
+    extend = _speed("extend_time", stroke, flow, out_area, work)
+    retract = _speed("retract_time", stroke, flow, in_area, work)
     if extend is None and retract is None:
-        assumed = default(actuator, "speed", findings)
-        pump = default(actuator, "flow", findings) if assumed is None else None
-        if pump is not None and out_area > 0.0 and in_area > 0.0:
-            return Known(pump.value / out_area, pump.source), Known(pump.value / in_area, pump.source)
-        assumed = assumed or Known(0.0, UNKNOWN)
-        return assumed, assumed
+        if (assumed := work.assumed("speed")) is not None:
+            return assumed, assumed
+        flow = work.assumed("flow") or Known(0.0, UNKNOWN)
+        return Known(flow.value / out_area, flow.source), Known(flow.value / in_area, flow.source)
+    # One way known: the same flow fills the other side.
     if extend is None and retract is not None:
-        ratio = in_area / out_area if out_area > 0.0 else 1.0
-        extend = Known(retract.value * ratio, f"{retract.source}, by the ratio of areas")
+        extend = Known(retract.value * in_area / out_area, f"{retract.source}, by the ratio of areas")
     if retract is None and extend is not None:
-        ratio = out_area / in_area if in_area > 0.0 else 1.0
-        retract = Known(extend.value * ratio, f"{extend.source}, by the ratio of areas")
+        retract = Known(extend.value * out_area / in_area, f"{extend.source}, by the ratio of areas")
     assert extend is not None and retract is not None
     return extend, retract
 
 
-def _limits(
-    cylinder: Cylinder, frames: Mapping[str, JointFrame], specifications: Specifications, findings: list[Finding]
-) -> tuple[float | None, float | None, dict[str, Any]]:
+def _speed(time: str, stroke: float, flow: Known | None, area: float, work: _Work) -> Known | None:
+    """The speed one way that the sheet gives: itself, from the time it takes, or from the flow; the flow's beside
+    it."""
+    timed = work.printed(time)
+    by_flow = Known(flow.value / area, f"{flow.source} over {area * 1e4:.1f} cm²") if flow is not None else None
+    if (printed := work.printed("speed")) is not None:
+        return printed
+    if timed is None or timed.value <= 0.0 or stroke <= 0.0:
+        return by_flow
+    beside = f"; by flow {by_flow.value:.3f} m/s" if by_flow is not None else ""
+    return Known(stroke / timed.value, timed.source + beside)
+
+
+def _limits(cylinder: Cylinder, work: _Work) -> tuple[float | None, float | None, dict[str, Any]]:
     """The slide's limits from the drawn pose: the template's limits of the extension, or 0 … stroke, less the
     extension."""
-    joint = frames[cylinder.slide].joint
-    low, low_evidence = limit(joint.lower, specifications)
-    high, high_evidence = limit(joint.upper, specifications)
+    joint = work.frames[cylinder.slide].joint
+    low, low_evidence = limit(joint.lower, work.specifications)
+    high, high_evidence = limit(joint.upper, work.specifications)
+    evidence = {f"lower_{k}": v for k, v in low_evidence.items()} | {f"upper_{k}": v for k, v in high_evidence.items()}
     low = 0.0 if low is None else low
     if high is None and cylinder.stroke > 0.0:
         high = cylinder.stroke
-    evidence = {
-        **{f"lower_{k}": v for k, v in low_evidence.items()},
-        **{f"upper_{k}": v for k, v in high_evidence.items()},
-    }
     if high is None:
         return None, None, evidence
-    if not low - 1e-6 <= cylinder.extension <= high + 1e-6:
-        findings.append(
-            Finding(
-                "MEC024",
-                "warning",
-                cylinder.slide,
-                f"The cylinder is drawn at {_mm(cylinder.extension)} of extension, outside {_mm(low)} … {_mm(high)}.",
-                "Check stroke and closed length; a legal start pose is used.",
-            )
-        )
+    if not low - _DRAWN_OUTSIDE <= cylinder.extension <= high + _DRAWN_OUTSIDE:
+        words = f"The cylinder is drawn {_mm(cylinder.extension)} out, outside {_mm(low)} … {_mm(high)}."
+        work.warn("MEC024", cylinder.slide, words, "Check stroke and closed length; a legal start pose is used.")
     room = _PASSIVE_ROOM * (high - low) if cylinder.passive else 0.0
     return low - cylinder.extension - room, high - cylinder.extension + room, evidence
 
@@ -338,15 +304,6 @@ def _limits(
 def _name(one: _Sizes) -> str:
     """The barrel's name without 'barrel': boom_cylinder_l."""
     return "_".join(word for word in one.barrel.split("_") if word != "barrel") or one.template.slide
-
-
-def _closed_hint(actuator: ActuatorTemplate) -> str:
-    name = actuator.specifications.get("closed_length")
-    return f'--set "{name}=… mm"' if name else "Give the published ranges it can be calibrated with."
-
-
-def _plain(quantity: str) -> str:
-    return quantity.replace("_", " ")
 
 
 def _mm(value: float) -> str:
