@@ -142,6 +142,16 @@ def test_missing_file_and_folder_without_joints(tmp_path: Path) -> None:
         library.load_template(tmp_path / "machine.step")
 
 
+def test_a_misspelled_document_is_not_passed_over(tmp_path: Path) -> None:
+    target = sound(tmp_path)
+    (target / "notes.json").write_text("{}")
+    library.load_template(target)
+    (target / "material.json").write_text("{}")
+    with pytest.raises(TemplateError, match=r"'material\.json' is no document") as caught:
+        library.load_template(target)
+    assert caught.value.hint == "Did you mean materials?"
+
+
 def test_deep_nesting_is_an_error_and_no_crash(tmp_path: Path) -> None:
     target = sound(tmp_path)
     (target / "hierarchy.json").write_text('{"a":' * 20000 + "1" + "}" * 20000)

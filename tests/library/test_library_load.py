@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import json
 import math
 import shutil
@@ -283,10 +284,14 @@ def test_limit_names_keep_their_minus(sign: str, name: str) -> None:
 
 
 # ---- what is shown and copied --------------------------------------------------------------------------------
+def shown(template: Template) -> str:
+    console = Console(width=250, file=io.StringIO(), record=True)
+    console.print(library.tree(template))
+    return console.export_text()
+
+
 def test_tree_shows_every_role_joint_and_drive(loader: Template) -> None:
-    console = Console(width=250, record=True, file=open("/dev/null", "w"))  # noqa: SIM115, PTH123
-    console.print(library.tree(loader))
-    text = console.export_text()
+    text = shown(loader)
     for name in (
         *(r.name for r in loader.roles),
         *(j.name for j in loader.joints),
@@ -299,9 +304,7 @@ def test_tree_shows_every_role_joint_and_drive(loader: Template) -> None:
 
 def test_tree_of_fig_a1_has_every_joint() -> None:
     template = library.load_template(FIG_A1)
-    console = Console(width=250, record=True, file=open("/dev/null", "w"))  # noqa: SIM115, PTH123
-    console.print(library.tree(template))
-    text = console.export_text()
+    text = shown(template)
     assert all(j.name in text for j in template.joints)
 
 
@@ -310,6 +313,22 @@ def test_copy_and_load_again(tmp_path: Path, loader: Template) -> None:
     copied = library.load_template(folder)
     assert copied.equipment_type == loader.equipment_type
     assert (copied.roles, copied.joints, copied.wanted) == (loader.roles, loader.joints, loader.wanted)
+
+
+def test_copy_takes_textures_along_and_nothing_else(tmp_path: Path) -> None:
+    source = Path(shutil.copytree(DATA / "sound", tmp_path / "source"))
+    (tmp_path / "outside.png").write_bytes(b"png")
+    (source / "materials.json").write_text('{"*": {"texture": "../outside.png"}}')
+    with pytest.raises(OutputError, match="outside the template"):
+        library.copy_template(source, tmp_path / "copy")
+    (source / "textures").mkdir()
+    (source / "textures" / "paint.png").write_bytes(b"png")
+    (source / "machine.step").write_text("ISO-10303-21;")
+    (source / "materials.json").write_text('{"*": {"texture": "textures/paint.png"}}')
+    copy = library.copy_template(source, tmp_path / "copy")
+    assert sorted(str(p.relative_to(copy)) for p in copy.rglob("*.*")) == [
+        "hierarchy.json", "joints.json", "materials.json", "textures/paint.png",
+    ]  # fmt: skip
 
 
 def test_copy_never_overwrites(tmp_path: Path) -> None:

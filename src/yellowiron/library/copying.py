@@ -5,26 +5,40 @@ from __future__ import annotations
 import shutil
 from pathlib import Path
 
-from yellowiron.library.load import find_template, load_template
+from yellowiron.library.load import DOCUMENTS, find_template, load_template
 from yellowiron.model.errors import OutputError
+from yellowiron.model.specification import fold
 
 
 def copy_template(type_or_folder: str | Path, folder: str | Path) -> Path:
-    """Copies a template's documents into a folder that is new or empty, and returns it. `OutputError` where the folder
-    has something in it or cannot be written; `TemplateError` where the template does not load."""
+    """Copies a template's documents, and the textures they name, into a folder that is new or empty, and returns it.
+    `OutputError` where the folder has something in it or cannot be written, or a texture lies outside the template;
+    `TemplateError` where the template does not load."""
     source, target = find_template(type_or_folder), Path(folder)
-    load_template(type_or_folder)
+    template = load_template(type_or_folder)
     if target.exists() and (not target.is_dir() or any(target.iterdir())):
         raise OutputError(
             "The folder is there already, and nothing is overwritten",
             where=str(target),
             hint="Name a folder that is new or empty.",
         )
-    files = [source] if source.is_file() else sorted(p for p in source.iterdir() if p.suffix.lower() == ".json")
+    if source.is_file():
+        files = {"joints.json": source}
+    else:
+        names = [p.name for p in sorted(source.iterdir()) if p.is_file() and fold(p.stem) in DOCUMENTS]
+        names += sorted({m.texture for m in template.materials.values() if m.texture})
+        files = {name: source / name for name in names}
+        for name, file in files.items():
+            if not file.resolve().is_relative_to(source.resolve()):
+                raise OutputError(
+                    f"'{name}' lies outside the template and would be copied outside the folder",
+                    where=str(source),
+                    hint="Put textures into the template's own folder.",
+                )
     try:
-        target.mkdir(parents=True, exist_ok=True)
-        for file in files:
-            shutil.copyfile(file, target / ("joints.json" if source.is_file() else file.name))
+        for name, file in files.items():
+            (target / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(file, target / name)
     except OSError as error:
         raise OutputError(
             f"The template cannot be copied: {error.strerror}",

@@ -78,11 +78,18 @@ def check_choices(when: Choices, variants: Iterable[Variant], where: str) -> Non
 
 
 def read_material(document: Document, key: str, entry: Mapping[str, Any]) -> Material:
-    """One entry of JSON-1."""
+    """One entry of JSON-1. `TemplateError` for a texture that is not there, and for frictions in the wrong order."""
     static, dynamic = entry.get("static friction"), entry.get("dynamic friction")
     if static is not None and dynamic is not None and dynamic > static:
         raise TemplateError(
             f"The dynamic friction of '{key}' is above its static friction", where=document.at(key, "dynamic friction")
+        )
+    texture = entry.get("texture")
+    if texture is not None and not (document.path.parent / texture).is_file():
+        raise TemplateError(
+            f"The texture '{texture}' is not there",
+            where=document.at(key, "texture"),
+            hint="Its path is relative to this document.",
         )
     numbers = {
         k: float(entry[k]) for k in ("density", "elasticity", "restitution", "roughness", "metalness") if k in entry
@@ -95,7 +102,7 @@ def read_material(document: Document, key: str, entry: Mapping[str, Any]) -> Mat
         dynamic_friction=None if dynamic is None else float(dynamic),
         restitution=numbers.get("restitution"),
         color=_color(entry.get("color")),
-        texture=entry.get("texture"),
+        texture=texture,
         roughness=numbers.get("roughness"),
         metalness=numbers.get("metalness"),
     )

@@ -149,7 +149,6 @@ class _Reader:
             for key, entry in document.data.items():
                 # What a person states of a part's look replaces what the CAD file shows.
                 material = replace(read_material(document, key, entry), repaint=True)
-                _check_texture(material, document, key)
                 self.materials.update(dict.fromkeys(self.names(key, document.at(key)), material))
         elif kind == "collision":
             for key, token in document.data.items():
@@ -234,15 +233,6 @@ class _Reader:
         if fold(name) in self.roles:
             return f"{self.roles[fold(name)]}[{index}]" if index else self.roles[fold(name)]
         return next((self.followers[i].role for _, i in self.parts.get(fold(name), ()) if i in self.followers), None)
-
-
-def _check_texture(material: Material, document: Document, key: str) -> None:
-    if material.texture is not None and not (document.path.parent / material.texture).is_file():
-        raise TemplateError(
-            f"The texture '{material.texture}' is not there",
-            where=document.at(key, "texture"),
-            hint="Its path is relative to this document.",
-        )
 
 
 def stated_gains(joint: JointTemplate) -> Iterable[tuple[str, float]]:

@@ -90,7 +90,12 @@ def _documents_in(folder: Path) -> dict[str, Path]:
     files = sorted(p for p in folder.iterdir() if p.is_file() and p.suffix.lower() == ".json")
     found = {kind: path for kind in DOCUMENTS for path in files if fold(path.stem) == kind}
     if not found and len(files) == 1:
-        found = {"joints": files[0]}
+        return {"joints": files[0]}
+    for path in files:
+        # A misspelled document would be left out without a word.
+        meant = near(path.stem, DOCUMENTS, at_least=0.85)
+        if meant and fold(path.stem) not in DOCUMENTS:
+            raise TemplateError(f"'{path.name}' is no document of a template", where=str(path), hint=meant)
     return found
 
 
@@ -107,7 +112,7 @@ def _assemble(documents: Mapping[str, Document], folder: Path) -> Template:
 
     template = Template(
         equipment_type=_equipment_type(roles, folder),
-        folder=str(folder),
+        folder=str(folder.parent if folder.is_file() else folder),
         root=root,
         roles=roles,
         joints=joints,

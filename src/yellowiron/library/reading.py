@@ -47,10 +47,10 @@ def where(path: Path, keys: Iterable[object]) -> str:
     return f"{path}: {text}" if text else str(path)
 
 
-def near(name: str, known: Iterable[str]) -> str:
-    """'Did you mean …?' for a name that is not known, or an empty text."""
+def near(name: str, known: Iterable[str], *, at_least: float = 0.6) -> str:
+    """'Did you mean …?' for a name that is not known, or an empty text; `at_least` is difflib's ratio."""
     names = {fold(k): k for k in known}
-    found = difflib.get_close_matches(fold(name), list(names), n=3, cutoff=0.6)
+    found = difflib.get_close_matches(fold(name), list(names), n=3, cutoff=at_least)
     return f"Did you mean {' or '.join(names[f] for f in found)}?" if found else ""
 
 
