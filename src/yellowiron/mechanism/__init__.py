@@ -1,9 +1,14 @@
 """Assembly × Template × Alignment × Specifications → Mechanism.
 
-One concept a module: `placement` (the aligned CAD in the machine frame), `axes` (lines through cylinder features),
-`frames` (where a joint is), `planarity` (parallel axes made exactly so), `tree` (loops and cuts), `values`, `rams`
-(what the CAD shows of a cylinder), `cylinders`, `drives`, `choice` (which document speaks for a part), `mass`,
-`body`, `sites`; `build` puts them in order.
+One concept a module: `placement` (the aligned CAD in the machine frame), `axes` and `bearings` (lines through
+cylinder features), `frames` (where a joint is), `planarity` (parallel axes made exactly so), `tree` (loops and
+cuts), `values`, `rams` (what the CAD shows of a cylinder), `cylinders`, `drives`, `choice` (which document speaks
+for a part), `mass`, `body`, `sites`; `build` puts them in order.
+
+A joint's `source` says `template` (its entry), `method`, `parts` (the CAD parts behind its axis), `residual_deg` and
+`residual_mm` (how far these are out of line), `planarity_deg` (how far its axis was turned to be parallel to its
+loop's), `cut` (why it was), and of a limit `lower_…`, `upper_…`: `specification`, `source`, `page`, `quote`, or
+`missing`.
 
 Findings:
 

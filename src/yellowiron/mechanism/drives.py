@@ -128,15 +128,9 @@ def actuators(
         if moves:
             result.append(Actuator(entry.name, entry.kind, joints, tuple(f.cylinder.name for f in cylinders)))
         else:
-            findings.append(
-                Finding(
-                    "MEC026",
-                    "error",
-                    entry.name,
-                    "None of the actuator's driven joints was found: it is left out.",
-                    "Check its cylinders' parts in the alignment.",
-                )
-            )
+            words = "None of the actuator's driven joints was found: it is left out."
+            hint = "Check its cylinders' parts in the alignment."
+            findings.append(Finding("MEC026", "error", entry.name, words, hint))
     return tuple(result)
 
 
@@ -179,12 +173,6 @@ def _overridden(joint: JointTemplate, drive: Drive) -> Drive:
 
 
 def _no_limit(actuator: ActuatorTemplate, what: str, findings: list[Finding]) -> None:
-    findings.append(
-        Finding(
-            "MEC027",
-            "warning",
-            actuator.name,
-            f"Nothing gives its {what}: it moves with unlimited force.",
-            "Give it with --set or in the template's defaults.",
-        )
-    )
+    words = f"Nothing gives its {what}: it moves with unlimited force."
+    hint = "Give it with --set or in the template's defaults."
+    findings.append(Finding("MEC027", "warning", actuator.name, words, hint))

@@ -138,20 +138,11 @@ def part_moments(
             corners = placement.points(row)[shape.mesh.triangles]
             result.append(shell_moments(corners, density * SHELL))
             open_shapes.setdefault(shape.key, placement.parts[row].id)
-    findings += [
-        Finding("MEC030", "info", key, f"The material '{key}' has no density: {STEEL:g} kg/m³ was taken.")
-        for key in undense
-    ]
-    findings += [
-        Finding(
-            "MEC031",
-            "info",
-            where,
-            f"The shape is not a closed solid: its mass is that of a {SHELL * 1e3:g} mm shell.",
-            "Close the solid in CAD, or give its body's weight.",
-        )
-        for where in open_shapes.values()
-    ]
+    words = f"The material has no density: {STEEL:g} kg/m³ was taken."
+    findings += [Finding("MEC030", "info", key, words) for key in undense]
+    words = f"The shape is not a closed solid: its mass is that of a {SHELL * 1e3:g} mm shell."
+    hint = "Close the solid in CAD, or give its body's weight."
+    findings += [Finding("MEC031", "info", where, words, hint) for where in open_shapes.values()]
     return tuple(result)
 
 
@@ -183,16 +174,11 @@ def reconcile(
     left = total.value - sum(masses[b] * factors[b].value for b in masses if b in published)
     drawn = sum(masses[b] for b in rest)
     if left <= 0.0 or drawn <= 0.0:
-        findings.append(
-            Finding(
-                "MEC033",
-                "warning",
-                "mass",
-                f"The components' published weights leave {display(left, 'kg')} of {display(total.value, 'kg')} for "
-                "the other bodies, which keep volume × density.",
-                "Check the weights.",
-            )
+        words = (
+            f"The components' published weights leave {display(left, 'kg')} of {display(total.value, 'kg')} for the "
+            "other bodies, which keep volume × density."
         )
+        findings.append(Finding("MEC033", "warning", "mass", words, "Check the weights."))
         return factors
     value = left / drawn
     for body in rest:
@@ -208,13 +194,9 @@ def reconcile(
 
 
 def _report(where: str, factor: float, name: str, weight: float, findings: list[Finding]) -> None:
-    plausible = _PLAUSIBLE[0] <= factor <= _PLAUSIBLE[1]
-    findings.append(
-        Finding(
-            "MEC032",
-            "info" if plausible else "warning",
-            where,
-            f"Its mass by volume and density was scaled by {factor:.3f} to meet {name} {display(weight, 'kg')}.",
-            "" if plausible else "Check densities, hollow parts drawn solid, and that the CAD model is whole.",
-        )
-    )
+    words = f"Its mass by volume and density was scaled by {factor:.3f} to meet {name} {display(weight, 'kg')}."
+    if _PLAUSIBLE[0] <= factor <= _PLAUSIBLE[1]:
+        findings.append(Finding("MEC032", "info", where, words))
+    else:
+        hint = "Check densities, hollow parts drawn solid, and that the CAD model is whole."
+        findings.append(Finding("MEC032", "warning", where, words, hint))

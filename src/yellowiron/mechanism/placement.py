@@ -131,16 +131,11 @@ def place(assembly: Assembly, template: Template, alignment: Alignment) -> tuple
     """Every part that the alignment gives a body, in the machine frame. A body unknown to the template is a finding."""
     bodies = {role.name for role in template.roles if role.rigid}
     assigned = {a.part: a for a in alignment.parts if a.body is not None}
+    strays = [a for a in assigned.values() if a.body not in bodies]
+    hint = "Correct its body in the alignment."
     findings = [
-        Finding(
-            "MEC007",
-            "error",
-            a.part,
-            f"The part is aligned to the body '{a.body}', which the template does not have: it is left out.",
-            "Correct its body in the alignment.",
-        )
-        for a in assigned.values()
-        if a.body not in bodies
+        Finding("MEC007", "error", a.part, f"The template has no body '{a.body}': the part is left out.", hint)
+        for a in strays
     ]
     kept = [p for p in assembly.parts if p.id in assigned and assigned[p.id].body in bodies]
     placement = Placement(

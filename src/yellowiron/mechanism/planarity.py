@@ -79,12 +79,5 @@ def _turn(result: dict[str, JointFrame], frame: JointFrame, axis: Floats, findin
     source = {**frame.source, "planarity_deg": round(math.degrees(moved), 9)}
     result[frame.joint.name] = replace(frame, axis=axis, source=source)
     if moved > _ACCURACY[frame.exact]:
-        findings.append(
-            Finding(
-                "MEC010",
-                "warning",
-                frame.joint.name,
-                f"Its axis is {math.degrees(moved):.3f}° off the others of its loop, and was made parallel to them.",
-                "Check its pin in the CAD model.",
-            )
-        )
+        words = f"Its axis is {math.degrees(moved):.3f}° off the others of its loop, and was made parallel to them."
+        findings.append(Finding("MEC010", "warning", frame.joint.name, words, "Check its pin in the CAD model."))

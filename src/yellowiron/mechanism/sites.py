@@ -33,15 +33,9 @@ def sites(
     for entry in template.sites:
         site = _site(entry, frames, template, placement, findings) if placement.has_body(entry.body) else None
         if site is None:
-            findings.append(
-                Finding(
-                    "MEC040",
-                    "warning",
-                    entry.name,
-                    f"The site's place on '{entry.body}' was not found: what is measured there is missing.",
-                    "Check the parts of that body in the alignment.",
-                )
-            )
+            words = f"The site's place on '{entry.body}' was not found: what is measured there is missing."
+            hint = "Check the parts of that body in the alignment."
+            findings.append(Finding("MEC040", "warning", entry.name, words, hint))
         else:
             result.append(site)
     return tuple(result)
@@ -102,14 +96,8 @@ def _edge_site(
     widest = max(cutting, key=lambda e: (e.area, e.distance))
     if widest.normal is None:
         widest = max(cutting, key=lambda e: e.distance)
-        findings.append(
-            Finding(
-                "MEC041",
-                "warning",
-                entry.name,
-                "No plane of the body ends in its edge: angles are taken from the line between hinge and edge.",
-            )
-        )
+        words = "No plane of the body ends in its edge: angles are taken from the line between hinge and edge."
+        findings.append(Finding("MEC041", "warning", entry.name, words))
         edge, x_axis = widest, widest.position - line.foot(widest.position)
     else:
         normal = widest.normal

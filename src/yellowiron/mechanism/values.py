@@ -42,15 +42,8 @@ def default(actuator: ActuatorTemplate, quantity: str, findings: list[Finding]) 
     if value is None:
         return None
     name = actuator.specifications.get(quantity, quantity)
-    findings.append(
-        Finding(
-            "MEC025",
-            "info",
-            actuator.name,
-            f"No sheet gives '{name}': the template's {quantity.replace('_', ' ')} of {value:g} (SI) is used.",
-            f'--set "{name}=…"',
-        )
-    )
+    words = f"No sheet gives '{name}': the template's {quantity.replace('_', ' ')} of {value:g} (SI) is used."
+    findings.append(Finding("MEC025", "info", actuator.name, words, f'--set "{name}=…"'))
     return Known(value, "template's default")
 
 

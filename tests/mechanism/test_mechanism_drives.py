@@ -1,0 +1,99 @@
+"""Drives: what the template states wins, motors turn speeds on the ground into their own, what nothing limits is
+told."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from mechanism_machine import machine, pin, specifications, template
+
+from yellowiron.mechanism import build_mechanism
+from yellowiron.model.alignment import PartAssignment
+from yellowiron.model.assembly import Part
+from yellowiron.model.mechanism import Mechanism
+from yellowiron.model.template import ActuatorTemplate, JointTemplate, Role, Template, Wanted
+
+
+def codes(built: Mechanism) -> set[str]:
+    return {f.code for f in built.findings}
+
+
+def build(plan: Template, **values: float) -> Mechanism:
+    assembly, alignment = machine()
+    return build_mechanism(assembly, plan, alignment, specifications(**values), name="crane")
+
+
+def test_what_the_template_s_joint_states_wins_and_is_named() -> None:
+    plan = template()
+    joints = tuple(replace(j, stiffness=1e6, max_force=5e3) if j.name == "slide" else j for j in plan.joints)
+    drive = build(replace(plan, joints=joints)).joint("slide").drive
+    assert drive is not None
+    assert (drive.stiffness, drive.max_force) == (1e6, 5e3)
+    assert drive.source.endswith("template states stiffness, max_force")
+    assert "gains provisional" in drive.source
+
+
+def test_a_cylinder_without_pressure_has_no_force_limit_and_says_so() -> None:
+    plan = template()
+    built = build(replace(plan, actuators=(replace(plan.actuators[0], defaults={}),)))
+    drive = built.joint("slide").drive
+    assert drive is not None and math.isinf(drive.max_force)
+    assert "MEC027" in codes(built)
+
+
+def test_a_slide_without_a_drive_in_the_template_gets_none() -> None:
+    plan = template()
+    joints = tuple(replace(j, drive=None) for j in plan.joints)
+    assert build(replace(plan, joints=joints)).joint("slide").drive is None
+
+
+@pytest.mark.parametrize(("dimension", "expected"), [("speed", 8.0), ("angular_speed", 4.0)])
+def test_a_motor_s_speed_on_the_ground_becomes_its_own(dimension: str, expected: float) -> None:
+    """A wheel of 0.5 m radius on an axle of the base: 4 m/s on the ground are 8 rad/s."""
+    plan = template()
+    motor = ActuatorTemplate("drive", "motor", joints=("wheel_joint",), specifications={"speed": "Speed"},
+                             defaults={"speed": 4.0, "torque": 100.0})  # fmt: skip
+    plan = replace(
+        plan,
+        roles=(*plan.roles, Role("wheel", "base", True, "wheel"), Role("axle", "base", False, "pin")),
+        joints=(*plan.joints, JointTemplate("wheel_joint", "revolute", ("wheel", "axle"), drive="angular", free=True)),
+        actuators=(*plan.actuators, motor),
+        wanted=(Wanted("Speed", dimension),),
+    )
+    assembly, alignment = machine()
+    side = np.array([[1.0, 0, 0, 0], [0, 0, 1.0, 0.5], [0, -1.0, 0, -1.0], [0, 0, 0, 1.0]])
+    shapes = {"wheel": pin("wheel", 0.5, 0.2), "axle": pin("axle", 0.05, 0.4)}
+    parts = tuple(Part(name, name, (), name, side) for name in shapes)
+    assigned = (
+        PartAssignment("wheel", "wheel", "wheel", 1.0, ""),
+        PartAssignment("axle", "axle", "base", 1.0, ""),
+    )
+    built = build_mechanism(
+        replace(assembly, parts=assembly.parts + parts, shapes={**assembly.shapes, **shapes}),
+        plan,
+        replace(alignment, parts=alignment.parts + assigned),
+        specifications(),
+        name="crane",
+    )
+    joint = built.joint("wheel_joint")
+    assert joint.axis == (0.0, 1.0, 0.0)
+    assert joint.anchor == pytest.approx((0.0, 0.5, -1.0))
+    assert joint.free and (joint.body0, joint.body1) == ("base", "wheel")
+    assert joint.drive is not None
+    assert joint.drive.kind == "velocity" and joint.drive.stiffness == 0.0
+    assert joint.drive.max_velocity == pytest.approx(expected)
+    assert joint.drive.max_force == 100.0
+    assert built.actuators[-1].kind == "motor"
+
+
+def test_a_motor_without_torque_is_not_limited() -> None:
+    plan = template()
+    motor = ActuatorTemplate("swing", "motor", joints=("base2arm",))
+    built = build(replace(plan, actuators=(*plan.actuators, motor)))
+    drive = built.joint("base2arm").drive
+    assert drive is not None and math.isinf(drive.max_force) and math.isfinite(drive.damping)
+    assert "MEC027" in codes(built)
+    assert not built.joint("base2arm").cut, "a driven pivot stays in the tree"
