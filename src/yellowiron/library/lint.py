@@ -16,6 +16,7 @@ from yellowiron.model.template import Choices, JointTemplate, Template, choose
 MOST_COMBINATIONS = 512
 """Sets of choices that are looked at; a template with more says so."""
 _EVERY_BODY = "*"
+_ORDER = ("error", "warning", "info")
 
 
 @dataclass(frozen=True)
@@ -35,7 +36,7 @@ class LintReport:
 
 def lint(template: Template) -> LintReport:
     """Checks names, references and mobility under every set of the template's choices. A finding that several sets
-    share is there once."""
+    share is there once; errors come first."""
     findings: dict[Finding, None] = dict.fromkeys(_whole(template))
     figures: list[TemplateMobility] = []
     combinations = _combinations(template)
@@ -55,7 +56,8 @@ def lint(template: Template) -> LintReport:
                 "TPL015", "info", template.equipment_type, f"Only {MOST_COMBINATIONS} sets of choices were checked."
             )
         ] = None
-    return LintReport(tuple(findings), tuple(figures), counts(choose(template, {})))
+    ordered = sorted(findings, key=lambda f: _ORDER.index(f.severity))
+    return LintReport(tuple(ordered), tuple(figures), counts(choose(template, {})))
 
 
 def counts(template: Template) -> dict[str, int]:
@@ -124,6 +126,7 @@ def _whole(template: Template) -> Iterator[Finding]:
 def _specifications(template: Template) -> Iterator[Finding]:
     """Names of specifications, in limits and actuators."""
     known = {fold(w.name): w for w in template.wanted}
+    said: set[str] = set()
     for joint in template.joints:
         if joint.type == "prismatic" and joint.lower is None and joint.upper is None:
             yield Finding("TPL010", "warning", joint.name, "The slide has no limits.", 'Give Limit ["0", "… Stroke"].')
@@ -132,7 +135,8 @@ def _specifications(template: Template) -> Iterator[Finding]:
                 continue
             name = value.lstrip("-").strip()
             wanted = known.get(fold(name))
-            if wanted is None:
+            if wanted is None and fold(name) not in said:
+                said.add(fold(name))
                 yield Finding(
                     "TPL004",
                     "info",
@@ -140,7 +144,7 @@ def _specifications(template: Template) -> Iterator[Finding]:
                     f"The limit '{name}' is not in wanted.json; it is looked for by its words.",
                     near(name, (w.name for w in template.wanted)),
                 )
-            elif wanted.dimension != DIMENSION[joint.type]:
+            elif wanted is not None and wanted.dimension != DIMENSION[joint.type]:
                 yield Finding(
                     "TPL005",
                     "error",
