@@ -88,6 +88,14 @@ def test_given_limits_stay(machine, done):
     assert [f.code for f in narrow.findings] == ["KIN006"]
 
 
+def test_without_a_stroke_nothing_is_limited(machine):
+    found = complete(changed(machine, "tilt", lower=None, upper=None))
+    assert [f.code for f in found.findings] == ["KIN009"] and found.findings[0].where == "tilt"
+    assert found.joint("rocker_link_pin").lower is None
+    assert found.joint("steering_rod_l_joint").lower is not None
+    assert found.joint("tilt").drive.stiffness > 0.0
+
+
 def test_completing_twice_changes_nothing(done):
     again = complete(done)
     assert again.findings == done.findings and again.mobility == done.mobility and again.loops == done.loops

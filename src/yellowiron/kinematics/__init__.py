@@ -1,6 +1,24 @@
 """Closed-chain kinematics: the loops solved, limits and gains that follow from them, and the machine measured.
 
-MuJoCo is imported with the first function that is asked for.
+MuJoCo is imported with the first function that is asked for. One concept a module: `multibody` (mechanism → MuJoCo
+model), `chain` (the loops solved), `grid` (poses over the strokes), `branches`, `completion`, `bench` and `quantities`
+(how a measurement is made), `measurement`, `calibration`, `levers`.
+
+Findings:
+
+======  ========================================================================================================
+KIN001  a linkage locks before its cylinder's stroke ends; the slide's limit was drawn in
+KIN002  some combinations of strokes lie past a dead point
+KIN003  a loop comes near its dead point, or changes its branch, within the strokes
+KIN004  a passive twin cylinder would have to leave its own stroke
+KIN005  the degrees of freedom are not those of the drives and free joints
+KIN006  a stated limit of a pivot is narrower than what the strokes make of it
+KIN007  a velocity drive has no force or no speed, so it gets no damping
+KIN008  the pins of a loop are not parallel: it does not close exactly
+KIN009  a driven slide has no ends of stroke, so what follows from it has no limits
+KIN010  a cylinder's closed length was calibrated: on what, and how well (a warning where it fits badly)
+KIN011  a closed length is unknown, and no measured specification depends on it
+======  ========================================================================================================
 """
 
 from __future__ import annotations

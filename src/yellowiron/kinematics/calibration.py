@@ -231,6 +231,7 @@ def _report(
         "info" if worst <= _GOOD and not lost else "warning",
         u.driven.slide,
         f"its closed length is {1e3 * (u.driven.drawn_length - extension):.1f} mm, {1e3 * extension:.1f} mm less than "
-        f"drawn, calibrated on {names}: within {worst:.2g} mm or mrad{f', {lost} of them out of reach' if lost else ''}",
+        f"drawn, calibrated on {names}: within {worst:.2g} mm or mrad"
+        + (f", {lost} of them out of reach" if lost else ""),
         "These values place the cylinder, so they prove nothing; the closed length from the sheet would be better.",
     )

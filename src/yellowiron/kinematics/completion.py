@@ -58,7 +58,7 @@ def complete(mechanism: Mechanism) -> Mechanism:
 
     Findings: KIN001 stroke past a dead point, KIN002 unreachable combination of strokes, KIN003 branch, KIN004 passive
     twin out of stroke, KIN005 mobility, KIN006 stated limit against the loop's, KIN007 drive without force or speed,
-    KIN008 pins out of parallel.
+    KIN008 pins out of parallel, KIN009 no ends of stroke.
     Raises `MechanismError` where the joints are no tree with cuts.
     """
     chain = ClosedChain(mechanism)
@@ -164,8 +164,17 @@ def _report_gap(component: Component, grid: Grid, work: _Work) -> None:
 
 
 def _limit(component: Component, grid: Grid, rotations: Floats, work: _Work) -> None:
-    """Limits of everything that moves with a component's drivers."""
-    if not grid.states:
+    """Limits of everything that moves with a component's drivers, once all of them have ends of stroke."""
+    endless = [name for name in component.drivers if name not in grid.drivers]
+    if endless:
+        work.find(
+            "KIN009",
+            "warning",
+            ", ".join(endless),
+            "it has no ends of stroke, so the pivots that follow from it get no limits either",
+            "Give the stroke; without limits a loop can flip to its other branch.",
+        )
+    if not grid.states or endless:
         return
     drivers = " and ".join(grid.drivers) or "the drawn pose alone"
     for name, joint in work.joints.items():
