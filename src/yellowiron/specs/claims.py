@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from yellowiron.specs.numbers import DecimalStyle, Quantity, Reading, read, same
+from yellowiron.specs.numbers import FEET_INCHES, DecimalStyle, Quantity, Reading, read, same
 from yellowiron.specs.statement import Statement
 
 _CROSS = re.compile(r"\s+[x×✕*/]\s+|\s*[×✕]\s*|\s+(?:and|und|et|y)\s+(?=stroke|rod|Hub|course|carrera)", re.IGNORECASE)
@@ -42,7 +42,8 @@ def claims_of(statements: Sequence[Statement], style: DecimalStyle) -> list[Clai
 
 
 def _expand(statement: Statement, style: DecimalStyle) -> Iterator[Claim]:
-    readings = [r for r in read(statement.text, unit=statement.unit, style=style) if not r.condition]
+    text, unit = spelled_out(statement.text, statement.unit)
+    readings = [r for r in read(text, unit=unit, style=style) if not r.condition]
     label = _without_conditions(statement.label)
     kept: list[Reading] = []
     for reading in readings:
@@ -51,6 +52,29 @@ def _expand(statement: Statement, style: DecimalStyle) -> Iterator[Claim]:
         kept.append(reading)
     for reading in kept:
         yield from _claims_of_reading(statement, label, reading)
+
+
+def spelled_out(text: str, unit: str) -> tuple[str, str]:
+    """A cell under a head of two units with both written out, and the first unit: ("5.62 (18-5)", "m|ft-in") →
+    ("5.62 (18'5\")", "m")."""
+    first, bar, second = unit.partition("|")
+    if not bar:
+        return text, unit
+
+    def inside(match: re.Match[str]) -> str:
+        words = match.group(1)
+        if second == FEET_INCHES:
+            return f"({re.sub(_FEET_DASH, _feet_and_inches, words)})"
+        return f"({words} {second})" if read(words) else match.group(0)
+
+    return re.sub(r"\(([^()]*)\)", inside, text), first
+
+
+def _feet_and_inches(match: re.Match[str]) -> str:
+    return f"{match.group(1)}'{match.group(2)}\""
+
+
+_FEET_DASH = re.compile(r"(\d+)\s*[-–]\s*(\d+(?:\.\d+)?)")
 
 
 def _restates(a: Reading, b: Reading) -> bool:

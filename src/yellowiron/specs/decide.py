@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from yellowiron.model.specification import Candidate, Evidence, Specification
 from yellowiron.model.template import Wanted
@@ -115,7 +115,16 @@ def _configured(matches: Sequence[Match], sheets: Sheets, config: str) -> list[M
         shares = [len(words & _config_words(m, sheets)) / len(words) for m in kept]
         if max(shares) >= 0.5 and max(shares) > min(shares):
             kept = [m for m, share in zip(kept, shares, strict=True) if share == max(shares)]
-    return kept
+    return [_explained(m, set(tokens(config))) for m in kept]
+
+
+def _explained(found: Match, words: set[str]) -> Match:
+    """The match with the words of its label that the configuration explains taken off its doubt."""
+    rest = tuple(w for w in found.rest if w not in words)
+    if not found.rest or len(rest) == len(found.rest):
+        return found
+    lost = found.lost * (len(found.rest) - len(rest)) / len(found.rest)
+    return replace(found, score=found.score + lost, lost=found.lost - lost, rest=rest)
 
 
 def quantity_words(text: str, unit: str = "", style: DecimalStyle = "point") -> set[str]:
@@ -139,7 +148,10 @@ def _without_quantities(text: str) -> str:
 def _config_words(found: Match, sheets: Sheets) -> set[str]:
     statement = found.claim.statement
     texts = [*statement.column, *statement.context, statement.section, found.claim.words]
-    return {t for text in texts for t in tokens(text)} | sheets.columns.get(id(statement), frozenset())
+    words = {t for text in texts for t in tokens(text)}
+    for text in statement.column:
+        words |= quantity_words(text)
+    return words | sheets.columns.get(id(statement), frozenset())
 
 
 # ---- values -------------------------------------------------------------------------------------------------------------

@@ -32,8 +32,11 @@ def statements_of(page: Page) -> list[Statement]:
     row = 1000 * page.number
     walls = [r for r in page.rules if not r.horizontal]
     headings: list[Heading] = []
-    for block in blocks_of(lines_of(outside, walls), page.bars):
-        statements, more = read_block(page, block, row, _heading_above(headings, block.lines[0].top, block.x0, block.x1))
+    across = [*page.leaders, *((r.x0, r.top, r.x1, r.bottom) for r in page.rules if r.horizontal)]
+    for block in blocks_of(lines_of(outside, walls), page.bars, across):
+        statements, more = read_block(
+            page, block, row, _heading_above(headings, block.lines[0].top, block.x0, block.x1)
+        )
         headings.extend(more)
         row += len(statements) + len(block.lines) + 1
         found.extend(statements)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -85,15 +86,16 @@ class Block:
     x1: float
 
 
-def blocks_of(lines: Sequence[Line], bars: Sequence[Box] = ()) -> list[Block]:
+def blocks_of(lines: Sequence[Line], bars: Sequence[Box] = (), across: Sequence[Box] = ()) -> list[Block]:
     """The columns of text, in reading order: what stands above a pair of columns, the left one, the right one, the rest.
 
     A gutter is an x at which several lines begin a label anew, each with a value to its right, and which no piece
-    crosses; or at which a filled bar begins beside another.
+    crosses; or at which a filled bar begins beside another. `across` are leaders and rules, which do not cross a gutter
+    either.
     """
     if not lines:
         return []
-    found = _gutter(lines, bars)
+    found = _gutter(lines, bars, [*across, *bars])
     x0, x1 = min(line.x0 for line in lines), max(line.x1 for line in lines)
     if found is None:
         return [Block(tuple(lines), x0, x1)]
@@ -108,14 +110,14 @@ def blocks_of(lines: Sequence[Line], bars: Sequence[Box] = ()) -> list[Block]:
         if b:
             right.append(Line(b))
     return [
-        *blocks_of(lines[:first], bars),
-        *blocks_of(left, bars),
-        *blocks_of(right, bars),
-        *blocks_of(lines[last:], bars),
+        *blocks_of(lines[:first], bars, across),
+        *blocks_of(left, bars, across),
+        *blocks_of(right, bars, across),
+        *blocks_of(lines[last:], bars, across),
     ]
 
 
-def _gutter(lines: Sequence[Line], bars: Sequence[Box]) -> tuple[float, int, int] | None:
+def _gutter(lines: Sequence[Line], bars: Sequence[Box], across: Sequence[Box]) -> tuple[float, int, int] | None:
     """The best gutter: its x and the range of lines that it parts."""
     starts: dict[int, list[tuple[float, bool]]] = {}
     for line in lines:
@@ -133,7 +135,7 @@ def _gutter(lines: Sequence[Line], bars: Sequence[Box]) -> tuple[float, int, int
     candidates += by_bars
     best: tuple[int, float, int, int] | None = None
     for x in candidates:
-        first, last, weight = _run(lines, x)
+        first, last, weight = _run(lines, across, x)
         left_values = sum(
             any(p.x0 < x - 2 and kind_of(p) == "value" for p in line.pieces) for line in lines[first:last]
         )
@@ -142,13 +144,16 @@ def _gutter(lines: Sequence[Line], bars: Sequence[Box]) -> tuple[float, int, int
     return best[1:] if best else None
 
 
-def _run(lines: Sequence[Line], x: float) -> tuple[int, int, int]:
-    """The longest run of lines that no piece crosses at `x`, and how many of them stand on both sides (or one a side)."""
+def _run(lines: Sequence[Line], across: Sequence[Box], x: float) -> tuple[int, int, int]:
+    """The longest run of lines that nothing crosses at `x`, and how many of them stand on the thinner side."""
+    heights = sorted((b[1] + b[3]) / 2 for b in across if b[0] < x - 6 and b[2] > x + 6)
     best = (0, 0, 0)
     start = 0
     for index in range(len(lines) + 1):
-        crossing = index == len(lines) or any(p.x0 < x - 2 and p.x1 > x - 2 for p in lines[index].pieces)
-        if not crossing:
+        ends = index == len(lines)
+        crossed = ends or any(p.x0 < x - 2 and p.x1 > x - 2 for p in lines[index].pieces)
+        parted = not crossed and index > start and _any_between(heights, lines[index - 1].top, lines[index].bottom)
+        if not (crossed or parted):
             continue
         part = lines[start:index]
         left = sum(any(p.x1 <= x - 2 for p in line.pieces) for line in part)
@@ -156,8 +161,13 @@ def _run(lines: Sequence[Line], x: float) -> tuple[int, int, int]:
         weight = min(left, right)
         if weight > best[2]:
             best = (start, index, weight)
-        start = index + 1
+        start = index if parted else index + 1
     return best
+
+
+def _any_between(heights: Sequence[float], top: float, bottom: float) -> bool:
+    index = bisect_left(heights, top)
+    return index < len(heights) and heights[index] < bottom
 
 
 def visual_rows(lines: Sequence[Line]) -> list[tuple[Line, ...]]:

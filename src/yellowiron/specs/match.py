@@ -10,20 +10,21 @@ from yellowiron.model.template import Wanted
 from yellowiron.specs.claims import Claim
 from yellowiron.specs.vocabulary import NEUTRAL, REVERSING, has_cjk, squeezed, tokens
 
-LEAST = 0.5
+LEAST = 0.55
 """Score below which a claim does not speak of a wanted value at all."""
 
 
 @dataclass(frozen=True)
 class Match:
     """A claim that speaks of a wanted value. `score` 0…1: the share of its label that the wanted value's phrases
-    explain, less what is borrowed from headings. `rest` are the label's other words."""
+    explain, less what is borrowed from headings. `rest` are the label's other words, `lost` what they cost."""
 
     wanted: Wanted
     claim: Claim
     score: float
     phrase: str
     rest: tuple[str, ...] = ()
+    lost: float = 0.0
 
 
 def match(claims: Sequence[Claim], wanted: Sequence[Wanted]) -> dict[str, list[Match]]:
@@ -61,6 +62,7 @@ def match_one(wanted: Wanted, claim: Claim) -> Match | None:
     everything = label | head | context | section
     explained: set[str] = set()
     from_head: set[str] = set()
+    borrowed = 1.0
     best = ""
     for phrase in phrases(wanted):
         words = set(tokens(phrase))
@@ -70,6 +72,8 @@ def match_one(wanted: Wanted, claim: Claim) -> Match | None:
             continue
         explained |= words
         from_head |= words - label - context - section
+        above = words - label - head
+        borrowed = min(borrowed, 0.05 * bool(above) + 0.05 * bool(above - context))
         if len(words) > len(set(tokens(best))):
             best = phrase
     if not explained:
@@ -78,10 +82,9 @@ def match_one(wanted: Wanted, claim: Claim) -> Match | None:
     rest = {t for t in primary - explained - NEUTRAL if not _is_number(t)}
     if rest & REVERSING or (label - explained) & REVERSING:
         return None
-    score = 1.0 - len(rest) / max(len(primary - NEUTRAL), 1)
-    borrowed = explained - label - head
-    score -= 0.05 * bool(borrowed) + 0.05 * bool(borrowed - context)
-    return Match(wanted, claim, max(score, 0.0), best, tuple(sorted(rest)))
+    lost = len(rest) / max(len(primary - NEUTRAL), 1)
+    score = 1.0 - lost - borrowed
+    return Match(wanted, claim, max(score, 0.0), best, tuple(sorted(rest)), lost)
 
 
 @functools.lru_cache(maxsize=1024)

@@ -119,11 +119,15 @@ class Reading:
 
 
 def same(a: Quantity, b: Quantity) -> bool:
-    """Whether two quantities are one value within half a unit of their last printed digits."""
+    """Whether two quantities are one value, as far as their printed digits tell: within half a unit of the last digit of
+    each, or one of them cut off instead of rounded."""
     if a.dimension != b.dimension:
         return False
-    slack = 1.05 * (a.si_half + b.si_half) + 1e-9 * abs(a.si_value)
-    return abs(a.si_value - b.si_value) <= slack
+    difference = a.si_value - b.si_value
+    slack = 1e-9 * abs(a.si_value)
+    rounded = abs(difference) <= 1.05 * (a.si_half + b.si_half) + slack
+    cut = -slack <= difference < 2 * b.si_half + slack or -slack <= -difference < 2 * a.si_half + slack
+    return rounded or cut
 
 
 def decimal_style(texts: Iterable[str]) -> DecimalStyle:

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 
 from yellowiron.specs.lines import Block, Line, bands
-from yellowiron.specs.numbers import FEET_INCHES
+from yellowiron.specs.numbers import read
 from yellowiron.specs.statement import (
     EXAMPLE,
     Piece,
@@ -18,6 +18,7 @@ from yellowiron.specs.statement import (
     split_inline,
     unit_in_label,
     without_key,
+    words_beside_numbers,
 )
 from yellowiron.specs.words import Box, Page
 
@@ -49,9 +50,7 @@ class _State:
     headings: list[Heading] = field(default_factory=list)
 
 
-def read_block(
-    page: Page, block: Block, first_row: int, section: str = ""
-) -> tuple[list[Statement], list[Heading]]:
+def read_block(page: Page, block: Block, first_row: int, section: str = "") -> tuple[list[Statement], list[Heading]]:
     """The statements of a column of text, and its headings. `first_row` numbers its rows."""
     state = _State(section=section)
     found: list[Statement] = []
@@ -67,6 +66,9 @@ def _read_row(
 ) -> None:
     pieces = [p for line in row for p in line.pieces]
     kinds = [kind_of(p) for p in pieces]
+    if "value" in kinds and _are_heads(pieces, kinds, state):
+        state.heads.append(tuple(pieces))
+        return
     if "value" not in kinds:
         inline = [s for p in pieces if (s := split_inline(p.bare))[0]]
         if not inline:
@@ -75,6 +77,13 @@ def _read_row(
             return
     _read_values(page, row, state, number, found)
     state.data_since_heads = True
+
+
+def _are_heads(pieces: Sequence[Piece], kinds: Sequence[str], state: _State) -> bool:
+    """Whether a row without a label names columns by numbers: "3.4-m arm   3.9-m arm" above their values."""
+    if state.data_since_heads or state.pending or len(pieces) < 2 or "text" in kinds:
+        return False
+    return all(words_beside_numbers(p.bare, read(p.bare)) for p in pieces)
 
 
 # ---- rows without a value -----------------------------------------------------------------------------------------------
@@ -313,9 +322,20 @@ def _above(found: Sequence[Statement], cell: _Cell) -> int | None:
         statement = found[index]
         if statement.row != last:
             return None
-        if statement.x0 < box[2] and box[0] < statement.box[2] and 0 <= box[1] - statement.box[3] < (box[3] - box[1]):
+        under = statement.x0 < box[2] and box[0] < statement.box[2] and 0 <= box[1] - statement.box[3] < box[3] - box[1]
+        if under and _other_system(statement, cell):
             return index
     return None
+
+
+def _other_system(statement: Statement, cell: _Cell) -> bool:
+    """Whether a value is in another system of measurement than the one above it."""
+    above = read(statement.text, unit=statement.unit)
+    below = read(" ".join(p.text for p in cell.values), unit=cell.unit or statement.unit)
+    if not above or not below or any(r.partner for r in above):
+        return False
+    units = (above[-1].numbers[-1].printed, below[0].numbers[-1].printed)
+    return all(units) and units[0].dimension == units[1].dimension and units[0].system != units[1].system
 
 
 def _continue(found: list[Statement], cells: Sequence[_Cell]) -> None:
@@ -363,6 +383,3 @@ def legend_of(lines: Sequence[Line]) -> dict[str, str]:
         elif line.pieces[0].words[0].marks and len(line.text.split()) > 1:
             found.setdefault(line.pieces[0].words[0].marks, line.text)
     return found
-
-
-__all__ = ["FEET_INCHES", "legend_of", "read_block"]

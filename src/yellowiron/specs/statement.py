@@ -99,8 +99,17 @@ def join_boxes(boxes: Iterable[Box]) -> Box:
 
 
 def is_unit(text: str) -> str:
-    """The unit that a text is and nothing else ("mm", "(kg)", "ft in"); "" if it is not one."""
+    """The unit that a text is and nothing else ("mm", "(kg)", "ft in"); "" if it is not one.
+
+    Two of them, one for the number in brackets, are "m|ft-in" for "m (ft-in)".
+    """
     bare = text.strip()
+    pair = re.fullmatch(r"([^\s(/\[]+)\s*[(/\[]\s*([^()\[\]]+?)\s*[)\]]?", bare)
+    if pair and printed_unit(pair.group(1)) and (second := is_unit(pair.group(2))) and "|" not in second:
+        first = printed_unit(pair.group(1))
+        other = printed_unit("in" if second == FEET_INCHES else second)
+        if first and other and first.dimension == other.dimension and first.system != other.system:
+            return f"{pair.group(1)}|{second}"
     if _FEET_HEAD.fullmatch(bare):
         return FEET_INCHES
     bare = bare.strip("()[]{}: ")
@@ -144,6 +153,9 @@ def looks_like_value(text: str) -> bool:
     readings = read(text)
     if not readings:
         return False
+    first = readings[0].numbers[0]
+    if not first.unit and re.match(r"[.):]?\s+[^\W\d_]{3,}", text[first.end :]):
+        return False  # "10 Wheelbase": a drawing's key and a label
     return len(words_beside_numbers(text, readings)) <= 8
 
 

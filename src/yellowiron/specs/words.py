@@ -16,7 +16,7 @@ Box = tuple[float, float, float, float]
 """x0, top, x1, bottom."""
 
 _SUPERSCRIPT_UNITS = re.compile(r"(?:^|[\d\s(/])(?:m|cm|mm|dm|in|ft|yd)$")
-_LEADER = re.compile(r"[.·•_…]{3,}|(?:[.·•_…]\s){3,}")
+_LEADER = re.compile(r"[.·•_…]{3,}|^[.·•_…]+$")
 _THIN = 2.5
 """A filled rectangle thinner than this is a rule."""
 
@@ -66,7 +66,8 @@ class Rule:
 
 @dataclass(frozen=True)
 class Page:
-    """What stands on a page. `number` counts from 1; `unmapped` characters have no Unicode meaning in the file."""
+    """What stands on a page. `number` counts from 1; `leaders` are dotted lines from a label to its value; `unmapped`
+    characters have no Unicode meaning in the file."""
 
     number: int
     width: float
@@ -74,6 +75,7 @@ class Page:
     words: tuple[Word, ...] = ()
     rules: tuple[Rule, ...] = ()
     bars: tuple[Box, ...] = ()
+    leaders: tuple[Box, ...] = ()
     characters: int = 0
     unmapped: int = 0
     images: int = 0
@@ -105,13 +107,15 @@ def read_page(page: Any, number: int) -> Page:
     finally:
         textpage.close()
     rules, bars, images = _strokes(page, place)
+    words, leaders = _words(glyphs)
     return Page(
         number=number,
         width=width,
         height=height,
-        words=tuple(_words(glyphs)),
+        words=tuple(words),
         rules=tuple(rules),
         bars=tuple(bars),
+        leaders=tuple(leaders),
         characters=characters,
         unmapped=unmapped,
         images=images,
@@ -175,22 +179,14 @@ def _glyphs(textpage: Any, place: Callable[[float, float], tuple[float, float]])
         _, baseline = place(ox.value, oy.value)
         if x1 <= x0:  # text that runs down the page, or mirrored
             continue
-        text = _LIGATURES.get(code) or chr(code)
+        text = _SPELLED.get(code) or chr(code)
         found.append(_Glyph(text, x0, x1, baseline, size if size > 0.5 else rect.top - rect.bottom, bold))
     del left, right, bottom, top
     return found, characters, unmapped
 
 
-_LIGATURES = {
-    0xFB00: "ff",
-    0xFB01: "fi",
-    0xFB02: "fl",
-    0xFB03: "ffi",
-    0xFB04: "ffl",
-    0xAD: "-",
-    0x2010: "-",
-    0x2011: "-",
-}
+_SPELLED = {0x02: "-", 0xAD: "-", 0x2010: "-", 0x2011: "-"}
+"""Hyphens in their several codes (pdfium gives one at a line's end as U+0002)."""
 
 
 def _bold(textpage: Any, index: int) -> bool:
@@ -204,8 +200,8 @@ def _bold(textpage: Any, index: int) -> bool:
     return re.search(rb"bold|black|heavy|demi", buffer.value, re.IGNORECASE) is not None
 
 
-def _words(glyphs: list[_Glyph]) -> Iterator[Word]:
-    """Characters that follow each other without a gap; then raised ones go to the word before them."""
+def _words(glyphs: list[_Glyph]) -> tuple[list[Word], list[Box]]:
+    """Characters that follow each other without a gap, raised ones joined to the word before them; and the leaders."""
     runs: list[list[_Glyph]] = []
     broken = True
     for glyph in glyphs:
@@ -224,38 +220,42 @@ def _words(glyphs: list[_Glyph]) -> Iterator[Word]:
             runs.append([glyph])
         broken = False
     words: list[Word] = []
+    leaders: list[Box] = []
     seen: set[tuple[str, int, int]] = set()
     for run in runs:
-        first = run[0]
-        word = Word("".join(g.text for g in run), first.x0, run[-1].x1, first.baseline, first.size, first.bold)
-        key = (word.text, round(word.x0), round(word.baseline))
+        text = "".join(g.text for g in run)
+        key = (text, round(run[0].x0), round(run[0].baseline))
         if key in seen:  # printed twice to look bold
             continue
         seen.add(key)
-        words.extend(_without_leaders(word))
-    yield from _with_superscripts(words)
+        start = 0
+        for match in [*_LEADER.finditer(text), None]:
+            end = match.start() if match else len(run)
+            if end > start:
+                words.append(_word(run[start:end]))
+            if match:
+                leaders.append(_word(run[match.start() : match.end()]).box)
+                start = match.end()
+    return _with_superscripts(words), leaders
 
 
-def _without_leaders(word: Word) -> Iterator[Word]:
-    """The word without dotted leaders; what stands on both sides of one becomes two words."""
-    position = 0
-    per = (word.x1 - word.x0) / max(len(word.text), 1)
-    for match in [*_LEADER.finditer(word.text), None]:
-        end = match.start() if match else len(word.text)
-        if end > position:
-            whole = position == 0 and end == len(word.text)
-            x0, x1 = (word.x0, word.x1) if whole else (word.x0 + per * position, word.x0 + per * end)
-            yield replace(word, text=word.text[position:end], x0=x0, x1=x1)
-        position = match.end() if match else position
+def _word(run: list[_Glyph]) -> Word:
+    first = run[0]
+    return Word("".join(g.text for g in run), first.x0, run[-1].x1, first.baseline, first.size, first.bold)
 
 
 def _with_superscripts(words: list[Word]) -> list[Word]:
     """Raised small characters joined to the word they follow: an exponent of a unit, or a footnote's sign."""
     small = [w for w in words if len(w.text) <= 4]
     hosts: dict[int, int] = {}
+    rows: dict[int, list[int]] = {}
+    for index, word in enumerate(words):
+        rows.setdefault(int(word.baseline // 16), []).append(index)
     for raised in small:
         best: tuple[float, int] | None = None
-        for index, host in enumerate(words):
+        row = int(raised.baseline // 16)
+        for index in (i for near in (row, row + 1) for i in rows.get(near, ())):
+            host = words[index]
             gap = raised.x0 - host.x1
             lift = host.baseline - raised.baseline
             if (
