@@ -10,13 +10,14 @@ from __future__ import annotations
 import functools
 import itertools
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from yellowiron.align.clusters import Structure, structure_of
+from yellowiron.align.clusters import Structure, loose_ends, structure_of
 from yellowiron.align.contacts import Flat, fits_of, flats_of, lines_of, neighbours
+from yellowiron.align.evidence import Evidence, evidence_of
 from yellowiron.align.frame import MachineFrame, machine_frame
 from yellowiron.align.hydraulics import rams_of
 from yellowiron.align.names import name_scores
@@ -51,16 +52,16 @@ class _Seen:
     flats: list[Flat]
     near: list[tuple[int, int]]
     wheels: list[Wheel]
-    structure: Structure
-    weaker: Callable[[], Structure]
+    evidence: Evidence | None
     touch: Touch
     size: float
 
 
 @dataclass(frozen=True, eq=False)
 class _Answer:
-    """One variant of the template, solved."""
+    """One reading of the welds and one variant of the template, solved."""
 
+    structure: Structure
     choices: dict[str, str]
     template: Template
     solution: Solution
@@ -90,42 +91,51 @@ def align(
     seen = _see(assembly, template)
     scores = name_scores(tuple(s.part for s in seen.solids), template)
     answer = _best(seen, template, choices or {}, scores, edited)
-    if not _whole(answer):
-        weaker = replace(seen, structure=seen.weaker())
-        other = _best(weaker, template, choices or {}, scores, edited)
-        if other.solution.score > answer.solution.score:
-            seen, answer = weaker, other
-    chosen, resolved, solution, unary = answer.choices, answer.template, answer.solution, answer.unary
-    frame = machine_frame(seen.solids, seen.structure, solution, seen.wheels, resolved) if seen.solids else None
+    structure, resolved, solution = answer.structure, answer.template, answer.solution
+    frame = machine_frame(seen.solids, structure, solution, seen.wheels, resolved) if seen.solids else None
     if frame is not None and solution.body_of:
-        sided = _sides(seen, resolved, solution, frame, unary)
-        if sided != unary:
-            solution = solve(seen.structure, resolved, unary=sided)
-            frame = machine_frame(seen.solids, seen.structure, solution, seen.wheels, resolved)
+        sided = _sides(seen, structure, resolved, solution, frame, answer.unary)
+        if sided != answer.unary:
+            solution = solve(structure, resolved, unary=sided)
+            frame = machine_frame(seen.solids, structure, solution, seen.wheels, resolved)
     spreader = Spreader(
-        seen.solids, seen.structure, solution, resolved, seen.flats, seen.near, seen.touch, scores, seen.size
+        seen.solids, structure, solution, resolved, seen.flats, seen.near, seen.touch, scores, seen.size
     )
     places = spreader.run(seen.wheels)
-    return _report(assembly, resolved, seen, solution, places, edited, chosen, frame or MachineFrame(np.eye(4)))
+    return _report(assembly, resolved, seen, solution, places, edited, answer.choices, frame or MachineFrame(np.eye(4)))
 
 
 def _best(
-    seen: _Seen,
-    template: Template,
-    choices: Mapping[str, str],
-    scores: list[dict[str, float]],
-    edited: Mapping[str, str],
+    seen: _Seen, template: Template, choices: Mapping[str, str], scores: list[dict[str, float]], edited: Mapping[str, str]
 ) -> _Answer:
-    """The variant that the geometry fits best."""
+    """The reading of the welds, and the variant, that the template fits best; the first that fits wholly is taken."""
     best: _Answer | None = None
-    for chosen in _variants(template, choices):
-        resolved = choose(template, chosen)
-        unary = _unary(seen, resolved, scores, edited)
-        solution = solve(seen.structure, resolved, unary=unary)
-        if best is None or solution.score > best.solution.score:
-            best = _Answer(chosen, resolved, solution, unary)
+    for structure in _structures(seen, template):
+        for chosen in _variants(template, choices):
+            resolved = choose(template, chosen)
+            unary = _unary(seen, structure, resolved, scores, edited)
+            answer = _Answer(structure, chosen, resolved, solve(structure, resolved, unary=unary), unary)
+            if best is None or answer.solution.score > best.solution.score:
+                best = answer
+        if best is not None and _whole(best):
+            break
     assert best is not None
     return best
+
+
+def _structures(seen: _Seen, template: Template) -> Iterator[Structure]:
+    """Readings of the welds, likeliest first: flat contact alone, unless that leaves far more pieces than bodies; then
+    also what touches; both first without, then with the welds that lock a pin."""
+    if seen.evidence is None:
+        yield Structure()
+        return
+    leaves = _has_leaves(template)
+    read = functools.cache(functools.partial(structure_of, seen.evidence, leaves=leaves))
+    bodies = sum(1 for r in template.roles if r.rigid)
+    broken = loose_ends(read(weak=False, careful=True)) > 1.3 * bodies + 4
+    for careful in (True, False):
+        for weak in (broken, not broken):
+            yield read(weak=weak, careful=careful)
 
 
 def _whole(answer: _Answer) -> bool:
@@ -139,8 +149,7 @@ def _whole(answer: _Answer) -> bool:
 def _see(assembly: Assembly, template: Template) -> _Seen:
     solids = solids_of(assembly)
     if not solids:
-        nothing = Structure((), (), (), ())
-        return _Seen((), [], [], [], nothing, lambda: nothing, Touch((), 0.0), 0.0)
+        return _Seen((), [], [], [], None, Touch((), 0.0), 0.0)
     size = float(np.linalg.norm(np.max([s.high for s in solids], axis=0) - np.min([s.low for s in solids], axis=0)))
     tolerance = CONTACT * size
     fits = fits_of(solids, tolerance)
@@ -151,11 +160,8 @@ def _see(assembly: Assembly, template: Template) -> _Seen:
     taken = {i for r in rams for i in r.barrel | r.rod}
     wheels = wheels_of(solids, sum(1 for r in template.roles if r.kind == "wheel" and r.rigid), taken)
     touch = Touch(solids, tolerance)
-    cluster = functools.partial(
-        structure_of, solids, fits, lines, flats, rams, wheels, touching=touch.touching, near=near,
-        leaves=_has_leaves(template),
-    )  # fmt: skip
-    return _Seen(solids, flats, near, wheels, cluster(), lambda: cluster(weak=True), touch, size)
+    evidence = evidence_of(solids, fits, lines, flats, rams, wheels, near, touch.touching)
+    return _Seen(solids, flats, near, wheels, evidence, touch, size)
 
 
 def _has_leaves(template: Template) -> bool:
@@ -189,13 +195,13 @@ def _variants(template: Template, choices: Mapping[str, str]) -> list[dict[str, 
 
 
 def _unary(
-    seen: _Seen, template: Template, scores: list[dict[str, float]], edited: Mapping[str, str]
+    seen: _Seen, structure: Structure, template: Template, scores: list[dict[str, float]], edited: Mapping[str, str]
 ) -> dict[tuple[int, str], int]:
     """Weights of (cluster, body) from names and from what a person said; a found joint counts 100."""
     unary: dict[tuple[int, str], int] = {}
     bodies = {r.name for r in template.roles if r.rigid}
     known = {r.name for r in template.roles}
-    for c, cluster in enumerate(seen.structure.clusters):
+    for c, cluster in enumerate(structure.clusters):
         members = sorted(cluster.members)
         telling = [i for i in members if scores[i]]
         votes: dict[str, float] = {}
@@ -221,14 +227,14 @@ def twin_role(name: str) -> str | None:
 
 
 def _sides(
-    seen: _Seen, template: Template, solution: Solution, frame: MachineFrame, unary: dict[tuple[int, str], int]
+    seen: _Seen, structure: Structure, template: Template, solution: Solution, frame: MachineFrame, unary: dict[tuple[int, str], int]
 ) -> dict[tuple[int, str], int]:
     """Weights that put the left one of each mirrored pair on +Y."""
     sided = dict(unary)
     cluster_of = {b: c for c, b in solution.body_of.items()}
 
     def y(cluster: int) -> float:
-        members = [seen.solids[i] for i in sorted(seen.structure.clusters[cluster].members)]
+        members = [seen.solids[i] for i in sorted(structure.clusters[cluster].members)]
         middle = np.mean([0.5 * (s.low + s.high) for s in members], axis=0)
         return float(frame.matrix[1, :3] @ middle + frame.matrix[1, 3])
 

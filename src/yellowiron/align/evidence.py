@@ -1,0 +1,154 @@
+"""What each contact means, before anything is joined: pins and their hosts, rings in bores, faces that may turn."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from yellowiron.align.contacts import PARALLEL, Fit, Flat, Line
+from yellowiron.align.hydraulics import Ram
+from yellowiron.align.solids import Solid
+from yellowiron.align.wheels import Wheel
+
+
+@dataclass(frozen=True, eq=False)
+class Evidence:
+    """The contacts of a CAD model, sorted by what they can mean.
+
+    `fasteners`: bars in bores (pins, bolts, shafts), which join nothing themselves. `hosts`: fastener → the fits of the
+    solids around it. `pinned`: solid → the lines it shares with a fastener (through a bush, too) or with another
+    solid's shaft. `pressed`: rings in bores, which stay where they are. `direct`: shafts of structural parts in bores,
+    (line, fit). `about`: `pinned`, and for rings the lines that run through them. `welds`, `turning`: flat contacts that hold, and those
+    that allow turning about a shared line. `touching(a, b)` asks the meshes.
+    """
+
+    solids: tuple[Solid, ...]
+    lines: tuple[Line, ...]
+    rams: tuple[Ram, ...]
+    wheels: tuple[Wheel, ...]
+    near: tuple[tuple[int, int], ...]
+    touching: Callable[[int, int], bool]
+    fasteners: frozenset[int]
+    hosts: dict[int, tuple[Fit, ...]]
+    line_of: dict[int, tuple[int, ...]]
+    pinned: dict[int, frozenset[int]]
+    about: dict[int, frozenset[int]]
+    pressed: tuple[tuple[int, int], ...]
+    direct: tuple[tuple[int, Fit], ...]
+    welds: tuple[Flat, ...]
+    turning: tuple[Flat, ...]
+
+
+def evidence_of(
+    solids: tuple[Solid, ...],
+    fits: list[Fit],
+    lines: list[Line],
+    flats: list[Flat],
+    rams: list[Ram],
+    wheels: list[Wheel],
+    near: list[tuple[int, int]],
+    touching: Callable[[int, int], bool],
+) -> Evidence:
+    """Sorts fits and flat contacts. Fits between a barrel and its rod, and between a wheel and what carries it, slide."""
+    owner: dict[int, tuple[str, int]] = {}
+    for k, ram in enumerate(rams):
+        owner.update({i: ("barrel", k) for i in ram.barrel} | {i: ("rod", k) for i in ram.rod})
+    for k, wheel in enumerate(wheels):
+        owner.update({i: ("wheel", k) for i in wheel.members})
+    inner = {f.inner for f in fits}
+    fasteners = frozenset(s.index for s in solids if s.shaft is not None and s.index in inner and s.index not in owner)
+    number = {f: k for k, line in enumerate(lines) for f in line.fits}
+    hosts: dict[int, list[Fit]] = {}
+    line_of: dict[int, set[int]] = {}
+    pinned: dict[int, set[int]] = {s.index: set() for s in solids}
+    pressed: list[Fit] = []
+    direct: list[tuple[int, Fit]] = []
+    for k, fit in enumerate(fits):
+        mine, theirs = owner.get(fit.inner), owner.get(fit.outer)
+        if fit.inner in fasteners:
+            hosts.setdefault(fit.inner, []).append(fit)
+            line_of.setdefault(fit.inner, set()).add(number[k])
+            if fit.outer not in fasteners:
+                pinned[fit.outer].add(number[k])
+        elif fit.outer in fasteners or (mine is not None and theirs is not None) or _of_wheel(mine, theirs):
+            continue
+        elif solids[fit.inner].axis is not None:
+            pressed.append(fit)
+        else:
+            direct.append((number[k], fit))
+            pinned[fit.inner].add(number[k])
+            pinned[fit.outer].add(number[k])
+    _through_rings(pinned, pressed, lines)
+    about = _about(solids, lines, pinned)
+    welds: list[Flat] = []
+    turning: list[Flat] = []
+    for flat in sorted(flats, key=lambda f: (-round(f.area, 9), f.a, f.b)):
+        if flat.a not in fasteners and flat.b not in fasteners:
+            (turning if _may_turn(flat, lines, pinned, about) else welds).append(flat)
+    return Evidence(
+        solids,
+        tuple(lines),
+        tuple(rams),
+        tuple(wheels),
+        tuple(near),
+        touching,
+        fasteners,
+        {p: tuple(f) for p, f in sorted(hosts.items())},
+        {p: tuple(sorted(k)) for p, k in sorted(line_of.items())},
+        {i: frozenset(k) for i, k in pinned.items()},
+        about,
+        tuple((f.inner, f.outer) for f in pressed),
+        tuple(direct),
+        tuple(welds),
+        tuple(turning),
+    )
+
+
+def _of_wheel(mine: tuple[str, int] | None, theirs: tuple[str, int] | None) -> bool:
+    return any(o is not None and o[0] == "wheel" for o in (mine, theirs))
+
+
+def _through_rings(pinned: dict[int, set[int]], pressed: list[Fit], lines: list[Line]) -> None:
+    """What holds a bush is on the line of the pin in the bush."""
+    changed = True
+    while changed:
+        changed = False
+        for fit in pressed:
+            for k in sorted(pinned[fit.inner] - pinned[fit.outer]):
+                if lines[k].off(fit.bore.center) < 0.1 * lines[k].radius:
+                    pinned[fit.outer].add(k)
+                    changed = True
+
+
+def _about(solids: tuple[Solid, ...], lines: list[Line], pinned: dict[int, set[int]]) -> dict[int, frozenset[int]]:
+    about = {i: frozenset(on) for i, on in pinned.items()}
+    rails = sorted({k for on in pinned.values() for k in on})
+    if not rails:
+        return about
+    origins = np.array([lines[k].origin for k in rails])
+    directions = np.array([lines[k].direction for k in rails])
+    radii = np.array([lines[k].radius for k in rails])
+    for s in solids:
+        if s.axis is None or s.hole == 0.0:
+            continue
+        delta = s.axis.center - origins
+        off = np.linalg.norm(delta - np.einsum("ij,ij->i", delta, directions)[:, None] * directions, axis=1)
+        parallel = np.abs(directions @ s.axis.direction) > PARALLEL
+        good = parallel & (off < 0.05 * radii) & (s.hole > 0.95 * radii)
+        about[s.index] |= {rails[i] for i in np.flatnonzero(good)}
+    return about
+
+
+def _may_turn(flat: Flat, lines: list[Line], pinned: dict[int, set[int]], about: dict[int, frozenset[int]]) -> bool:
+    """True where a contact allows turning about a line that both parts are on."""
+    for k in sorted(about[flat.a] & about[flat.b]):
+        line = lines[k]
+        if abs(float(flat.normal @ line.direction)) < PARALLEL:
+            continue
+        if k in pinned[flat.a] and k in pinned[flat.b]:
+            return True
+        if line.off(flat.center) < 0.25 * flat.width:
+            return True
+    return False

@@ -1,0 +1,54 @@
+"""Union-find over solids that knows what must stay apart."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+
+class Groups:
+    """Groups of solids. Two labelled groups (wheel, barrel, rod) never join; wheels take nothing in."""
+
+    def __init__(self, count: int) -> None:
+        self._parent = list(range(count))
+        self._label: dict[int, tuple[str, int]] = {}
+
+    def find(self, i: int) -> int:
+        """The group of a solid: its smallest member so far."""
+        while self._parent[i] != i:
+            self._parent[i] = self._parent[self._parent[i]]
+            i = self._parent[i]
+        return i
+
+    def tag(self, members: Iterable[int], label: tuple[str, int]) -> None:
+        """Makes one labelled group of solids."""
+        first, *rest = sorted(members)
+        for other in rest:
+            self._parent[self.find(other)] = self.find(first)
+        self._label[self.find(first)] = label
+
+    def label(self, i: int) -> tuple[str, int]:
+        """(kind, number) of a solid's group; ("", -1) without one."""
+        return self._label.get(self.find(i), ("", -1))
+
+    def kind(self, i: int) -> str:
+        """`wheel`, `barrel`, `rod` or ""."""
+        return self.label(i)[0]
+
+    def may_join(self, i: int, j: int) -> bool:
+        """False for two labelled groups, and for wheels."""
+        kinds = self.kind(i), self.kind(j)
+        return "wheel" not in kinds and not all(kinds)
+
+    def join(self, i: int, j: int) -> bool:
+        """Joins two solids' groups if they may be; True if they are one now."""
+        a, b = self.find(i), self.find(j)
+        if a == b:
+            return True
+        if not self.may_join(a, b):
+            return False
+        a, b = min(a, b), max(a, b)
+        label = self._label.pop(b, None) or self._label.get(a)
+        self._parent[b] = a
+        if label is not None:
+            self._label[a] = label
+        return True
