@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +15,7 @@ from pxr import Usd, UsdGeom, UsdPhysics
 from yellowiron.model.errors import MechanismError
 from yellowiron.model.geometry import CylinderFeature, Mesh, Shape
 from yellowiron.usd.collision import APPROXIMATIONS, approximation
-from yellowiron.usd.primitives import Primitive, fit_primitive
+from yellowiron.usd.primitives import Primitive, fit_primitive, is_convex
 
 
 @pytest.fixture(scope="module")
@@ -191,3 +192,10 @@ def test_flat_and_tiny_shapes_are_no_primitive() -> None:
     flat = trimesh.Trimesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]], process=False)
     assert fit_primitive(shape_of(flat)) is None
     assert fit_primitive(shape_of(trimesh.Trimesh([[0, 0, 0], [1, 0, 0], [1, 1, 0]], [[0, 1, 2]]))) is None
+
+
+def test_a_convex_part_is_not_decomposed() -> None:
+    assert is_convex(shape_of(trimesh.creation.box((1.0, 2.0, 3.0))))
+    assert is_convex(shape_of(trimesh.creation.icosphere()))
+    assert not is_convex(shape_of(trimesh.creation.annulus(0.1, 0.2, 0.1)))
+    assert not is_convex(replace(shape_of(trimesh.creation.box((1.0, 2.0, 3.0))), closed=False))

@@ -6,13 +6,14 @@
 | `analytic` | a Cylinder, Capsule, Cube or Sphere prim; `convexHull` where the part is none of them | |
 | `triangleMesh` | `none` (UsdPhysics' word for the exact mesh) | PhysX allows it on static bodies only |
 | `convexHull`, `boundingCube`, `boundingSphere` | the same | |
-| `convexDecomposition` | the same | PhysX: `PhysxConvexDecompositionCollisionAPI` |
+| `convexDecomposition` | the same; `convexHull` for a convex part | PhysX: `PhysxConvexDecompositionCollisionAPI` |
 | `meshSimplification` | the same | PhysX: `PhysxTriangleMeshSimplificationCollisionAPI` |
 | `sdf` | `convexDecomposition` | PhysX: `sdf`, `PhysxSDFMeshCollisionAPI`; Newton: `NewtonSDFCollisionAPI` |
 | `sphereFill` | `convexDecomposition` | PhysX: `sphereFill`, `PhysxSphereFillCollisionAPI` |
 
 `sdf` and `sphereFill` are no UsdPhysics tokens: the neutral layer keeps the nearest one and PhysX's layer overrides it.
-Masses are always explicit, so a `boundingSphere` changes none.
+PhysX decomposes at 50 000 voxels a part, wrapped to the mesh: with its default of 500 000 a wheel loader takes 48 s to
+load on one core, so 11 s. Masses are always explicit, so a `boundingSphere` changes none.
 """
 
 from __future__ import annotations
@@ -51,8 +52,8 @@ APPROXIMATIONS = {
             "convexDecomposition",
             physx_schema="PhysxConvexDecompositionCollisionAPI",
             physx_values={
-                "physxConvexDecompositionCollision:maxConvexHulls": 64,
                 "physxConvexDecompositionCollision:shrinkWrap": True,
+                "physxConvexDecompositionCollision:voxelResolution": 50_000,
             },
         ),
         Approximation(

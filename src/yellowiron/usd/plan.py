@@ -11,8 +11,9 @@ from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.errors import MechanismError
 from yellowiron.model.geometry import Floats, Shape
 from yellowiron.model.mechanism import Body, BodyPart, Mechanism
-from yellowiron.usd.collision import Approximation, approximation
+from yellowiron.usd.collision import APPROXIMATIONS, Approximation, approximation
 from yellowiron.usd.materials import Look, look_of
+from yellowiron.usd.primitives import is_convex
 from yellowiron.usd.stage import Names
 
 GEOMETRY_FILE = "geometry.usdc"
@@ -126,6 +127,7 @@ class _Placer:
         self._assembly = assembly
         self._frame = frame
         self._parts = {part.id: part for part in assembly.parts}
+        self._convex: dict[str, bool] = {}
         self.prototypes = Prototypes()
 
     def place(self, body: Body) -> tuple[PlacedPart, ...]:
@@ -157,7 +159,17 @@ class _Placer:
                     data=data,
                     prototype=self.prototypes.give(shape, look_of(part.color, shape, material)),
                     matrix=to_body @ part.transform,
-                    approximation=approximation(data.collision, where=data.part),
+                    approximation=self._approximation(data, shape),
                 )
             )
         return tuple(placed)
+
+    def _approximation(self, data: BodyPart, shape: Shape) -> Approximation:
+        """The approximation asked for; a convex solid's decomposition is its hull, without the time that it takes."""
+        asked = approximation(data.collision, where=data.part)
+        if asked.token != "convexDecomposition":
+            return asked
+        convex = self._convex.get(shape.key)
+        if convex is None:
+            convex = self._convex.setdefault(shape.key, is_convex(shape))
+        return APPROXIMATIONS["convexHull"] if convex else asked
