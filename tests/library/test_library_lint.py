@@ -32,6 +32,7 @@ def test_wheel_loader_moves_as_expected_in_every_variant(loader: Template) -> No
     for mobility in report.mobility:
         assert mobility.computed == mobility.expected == mobility.planar == 8
         assert [(g.grubler, g.computed, g.expected) for g in mobility.groups] == [(1, 1, 1), (2, 2, 2)]
+        assert [g.undetermined for g in mobility.groups] == [0, 0]
     assert report.mobility[0].spatial == 8 - 3 * report.counts["loops"]
 
 
@@ -84,7 +85,7 @@ def test_every_code_is_documented_and_tested(root: Path) -> None:
     codes = {f"{family}{number:03d}" for family in ("TPL", "DOC") for number in range(1, 40)}
     used = {code for code in codes if f'"{code}"' in source}
     assert used == {code for code in codes if f"`{code}`" in documented}
-    assert {c for c in used if c.startswith("TPL")} == {p.name.split(".")[0] for p in DEFECTS} | {"TPL015"}
+    assert {c for c in used if c.startswith("TPL")} == {p.name.split(".")[0] for p in DEFECTS} | {"TPL015", "TPL016"}
 
 
 def test_too_many_choices_are_said_to_be_unchecked(loader: Template, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -99,6 +100,24 @@ def test_a_driven_joint_without_actuator_is_found(loader: Template) -> None:
     without = replace(loader, actuators=tuple(a for a in loader.actuators if a.name != "bucket"), measurements=())
     (finding,) = library.lint(without).findings
     assert (finding.code, finding.where) == ("TPL007", "bucket_piston_rod2bucket_cylinder_barrel_joint")
+
+
+def test_drives_that_hold_each_other_are_found(loader: Template) -> None:
+    """Both lift cylinders driven and the tilt cylinder not: the count is right, and the bucket hangs loose."""
+    template = choose(loader, {"lift_cylinders": "twin"})
+    both = tuple(
+        replace(a, cylinders=tuple(replace(c, passive=False) for c in a.cylinders)) if a.name == "boom" else a
+        for a in template.actuators
+        if a.name != "bucket"
+    )
+    idle = tuple(
+        replace(j, drive=None) if j.name == "bucket_piston_rod2bucket_cylinder_barrel_joint" else j
+        for j in template.joints
+    )
+    report = library.lint(replace(template, actuators=both, joints=idle, measurements=()))
+    (working,) = report.mobility[0].groups[1:]
+    assert (working.computed, working.expected, working.undetermined) == (2, 2, 1)
+    assert [f.code for f in report.findings] == ["TPL016"]
 
 
 def test_removing_any_pivot_of_a_loop_is_found(loader: Template) -> None:

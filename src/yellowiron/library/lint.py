@@ -305,10 +305,19 @@ def _connections(template: Template) -> Iterator[Finding]:
 
 
 def _movement(template: Template, group: Group) -> Iterator[Finding]:
-    """A group of loops moves as its drives want it to: neither locked nor loose."""
-    if group.computed == group.expected:
-        return
+    """A group of loops moves as its drives want it to: neither locked nor loose, nor one part driven twice."""
     name = _name_of(template, group)
+    if group.computed == group.expected:
+        if group.undetermined:
+            yield Finding(
+                "TPL016",
+                "error",
+                template.root,
+                f"The drives of {name} do not determine it: some hold each other, and {group.undetermined} of its "
+                f"{group.computed} degrees of freedom is left to none.",
+                "Mark twin cylinders passive, and give the joint that is left over a drive.",
+            )
+        return
     figures = f"planar mobility {group.grubler}, {group.expected} expected"
     if group.computed < group.expected:
         pivots = _missing_pivots(template, group.joints)

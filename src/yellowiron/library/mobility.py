@@ -27,13 +27,15 @@ _RANK_TOLERANCE = 1e-9
 class Group:
     """Joints on common loops, with the bodies between them. `grubler` is the planar count 3(n−1) − Σ(3−f), negative
     where the group is locked more than once; `computed` the degrees of freedom by the rank of the constraint Jacobian
-    in general position; `expected` the driven and free coordinates among its joints."""
+    in general position; `expected` the driven and free coordinates among its joints; `undetermined` the degrees of
+    freedom that are left when all of those are held."""
 
     bodies: tuple[str, ...]
     joints: tuple[str, ...]
     grubler: int
     computed: int
     expected: int
+    undetermined: int = 0
 
 
 @dataclass(frozen=True)
@@ -68,7 +70,9 @@ def mobility(template: Template, choices: Mapping[str, str]) -> TemplateMobility
         bodies = tuple(dict.fromkeys(b for n in names for b in ends[n]))
         count = 3 * (len(bodies) - 1) - sum(3 - _PLANAR_FREEDOM[j.type] for j in members)
         free = generic_freedom(bodies, members, ends)
-        groups.append(Group(bodies, names, count, free, sum(n in coordinates for n in names)))
+        given = frozenset(names) & frozenset(coordinates)
+        left = generic_freedom(bodies, members, ends, held=given)
+        groups.append(Group(bodies, names, count, free, len(given), left))
         computed += free
         planar += count
     bodies = tuple(dict.fromkeys(b for pair in ends.values() for b in pair))
@@ -155,16 +159,20 @@ def blocks(ends: Mapping[str, tuple[str, str]]) -> tuple[tuple[str, ...], ...]:
 
 
 def generic_freedom(
-    bodies: tuple[str, ...], joints: Iterable[JointTemplate], ends: Mapping[str, tuple[str, str]]
+    bodies: tuple[str, ...],
+    joints: Iterable[JointTemplate],
+    ends: Mapping[str, tuple[str, str]],
+    *,
+    held: frozenset[str] = frozenset(),
 ) -> int:
-    """Degrees of freedom of a planar group in general position, its first body held: pivots at random points, slides in
-    random directions (any such set is a closed pose of links of some shape). The least of a few samples, which is the
-    generic value with probability 1."""
+    """Degrees of freedom of a planar group in general position, its first body and the joints `held` not moving: pivots
+    at random points, slides in random directions (any such set is a closed pose of links of some shape). The least of a
+    few samples, which is the generic value with probability 1."""
     joints = list(joints)
     random = np.random.default_rng(20240607)
     columns = 3 * (len(bodies) - 1)
     ranks = [
-        int(np.linalg.matrix_rank(_jacobian(bodies, joints, ends, random), tol=_RANK_TOLERANCE))
+        int(np.linalg.matrix_rank(_jacobian(bodies, joints, ends, held, random), tol=_RANK_TOLERANCE))
         for _ in range(_SAMPLES)
     ]
     return columns - max(ranks)
@@ -174,6 +182,7 @@ def _jacobian(
     bodies: tuple[str, ...],
     joints: Iterable[JointTemplate],
     ends: Mapping[str, tuple[str, str]],
+    held: frozenset[str],
     random: np.random.Generator,
 ) -> Floats:
     """Rows: velocity constraints; columns: (vx, vy, ω) of every body but the first. Unit lengths."""
@@ -184,7 +193,9 @@ def _jacobian(
         along = np.array([np.cos(angle), np.sin(angle)])
         across = np.array([-along[1], along[0]])
         at = np.array([[1.0, 0.0, -y], [0.0, 1.0, x]])
-        if joint.type == "prismatic":
+        if joint.name in held:
+            local = np.eye(3)
+        elif joint.type == "prismatic":
             local = np.vstack([across @ at, [0.0, 0.0, 1.0]])
         elif joint.type == "distance":
             local = (along @ at)[None, :]
