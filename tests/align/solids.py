@@ -1,4 +1,4 @@
-"""Analytic solids for the synthetic machines: convex plates with holes, and lathed shapes, as `Shape`s with exact features."""
+"""Analytic solids for the synthetic machines: convex plates with holes, lathed shapes, with exact features."""
 
 from __future__ import annotations
 

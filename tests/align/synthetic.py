@@ -1,7 +1,7 @@
-"""Parametric wheel loaders straight as `Assembly` objects, with the truth: simplified, but honest in what the aligner relies on.
+"""Parametric wheel loaders straight as `Assembly` objects, with the truth: simplified, honest in what the aligner uses.
 
-Every dimension is drawn from a seed. Pins sit in bores, plates touch along their welds, cylinders are barrel, cap, gland, piston,
-rod and eyes, the steering stands at an angle, the rear axle may be rolled, and some things float (hoses, glass, steps).
+Every dimension is drawn from a seed. Pins sit in bores, plates touch along their welds, cylinders are barrel, cap, gland,
+piston, rod and eyes, the steering stands at an angle, the rear axle may be rolled, and some things float (glass, steps).
 """
 
 from __future__ import annotations

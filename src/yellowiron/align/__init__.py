@@ -1,10 +1,12 @@
 """Alignment: Assembly × Template × Specifications → which part plays which role, by geometry first, names as evidence.
 
 Findings: `ALN001` no part plays a required role · `ALN002` a joint is found but no part of its own plays its pin ·
-`ALN003` the machine's frame is partly a guess · `ALN004` the assignment was not proven the best one.
+`ALN003` the machine's frame is partly a guess · `ALN004` the search was cut short · `ALN005` an edited role exists only
+under another choice of a variant.
 """
 
-from yellowiron.align.align import REVIEW, align
+from yellowiron.align.align import align
 from yellowiron.align.files import explain, read_alignment, write_alignment
+from yellowiron.align.report import REVIEW
 
 __all__ = ["REVIEW", "align", "explain", "read_alignment", "write_alignment"]

@@ -1,8 +1,16 @@
 """Alignment: which part plays which role. Reads as a method section; each step is a module of its own.
 
-1 solids and their features · 2 contacts: shafts in bores, flat faces on each other · 3 hydraulic cylinders · 4 wheels ·
-5 rigid clusters and the hinges between them · 6 names as weights · 7 clusters to bodies by CP-SAT, one variant against the other ·
-8 the machine's frame, then left and right · 9 pins, hardware and all the rest · 10 what a person said before.
+1. solids and their features
+2. contacts: shafts in bores, flat faces on each other
+3. hydraulic cylinders
+4. wheels
+5. what each contact means
+6. rigid clusters and the hinges between them
+7. names as weights
+8. clusters to bodies by CP-SAT, one variant against the other
+9. the machine's frame, then left and right
+10. pins, hardware and all the rest
+11. what a person said before
 """
 
 from __future__ import annotations
@@ -11,7 +19,7 @@ import functools
 import itertools
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -21,20 +29,18 @@ from yellowiron.align.evidence import Evidence, evidence_of
 from yellowiron.align.frame import MachineFrame, machine_frame
 from yellowiron.align.hydraulics import rams_of
 from yellowiron.align.names import name_scores
+from yellowiron.align.report import reported
 from yellowiron.align.solids import Solid, solids_of
 from yellowiron.align.solve import Solution, solve
-from yellowiron.align.spread import Place, Spreader, pin_role
+from yellowiron.align.spread import Spreader
 from yellowiron.align.touch import Touch
 from yellowiron.align.wheels import Wheel, wheels_of
-from yellowiron.model.alignment import Alignment, PartAssignment
+from yellowiron.model.alignment import Alignment
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import AlignmentError
-from yellowiron.model.finding import Finding
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import Template, choose
 
-REVIEW = 0.5
-"""Parts and roles below this confidence are for a person to look at."""
 CONTACT = 4e-5
 """Two faces touch within this share of the machine's diagonal (0.4 mm on 10 m)."""
 NAME_WEIGHT = 40
@@ -99,14 +105,28 @@ def align(
             solution = solve(structure, resolved, unary=sided)
             frame = machine_frame(seen.solids, structure, solution, seen.wheels, resolved)
     spreader = Spreader(
-        seen.solids, structure, solution, resolved, seen.flats, seen.near, seen.touch, scores, seen.size
+        seen.solids,
+        structure,
+        solution,
+        resolved,
+        seen.flats,
+        seen.near,
+        seen.touch,
+        scores,
+        seen.size,
+        frame.matrix[2, :3] if frame is not None else np.array([0.0, 0.0, 1.0]),
     )
     places = spreader.run(seen.wheels)
-    return _report(assembly, resolved, seen, solution, places, edited, answer.choices, frame or MachineFrame(np.eye(4)))
+    by_id = {seen.solids[i].part.id: place for i, place in places.items()}
+    return reported(assembly, resolved, solution, by_id, edited, answer.choices, frame or MachineFrame(np.eye(4)))
 
 
 def _best(
-    seen: _Seen, template: Template, choices: Mapping[str, str], scores: list[dict[str, float]], edited: Mapping[str, str]
+    seen: _Seen,
+    template: Template,
+    choices: Mapping[str, str],
+    scores: list[dict[str, float]],
+    edited: Mapping[str, str],
 ) -> _Answer:
     """The reading of the welds, and the variant, that the template fits best; the first that fits wholly is taken."""
     best: _Answer | None = None
@@ -187,7 +207,7 @@ def _variants(template: Template, choices: Mapping[str, str]) -> list[dict[str, 
             )
     fixed = {n: v for n, v in choices.items() if n in known}
     open_ones = [v for v in template.variants if v.decided_by == "geometry" and v.name not in fixed]
-    ordered = [sorted(v.choices, key=lambda c, v=v: c != v.default) for v in open_ones]
+    ordered = [[v.default, *(c for c in v.choices if c != v.default)] for v in open_ones]
     return [
         {**fixed, **dict(zip((v.name for v in open_ones), combination, strict=True))}
         for combination in itertools.product(*ordered)
@@ -227,7 +247,12 @@ def twin_role(name: str) -> str | None:
 
 
 def _sides(
-    seen: _Seen, structure: Structure, template: Template, solution: Solution, frame: MachineFrame, unary: dict[tuple[int, str], int]
+    seen: _Seen,
+    structure: Structure,
+    template: Template,
+    solution: Solution,
+    frame: MachineFrame,
+    unary: dict[tuple[int, str], int],
 ) -> dict[tuple[int, str], int]:
     """Weights that put the left one of each mirrored pair on +Y."""
     sided = dict(unary)
@@ -279,81 +304,3 @@ def _edited(assembly: Assembly, template: Template, edits: Alignment | None) -> 
             )
         found[item.part] = item.role or ""
     return found
-
-
-def _report(
-    assembly: Assembly, template: Template, seen: _Seen, solution: Solution, places: Mapping[int, Place],
-    edited: Mapping[str, str], chosen: Mapping[str, str], frame: MachineFrame,
-) -> Alignment:  # fmt: skip
-    """The alignment, in CAD order, with what is missing and what is doubtful."""
-    by_id = {seen.solids[i].part.id: place for i, place in places.items()}
-    roles = {r.name for r in template.roles}
-    parts = []
-    for part in assembly.parts:
-        place = by_id.get(part.id)
-        if part.id in edited:
-            said: str | None = edited[part.id] or None
-            body = template.body_of(said) if said in roles and said is not None else None
-            before = place.role if place is not None and place.role != said else None
-            parts.append(PartAssignment(part.id, said, body, 1.0, "set by a person", "edited", before))
-        elif place is None:
-            parts.append(PartAssignment(part.id, None, None, 0.0, "nothing speaks for any role"))
-        else:
-            source = "name" if place.by_name else "solved"
-            confidence = round(min(max(place.confidence, 0.0), 1.0), 3)
-            parts.append(
-                PartAssignment(part.id, place.role, place.body, confidence, place.reason, source, place.runner_up)
-            )
-    played = {p.role for p in parts} | {p.body for p in parts}
-    missing = tuple(r.name for r in template.roles if _required(r.name, template) and r.name not in played)
-    findings = _findings(template, solution, missing, frame)
-    doubtful = tuple(p.part for p in parts if p.confidence < REVIEW)
-    return Alignment(
-        template.equipment_type, frame.matrix, tuple(parts), dict(chosen), missing, (*missing, *doubtful), findings
-    )
-
-
-def _required(name: str, template: Template) -> bool:
-    role = template.role(name)
-    if role.optional or role.many or role.kind in ("group", "tyre", "edge"):
-        return False
-    pins = {pin_role(j, template) for j in template.joints}
-    return role.rigid or name in pins
-
-
-def _findings(
-    template: Template, solution: Solution, missing: tuple[str, ...], frame: MachineFrame
-) -> tuple[Finding, ...]:
-    findings = []
-    pins = {pin_role(j, template): j for j in template.joints}
-    for name in missing:
-        joint = pins.get(name)
-        if joint is not None and joint.name in solution.hinge_of:
-            findings.append(
-                Finding(
-                    "ALN002",
-                    "info",
-                    name,
-                    f"No part of its own plays {name}; the joint {joint.name} is found all the same",
-                    "Its axis is that of the bores (or of the pin) the two bodies share.",
-                )  # fmt: skip
-            )
-        else:
-            findings.append(
-                Finding(
-                    "ALN001",
-                    "warning",
-                    name,
-                    f"No part plays {name}",
-                    "Set the role of the right part in alignment.json, or check that the CAD model has it.",
-                )  # fmt: skip
-            )
-    findings += [
-        Finding("ALN003", "warning", template.equipment_type, f"The machine's frame is partly a guess: {doubt}", "")
-        for doubt in frame.doubts
-    ]
-    if not solution.proven and solution.body_of:
-        findings.append(
-            Finding("ALN004", "warning", template.equipment_type, "The assignment was not proven the best one", "Review the roles.")
-        )  # fmt: skip
-    return tuple(replace(f) for f in findings)

@@ -1,9 +1,9 @@
 """Rigid clusters and the hinges between them.
 
-What welds: flat contact, a ring in a bore, and two distinct pin lines in common. What never welds alone: contact across a
-shared pin line (it may turn). A barrel, a rod or a wheel is never welded to another of these. Parts that only touch, or are
-drawn into each other, are joined where the machine is not whole without (`weak`); a weld that would leave a pin with
-nothing to turn is refused (`careful`) as long as the machine is whole without.
+What welds: flat contact, a ring in a bore, and two distinct pin lines in common. What never welds alone: contact across
+a shared pin line (it may turn). A barrel, a rod or a wheel is never welded to another of these. Parts that only touch,
+or are drawn into each other, are joined where the machine is not whole without (`weak`); a weld that would leave a pin
+with nothing to turn is refused (`careful`) as long as the machine is whole without.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """What touches what: shafts in bores, the lines they share, and flat faces that lie on each other.
 
-Facets of cylindrical faces never count as flat contact (a bore would look like a weld): only the planes that the CAD reader
-found do, and only over the area that both really cover.
+Facets of cylindrical faces never count as flat contact (a bore would look like a weld): only the planes that the CAD
+reader found do, and only over the area that both really cover.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ import functools
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from yellowiron.align.solids import Cyl, Patch, Solid, patch
@@ -220,7 +221,7 @@ def flats_of(solids: tuple[Solid, ...], pairs: list[tuple[int, int]], tolerance:
     return flats
 
 
-def _crossing(solid: Solid, low: Floats, high: Floats) -> Floats:
+def _crossing(solid: Solid, low: Floats, high: Floats) -> NDArray[np.intp]:
     """Indices of planes that pass through a box."""
     middle, half = 0.5 * (low + high), 0.5 * (high - low)
     reach = np.abs(solid.plane_normals) @ np.maximum(half, 0)

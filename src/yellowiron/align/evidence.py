@@ -17,11 +17,14 @@ from yellowiron.align.wheels import Wheel
 class Evidence:
     """The contacts of a CAD model, sorted by what they can mean.
 
-    `fasteners`: bars in bores (pins, bolts, shafts), which join nothing themselves. `hosts`: fastener → the fits of the
-    solids around it. `pinned`: solid → the lines it shares with a fastener (through a bush, too) or with another
-    solid's shaft. `pressed`: rings in bores, which stay where they are. `direct`: shafts of structural parts in bores,
-    (line, fit). `about`: `pinned`, and for rings the lines that run through them. `welds`, `turning`: flat contacts that hold, and those
-    that allow turning about a shared line. `touching(a, b)` asks the meshes.
+    - `fasteners`: bars in bores (pins, bolts, shafts), which join nothing themselves;
+    - `hosts`: fastener → the fits of the solids around it; `line_of`: fastener → its lines;
+    - `pinned`: solid → the lines it shares with a fastener (through a bush, too) or with another solid's shaft;
+    - `about`: `pinned`, and for rings the lines that run through them;
+    - `pressed`: rings in bores, (ring, host), which stay where they are;
+    - `direct`: shafts of structural parts in bores, (line, fit);
+    - `welds`, `turning`: flat contacts that hold, and those that allow turning about a shared line;
+    - `near`: pairs whose boxes touch; `touching(a, b)` asks the meshes.
     """
 
     solids: tuple[Solid, ...]
@@ -51,12 +54,12 @@ def evidence_of(
     near: list[tuple[int, int]],
     touching: Callable[[int, int], bool],
 ) -> Evidence:
-    """Sorts fits and flat contacts. Fits between a barrel and its rod, and between a wheel and what carries it, slide."""
+    """Sorts fits and flat contacts. Fits between a barrel and its rod, and between a wheel and its axle, slide."""
     owner: dict[int, tuple[str, int]] = {}
     for k, ram in enumerate(rams):
-        owner.update({i: ("barrel", k) for i in ram.barrel} | {i: ("rod", k) for i in ram.rod})
+        owner.update(dict.fromkeys(ram.barrel, ("barrel", k)) | dict.fromkeys(ram.rod, ("rod", k)))
     for k, wheel in enumerate(wheels):
-        owner.update({i: ("wheel", k) for i in wheel.members})
+        owner.update(dict.fromkeys(wheel.members, ("wheel", k)))
     inner = {f.inner for f in fits}
     fasteners = frozenset(s.index for s in solids if s.shaft is not None and s.index in inner and s.index not in owner)
     number = {f: k for k, line in enumerate(lines) for f in line.fits}

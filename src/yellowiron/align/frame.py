@@ -29,8 +29,8 @@ class MachineFrame:
 def machine_frame(
     solids: tuple[Solid, ...], structure: Structure, solution: Solution, wheels: list[Wheel], template: Template
 ) -> MachineFrame:
-    """The frame: up along the axis about which the machine turns or bends, left along the root's wheels, forward towards
-    the working arms. What is not there is guessed and said so."""
+    """The frame: up along the axis about which the machine turns or bends, left along the root's wheels, forward
+    towards the working arms. What is not there is guessed and said so."""
     doubts: list[str] = []
     lines = {j: structure.lines[structure.hinges[h].line] for j, h in solution.hinge_of.items()}
     cluster_of = {b: c for c, b in solution.body_of.items()}
@@ -202,10 +202,8 @@ def _origin(
         low = np.min([solids[i].low for i in root], axis=0)
         high = np.max([solids[i].high for i in root], axis=0)
         point = 0.5 * (low + high)
-    if wheels:
-        ground = min(_lowest(w, up) for w in wheels)
-    else:
-        ground = min(float((s.points @ up).min()) for s in solids)
+    heights = [_lowest(w, up) for w in wheels] or [float((s.points @ up).min()) for s in solids]
+    ground = min(heights)
     return np.asarray(point + (ground - float(point @ up)) * up, dtype=np.float64)
 
 

@@ -1,4 +1,4 @@
-"""Hydraulic cylinders by shape: a long bore, a thinner long shaft in it that sticks out at one end, an eye across each."""
+"""Hydraulic cylinders by shape: a long bore, a thinner long shaft that sticks out at one end, an eye across each."""
 
 from __future__ import annotations
 

@@ -51,7 +51,7 @@ def tokens(text: str) -> list[str]:
 @functools.lru_cache(maxsize=8192)
 def concepts(text: str) -> frozenset[str]:
     """What a name speaks of: `concepts("HYDRUALIC_CYL_LIFT_LH")` has cylinder, boom and left."""
-    phrases, scripts = _words()
+    scripts = _words()[1]
     found: set[str] = set()
     rest = unicodedata.normalize("NFKC", text)
     for word in sorted((w for w in scripts if w in rest), key=lambda w: (-len(w), w)):
@@ -73,7 +73,7 @@ def concepts(text: str) -> frozenset[str]:
 
 @functools.lru_cache(maxsize=8192)
 def _meaning(words: tuple[str, ...]) -> tuple[str, ...] | None:
-    phrases, _ = _words()
+    phrases = _words()[0]
     if words in phrases:
         return phrases[words]
     best: tuple[float, tuple[str, ...]] | None = None
@@ -120,7 +120,7 @@ def exact_role(part: Part, roles: Mapping[str, str]) -> str | None:
 
 
 def likeness(part: Part, role: frozenset[str]) -> float:
-    """How well a part's name, and less so its assemblies' names, speak of a role: 0 (not at all, or of another) to 1."""
+    """How well a part's name, and less so its assemblies', speak of a role: 0 (not at all, or of another) to 1."""
     weights: dict[str, float] = {}
     for depth, text in enumerate((part.name, *reversed(part.path[1:]))):
         for concept in concepts(text):

@@ -168,7 +168,7 @@ def _symmetry(cylinders: tuple[Cyl, ...], points: Floats, centre: Floats, inerti
     if not full:
         return None
     line = max(full, key=lambda c: (round(c.radius * c.half, 9), not c.inner))
-    reach, start, end = _extent(line, points)
+    reach = _extent(line, points)[0]
     if line.off(centre) > 0.01 * reach:
         return None
     second = 0.5 * np.trace(inertia) * np.eye(3) - inertia
@@ -226,7 +226,7 @@ def flat_faces(shape: Shape) -> tuple[PlaneFeature, ...]:
     size = float(np.linalg.norm(np.ptp(shape.mesh.points, axis=0))) or 1.0
     offsets = np.einsum("ij,ij->i", normals, corners[:, 0])
     keys = np.round(np.c_[normals * 500, offsets / size * 2000]).astype(np.int64)
-    _, which = np.unique(keys[good], axis=0, return_inverse=True)
+    which = np.asarray(np.unique(keys[good], axis=0, return_inverse=True)[1]).ravel()
     areas = 0.5 * double[good]
     total = np.bincount(which, weights=areas)
     centres = corners[good].mean(axis=1)

@@ -1,13 +1,14 @@
 """Which cluster is which body: an assignment over the template's joints, solved to the end by CP-SAT.
 
-x[c, b]: cluster c plays body b; z[j, h]: hinge (or slide) h of the CAD model is joint j of the template. In local-polytope form
-(the z that share an x sum to at most that x) the relaxation is tight and the search short.
+x[c, b]: cluster c plays body b; z[j, h]: hinge (or slide) h of the CAD model is joint j of the template. In
+local-polytope form (the z that share an x sum to at most that x) the relaxation is tight and the search short.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from typing import Any
 
 from yellowiron.align.clusters import Structure
 from yellowiron.model.template import JointTemplate, Template
@@ -29,7 +30,6 @@ class Solution:
     slide_of: dict[str, int]
     score: int
     proven: bool
-    margin: dict[int, int] = field(default_factory=dict)
 
 
 def solve(structure: Structure, template: Template, *, unary: Mapping[tuple[int, str], int] | None = None) -> Solution:
@@ -42,7 +42,7 @@ def solve(structure: Structure, template: Template, *, unary: Mapping[tuple[int,
     unary = unary or {}
     bodies = {r.name: r for r in template.roles if r.rigid}
     model = cp_model.CpModel()
-    x: dict[tuple[int, str], cp_model.IntVar] = {}
+    x: dict[tuple[int, str], Any] = {}
     linked = {i for h in structure.hinges for i in (h.a, h.b)} | {i for s in structure.slides for i in s[:2]}
     named = {c for (c, _), weight in unary.items() if weight > 0}
     for c, cluster in enumerate(structure.clusters):
@@ -57,32 +57,32 @@ def solve(structure: Structure, template: Template, *, unary: Mapping[tuple[int,
     for name in bodies:
         model.add_at_most_one([v for (_, b), v in x.items() if b == name])
 
-    terms: list[tuple[int, cp_model.IntVar]] = []
-    pivots: dict[tuple[str, int], list[cp_model.IntVar]] = {}
-    slides: dict[tuple[str, int], list[cp_model.IntVar]] = {}
+    terms: list[tuple[int, Any]] = []
+    pivots: dict[tuple[str, int], list[Any]] = {}
+    slides: dict[tuple[str, int], list[Any]] = {}
     for joint in template.joints:
-        pair = template.bodies_of(joint)
-        if None in pair or pair[0] == pair[1]:
+        first, second = template.bodies_of(joint)
+        if first is None or second is None or first == second:
             continue
         edges = _edges(joint, structure)
-        by_end: dict[tuple[int, str], list[cp_model.IntVar]] = {}
+        by_end: dict[tuple[int, str], list[Any]] = {}
         every = []
         for number, (a, b) in edges:
             for ca, cb in ((a, b), (b, a)):
-                if (ca, pair[0]) not in x or (cb, pair[1]) not in x:
+                if (ca, first) not in x or (cb, second) not in x:
                     continue
                 z = model.new_bool_var(f"z_{joint.name}_{number}_{ca}")
                 every.append(z)
-                by_end.setdefault((ca, str(pair[0])), []).append(z)
-                by_end.setdefault((cb, str(pair[1])), []).append(z)
+                by_end.setdefault((ca, first), []).append(z)
+                by_end.setdefault((cb, second), []).append(z)
                 table = slides if joint.type == "prismatic" else pivots
                 table.setdefault((joint.name, number), []).append(z)
                 terms.append((JOINT_WEIGHT, z))
         model.add_at_most_one(every)
-        for (c, b), group in by_end.items():
-            model.add(sum(group) <= x[c, b])
+        for end, group in by_end.items():
+            model.add(sum(group) <= x[end])
     for table in (pivots, slides):
-        by_number: dict[int, list[cp_model.IntVar]] = {}
+        by_number: dict[int, list[Any]] = {}
         for (_, number), group in table.items():
             by_number.setdefault(number, []).extend(group)
         for group in by_number.values():

@@ -14,6 +14,7 @@ from yellowiron.align.solids import Solid
 from yellowiron.align.solve import Solution
 from yellowiron.align.touch import Touch
 from yellowiron.align.wheels import Wheel
+from yellowiron.model.geometry import Floats
 from yellowiron.model.template import JointTemplate, Template
 
 NEIGHBOURHOOD = 0.04
@@ -45,6 +46,7 @@ class Spreader:
     touch: Touch
     scores: list[dict[str, float]]
     size: float
+    up: Floats
 
     def __post_init__(self) -> None:
         self.places: dict[int, Place] = {}
@@ -171,7 +173,7 @@ class Spreader:
                 for i in group:
                     for other, weight in neighbours(i):
                         place = self.places.get(other)
-                        if place is None or place.role != place.body and self._is_pin(other):
+                        if place is None or (place.role != place.body and self._is_pin(other)):
                             continue
                         votes[place.body] = votes.get(place.body, 0.0) + weight
                         sure = min(sure, place.confidence)
@@ -293,11 +295,11 @@ class Spreader:
                     words = "the outermost ring of the wheel"
                     self.places[tyre] = replace(self.places[tyre], role=role.name, reason=words)
             elif role.kind == "edge" and (edge := self._edge(body)) is not None:
-                words = f"the farthest part of {body} over most of its width"
+                words = f"the lowest part of {body} far from its hinge, over most of its width"
                 self.places[edge] = replace(self.places[edge], role=role.name, reason=words)
 
     def _edge(self, body: str) -> int | None:
-        """The part of a body that spans most of its width along its hinge and lies farthest from it."""
+        """The lowest of the parts that span most of a body's width along its hinge and lie far out from it."""
         lines = [
             self.structure.lines[self.structure.hinges[self.solution.hinge_of[j.name]].line]
             for j in self.template.joints
@@ -311,11 +313,10 @@ class Spreader:
         width = max(b for _, b in spans.values()) - min(a for a, _ in spans.values())
         wide = [i for i in members if spans[i][1] - spans[i][0] > 0.75 * width]
 
-        def far(i: int) -> float:
-            delta = self.solids[i].points - line.origin
-            return float(np.linalg.norm(delta - np.outer(delta @ line.direction, line.direction), axis=1).max())
-
-        return max(wide, key=lambda i: round(far(i), 6)) if len(wide) > 1 else None
+        middle = {i: 0.5 * (self.solids[i].low + self.solids[i].high) for i in wide}
+        far = max((line.off(middle[i]) for i in wide), default=0.0)
+        out = [i for i in wide if line.off(middle[i]) > 0.7 * far]
+        return min(out, key=lambda i: (round(float(middle[i] @ self.up), 6), i)) if len(wide) > 1 else None
 
 
 def pin_role(joint: JointTemplate, template: Template) -> str | None:
