@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from yellowiron.mechanism.axes import Line, on_line, span
+from yellowiron.mechanism.axes import Line, on_line
 from yellowiron.mechanism.placement import Features, Placement
 from yellowiron.model.geometry import Floats
 
@@ -54,23 +54,26 @@ def measure_ram(placement: Placement, barrel: str, rod: str, line: Line) -> Ram:
     barrel_rows, rod_rows = placement.rows_of_body(barrel), placement.rows_of_body(rod)
     inside, outside = placement.features(barrel_rows), placement.features(rod_rows)
     bores = inside.take(on_line(inside, line) & inside.inner)
-    if len(bores) == 0:
+    shafts = outside.take(on_line(outside, line) & ~outside.inner)
+    shell = placement.points_of(barrel_rows)
+    if len(bores) == 0 or len(shell) == 0:
         return Ram()
-    main = bores.take(bores.area == bores.area.max())
-    bore = float(main.radius[0])
-    start, end = span(main, line)
+    start, head = _extent(shell, line, _HEAD * float(bores.radius.max()))
+    bore = _bore(bores, shafts, line, start, head)
+    if bore is None:
+        return Ram()
 
-    # The rod is what comes out of the barrel: the longest shaft that reaches beyond the bore.
-    thin = outside.take(on_line(outside, line) & ~outside.inner & (outside.radius < bore / _FIT))
-    out = thin.take(line.along(thin.center) + thin.length / 2 > end + _TOUCH)
+    # The rod is what comes out of the barrel: the longest shaft that reaches beyond its head.
+    thin = shafts.take(shafts.radius < bore / _FIT)
+    out = thin.take(line.along(thin.center) + thin.length / 2 > head + _TOUCH)
     shaft = float(out.radius[int(np.argmax(out.length))]) if len(out) else _gland(bores, bore)
     thick = shaft * _OVER_ROD if shaft is not None else _PISTON * bore
 
     points = placement.points_of(rod_rows)
     along, radial = line.along(points), line.distance(points)
-    in_bore = (radial < bore * _FIT) & (along > start - _TOUCH) & (along < end + _TOUCH)
+    in_bore = (radial < bore * _FIT) & (along > start - _TOUCH) & (along < head)
     piston = along[in_bore & (radial > thick)]
-    eye = along[(radial > thick) & (along > end + _TOUCH)]
+    eye = along[(radial > thick) & (along >= head)]
 
     to_base = to_gland = to_eye = None
     if len(piston):
@@ -80,10 +83,26 @@ def measure_ram(placement: Placement, barrel: str, rod: str, line: Line) -> Ram:
         gland = _face(placement, barrel_rows, line, bore, sense=-1.0, before=-high + _TOUCH)
         to_gland = max(0.0, -gland - high) if gland is not None else None
     if len(eye):
-        shell = placement.points_of(barrel_rows)
-        head = line.along(shell[line.distance(shell) < _HEAD * bore]).max()
         to_eye = max(0.0, float(eye.min() - head))
     return Ram(2.0 * bore, 2.0 * shaft if shaft is not None else None, to_base, to_gland, to_eye)
+
+
+def _bore(bores: Features, shafts: Features, line: Line, start: float, head: float) -> float | None:
+    """Radius of the cylinder's bore: that of the barrel's longest hole, or of a piston inside that is larger. A hole
+    that runs through less than a third of the barrel is a gland or a cap."""
+    within = np.abs(line.along(shafts.center) - 0.5 * (start + head)) + shafts.length / 2 < 0.5 * (head - start)
+    long = bores.radius[bores.length > (head - start) / 3.0]
+    piston = float(shafts.radius[within].max()) if within.any() else 0.0
+    if len(long) == 0:
+        return piston if piston > bores.radius.min() * _OVER_ROD else None
+    largest = float(long.max())
+    return piston if piston > largest * _FIT else largest
+
+
+def _extent(shell: Floats, line: Line, radius: float) -> tuple[float, float]:
+    """From where to where a barrel reaches along its line; ports and pipes farther out than a radius left out."""
+    along = line.along(shell)[line.distance(shell) < radius]
+    return (float(along.min()), float(along.max())) if len(along) else (0.0, 0.0)
 
 
 def _gland(bores: Features, bore: float) -> float | None:
