@@ -1,6 +1,8 @@
-"""Hydraulic cylinders, drawn in their own frame: barrel pin at the origin, rod along +x, pins along y. Millimetres.
+"""Hydraulic cylinders, drawn in their own frame: barrel pin at the origin, rod along +x, pins along y.
+Millimetres.
 
-The piston meets the base cap at the closed length and the gland at closed length + stroke, so the drawn travel is the stroke.
+The piston meets the base cap at the closed length and the gland at closed length + stroke, so the drawn
+travel is the stroke.
 """
 
 from __future__ import annotations
@@ -54,15 +56,20 @@ PIN_CLEARANCE = 0.2
 
 
 def draw_cylinder(c: Cylinder, pin_fast_in_rod: bool = False) -> Assembly:
-    """The cylinder at its drawn length. Bodies are tagged "barrel" and "rod"; the user of the assembly names them.
+    """The cylinder at its drawn length. Bodies are tagged "barrel" and "rod"; the user of the assembly names
+    them.
 
-    `pin_fast_in_rod`: the rod's pin is held in the rod eye (bore of the pin's size) rather than in the other machine part.
+    `pin_fast_in_rod`: the rod's pin is held in the rod eye (bore of the pin's size) rather than in the other
+    machine part.
     """
     tree = Assembly(c.name)
     half = c.eye_width / 2
     outer, inner = c.outside / 2, c.bore / 2
     start = c.base - c.cap
-    port = rod((c.base + 35, 0, 0), Z, 22, outer + 28), rod((c.gland_face - c.gland - 40, 0, 0), Z, 22, outer + 28)
+    port = (
+        rod((c.base + 35, 0, 0), Z, 22, outer + 28),
+        rod((c.gland_face - c.gland - 40, 0, 0), Z, 22, outer + 28),
+    )
     tube = fuse(rod((start, 0, 0), X, outer, c.cap + c.inside + c.gland - 30), *port)
     tube = cut(tube, rod((c.base, 0, 0), X, inner, c.inside + c.gland))
     tree.add(Part(f"{c.name} TUBE", tube, c.colour), "barrel")
@@ -82,5 +89,9 @@ def draw_cylinder(c: Cylinder, pin_fast_in_rod: bool = False) -> Assembly:
     shank = box(-c.eye * 0.8 - 12, 0, -half * 0.8, half * 0.8, -c.rod / 2 - 6, c.rod / 2 + 6)
     shape = fuse(rod((0, -half, 0), Y, c.eye, c.eye_width), shank)
     clearance = 0.0 if pin_fast_in_rod else PIN_CLEARANCE
-    tree.add(Part(f"{c.name} ROD EYE", bored(shape, Y, ((0, 0, 0), c.pin / 2 + clearance)), c.colour), "rod", at=shift(c.drawn))
+    tree.add(
+        Part(f"{c.name} ROD EYE", bored(shape, Y, ((0, 0, 0), c.pin / 2 + clearance)), c.colour),
+        "rod",
+        at=shift(c.drawn),
+    )
     return tree

@@ -1,7 +1,8 @@
 """Draws a wheel loader of the Komatsu WA475-10 class as one STEP assembly, and the truth about it.
 
-`python draw.py [folder]` writes `wheel_loader.step` and `truth.json`; the same bytes every time. The values it is drawn to are in
-`values.py`, where its pins are in `linkage.py`. It knows nothing of what is later made of the file.
+`python draw.py [folder]` writes `wheel_loader.step` and `truth.json`; the same bytes every time. The values
+it is drawn to are in `values.py`, where its pins are in `linkage.py`. It knows nothing of what is later made
+of the file.
 """
 
 from __future__ import annotations
@@ -44,25 +45,62 @@ LIFT_Y = 450.0
 def lift_cylinder() -> Cylinder:
     """Sizes of a lift cylinder."""
     return Cylinder(
-        "LIFT CYL", v.LIFT_BORE.value, v.LIFT_ROD.value, v.LIFT_STROKE.value, v.LIFT_CLOSED.value, LIFT_DRAWN,
-        outside=184, pin=PIN_C, eye=80, eye_width=110, base=130, cap=35, piston=90, gland=110,
-    )  # fmt: skip
+        "LIFT CYL",
+        v.LIFT_BORE.value,
+        v.LIFT_ROD.value,
+        v.LIFT_STROKE.value,
+        v.LIFT_CLOSED.value,
+        LIFT_DRAWN,
+        outside=184,
+        pin=PIN_C,
+        eye=80,
+        eye_width=110,
+        base=130,
+        cap=35,
+        piston=90,
+        gland=110,
+    )
 
 
 def tilt_cylinder() -> Cylinder:
     """Sizes of the bucket cylinder."""
     return Cylinder(
-        "Tilt cyl", v.TILT_BORE.value, v.TILT_ROD.value, v.TILT_STROKE.value, v.TILT_CLOSED.value, TILT_DRAWN,
-        outside=220, pin=PIN_E, eye=95, eye_width=130, base=155, cap=35, piston=105, gland=125,
-    )  # fmt: skip
+        "Tilt cyl",
+        v.TILT_BORE.value,
+        v.TILT_ROD.value,
+        v.TILT_STROKE.value,
+        v.TILT_CLOSED.value,
+        TILT_DRAWN,
+        outside=220,
+        pin=PIN_E,
+        eye=95,
+        eye_width=130,
+        base=155,
+        cap=35,
+        piston=105,
+        gland=125,
+    )
 
 
 def steering_cylinder(drawn: float) -> Cylinder:
     """Sizes of a steering cylinder."""
     return Cylinder(
-        "ST CYL", v.STEER_BORE.value, v.STEER_ROD.value, v.STEER_STROKE.value, v.STEER_CLOSED.value, drawn,
-        outside=120, pin=PIN_STEER, eye=48, eye_width=80, base=90, cap=28, piston=60, gland=75, colour=GREY,
-    )  # fmt: skip
+        "ST CYL",
+        v.STEER_BORE.value,
+        v.STEER_ROD.value,
+        v.STEER_STROKE.value,
+        v.STEER_CLOSED.value,
+        drawn,
+        outside=120,
+        pin=PIN_STEER,
+        eye=48,
+        eye_width=80,
+        base=90,
+        cap=28,
+        piston=60,
+        gland=75,
+        colour=GREY,
+    )
 
 
 def drawn_pose() -> tuple[Linkage, Pose, Steering]:
@@ -85,12 +123,19 @@ def draw_hydraulics(k: Linkage, pose: Pose, s: Steering) -> Assembly:
         put(lift, at, f"boom_cylinder_barrel_{letter}", f"boom_piston_rod_{letter}")
     tilt = draw_cylinder(tilt_cylinder(), pin_fast_in_rod=True)
     tilt.name = "TILT CYL ASSY"
-    put(tilt, placed((k.E[0], 0, k.E[1]), direction(pose.F - k.E)), "bucket_cylinder_barrel", "bucket_piston_rod")
+    put(
+        tilt,
+        placed((k.E[0], 0, k.E[1]), direction(pose.F - k.E)),
+        "bucket_cylinder_barrel",
+        "bucket_piston_rod",
+    )
     steer = draw_cylinder(steering_cylinder(s.length(0.0)))
     steer.name = "STRG CYL ASSY"
     for letter, sign in (("l", 1.0), ("r", -1.0)):
         p, along = s.P, s.Q - s.P
-        at = frame((p[0], sign * p[1], STEER_Z), (along[0], sign * along[1], 0.0), (0.0, 0.0, 1.0)).Multiplied(turn(X, 90.0))
+        at = frame(
+            (p[0], sign * p[1], STEER_Z), (along[0], sign * along[1], 0.0), (0.0, 0.0, 1.0)
+        ).Multiplied(turn(X, 90.0))
         put(steer, at, f"steering_cylinder_barrel_{letter}", f"steering_piston_rod_{letter}")
     return tree
 
@@ -140,11 +185,12 @@ def main(folder: Path) -> None:
     k, pose, s = drawn_pose()
     cylinders = {"lift": lift_cylinder(), "tilt": tilt_cylinder(), "steer": steering_cylinder(s.length(0.0))}
     document = truth(root, k, pose, s, cylinders, STEER_Z, LIFT_Y)
-    (folder / "truth.json").write_text(json.dumps(document, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    (folder / "truth.json").write_text(
+        json.dumps(document, indent=1, ensure_ascii=False) + "\n", encoding="utf-8"
+    )
     logging.getLogger(__name__).info("%d parts", len(document["parts"]))
 
 
 if __name__ == "__main__":
     logging.basicConfig(level=logging.INFO, format="%(message)s")
     main(Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).parent)
-

@@ -1,7 +1,7 @@
 """Front frame, rear frame and the hinges between them, in the machine frame. Millimetres.
 
-The rear frame's forks hold the upright articulation pins, the front frame's tongues turn on them. The rear axle swings on two short
-pins along x that hang from the rear frame's cross members.
+The rear frame's forks hold the upright articulation pins, the front frame's tongues turn on them. The rear
+axle swings on two short pins along x that hang from the rear frame's cross members.
 """
 
 from __future__ import annotations
@@ -10,9 +10,9 @@ import values as v
 from front_end import PIN_A
 from hardware import bolt, bush, fit_pin
 from linkage import Linkage, Steering
+from OCP.TopoDS import TopoDS_Shape
 from product import BLACK, GREY, STEEL, YELLOW, Assembly, Colour, Part
 from solids import X, Y, Z, bored, box, cut, fuse, mirrored, pipe, plate, ring, rod, shift, turn
-from OCP.TopoDS import TopoDS_Shape
 
 HINGES = ((690.0, 770.0), (1350.0, 1430.0))
 """Heights of the front frame's lower and upper tongue."""
@@ -25,24 +25,39 @@ TAIL = REAR_AXLE_X - v.REAR_OVERHANG.value
 """Rearmost point of the machine."""
 
 
-def _pair(tree: Assembly, name: str, shape: TopoDS_Shape, body: str, colour: Colour = YELLOW, suffix: str = "_") -> None:
+def _pair(
+    tree: Assembly, name: str, shape: TopoDS_Shape, body: str, colour: Colour = YELLOW, suffix: str = "_"
+) -> None:
     tree.add(Part(f"{name}{suffix}LH", shape, colour), body)
     tree.add(Part(f"{name}{suffix}RH", mirrored(shape), colour), body)
 
 
 def draw_front_frame(k: Linkage, s: Steering, hardware: Assembly) -> Assembly:
-    """Side plates, bulkhead, tongues, towers for the boom, clevises of the lift, tilt and steering cylinders."""
+    """Side plates, bulkhead, tongues, towers for the boom, clevises of the lift, tilt and steering
+    cylinders."""
     body = "front_frame"
     tree = Assembly("FRONT FRAME ASSY")
     (ax, az), (cx, cz), (ex, ez) = k.A, k.C, k.E
     side = plate(
         [
-            (620, 650, 0), (1340, 690, 40), (1460, 1115, 0), (1960, 1115, 0), (1960, 1260, 0),
-            (1500, 1560, 0), (1130, 1930, 0), (1040, 2100, 40), (500, 2140, 40), (500, 1650, 40), (420, 1550, 0),
-            (420, 1360, 0), (622, 1290, 0),
+            (620, 650, 0),
+            (1340, 690, 40),
+            (1460, 1115, 0),
+            (1960, 1115, 0),
+            (1960, 1260, 0),
+            (1500, 1560, 0),
+            (1130, 1930, 0),
+            (1040, 2100, 40),
+            (500, 2140, 40),
+            (460, 1650, 0),
+            (420, 1550, 0),
+            (420, 1360, 0),
+            (622, 1290, 0),
         ],
-        "xz", 270, 310,
-    )  # fmt: skip
+        "xz",
+        270,
+        310,
+    )
     side = bored(side, Y, ((cx, 0, cz), PIN_C / 2))
     _pair(tree, "SIDE PL", side, body)
     tree.add(Part("BULKHEAD", box(580, 622, -272, 272, 640, 1650)), body)
@@ -55,7 +70,9 @@ def draw_front_frame(k: Linkage, s: Steering, hardware: Assembly) -> Assembly:
         tree.add(bush(150, PIN_ARTICULATION, high - low), body, at=place)
 
     tree.add(Part("MAIN VALVE", box(760, 960, -120, 120, 670, 812), GREY), body)
-    shaft = fuse(rod((620, 0, AXLE_Z), X, 42, 640), rod((1225, 0, AXLE_Z), X, 85, 34), rod((620, 0, AXLE_Z), X, 85, 34))
+    shaft = fuse(
+        rod((620, 0, AXLE_Z), X, 42, 640), rod((1225, 0, AXLE_Z), X, 85, 34), rod((620, 0, AXLE_Z), X, 85, 34)
+    )
     tree.add(Part("PROP SHAFT FRT", shaft, GREY), body)
     hose = Part("HOSE 3/4", pipe([(0, 0, 0), (0, 0, 500), (120, 0, 620), (120, 0, 1090)], 14, 90), BLACK)
     for y in (-95, -65, 65, 95):
@@ -95,17 +112,39 @@ def draw_front_frame(k: Linkage, s: Steering, hardware: Assembly) -> Assembly:
     for sign in (1.0, -1.0):
         letter = "l" if sign > 0 else "r"
         fit_pin(
-            hardware, (ax, 480 if sign > 0 else -720, az), PIN_A, 240, body, "boom_pin", keep=(sign,), turned=75
-        )  # fmt: skip
+            hardware,
+            (ax, 480 if sign > 0 else -720, az),
+            PIN_A,
+            240,
+            body,
+            "boom_pin",
+            keep=(sign,),
+            turned=75,
+        )
         fit_pin(
-            hardware, (cx, 270 if sign > 0 else -552, cz), PIN_C, 282, body, f"boom_cylinder_barrel_{letter}_pin",
-            keep=(sign,), turned=90,
-        )  # fmt: skip
+            hardware,
+            (cx, 270 if sign > 0 else -552, cz),
+            PIN_C,
+            282,
+            body,
+            f"boom_cylinder_barrel_{letter}_pin",
+            keep=(sign,),
+            turned=90,
+        )
         fit_pin(
-            hardware, (qx, sign * qy, STEER_Z - 75), PIN_STEER, 150, body, f"steering_piston_rod_{letter}_pin",
-            upright=True, keep=(1.0,), turned=-90,
-        )  # fmt: skip
-    fit_pin(hardware, (ex, -115, ez), PIN_E, 230, body, "bucket_cylinder_barrel_pin", keep=(1.0, -1.0), turned=80)
+            hardware,
+            (qx, sign * qy, STEER_Z - 75),
+            PIN_STEER,
+            150,
+            body,
+            f"steering_piston_rod_{letter}_pin",
+            upright=True,
+            keep=(1.0,),
+            turned=-90,
+        )
+    fit_pin(
+        hardware, (ex, -115, ez), PIN_E, 230, body, "bucket_cylinder_barrel_pin", keep=(1.0, -1.0), turned=80
+    )
     return tree
 
 
@@ -115,7 +154,15 @@ def draw_front_fenders() -> Assembly:
     tree = Assembly("FRT FENDER")
     _pair(tree, "FENDER BEAM", box(400, 442, 640, 815, 1765, 1825), body, GREY)
     _pair(tree, "FENDER ARM", box(440, 1250, 760, 810, 1765, 1815), body, GREY)
-    sheet = [(700, 1815, 0), (1000, 1825, 0), (1500, 1905, 0), (1950, 1870, 0), (1950, 1878, 0), (1500, 1913, 0), (1000, 1833, 0)]
+    sheet = [
+        (700, 1815, 0),
+        (1000, 1825, 0),
+        (1500, 1905, 0),
+        (1950, 1870, 0),
+        (1950, 1878, 0),
+        (1500, 1913, 0),
+        (1000, 1833, 0),
+    ]
     _pair(tree, "FENDER", plate([*sheet, (700, 1823, 0)], "xz", 765, 1500), body)
     post = plate([(840, 1820, 0), (900, 1820, 0), (900, 2250, 0), (840, 2250, 0)], "xz", 770, 800)
     _pair(tree, "LAMP POST", post, body, GREY)
@@ -130,11 +177,21 @@ def draw_rear_frame(s: Steering, hardware: Assembly) -> Assembly:
     tree = Assembly("REAR FRAME ASSY")
     side = plate(
         [
-            (-4000, 1060, 0), (-2350, 900, 60), (-2080, 900, 0), (-2010, 1190, 0), (-1440, 1190, 0), (-1370, 900, 0),
-            (-1000, 760, 60), (-620, 700, 0), (-620, 1500, 0), (-4000, 1500, 0),
+            (-4000, 1060, 0),
+            (-2350, 900, 60),
+            (-2080, 900, 0),
+            (-2010, 1190, 0),
+            (-1440, 1190, 0),
+            (-1370, 900, 0),
+            (-1000, 760, 60),
+            (-620, 700, 0),
+            (-620, 1500, 0),
+            (-4000, 1500, 0),
         ],
-        "xz", 350, 390,
-    )  # fmt: skip
+        "xz",
+        350,
+        390,
+    )
     _pair(tree, "RR SIDE PL", side, body)
     tree.add(Part("Stirnwand", box(-660, -620, -390, 390, 600, 1540)), body)
     fork = Assembly("ARTIC FORK")
@@ -144,7 +201,17 @@ def draw_rear_frame(s: Steering, hardware: Assembly) -> Assembly:
             shape = plate([(0, 0, 125), (-630, 330, 0), (-630, -330, 0)], "xy", z0, z0 + 40)
             fork.add(Part(name, bored(shape, Z, ((0, 0, 0), PIN_ARTICULATION / 2))), body)
         length = high - low + 100
-        fit_pin(hardware, (0, 0, low - 50), PIN_ARTICULATION, length, body, "rear_front_pin", upright=True, keep=(1.0,), turned=90)
+        fit_pin(
+            hardware,
+            (0, 0, low - 50),
+            PIN_ARTICULATION,
+            length,
+            body,
+            "rear_front_pin",
+            upright=True,
+            keep=(1.0,),
+            turned=90,
+        )
     gusset = plate([(-640, 1470, 0), (-200, 1478, 0), (-200, 1500, 0), (-640, 1540, 0)], "xz", 90, 120)
     _pair(fork, "FORK GUSSET", gusset, body)
     px, py = s.P
@@ -153,7 +220,12 @@ def draw_rear_frame(s: Steering, hardware: Assembly) -> Assembly:
         _pair(tree, name, bored(shape, Z, ((px, py, 0), PIN_STEER / 2)), body)
     for name, x0, pin_x in (("TRUNNION BRKT FRT", 560.0, 478.0), ("TRUNNION BRKT RR", -505.0, -515.0)):
         x0 += REAR_AXLE_X
-        shape = plate([(0, AXLE_Z, 130), (352, 1200, 0), (352, 1480, 0), (-352, 1480, 0), (-352, 1200, 0)], "yz", x0, x0 + 70)
+        shape = plate(
+            [(0, AXLE_Z, 130), (352, 1200, 0), (352, 1480, 0), (-352, 1480, 0), (-352, 1200, 0)],
+            "yz",
+            x0,
+            x0 + 70,
+        )
         shape = bored(shape, X, ((0, 0, AXLE_Z), PIN_TRUNNION / 2))
         tree.add(Part(name, shape), body)
         length = 162.0 if pin_x > 0 else 157.0
@@ -165,9 +237,16 @@ def draw_rear_frame(s: Steering, hardware: Assembly) -> Assembly:
     for sign in (1.0, -1.0):
         letter = "l" if sign > 0 else "r"
         fit_pin(
-            hardware, (px, sign * py, STEER_Z - 75), PIN_STEER, 150, body, f"steering_cylinder_barrel_{letter}_pin",
-            upright=True, keep=(1.0,), turned=90,
-        )  # fmt: skip
+            hardware,
+            (px, sign * py, STEER_Z - 75),
+            PIN_STEER,
+            150,
+            body,
+            f"steering_cylinder_barrel_{letter}_pin",
+            upright=True,
+            keep=(1.0,),
+            turned=90,
+        )
     hose = Part("SCHLAUCH", pipe([(0, 0, 0), (0, -90, 0), (0, -90, 150), (0, -175, 150)], 16, 35), BLACK)
     for x in (-775, -735):
         tree.add(hose, body, at=shift(x, 562, 1180))
@@ -191,10 +270,20 @@ def draw_counterweight(hardware: Assembly) -> Assembly:
     tree = Assembly("CWT ASSY")
     x = TAIL
     block = plate(
-        [(x, -900, 0), (x + 120, -1180, 0), (x + 330, -1180, 0), (x + 225, -700, 0), (x + 225, 700, 0), (x + 330, 1180, 0),
-         (x + 120, 1180, 0), (x, 900, 0)],
-        "xy", 860, 1500,
-    )  # fmt: skip
+        [
+            (x, -900, 0),
+            (x + 120, -1180, 0),
+            (x + 330, -1180, 0),
+            (x + 225, -700, 0),
+            (x + 225, 700, 0),
+            (x + 330, 1180, 0),
+            (x + 120, 1180, 0),
+            (x, 900, 0),
+        ],
+        "xy",
+        860,
+        1500,
+    )
     jaw = box(x - 10, x + 130, -75, 75, 1130, 1270)
     hole = rod((x + 65, 0, 1000), Z, 26, 400)
     tree.add(Part("CWT", cut(block, jaw, hole), GREY), body)
@@ -207,4 +296,3 @@ def draw_counterweight(hardware: Assembly) -> Assembly:
     for y in (-800, 800):
         tree.add(lamp, body, at=shift(x + 30, y, 1500))
     return tree
-

@@ -24,14 +24,20 @@ def pin(diameter: float, length: float) -> Part:
 @functools.cache
 def bush(outer: float, inner: float, length: float) -> Part:
     """A bush from the origin along +y; `inner` is the pin's diameter, the bore is larger by the clearance."""
-    return Part(f"BUSH {outer:g}/{inner:g}x{length:g}", ring((0, 0, 0), Y, outer / 2, inner / 2 + CLEARANCE, length), BRONZE)
+    return Part(
+        f"BUSH {outer:g}/{inner:g}x{length:g}",
+        ring((0, 0, 0), Y, outer / 2, inner / 2 + CLEARANCE, length),
+        BRONZE,
+    )
 
 
 @functools.cache
 def bolt(size: float, length: float) -> Part:
     """A hexagon bolt: the shank goes from the origin along -y, the head sits at y = 0 .. 0.65 size."""
     r = 0.75 * size / math.cos(math.pi / 6)
-    hexagon = [(r * math.cos(math.radians(60 * i)), r * math.sin(math.radians(60 * i)), 0.0) for i in range(6)]
+    hexagon = [
+        (r * math.cos(math.radians(60 * i)), r * math.sin(math.radians(60 * i)), 0.0) for i in range(6)
+    ]
     shape = fuse(plate(hexagon, "xz", 0.0, 0.65 * size), rod((0, -length, 0), Y, size / 2, length))
     return Part(f"BOLT M{size:g}x{length:g}", shape, GREY)
 
@@ -57,9 +63,11 @@ def fit_pin(
     keep: tuple[float, ...] = (),
     turned: float = 0.0,
 ) -> None:
-    """A pin from `at` along +y (upright: +z), and keeper plates with a bolt on the ends named in `keep` (-1 first end, +1 last).
+    """A pin from `at` along +y (upright: +z), and keeper plates with a bolt on the ends named in `keep` (-1
+    first end, +1 last).
 
-    `turned`: degrees about the pin axis that bring the keeper from "towards -z" to where the plate under it has its meat.
+    `turned`: degrees about the pin axis that bring the keeper from "towards -z" to where the plate under it
+    has its meat.
     """
     base = shift(*at)
     if upright:

@@ -1,11 +1,13 @@
-"""The wheel loader's planar linkage: solved so that the machine meets its published values, and measured again.
+"""The wheel loader's planar linkage: solved so that the machine meets its published values, and measured
+again.
 
-Frame: the machine's, in millimetres and in the plane y = 0: x forward from the articulation axis, z up from the ground. Angles are
-radians, counter-clockwise seen from the machine's right side turned so that x points right and z up (a raised boom is positive).
-Bucket angle: 0 = floor plane level, positive = rolled back.
+Frame: the machine's, in millimetres and in the plane y = 0: x forward from the articulation axis, z up from
+the ground. Angles are radians, counter-clockwise seen from the machine's right side turned so that x points
+right and z up (a raised boom is positive). Bucket angle: 0 = floor plane level, positive = rolled back.
 
-Pins: A boom on the front frame, B bucket on the boom, C and D lift cylinder (frame, boom), E tilt cylinder on the frame, F tilt rod on
-the rocker, G rocker on the boom, H link on the rocker, J link on the bucket. T is the cutting edge (tooth points).
+Pins: A boom on the front frame, B bucket on the boom, C and D lift cylinder (frame, boom), E tilt cylinder on
+the frame, F tilt rod on the rocker, G rocker on the boom, H link on the rocker, J link on the bucket. T is
+the cutting edge (tooth points).
 """
 
 from __future__ import annotations
@@ -43,7 +45,8 @@ def direction(p: Point) -> float:
 
 
 def meet(p: Point, rp: float, q: Point, rq: float, side: float) -> Point:
-    """Point at `rp` from `p` and `rq` from `q`, left (+1) or right (-1) of p -> q; nearest to both when the circles miss."""
+    """Point at `rp` from `p` and `rq` from `q`, left (+1) or right (-1) of p -> q; nearest to both when the
+    circles miss."""
     d = float(np.hypot(*(q - p)))
     along = (d * d + rp * rp - rq * rq) / (2 * d)
     square = rp * rp - along * along
@@ -78,8 +81,8 @@ class Pose:
 
 @dataclass(frozen=True, slots=True)
 class Linkage:
-    """Pin positions. A, C, E are world; D, G are in the boom's frame (origin A, x towards B); H in the rocker's (origin G,
-    x towards F); J and T in the level bucket's (origin B)."""
+    """Pin positions. A, C, E are world; D, G are in the boom's frame (origin A, x towards B); H in the
+    rocker's (origin G, x towards F); J and T in the level bucket's (origin B)."""
 
     A: Point
     C: Point
@@ -115,7 +118,20 @@ class Linkage:
         h = g + rot(rocker, self.H)
         j = meet(h, self.link, b, float(np.hypot(*self.J)), 1.0)
         bucket = (direction(j - b) - direction(self.J) + math.pi) % (2 * math.pi) - math.pi
-        return Pose(lift, tilt, beta, rocker, bucket, b, self.A + rot(beta, self.D), f, g, h, j, b + rot(bucket, self.T))
+        return Pose(
+            lift,
+            tilt,
+            beta,
+            rocker,
+            bucket,
+            b,
+            self.A + rot(beta, self.D),
+            f,
+            g,
+            h,
+            j,
+            b + rot(bucket, self.T),
+        )
 
     def lift_for_hinge(self, height: float) -> float:
         """Lift cylinder length at which the bucket hinge pin is at `height`."""
@@ -127,7 +143,8 @@ class Linkage:
         return float(brentq(lambda t: self.pose(lift, t).bucket_angle - angle, lo, hi, xtol=1e-10))
 
     def margins(self, pose: Pose) -> tuple[float, float, float, float]:
-        """Sines at F (rod on rocker), H, J (link on bucket) and D (lift rod on boom): none may come near 0."""
+        """Sines at F (rod on rocker), H, J (link on bucket) and D (lift rod on boom): none may come near
+        0."""
         return (
             sine(self.E, pose.F, pose.G),
             sine(pose.G, pose.H, pose.J),
@@ -139,12 +156,14 @@ class Linkage:
 LIFT_MIN, LIFT_MAX = v.LIFT_CLOSED.value, v.LIFT_CLOSED.value + v.LIFT_STROKE.value
 TILT_MIN, TILT_MAX = v.TILT_CLOSED.value, v.TILT_CLOSED.value + v.TILT_STROKE.value
 EDGE = _vec(math.sqrt(2) * (v.HINGE_HEIGHT_MAX.value - v.DUMP_CLEARANCE.value) - EDGE_DEPTH, -EDGE_DEPTH)
-"""T in the bucket: at a 45 degree dump its height below B is (x + depth)/sqrt 2, the published hinge height less the clearance."""
+"""T in the bucket: at a 45 degree dump its height below B is (x + depth)/sqrt 2, the published hinge height
+less the clearance."""
 EDGE_GROUND_X = v.OVERALL_LENGTH.value - FRONT_AXLE_X - v.REAR_OVERHANG.value
 """x of the edge with the bucket level on the ground, from the overall length."""
 HINGE_GROUND = _vec(EDGE_GROUND_X - EDGE[0], EDGE_DEPTH)
 HINGE_MAX = _vec(
-    FRONT_AXLE_X + TYRE_RADIUS + v.DUMP_REACH.value - rot(math.radians(-45.0), EDGE)[0], v.HINGE_HEIGHT_MAX.value
+    FRONT_AXLE_X + TYRE_RADIUS + v.DUMP_REACH.value - rot(math.radians(-45.0), EDGE)[0],
+    v.HINGE_HEIGHT_MAX.value,
 )
 
 # Where the search starts and what it stays near (sketch), and how near (loose): proportions of the class.
@@ -161,7 +180,9 @@ _SKETCH = np.array(
         *(-130.0, 345.0),  # J, in the level bucket
     ]
 )
-_LOOSE = np.array([40.0, 20.0, 40.0, 40.0, 40.0, 0.10, 80.0, 80.0, 100.0, 60.0, 60.0, 60.0, 0.3, 60.0, 40.0, 40.0])
+_LOOSE = np.array(
+    [40.0, 20.0, 40.0, 40.0, 40.0, 0.10, 80.0, 80.0, 100.0, 60.0, 60.0, 60.0, 0.3, 60.0, 40.0, 40.0]
+)
 _LEAST_SINE = 0.27
 """How far every lever of the bucket's linkage stays from its dead point, as a sine."""
 
@@ -205,7 +226,8 @@ def _required(x: Point) -> Point:
 
 
 def _wished(x: Point) -> Point:
-    """The required residuals, and softly: near the sketch, and every lever far from its dead point over the whole range."""
+    """The required residuals, and softly: near the sketch, and every lever far from its dead point over the
+    whole range."""
     k = _linkage(x)
     top = direction(HINGE_MAX - k.A)
     low = math.asin((EDGE_DEPTH - v.DIG_DEPTH.value - k.A[1]) / k.boom)
@@ -224,17 +246,19 @@ def _wished(x: Point) -> Point:
 
 @functools.cache
 def solve() -> Linkage:
-    """The linkage that meets every published and example value exactly, near the sketch; the same on every call."""
-    near = least_squares(_wished, _SKETCH, x_scale=_LOOSE, method="trf", max_nfev=400).x
+    """The linkage that meets every published and example value exactly, near the sketch; the same on every
+    call."""
+    close = {"xtol": 1e-12, "ftol": 1e-12, "gtol": 1e-12}
+    near = least_squares(_wished, _SKETCH, x_scale=_LOOSE, method="trf", max_nfev=400, **close).x
     exact = least_squares(_required, near, x_scale=_LOOSE, method="trf", xtol=1e-15, ftol=1e-15, gtol=1e-15).x
-    return _linkage(exact)
+    return _linkage(np.round(exact, 9))
 
 
-# ---- steering --------------------------------------------------------------------------------------------------------
+# ---- steering --------
 @dataclass(frozen=True, slots=True)
 class Steering:
-    """Left steering cylinder seen from above (x forward, y left): P on the rear frame, Q on the front frame, both in the straight
-    machine; the right one is its mirror image."""
+    """Left steering cylinder seen from above (x forward, y left): P on the rear frame, Q on the front frame,
+    both in the straight machine; the right one is its mirror image."""
 
     P: Point
     Q: Point
@@ -251,7 +275,8 @@ class Steering:
 
 @functools.cache
 def solve_steering(p_x: float = -500.0, q_x: float = 520.0) -> Steering:
-    """Pins at the given distances from the articulation, such that one cylinder is closed and the other open at full lock."""
+    """Pins at the given distances from the articulation, such that one cylinder is closed and the other open
+    at full lock."""
     lock, closed = math.radians(v.STEER_ANGLE.value), v.STEER_CLOSED.value
 
     def residual(y: Point) -> Point:

@@ -1,7 +1,8 @@
 """The product tree of the example: parts, assemblies, and the STEP file they are written to.
 
-Everything is designed in the machine frame (x forward, y left, z up; millimetres) and delivered in another: `TO_CAD` turns it so that
-CAD x points backward, y up and z left, with the origin in the middle of the rear axle, as the drawing office of this example has it.
+Everything is designed in the machine frame (x forward, y left, z up; millimetres) and delivered in another:
+`TO_CAD` turns it so that CAD x points backward, y up and z left, with the origin in the middle of the rear
+axle, as the drawing office of this example has it.
 """
 
 from __future__ import annotations
@@ -62,8 +63,9 @@ class Part:
 
 @dataclass(frozen=True)
 class Use:
-    """One occurrence in an assembly. `body` and `role` are the truth; inside a shared assembly they are tags that the assembly's own
-    `Use.names` translates. A placement of None means that the child is drawn in the machine frame."""
+    """One occurrence in an assembly. `body` and `role` are the truth; inside a shared assembly they are tags
+    that the assembly's own `Use.names` translates. A placement of None means that the child is drawn in the
+    machine frame."""
 
     child: Part | Assembly
     placement: gp_Trsf | None = None
@@ -86,7 +88,8 @@ class Assembly:
 
 @dataclass(frozen=True)
 class Occurrence:
-    """A leaf of the tree: its path of product names, its place in the machine frame, and the truth about it."""
+    """A leaf of the tree: its path of product names, its place in the machine frame, and the truth about
+    it."""
 
     path: str
     part: Part
@@ -179,7 +182,8 @@ def _plain_header(text: str, title: str) -> str:
 
 
 def _sorted_colours(text: str) -> str:
-    """The colours at the end of the file in the order of what they colour; OpenCascade writes them in the order of its memory."""
+    """The colours at the end of the file in the order of what they colour; OpenCascade writes them in the
+    order of its memory."""
     start = text.rindex("\n", 0, text.index("MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION")) + 1
     end = text.index("ENDSEC;", start)
     statements = dict(re.findall(r"(#\d+) = (.*?);\n", text[start:end], flags=re.S))
@@ -191,8 +195,12 @@ def _sorted_colours(text: str) -> str:
         while not statements[style].startswith("COLOUR_RGB"):
             style = re.findall(r"#\d+", statements[style])[-1]
         own = next(key for key, value in statements.items() if value == statement)
-        group = next(v for v in statements.values() if v.startswith("MECHANICAL") and re.findall(r"#\d+", v)[0] == own)
-        rgb = ",".join(f"{float(c):.6g}" for c in re.findall(r"[\d.]+E?-?\d*", statements[style].split("'',")[1]))
+        group = next(
+            v for v in statements.values() if v.startswith("MECHANICAL") and re.findall(r"#\d+", v)[0] == own
+        )
+        rgb = ",".join(
+            f"{float(c):.6g}" for c in re.findall(r"[\d.]+E?-?\d*", statements[style].split("'',")[1])
+        )
         colours.append((int(item[1:]), item, re.findall(r"#\d+", group)[-1], rgb))
     n = int(text[start + 1 : text.index(" ", start)])
     lines: list[str] = []

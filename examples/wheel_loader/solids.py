@@ -1,7 +1,9 @@
-"""Small B-rep vocabulary on OpenCascade: prisms from outlines, turned parts, holes, placements. Lengths in millimetres.
+"""Small B-rep vocabulary on OpenCascade: prisms from outlines, turned parts, holes, placements. Lengths in
+millimetres.
 
-An outline is a list of (u, v, r): corner circles in order, counter-clockwise, joined by their outer tangents. r = 0 is a sharp corner,
-r > 0 rounds outwards (a boss), r < 0 rounds inwards (a hollow). Two circles make a lug.
+An outline is a list of (u, v, r): corner circles in order, counter-clockwise, joined by their outer tangents.
+r = 0 is a sharp corner, r > 0 rounds outwards (a boss), r < 0 rounds inwards (a hollow). Two circles make a
+lug.
 """
 
 from __future__ import annotations
@@ -16,9 +18,9 @@ from OCP.BRepBuilderAPI import (
     BRepBuilderAPI_MakeWire,
     BRepBuilderAPI_Transform,
 )
+from OCP.BRepOffsetAPI import BRepOffsetAPI_MakePipe
 from OCP.BRepPrimAPI import BRepPrimAPI_MakeCylinder, BRepPrimAPI_MakePrism, BRepPrimAPI_MakeRevol
 from OCP.GC import GC_MakeArcOfCircle
-from OCP.BRepOffsetAPI import BRepOffsetAPI_MakePipe
 from OCP.gp import gp_Ax1, gp_Ax2, gp_Ax3, gp_Circ, gp_Dir, gp_Pnt, gp_Trsf, gp_Vec
 from OCP.ShapeUpgrade import ShapeUpgrade_UnifySameDomain
 from OCP.TopoDS import TopoDS_Shape
@@ -51,6 +53,8 @@ def outline(corners: Sequence[Corner]) -> list[Segment]:
         if r:
             turn = (math.atan2(qy, qx) - math.atan2(py, px)) % (2 * math.pi)
             turn = turn if r > 0 else turn - 2 * math.pi
+            if 1.5 * math.pi < abs(turn) < 2 * math.pi - 1e-6:
+                raise ValueError(f"the outline turns the wrong way about ({x:g}, {y:g}, {r:g})")
             if abs(turn) > 1e-9 and abs(abs(turn) - 2 * math.pi) > 1e-9:
                 c, s = math.cos(turn / 2), math.sin(turn / 2)
                 path.append((start, (x + r * (c * px - s * py), y + r * (s * px + c * py)), end))
@@ -87,7 +91,9 @@ def box(x0: float, x1: float, y0: float, y1: float, z0: float, z1: float) -> Top
     return plate([(x0, y0, 0), (x1, y0, 0), (x1, y1, 0), (x0, y1, 0)], "xy", z0, z1)
 
 
-def turned(profile: Sequence[tuple[float, float]], origin: Vector = (0, 0, 0), axis: Vector = Y) -> TopoDS_Shape:
+def turned(
+    profile: Sequence[tuple[float, float]], origin: Vector = (0, 0, 0), axis: Vector = Y
+) -> TopoDS_Shape:
     """A solid of revolution; the profile is a closed polygon of (position along the axis, radius)."""
     a = gp_Dir(*axis)
     side = gp_Ax2(gp_Pnt(*origin), a).XDirection()
@@ -140,7 +146,7 @@ def bored(body: TopoDS_Shape, axis: Vector, *holes: tuple[Vector, float]) -> Top
     return body
 
 
-# ---- placements ------------------------------------------------------------------------------------------------------
+# ---- placements --------
 def shift(x: float = 0.0, y: float = 0.0, z: float = 0.0) -> gp_Trsf:
     """A translation."""
     t = gp_Trsf()
@@ -187,7 +193,9 @@ def pipe(points: Sequence[Vector], radius: float, bend: float) -> TopoDS_Shape:
         inward = (w - u).Normalized()
         mid = corner + inward * (bend / math.cos(angle / 2) - bend)
         wire.Add(BRepBuilderAPI_MakeEdge(_pnt(here), _pnt(start)).Edge())
-        wire.Add(BRepBuilderAPI_MakeEdge(GC_MakeArcOfCircle(_pnt(start), _pnt(mid), _pnt(end)).Value()).Edge())
+        wire.Add(
+            BRepBuilderAPI_MakeEdge(GC_MakeArcOfCircle(_pnt(start), _pnt(mid), _pnt(end)).Value()).Edge()
+        )
         here = end
     wire.Add(BRepBuilderAPI_MakeEdge(_pnt(here), _pnt(pts[-1])).Edge())
     first = (pts[1] - pts[0]).Normalized()

@@ -1,4 +1,5 @@
-"""The truth about the drawn machine: what each part is, where each joint is, what the linkage gives. CAD frame, metres."""
+"""The truth about the drawn machine: what each part is, where each joint is, what the linkage gives. CAD
+frame, metres."""
 
 from __future__ import annotations
 
@@ -9,7 +10,18 @@ import numpy as np
 import values as v
 from cylinders import Cylinder
 from hardware import placed
-from linkage import EDGE_DEPTH, FRONT_AXLE_X, LIFT_MAX, LIFT_MIN, TILT_MAX, TILT_MIN, TYRE_RADIUS, Linkage, Pose, Steering
+from linkage import (
+    EDGE_DEPTH,
+    FRONT_AXLE_X,
+    LIFT_MAX,
+    LIFT_MIN,
+    TILT_MAX,
+    TILT_MIN,
+    TYRE_RADIUS,
+    Linkage,
+    Pose,
+    Steering,
+)
 from numpy.typing import NDArray
 from OCP.Bnd import Bnd_Box
 from OCP.BRepBndLib import BRepBndLib
@@ -42,11 +54,24 @@ def _axis(a: tuple[float, float, float]) -> list[float]:
 
 
 def joints(k: Linkage, pose: Pose, s: Steering, steer_z: float, lift_y: float) -> dict[str, dict[str, Any]]:
-    """Every joint of the machine. Anchors and axes in the CAD frame; pitch axes towards the machine's left, slides outward."""
+    """Every joint of the machine. Anchors and axes in the CAD frame; pitch axes towards the machine's left,
+    slides outward."""
     out: dict[str, dict[str, Any]] = {}
 
-    def add(name: str, kind: str, bodies: tuple[str, str], at: tuple[float, float, float], axis: tuple[float, float, float]) -> None:
-        out[name] = {"type": kind, "body0": bodies[0], "body1": bodies[1], "anchor": _point(at), "axis": _axis(axis)}
+    def add(
+        name: str,
+        kind: str,
+        bodies: tuple[str, str],
+        at: tuple[float, float, float],
+        axis: tuple[float, float, float],
+    ) -> None:
+        out[name] = {
+            "type": kind,
+            "body0": bodies[0],
+            "body1": bodies[1],
+            "anchor": _point(at),
+            "axis": _axis(axis),
+        }
 
     def pivot(a: str, b: str, at: tuple[float, float, float], axis: tuple[float, float, float] = Y) -> None:
         add(f"{a}2{b}_joint", "revolute", (a, b), at, axis)
@@ -88,7 +113,13 @@ def joints(k: Linkage, pose: Pose, s: Steering, steer_z: float, lift_y: float) -
 
 def _slides(cylinders: dict[str, Cylinder]) -> dict[str, dict[str, float]]:
     def one(c: Cylinder) -> dict[str, float]:
-        mm = {"stroke": c.stroke, "bore": c.bore, "rod_diameter": c.rod, "closed_length": c.closed, "drawn_length": c.drawn}
+        mm = {
+            "stroke": c.stroke,
+            "bore": c.bore,
+            "rod_diameter": c.rod,
+            "closed_length": c.closed,
+            "drawn_length": c.drawn,
+        }
         return {key: round(value / 1000.0, 9) for key, value in mm.items()}
 
     out = {"bucket_piston_rod2bucket_cylinder_barrel_joint": one(cylinders["tilt"])}
@@ -99,7 +130,8 @@ def _slides(cylinders: dict[str, Cylinder]) -> dict[str, dict[str, float]]:
 
 
 def measured(k: Linkage, s: Steering) -> dict[str, float]:
-    """What the solved linkage gives for the values it was solved for, by the value's name; millimetres and degrees."""
+    """What the solved linkage gives for the values it was solved for, by the value's name; millimetres and
+    degrees."""
     degrees = math.degrees
     ground = k.lift_for_hinge(EDGE_DEPTH)
     level = k.pose(ground, k.tilt_for_angle(ground, 0.0))
@@ -121,7 +153,8 @@ def measured(k: Linkage, s: Steering) -> dict[str, float]:
 
 
 def _extent(leaves: list[Occurrence], where: gp_Trsf | None = None) -> Array:
-    """[[lowest x, y, z], [highest x, y, z]] of the parts in the machine frame, moved by `where`; exact, millimetres."""
+    """[[lowest x, y, z], [highest x, y, z]] of the parts in the machine frame, moved by `where`; exact,
+    millimetres."""
     bounds = Bnd_Box()
     for leaf in leaves:
         place = where.Multiplied(leaf.place) if where else leaf.place
@@ -158,7 +191,9 @@ def drawn(root: Assembly, k: Linkage, pose: Pose) -> dict[str, float]:
         return float(_extent(heel, slope.Multiplied(put(k.pose(k.lift_for_hinge(hinge), TILT_MAX))))[0, 2])
 
     return {
-        v.WHEELBASE.name: float(_extent(of("front_wheel_l")).mean(0)[0] - _extent(of("rear_wheel_l")).mean(0)[0]),
+        v.WHEELBASE.name: float(
+            _extent(of("front_wheel_l")).mean(0)[0] - _extent(of("rear_wheel_l")).mean(0)[0]
+        ),
         v.WIDTH_OVER_TYRES.name: float(tyres[1, 1] - tyres[0, 1]),
         v.BUCKET_WIDTH.name: float(level[1, 1] - level[0, 1]),
         v.OVERALL_LENGTH.name: float(level[1, 0] - _extent(fixed)[0, 0]),
@@ -173,20 +208,29 @@ def drawn(root: Assembly, k: Linkage, pose: Pose) -> dict[str, float]:
 
 
 def truth(
-    root: Assembly, k: Linkage, pose: Pose, s: Steering, cylinders: dict[str, Cylinder], steer_z: float, lift_y: float
+    root: Assembly,
+    k: Linkage,
+    pose: Pose,
+    s: Steering,
+    cylinders: dict[str, Cylinder],
+    steer_z: float,
+    lift_y: float,
 ) -> dict[str, Any]:
     """The document written as `truth.json`."""
     got = measured(k, s)
     shapes = drawn(root, k, pose)
     named = {value.name: value for value in (*v.PUBLISHED, *v.EXAMPLE)}
     return {
-        "about": "CAD frame, metres. A part's key is its product names from the root joined by '/', in tree order; the second of two "
-        "equal keys ends in '#2', the third in '#3'.",
+        "about": "CAD frame, metres. A part's key is its product names from the root joined by '/', in tree "
+        "order; the second of two equal keys ends in '#2', the third in '#3'.",
         "frame": frame_matrix(),
         "joints": joints(k, pose, s, steer_z, lift_y),
         "parts": {leaf.path: {"body": leaf.body, "role": leaf.role} for leaf in occurrences(root)},
         "cylinders": _slides(cylinders),
-        "sites": {"bucket_edge": _point((pose.T[0], 0.0, pose.T[1])), "bucket_hinge": _point((pose.B[0], 0.0, pose.B[1]))},
+        "sites": {
+            "bucket_edge": _point((pose.T[0], 0.0, pose.T[1])),
+            "bucket_hinge": _point((pose.B[0], 0.0, pose.B[1])),
+        },
         "drawn": {
             "boom_angle": round(math.degrees(pose.boom_angle), 9),
             "bucket_angle": round(math.degrees(pose.bucket_angle), 9),

@@ -2,13 +2,16 @@
 
 Two kinds, never mixed:
 
-* `PUBLISHED`: printed by the maker for the Komatsu WA475-10 (standard boom, 4.2 m3 stock-pile bucket, 26.5R25). `source` is the
-  name of the fact in the maker's specification (brochure AESS942-0225) as collected by the EXO equipment atlas.
-* `EXAMPLE`: ours. Plausible for the class, chosen for this example, not the maker's; a sheet prints them as "example value".
+* `PUBLISHED`: printed by the maker for the Komatsu WA475-10 (standard boom, 4.2 m3 stock-pile bucket,
+  26.5R25). `source` is the name of the fact in the maker's specification (brochure AESS942-0225) as collected
+  by the EXO equipment atlas.
+* `EXAMPLE`: ours. Plausible for the class, chosen for this example, not the maker's; a sheet prints them as
+  "example value".
 
-Lengths are millimetres, angles degrees, masses kilograms, pressures MPa, flows L/min, times seconds, speeds km/h, volumes m3.
-Bucket angles are those of the cutting-edge plane: 0 = level, positive = rolled back, so a 45 degree dump is -45.
-The cutting edge is the line of the tooth points, which lies in the plane of the floor's underside.
+Lengths are millimetres, angles degrees, masses kilograms, pressures MPa, flows L/min, times seconds, speeds
+km/h, volumes m3. Bucket angles are those of the cutting-edge plane: 0 = level, positive = rolled back, so a
+45 degree dump is -45. The cutting edge is the line of the tooth points, which lies in the plane of the
+floor's underside.
 """
 
 from __future__ import annotations
@@ -39,7 +42,7 @@ def _published(name: str, value: float, unit: str, location: str) -> Value:
     return Value(name, value, unit, name, location)
 
 
-# ---- published ------------------------------------------------------------------------------------------------------
+# ---- published --------
 LIFT_BORE = _published("Lift cylinder bore", 150, "mm", "p18")
 LIFT_STROKE = _published("Lift cylinder stroke", 764, "mm", "p18")
 LIFT_COUNT = _published("Lift cylinder count", 2, "count", "p18")
@@ -72,7 +75,7 @@ OPERATING_WEIGHT = _published("Operating weight", 25510, "kg", "p19")
 TIPPING_LOAD_STRAIGHT = _published("Static tipping load straight", 20540, "kg", "p19")
 TIPPING_LOAD_FULL_TURN = _published("Static tipping load full turn 40 deg", 17770, "kg", "p19")
 
-# ---- ours: what the sheet prints as "example value" ------------------------------------------------------------------
+# ---- ours: what the sheet prints as "example value" --------
 RACK_BACK_GROUND = Value("Rack-back angle at ground", 40.0, "deg")
 """Lift cylinders where the level bucket's edge rests on the ground, bucket cylinder fully extended."""
 RACK_BACK_MAX = Value("Rack-back angle at maximum lift", 50.0, "deg")
@@ -98,7 +101,7 @@ TREAD = Value("Tread (track width)", 2385.0, "mm")
 """Wheel centre to wheel centre; with the tyre width it gives the published width over tyres."""
 REAR_OVERHANG = Value("Rear axle centre to rear of counterweight", 2500.0, "mm")
 
-# ---- ours: how the cylinders are drawn; a sheet does not print these -------------------------------------------------
+# ---- ours: how the cylinders are drawn; a sheet does not print these --------
 LIFT_CLOSED = Value("Lift cylinder closed length", 1240.0, "mm")
 TILT_CLOSED = Value("Bucket cylinder closed length", 1130.0, "mm")
 STEER_CLOSED = Value("Steering cylinder closed length", 745.0, "mm")
@@ -106,7 +109,9 @@ STEER_CLOSED = Value("Steering cylinder closed length", 745.0, "mm")
 TYRE_SIZE = "26.5R25"
 MAKE, MODEL = "Komatsu", "WA475-10"
 
-PUBLISHED: tuple[Value, ...] = tuple(v for v in list(globals().values()) if isinstance(v, Value) and v.published)
+PUBLISHED: tuple[Value, ...] = tuple(
+    v for v in list(globals().values()) if isinstance(v, Value) and v.published
+)
 """Every published value, in the order above."""
 DRAWN_ONLY: tuple[Value, ...] = (LIFT_CLOSED, TILT_CLOSED, STEER_CLOSED)
 EXAMPLE: tuple[Value, ...] = tuple(

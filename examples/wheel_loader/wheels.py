@@ -1,4 +1,5 @@
-"""Wheels and axles. A wheel is drawn about the origin with its axle along y and its outer side towards +y. Millimetres."""
+"""Wheels and axles. A wheel is drawn about the origin with its axle along y and its outer side towards +y.
+Millimetres."""
 
 from __future__ import annotations
 
@@ -20,11 +21,35 @@ def draw_wheel() -> Assembly:
     """Tyre, rim, hub, cap and twelve wheel bolts; everything is tagged "wheel"."""
     tree = Assembly("WHEEL ASSY 26.5R25")
     r, w = v.TYRE_DIAMETER.value / 2, v.TYRE_WIDTH.value / 2
-    outside = [(-255, 318), (-262, 345), (-310, 430), (-w, 560), (-w, 640), (-325, 800), (-300, r - 18), (-270, r)]
+    outside = [
+        (-255, 318),
+        (-262, 345),
+        (-310, 430),
+        (-w, 560),
+        (-w, 640),
+        (-325, 800),
+        (-300, r - 18),
+        (-270, r),
+    ]
     inside = [(-200, 318), (-205, 370), (-255, 450), (-288, 560), (-288, 640), (-275, 740), (-240, r - 95)]
-    profile = outside + [(-s, q) for s, q in reversed(outside)] + [(-s, q) for s, q in inside] + list(reversed(inside))
+    profile = (
+        outside
+        + [(-s, q) for s, q in reversed(outside)]
+        + [(-s, q) for s, q in inside]
+        + list(reversed(inside))
+    )
     tree.add(Part("TYRE 26.5R25", turned(profile), BLACK, TYRE_DENSITY), "wheel")
-    rim = [(-272, 318), (-272, 352), (-257, 352), (-257, 318), (257, 318), (257, 352), (272, 352), (272, 318), (272, 300)]
+    rim = [
+        (-272, 318),
+        (-272, 352),
+        (-257, 352),
+        (-257, 318),
+        (257, 318),
+        (257, 352),
+        (272, 352),
+        (272, 318),
+        (272, 300),
+    ]
     rim += [(90, 300), (90, 190), (66, 190), (66, 300), (-272, 300)]
     disc = turned(rim)
     circle = [(235 * math.cos(math.radians(30 * i)), 235 * math.sin(math.radians(30 * i))) for i in range(12)]
@@ -43,9 +68,19 @@ def draw_wheel() -> Assembly:
 def axle_housing() -> Part:
     """Axle beam with its spindles, about the axle's middle; used for both axles."""
     half = v.TREAD.value / 2
-    ball = [(BANJO * math.cos(math.radians(a)), BANJO * math.sin(math.radians(a))) for a in range(138, 41, -12)]
+    ball = [
+        (BANJO * math.cos(math.radians(a)), BANJO * math.sin(math.radians(a))) for a in range(138, 41, -12)
+    ]
     left = [(-s, q) for s, q in _beam(half)]
-    hollow = [(-820, 0), (-820, 120), (-345, 125), *[(c * 0.86, r * 0.86) for c, r in ball], (345, 125), (820, 120), (820, 0)]
+    hollow = [
+        (-820, 0),
+        (-820, 120),
+        (-345, 125),
+        *[(c * 0.86, r * 0.86) for c, r in ball],
+        (345, 125),
+        (820, 120),
+        (820, 0),
+    ]
     shape = cut(turned([*left, *ball, *reversed(_beam(half))]), turned(hollow))
     return Part("AXLE HOUSING", shape, GREY)
 
@@ -53,7 +88,15 @@ def axle_housing() -> Part:
 def _beam(half: float) -> list[tuple[float, float]]:
     """Half of the beam's profile, from the end of the spindle inwards."""
     s = SPINDLE / 2
-    return [(half + 60, 0), (half + 60, s), (half - 222, s), (half - 222, 175), (700, 175), (700, 150), (345, 172)]
+    return [
+        (half + 60, 0),
+        (half + 60, s),
+        (half - 222, s),
+        (half - 222, 175),
+        (700, 175),
+        (700, 150),
+        (345, 172),
+    ]
 
 
 def pinion_nose() -> Part:
@@ -84,7 +127,8 @@ def draw_front_axle() -> Assembly:
 
 
 def draw_rear_axle(trunnion: float) -> Assembly:
-    """Housing, pinion nose and the two trunnions that swing about the pins on the x axis; `trunnion` is the pin diameter."""
+    """Housing, pinion nose and the two trunnions that swing about the pins on the x axis; `trunnion` is the
+    pin diameter."""
     x, z = -v.WHEELBASE.value / 2, v.TYRE_DIAMETER.value / 2
     tree = Assembly("REAR AXLE ASSY")
     at = shift(x, 0, z)

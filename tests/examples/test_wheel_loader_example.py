@@ -1,0 +1,404 @@
+"""The wheel loader example: its linkage, its file and the truth about it agree, and it is drawn the same again."""
+
+from __future__ import annotations
+
+import collections
+import importlib
+import json
+import math
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+import pytest
+from OCP.BRep import BRep_Tool
+from OCP.BRepAdaptor import BRepAdaptor_Surface
+from OCP.BRepGProp import BRepGProp
+from OCP.BRepMesh import BRepMesh_IncrementalMesh
+from OCP.collections import Sequence_TDF_Label
+from OCP.GeomAbs import GeomAbs_SurfaceType
+from OCP.gp import gp_Trsf
+from OCP.GProp import GProp_GProps
+from OCP.STEPCAFControl import STEPCAFControl_Reader
+from OCP.TCollection import TCollection_ExtendedString
+from OCP.TDataStd import TDataStd_Name
+from OCP.TDF import TDF_Label
+from OCP.TDocStd import TDocStd_Document
+from OCP.TopAbs import TopAbs_ShapeEnum
+from OCP.TopExp import TopExp_Explorer
+from OCP.TopLoc import TopLoc_Location
+from OCP.TopoDS import TopoDS, TopoDS_Face, TopoDS_Shape
+from OCP.XCAFDoc import XCAFDoc_DocumentTool, XCAFDoc_ShapeTool
+
+FOLDER = Path(__file__).resolve().parents[2] / "examples" / "wheel_loader"
+PERCENT = 0.02
+
+
+def _module(name: str) -> ModuleType:
+    """A module of the example, without leaving its folder on the path."""
+    sys.path.insert(0, str(FOLDER))
+    try:
+        return importlib.import_module(name)
+    finally:
+        sys.path.remove(str(FOLDER))
+
+
+@pytest.fixture(scope="module")
+def values() -> ModuleType:
+    return _module("values")
+
+
+@pytest.fixture(scope="module")
+def linkage() -> ModuleType:
+    return _module("linkage")
+
+
+@pytest.fixture(scope="module")
+def truth() -> dict[str, Any]:
+    document: dict[str, Any] = json.loads((FOLDER / "truth.json").read_text(encoding="utf-8"))
+    return document
+
+
+@dataclass(frozen=True)
+class Leaf:
+    path: str
+    shape: TopoDS_Shape
+    place: gp_Trsf
+    product: int
+
+
+def _name(label: TDF_Label) -> str:
+    attribute = TDataStd_Name()
+    assert label.FindAttribute(TDataStd_Name.GetID_s(), attribute)
+    return str(attribute.Get().ToExtString())
+
+
+@pytest.fixture(scope="module")
+def leaves() -> list[Leaf]:
+    """Every part of the committed file in tree order, in millimetres."""
+    document = TDocStd_Document(TCollection_ExtendedString("BinXCAF"))
+    reader = STEPCAFControl_Reader()
+    reader.SetNameMode(True)
+    reader.ReadFile(str(FOLDER / "wheel_loader.step"))
+    assert reader.Transfer(document)
+    tool = XCAFDoc_DocumentTool.ShapeTool_s(document.Main())
+    roots = Sequence_TDF_Label()
+    tool.GetFreeShapes(roots)
+    assert roots.Length() == 1
+    seen: collections.Counter[str] = collections.Counter()
+    found: list[Leaf] = []
+
+    def walk(label: TDF_Label, path: str, place: gp_Trsf) -> None:
+        if not XCAFDoc_ShapeTool.IsAssembly_s(label):
+            seen[path] += 1
+            unique = path if seen[path] == 1 else f"{path}#{seen[path]}"
+            found.append(Leaf(unique, XCAFDoc_ShapeTool.GetShape_s(label), place, label.Tag()))
+            return
+        children = Sequence_TDF_Label()
+        XCAFDoc_ShapeTool.GetComponents_s(label, children, False)
+        for i in range(1, children.Length() + 1):
+            referred = TDF_Label()
+            XCAFDoc_ShapeTool.GetReferredShape_s(children.Value(i), referred)
+            here = XCAFDoc_ShapeTool.GetLocation_s(children.Value(i)).Transformation()
+            walk(referred, f"{path}/{_name(referred)}", place.Multiplied(here))
+
+    walk(roots.Value(1), _name(roots.Value(1)), gp_Trsf())
+    return found
+
+
+def _faces(shape: TopoDS_Shape) -> list[TopoDS_Face]:
+    faces = []
+    explorer = TopExp_Explorer(shape, TopAbs_ShapeEnum.TopAbs_FACE)
+    while explorer.More():
+        faces.append(TopoDS.Face(explorer.Current()))
+        explorer.Next()
+    return faces
+
+
+@dataclass(frozen=True)
+class Bore:
+    point: np.ndarray
+    axis: np.ndarray
+    radius: float
+
+
+@pytest.fixture(scope="module")
+def bores(leaves: list[Leaf]) -> dict[str, list[Bore]]:
+    """Cylindrical faces by part, metres, CAD frame."""
+    out: dict[str, list[Bore]] = {}
+    for leaf in leaves:
+        for face in _faces(leaf.shape):
+            surface = BRepAdaptor_Surface(face)
+            if surface.GetType() == GeomAbs_SurfaceType.GeomAbs_Cylinder:
+                cylinder = surface.Cylinder().Transformed(leaf.place)
+                p, d = cylinder.Axis().Location(), cylinder.Axis().Direction()
+                bore = Bore(
+                    np.array([p.X(), p.Y(), p.Z()]) / 1e3,
+                    np.array([d.X(), d.Y(), d.Z()]),
+                    cylinder.Radius() / 1e3,
+                )
+                out.setdefault(leaf.path, []).append(bore)
+    return out
+
+
+def _coaxial(bore: Bore, joint: dict[str, Any]) -> bool:
+    axis, offset = np.array(joint["axis"]), bore.point - np.array(joint["anchor"])
+    return bool(
+        np.linalg.norm(np.cross(bore.axis, axis)) < 1e-7 and np.linalg.norm(np.cross(offset, axis)) < 1e-7
+    )
+
+
+# ---- the linkage --------
+def test_published_values_are_the_makers(values: ModuleType, shared_data: Path) -> None:
+    facts = json.loads((shared_data / "facts" / "komatsu-wa475-10.json").read_text(encoding="utf-8"))["facts"]
+    makers = {fact["name"]: (fact["value"], fact["unit"], fact["location"]) for fact in facts}
+    assert len(values.PUBLISHED) >= 30
+    for value in values.PUBLISHED:
+        number, unit, location = makers[value.source]
+        assert (value.value, value.unit) == (number, unit)
+        assert location.startswith(value.location)
+
+
+def test_values_are_either_published_or_ours(values: ModuleType) -> None:
+    names = [value.name for value in (*values.PUBLISHED, *values.EXAMPLE, *values.DRAWN_ONLY)]
+    assert len(names) == len(set(names))
+    assert not {v.name for v in values.PUBLISHED} & {v.name for v in values.EXAMPLE}
+
+
+def test_every_value_is_met(truth: dict[str, Any], values: ModuleType) -> None:
+    assert len(truth["values"]) >= 17
+    for name, row in truth["values"].items():
+        for how in ("linkage", "drawn"):
+            if how in row:
+                assert abs(row[how] / row["target"] - 1) * 100 < PERCENT, (name, how)
+                if row["unit"] == "deg":
+                    assert abs(row[how] - row["target"]) < 0.01
+
+
+def test_dump_and_lift_by_the_pins(linkage: ModuleType, values: ModuleType) -> None:
+    k = linkage.solve()
+    lift, tilt = linkage.LIFT_MAX, k.tilt_for_angle(linkage.LIFT_MAX, math.radians(-45.0))
+    assert linkage.TILT_MIN + 10 < tilt < linkage.TILT_MAX
+    pose = k.pose(lift, tilt)
+    assert pose.B[1] == pytest.approx(values.HINGE_HEIGHT_MAX.value, rel=PERCENT / 100)
+    assert pose.T[1] == pytest.approx(values.DUMP_CLEARANCE.value, rel=PERCENT / 100)
+    reach = pose.T[0] - values.WHEELBASE.value / 2 - values.TYRE_DIAMETER.value / 2
+    assert reach == pytest.approx(values.DUMP_REACH.value, rel=PERCENT / 100)
+    # the pins keep their distances
+    for p in (pose, k.pose(linkage.LIFT_MIN, linkage.TILT_MAX)):
+        assert np.hypot(*(p.F - k.E)) == pytest.approx(p.tilt)
+        assert np.hypot(*(p.D - k.C)) == pytest.approx(p.lift)
+        assert np.hypot(*(p.H - p.J)) == pytest.approx(k.link)
+        assert np.hypot(*(p.F - p.G)) == pytest.approx(k.rocker)
+
+
+def test_no_dead_point_and_no_flip(linkage: ModuleType) -> None:
+    k = linkage.solve()
+    signs = (1, -1, 1, 1)
+    for lift in np.linspace(linkage.LIFT_MIN, linkage.LIFT_MAX, 21):
+        angles = []
+        for tilt in np.linspace(linkage.TILT_MIN, linkage.TILT_MAX, 21):
+            pose = k.pose(float(lift), float(tilt))
+            angles.append(pose.bucket_angle)
+            assert all(m * s > 0.2 for m, s in zip(k.margins(pose), signs, strict=True))
+        assert (np.diff(angles) > 0).all()
+
+
+def test_steering_reaches_both_locks(linkage: ModuleType, values: ModuleType) -> None:
+    s = linkage.solve_steering()
+    lock = math.radians(values.STEER_ANGLE.value)
+    closed = values.STEER_CLOSED.value
+    assert s.length(lock) == pytest.approx(closed, abs=1e-6)
+    assert s.length(-lock) == pytest.approx(closed + values.STEER_STROKE.value, abs=1e-6)
+    lengths = [s.length(float(a)) for a in np.linspace(-lock, lock, 41)]
+    assert (np.diff(lengths) < 0).all()
+
+
+def test_no_cylinder_is_drawn_at_an_end(truth: dict[str, Any]) -> None:
+    assert len(truth["cylinders"]) == 5
+    for name, row in truth["cylinders"].items():
+        used = (row["drawn_length"] - row["closed_length"]) / row["stroke"]
+        assert 0.2 < used < 0.8, name
+        assert row["rod_diameter"] < row["bore"]
+
+
+# ---- the file and the truth --------
+def test_tree_is_what_the_truth_lists(leaves: list[Leaf], truth: dict[str, Any]) -> None:
+    assert len(leaves) >= 180
+    assert [leaf.path for leaf in leaves] == list(truth["parts"])
+    assert len({leaf.product for leaf in leaves}) < 0.75 * len(leaves), "shapes are shared by instances"
+    assert max(leaf.path.count("/") for leaf in leaves) >= 3
+    assert (FOLDER / "wheel_loader.step").stat().st_size < 4e6
+
+
+def test_the_tree_is_not_the_bodies(truth: dict[str, Any]) -> None:
+    groups = collections.defaultdict(set)
+    for path, row in truth["parts"].items():
+        groups[path.split("/")[1]].add(row["body"])
+    assert len(groups["HARDWARE"]) > 6
+    assert len(groups["HYDRAULICS"]) == 10
+
+
+def test_bodies_and_joints_name_each_other(truth: dict[str, Any]) -> None:
+    bodies = {row["body"] for row in truth["parts"].values()}
+    assert len(bodies) == 21
+    jointed = {body for joint in truth["joints"].values() for body in (joint["body0"], joint["body1"])}
+    assert bodies == jointed
+    assert len(truth["joints"]) == 26
+    loops = len(truth["joints"]) - (len(bodies) - 1)
+    assert loops == 6  # two steering, two lift, the tilt cylinder's and the bucket's
+
+
+def test_frame_is_a_turn_and_wheels_stand_on_the_ground(leaves: list[Leaf], truth: dict[str, Any]) -> None:
+    m = np.array(truth["frame"])
+    assert np.allclose(m[:3, :3] @ m[:3, :3].T, np.eye(3)) and np.linalg.det(m) == pytest.approx(1.0)
+    assert not np.allclose(m, np.eye(4))
+    wheel = next(j for n, j in truth["joints"].items() if n == "front_wheel_l_joint")
+    centre = m[:3, :3] @ wheel["anchor"] + m[:3, 3]
+    assert np.allclose(centre, [1.725, 1.1925, 0.875])
+
+
+def test_axes_are_those_of_bores_in_both_bodies(truth: dict[str, Any], bores: dict[str, list[Bore]]) -> None:
+    by_body: dict[str, list[tuple[str, Bore]]] = collections.defaultdict(list)
+    for path, row in truth["parts"].items():
+        by_body[row["body"]] += [(path, bore) for bore in bores.get(path, [])]
+    for name, joint in truth["joints"].items():
+        for body in (joint["body0"], joint["body1"]):
+            assert any(_coaxial(bore, joint) for _, bore in by_body[body]), (name, body)
+
+
+def test_pins_lie_on_their_joints(truth: dict[str, Any], bores: dict[str, list[Bore]]) -> None:
+    pins = collections.Counter(row["role"] for row in truth["parts"].values() if row["role"].endswith("_pin"))
+    assert pins["rear_front_pin"] == pins["boom_pin"] == pins["bucket_pin"] == pins["rear_axle_pin"] == 2
+    assert len(pins) == 17
+    for path, row in truth["parts"].items():
+        if row["role"].endswith("_pin"):
+            near = [n for n, j in truth["joints"].items() if all(_coaxial(bore, j) for bore in bores[path])]
+            assert near, path
+            assert any(
+                row["body"] in (truth["joints"][n]["body0"], truth["joints"][n]["body1"]) for n in near
+            ), path
+
+
+def test_piston_travel_is_the_stroke(leaves: list[Leaf], truth: dict[str, Any]) -> None:
+    """On the shapes: bore from cap to gland less the piston is the stroke, the piston's gap to the cap the extension."""
+    for joint_name, row in truth["cylinders"].items():
+        joint = truth["joints"][joint_name]
+        axis, anchor = np.array(joint["axis"]), np.array(joint["anchor"])
+        barrel, piston_rod = joint["body0"], joint["body1"]
+
+        def along(leaf: Leaf, axis: np.ndarray = axis, anchor: np.ndarray = anchor) -> list[float]:
+            found = []
+            for face in _faces(leaf.shape):
+                surface = BRepAdaptor_Surface(face)
+                if surface.GetType() == GeomAbs_SurfaceType.GeomAbs_Plane:
+                    plane = surface.Plane().Transformed(leaf.place)
+                    n, p = plane.Axis().Direction(), plane.Location()
+                    if abs(abs(np.dot([n.X(), n.Y(), n.Z()], axis)) - 1) < 1e-9:
+                        found.append(float(np.dot(np.array([p.X(), p.Y(), p.Z()]) / 1e3 - anchor, axis)))
+            return sorted(found)
+
+        def part(body: str, word: str) -> Leaf:
+            return next(x for x in leaves if word in x.path and truth["parts"][x.path]["body"] == body)
+
+        cap = along(part(barrel, " TUBE"))[1]
+        gland = along(part(barrel, " GLAND"))[0]
+        piston = along(part(piston_rod, " PISTON"))
+        assert gland - cap - (piston[-1] - piston[0]) == pytest.approx(row["stroke"], abs=1e-7)
+        assert piston[0] - cap == pytest.approx(row["drawn_length"] - row["closed_length"], abs=1e-7)
+        eye = along(part(barrel, " GLAND"))[-1]
+        assert row["closed_length"] - eye > 0.075, "the rod eye stays clear of the gland"
+
+
+def test_masses_are_plausible(leaves: list[Leaf], truth: dict[str, Any], values: ModuleType) -> None:
+    total: collections.Counter[str] = collections.Counter()
+    for leaf in leaves:
+        props = GProp_GProps()
+        BRepGProp.VolumeProperties_s(leaf.shape, props)
+        assert props.Mass() > 0, leaf.path
+        density = 1100.0 if "TYRE" in leaf.path else 7850.0
+        total[truth["parts"][leaf.path]["body"]] += props.Mass() * 1e-9 * density
+    assert total["bucket"] == pytest.approx(values.BUCKET_WEIGHT.value, rel=0.1)
+    assert sum(total.values()) == pytest.approx(values.OPERATING_WEIGHT.value, rel=0.1)
+
+
+# ---- slow --------
+def _mesh(shape: TopoDS_Shape) -> tuple[np.ndarray, np.ndarray]:
+    BRepMesh_IncrementalMesh(shape, 1.0, False, 0.25)
+    points: list[tuple[float, float, float]] = []
+    triangles: list[tuple[int, int, int]] = []
+    for face in _faces(shape):
+        where = TopLoc_Location()
+        mesh = BRep_Tool.Triangulation_s(face, where)
+        base = len(points)
+        for i in range(1, mesh.NbNodes() + 1):
+            p = mesh.Node(i).Transformed(where.Transformation())
+            points.append((p.X(), p.Y(), p.Z()))
+        for i in range(1, mesh.NbTriangles() + 1):
+            a, b, c = mesh.Triangle(i).Get()
+            triangles.append((base + a - 1, base + b - 1, base + c - 1))
+    return np.array(points), np.array(triangles)
+
+
+@pytest.mark.slow
+def test_parts_touch_within_bodies_and_only_at_hinges_between_them(
+    leaves: list[Leaf], truth: dict[str, Any]
+) -> None:
+    fcl = pytest.importorskip("fcl")
+    meshes: dict[int, tuple[np.ndarray, np.ndarray]] = {}
+    solids, low, high = [], [], []
+    for leaf in leaves:
+        if leaf.product not in meshes:
+            meshes[leaf.product] = _mesh(leaf.shape)
+        m = np.array([[leaf.place.Value(i, j) for j in range(1, 5)] for i in range(1, 4)])
+        points = meshes[leaf.product][0] @ m[:, :3].T + m[:, 3]
+        model = fcl.BVHModel()
+        model.beginModel(len(points), len(meshes[leaf.product][1]))
+        model.addSubModel(points, meshes[leaf.product][1])
+        model.endModel()
+        solids.append(fcl.CollisionObject(model))
+        low.append(points.min(0))
+        high.append(points.max(0))
+    lo, hi = np.array(low), np.array(high)
+    jointed = {frozenset((j["body0"], j["body1"])) for j in truth["joints"].values()}
+    body = [truth["parts"][leaf.path]["body"] for leaf in leaves]
+    touching: dict[int, list[int]] = collections.defaultdict(list)
+    for i in range(len(leaves)):
+        for j in np.nonzero(((lo[i] - 3 <= hi) & (hi[i] + 3 >= lo)).all(1))[0]:
+            if j <= i:
+                continue
+            hit = fcl.CollisionResult()
+            fcl.collide(solids[i], solids[j], fcl.CollisionRequest(), hit)
+            gap = (
+                0.0
+                if hit.is_collision
+                else fcl.distance(solids[i], solids[j], fcl.DistanceRequest(), fcl.DistanceResult())
+            )
+            if body[i] == body[j] and gap < 0.5:
+                touching[i].append(int(j))
+                touching[int(j)].append(i)
+            elif body[i] != body[j]:
+                assert gap > 0, (leaves[i].path, leaves[j].path)
+                assert gap >= 3 or frozenset((body[i], body[j])) in jointed, (leaves[i].path, leaves[j].path)
+    for name in set(body):
+        members = {i for i, b in enumerate(body) if b == name}
+        reached, front = set(), [min(members)]
+        while front:
+            here = front.pop()
+            if here not in reached:
+                reached.add(here)
+                front += touching[here]
+        assert reached == members, [leaves[i].path for i in members - reached]
+
+
+@pytest.mark.slow
+def test_drawing_again_gives_the_same_bytes(tmp_path: Path) -> None:
+    subprocess.run(
+        [sys.executable, str(FOLDER / "draw.py"), str(tmp_path)], check=True, capture_output=True, timeout=300
+    )
+    for name in ("wheel_loader.step", "truth.json"):
+        assert (tmp_path / name).read_bytes() == (FOLDER / name).read_bytes(), name
