@@ -122,6 +122,9 @@ def test_measurements_meet_the_values_it_was_drawn_to(machine, drawing):
         "Bucket Width": values.BUCKET_WIDTH,
         "Wheelbase": values.WHEELBASE,
         "Ground Clearance": values.GROUND_CLEARANCE,
+        "Tread": values.TREAD,
+        "Rear Overhang": values.REAR_OVERHANG,
+        "Tyre Diameter": values.TYRE_DIAMETER,
     }
     angles = {
         "Maximum Steering Angle": values.STEER_ANGLE,

@@ -47,6 +47,8 @@ TEMPLATES = [
     template("oscillation", {"kind": "joint_range", "joint": "axle_joint"}),
     template("width", {"kind": "extent", "axis": "y", "of": "length", "bodies": ["bucket"]}),
     template("height", {"kind": "extent", "axis": "z", "of": "max", "bodies": ["*"]}, {"set": {"boom": 0.5}}),
+    template("overhang", {"kind": "overhang", "joint": "rear_wheel_l_joint", "of": "min", "bodies": ["rear_frame"]}),
+    template("tyres", {"kind": "tyre_diameter"}),
     template("approach", {"kind": "approach_angle", "bodies": ["bucket"]}, {"set": {"boom": "max", "bucket": "max"}}),
 ]
 
@@ -94,6 +96,8 @@ def expected(z, travel) -> dict[str, float]:
         "oscillation": 0.4,
         "width": 3.0,
         "height": max(3.0, *(half[pin][1] for pin in "BDGFHJT"), z.A[1]),
+        "overhang": 2.3,
+        "tyres": 1.6,
         "approach": approach,
     }
 

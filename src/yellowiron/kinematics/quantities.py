@@ -180,6 +180,23 @@ def _approach_angle(quantity: Mapping[str, Any], posed: Posed) -> float:
     return float(angles.min())
 
 
+def _overhang(quantity: Mapping[str, Any], posed: Posed) -> float:
+    """Along an axis from a joint's anchor to the farthest corner of bodies: `of` `max` in its sense, `min` against
+    it."""
+    axis, of = _AXES[str(quantity.get("axis", "x"))], str(quantity.get("of", "max"))
+    start = float(_place({"joint": quantity.get("joint")}, posed)[axis])
+    end = _extent({**quantity, "of": of}, posed)
+    return end - start if of == "max" else start - end
+
+
+def _tyre_diameter(quantity: Mapping[str, Any], posed: Posed) -> float:
+    """Twice the radius of the largest wheel (of `bodies`, where named)."""
+    radii = [radius for joint, radius in posed.rolling if joint.body1 in quantity.get("bodies", joint.body1)]
+    if not radii:
+        raise Unmeasurable("the machine has no such wheels")
+    return 2.0 * max(radii)
+
+
 _KINDS: Mapping[str, Callable[[Mapping[str, Any], Posed], float]] = {
     "height": _height,
     "angle": _angle,
@@ -189,5 +206,7 @@ _KINDS: Mapping[str, Callable[[Mapping[str, Any], Posed], float]] = {
     "extent": _extent,
     "distance": _distance,
     "approach_angle": _approach_angle,
+    "overhang": _overhang,
+    "tyre_diameter": _tyre_diameter,
 }
 KINDS = tuple(_KINDS)
