@@ -139,19 +139,26 @@ def _gutter(lines: Sequence[Line], bars: Sequence[Box], across: Sequence[Box]) -
         left_values = sum(
             any(p.x0 < x - 2 and kind_of(p) == "value" for p in line.pieces) for line in lines[first:last]
         )
-        if weight >= 3 and (left_values >= 2 or x in by_bars) and (best is None or weight > best[0]):
+        begun = sum(any(abs(p.x0 - x) < 12 for p in line.pieces) for line in lines[first:last])
+        parts = left_values >= 2 or (x in by_bars and begun >= 3)
+        if weight >= 3 and parts and (best is None or weight > best[0]):
             best = (weight, x, first, last)
     return best[1:] if best else None
 
 
 def _run(lines: Sequence[Line], across: Sequence[Box], x: float) -> tuple[int, int, int]:
     """The longest run of lines that nothing crosses at `x`, and how many of them stand on the thinner side."""
-    heights = sorted((b[1] + b[3]) / 2 for b in across if b[0] < x - 6 and b[2] > x + 6)
+    crossing = [b for b in across if b[0] < x - 6 and b[2] > x + 6]
+    heights = sorted((b[1] + b[3]) / 2 for b in crossing if b[3] - b[1] <= 6)
+    covers = [b for b in crossing if b[3] - b[1] > 6]
     best = (0, 0, 0)
     start = 0
     for index in range(len(lines) + 1):
         ends = index == len(lines)
         crossed = ends or any(p.x0 < x - 2 and p.x1 > x - 2 for p in lines[index].pieces)
+        if not crossed:
+            middle = (lines[index].top + lines[index].bottom) / 2
+            crossed = any(b[1] <= middle <= b[3] for b in covers)
         parted = not crossed and index > start and _any_between(heights, lines[index - 1].top, lines[index].bottom)
         if not (crossed or parted):
             continue

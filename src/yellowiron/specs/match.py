@@ -17,7 +17,8 @@ LEAST = 0.55
 @dataclass(frozen=True)
 class Match:
     """A claim that speaks of a wanted value. `score` 0…1: the share of its label that the wanted value's phrases
-    explain, less what is borrowed from headings. `rest` are the label's other words, `lost` what they cost."""
+    explain, less what is borrowed from headings. `rest` are the label's other words, `lost` what they cost;
+    `by_label` is False where only headings or heads name the property."""
 
     wanted: Wanted
     claim: Claim
@@ -25,6 +26,7 @@ class Match:
     phrase: str
     rest: tuple[str, ...] = ()
     lost: float = 0.0
+    by_label: bool = True
 
 
 def match(claims: Sequence[Claim], wanted: Sequence[Wanted]) -> dict[str, list[Match]]:
@@ -34,6 +36,8 @@ def match(claims: Sequence[Claim], wanted: Sequence[Wanted]) -> dict[str, list[M
         matches = [m for w in wanted if (m := match_one(w, claim)) is not None and m.score >= LEAST]
         if not matches:
             continue
+        if any(m.by_label for m in matches):
+            matches = [m for m in matches if m.by_label]
         best = max((m.score, _specific(m)) for m in matches)
         for one in matches:
             if one.score >= best[0] - 1e-9 and (one.score > 0.999 or _specific(one) >= best[1]):
@@ -84,7 +88,7 @@ def match_one(wanted: Wanted, claim: Claim) -> Match | None:
         return None
     lost = len(rest) / max(len(primary - NEUTRAL), 1)
     score = 1.0 - lost - borrowed
-    return Match(wanted, claim, max(score, 0.0), best, tuple(sorted(rest)), lost)
+    return Match(wanted, claim, max(score, 0.0), best, tuple(sorted(rest)), lost, bool(explained & label))
 
 
 @functools.lru_cache(maxsize=1024)

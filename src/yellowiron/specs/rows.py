@@ -48,6 +48,7 @@ class _State:
     data_since_heads: bool = False
     values_in_row: int = 0
     headings: list[Heading] = field(default_factory=list)
+    orphans: list[int] = field(default_factory=list)
 
 
 def read_block(page: Page, block: Block, first_row: int, section: str = "") -> tuple[list[Statement], list[Heading]]:
@@ -73,10 +74,37 @@ def _read_row(
         inline = [s for p in pieces if (s := split_inline(p.bare))[0]]
         if not inline:
             for line in sorted(row, key=lambda one: one.top):
-                _read_words(page, block, line, state, size)
+                if not _label_orphans(line, state, found):
+                    _read_words(page, block, line, state, size)
             return
+    state.orphans = []
     _read_values(page, row, state, number, found)
     state.data_since_heads = True
+
+
+def _label_orphans(line: Line, state: _State, found: list[Statement]) -> bool:
+    """Gives values without any label the words right beneath them: a card with a big number over its name."""
+    orphans, state.orphans = state.orphans, []
+    if not orphans or len(line.pieces) != len(orphans):
+        return False
+    for index, piece in zip(orphans, line.pieces, strict=True):
+        box = found[index].box
+        height = box[3] - box[1]
+        overlaps = piece.x0 < box[2] and box[0] < piece.x1
+        if kind_of(piece) != "text" or not overlaps or piece.box[1] - box[3] > height or piece.size > 0.85 * height:
+            return False
+    for index, piece in zip(orphans, line.pieces, strict=True):
+        statement = found[index]
+        label, unit = unit_in_label(piece.bare)
+        found[index] = replace(
+            statement,
+            label=label,
+            context=(),
+            unit=statement.unit or unit,
+            quote=f"{statement.text} … {piece.text}",
+            example=statement.example or bool(EXAMPLE.search(piece.text)),
+        )
+    return True
 
 
 def _are_heads(pieces: Sequence[Piece], kinds: Sequence[str], state: _State) -> bool:
@@ -124,7 +152,7 @@ def _read_words(page: Page, block: Block, line: Line, state: _State, size: float
         if at_label and not units:
             state.pending = []
         return
-    if at_label and len(texts) == 1 and len(texts[0].words) <= _LONGEST_LABEL:
+    if at_label and len(texts) == 1 and not _is_prose(texts[0]):
         if texts[0].bold:
             state.context, state.pending = [texts[0]], []
         elif state.pending and _stacked(state.pending[-1], texts[0]) and not state.data_since_heads:
@@ -134,6 +162,10 @@ def _read_words(page: Page, block: Block, line: Line, state: _State, size: float
         state.data_since_heads = False if not state.heads else state.data_since_heads
         return
     state.pending = []
+
+
+def _is_prose(piece: Piece) -> bool:
+    return len(piece.words) > _LONGEST_LABEL or (piece.text.endswith(".") and len(piece.words) > 3)
 
 
 def _is_heading(piece: Piece, size: float) -> bool:
@@ -203,57 +235,84 @@ class _Cell:
 
 
 def _read_values(page: Page, row: Sequence[Line], state: _State, number: int, found: list[Statement]) -> None:
-    cells = _cells(row)
+    cells = [c for c in _cells(row) if sum(len(p.words) for p in c.label) <= _LONGEST_LABEL]
+    if not cells:
+        return
     pending, state.pending = state.pending, []
     has_label = any(c.label for c in cells)
     if not has_label and not pending and found and _continues(found, cells):
         _continue(found, cells)
         return
-    if state.data_since_heads and 2 * len(cells) < state.values_in_row:
-        state.heads = []  # a narrower row than the table's: the table has ended
-    state.values_in_row = len(cells)
+    _end_heads(row, cells, state)
     context = [*state.context, *pending]
-    row_marked = any(EXAMPLE.search(p.text) for c in cells for p in [*c.notes, *c.label, *c.values])
+    marked = bool(EXAMPLE.search(state.section)) or any(
+        EXAMPLE.search(p.text) for p in [*context, *(q for c in cells for q in [*c.notes, *c.label, *c.values])]
+    )
     for cell in cells:
-        label_text = " ".join(p.bare for p in cell.label)
-        value_text = " ".join(p.text for p in cell.values)
-        if not cell.label:
-            inline_label, inline_value = split_inline(" ".join(p.bare for p in cell.values))
-            if inline_label:
-                label_text, value_text = inline_label, inline_value
-        if len(label_text.split()) > _LONGEST_LABEL:
-            continue
-        box = join_boxes(p.box for p in cell.values)
-        heads = _heads_over(state.heads, box)
-        column = [h for h in heads if not is_unit(h.bare)]
-        unit = next((u for h in reversed(heads) if (u := is_unit(h.bare) or unit_in_label(h.bare)[1])), "")
-        bare_label, label_unit = unit_in_label(without_key(label_text))
-        unit = cell.unit or label_unit or unit
-        marked = (
-            row_marked or any(EXAMPLE.search(p.text) for p in [*heads, *context]) or bool(EXAMPLE.search(state.section))
-        )
+        heads = _heads_over(state.heads, join_boxes(p.box for p in cell.values))
+        above = context if not cell.label or pending else []
+        statement = _statement(page, row, cell, heads, context, above, number)
         found.append(
-            Statement(
-                page=page.number,
-                row=number,
-                label=bare_label,
-                text=EXAMPLE.sub("", value_text).strip(),
-                box=box,
-                quote=_quote(
-                    row, context if not cell.label or pending else [], cell, [*column] if not cell.label else []
-                ),
-                context=tuple(p.bare for p in context),
+            replace(
+                statement,
                 section=EXAMPLE.sub("", state.section).strip(),
-                column=tuple(unit_in_label(h.bare)[0] for h in column if h.bare),
-                unit=unit,
-                example=marked or marked_by_legend(page, [*cell.label, *cell.values, *heads]),
-                x0=box[0],
+                example=marked or statement.example,
                 method="bands" if len(row) > 1 else "gaps",
             )
         )
-        if not has_label:
-            # A value under a label of its own line, its partner beneath: "25,510 kg" / "56,240 lb".
-            state.pending = pending
+    if not has_label:
+        # A value under a label on a line of its own, its partner beneath: "25,510 kg" / "56,240 lb".
+        state.pending = pending
+        if not pending and not state.heads:
+            state.orphans = list(range(len(found) - len(cells), len(found)))
+
+
+def _end_heads(row: Sequence[Line], cells: Sequence[_Cell], state: _State) -> None:
+    """Forgets column heads where their table has ended: a narrower row, a row of several labels, or a gap."""
+    labels = {id(c.label[0]) for c in cells if c.label}
+    narrower = state.data_since_heads and 2 * len(cells) < state.values_in_row
+    apart = False
+    if state.heads and not state.data_since_heads:
+        lowest = max(p.box[3] for head in state.heads for p in head)
+        size = max(p.size for line in row for p in line.pieces)
+        apart = min(line.top for line in row) - lowest > 3 * size
+    if narrower or apart or len(labels) > 1:
+        state.heads = []
+    state.values_in_row = len(cells)
+
+
+def _statement(
+    page: Page,
+    row: Sequence[Line],
+    cell: _Cell,
+    heads: Sequence[Piece],
+    context: Sequence[Piece],
+    above: Sequence[Piece],
+    number: int,
+) -> Statement:
+    label, text = " ".join(p.bare for p in cell.label), " ".join(p.text for p in cell.values)
+    if not cell.label:
+        inline = split_inline(" ".join(p.bare for p in cell.values))
+        if inline[0]:
+            label, text = inline
+    column = [h for h in heads if not is_unit(h.bare)]
+    unit = next((u for h in reversed(heads) if (u := is_unit(h.bare) or unit_in_label(h.bare)[1])), "")
+    label, label_unit = unit_in_label(without_key(label))
+    box = join_boxes(p.box for p in cell.values)
+    return Statement(
+        page=page.number,
+        row=number,
+        label=label,
+        text=EXAMPLE.sub("", text).strip(),
+        box=box,
+        quote=_quote(row, above, cell, column if not cell.label else []),
+        context=tuple(p.bare for p in context),
+        column=tuple(unit_in_label(h.bare)[0] for h in column if h.bare),
+        unit=cell.unit or label_unit or unit,
+        example=any(EXAMPLE.search(h.text) for h in heads)
+        or marked_by_legend(page, [*cell.label, *cell.values, *heads]),
+        x0=box[0],
+    )
 
 
 def _cells(row: Sequence[Line]) -> list[_Cell]:

@@ -15,7 +15,7 @@ EXAMPLE = re.compile(
     re.IGNORECASE,
 )
 """How a sheet marks a value as its publisher's own example."""
-_MARK = re.compile(r"(?<=[\w)\"'°³²%])\s*(?:[*†‡§¤◊]+|\d\))$|^(?:[*†‡§¤◊]+)")
+_MARK = re.compile(r"(?<=[\w)\"'°³²%])\s*[*†‡§¤◊]+$|^[*†‡§¤◊]+|(?<=[^\W\d])\d\)$|(?<=\s)\d\)$")
 _FEET_HEAD = re.compile(r"\(?\s*(?:ft\.?|feet|′|')\s*[-·.,&/ ]*\s*(?:in\.?|inch(?:es)?|″|\")\s*\)?", re.IGNORECASE)
 
 
@@ -118,6 +118,9 @@ def is_unit(text: str) -> str:
 
 def unit_in_label(text: str) -> tuple[str, str]:
     """A label without the unit at its end, and that unit: "Boom length (m)" → ("Boom length", "m")."""
+    pair = re.search(r"^(.*?\w)[\s,]+(\S+\s*[(/\[]\s*[^()\[\]]+[)\]])$", text)
+    if pair and "|" in (unit := is_unit(pair.group(2))):
+        return pair.group(1), unit
     match = re.search(r"^(.*?)\s*[(\[]\s*([^()\[\]]+?)\s*[)\]]\s*:?$", text) or re.search(
         r"^(.*?)\s*,\s*([^,]+?)\s*:?$", text
     )
@@ -190,5 +193,5 @@ def split_inline(text: str) -> tuple[str, str]:
 
 def without_key(label: str) -> str:
     """A label without its drawing's letter key: "B Hinge pin height" → "Hinge pin height"."""
-    match = re.match(r"^(?:[A-Z]{1,2}[′'\"]?|\d{1,2})[.):]?\s+(?=[A-ZÀ-Ý(][^\W\d_]+)(.+)$", label)
+    match = re.match(r"^\(?(?:[A-Z]{1,2}[′'\"]?|\d{1,2})[.):]*\s+(?=[A-ZÀ-Ý(][^\W\d_]+)(.+)$", label)
     return match.group(1) if match else label

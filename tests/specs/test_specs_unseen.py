@@ -1,0 +1,178 @@
+"""Layouts and machines that were held back while the rules were made: what they give, right or wrong."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from reportlab.lib.colors import HexColor
+from specs_layouts import bar, canvas, lattice, put, template, wanted
+
+from yellowiron.specs import extract
+
+
+# Bobcat S76, BOBCAT-S76-2-NA-PRODUCT (EXO-Robotics/exo-equipment-atlas, bobcat-s76-2): imperial first
+def bobcat_s76(path: Path) -> None:
+    c = canvas(path)
+    put(c, 36, 800, "S76 class skid steer", size=16, bold=True)
+    cards = [("8,014 lb", "Operating weight"), ("128.3 in", "Height to bucket hinge pin"), ("83.7 in", "Turning radius")]
+    for i, (value, label) in enumerate(cards):
+        c.setFillColor(HexColor("#eeeeee"))
+        c.rect(36 + 175 * i, 730, 165, 50, stroke=0, fill=1)
+        put(c, 46 + 175 * i, 757, value, size=16, bold=True)
+        put(c, 46 + 175 * i, 740, label, size=7)
+    put(c, 36, 700, "DIMENSIONS", size=10, bold=True)
+    rows = [
+        ("(A) Wheelbase", "48.3 in", "1227 mm"),
+        ("(B) Length without Attachment", "114.0 in", "2896 mm"),
+        ("(C) Length with Standard Bucket", "142.0 in", "3607 mm"),
+        ("(D) Height", "81.9 in", "2080 mm"),
+        ("(E) Reach at Maximum Height", "33.5 in", "851 mm"),
+        ("(F) Bucket Width", "74.0 in", "1880 mm"),
+        ("(G) Width", "72.0 in", "1829 mm"),
+        ("Standard Tires", "12.00 x 16.5", ""),
+    ]
+    for i, (label, imperial, metric) in enumerate(rows):
+        x, y = (36, 684 - 13 * i) if i < 4 else (306, 684 - 13 * (i - 4))
+        put(c, x, y, label)
+        put(c, x + 175, y, imperial, right=True)
+        put(c, x + 240, y, metric, right=True)
+    c.save()
+
+
+BOBCAT = template(
+    wanted("Operating Weight", "mass"),
+    wanted("Hinge Pin Height", "length", "height to bucket hinge pin"),
+    wanted("Turning Radius", "length"),
+    wanted("Wheelbase", "length"),
+    wanted("Overall Length", "length", "length with standard bucket"),
+    wanted("Overall Height", "length", "height"),
+    wanted("Dumping Reach", "length", "reach at maximum height"),
+    wanted("Bucket Width", "length"),
+    wanted("Overall Width", "length", "width", forbidden=("bucket",)),
+)
+BOBCAT_TRUTH = {
+    "Operating Weight": 3635.1,
+    "Hinge Pin Height": 3.2588,
+    "Turning Radius": 2.126,
+    "Wheelbase": 1.2268,
+    "Overall Length": 3.6068,
+    "Overall Height": 2.0803,
+    "Dumping Reach": 0.8509,
+    "Bucket Width": 1.8796,
+    "Overall Width": 1.8288,
+}
+
+
+# Caterpillar D6, CAT-D6-AEXQ3981-20C-AUSAM (EXO-Robotics/exo-equipment-atlas, cat-d6): rows are the options
+def cat_d6(path: Path) -> None:
+    c = canvas(path)
+    bar(c, 36, 800, "Blades", 520)
+    lattice(
+        c,
+        36,
+        780,
+        (90, 85, 85, 85, 85, 90),
+        [
+            ("Blade", "Capacity\nm³ (yd³)", "Width over end\nbits, mm (in)", "Height\nmm (in)", "Dig depth\nmm (in)", "Weight\nkg (lb)"),
+            ("6SU", "5.7 (7.5)", "3312 (130.4)", "1408 (55.4)", "502 (19.8)", "1385 (3,053)"),
+            ("6S", "3.9 (5.1)", "3360 (132.3)", "1257 (49.5)", "473 (18.6)", "1154 (2,544)"),
+            ("6A", "3.2 (4.2)", "4166 (164.0)", "1155 (45.5)", "506 (19.9)", "1334 (2,941)"),
+        ],
+    )
+    bar(c, 36, 660, "Undercarriage", 250)
+    for i, (label, value) in enumerate(
+        [
+            ("Track gauge", "1930 mm / 76 in"),
+            ("Track on ground", "2964 mm / 116.7 in"),
+            ("Ground pressure", "54.0 kPa / 7.8 psi"),
+            ("Operating weight", "22 130 kg / 48,790 lb"),
+            ("Shipping weight", "19 178 kg / 42,280 lb"),
+        ]
+    ):
+        put(c, 36, 642 - 12 * i, f"{label}:  {value}")
+    c.save()
+
+
+D6 = template(
+    wanted("Blade Capacity", "volume", "capacity"),
+    wanted("Blade Width", "length", "width over end bits"),
+    wanted("Blade Height", "length", "height"),
+    wanted("Digging Depth", "length", "dig depth"),
+    wanted("Blade Weight", "mass", "weight", forbidden=("operating", "shipping")),
+    wanted("Track Gauge", "length"),
+    wanted("Operating Weight", "mass"),
+    wanted("Ground Pressure", "pressure"),
+)
+D6_TRUTH = {
+    "Blade Capacity": 5.7,
+    "Blade Width": 3.312,
+    "Blade Height": 1.408,
+    "Digging Depth": 0.502,
+    "Blade Weight": 1385.0,
+    "Track Gauge": 1.93,
+    "Operating Weight": 22130.0,
+    "Ground Pressure": 54e3,
+}
+
+
+# Caterpillar 773F (123docz.net/document/3441674): numbered dimensions, two bodies side by side
+def cat_773f(path: Path) -> None:
+    c = canvas(path)
+    put(c, 36, 800, "Dimensions", size=13, bold=True)
+    put(c, 36, 785, "All dimensions are approximate.", size=7)
+    put(c, 330, 770, "Dual Slope", bold=True)
+    put(c, 450, 770, "Flat Floor", bold=True)
+    rows = [
+        ("1 Height to Top of ROPS", "4116 mm", "13.5 ft", "4116 mm", "13.5 ft"),
+        ("2 Overall Body Length", "9211 mm", "30.2 ft", "9120 mm", "29.9 ft"),
+        ("3 Inside Body Length", "6254 mm", "20.5 ft", "6080 mm", "19.9 ft"),
+        ("4 Overall Length", "10 249 mm", "33.6 ft", "10 070 mm", "33.0 ft"),
+        ("5 Wheelbase", "4215 mm", "13.8 ft", "4215 mm", "13.8 ft"),
+        ("6 Rear Axle to Tail", "2749 mm", "9.0 ft", "2690 mm", "8.8 ft"),
+        ("7 Ground Clearance", "777 mm", "2.5 ft", "777 mm", "2.5 ft"),
+        ("8 Dump Clearance", "616 mm", "2.0 ft", "690 mm", "2.3 ft"),
+        ("9 Loading Height – Empty", "3773 mm", "12.4 ft", "3730 mm", "12.2 ft"),
+        ("11 Overall Height – Body Raised", "9261 mm", "30.4 ft", "9200 mm", "30.2 ft"),
+        ("12 Operating Width", "5425 mm", "17.8 ft", "5425 mm", "17.8 ft"),
+    ]
+    for i, (label, *cells) in enumerate(rows):
+        put(c, 36, 752 - 12 * i, label)
+        for stop, cell in zip((330, 390, 450, 510), cells, strict=True):
+            put(c, stop, 752 - 12 * i, cell)
+    c.save()
+
+
+CAT_773F = template(
+    wanted("Overall Height", "length", "height to top of ROPS"),
+    wanted("Overall Length", "length"),
+    wanted("Wheelbase", "length"),
+    wanted("Ground Clearance", "length"),
+    wanted("Dump Clearance", "length"),
+    wanted("Loading Height", "length", "loading height empty"),
+    wanted("Overall Height Raised", "length", "overall height body raised"),
+    wanted("Operating Width", "length"),
+)
+CAT_773F_TRUTH = {
+    "Overall Height": 4.116,
+    "Overall Length": 10.249,
+    "Wheelbase": 4.215,
+    "Ground Clearance": 0.777,
+    "Dump Clearance": 0.616,
+    "Loading Height": 3.773,
+    "Overall Height Raised": 9.261,
+    "Operating Width": 5.425,
+}
+
+
+def tally(found: object, truth: dict[str, float]) -> tuple[int, int, int]:
+    """(right, wrong, not ok)."""
+    right = wrong = other = 0
+    for name, value in truth.items():
+        specification = found.get(name)  # type: ignore[attr-defined]
+        if specification.status != "ok":
+            other += 1
+        elif abs(specification.value - value) <= 2e-3 * value:
+            right += 1
+        else:
+            wrong += 1
+    return right, wrong, other
