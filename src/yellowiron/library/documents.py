@@ -7,7 +7,7 @@ known; DOC003, a document says nothing; DOC004, what a relation leads from is no
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -15,8 +15,8 @@ from typing import Any
 import numpy as np
 
 from yellowiron.library.details import EVERYTHING, matches, read_material
-from yellowiron.library.joints import GAINS, check_bodies, read_joint, split_index
-from yellowiron.library.reading import Document, check_document, near, read_json, template_schema
+from yellowiron.library.joints import check_bodies, read_joint, split_index
+from yellowiron.library.reading import Document, check_document, near, read_json, template_schema, where
 from yellowiron.model.alignment import Alignment, PartAssignment
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import TemplateError
@@ -64,7 +64,7 @@ def load_documents(paths: Sequence[str | Path], template: Template, assembly: As
         content = read_json(path)
         kind = kind_of(content, path)
         if kind is None:
-            reader.find("DOC003", str(path), "The document says nothing.", "Remove it, or fill it.")
+            reader.find("DOC003", path, (), "The document says nothing.", "Remove it, or fill it.")
         else:
             documents.append((kind, check_document(path, content, kind)))
     for kind, document in sorted(documents, key=lambda d: d[0] == "joint_overrides"):
@@ -141,25 +141,26 @@ class _Reader:
         self.followers: dict[str, Follower] = {}
         self.findings: list[Finding] = []
 
-    def find(self, code: str, where: str, message: str, hint: str) -> None:
-        self.findings.append(Finding(code, "warning", where, message, hint))
+    def find(self, code: str, document: Path, keys: Sequence[object], message: str, hint: str) -> None:
+        # The file's name without its folder: reports are the same wherever a build runs.
+        self.findings.append(Finding(code, "warning", where(Path(document.name), keys), message, hint))
 
     def read(self, kind: str, document: Document) -> None:
         if kind == "materials":
             for key, entry in document.data.items():
                 # What a person states of a part's look replaces what the CAD file shows.
                 material = replace(read_material(document, key, entry), repaint=True)
-                self.materials.update(dict.fromkeys(self.names(key, document.at(key)), material))
+                self.materials.update(dict.fromkeys(self.names(key, document), material))
         elif kind == "collision":
             for key, token in document.data.items():
-                self.collision.update(dict.fromkeys(self.names(key, document.at(key)), token))
+                self.collision.update(dict.fromkeys(self.names(key, document), token))
         elif kind == "relations":
             self.read_relations(document)
         else:
             for name, entry in document.data.items():
                 self.read_joint(document, name, entry)
 
-    def names(self, key: str, where: str) -> list[str]:
+    def names(self, key: str, document: Document) -> list[str]:
         """The role and CAD part names that a key stands for."""
         if key == EVERYTHING:
             return [EVERYTHING]
@@ -170,7 +171,8 @@ class _Reader:
             names = [self.roles[fold(key)]] if fold(key) in self.roles else []
             names += [name for name, _ in self.parts.get(fold(key), ())[:1]]
         if not names:
-            self.find("DOC001", where, f"'{key}' is neither a role nor a part of the CAD model.", self.near(key))
+            message = f"'{key}' is neither a role nor a part of the CAD model."
+            self.find("DOC001", document.path, (key,), message, self.near(key))
         return list(dict.fromkeys(names))
 
     def near(self, name: str) -> str:
@@ -187,10 +189,10 @@ class _Reader:
                 names = waiting.pop(leader)
                 if body is None:
                     message = f"'{leader}' leads others and is no body of the template."
-                    self.find("DOC004", document.at(leader), message, self.near(leader))
+                    self.find("DOC004", document.path, (leader,), message, self.near(leader))
                 else:
                     for index, name in enumerate(names):
-                        self.follow(name, body, document.at(leader, index), f"{document.path.name}: follows '{leader}'")
+                        self.follow(name, body, document.path, (leader, index))
 
     def leader(self, name: str) -> str | None:
         """The body that a leader's name stands for."""
@@ -198,14 +200,15 @@ class _Reader:
             return self.template.body_of(self.roles[fold(name)])
         return next((self.followers[i].body for _, i in self.parts.get(fold(name), ()) if i in self.followers), None)
 
-    def follow(self, name: str, body: str, where: str, source: str) -> None:
+    def follow(self, name: str, body: str, document: Path, keys: tuple[str, int]) -> None:
         role = self.roles.get(fold(name))
         parts = self.parts.get(fold(name), [])
         if not parts and (role is None or self.template.body_of(role) != body):
-            self.find("DOC001", where, f"'{name}' is no part of the CAD model.", self.near(name))
+            self.find("DOC001", document, keys, f"'{name}' is no part of the CAD model.", self.near(name))
             return
         self.relations.setdefault(body, []).append(parts[0][0] if parts else role or name)
         own = role if role is not None and self.template.body_of(role) == body else body
+        source = f"{document.name}: follows '{keys[0]}'"
         for _, part in parts:
             self.followers[part] = Follower(part, own, body, source)
 
@@ -220,7 +223,7 @@ class _Reader:
                 if role is None:
                     message = f"Which body '{part}' moves with is not known; the joint is left out."
                     hint = self.near(part) or "Say it in a relations document."
-                    self.find("DOC002", document.at(name, "Body"), message, hint)
+                    self.find("DOC002", document.path, (name, "Body"), message, hint)
             if parts[0] is None or parts[1] is None:
                 return
             joint = replace(joint, parts=(parts[0], parts[1]))
@@ -233,11 +236,3 @@ class _Reader:
         if fold(name) in self.roles:
             return f"{self.roles[fold(name)]}[{index}]" if index else self.roles[fold(name)]
         return next((self.followers[i].role for _, i in self.parts.get(fold(name), ()) if i in self.followers), None)
-
-
-def stated_gains(joint: JointTemplate) -> Iterable[tuple[str, float]]:
-    """The gains that a joint entry states, SI."""
-    for key in GAINS:
-        value = getattr(joint, key)
-        if value is not None:
-            yield key, value

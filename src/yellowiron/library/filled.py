@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from yellowiron.library.documents import stated_gains
-from yellowiron.library.joints import DIMENSION
+from yellowiron.library.joints import DIMENSION, stated_gains
 from yellowiron.library.quantities import number_text
 from yellowiron.model.mechanism import Mechanism
 from yellowiron.model.specification import Specification, Specifications

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any, cast
 
@@ -76,6 +76,14 @@ def split_index(part: str) -> tuple[str, str]:
     """`track_shoe_l[i+1]` → (`track_shoe_l`, `i+1`); the index is empty for a single part."""
     match = _INDEX.match(part)
     return (match.group(1), match.group(2).replace(" ", "")) if match else (part, "")
+
+
+def stated_gains(joint: JointTemplate) -> Iterator[tuple[str, float]]:
+    """The gains that a joint entry states, SI."""
+    for key in GAINS:
+        value = getattr(joint, key)
+        if value is not None:
+            yield key, value
 
 
 def resolve_parts(joint: JointTemplate, roles: Mapping[str, Role], where: str) -> JointTemplate:

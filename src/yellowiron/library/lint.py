@@ -6,7 +6,7 @@ import itertools
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-from yellowiron.library.joints import DIMENSION, split_index
+from yellowiron.library.joints import DIMENSION, split_index, stated_gains
 from yellowiron.library.mobility import Group, TemplateMobility, blocks, mobility, welded_ends
 from yellowiron.library.reading import near
 from yellowiron.model.finding import Finding
@@ -102,6 +102,16 @@ def _whole(template: Template) -> Iterator[Finding]:
                 role.name,
                 f"The body '{role.name}' is optional, and a joint needs it.",
                 "Declare a variant instead: without the part, the joint is left out.",
+            )
+    for joint in template.joints:
+        stated = [name for name, _ in stated_gains(joint)]
+        if joint.drive is None and stated:
+            yield Finding(
+                "TPL017",
+                "warning",
+                joint.name,
+                f"The joint states {', '.join(stated)} and has no drive: they have no effect.",
+                "Give it a Drive.",
             )
     if any(r.many for r in template.roles):
         yield Finding(
