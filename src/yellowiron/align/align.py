@@ -86,7 +86,7 @@ def align(
 
     `template` may carry variants: those `decided_by` geometry are tried and the best is taken, unless `choices` fixes
     them. `edits` is an earlier alignment, as a person left it (`read_alignment`): its parts with source `edited` keep
-    their role. `AlignmentError` for an assembly without parts, for an unknown choice, and for edits that name parts or
+    their role, and so do those with source `data`, which a document of the user's placed. `AlignmentError` for an assembly without parts, for an unknown choice, and for edits that name parts or
     roles that do not exist. The result does not depend on the order, names (beyond their weight) or frame of the parts.
     """
     if not assembly.parts:
@@ -118,7 +118,17 @@ def align(
     )
     places = spreader.run(seen.wheels)
     by_id = {seen.solids[i].part.id: place for i, place in places.items()}
-    return reported(assembly, resolved, solution, by_id, edited, answer.choices, frame or MachineFrame(np.eye(4)))
+    documents = {item.part: item.reason for item in edits.parts if item.source == "data"} if edits is not None else {}
+    return reported(
+        assembly,
+        resolved,
+        solution,
+        by_id,
+        edited,
+        answer.choices,
+        frame or MachineFrame(np.eye(4)),
+        documents=documents,
+    )
 
 
 def _best(
@@ -281,14 +291,14 @@ def _sides(
 
 
 def _edited(assembly: Assembly, template: Template, edits: Alignment | None) -> dict[str, str]:
-    """Part id → role, for the parts a person set."""
+    """Part id → role, for the parts a person set, in the alignment or in a document of theirs."""
     if edits is None:
         return {}
     parts = {p.id for p in assembly.parts}
     roles = {r.name for r in template.roles}
     found = {}
     for item in edits.parts:
-        if item.source != "edited":
+        if item.source not in ("edited", "data"):
             continue
         if item.part not in parts:
             raise AlignmentError(

@@ -24,8 +24,11 @@ def reported(
     edited: Mapping[str, str],
     chosen: Mapping[str, str],
     frame: MachineFrame,
+    *,
+    documents: Mapping[str, str] | None = None,
 ) -> Alignment:
-    """The alignment. `places` by part id; `edited`: part id → the role a person gave it ("": none), which wins."""
+    """The alignment. `places` by part id; `edited`: part id → the role a person gave it ("": none), which wins;
+    `documents`: part id → why, for those of them that a document placed."""
     roles = {r.name for r in template.roles}
     parts = []
     for part in assembly.parts:
@@ -34,7 +37,10 @@ def reported(
             said = edited[part.id] or None
             body = template.body_of(said) if said in roles and said is not None else None
             before = place.role if place is not None and place.role != said else None
-            parts.append(PartAssignment(part.id, said, body, 1.0, "set by a person", "edited", before))
+            if documents is not None and part.id in documents:
+                parts.append(PartAssignment(part.id, said, body, 1.0, documents[part.id], "data", before))
+            else:
+                parts.append(PartAssignment(part.id, said, body, 1.0, "set by a person", "edited", before))
         elif place is None:
             parts.append(PartAssignment(part.id, None, None, 0.0, "nothing speaks for any role"))
         else:
