@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from OCP.gp import gp_Ax1, gp_Ax2, gp_Dir, gp_Pnt, gp_Trsf, gp_Vec
+from OCP.gp import gp_Ax1, gp_Ax2, gp_Dir, gp_Pnt, gp_Trsf
 from OCP.Interface import Interface_Static
 from OCP.Quantity import Quantity_Color, Quantity_TOC_RGB
 from OCP.STEPCAFControl import STEPCAFControl_Writer
@@ -65,8 +66,13 @@ def to_trsf(matrix: np.ndarray) -> gp_Trsf:
     return trsf
 
 
-def write_step(path: Path, *roots: Node, unit: str = "MM", schema: str = "AP214IS") -> Path:
-    """Writes a product tree; `unit` is the file's own (MM, INCH, M): the drawing stays in mm."""
+def write_step(
+    path: Path, *roots: Node, unit: str = "MM", schema: str = "AP214IS", external: str | None = None
+) -> Path:
+    """Writes a product tree; `unit` is the file's own (MM, INCH, M): the drawing stays in mm.
+
+    With `external`, a prefix of file names, each part goes into a file of its own beside it.
+    """
     STEPControl_Controller.Init_s()
     document = TDocStd_Document(TCollection_ExtendedString("BinXCAF"))
     application = XCAFApp_Application.GetApplication_s()
@@ -109,9 +115,10 @@ def write_step(path: Path, *roots: Node, unit: str = "MM", schema: str = "AP214I
     writer = STEPCAFControl_Writer()
     writer.SetColorMode(True)
     writer.SetNameMode(True)
-    if not writer.Transfer(document, STEPControl_AsIs):
+    if not writer.Transfer(document, STEPControl_AsIs, external):
         raise RuntimeError("transfer failed")
-    writer.Write(str(path))
+    with contextlib.chdir(path.parent):
+        writer.Write(path.name)
     Interface_Static.SetCVal_s("write.step.unit", "MM")
     return path
 
@@ -205,8 +212,3 @@ def pin_bracket() -> Any:
     for cheek in cheeks:
         body = BRepAlgoAPI_Fuse(body, cheek).Shape()
     return cut(body, cylinder(25, 200, (0, -100, 100), (0, 1, 0)))
-
-
-def vector(values: Sequence[float]) -> gp_Vec:
-    """A gp_Vec."""
-    return gp_Vec(*values)

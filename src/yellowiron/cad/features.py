@@ -50,8 +50,8 @@ _TURN = 2.0 * math.pi
 class Patch:
     """One cylindrical face, mm: `origin` on the axis, unit `axis`, ends along it, and the angles it covers.
 
-    `angles` (k,) are either the two ends of an interval about `axis`, counted from `zero` (`interval` true), or those
-    of boundary points. `inner`: material outside.
+    `intervals` (k, 2) are angles about `axis`, counted from `zero`; together they cover the face. `inner`: material
+    outside. `analytic`: the file has it as a cylinder.
     """
 
     origin: Floats
@@ -60,10 +60,10 @@ class Patch:
     radius: float
     lower: float
     upper: float
-    angles: Floats
-    interval: bool
+    intervals: Floats
     inner: bool
     area: float
+    analytic: bool
 
 
 @dataclass(frozen=True, eq=False)
@@ -162,10 +162,10 @@ def _cylinder_patch(face: Any, surface: Any, area: float) -> Patch:
         radius=cylinder.Radius(),
         lower=v0,
         upper=v1,
-        angles=np.array(sorted((turn * u0, turn * u1))),
-        interval=True,
+        intervals=np.array([sorted((turn * u0, turn * u1))]),
         inner=inner,
         area=area,
+        analytic=True,
     )
 
 
@@ -176,11 +176,14 @@ def _sampled_patch(face: Any, surface: Any, cylinder: Any, area: float) -> Patch
     axis = np.array(position.Direction().Coord())
     zero = np.array(position.XDirection().Coord())
     points = _boundary(face)
-    if len(points) < 2:
+    if not len(points):
         return None
     along = (points - origin) @ axis
-    radial = points - origin - np.outer(along, axis)
-    angles = np.arctan2(radial @ np.cross(axis, zero), radial @ zero)
+    angles = np.arctan2((points - origin) @ np.cross(axis, zero), (points - origin) @ zero)
+    # The boundary runs round wherever the face does; from one sample to the next it takes the short way.
+    steps = (np.diff(angles, axis=1) + math.pi) % _TURN - math.pi
+    starts = angles[:, :-1]
+    intervals = np.stack([np.minimum(starts, starts + steps), np.maximum(starts, starts + steps)], axis=-1)
     u0, u1, v0, v1 = _bounds(face)
     uv = (0.5 * (u0 + u1), 0.5 * (v0 + v1))
     middle = np.array(surface.Value(*uv).Coord()) - origin
@@ -192,16 +195,16 @@ def _sampled_patch(face: Any, surface: Any, cylinder: Any, area: float) -> Patch
         radius=cylinder.Radius(),
         lower=float(along.min()),
         upper=float(along.max()),
-        angles=np.append(angles, math.atan2(middle @ np.cross(axis, zero), middle @ zero)),
-        interval=False,
+        intervals=intervals.reshape(-1, 2),
         inner=float(outward @ (middle - axis * (middle @ axis))) < 0.0,
         area=area,
+        analytic=False,
     )
 
 
 def _boundary(face: Any) -> Floats:
-    """(k, 3) points along the edges of a face."""
-    points: list[tuple[float, float, float]] = []
+    """(edges, samples, 3) points along the edges of a face."""
+    points: list[list[tuple[float, float, float]]] = []
     explorer = TopExp_Explorer(face, TopAbs_EDGE)
     while explorer.More():
         edge = TopoDS.Edge(explorer.Current())
@@ -212,8 +215,8 @@ def _boundary(face: Any) -> Floats:
         first, last = curve.FirstParameter(), curve.LastParameter()
         if not (math.isfinite(first) and math.isfinite(last)):
             continue
-        points += [curve.Value(float(t)).Coord() for t in np.linspace(first, last, _EDGE_SAMPLES + 1)]
-    return np.array(points, dtype=np.float64).reshape(-1, 3)
+        points.append([curve.Value(float(t)).Coord() for t in np.linspace(first, last, _EDGE_SAMPLES + 1)])
+    return np.array(points, dtype=np.float64)
 
 
 def planes(faces: Sequence[Face]) -> tuple[PlaneFeature, ...]:
@@ -255,7 +258,7 @@ def _same_cylinder(one: Patch, other: Patch) -> bool:
 
 def _features(group: Sequence[Patch]) -> list[CylinderFeature]:
     """Features of faces on one cylinder. The exact axis is the largest analytic face's."""
-    main = max(group, key=lambda patch: (patch.interval, patch.area))
+    main = max(group, key=lambda patch: (patch.analytic, patch.area))
     axis = _canonical(main.axis)
     zero = main.zero
     pieces = []
@@ -300,18 +303,8 @@ def _intervals(patch: Patch, axis: Floats, zero: Floats) -> list[tuple[float, fl
     """The angles a patch covers about `axis`, counted from `zero`."""
     side = np.cross(axis, zero)
     shift = math.atan2(float(patch.zero @ side), float(patch.zero @ zero))
-    turn = 1.0 if float(patch.axis @ axis) > 0.0 else -1.0
-    if patch.interval:
-        first, last = sorted(shift + turn * float(angle) for angle in patch.angles)
-        return [(first, last)]
-    # Between boundary points next to each other there is surface, save in the widest gap, if it is wide.
-    angles = np.sort((shift + turn * patch.angles) % _TURN)
-    gaps = np.diff(np.append(angles, angles[0] + _TURN))
-    widest = int(np.argmax(gaps))
-    if gaps[widest] < 3.0 * _TURN / _EDGE_SAMPLES:
-        return [(0.0, _TURN)]
-    start = float(angles[(widest + 1) % len(angles)])
-    return [(start, start + _TURN - float(gaps[widest]))]
+    turned = shift + (patch.intervals if float(patch.axis @ axis) > 0.0 else -patch.intervals[:, ::-1])
+    return [(float(first), float(last)) for first, last in turned]
 
 
 def _coverage(intervals: Sequence[tuple[float, float]]) -> float:

@@ -29,14 +29,13 @@ class Part21:
 
     `names` are the raw bytes of every product, instance and solid name; `occurrences` the number of leaf products
     that the assembly structure declares, expanded from the roots (None if it is cyclic); `documents` the raw names
-    of the files it refers to; `complete` whether its last section is closed, `ended` whether the file's end is marked.
+    of the files it refers to; `complete` whether its sections are closed and its end is marked.
     """
 
     names: tuple[bytes, ...]
     occurrences: int | None
     documents: tuple[bytes, ...]
     complete: bool
-    ended: bool
 
 
 def scan(data: bytes) -> Part21:
@@ -50,20 +49,12 @@ def scan(data: bytes) -> Part21:
         occurrences.add(int(match.group(1)))
         uses.append((int(match.group(3)), int(match.group(4))))
     shaped = [int(match.group(1)) for match in _SHAPED.finditer(data)]
-    tail = data[-4096:]
     return Part21(
         names=tuple(name.strip(b"'") for name in names),
         occurrences=_expand(shaped, uses, occurrences),
         documents=tuple(match.group(1).strip(b"'") for match in _DOCUMENT.finditer(data)),
-        complete=re.search(rb"ENDSEC\s*;\s*(?:END-|SIGNATURE|$)", tail) is not None or _is_closed(data),
-        ended=b"END-ISO-10303-21" in tail,
+        complete=data.rfind(b"END-ISO-10303-21") > data.rfind(b"ENDSEC") > data.rfind(b"DATA;"),
     )
-
-
-def _is_closed(data: bytes) -> bool:
-    """True where an ENDSEC follows the last entity (a long signature or padding may hide it from the tail)."""
-    last_section = data.rfind(b"ENDSEC")
-    return last_section > data.rfind(b"DATA;") and last_section > data.find(b"ENDSEC") and last_section > 0
 
 
 def _expand(shaped: list[int], uses: list[tuple[int, int]], occurrences: set[int]) -> int | None:

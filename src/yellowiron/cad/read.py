@@ -14,10 +14,9 @@ Findings:
 | CAD006 | warning  | faces that could not be meshed                                                             |
 | CAD007 | warning  | a solid whose exact volume is not usable; its mesh's was taken                             |
 | CAD008 | error    | files that the file refers to are missing                                                  |
-| CAD009 | warning  | the end of the file is missing after its last section                                      |
-| CAD010 | warning, info | the unit of length is unknown; units are mixed                                        |
-| CAD011 | info     | names are not in a standard encoding, and which was taken                                  |
-| CAD012 | info     | a body of triangles without surfaces: no exact measures, no features                       |
+| CAD009 | warning, info | the unit of length is unknown; units are mixed                                        |
+| CAD010 | info     | names are not in a standard encoding, and which was taken                                  |
+| CAD011 | info     | a body of triangles without surfaces: no exact measures, no features                       |
 """
 
 from __future__ import annotations

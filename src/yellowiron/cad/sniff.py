@@ -9,6 +9,7 @@ from pathlib import Path
 from yellowiron.model.errors import CadError
 
 _OLE = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"
+_BOM = b"\xef\xbb\xbf"
 _HEAD = 65536
 
 _PROPRIETARY: dict[str, tuple[str, str]] = {
@@ -68,6 +69,12 @@ def require_step(path: Path) -> None:
     head = _head(path)
     if _is_step(head):
         return
+    if head.startswith(_BOM) and _is_step(head.removeprefix(_BOM)):
+        raise CadError(
+            "The STEP file starts with a byte-order mark, which STEP does not have",
+            where=str(path),
+            hint="Save it again as plain text or UTF-8 without a signature.",
+        )
     name, hint = recognise(head, path)
     if name in _LATER.values():
         raise CadError(
@@ -112,7 +119,7 @@ def _head(path: Path) -> bytes:
 
 
 def _is_step(head: bytes) -> bool:
-    text = head.removeprefix(b"\xef\xbb\xbf").lstrip()
+    text = head.lstrip()
     while text.startswith(b"/*") and b"*/" in text:
         text = text[text.index(b"*/") + 2 :].lstrip()
     return text.startswith(b"ISO-10303-21")

@@ -63,17 +63,15 @@ def read_step(path: str) -> Assembly:
     del data
     if not facts.complete:
         raise CadError(
-            "The STEP file is truncated: its data section never ends",
+            "The STEP file is truncated: ENDSEC and END-ISO-10303-21 are missing at its end",
             where=path,
             hint="Copy or export it again; the end of the file is missing.",
         )
     encoding = sniff_encoding(facts.names)
     findings = []
-    if not facts.ended:
-        findings.append(_finding("CAD009", "warning", path, "The end of the file is missing after its last section"))
     if encoding != "utf-8":
         findings.append(
-            _finding("CAD011", "info", path, f"Names are not in a standard encoding; they were read as {encoding}")
+            _finding("CAD010", "info", path, f"Names are not in a standard encoding; they were read as {encoding}")
         )
     tree, unit_names = open_step(path, encoding)
     unit, unit_findings = _unit(unit_names, path)
@@ -112,11 +110,11 @@ def _unit(names: Sequence[str], path: str) -> tuple[float, list[Finding]]:
     if not known:
         said = f"'{names[0]}'" if names else "none"
         return unit, [
-            _finding("CAD010", "warning", path, f"The file's unit of length is not known ({said}); millimetres assumed")
+            _finding("CAD009", "warning", path, f"The file's unit of length is not known ({said}); millimetres assumed")
         ]
     if len(set(known)) > 1:
         listed = ", ".join(dict.fromkeys(names))
-        return unit, [_finding("CAD010", "info", path, f"The file mixes units ({listed}); every part was converted")]
+        return unit, [_finding("CAD009", "info", path, f"The file mixes units ({listed}); every part was converted")]
     return unit, []
 
 
@@ -236,7 +234,7 @@ def _shapes(bodies: Sequence[brep.Body]) -> tuple[dict[str, Shape], list[Finding
             )
         if body.tessellated:
             findings.append(
-                _finding("CAD012", "info", body.name, "Triangles without surfaces: no exact measures, no features")
+                _finding("CAD011", "info", body.name, "Triangles without surfaces: no exact measures, no features")
             )
         elif not shape.exact:
             findings.append(

@@ -1,0 +1,190 @@
+"""Files that are no CAD file, or a broken one: one sentence each, and no crash here."""
+
+from __future__ import annotations
+
+import re
+import zipfile
+from pathlib import Path
+
+import pytest
+from cad_stepfiles import Node, Use, box, cylinder, translation, write_step
+
+from yellowiron.cad import part21, read_cad
+from yellowiron.model.errors import CadError
+
+OLE = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1" + bytes(504)
+
+
+def fail(path: Path) -> CadError:
+    with pytest.raises(CadError) as caught:
+        read_cad(path, timeout_s=30)
+    error = caught.value
+    assert error.where
+    assert error.hint
+    assert "\n" not in error.message
+    return error
+
+
+@pytest.fixture(scope="module")
+def good(tmp_path_factory: pytest.TempPathFactory) -> bytes:
+    pin = Node("PIN", cylinder(20, 100))
+    root = Node("ROOT", children=[Use(pin), Use(pin, translation(0, 0, 200)), Use(Node("PLATE", box(100, 50, 8)))])
+    return write_step(tmp_path_factory.mktemp("cad") / "good.step", root).read_bytes()
+
+
+def test_no_such_file(tmp_path: Path) -> None:
+    assert "no such" in fail(tmp_path / "none.step").message
+
+
+def test_folder(tmp_path: Path) -> None:
+    assert "folder" in fail(tmp_path).message
+
+
+def test_empty(tmp_path: Path) -> None:
+    (tmp_path / "empty.step").write_bytes(b"")
+    assert "empty" in fail(tmp_path / "empty.step").message
+
+
+@pytest.mark.parametrize("content", [b"Dear reader,\n", bytes(range(256)) * 8, b"%PDF-1.7\n", b"\x89PNG\r\n"])
+@pytest.mark.parametrize("suffix", [".step", ".dat", ""])
+def test_not_cad(content: bytes, suffix: str, tmp_path: Path) -> None:
+    path = tmp_path / f"file{suffix}"
+    path.write_bytes(content)
+    assert "not a STEP file" in fail(path).message or "no CAD file" in fail(path).message
+
+
+@pytest.mark.parametrize("keep", [0.3, 0.9, 0.999])
+def test_truncated(keep: float, good: bytes, tmp_path: Path) -> None:
+    path = tmp_path / "cut.step"
+    path.write_bytes(good[: int(len(good) * keep)])
+    assert "truncated" in fail(path).message
+
+
+def test_byte_order_mark(good: bytes, tmp_path: Path) -> None:
+    path = tmp_path / "mark.step"
+    path.write_bytes(b"\xef\xbb\xbf" + good)
+    assert "byte-order mark" in fail(path).message
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "says"),
+    [
+        ("arm.sldprt", OLE, "SolidWorks"),
+        ("arm.SLDASM", OLE + "SwDocMgr".encode("utf-16-le"), "SolidWorks"),
+        ("arm.sldprt", bytes(range(200)), "SolidWorks"),
+        ("arm.step", OLE + "SolidWorks".encode("utf-16-le"), "SolidWorks"),
+        ("house.rvt", OLE, "Revit"),
+        ("house", OLE + "BasicFileInfo".encode("utf-16-le"), "Revit"),
+        ("arm.CATPart", b"V5_CFV2\x00\x00", "CATIA"),
+        ("arm.ipt", OLE, "Inventor"),
+        ("arm.jt", b"Version 9.5 JT  DM 6.4" + bytes(60), "JT"),
+        ("arm.dgn", b"\x08\x09\xfe\x02" + bytes(50), "DGN"),
+        ("arm.x_t", b"**ABCDEFGHIJKLMNOPQRSTUVWXYZ**", "Parasolid"),
+        ("arm.dwg", b"AC1032\x00\x00\x00", "DWG"),
+        ("arm.prt", bytes(range(100)), "NX"),
+    ],
+)
+def test_proprietary(name: str, content: bytes, says: str, tmp_path: Path) -> None:
+    path = tmp_path / name
+    path.write_bytes(content)
+    error = fail(path)
+    assert error.message.startswith("No open reader exists for")
+    assert says in error.message
+    assert "STEP (AP214 or AP242)" in error.message
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "says"),
+    [
+        ("a.glb", b"glTF\x02\x00\x00\x00", "GLB"),
+        ("a.step", b"glTF\x02\x00\x00\x00", "GLB"),
+        ("a.stl", b"solid cube\nfacet normal 0 0 1\n", "STL"),
+        ("a.obj", b"v 0 0 0\n", "OBJ"),
+        ("a.igs", b" " * 72 + b"S      1\n", "IGES"),
+        ("a.fbx", b"Kaydara FBX Binary  \x00", "FBX"),
+        ("a.usda", b"#usda 1.0\n", "USD"),
+        ("a.dae", b"<?xml version='1.0'?><COLLADA>", "COLLADA"),
+    ],
+)
+def test_formats_of_other_versions(name: str, content: bytes, says: str, tmp_path: Path) -> None:
+    path = tmp_path / name
+    path.write_bytes(content)
+    assert fail(path).message == f"This is a {says} file, and this version reads STEP only"
+
+
+def test_archives(tmp_path: Path, good: bytes) -> None:
+    with zipfile.ZipFile(tmp_path / "a.zip", "w") as archive:
+        archive.writestr("machine.step", good)
+    assert "unpack it" in fail(tmp_path / "a.zip").hint
+    with zipfile.ZipFile(tmp_path / "a.fcstd", "w") as archive:
+        archive.writestr("Document.xml", "<x/>")
+    assert "FreeCAD" in fail(tmp_path / "a.fcstd").message
+    (tmp_path / "a.stpz").write_bytes(b"\x1f\x8b\x08\x00")
+    assert "gunzip" in fail(tmp_path / "a.stpz").hint
+
+
+def test_content_decides_not_the_name(good: bytes, tmp_path: Path) -> None:
+    path = tmp_path / "machine.sldasm"
+    path.write_bytes(b"\n/* a comment */\n" + good)
+    assert len(read_cad(path).parts) == 3
+
+
+def test_no_solid(tmp_path: Path) -> None:
+    assert "no solid" in fail(write_step(tmp_path / "wire.step", Node("WIRE", wire()))).message
+
+
+def wire() -> object:
+    from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeEdge
+    from OCP.gp import gp_Pnt
+
+    return BRepBuilderAPI_MakeEdge(gp_Pnt(0, 0, 0), gp_Pnt(10, 0, 0)).Edge()
+
+
+def test_dangling_references_do_not_crash_the_caller(good: bytes, tmp_path: Path) -> None:
+    path = tmp_path / "dangling.step"
+    path.write_bytes(re.sub(rb"(?m)^#\d+ = (?:PLANE|CYLINDRICAL_SURFACE)\(.*?;\n", b"", good, flags=re.DOTALL))
+    try:
+        assembly = read_cad(path, timeout_s=30)
+    except CadError as error:
+        assert "damaged: it refers to" in error.message or "Nothing can be read" in error.message
+    else:
+        assert {finding.code for finding in assembly.findings} & {"CAD001", "CAD003", "CAD006"}
+
+
+@pytest.mark.parametrize("number", [b"1.E400", b"-1.E300", b"NAN", b"1.E9"])
+def test_absurd_coordinates(number: bytes, good: bytes, tmp_path: Path) -> None:
+    path = tmp_path / "absurd.step"
+    path.write_bytes(re.sub(rb"(CARTESIAN_POINT\('',\()100\.", rb"\g<1>" + number, good))
+    try:
+        assembly = read_cad(path, timeout_s=30)
+    except CadError as error:
+        assert error.hint
+    else:
+        assert {finding.code for finding in assembly.findings} & {"CAD001", "CAD003", "CAD004", "CAD006", "CAD007"}
+        assert [part.name for part in assembly.parts][:2] == ["PIN", "PIN"]
+
+
+def test_time_limit(good: bytes, tmp_path: Path) -> None:
+    path = tmp_path / "good.step"
+    path.write_bytes(good)
+    with pytest.raises(CadError, match=r"more than 0\.01 s"):
+        read_cad(path, timeout_s=0.01)
+
+
+def test_declared_occurrences(good: bytes) -> None:
+    facts = part21.scan(good)
+    assert (facts.occurrences, facts.complete) == (3, True)
+    assert b"PLATE" in facts.names
+    cyclic = (
+        b"#1=NEXT_ASSEMBLY_USAGE_OCCURRENCE('1','a','',#10,#11,$);\n#2=NEXT_ASSEMBLY_USAGE_OCCURRENCE('2','b','',#11,#12,$);"
+        b"\n#3=NEXT_ASSEMBLY_USAGE_OCCURRENCE('3','c','',#12,#11,$);ENDSEC;"
+    )
+    assert part21.scan(cyclic).occurrences is None
+
+
+def test_diagnosis(good: bytes) -> None:
+    assert part21.diagnose(good) == ""
+    assert "does not have, such as #999999" in part21.diagnose(good.replace(b"#11,", b"#999999,"))
+    assert "twice" in part21.diagnose(good.replace(b"ENDSEC;\nEND-ISO", b"#11 = PLANE('',#12);\nENDSEC;\nEND-ISO"))
+    assert "not numbers" in part21.diagnose(good.replace(b"(0.,", b"(NaN,"))
+    assert "1.E300" in part21.diagnose(good.replace(b"(0.,", b"(1.E300,"))
