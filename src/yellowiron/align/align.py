@@ -86,8 +86,9 @@ def align(
 
     `template` may carry variants: those `decided_by` geometry are tried and the best is taken, unless `choices` fixes
     them. `edits` is an earlier alignment, as a person left it (`read_alignment`): its parts with source `edited` keep
-    their role, and so do those with source `data`, which a document of the user's placed. `AlignmentError` for an assembly without parts, for an unknown choice, and for edits that name parts or
-    roles that do not exist. The result does not depend on the order, names (beyond their weight) or frame of the parts.
+    their role, and so do those with source `data`, which a document of the user's placed. `AlignmentError` for an
+    assembly without parts, for an unknown choice, and for edits that name parts or roles that do not exist. The
+    result does not depend on the order, names (beyond their weight) or frame of the parts.
     """
     if not assembly.parts:
         raise AlignmentError(
