@@ -16,7 +16,7 @@ from yellowiron.mechanism import build_mechanism
 from yellowiron.model.alignment import Alignment
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import MechanismError
-from yellowiron.model.geometry import Floats
+from yellowiron.model.geometry import Floats, Mesh
 from yellowiron.model.mechanism import Mechanism
 from yellowiron.model.template import JointTemplate, SiteTemplate, Template
 
@@ -172,6 +172,24 @@ def test_a_part_of_an_unknown_body_is_left_out_with_an_error() -> None:
     assembly, alignment = machine()
     parts = tuple(replace(a, body="moon") if a.part.endswith("ROD") else a for a in alignment.parts)
     assert "MEC007" in codes(build((assembly, replace(alignment, parts=parts))))
+
+
+def test_a_part_without_a_surface_is_left_out() -> None:
+    assembly, alignment = machine()
+    empty = Mesh(np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int32))
+    shapes = {k: replace(s, mesh=empty) if k == "short" else s for k, s in assembly.shapes.items()}
+    built = build((replace(assembly, shapes=shapes), alignment))
+    assert sum(f.code == "MEC008" for f in built.findings) == 2
+    assert "MEC005" in codes(built)
+
+
+def test_a_body_without_mass_gets_some() -> None:
+    assembly, alignment = machine()
+    bare = replace(assembly.shapes["rod"], closed=False)
+    bare = replace(bare, mesh=replace(bare.mesh, triangles=np.zeros((0, 3), dtype=np.int32)))
+    built = build((replace(assembly, shapes={**assembly.shapes, "rod": bare}), alignment))
+    assert built.body("cylinder_rod").mass == 1.0
+    assert {"MEC031", "MEC034"} <= codes(built)
 
 
 def test_no_root_is_an_error() -> None:

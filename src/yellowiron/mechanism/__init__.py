@@ -20,6 +20,7 @@ MEC004  the features of one axis are out of line
 MEC005  nothing says where a joint is; it is left out
 MEC006  more than one axis fits a joint
 MEC007  a part is aligned to a body that the template does not have; it is left out
+MEC008  a part has no surface; it is left out
 MEC010  parallel axes of one loop differ by more than drawing accuracy; they were made parallel
 MEC011  a body has no joint that leads to it; it was welded to its ancestor
 MEC012  a loop has no pin that could be cut
@@ -35,6 +36,7 @@ MEC030  a part's material has no density; steel's was taken
 MEC031  an open or empty solid: its mass is that of a thin shell
 MEC032  masses were scaled to published weights (a warning where the factor is not plausible)
 MEC033  published component weights leave nothing of the operating weight
+MEC034  a body has no volume and no area; it weighs 1 kg
 MEC040  a site's place was not found
 MEC041  no plane meets the edge of an edge site; its x axis points from the hinge to the edge
 MEC050  a limit names a specification that is not known; the joint is not limited there

@@ -10,6 +10,7 @@ from scipy.spatial import ConvexHull, QhullError
 from yellowiron.mechanism.choice import Choice
 from yellowiron.mechanism.mass import Factor, Moments, PartMaterial, combine
 from yellowiron.mechanism.placement import Placement
+from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats, Mesh
 from yellowiron.model.mechanism import Body, BodyPart, Vector
 from yellowiron.model.template import Template
@@ -27,6 +28,7 @@ def bodies(
     moments: Sequence[Moments],
     factors: Mapping[str, Factor],
     collision: Mapping[str, str],
+    findings: list[Finding],
 ) -> tuple[Body, ...]:
     """The bodies of those names, in that order, machine frame. `collision` are the documents' tokens by part or
     role."""
@@ -37,6 +39,10 @@ def bodies(
         rows = placement.rows_of_body(name)
         factor = factors[name]
         whole = combine(moments[row] for row in rows).scaled(factor.value)
+        if whole.mass <= 0.0:
+            whole = Moments(1.0, placement.points_of(rows).mean(axis=0), np.zeros((3, 3)))
+            words = "The body has neither volume nor area: it weighs 1 kg."
+            findings.append(Finding("MEC034", "warning", name, words, "Check its parts in the CAD model."))
         parts = []
         for row in rows:
             part, role = placement.parts[row], placement.roles[row]

@@ -87,7 +87,7 @@ def build_mechanism(
     weights = {b: sum(moments[row].mass for row in placement.rows_of_body(b)) for b in tree.bodies}
     factors = mass.reconcile(weights, template, specifications, findings)
     bodies = body.bodies(
-        tree.bodies, _origins(tree, frames), placement, template, materials, moments, factors, collision
+        tree.bodies, _origins(tree, frames), placement, template, materials, moments, factors, collision, findings
     )
 
     return Mechanism(

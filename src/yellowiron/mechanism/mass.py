@@ -182,7 +182,7 @@ def reconcile(
         return factors
     value = left / drawn
     for body in rest:
-        factors[body] = Factor(value, f"volume × density × {value:.4g} to {total.source}")
+        factors[body] = Factor(value, f"volume × density × {value:.4g} to {total.source}, fluids and operator included")
     _report(
         "every other body" if len(rest) < len(masses) else "every body",
         value,

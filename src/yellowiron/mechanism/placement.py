@@ -138,6 +138,12 @@ def place(assembly: Assembly, template: Template, alignment: Alignment) -> tuple
         for a in strays
     ]
     kept = [p for p in assembly.parts if p.id in assigned and assigned[p.id].body in bodies]
+    findings += [
+        Finding("MEC008", "warning", p.id, "The part has no surface: it is left out.", "Check it in the CAD model.")
+        for p in kept
+        if len(assembly.shape_of(p).mesh.points) == 0
+    ]
+    kept = [p for p in kept if len(assembly.shape_of(p).mesh.points)]
     placement = Placement(
         parts=tuple(kept),
         shapes=tuple(assembly.shape_of(p) for p in kept),
