@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-from scipy.spatial import ConvexHull, QhullError
 
 from yellowiron.mechanism.choice import Choice
 from yellowiron.mechanism.mass import Factor, Moments, PartMaterial, combine
@@ -80,6 +79,8 @@ def vector(values: Floats) -> Vector:
 
 def hull_corners(mesh: Mesh) -> Floats:
     """(n, 3) corners of a mesh's convex hull, in the mesh's order; of a flat or tiny one its distinct points."""
+    from scipy.spatial import ConvexHull, QhullError  # a tenth of a second that not every command needs
+
     try:
         return np.asarray(mesh.points[np.sort(ConvexHull(mesh.points).vertices)], dtype=np.float64)
     except (QhullError, ValueError):
