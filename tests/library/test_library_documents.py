@@ -90,6 +90,14 @@ def test_a_leader_that_is_no_body_is_a_finding(loader: Template, assembly: Assem
     assert found.relations == {"boom": ("Solid17", "bucket bolt1")}
 
 
+def test_relations_take_patterns_and_ids(loader: Template, assembly: Assembly, tmp_path: Path) -> None:
+    (tmp_path / "r.json").write_text('{"bucket": ["bucket bolt*"], "boom": ["M/Solid17#8"]}')
+    found = library.load_documents([tmp_path / "r.json"], loader, assembly)
+    assert found.findings == ()
+    assert found.relations == {"bucket": tuple(f"bucket bolt{i}" for i in range(1, 7)), "boom": ("Solid17",)}
+    assert [f.body for f in found.followers] == ["bucket"] * 7 + ["boom"]
+
+
 @pytest.mark.parametrize("name", ["none_of_the_four", "mixed"])
 def test_other_documents_are_refused(name: str, loader: Template) -> None:
     with pytest.raises(TemplateError, match="none that --data knows") as caught:

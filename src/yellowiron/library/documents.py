@@ -1,8 +1,10 @@
 """The user's own documents (`--data`): the conference paper's JSON-1 to JSON-4, or a filled joint template.
 
 A document is known by its content. Its names are roles or CAD part names, in which `*` stands for any text; case, `_`,
-`-` and spaces do not count. Findings: DOC001, a name matches nothing; DOC002, a joint names a part whose body is not
-known; DOC003, a document says nothing; DOC004, what a relation leads from is no body.
+`-` and spaces do not count; relations also take a part's id, where several parts have one name.
+
+Findings: DOC001, a name matches nothing; DOC002, a joint names a part whose body is not known; DOC003, a document says
+nothing; DOC004, what a relation leads from is no body.
 """
 
 from __future__ import annotations
@@ -201,16 +203,26 @@ class _Reader:
         return next((self.followers[i].body for _, i in self.parts.get(fold(name), ()) if i in self.followers), None)
 
     def follow(self, name: str, body: str, document: Path, keys: tuple[str, int]) -> None:
+        """Moves what a follower's name stands for with a body: CAD parts by name, pattern or id; else a role."""
         role = self.roles.get(fold(name))
-        parts = self.parts.get(fold(name), [])
-        if not parts and (role is None or self.template.body_of(role) != body):
+        stays = role if role is not None and self.template.body_of(role) == body else None
+        parts = self.placed(name)
+        if not parts and stays is None:
             self.find("DOC001", document, keys, f"'{name}' is no part of the CAD model.", self.near(name))
             return
-        self.relations.setdefault(body, []).append(parts[0][0] if parts else role or name)
-        own = role if role is not None and self.template.body_of(role) == body else body
+        names = [part for part, _ in parts] or [stays or body]
+        self.relations[body] = list(dict.fromkeys([*self.relations.get(body, ()), *names]))
         source = f"{document.name}: follows '{keys[0]}'"
         for _, part in parts:
-            self.followers[part] = Follower(part, own, body, source)
+            self.followers[part] = Follower(part, stays or body, body, source)
+
+    def placed(self, name: str) -> list[tuple[str, str]]:
+        """(name, id) of the CAD parts that a name, a pattern or an id stands for."""
+        if EVERYTHING in name:
+            return [part for found in self.parts.values() for part in found if matches(part[0], name)]
+        return self.parts.get(fold(name)) or [
+            part for found in self.parts.values() for part in found if fold(part[1]) == fold(name)
+        ]
 
     # ---- joints -----------------------------------------------------------------------------------------------------
     def read_joint(self, document: Document, name: str, entry: Mapping[str, Any]) -> None:
