@@ -498,7 +498,7 @@ def _mass(kg: float) -> tuple[str, str]:
 
 def write(path: Path) -> None:
     """Writes the sheet."""
-    c = Canvas(str(path), pagesize=A4, invariant=1, pageCompression=1)
+    c = Canvas(str(path), pagesize=A4, invariant=1, pageCompression=0)
     c.setTitle(f"{TITLE}: technical data")
     c.setAuthor("yellowiron examples")
     c.setSubject("Specification sheet of an example machine")

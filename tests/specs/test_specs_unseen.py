@@ -14,7 +14,11 @@ from yellowiron.specs import extract
 def bobcat_s76(path: Path) -> None:
     c = canvas(path)
     put(c, 36, 800, "S76 class skid steer", size=16, bold=True)
-    cards = [("8,014 lb", "Operating weight"), ("128.3 in", "Height to bucket hinge pin"), ("83.7 in", "Turning radius")]
+    cards = [
+        ("8,014 lb", "Operating weight"),
+        ("128.3 in", "Height to bucket hinge pin"),
+        ("83.7 in", "Turning radius"),
+    ]
     for i, (value, label) in enumerate(cards):
         c.setFillColor(HexColor("#eeeeee"))
         c.rect(36 + 175 * i, 730, 165, 50, stroke=0, fill=1)
@@ -73,7 +77,14 @@ def cat_d6(path: Path) -> None:
         780,
         (90, 85, 85, 85, 85, 90),
         [
-            ("Blade", "Capacity\nm³ (yd³)", "Width over end\nbits, mm (in)", "Height\nmm (in)", "Dig depth\nmm (in)", "Weight\nkg (lb)"),
+            (
+                "Blade",
+                "Capacity\nm³ (yd³)",
+                "Width over end\nbits, mm (in)",
+                "Height\nmm (in)",
+                "Dig depth\nmm (in)",
+                "Weight\nkg (lb)",
+            ),
             ("6SU", "5.7 (7.5)", "3312 (130.4)", "1408 (55.4)", "502 (19.8)", "1385 (3,053)"),
             ("6S", "3.9 (5.1)", "3360 (132.3)", "1257 (49.5)", "473 (18.6)", "1154 (2,544)"),
             ("6A", "3.2 (4.2)", "4166 (164.0)", "1155 (45.5)", "506 (19.9)", "1334 (2,941)"),
