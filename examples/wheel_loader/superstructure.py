@@ -30,9 +30,9 @@ def _shell(x0: float, x1: float, y: float, z0: float, z1: float, wall: float) ->
 def draw_cab() -> Assembly:
     """Base, platform, pillars, roof, glazing, seat and steering column."""
     tree = Assembly("CAB ASSY ROPS")
-    tree.add(Part("CAB BASE", _shell(-1750, -400, 580, DECK, FLOOR - 20, 8)), BODY)
+    tree.add(Part("CAB BASE", _shell(-1750, -400, 580, DECK, FLOOR - 12, 8)), BODY)
     floor = fuse(
-        box(-1760, -340, -790, 790, FLOOR - 20, FLOOR), box(-800, -420, -1110, 1110, FLOOR - 20, FLOOR)
+        box(-1760, -340, -790, 790, FLOOR - 12, FLOOR), box(-800, -420, -1110, 1110, FLOOR - 12, FLOOR)
     )
     tree.add(Part("PLATFORM", floor, GREY), BODY)
     top = v.CAB_HEIGHT.value
@@ -49,10 +49,10 @@ def draw_cab() -> Assembly:
         790,
     )
     inner = plate(
-        [(-1720, top - 52, 18), (-370, top - 52, 18), (-370, top - 30, 20), (-1720, top - 30, 20)],
+        [(-1720, top - 50, 24), (-370, top - 50, 24), (-370, top - 30, 24), (-1720, top - 30, 24)],
         "xz",
-        -780,
-        780,
+        -784,
+        784,
     )
     frame.add(Part("ROOF", cut(roof, inner)), BODY)
     glazing = Assembly("GLASS")

@@ -1,0 +1,166 @@
+"""Reads the wheel loader example's files for its tests, with nothing of the package under test."""
+
+from __future__ import annotations
+
+import collections
+import functools
+import importlib
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from types import ModuleType
+
+import fcl
+import numpy as np
+from OCP.BRep import BRep_Tool
+from OCP.BRepMesh import BRepMesh_IncrementalMesh
+from OCP.collections import Sequence_TDF_Label
+from OCP.gp import gp_Trsf
+from OCP.STEPCAFControl import STEPCAFControl_Reader
+from OCP.TCollection import TCollection_ExtendedString
+from OCP.TDataStd import TDataStd_Name
+from OCP.TDF import TDF_Label
+from OCP.TDocStd import TDocStd_Document
+from OCP.TopAbs import TopAbs_ShapeEnum
+from OCP.TopExp import TopExp_Explorer
+from OCP.TopLoc import TopLoc_Location
+from OCP.TopoDS import TopoDS, TopoDS_Face, TopoDS_Shape
+from OCP.XCAFDoc import XCAFDoc_DocumentTool, XCAFDoc_ShapeTool
+
+FOLDER = Path(__file__).resolve().parents[2] / "examples" / "wheel_loader"
+
+
+@functools.cache
+def module(name: str) -> ModuleType:
+    """A module of the example; other modules of the same plain names stay what they were."""
+    own = {path.stem for path in FOLDER.glob("*.py")}
+    kept = {other: sys.modules.pop(other) for other in own & sys.modules.keys()}
+    sys.path.insert(0, str(FOLDER))
+    try:
+        return importlib.import_module(name)
+    finally:
+        sys.path.remove(str(FOLDER))
+        for other in own:
+            sys.modules.pop(other, None)
+        sys.modules.update(kept)
+
+
+@dataclass(frozen=True)
+class Leaf:
+    path: str
+    shape: TopoDS_Shape
+    place: gp_Trsf
+    product: int
+
+
+def name_of(label: TDF_Label) -> str:
+    attribute = TDataStd_Name()
+    assert label.FindAttribute(TDataStd_Name.GetID_s(), attribute)
+    return str(attribute.Get().ToExtString())
+
+
+def read_step() -> list[Leaf]:
+    """Every part of the committed file in tree order, in millimetres."""
+    document = TDocStd_Document(TCollection_ExtendedString("BinXCAF"))
+    reader = STEPCAFControl_Reader()
+    reader.SetNameMode(True)
+    reader.ReadFile(str(FOLDER / "wheel_loader.step"))
+    assert reader.Transfer(document)
+    tool = XCAFDoc_DocumentTool.ShapeTool_s(document.Main())
+    roots = Sequence_TDF_Label()
+    tool.GetFreeShapes(roots)
+    assert roots.Length() == 1
+    seen: collections.Counter[str] = collections.Counter()
+    found: list[Leaf] = []
+
+    def walk(label: TDF_Label, path: str, place: gp_Trsf) -> None:
+        if not XCAFDoc_ShapeTool.IsAssembly_s(label):
+            seen[path] += 1
+            unique = path if seen[path] == 1 else f"{path}#{seen[path]}"
+            found.append(Leaf(unique, XCAFDoc_ShapeTool.GetShape_s(label), place, label.Tag()))
+            return
+        children = Sequence_TDF_Label()
+        XCAFDoc_ShapeTool.GetComponents_s(label, children, False)
+        for i in range(1, children.Length() + 1):
+            referred = TDF_Label()
+            XCAFDoc_ShapeTool.GetReferredShape_s(children.Value(i), referred)
+            here = XCAFDoc_ShapeTool.GetLocation_s(children.Value(i)).Transformation()
+            walk(referred, f"{path}/{name_of(referred)}", place.Multiplied(here))
+
+    walk(roots.Value(1), name_of(roots.Value(1)), gp_Trsf())
+    return found
+
+
+def faces_of(shape: TopoDS_Shape) -> list[TopoDS_Face]:
+    faces = []
+    explorer = TopExp_Explorer(shape, TopAbs_ShapeEnum.TopAbs_FACE)
+    while explorer.More():
+        faces.append(TopoDS.Face(explorer.Current()))
+        explorer.Next()
+    return faces
+
+
+def mesh_of(shape: TopoDS_Shape) -> tuple[np.ndarray, np.ndarray]:
+    BRepMesh_IncrementalMesh(shape, 1.0, False, 0.25)
+    points: list[tuple[float, float, float]] = []
+    triangles: list[tuple[int, int, int]] = []
+    for face in faces_of(shape):
+        where = TopLoc_Location()
+        mesh = BRep_Tool.Triangulation_s(face, where)
+        base = len(points)
+        for i in range(1, mesh.NbNodes() + 1):
+            p = mesh.Node(i).Transformed(where.Transformation())
+            points.append((p.X(), p.Y(), p.Z()))
+        for i in range(1, mesh.NbTriangles() + 1):
+            a, b, c = mesh.Triangle(i).Get()
+            triangles.append((base + a - 1, base + b - 1, base + c - 1))
+    return np.array(points), np.array(triangles)
+
+
+@dataclass(frozen=True)
+class Solid:
+    """A part as triangles in the CAD frame, millimetres."""
+
+    path: str
+    points: np.ndarray
+    model: fcl.BVHModel
+
+
+def solids_of(leaves: list[Leaf]) -> list[Solid]:
+    """Every part as a body for collision tests."""
+    meshes: dict[int, tuple[np.ndarray, np.ndarray]] = {}
+    out = []
+    for leaf in leaves:
+        if leaf.product not in meshes:
+            meshes[leaf.product] = mesh_of(leaf.shape)
+        m = np.array([[leaf.place.Value(i, j) for j in range(1, 5)] for i in range(1, 4)])
+        points, triangles = meshes[leaf.product]
+        points = points @ m[:, :3].T + m[:, 3]
+        model = fcl.BVHModel()
+        model.beginModel(len(points), len(triangles))
+        model.addSubModel(points, triangles)
+        model.endModel()
+        out.append(Solid(leaf.path, points, model))
+    return out
+
+
+def gaps(solids: list[Solid], moves: list[np.ndarray], within: float) -> dict[tuple[int, int], float]:
+    """Distances below `within` millimetres between parts, each moved by its 4x4 matrix; 0 where they meet."""
+    low, high, placed = [], [], []
+    for solid, m in zip(solids, moves, strict=True):
+        points = solid.points @ m[:3, :3].T + m[:3, 3]
+        low.append(points.min(0))
+        high.append(points.max(0))
+        placed.append(fcl.CollisionObject(solid.model, fcl.Transform(m[:3, :3], m[:3, 3])))
+    lo, hi = np.array(low), np.array(high)
+    out: dict[tuple[int, int], float] = {}
+    for i in range(len(solids)):
+        for j in np.nonzero(((lo[i] - within <= hi) & (hi[i] + within >= lo)).all(1))[0]:
+            if j <= i:
+                continue
+            a, b = placed[i], placed[int(j)]
+            meet = fcl.collide(a, b, fcl.CollisionRequest(), fcl.CollisionResult()) > 0
+            gap = 0.0 if meet else fcl.distance(a, b, fcl.DistanceRequest(), fcl.DistanceResult())
+            if gap < within:
+                out[i, int(j)] = gap
+    return out
