@@ -106,26 +106,34 @@ def _joint(entry: Mapping[str, Any]) -> dict[str, Any]:
     span = "free" if lower is None and upper is None else f"{display(lower, unit)} … {display(upper, unit)}"
     drive = entry["drive"]
     force_unit = "N" if entry["type"] == "prismatic" else "N*m"
-    source = entry["source"]
-    words = [
-        f"{key.replace('_', ' ')}: {_words(value)}" for key, value in source.items() if value not in (None, "", [])
-    ]
     return {
         **entry,
         "range": "–" if entry["type"] == "fixed" else span,
-        "drive_text": f"{drive['kind']}, {display(drive['max_force'], force_unit)}" if drive else "",
-        "source_text": "; ".join(words),
+        "drive_text": f"{drive['kind']}, {display(drive['max_force'], force_unit, digits=4)}" if drive else "",
+        "source_text": _joint_source(entry["source"]),
     }
 
 
-def _words(value: Any) -> str:
-    if isinstance(value, float):
-        return f"{value:.3g}"
-    if isinstance(value, Mapping):
-        return ", ".join(f"{k} {_words(v)}" for k, v in value.items())
-    if isinstance(value, (list, tuple)):
-        return ", ".join(_words(v) for v in value[:4]) + (f" and {len(value) - 4} more" if len(value) > 4 else "")
-    return str(value)
+def _joint_source(source: Mapping[str, Any]) -> str:
+    """The evidence of a joint as sentences: where its axis, its cut and its limits come from."""
+    words = []
+    if source.get("method"):
+        # The tree path says where a part is filed; its own name is enough to know it by.
+        names = dict.fromkeys(str(part).rsplit("/", 1)[-1].partition("#")[0] for part in source.get("parts", ()))
+        words.append(f"{source['method']}: {_listed(list(names))}" if names else str(source["method"]))
+    if "residual_mm" in source:
+        words.append(f"residual {source['residual_mm']:.4f} mm, {source.get('residual_deg', 0.0):.4f}°")
+    for end in ("lower", "upper"):
+        if source.get(f"{end}_quote"):
+            words.append(f"{end} limit from page {source[f'{end}_page']} “{source[f'{end}_quote']}”")
+        elif source.get(f"{end}_specification"):
+            words.append(f"{end} limit {source[f'{end}_specification']} from {source.get(f'{end}_source', 'nowhere')}")
+    words += [f"{key}: {source[key]}" for key in ("cut", "limits") if source.get(key)]
+    return "; ".join(words)
+
+
+def _listed(names: Sequence[str], *, most: int = 4) -> str:
+    return ", ".join(names[:most]) + (f" and {len(names) - most} more" if len(names) > most else "")
 
 
 def _cylinder(entry: Mapping[str, Any]) -> dict[str, Any]:

@@ -5,6 +5,7 @@ Machine frame: metres, Z up, the ground at z = 0.
 
 from __future__ import annotations
 
+import colorsys
 import io
 import math
 from collections.abc import Mapping, Sequence
@@ -22,11 +23,6 @@ _SUN = np.array([0.35, -0.70, 1.0]) / math.sqrt(0.35**2 + 0.70**2 + 1.0)
 _SKY = np.array([0.85, 0.89, 0.93])
 _GROUND = np.array([0.78, 0.77, 0.74])
 _YELLOW = (0.87, 0.47, 0.01)
-_PALETTE = (
-    (0.90, 0.62, 0.00), (0.34, 0.71, 0.91), (0.00, 0.62, 0.45), (0.94, 0.89, 0.26), (0.00, 0.45, 0.70),
-    (0.84, 0.37, 0.00), (0.80, 0.47, 0.65), (0.60, 0.60, 0.60), (0.55, 0.34, 0.29), (0.50, 0.80, 0.40),
-)  # fmt: skip
-"""Okabe and Ito's colours (sRGB), distinguishable by colour-blind readers, and three more."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,7 +94,7 @@ def machine_soup(
                 turned = shape.mesh.normals @ np.linalg.inv(place[:3, :3])
                 turned /= np.maximum(np.linalg.norm(turned, axis=1, keepdims=True), 1e-30)
                 corner_normals = turned[triangles]
-            color = _linear(_PALETTE[index % len(_PALETTE)]) if by_body else (part.color or shape.color or _YELLOW)
+            color = _body_color(index) if by_body else (part.color or shape.color or _YELLOW)
             corners.append(soup)
             normals.append(corner_normals)
             colors.append(np.broadcast_to(np.asarray(color, dtype=np.float64), (len(soup), 3)))
@@ -213,9 +209,11 @@ def contact_sheet(images: Sequence[Image.Image]) -> Image.Image:
     return sheet
 
 
-def _linear(color: tuple[float, float, float]) -> tuple[float, float, float]:
-    """sRGB to linear (IEC 61966-2-1, as a power of 2.2)."""
-    red, green, blue = color
+def _body_color(index: int) -> tuple[float, float, float]:
+    """Linear RGB by the golden angle of hue, so that any number of neighbours differ; every third is darker."""
+    hue = (0.11 + 0.61803398875 * index) % 1.0
+    value = (0.95, 0.72, 0.52)[index % 3]
+    red, green, blue = colorsys.hsv_to_rgb(hue, 0.62, value)
     return (red**2.2, green**2.2, blue**2.2)
 
 
