@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from OCP.gp import gp_Ax1, gp_Ax2, gp_Dir, gp_Pnt, gp_Trsf
 from OCP.Interface import Interface_Static
+from OCP.Message import Message
 from OCP.Quantity import Quantity_Color, Quantity_TOC_RGB
 from OCP.STEPCAFControl import STEPCAFControl_Writer
 from OCP.STEPControl import STEPControl_AsIs, STEPControl_Controller
@@ -74,6 +75,7 @@ def write_step(
     With `external`, a prefix of file names, each part goes into a file of its own beside it.
     """
     STEPControl_Controller.Init_s()
+    Message.DefaultMessenger_s().ChangePrinters().Clear()
     document = TDocStd_Document(TCollection_ExtendedString("BinXCAF"))
     application = XCAFApp_Application.GetApplication_s()
     application.NewDocument(TCollection_ExtendedString("BinXCAF"), document)

@@ -204,3 +204,33 @@ def test_missing_references_are_named(tmp_path: Path) -> None:
     (tmp_path / "part_ARM.stp").unlink()
     with pytest.raises(CadError, match=r"part_ARM\.stp"):
         read_in(path)
+
+
+def test_solids_of_one_product_keep_their_names(tmp_path: Path) -> None:
+    solids = compound(box(10, 10, 10), box(20, 10, 10, (50, 0, 0)), box(30, 10, 10, (100, 0, 0)))
+    path = write_step(tmp_path / "machine.step", Node("MACHINE", solids))
+    for name in (b"BOOM", b"Solid2", b"BUCKET"):
+        path.write_bytes(
+            path.read_bytes().replace(b"MANIFOLD_SOLID_BREP('',", b"MANIFOLD_SOLID_BREP('" + name + b"',", 1)
+        )
+    assembly = read_in(path)
+    assert [part.id for part in assembly.parts] == ["MACHINE/BOOM", "MACHINE#2", "MACHINE/BUCKET"]
+    assert assembly.parts[0].path == ("MACHINE",)
+    assert assembly.declared_occurrences == 1
+    assert not assembly.findings
+
+
+def test_an_assemblys_colour_is_for_parts_without_one(tmp_path: Path) -> None:
+    arm = Node("ARM", children=[Use(Node("A", box(1, 2, 3))), Use(Node("B", box(1, 2, 4), color=RED))])
+    root = Node("ROOT", children=[Use(arm, color=BLUE), Use(arm)])
+    assembly = read_in(write_step(tmp_path / "colours.step", root))
+    assert [part.color for part in assembly.parts] == [BLUE, RED, None, RED]
+
+
+def test_any_path(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    folder = tmp_path / "станок 動臂"
+    folder.mkdir()
+    write_step(folder / "arm ä.STP", Node("TOP", children=[Use(Node("ARM", box(10, 20, 30)))]), external="x_")
+    monkeypatch.chdir(folder)
+    # A relative path: external references are found beside the file all the same.
+    assert [part.id for part in read_cad("arm ä.STP").parts] == ["TOP/ARM"]

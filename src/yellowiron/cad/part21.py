@@ -4,22 +4,16 @@ from __future__ import annotations
 
 import functools
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 _STRING = rb"(?:'(?:[^']|'')*'|\$)"
-_PRODUCT = re.compile(rb"=\s*PRODUCT\s*\(\s*(" + _STRING + rb")\s*,\s*(" + _STRING + rb")")
-_NAUO = re.compile(
-    rb"#(\d+)\s*=\s*NEXT_ASSEMBLY_USAGE_OCCURRENCE\s*\(\s*"
-    + _STRING
-    + rb"\s*,\s*("
-    + _STRING
-    + rb")\s*,\s*"
-    + _STRING
-    + rb"\s*,\s*#(\d+)\s*,\s*#(\d+)"
-)
-_SHAPED = re.compile(rb"=\s*PRODUCT_DEFINITION_SHAPE\s*\(\s*" + _STRING + rb"\s*,\s*" + _STRING + rb"\s*,\s*#(\d+)")
-_SOLID = re.compile(rb"(?:MANIFOLD_SOLID_BREP|BREP_WITH_VOIDS|FACETED_BREP)\s*\(\s*(" + _STRING + rb")")
-_DOCUMENT = re.compile(rb"=\s*DOCUMENT_FILE\s*\(\s*(" + _STRING + rb")")
+_COMMA = rb"\s*,\s*"
+_OWN_ID = re.compile(rb"#(\d+)\s*=\s*$")
+_ONE_STRING = re.compile(rb"\s*\(\s*(" + _STRING + rb")")
+_TWO_STRINGS = re.compile(_ONE_STRING.pattern + _COMMA + rb"(" + _STRING + rb")")
+_SHAPED = re.compile(_TWO_STRINGS.pattern + _COMMA + rb"#(\d+)")
+_USE = re.compile(_TWO_STRINGS.pattern + _COMMA + _STRING + _COMMA + rb"#(\d+)" + _COMMA + rb"#(\d+)")
 _DEEPEST = 200
 
 
@@ -40,21 +34,33 @@ class Part21:
 
 def scan(data: bytes) -> Part21:
     """The facts of a STEP file from its bytes."""
-    names = [group for match in _PRODUCT.finditer(data) for group in match.groups()]
-    names += [match.group(1) for match in _SOLID.finditer(data)]
+    names = [name for _, match in _entities(data, b"PRODUCT", _TWO_STRINGS) for name in match.groups()]
+    for solid in (b"MANIFOLD_SOLID_BREP", b"BREP_WITH_VOIDS", b"FACETED_BREP"):
+        names += [match.group(1) for _, match in _entities(data, solid, _ONE_STRING)]
     uses: list[tuple[int, int]] = []
     occurrences: set[int] = set()
-    for match in _NAUO.finditer(data):
+    for number, match in _entities(data, b"NEXT_ASSEMBLY_USAGE_OCCURRENCE", _USE):
         names.append(match.group(2))
-        occurrences.add(int(match.group(1)))
+        occurrences.add(number)
         uses.append((int(match.group(3)), int(match.group(4))))
-    shaped = [int(match.group(1)) for match in _SHAPED.finditer(data)]
+    shaped = [int(match.group(3)) for _, match in _entities(data, b"PRODUCT_DEFINITION_SHAPE", _SHAPED)]
     return Part21(
         names=tuple(name.strip(b"'") for name in names),
         occurrences=_expand(shaped, uses, occurrences),
-        documents=tuple(match.group(1).strip(b"'") for match in _DOCUMENT.finditer(data)),
+        documents=tuple(match.group(1).strip(b"'") for _, match in _entities(data, b"DOCUMENT_FILE", _ONE_STRING)),
         complete=data.rfind(b"END-ISO-10303-21") > data.rfind(b"ENDSEC") > data.rfind(b"DATA;"),
     )
+
+
+def _entities(data: bytes, keyword: bytes, arguments: re.Pattern[bytes]) -> Iterator[tuple[int, re.Match[bytes]]]:
+    """Every instance of an entity: its number, and the match of its arguments. A byte search beats a big pattern."""
+    at = data.find(keyword)
+    while at >= 0:
+        end = at + len(keyword)
+        own, match = _OWN_ID.search(data, max(0, at - 40), at), arguments.match(data, end)
+        if own and match:
+            yield int(own.group(1)), match
+        at = data.find(keyword, end)
 
 
 def _expand(shaped: list[int], uses: list[tuple[int, int]], occurrences: set[int]) -> int | None:
