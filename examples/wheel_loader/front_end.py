@@ -318,7 +318,7 @@ def draw_bucket(k: Linkage, pose: Pose, heel: float, hardware: Assembly) -> Asse
     back = shape.back + 5
     ear = [
         (0, 0, 100),
-        (back + 55, -150, 0),
+        (back + 26, -150, 0),
         (back, -20, 0),
         (back, 150, 0),
         (shape.back_at(330) + 5, 330, 0),

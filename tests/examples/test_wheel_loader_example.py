@@ -212,7 +212,7 @@ def test_pins_lie_on_their_joints(truth: dict[str, Any], bores: dict[str, list[B
 
 
 def test_piston_travel_is_the_stroke(leaves: list[Leaf], truth: dict[str, Any]) -> None:
-    """On the shapes: cap to gland less the piston is the stroke, the piston's gap to the cap the extension."""
+    """Shapes: cap to gland less the piston is the stroke, the piston's gap to the cap the extension."""
     for joint_name, row in truth["cylinders"].items():
         joint = truth["joints"][joint_name]
         axis, anchor = np.array(joint["axis"]), np.array(joint["anchor"])
