@@ -77,7 +77,7 @@ def meet(p: Array, rp: float, q: Array, rq: float, side: float) -> Array:
 class Drawer:
     """One machine from one generator of random numbers."""
 
-    def __init__(self, seed: int, *, twin: bool | None = None, steered: bool = True) -> None:
+    def __init__(self, seed: int, *, twin: bool | None, steered: bool, embedded: bool, stop: bool) -> None:
         self.rng = np.random.default_rng(seed)
         self.m = Machine(bool(self.rng.random() < 0.7) if twin is None else twin)
         u = self.rng.uniform
@@ -93,6 +93,8 @@ class Drawer:
         self.clearance = float(self.rng.choice([0.0, 0.0002, 0.0008])) * s
         self.gap = float(self.rng.choice([0.0, 0.001, 0.004])) * s
         self.bushes = bool(self.rng.random() < 0.6)
+        self.e = 0.004 * s if embedded else 0.0
+        self.stop = stop
         self.link_pins()
 
     # ---- planar linkage ----
@@ -255,8 +257,9 @@ class Drawer:
         return self.m
 
     def rear_frame(self) -> None:
+        e = self.e
         m, s, t, L, body = self.m, self.s, self.t, self.wheelbase / 2, "rear_frame"
-        self.x_rear = -0.32 * s
+        self.x_rear, self.x_front = -0.32 * s, 0.34 * s
         self.z_mid = self.tyre_r + 0.5 * s
         low, high = self.z_mid - 0.25 * s, self.z_mid + 0.25 * s
         back = -L - 1.3 * s
@@ -347,16 +350,25 @@ class Drawer:
         self.z_up, self.z_low = self.z_mid + 0.2 * s, self.z_mid - 0.2 * s
         self.art_r = 1.3 * self.pin_r
         hole = self.art_r * (1.2 if self.bushes else 1.0)
-        outline = around((0, 0, 2 * self.art_r), (self.x_rear, 0.25 * s, 0), (self.x_rear, -0.25 * s, 0))
+        outline = around((0, 0, 2 * self.art_r), (self.x_rear - e, 0.25 * s, 0), (self.x_rear - e, -0.25 * s, 0))
         for z in (self.z_up, self.z_low):
             m.add("hitch plate", body, body, plate("hitch", outline, t, [(0, 0, hole)]), place((0, 0, z), Z, X))
             if self.bushes:
                 m.add("bush", body, body, tube("art_bush", hole, self.art_r, t), place((0, 0, z - t / 2), Z))
+        if self.stop:
+            gap = self.x_front - self.x_rear
+            m.add(
+                "stop",
+                body,
+                body,
+                box("stop", gap, 0.06 * s, 0.08 * s),
+                place((self.x_rear + gap / 2, 0.3 * s, self.z_mid + 0.3 * s), Z, X),
+            )
         # steering brackets
         self.SP = {side: np.array([self.x_rear - 0.5 * s, side * 0.62 * s, self.z_mid]) for side in (1, -1)}
         for side in (1, -1):
             p = self.SP[side]
-            rail = side * (0.4 * s + t / 2)
+            rail = side * (0.4 * s + t / 2 - e)
             outline = around((p[0], p[1], 1.8 * self.pin_r), (p[0] - 0.15 * s, rail, 0), (p[0] + 0.15 * s, rail, 0))
             for dz in (1, -1):
                 z = self.z_mid + dz * (self.eye_w / 2 + self.gap + t / 4)
@@ -436,7 +448,7 @@ class Drawer:
             self.wheel(f"{wheel}_{letter}", body, side, centre + side * self.tread / 2 * Y, reach)
 
     def rear_axle(self) -> None:
-        m, s, t = self.m, self.s, self.t
+        m, s, t, e = self.m, self.s, self.t, self.e
         self.shafts = bool(self.rng.random() < 0.4)
         centre = np.array([-self.wheelbase / 2, 0, self.tyre_r])
         r = 1.2 * self.pin_r
@@ -447,7 +459,7 @@ class Drawer:
         for sx in (1, -1):
             x = centre[0] + sx * 0.26 * s
             m.add("beam", "rear_frame", "rear_frame", across, place((x, 0, low + t / 2), Z, X))
-            outline = around((0, pivot[2], 2 * r), (0.2 * s, low, 0), (-0.2 * s, low, 0))
+            outline = around((0, pivot[2], 2 * r), (0.2 * s, low + e, 0), (-0.2 * s, low + e, 0))
             m.add(
                 "hanger",
                 "rear_frame",
@@ -488,8 +500,8 @@ class Drawer:
             )
 
     def front_frame(self) -> None:
+        e = self.e
         m, s, t, body = self.m, self.s, self.t, "front_frame"
-        self.x_front = 0.34 * s
         A, C, E = self.P["A"], self.P["C"], self.P["E"]
         low = self.tyre_r + 0.02 * s
         m.add(
@@ -510,7 +522,7 @@ class Drawer:
             place(((x0 + x1) / 2, 0, low + t / 2), Z, X),
         )
         self.y_out, self.y_in = self.yb + t / 2 + self.gap + t / 2, self.yb - t / 2 - self.gap - t / 2
-        corner = [(x0, low + t, 0.0), (x1 - 0.3 * s, low + t, 0.0), (x0, self.z_mid + 0.4 * s, 0.0)]
+        corner = [(x0 - e, low + t - e, 0.0), (x1 - 0.3 * s, low + t - e, 0.0), (x0 - e, self.z_mid + 0.4 * s, 0.0)]
         self.y_lift = self.y_in - t / 2 - self.gap - self.eye_w / 2 if self.m.twin else 0.0
         for side in (1, -1):
             self.side_plate("tower out", body, side * self.y_out, around((*A, 2 * self.pin_r), *corner), "A")
@@ -530,7 +542,12 @@ class Drawer:
                     "lift lug",
                     body,
                     y,
-                    around((*C, 2 * self.pin_r), (x0, C[1] - 0.2 * s, 0), (x0 + 0.3 * s, low + t, 0), (x0, low + t, 0)),
+                    around(
+                        (*C, 2 * self.pin_r),
+                        (x0 - e, C[1] - 0.2 * s, 0),
+                        (x0 + 0.3 * s, low + t - e, 0),
+                        (x0 - e, low + t - e, 0),
+                    ),
                     "C",
                 )
         # centre plates of the tilt cylinder (and of a single lift cylinder)
@@ -541,7 +558,7 @@ class Drawer:
                 "tilt lug",
                 body,
                 y,
-                around(*circles, (x0, low + t, 0), (x0 + 0.4 * s, low + t, 0)),
+                around(*circles, (x0 - e, low + t - e, 0), (x0 + 0.4 * s, low + t - e, 0)),
                 "E" if self.m.twin else "EC",
             )
         # a fender that floats, a bracket that touches
@@ -573,8 +590,9 @@ class Drawer:
                 m.truth[part_id] = (body, body)
 
     def articulation(self) -> None:
+        e = self.e
         m, s, t, body = self.m, self.s, self.t, "front_frame"
-        outline = around((0, 0, 2 * self.art_r), (self.x_front, 0.25 * s, 0), (self.x_front, -0.25 * s, 0))
+        outline = around((0, 0, 2 * self.art_r), (self.x_front + e, 0.25 * s, 0), (self.x_front + e, -0.25 * s, 0))
         for z in (self.z_up, self.z_low):
             for dz in (1, -1):
                 m.add(
@@ -594,11 +612,13 @@ class Drawer:
             )
 
     def steering(self) -> None:
-        m, s, t = self.m, self.s, self.t
+        m, s, t, e = self.m, self.s, self.t, self.e
         for side, letter in ((1, "l"), (-1, "r")):
             q = np.array([self.x_front - 0.16 * s, side * 0.62 * s, self.z_mid])
             outline = around(
-                (q[0], q[1], 1.8 * self.pin_r), (self.x_front, q[1] + 0.08 * s, 0), (self.x_front, q[1] - 0.1 * s, 0)
+                (q[0], q[1], 1.8 * self.pin_r),
+                (self.x_front + e, q[1] + 0.08 * s, 0),
+                (self.x_front + e, q[1] - 0.1 * s, 0),
             )
             m.pose = self.front
             for dz in (1, -1):
@@ -620,6 +640,7 @@ class Drawer:
             self.cylinder(f"steer {letter}", barrel, rod, P, Q, Z, 0.028 * s)
 
     def boom(self) -> None:
+        e = self.e
         m, s, t, body = self.m, self.s, self.t, "boom"
         A, B, D, G, M = (*(self.P[k] for k in "ABDG"), self.M)
         r = 0.11 * s
@@ -627,7 +648,7 @@ class Drawer:
         for side in (1, -1):
             outline = around((*A, wide), (*B, wide), (*M, 1.6 * r), (*D, wide))
             self.side_plate("arm plate", body, side * self.yb, outline, "ABD" if self.m.twin else "AB", thickness=t)
-        half = self.yb - t / 2
+        half = self.yb - t / 2 + e
         m.add("cross tube", body, body, tube("cross_tube", r, 0.8 * r, 2 * half), place((M[0], -half, M[1]), Y))
         for side in (1, -1):
             y = side * (self.y_rocker + t + self.gap)
@@ -666,6 +687,7 @@ class Drawer:
         )
 
     def bucket(self) -> None:
+        e = self.e
         m, s, t, body = self.m, self.s, self.t, "bucket"
         B, J = self.P["B"], self.P["J"]
         c, n = math.cos(self.bucket_angle), math.sin(self.bucket_angle)
@@ -680,7 +702,9 @@ class Drawer:
         put("back", box("bucket_back", t, width, 1.1 * s), place((back + t / 2, 0, 0.25 * s), Z, X))
         put("bottom", box("bucket_floor", 1.0 * s, width, t), place((back + t + 0.5 * s, 0, -0.3 * s + t / 2), Z, X))
         for side in (1, -1):
-            outline = np.array([[back + t, -0.3 * s + t], [back + t + 0.95 * s, -0.3 * s + t], [back + t, 0.8 * s]])
+            outline = np.array(
+                [[back + t - e, -0.3 * s + t - e], [back + t + 0.95 * s, -0.3 * s + t - e], [back + t - e, 0.8 * s]]
+            )
             put("side", plate("bucket_side", outline, t), place((0, side * (width / 2 - t / 2), 0), XZ, X))
         put(
             "edge",
@@ -697,14 +721,14 @@ class Drawer:
         for side in (1, -1):
             for d in (1, -1):
                 y = side * self.yb + d * (t + self.gap)
-                outline = around((0, 0, 2 * self.pin_r), (back, -0.2 * s, 0), (back, 0.25 * s, 0))
+                outline = around((0, 0, 2 * self.pin_r), (back + e, -0.2 * s, 0), (back + e, 0.25 * s, 0))
                 put("ear", plate("ear", outline, t, [(0, 0, self.bore_r)]), place((0, y, 0), XZ, X))
             wide = 1.5 * t + self.gap
             self.pin("bucket_pin", body, self.at("B", side * (self.yb + wide)), self.at("B", side * (self.yb - wide)))
         jl = np.linalg.inv(local) @ np.array([J[0], 0, J[1], 1])
         for d in (1, -1):
             y = d * (self.eye_w / 2 + self.gap + t / 2)
-            outline = around((jl[0], jl[2], 2 * self.pin_r), (back, 0.2 * s, 0), (back, 0.6 * s, 0))
+            outline = around((jl[0], jl[2], 2 * self.pin_r), (back + e, 0.2 * s, 0), (back + e, 0.6 * s, 0))
             put("link ear", plate("link_ear", outline, t, [(jl[0], jl[2], self.bore_r)]), place((0, y, 0), XZ, X))
         half = self.eye_w / 2 + self.gap + t
         self.pin("bucket_link_bucket_pin", body, self.at("J", -half), self.at("J", half))
@@ -750,9 +774,12 @@ class Drawer:
                 self.pin(f"{rod}_pin", "boom", self.at("D", -wide), self.at("D", wide))
 
 
-def loader(seed: int, *, twin: bool | None = None, steered: bool = True) -> Machine:
-    """The machine of a seed, in its own frame, in drawing order, with names."""
-    return Drawer(seed, twin=twin, steered=steered).draw()
+def loader(
+    seed: int, *, twin: bool | None = None, steered: bool = True, embedded: bool = False, stop: bool = False
+) -> Machine:
+    """The machine of a seed, in its own frame, in drawing order, with names. `embedded`: plates are drawn into each
+    other along their welds; `stop`: a steering stop lies flat against both frames."""
+    return Drawer(seed, twin=twin, steered=steered and not stop, embedded=embedded, stop=stop).draw()
 
 
 def disguise(

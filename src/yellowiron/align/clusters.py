@@ -10,13 +10,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-import numpy as np
-
 from yellowiron.align.contacts import PARALLEL, Fit, Line
-from yellowiron.align.evidence import Evidence
+from yellowiron.align.evidence import Evidence, crosses
 from yellowiron.align.groups import Groups
-from yellowiron.align.hydraulics import Ram
 from yellowiron.align.solids import Solid
+from yellowiron.align.welds import Pairs, join_doubly_pinned, lines_by_group, weld
 from yellowiron.align.wheels import Wheel
 
 
@@ -42,13 +40,15 @@ class Hinge:
 @dataclass(frozen=True, eq=False)
 class Structure:
     """What geometry alone says: clusters, hinges between them, slides (barrel, rod, number of the hydraulic cylinder),
-    lines (the wheels' axes behind those of the evidence), and for each pin and bolt its hosts."""
+    lines (the wheels' axes behind those of the evidence), for each pin and bolt its hosts, and the pairs of solids that
+    touch but were not welded, since a pin would have nothing to turn on."""
 
     clusters: tuple[Cluster, ...] = ()
     hinges: tuple[Hinge, ...] = ()
     slides: tuple[tuple[int, int, int], ...] = ()
     lines: tuple[Line, ...] = ()
     hosts: dict[int, tuple[Fit, ...]] = field(default_factory=dict)
+    refused: tuple[tuple[int, int], ...] = ()
 
 
 def structure_of(evidence: Evidence, *, leaves: bool, weak: bool, careful: bool) -> Structure:
@@ -62,28 +62,19 @@ def structure_of(evidence: Evidence, *, leaves: bool, weak: bool, careful: bool)
         groups.tag(wheel.members, ("wheel", k))
     for ring, around in evidence.pressed:
         groups.join(ring, around)
-    _join_doubly_pinned(groups, evidence)
-    _weld(groups, evidence, [(f.a, f.b) for f in evidence.welds], careful=careful)
+    join_doubly_pinned(groups, evidence)
+    refused = weld(groups, evidence, [(f.a, f.b) for f in evidence.welds], careful=careful)
     _attach_eyes(groups, evidence)
-    _join_doubly_pinned(groups, evidence)
-    _absorb_leaves(groups, evidence, leaves=leaves)
+    join_doubly_pinned(groups, evidence)
     if weak:
-        _weld(groups, evidence, _touching(groups, evidence), careful=careful)
-        _absorb_leaves(groups, evidence, leaves=leaves)
-    return _collected(groups, evidence)
+        refused = weld(groups, evidence, [*refused, *_touching(groups, evidence)], careful=careful)
+    _absorb_leaves(groups, evidence, leaves=leaves)
+    return _collected(groups, evidence, refused)
 
 
 def loose_ends(structure: Structure) -> int:
     """How many clusters take part in hinges or slides: far more than the template has bodies means broken welds."""
     return len({i for h in structure.hinges for i in (h.a, h.b)} | {i for s in structure.slides for i in s[:2]})
-
-
-def _lines_by_group(groups: Groups, evidence: Evidence) -> dict[int, set[int]]:
-    result: dict[int, set[int]] = {}
-    for i, on in evidence.pinned.items():
-        if i not in evidence.fasteners and on:
-            result.setdefault(groups.find(i), set()).update(on)
-    return result
 
 
 def _touching(groups: Groups, evidence: Evidence) -> list[tuple[int, int]]:
@@ -99,86 +90,22 @@ def _touching(groups: Groups, evidence: Evidence) -> list[tuple[int, int]]:
     ]
 
 
-def _weld(groups: Groups, evidence: Evidence, pairs: list[tuple[int, int]], *, careful: bool) -> None:
-    """Joins pairs; a careful one keeps those back whose groups are all that turns about some line, and tries them again
-    when others are joined."""
-    waiting = pairs
-    while waiting:
-        kept = []
-        for a, b in waiting:
-            if careful and groups.find(a) != groups.find(b) and _locks(groups, evidence, a, b):
-                kept.append((a, b))
-            else:
-                groups.join(a, b)
-        _join_doubly_pinned(groups, evidence)
-        if len(kept) == len(waiting):
-            return
-        waiting = kept
-
-
-def _locks(groups: Groups, evidence: Evidence, a: int, b: int) -> bool:
-    """True if two groups share one line and nothing else but loose rings is on it."""
-    ga, gb = groups.find(a), groups.find(b)
-    shared: dict[int, set[int]] = {ga: set(), gb: set()}
-    on: dict[int, set[int]] = {}
-    for i, lines in evidence.pinned.items():
-        if lines and i not in evidence.fasteners:
-            group = groups.find(i)
-            for k in lines:
-                on.setdefault(k, set()).add(group)
-            if group in shared:
-                shared[group] |= lines
-    common = shared[ga] & shared[gb]
-    if len(common) != 1:
-        return False
-    k = next(iter(common))
-    others = on[k] - {ga, gb}
-    return not any(groups.find(s.index) in others and not _turned_about(s, evidence.lines[k]) for s in evidence.solids)
-
-
-def _turned_about(s: Solid, line: Line) -> bool:
-    return s.axis is not None and line.off(s.axis.center) < 0.1 * line.radius
-
-
-def _join_doubly_pinned(groups: Groups, evidence: Evidence) -> None:
-    """Two distinct lines in common weld, again and again until nothing changes."""
-    changed = True
-    while changed:
-        changed = False
-        on = _lines_by_group(groups, evidence)
-        by_line: dict[int, list[int]] = {}
-        for group in sorted(on):
-            for k in on[group]:
-                by_line.setdefault(k, []).append(group)
-        pairs = {(a, b) for found in by_line.values() for a in found for b in found if a < b}
-        for a, b in sorted(pairs):
-            if groups.find(a) != groups.find(b) and len(on[a] & on[b]) >= 2 and groups.join(a, b):
-                changed = True
-
-
 def _attach_eyes(groups: Groups, evidence: Evidence) -> None:
     """A barrel or rod without a pin line across it takes the touching group that has one."""
     for ram in evidence.rams:
         for part in (ram.barrel, ram.rod):
             root = groups.find(min(part))
             mine = {s.index for s in evidence.solids if groups.find(s.index) == root}
-            if any(_crosses(evidence.lines[k], ram) for i in mine for k in evidence.pinned[i]):
+            if any(crosses(evidence.lines[k], ram) for i in mine for k in evidence.pinned[i]):
                 continue
             beside = {(a, b) if b in mine else (b, a) for a, b in evidence.near if (a in mine) != (b in mine)}
             for other, own in sorted(beside):
                 if other in evidence.fasteners or not any(
-                    _crosses(evidence.lines[k], ram) for k in evidence.pinned[other]
+                    crosses(evidence.lines[k], ram) for k in evidence.pinned[other]
                 ):
                     continue
                 if groups.may_join(own, other) and evidence.touching(own, other) and groups.join(own, other):
                     break
-
-
-def _crosses(line: Line, ram: Ram) -> bool:
-    if abs(float(line.direction @ ram.direction)) > 0.05:
-        return False
-    normal = np.cross(line.direction, ram.direction)
-    return abs(float((line.origin - ram.origin) @ normal)) / float(np.linalg.norm(normal)) < 0.6 * ram.bore
 
 
 def _beside(s: Solid, wheel: Wheel) -> bool:
@@ -194,7 +121,7 @@ def _beside(s: Solid, wheel: Wheel) -> bool:
 
 def _absorb_leaves(groups: Groups, evidence: Evidence, *, leaves: bool) -> None:
     """Rings and spacers on a single line go with the only group they lie against."""
-    on = _lines_by_group(groups, evidence)
+    on = lines_by_group(groups, evidence)
     partners: dict[int, set[int]] = {}
     members: dict[int, list[int]] = {}
     wheel_axes: dict[int, set[int]] = {}
@@ -218,7 +145,7 @@ def _absorb_leaves(groups: Groups, evidence: Evidence, *, leaves: bool) -> None:
             groups.join(group, found.pop())
 
 
-def _collected(groups: Groups, evidence: Evidence) -> Structure:
+def _collected(groups: Groups, evidence: Evidence, refused: Pairs) -> Structure:
     gathered: dict[int, set[int]] = {}
     for s in evidence.solids:
         if s.index not in evidence.fasteners:
@@ -251,4 +178,5 @@ def _collected(groups: Groups, evidence: Evidence) -> Structure:
         lines.append(Line(wheel.center, wheel.direction, wheel.radius, ()))
     hinges = tuple(Hinge(a, b, k, tuple(sorted(p))) for (a, b, k), p in sorted(pins.items()))
     slides = tuple((cluster(min(r.barrel)), cluster(min(r.rod)), k) for k, r in enumerate(evidence.rams))
-    return Structure(clusters, hinges, slides, tuple(lines), dict(evidence.hosts))
+    apart = tuple((a, b) for a, b in refused if groups.find(a) != groups.find(b))
+    return Structure(clusters, hinges, slides, tuple(lines), dict(evidence.hosts), apart)

@@ -21,6 +21,7 @@ class Evidence:
     - `hosts`: fastener → the fits of the solids around it; `line_of`: fastener → its lines;
     - `pinned`: solid → the lines it shares with a fastener (through a bush, too) or with another solid's shaft;
     - `about`: `pinned`, and for rings the lines that run through them;
+    - `bolted`: lines too thin to be a pivot, next to those through the cylinders' eyes;
     - `pressed`: rings in bores, (ring, host), which stay where they are;
     - `direct`: shafts of structural parts in bores, (line, fit);
     - `welds`, `turning`: flat contacts that hold, and those that allow turning about a shared line;
@@ -38,6 +39,7 @@ class Evidence:
     line_of: dict[int, tuple[int, ...]]
     pinned: dict[int, frozenset[int]]
     about: dict[int, frozenset[int]]
+    bolted: frozenset[int]
     pressed: tuple[tuple[int, int], ...]
     direct: tuple[tuple[int, Fit], ...]
     welds: tuple[Flat, ...]
@@ -102,6 +104,7 @@ def evidence_of(
         {p: tuple(sorted(k)) for p, k in sorted(line_of.items())},
         {i: frozenset(k) for i, k in pinned.items()},
         about,
+        _bolted(lines, rams, solids),
         tuple((f.inner, f.outer) for f in pressed),
         tuple(direct),
         tuple(welds),
@@ -111,6 +114,21 @@ def evidence_of(
 
 def _of_wheel(mine: tuple[str, int] | None, theirs: tuple[str, int] | None) -> bool:
     return any(o is not None and o[0] == "wheel" for o in (mine, theirs))
+
+
+def crosses(line: Line, ram: Ram) -> bool:
+    """True if a line runs across a hydraulic cylinder's axis: through one of its eyes, or its trunnion."""
+    if abs(float(line.direction @ ram.direction)) > 0.05:
+        return False
+    normal = np.cross(line.direction, ram.direction)
+    return abs(float((line.origin - ram.origin) @ normal)) / float(np.linalg.norm(normal)) < 0.6 * ram.bore
+
+
+def _bolted(lines: list[Line], rams: list[Ram], solids: tuple[Solid, ...]) -> frozenset[int]:
+    eyes = [ln.radius for ln in lines for ram in rams if crosses(ln, ram) and ln.radius > 0.2 * ram.bore]
+    size = float(np.linalg.norm(np.max([s.high for s in solids], axis=0) - np.min([s.low for s in solids], axis=0)))
+    least = 0.7 * min(eyes) if eyes else 0.0018 * size
+    return frozenset(k for k, line in enumerate(lines) if line.radius < least)
 
 
 def _through_rings(pinned: dict[int, set[int]], pressed: list[Fit], lines: list[Line]) -> None:
