@@ -138,7 +138,11 @@ def measured(k: Linkage, s: Steering) -> dict[str, float]:
     dump = k.pose(LIFT_MAX, k.tilt_for_angle(LIFT_MAX, math.radians(-45.0)))
     low = k.pose(LIFT_MIN, k.tilt_for_angle(LIFT_MIN, 0.0))
     closed, open_ = v.STEER_CLOSED.value, v.STEER_CLOSED.value + v.STEER_STROKE.value
-    lock = math.radians(v.STEER_ANGLE.value)
+
+    def lock(length: float) -> float:
+        """Steering angle at which the left cylinder has this length."""
+        return float(brentq(lambda angle: s.length(angle) - length, -0.9, 0.9, xtol=1e-12))
+
     return {
         v.HINGE_HEIGHT_MAX.name: float(dump.B[1]),
         v.DUMP_CLEARANCE.name: float(dump.T[1]),
@@ -148,7 +152,7 @@ def measured(k: Linkage, s: Steering) -> dict[str, float]:
         v.RACK_BACK_MAX.name: degrees(k.pose(LIFT_MAX, TILT_MAX).bucket_angle),
         v.DUMP_ANGLE_MAX.name: -degrees(k.pose(LIFT_MAX, TILT_MIN).bucket_angle),
         v.DIG_DEPTH.name: -float(low.T[1]),
-        v.STEER_ANGLE.name: v.STEER_ANGLE.value + (closed - s.length(lock) + s.length(-lock) - open_),
+        v.STEER_ANGLE.name: degrees(min(lock(closed), -lock(open_))),
     }
 
 
