@@ -51,12 +51,12 @@ class _Clock:
 
 def build(
     equipment_type: str | Path,
-    cad_file: Path,
-    out: Path,
+    cad_file: Path | str,
+    out: Path | str,
     *,
-    sheets: Sequence[Path] = (),
-    alignment_file: Path | None = None,
-    documents: Sequence[Path] = (),
+    sheets: Sequence[Path | str] = (),
+    alignment_file: Path | str | None = None,
+    documents: Sequence[Path | str] = (),
     settings: Sequence[str] = (),
     config: str = "",
     progress: Progress = lambda words: None,
@@ -69,6 +69,7 @@ def build(
     unusable input, having written nothing.
     """
     clock = _Clock(progress)
+    cad_file, out = Path(cad_file), Path(out)
     with output_folder(out) as folder:
         # What is known of the type, and what was asked for by hand.
         template = library.load_template(equipment_type)
@@ -78,15 +79,16 @@ def build(
             assembly = cad.read_cad(cad_file)
 
         # Weakest first: template, sheet, documents, settings.
-        data = library.load_documents(documents, template, assembly)
+        data = library.load_documents([Path(d) for d in documents], template, assembly)
         template = library.apply_joints(template, data)
         with clock.stage("extract", "Reading the specification sheets"):
             specifications = specs.merge(
-                specs.extract(template, sheets, config=config), specs.parse_settings(values, template)
+                specs.extract(template, [Path(s) for s in sheets], config=config),
+                specs.parse_settings(values, template),
             )
 
         with clock.stage("align", "Finding the part that plays each role"):
-            earlier = alignment_file or out / "alignment.json"
+            earlier = Path(alignment_file or out / "alignment.json")
             edits = align.read_alignment(earlier, assembly, template) if alignment_file or earlier.exists() else None
             alignment = align.align(
                 assembly, template, specifications, edits=library.with_relations(edits, data), choices=choices
@@ -103,10 +105,10 @@ def build(
             measurements = kinematics.measure(machine)
 
         with clock.stage("write", "Writing USD"):
-            textures = [*(document.parent for document in documents), Path(template.folder)]
             usd.write_machine(
-                machine, assembly, folder, name=machine.name, frame=alignment.frame, texture_folders=textures
-            )
+                machine, assembly, folder, name=machine.name, frame=alignment.frame,
+                texture_folders=[*data.folders, Path(template.folder)],
+            )  # fmt: skip
 
         with clock.stage("report", "Writing the report"):
             document = report.report_document(
@@ -123,7 +125,7 @@ def build(
             align.write_alignment(alignment, assembly, folder / "alignment.json")
             page = report.page(document, machine, assembly, alignment, poses=kinematics.key_poses(machine))
             (folder / "report.html").write_text(page, encoding="utf-8")
-        report.write_document(clock.seconds, folder / "timings.json")
+        report.write_document({**clock.seconds, "total": sum(clock.seconds.values())}, folder / "timings.json")
     return Machine(
         mechanism=machine,
         alignment=alignment,
