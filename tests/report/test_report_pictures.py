@@ -1,0 +1,63 @@
+"""Pictures: the same bytes every time, things where they should be."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+import trimesh
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from yellowiron.report.pictures import Soup, encode, look_at, render
+
+
+def soup_of(*meshes: trimesh.Trimesh, colors: list[tuple[float, float, float]]) -> Soup:
+    corners = np.concatenate([m.vertices[m.faces] for m in meshes]).astype(np.float64)
+    normals = np.concatenate([np.repeat(m.face_normals[:, None], 3, axis=1) for m in meshes]).astype(np.float64)
+    counts = [len(m.faces) for m in meshes]
+    return Soup(
+        corners, normals, np.repeat(np.array(colors), counts, axis=0), np.repeat(np.arange(len(meshes)), counts)
+    )
+
+
+@pytest.fixture(scope="module")
+def two_boxes() -> Soup:
+    left = trimesh.creation.box((1, 1, 1), transform=trimesh.transformations.translation_matrix((0, 1, 0.5)))
+    right = trimesh.creation.box((1, 1, 1), transform=trimesh.transformations.translation_matrix((0, -1, 0.5)))
+    return soup_of(left, right, colors=[(1.0, 0.0, 0.0), (0.0, 0.0, 1.0)])
+
+
+def test_a_box_is_where_the_camera_projects_it(two_boxes: Soup) -> None:
+    """Seen from the front (+X), the machine's left (+Y) is on the right of the picture."""
+    camera = look_at(two_boxes.corners.reshape(-1, 3), azimuth=0.0, elevation=0.2, width=320, height=180)
+    pixels = np.asarray(render(two_boxes, camera)).astype(int)
+    for center, channel in (((0.5, 1.0, 0.5), 0), ((0.5, -1.0, 0.5), 2)):
+        x, y = camera.project(np.array([center]))[0]
+        red, _, blue = pixels[round(y), round(x)]
+        assert (red > blue + 60) if channel == 0 else (blue > red + 60)
+    assert camera.project(np.array([[0.5, 1.0, 0.5]]))[0, 0] > 160
+
+
+def test_the_same_scene_gives_the_same_bytes(two_boxes: Soup) -> None:
+    camera = look_at(two_boxes.corners.reshape(-1, 3), width=160, height=90)
+    assert encode(render(two_boxes, camera)) == encode(render(two_boxes, camera))
+
+
+@settings(max_examples=50, deadline=None)
+@given(
+    st.floats(-math.pi, math.pi),
+    st.floats(0.0, 1.3),
+    st.lists(st.tuples(*[st.floats(-20, 20)] * 3), min_size=4, max_size=40),
+)
+def test_every_point_is_in_the_frame(
+    azimuth: float, elevation: float, points: list[tuple[float, float, float]]
+) -> None:
+    cloud = np.array(points)
+    # A flat or single-point cloud has no size to fit.
+    if np.ptp(cloud, axis=0).min() < 0.1:
+        return
+    camera = look_at(cloud, azimuth=azimuth, elevation=elevation, width=400, height=300)
+    pixels = camera.project(cloud)
+    assert (pixels >= -1.0).all() and (pixels <= [401.0, 301.0]).all()
