@@ -74,6 +74,12 @@ def meet(p: Array, rp: float, q: Array, rq: float, side: float) -> Array:
     return np.asarray(p + along * u + side * math.sqrt(square) * np.array([-u[1], u[0]]))
 
 
+def away(q: Array, a: Array, b: Array) -> float:
+    """Distance of a point from a segment."""
+    along = np.clip((q - a) @ (b - a) / ((b - a) @ (b - a)), 0.0, 1.0)
+    return float(np.linalg.norm(q - a - along * (b - a)))
+
+
 class Drawer:
     """One machine from one generator of random numbers."""
 
@@ -100,7 +106,7 @@ class Drawer:
     # ---- planar linkage ----
     def link_pins(self) -> None:
         u, s = self.rng.uniform, self.s
-        for _ in range(200):
+        for _ in range(2000):
             k = lambda v: v * s * u(0.94, 1.06)  # noqa: E731
             beta = float(u(-0.5, 0.35))
             rocker = float(u(1.1, 1.9))
@@ -128,9 +134,19 @@ class Drawer:
             self.P = dict(zip("ABCDEFGHJ", (A, B, C, D, E, F, G, H, J), strict=True))
             local = math.atan2(*(J - B)[::-1]) - math.atan2(0.43, -0.045)
             self.bucket_angle = (local + math.pi) % (2 * math.pi) - math.pi
-            self.beta = beta
+            if self.clashes():
+                continue
             return
         raise RuntimeError("no linkage for this seed")
+
+    def clashes(self) -> bool:
+        """Whether the rocker or the link runs into the boom's cross tube or the bucket's back."""
+        F, G, H, J, B = (self.P[k] for k in "FGHJB")
+        room = 0.11 * self.s + 2.2 * self.pin_r
+        near_tube = min(away(self.M, G, H), away(self.M, H, J), away(self.M, F, G)) < room
+        c, n = math.cos(self.bucket_angle), math.sin(self.bucket_angle)
+        ahead = [c * (q - B)[0] + n * (q - B)[1] for q in (F, G, H, self.M)]
+        return near_tube or max(ahead) > 0.28 * self.s - room
 
     # ---- pieces ----
     def at(self, pin: str, y: float) -> Array:
@@ -240,7 +256,7 @@ class Drawer:
 
     # ---- groups ----
     def draw(self) -> Machine:
-        self.eye_w = 0.11 * self.s
+        self.eye_w = 0.22 * self.s
         self.yb = 0.55 * self.s
         self.front = turn_z(self.steer)
         self.m.pose = np.eye(4)

@@ -11,11 +11,15 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from yellowiron.align.contacts import PARALLEL, Fit, Line
+from yellowiron.align.cuts import false_welds
 from yellowiron.align.evidence import Evidence, crosses
 from yellowiron.align.groups import Groups
 from yellowiron.align.solids import Solid
 from yellowiron.align.welds import Pairs, join_doubly_pinned, lines_by_group, weld
 from yellowiron.align.wheels import Wheel
+
+ROUNDS = 4
+"""How often a careful reading starts again without the false welds it found."""
 
 
 @dataclass(frozen=True)
@@ -53,7 +57,29 @@ class Structure:
 
 def structure_of(evidence: Evidence, *, leaves: bool, weak: bool, careful: bool) -> Structure:
     """Clusters and hinges. `leaves`: the template has bodies that hang on a single hinge, so that a spacer on one pin
-    may be one."""
+    may be one. A careful reading looks for false welds and starts again without them."""
+    flat = list(dict.fromkeys((f.a, f.b) for f in evidence.welds))
+    apart: set[tuple[int, int]] = set()
+    for _ in range(ROUNDS if careful else 1):
+        groups = _tagged(evidence)
+        pairs = [p for p in flat if p not in apart]
+        refused = weld(groups, evidence, pairs, careful=careful)
+        _attach_eyes(groups, evidence)
+        join_doubly_pinned(groups, evidence)
+        if weak:
+            touching = [p for p in _touching(groups, evidence) if p not in apart]
+            refused = weld(groups, evidence, [*refused, *touching], careful=careful)
+            pairs += touching
+        found = false_welds(groups, evidence, list(dict.fromkeys(pairs)), refused) if refused else set()
+        if not found:
+            break
+        apart |= found
+    _absorb_leaves(groups, evidence, leaves=leaves)
+    return _collected(groups, evidence, [*refused, *sorted(apart)])
+
+
+def _tagged(evidence: Evidence) -> Groups:
+    """Groups of what is certain: barrels, rods, wheels, rings in their bores."""
     groups = Groups(len(evidence.solids))
     for k, ram in enumerate(evidence.rams):
         groups.tag(ram.barrel, ("barrel", k))
@@ -63,13 +89,7 @@ def structure_of(evidence: Evidence, *, leaves: bool, weak: bool, careful: bool)
     for ring, around in evidence.pressed:
         groups.join(ring, around)
     join_doubly_pinned(groups, evidence)
-    refused = weld(groups, evidence, [(f.a, f.b) for f in evidence.welds], careful=careful)
-    _attach_eyes(groups, evidence)
-    join_doubly_pinned(groups, evidence)
-    if weak:
-        refused = weld(groups, evidence, [*refused, *_touching(groups, evidence)], careful=careful)
-    _absorb_leaves(groups, evidence, leaves=leaves)
-    return _collected(groups, evidence, refused)
+    return groups
 
 
 def loose_ends(structure: Structure) -> int:

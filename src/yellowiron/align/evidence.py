@@ -25,6 +25,7 @@ class Evidence:
     - `pressed`: rings in bores, (ring, host), which stay where they are;
     - `direct`: shafts of structural parts in bores, (line, fit);
     - `welds`, `turning`: flat contacts that hold, and those that allow turning about a shared line;
+    - `area`: m² of flat contact of a pair;
     - `near`: pairs whose boxes touch; `touching(a, b)` asks the meshes.
     """
 
@@ -44,6 +45,7 @@ class Evidence:
     direct: tuple[tuple[int, Fit], ...]
     welds: tuple[Flat, ...]
     turning: tuple[Flat, ...]
+    area: dict[tuple[int, int], float]
 
 
 def evidence_of(
@@ -92,6 +94,9 @@ def evidence_of(
     for flat in sorted(flats, key=lambda f: (-round(f.area, 9), f.a, f.b)):
         if flat.a not in fasteners and flat.b not in fasteners:
             (turning if _may_turn(flat, lines, pinned, about) else welds).append(flat)
+    area: dict[tuple[int, int], float] = {}
+    for flat in welds:
+        area[flat.a, flat.b] = area.get((flat.a, flat.b), 0.0) + flat.area
     return Evidence(
         solids,
         tuple(lines),
@@ -109,6 +114,7 @@ def evidence_of(
         tuple(direct),
         tuple(welds),
         tuple(turning),
+        area,
     )
 
 
