@@ -234,3 +234,12 @@ def test_any_path(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(folder)
     # A relative path: external references are found beside the file all the same.
     assert [part.id for part in read_cad("arm ä.STP").parts] == ["TOP/ARM"]
+
+
+def test_sheets_of_one_product_are_one_part(tmp_path: Path) -> None:
+    faces = faces_of(box(100, 200, 300))
+    product = Node("COVER", compound(box(10, 10, 10, (500, 0, 0)), faces[0], faces[3]))
+    assembly = read_in(write_step(tmp_path / "cover.step", product))
+    solid, sheets = (assembly.shape_of(part) for part in assembly.parts)
+    assert (solid.closed, sheets.closed) == (True, False)
+    assert len(sheets.planes) == 2

@@ -174,6 +174,11 @@ def subshapes(shape: Any, kind: Any) -> list[Any]:
     return found
 
 
+def is_sheet(shape: Any) -> bool:
+    """True for a face and an open shell."""
+    return shape.ShapeType() == TopAbs_FACE or (shape.ShapeType() == TopAbs_SHELL and not BRep_Tool.IsClosed_s(shape))
+
+
 def _close(shape: Any) -> tuple[Any, bool]:
     shells = subshapes(shape, TopAbs_SHELL)
     closed = bool(shells) and all(BRep_Tool.IsClosed_s(shell) for shell in shells)

@@ -16,8 +16,8 @@ from OCP.XCAFDoc import XCAFDoc_ShapeTool
 
 from yellowiron.cad import brep, part21
 from yellowiron.cad.naming import is_generic, sniff_encoding, unique_ids
-from yellowiron.cad.tessellate import MILLIMETRE, mesh_shapes
-from yellowiron.cad.xcaf import EXPORT_AGAIN, Leaf, Styles, Tree, label_color, open_step
+from yellowiron.cad.tessellate import MILLIMETRE, compound, mesh_shapes
+from yellowiron.cad.xcaf import EXPORT_AGAIN, Leaf, Styles, Tree, label_color, label_entry, open_step
 from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.errors import CadError
 from yellowiron.model.finding import Finding
@@ -49,11 +49,12 @@ UNITS = {
 
 @dataclass(frozen=True, eq=False)
 class Piece:
-    """One solid or sheet of a product, in its own frame, with where the product has it."""
+    """One solid or sheet of a product, in its own frame, with where the product has it and in which colour."""
 
     name: str
     body: brep.Body
     location: Any
+    color: Color | None
 
 
 def read_step(path: str) -> Assembly:
@@ -71,7 +72,7 @@ def read_step(path: str) -> Assembly:
     findings = []
     if encoding != "utf-8":
         findings.append(
-            _finding("CAD010", "info", path, f"Names are not in a standard encoding; they were read as {encoding}")
+            Finding("CAD010", "info", path, f"Names are not in a standard encoding; they were read as {encoding}")
         )
     tree, unit_names = open_step(path, encoding)
     unit, unit_findings = _unit(unit_names, path)
@@ -79,7 +80,7 @@ def read_step(path: str) -> Assembly:
     leaves = list(tree.leaves())
     collector = _Bodies(tree)
     pieces = [collector.pieces(leaf) for leaf in leaves]
-    findings += _missing(path, facts, leaves, pieces) + collector.findings
+    findings += _missing(path, facts, encoding, leaves, pieces) + collector.findings
     shapes, shape_findings = _shapes(collector.bodies)
     findings += shape_findings
     parts = _parts(leaves, pieces, shapes)
@@ -100,21 +101,17 @@ def read_step(path: str) -> Assembly:
     return replace(assembly, findings=(*findings, *_plausibility(assembly, path)))
 
 
-def _finding(code: str, severity: Any, where: str, message: str, hint: str = "") -> Finding:
-    return Finding(code, severity, where, message, hint)
-
-
 def _unit(names: Sequence[str], path: str) -> tuple[float, list[Finding]]:
     known = [UNITS[name.lower()] for name in names if name.lower() in UNITS]
     unit = known[0] if known else 1e-3
     if not known:
         said = f"'{names[0]}'" if names else "none"
         return unit, [
-            _finding("CAD009", "warning", path, f"The file's unit of length is not known ({said}); millimetres assumed")
+            Finding("CAD009", "warning", path, f"The file's unit of length is not known ({said}); millimetres assumed")
         ]
     if len(set(known)) > 1:
         listed = ", ".join(dict.fromkeys(names))
-        return unit, [_finding("CAD009", "info", path, f"The file mixes units ({listed}); every part was converted")]
+        return unit, [Finding("CAD009", "info", path, f"The file mixes units ({listed}); every part was converted")]
     return unit, []
 
 
@@ -127,38 +124,38 @@ class _Bodies:
         self.findings: list[Finding] = []
         self._known = IndexedMap_TopoDS_Shape_TopTools_ShapeMapHasher()
         self._measured: list[brep.Body | None] = []
-        self._pieces: dict[int, list[Piece]] = {}
-        self._labels = IndexedMap_TopoDS_Shape_TopTools_ShapeMapHasher()
+        self._pieces: dict[str, list[Piece]] = {}
 
     def pieces(self, leaf: Leaf) -> list[Piece]:
         """The solids and sheets of a leaf's product, in the product's frame."""
         shape = XCAFDoc_ShapeTool.GetShape_s(leaf.label)
         if shape is None or shape.IsNull():
             return []
-        index = self._labels.Add(shape)
-        if index not in self._pieces:
-            self._pieces[index] = self._split(leaf, shape)
-        return self._pieces[index]
+        entry = label_entry(leaf.label)
+        if entry not in self._pieces:
+            self._pieces[entry] = self._split(leaf, shape)
+        return self._pieces[entry]
 
     def _split(self, leaf: Leaf, shape: Any) -> list[Piece]:
         styles = Styles(self.tree, leaf.label)
         product = self.tree.product_name(leaf.label) or leaf.name
-        units = list(_units(shape))
+        units = _units(shape)
         pieces = []
         for number, unit in enumerate(units, start=1):
             name, color = styles.of(unit)
+            color = color or label_color(leaf.label)
             body_name = name if len(units) > 1 and name else product
             local = unit.Located(TopLoc_Location())
             known = self._known.FindIndex(local)
             if known == 0:
                 known = self._known.Add(local)
-                self._measured.append(self._measure(body_name, local, color or label_color(leaf.label), styles))
+                self._measured.append(self._measure(body_name, local, color, styles))
             body = self._measured[known - 1]
             if body is None:
                 continue
             suffix = f"#{number}" if len(units) > 1 else ""
             own = name if name and not is_generic(name) and len(units) > 1 else ""
-            pieces.append(Piece(own or suffix, body, unit.Location()))
+            pieces.append(Piece(own or suffix, body, unit.Location(), color))
         return pieces
 
     def _measure(self, name: str, shape: Any, color: Color | None, styles: Styles) -> brep.Body | None:
@@ -166,33 +163,40 @@ class _Bodies:
         try:
             body = brep.measure(name, shape, color=color, face_colors=face_colors)
         except ValueError as error:
-            self.findings.append(_finding("CAD003", "error", name, f"Left out: {error}", EXPORT_AGAIN))
+            self.findings.append(Finding("CAD003", "error", name, f"Left out: {error}", EXPORT_AGAIN))
             return None
         self.bodies.append(body)
         return body
 
 
-def _units(shape: Any) -> Iterator[Any]:
-    """The solids of a shape, or its shells and loose faces: what becomes a part each. A compsolid is one."""
+def _units(shape: Any) -> list[Any]:
+    """What becomes a part each: every solid, compsolid and closed shell, and all open sheets as one."""
+    bodies = [part for part in _members(shape) if not brep.is_sheet(part)]
+    sheets = [part for part in _members(shape) if brep.is_sheet(part)]
+    return [*bodies, *([compound(sheets)] if len(sheets) > 1 else sheets)]
+
+
+def _members(shape: Any) -> Iterator[Any]:
+    """The solids, shells and loose faces of nested compounds."""
     kind = shape.ShapeType()
     if kind in (TopAbs_SOLID, TopAbs_COMPSOLID, TopAbs_SHELL, TopAbs_FACE):
         yield shape
     elif kind == TopAbs_COMPOUND:
         children = TopoDS_Iterator(shape)
         while children.More():
-            yield from _units(children.Value())
+            yield from _members(children.Value())
             children.Next()
 
 
 def _missing(
-    path: str, facts: part21.Part21, leaves: Sequence[Leaf], pieces: Sequence[Sequence[Piece]]
+    path: str, facts: part21.Part21, encoding: str, leaves: Sequence[Leaf], pieces: Sequence[Sequence[Piece]]
 ) -> list[Finding]:
     empty = ["/".join((*leaf.path, leaf.name)) for leaf, found in zip(leaves, pieces, strict=True) if not found]
     findings = []
     read = len(leaves) - len(empty)
     if facts.occurrences is not None and read < facts.occurrences:
         findings.append(
-            _finding(
+            Finding(
                 "CAD001",
                 "warning",
                 path,
@@ -201,15 +205,14 @@ def _missing(
             )
         )
     if empty:
-        findings.append(_finding("CAD002", "info", path, f"Without usable geometry: {_listed(empty)}"))
+        findings.append(Finding("CAD002", "info", path, f"Without usable geometry: {_listed(empty)}"))
+    documents = [name.decode(encoding, errors="replace") for name in dict.fromkeys(facts.documents)]
     folder = Path(path).absolute().parent
-    gone = [name for name in dict.fromkeys(facts.documents) if not (folder / name.decode(errors="replace")).exists()]
+    gone = [name for name in documents if not (folder / name.replace("\\", "/")).exists()]
     if gone and empty:
-        names = _listed([name.decode(errors="replace") for name in gone])
+        names = _listed(gone)
         findings.append(
-            _finding(
-                "CAD008", "error", path, f"Referenced files are missing: {names}", "Put them beside the STEP file."
-            )
+            Finding("CAD008", "error", path, f"Referenced files are missing: {names}", "Put them beside the STEP file.")
         )
     return findings
 
@@ -230,15 +233,15 @@ def _shapes(bodies: Sequence[brep.Body]) -> tuple[dict[str, Shape], list[Finding
         shape, missing = brep.finish(body)
         if missing:
             findings.append(
-                _finding("CAD006", "warning", body.name, f"{missing} of {len(body.faces)} faces could not be meshed")
+                Finding("CAD006", "warning", body.name, f"{missing} of {len(body.faces)} faces could not be meshed")
             )
         if body.tessellated:
             findings.append(
-                _finding("CAD011", "info", body.name, "Triangles without surfaces: no exact measures, no features")
+                Finding("CAD011", "info", body.name, "Triangles without surfaces: no exact measures, no features")
             )
         elif not shape.exact:
             findings.append(
-                _finding("CAD007", "warning", body.name, "The solid's exact volume is not usable; its mesh's was taken")
+                Finding("CAD007", "warning", body.name, "The solid's exact volume is not usable; its mesh's was taken")
             )
         if len(shape.mesh.triangles):
             shapes[key] = shape
@@ -267,7 +270,7 @@ def _parts(
                     path,
                     key,
                     _matrix(leaf.location * piece.location),
-                    leaf.color or piece.body.color or leaf.inherited,
+                    leaf.color or piece.color or piece.body.color or leaf.inherited,
                 )
             )
     ids = unique_ids((*path, name) for name, path, *_ in found)
@@ -288,13 +291,13 @@ def _plausibility(assembly: Assembly, path: str) -> list[Finding]:
     sheets = [part.name for part in assembly.parts if not assembly.shapes[part.shape].closed]
     if sheets:
         findings.append(
-            _finding("CAD005", "info", path, f"Not closed, so without a volume: {_listed(list(dict.fromkeys(sheets)))}")
+            Finding("CAD005", "info", path, f"Not closed, so without a volume: {_listed(list(dict.fromkeys(sheets)))}")
         )
     corners = np.concatenate([_corners(assembly, part) for part in assembly.parts])
     size = float(np.linalg.norm(np.ptp(corners, axis=0)))
     if not 1e-3 < size < brep.LARGEST * MILLIMETRE:
         findings.append(
-            _finding("CAD004", "warning", path, f"The model is {size:.3g} m large: check the unit it was exported in")
+            Finding("CAD004", "warning", path, f"The model is {size:.3g} m large: check the unit it was exported in")
         )
     return findings
 

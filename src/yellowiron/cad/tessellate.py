@@ -41,16 +41,21 @@ def mesh_shapes(shapes: Iterable[tuple[Any, float]]) -> None:
     for shape, diagonal in shapes:
         classes.setdefault(deflection(diagonal), []).append(shape)
     for size in sorted(classes):
-        compound, builder = TopoDS_Compound(), BRep_Builder()
-        builder.MakeCompound(compound)
-        for shape in classes[size]:
-            builder.Add(compound, shape)
         parameters = IMeshTools_Parameters()
         parameters.Deflection = parameters.DeflectionInterior = size
         parameters.Angle = parameters.AngleInterior = ANGLE
         parameters.InParallel = True
         parameters.AllowQualityDecrease = True
-        BRepMesh_IncrementalMesh(compound, parameters)
+        BRepMesh_IncrementalMesh(compound(classes[size]), parameters)
+
+
+def compound(shapes: Iterable[Any]) -> Any:
+    """One compound of shapes."""
+    result, builder = TopoDS_Compound(), BRep_Builder()
+    builder.MakeCompound(result)
+    for shape in shapes:
+        builder.Add(result, shape)
+    return result
 
 
 def deflection(diagonal: float) -> float:

@@ -13,9 +13,9 @@ from OCP.IFSelect import IFSelect_ReturnStatus
 from OCP.Interface import Interface_Static
 from OCP.Quantity import Quantity_Color
 from OCP.STEPCAFControl import STEPCAFControl_Controller, STEPCAFControl_Reader
-from OCP.TCollection import TCollection_ExtendedString
+from OCP.TCollection import TCollection_AsciiString, TCollection_ExtendedString
 from OCP.TDataStd import TDataStd_Name
-from OCP.TDF import TDF_Label
+from OCP.TDF import TDF_Label, TDF_Tool
 from OCP.TDocStd import TDocStd_Document
 from OCP.TopAbs import TopAbs_FACE
 from OCP.TopLoc import TopLoc_Location
@@ -74,6 +74,13 @@ def open_step(path: str, encoding: str) -> tuple[Tree, list[str]]:
     lengths, angles, solid_angles = (Sequence_TCollection_AsciiString() for _ in range(3))
     reader.ChangeReader().FileUnits(lengths, angles, solid_angles)
     names = [lengths.Value(i).ToCString() for i in range(1, lengths.Length() + 1)]
+    unit, root = XCAFDoc_LengthUnit(), document.Main().Root()
+    stated = root.IsAttribute(XCAFDoc_LengthUnit.GetID_s()) and root.FindAttribute(XCAFDoc_LengthUnit.GetID_s(), unit)
+    # Whatever the file's unit, the geometry must arrive in the unit that was asked for.
+    if stated and abs(unit.GetUnitValue() - MILLIMETRE) > 1e-12:
+        raise CadError(
+            f"The reader delivered units of {unit.GetUnitValue():g} m, not mm", where=path, hint=EXPORT_AGAIN
+        )
     return Tree(document, encoding), names
 
 
@@ -83,24 +90,15 @@ class Tree:
     def __init__(self, document: Any, encoding: str) -> None:
         self.encoding = encoding
         self._document = document  # its labels die with it
-        main = document.Main()
-        self.tool = XCAFDoc_DocumentTool.ShapeTool_s(main)
-        unit, root = XCAFDoc_LengthUnit(), main.Root()
-        stated = root.IsAttribute(XCAFDoc_LengthUnit.GetID_s()) and root.FindAttribute(
-            XCAFDoc_LengthUnit.GetID_s(), unit
-        )
-        # Whatever the file's unit, the geometry must arrive in the unit that was asked for.
-        if stated and abs(unit.GetUnitValue() - MILLIMETRE) > 1e-12:
-            raise CadError(f"The reader delivered units of {unit.GetUnitValue():g} m instead of millimetres")
         roots = LabelSequence()
-        self.tool.GetFreeShapes(roots)
+        XCAFDoc_DocumentTool.ShapeTool_s(document.Main()).GetFreeShapes(roots)
         self.roots = labels(roots)
         self.name = self.product_name(self.roots[0]) if len(self.roots) == 1 else ""
 
     def leaves(self) -> Iterator[Leaf]:
         """Every occurrence of a product without components, in tree order."""
         for root in self.roots:
-            yield from self._walk(Leaf(self.product_name(root) or "Assembly", (), root, TopLoc_Location()))
+            yield from self._walk(Leaf(self.product_name(root) or _nameless(root), (), root, TopLoc_Location()))
 
     def _walk(self, at: Leaf) -> Iterator[Leaf]:
         if not XCAFDoc_ShapeTool.IsAssembly_s(at.label):
@@ -116,7 +114,7 @@ class Tree:
             name = occurrence_name(self.product_name(component), self.product_name(product))
             yield from self._walk(
                 Leaf(
-                    name=name or ("Assembly" if XCAFDoc_ShapeTool.IsAssembly_s(product) else "Part"),
+                    name=name or _nameless(product),
                     path=(*at.path, at.name),
                     label=product,
                     location=at.location * XCAFDoc_ShapeTool.GetLocation_s(component),
@@ -132,6 +130,17 @@ class Tree:
         name = TDataStd_Name()
         label.FindAttribute(TDataStd_Name.GetID_s(), name)
         return decode_name(name.Get().ToExtString(), self.encoding)
+
+
+def _nameless(label: Any) -> str:
+    return "Assembly" if XCAFDoc_ShapeTool.IsAssembly_s(label) else "Part"
+
+
+def label_entry(label: Any) -> str:
+    """A label's address in its document (`0:1:1:7`)."""
+    entry = TCollection_AsciiString()
+    TDF_Tool.Entry_s(label, entry)
+    return str(entry.ToCString())
 
 
 def labels(sequence: Any) -> list[Any]:
