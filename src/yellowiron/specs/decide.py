@@ -12,6 +12,7 @@ from yellowiron.specs.asked import hint_for
 from yellowiron.specs.claims import Claim
 from yellowiron.specs.match import Match
 from yellowiron.specs.numbers import DecimalStyle, Quantity, read
+from yellowiron.specs.stated import Stated
 from yellowiron.specs.vocabulary import tokens
 
 _SURE = 0.7
@@ -22,10 +23,12 @@ _NEAR = 0.15
 
 @dataclass(frozen=True)
 class Sheets:
-    """What `decide` must know of the sheets, by the identity of statements: their file; the quantities of their column."""
+    """What `decide` must know of the sheets. By statement identity: its file; the quantities of its column. `stated`:
+    sentences that may say which configuration is meant."""
 
     files: Mapping[int, str]
     columns: Mapping[int, frozenset[str]]
+    stated: tuple[Stated, ...] = ()
 
 
 def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str = "") -> Specification:
@@ -34,8 +37,11 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
     if not matches:
         return missing(wanted)
     chosen = _configured(matches, sheets, config)
-    best = max(m.score for m in chosen)
-    groups = _by_value(wanted, [m for m in chosen if m.score >= best - _NEAR])
+    groups = _groups(wanted, chosen)
+    said = None
+    if len(groups) > 1:
+        said, chosen = _as_stated(chosen, sheets)
+        groups = _groups(wanted, chosen)
     if len(groups) > 1:
         return _conflict(wanted, groups, sheets, config)
     group = groups[0]
@@ -55,7 +61,7 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
         text=_printed(quantity),
         example=all(m.claim.statement.example for m in group),
         confidence=round(min(top.score, 0.5 if doubt else 1.0), 3),
-        reason=doubt or _reason(top, group),
+        reason=doubt or _reason(top, group) + (f"; page {said.page} says: “{said.sentence}”" if said else ""),
         hint=f'Check it on the page; settle it with --set "{wanted.name}=VALUE UNIT".' if doubt else "",
         candidates=(_candidate(top, sheets, value),),
     )
@@ -97,7 +103,7 @@ def _preference(found: Match) -> tuple[float, bool, bool, float]:
     return (found.score, not claim.statement.example, claim.partner is not None, -claim.statement.page)
 
 
-# ---- configurations -----------------------------------------------------------------------------------------------------
+# ---- configurations ------------------------------------------------------------------------------------------------
 
 
 def configuration(found: Match) -> str:
@@ -116,6 +122,16 @@ def _configured(matches: Sequence[Match], sheets: Sheets, config: str) -> list[M
         if max(shares) >= 0.5 and max(shares) > min(shares):
             kept = [m for m, share in zip(kept, shares, strict=True) if share == max(shares)]
     return [_explained(m, set(tokens(config))) for m in kept]
+
+
+def _as_stated(matches: Sequence[Match], sheets: Sheets) -> tuple[Stated | None, list[Match]]:
+    """The matches whose column a sentence about the sheet's figures names in full, and that sentence."""
+    for stated in sheets.stated:
+        words = set(tokens(stated.sentence))
+        kept = [m for m in matches if (head := set(tokens(" ".join(m.claim.statement.column)))) and head <= words]
+        if kept:
+            return stated, kept
+    return None, list(matches)
 
 
 def _explained(found: Match, words: set[str]) -> Match:
@@ -154,7 +170,12 @@ def _config_words(found: Match, sheets: Sheets) -> set[str]:
     return words | sheets.columns.get(id(statement), frozenset())
 
 
-# ---- values -------------------------------------------------------------------------------------------------------------
+# ---- values --------------------------------------------------------------------------------------------------------
+
+
+def _groups(wanted: Wanted, matches: Sequence[Match]) -> list[list[Match]]:
+    best = max(m.score for m in matches)
+    return _by_value(wanted, [m for m in matches if m.score >= best - _NEAR])
 
 
 def _by_value(wanted: Wanted, matches: Sequence[Match]) -> list[list[Match]]:
@@ -188,9 +209,8 @@ def _settled(wanted: Wanted, claim: Claim) -> tuple[Quantity, str]:
             half = quantity.half if inside[0] == quantity.value else 0.5
             return Quantity(inside[0], quantity.unit, half, quantity.text, quantity.start, quantity.end), doubt
         doubt = doubt or f"'{quantity.text}' may be {quantity.value:g} or {quantity.other:g}"
-    elif claim.partner is not None and not doubt and quantity.printed is not None:
-        if quantity.printed.system == "imperial":  # the metric one is taken
-            quantity = claim.partner
+    elif claim.partner is not None and not doubt and _is_imperial(quantity):
+        quantity = claim.partner
     if not _in_range(wanted, quantity.si_value):
         doubt = doubt or f"'{quantity.text}' is outside what is usual for {wanted.name}"
     return quantity, doubt
@@ -200,6 +220,10 @@ def _printed(quantity: Quantity) -> str:
     """A quantity as printed, with the unit that its column or product gives it."""
     bare = quantity.text.lstrip("±+-−–/ ").replace(",", "").replace(".", "").replace(" ", "").isdigit()
     return f"{quantity.text} {quantity.unit}".strip() if bare else quantity.text
+
+
+def _is_imperial(quantity: Quantity) -> bool:
+    return quantity.printed is not None and quantity.printed.system == "imperial"
 
 
 def _in_range(wanted: Wanted, value: float) -> bool:

@@ -21,7 +21,8 @@ def extract(template: Template, pdfs: Sequence[Path], *, config: str = "") -> Sp
     """What the sheets say of every value the template asks for, in SI, each with its evidence and status.
 
     `config` names the machine's configuration where a sheet has columns ("standard boom, stock-pile bucket").
-    Values that differ between columns or pages and that `config` does not settle are a `conflict`. Each PDF is read in
+    Where a sheet says itself which configuration its figures are for, that settles what `config` leaves open; values
+    that still differ between columns or pages are a `conflict`. Each PDF is read in
     a guarded child process. `SheetError` for a file that is missing, empty, no PDF, truncated, damaged or encrypted.
     """
     return from_sheets(template, [read(path) for path in pdfs], config=config)
@@ -55,11 +56,12 @@ def from_sheets(template: Template, sheets: Sequence[Sheet], *, config: str = ""
         columns.update(_columns(sheet))
     matches = match(claims, wanted)
     silent = [s.file for s in sheets if not s.statements and s.silent]
+    stated = tuple(one for sheet in sheets for one in sheet.stated)
     values: dict[str, Specification] = {}
     for one in wanted:
         found = matches[one.name]
         if found:
-            values[one.name] = decide(one, found, Sheets(files, columns), config)
+            values[one.name] = decide(one, found, Sheets(files, columns, stated), config)
         else:
             values[one.name] = unreadable(one, silent) if silent else missing(one)
     return Specifications(values, tuple(_findings(sheets)))

@@ -8,6 +8,7 @@ from pathlib import Path
 from yellowiron.model.errors import SheetError
 from yellowiron.specs.layout import statements_of
 from yellowiron.specs.numbers import DecimalStyle, decimal_style
+from yellowiron.specs.stated import Stated, stated_in
 from yellowiron.specs.statement import Statement
 from yellowiron.specs.words import read_page
 
@@ -19,17 +20,19 @@ _MOST_BYTES = 512 * 1024 * 1024
 
 @dataclass(frozen=True)
 class Sheet:
-    """A read PDF. `silent` are the pages with pictures or marks but no readable text; `style` how it writes decimals."""
+    """A read PDF. `silent` pages have pictures or marks but no readable text; `style`: how it writes decimals;
+    `stated`: sentences that may say which configuration its figures are for."""
 
     file: str
     pages: int
     statements: tuple[Statement, ...]
     silent: tuple[int, ...]
     style: DecimalStyle
+    stated: tuple[Stated, ...] = ()
 
 
 def read_sheet(path: Path) -> Sheet:
-    """A PDF's statements, page by page. `SheetError` if it is missing, empty, no PDF, truncated, damaged or encrypted."""
+    """A PDF's statements, page by page. `SheetError` if absent, empty, no PDF, cut short, damaged or encrypted."""
     import pypdfium2
 
     check_file(path)
@@ -47,6 +50,7 @@ def read_sheet(path: Path) -> Sheet:
         statements: list[Statement] = []
         silent: list[int] = []
         texts: list[str] = []
+        stated: list[Stated] = []
         for number in range(1, len(document) + 1):
             try:
                 page = read_page(document[number - 1], number)
@@ -59,9 +63,10 @@ def read_sheet(path: Path) -> Sheet:
             if page.readable:
                 statements.extend(statements_of(page))
                 texts.append(" ".join(w.text for w in page.words))
+                stated.extend(stated_in(texts[-1], number))
             elif page.images or page.characters or page.rules:
                 silent.append(number)
-        return Sheet(path.name, len(document), tuple(statements), tuple(silent), decimal_style(texts))
+        return Sheet(path.name, len(document), tuple(statements), tuple(silent), decimal_style(texts), tuple(stated))
     finally:
         document.close()
 
