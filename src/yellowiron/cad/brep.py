@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import functools
 import hashlib
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -47,10 +48,11 @@ class Body:
     color: Color | None
     face_colors: list[Color | None] | None
     tessellated: bool = False
-    key: str = field(init=False)
 
-    def __post_init__(self) -> None:
-        self.key = _painted(meshed.content_key(mesh_of(self.faces)[0]) if self.tessellated else _key(self), self)
+    @functools.cached_property
+    def key(self) -> str:
+        """Hash of the content."""
+        return _painted(meshed.content_key(mesh_of(self.faces)[0]) if self.tessellated else _key(self), self)
 
     @property
     def diagonal(self) -> float:
@@ -74,9 +76,9 @@ def measure(
         body = _measure(name, shape, color, face_colors)
     except Standard_Failure as error:
         raise ValueError("its geometry is broken") from error
-    numbers = (body.volume, body.area, body.centroid, body.inertia)
+    numbers = (body.box, body.volume, body.area, body.centroid, body.inertia)
     if not all(bool(np.isfinite(value).all()) for value in numbers):
-        raise ValueError("its volume is not a finite number")
+        raise ValueError("its measures are not finite numbers")
     return body
 
 

@@ -51,5 +51,7 @@ def read_cad(path: str | Path, *, timeout_s: float = 600.0, memory_mb: int = 819
         cause = part21.diagnose(source.read_bytes()) if error.message.startswith("The reader") else ""
         if not cause:
             raise
-        raise CadError(f"{cause} ({error.message.lower()})", where=error.where, hint=error.hint) from error
+        raise CadError(
+            f"{cause} ({error.message[0].lower()}{error.message[1:]})", where=error.where, hint=error.hint
+        ) from error
     return assembly
