@@ -1,0 +1,66 @@
+"""Mesh files beside a document: binary STL, one file a distinct mesh, the same bytes for the same meshes."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+
+from yellowiron.model.geometry import Mesh
+
+MOST_TRIANGLES = 200_000
+"""The largest STL that MuJoCo reads; a larger mesh becomes several."""
+
+_RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+
+
+class Assets:
+    """Files in a folder. Equal meshes share one; names are those of their first use, in plain letters."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._by_content: dict[bytes, str] = {}
+        self._taken: set[str] = set()
+        self.files: dict[str, str] = {}
+        """Asset name → file name, in order of first use."""
+
+    def add(self, name: str, mesh: Mesh) -> tuple[str, ...]:
+        """The asset names that hold a mesh, written if they are new."""
+        chunks = range(0, len(mesh.triangles), MOST_TRIANGLES)
+        return tuple(self._one(name, mesh.points, mesh.triangles[start : start + MOST_TRIANGLES]) for start in chunks)
+
+    def _one(self, name: str, points: np.ndarray, triangles: np.ndarray) -> str:
+        content = _stl(points, triangles)
+        if content not in self._by_content:
+            asset = unique(plain(name), self._taken)
+            self._by_content[content] = asset
+            self.files[asset] = f"{asset}.stl"
+            self._folder.mkdir(parents=True, exist_ok=True)
+            (self._folder / self.files[asset]).write_bytes(content)
+        return self._by_content[content]
+
+
+def _stl(points: np.ndarray, triangles: np.ndarray) -> bytes:
+    corners = points[triangles].astype(np.float32) + np.float32(0.0)
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]).astype(np.float64)
+    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+    records = np.zeros(len(triangles), dtype=_RECORD)
+    records["normal"] = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0.0) + 0.0
+    records["corners"] = corners
+    return b"\0" * 80 + np.uint32(len(triangles)).tobytes() + records.tobytes()
+
+
+def plain(name: str) -> str:
+    """A name in letters, digits, `_`, `-` and `.` that a file may have on every system."""
+    return re.sub(r"[^A-Za-z0-9_.-]+", "_", name).strip("._") or "part"
+
+
+def unique(name: str, taken: set[str]) -> str:
+    """The name, numbered from 2 if it is taken (without regard to case); it is taken afterwards."""
+    number, found = 1, name
+    while found.lower() in taken:
+        number += 1
+        found = f"{name}_{number}"
+    taken.add(found.lower())
+    return found

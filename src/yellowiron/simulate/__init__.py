@@ -1,0 +1,47 @@
+"""Simulation in real engines: every actuator driven, and every body's pose held against the closed-chain kinematics.
+
+A layer above the stages, like `build`: it may import `model`, `kinematics`, `usd` and `export`, and no stage imports
+it. Engines are imported only where they are used.
+
+One concept a module: `engine` (what an engine must do, and which there are), one module an engine, `payload`,
+`commands` (what the levers do), `comparison` (engine against kinematics), `result`, `run`, `driving`.
+
+Findings:
+
+======  ========================================================================================================
+SIM001  the simulation broke down: a pose is not finite, or the linkage left every pose that its strokes allow
+SIM002  a pin stood farther from its place than the engine's bar
+SIM003  a body was turned farther from its pose than the engine's bar
+SIM004  a loop flipped to its other branch
+SIM005  a cylinder or motor ended away from its target
+======  ========================================================================================================
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from yellowiron.simulate.engine import ENGINES, Engine, Setup
+    from yellowiron.simulate.payload import rated_payload
+    from yellowiron.simulate.result import SimulationResult, simulation_document
+    from yellowiron.simulate.run import simulate
+
+_HOMES = {
+    "ENGINES": "engine",
+    "Engine": "engine",
+    "Setup": "engine",
+    "SimulationResult": "result",
+    "rated_payload": "payload",
+    "simulate": "run",
+    "simulation_document": "result",
+}
+
+__all__ = ["ENGINES", "Engine", "Setup", "SimulationResult", "rated_payload", "simulate", "simulation_document"]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(importlib.import_module(f"{__name__}.{_HOMES[name]}"), name)

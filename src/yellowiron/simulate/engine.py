@@ -1,0 +1,106 @@
+"""What an engine must do, and which engines there are."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import MappingProxyType
+from typing import Literal, Protocol, cast
+
+from yellowiron.model.errors import YellowironError
+from yellowiron.model.geometry import Floats
+from yellowiron.model.mechanism import Body, Mechanism
+
+Base = Literal["fixed", "floating"]
+
+
+@dataclass(frozen=True, eq=False)
+class Block:
+    """A box on the ground, fixed to the world: its middle on the ground (x, y), its edges, metres."""
+
+    middle: tuple[float, float]
+    edges: tuple[float, float, float]
+
+
+@dataclass(frozen=True, eq=False)
+class Setup:
+    """What an engine loads. The machine file has the geometry; `mechanism` is what it says, with the payload in the
+    masses of `heavier`, the bodies that differ from the file. A fixed base stands in the air (no ground); a floating
+    one stands on a ground plane at z = 0, friction 0.7, with `blocks` on it. Seconds. `measured` are the joints whose
+    coordinates are read.
+    """
+
+    usd_path: Path
+    mechanism: Mechanism
+    base: Base
+    timestep: float
+    measured: tuple[str, ...]
+    heavier: tuple[Body, ...] = ()
+    blocks: tuple[Block, ...] = ()
+
+
+class Engine(Protocol):
+    """One machine in one engine. After loading it is in its drawn pose at rest, all targets 0, no time gone by."""
+
+    @property
+    def version(self) -> str:
+        """The engine's version."""
+
+    def set_targets(self, targets: Mapping[str, float]) -> None:
+        """New targets by driven joint: metres or radians from the drawn pose for position drives, rad/s or m/s for
+        velocity drives. Others keep theirs."""
+
+    def step(self) -> None:
+        """One step of the setup's length."""
+
+    def poses(self) -> tuple[Floats, Floats]:
+        """Rotations (bodies, 3, 3) and origins (bodies, 3), world frame (the machine's in the drawn pose), in the order
+        of the mechanism's bodies. New arrays."""
+
+    def coordinates(self) -> Floats:
+        """Coordinates of the setup's `measured` joints: metres, or radians without a jump at a full turn."""
+
+    def close(self) -> None:
+        """Frees what the engine holds."""
+
+
+@dataclass(frozen=True)
+class EngineEntry:
+    """An engine there is: its `module` has `load(setup) -> Engine`. `timestep` is the default, seconds; bars are metres
+    (fixed and floating base) and radians; `install` says what to install where the module's imports fail."""
+
+    module: str
+    timestep: float
+    pin_bars: Mapping[Base, float] = field(default_factory=dict)
+    angle_bar: float = 1.7453292519943296e-4
+    install: str = ""
+
+
+ENGINES: Mapping[str, EngineEntry] = MappingProxyType(
+    {
+        "mujoco": EngineEntry(
+            "yellowiron.simulate.mujoco", 0.001, {"fixed": 5e-5, "floating": 1e-4}, install="pip install mujoco"
+        ),
+    }
+)
+
+
+def find_engine(name: str) -> EngineEntry:
+    """The engine of that name; `YellowironError` where there is none."""
+    if name not in ENGINES:
+        raise YellowironError(f"There is no engine '{name}'", hint=f"Known: {', '.join(ENGINES)}.")
+    return ENGINES[name]
+
+
+def load_engine(name: str, setup: Setup) -> Engine:
+    """The engine with the machine loaded; `YellowironError` that says what to install where it is not there."""
+    entry = find_engine(name)
+    try:
+        module = importlib.import_module(entry.module)
+    except ModuleNotFoundError as error:
+        raise YellowironError(
+            f"The engine '{name}' needs the module '{error.name}', which is not installed", hint=f"{entry.install}"
+        ) from error
+    return cast(Engine, module.load(setup))

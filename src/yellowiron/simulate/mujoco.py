@@ -1,0 +1,74 @@
+"""MuJoCo on our MJCF of the machine."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+
+import mujoco
+import numpy as np
+
+from yellowiron.export import actuator_names, export_mjcf
+from yellowiron.model.geometry import Floats
+from yellowiron.simulate.engine import Setup
+
+
+def load(setup: Setup) -> MujocoEngine:
+    """The machine in MuJoCo: exported to MJCF and compiled without its visuals."""
+    with tempfile.TemporaryDirectory(prefix="yellowiron-") as folder:
+        file = export_mjcf(setup.mechanism, setup.usd_path, Path(folder), base=setup.base, timestep=setup.timestep)
+        spec = mujoco.MjSpec.from_file(str(file if setup.base == "fixed" else file.with_name("scene.xml")))
+        spec.compiler.discardvisual = True
+        for block in setup.blocks:
+            x, y, z = (0.5 * edge for edge in block.edges)
+            spec.worldbody.add_geom(
+                type=mujoco.mjtGeom.mjGEOM_BOX, pos=(*block.middle, z), size=(x, y, z), friction=(0.7, 0.005, 0.0001)
+            )
+        model = spec.compile()
+    return MujocoEngine(model, setup)
+
+
+class MujocoEngine:
+    """An `Engine`."""
+
+    def __init__(self, model: mujoco.MjModel, setup: Setup) -> None:
+        self.model = model
+        self.data = mujoco.MjData(model)
+        mechanism = setup.mechanism
+        self._bodies = np.array([model.body(body.name).id for body in mechanism.bodies])
+        self._positions = np.array([int(model.joint(name).qposadr[0]) for name in setup.measured], dtype=int)
+        self._controls: dict[str, tuple[int, int]] = {}
+        for actuator in mechanism.actuators:
+            signs = {entry.joint: entry.sign for entry in actuator.joints}
+            for control, joint in actuator_names(mechanism)[actuator.name].items():
+                self._controls[joint] = (int(model.actuator(control).id), signs[joint])
+        mujoco.mj_resetDataKeyframe(model, self.data, 0)
+        mujoco.mj_kinematics(model, self.data)
+
+    @property
+    def version(self) -> str:
+        """MuJoCo's version."""
+        return str(mujoco.__version__)
+
+    def set_targets(self, targets: Mapping[str, float]) -> None:
+        """See `Engine`."""
+        for joint, value in targets.items():
+            control, sign = self._controls[joint]
+            self.data.ctrl[control] = sign * value
+
+    def step(self) -> None:
+        """One step; body poses and coordinates then belong to the same instant."""
+        mujoco.mj_step(self.model, self.data)
+        mujoco.mj_kinematics(self.model, self.data)
+
+    def poses(self) -> tuple[Floats, Floats]:
+        """See `Engine`."""
+        return self.data.xmat[self._bodies].reshape(-1, 3, 3), self.data.xpos[self._bodies]
+
+    def coordinates(self) -> Floats:
+        """See `Engine`."""
+        return np.asarray(self.data.qpos[self._positions], dtype=np.float64)
+
+    def close(self) -> None:
+        """Nothing is held outside Python."""
