@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from yellowiron.align.contacts import PARALLEL, Fit, Line
-from yellowiron.align.cuts import false_welds
+from yellowiron.align.cuts import false_welds, strength
 from yellowiron.align.evidence import Evidence, crosses
 from yellowiron.align.groups import Groups
 from yellowiron.align.solids import Solid
@@ -45,14 +45,14 @@ class Hinge:
 class Structure:
     """What geometry alone says: clusters, hinges between them, slides (barrel, rod, number of the hydraulic cylinder),
     lines (the wheels' axes behind those of the evidence), for each pin and bolt its hosts, and the pairs of solids that
-    touch but were not welded, since a pin would have nothing to turn on."""
+    touch but were not welded, since a pin would have nothing to turn on, with the strength of their contact."""
 
     clusters: tuple[Cluster, ...] = ()
     hinges: tuple[Hinge, ...] = ()
     slides: tuple[tuple[int, int, int], ...] = ()
     lines: tuple[Line, ...] = ()
     hosts: dict[int, tuple[Fit, ...]] = field(default_factory=dict)
-    refused: tuple[tuple[int, int], ...] = ()
+    refused: tuple[tuple[int, int, float], ...] = ()
 
 
 def structure_of(evidence: Evidence, *, leaves: bool, weak: bool, careful: bool) -> Structure:
@@ -198,5 +198,5 @@ def _collected(groups: Groups, evidence: Evidence, refused: Pairs) -> Structure:
         lines.append(Line(wheel.center, wheel.direction, wheel.radius, ()))
     hinges = tuple(Hinge(a, b, k, tuple(sorted(p))) for (a, b, k), p in sorted(pins.items()))
     slides = tuple((cluster(min(r.barrel)), cluster(min(r.rod)), k) for k, r in enumerate(evidence.rams))
-    apart = tuple((a, b) for a, b in refused if groups.find(a) != groups.find(b))
+    apart = tuple((a, b, strength(evidence, a, b)) for a, b in refused if groups.find(a) != groups.find(b))
     return Structure(clusters, hinges, slides, tuple(lines), dict(evidence.hosts), apart)

@@ -51,7 +51,8 @@ class Line:
 
 @dataclass(frozen=True, eq=False)
 class Flat:
-    """Flat faces of solids `a` < `b` lying on each other: unit normal out of `a`, area (m²) and centre of the overlap."""
+    """Flat faces of solids `a` < `b` lying on each other: unit normal out of `a`, centre, area (m²) and width of the
+    overlap."""
 
     a: int
     b: int

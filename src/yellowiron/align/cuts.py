@@ -5,16 +5,18 @@ from __future__ import annotations
 from collections import deque
 
 import numpy as np
-from scipy.sparse import csr_matrix
+from scipy.sparse import csr_array
 from scipy.sparse.csgraph import maximum_flow
 
 from yellowiron.align.evidence import Evidence
 from yellowiron.align.groups import Groups
 from yellowiron.align.welds import Pairs, lines_by_group
 
-FIRM = 2_000_000_000
-SCALE = 1e7
-"""Capacity of a square metre of contact: tenths of a square millimetre."""
+FIRM = 20_000_000
+SCALE = 1e6
+"""Capacity of a square metre of contact: square millimetres."""
+LIGHTER = 0.8
+"""A cut must be this much weaker than what was kept back."""
 
 
 def strength(evidence: Evidence, a: int, b: int) -> float:
@@ -29,48 +31,49 @@ def strength(evidence: Evidence, a: int, b: int) -> float:
 
 
 def false_welds(groups: Groups, evidence: Evidence, pairs: Pairs, refused: Pairs) -> set[tuple[int, int]]:
-    """Pairs to leave apart, so that what careful welding kept back can hold: for each such pair on a common line, the
-    cheapest contacts that part the line's two sides; empty where the pair itself is the cheapest."""
+    """Pairs to leave apart, so that what careful welding kept back can hold.
+
+    A kept-back pair would have joined all that turns about some line. Then two of the parts on that line are of
+    different bodies, and the cheapest cut between any two of them is the false weld, unless the pair itself is cheaper.
+    """
     on = lines_by_group(groups, evidence, without=evidence.bolted)
     result: set[tuple[int, int]] = set()
     done: set[tuple[int, int, int]] = set()
+    graph = _graph(evidence, pairs)
     for a, b in refused:
-        ga, gb = groups.find(a), groups.find(b)
+        ga, gb = sorted((groups.find(a), groups.find(b)))
         if ga == gb or groups.kind(ga) or groups.kind(gb):
             continue
+        own = [p for p in refused if sorted((groups.find(p[0]), groups.find(p[1]))) == [ga, gb]]
+        limit = LIGHTER * sum(strength(evidence, *p) for p in own)
         for k in sorted(on.get(ga, set()) & on.get(gb, set())):
-            if (min(ga, gb), max(ga, gb), k) in done:
+            if (ga, gb, k) in done:
                 continue
-            done.add((min(ga, gb), max(ga, gb), k))
+            done.add((ga, gb, k))
             sides = [
                 [i for i, lines in evidence.pinned.items() if k in lines and groups.find(i) == g] for g in (ga, gb)
             ]
-            cut = _cheapest(evidence, pairs, sides[0], sides[1])
-            own = {p for p in refused if {groups.find(p[0]), groups.find(p[1])} == {ga, gb}}
-            if cut and not cut <= own:
-                result |= cut
+            cuts = [_cut(graph, pairs, i, j) for i in sides[0] for j in sides[1]]
+            cuts = [c for c in cuts if c and sum(strength(evidence, *p) for p in c) < limit]
+            if cuts:
+                result |= min(cuts, key=lambda c: (sum(strength(evidence, *p) for p in c), sorted(c)))
     return result
 
 
-def _cheapest(evidence: Evidence, pairs: Pairs, sources: list[int], sinks: list[int]) -> set[tuple[int, int]]:
-    """The minimum cut between two sets of solids over the contacts that weld."""
-    count = len(evidence.solids) + 2
-    start, end = count - 2, count - 1
-    capacity: dict[tuple[int, int], int] = {}
-    for a, b in pairs:
-        capacity[a, b] = max(1, min(FIRM // 100, round(SCALE * strength(evidence, a, b))))
-    for a, b in evidence.pressed:
-        capacity[min(a, b), max(a, b)] = FIRM // 10
-    for i in sources:
-        capacity[i, start] = FIRM
-    for i in sinks:
-        capacity[i, end] = FIRM
-    rows = [a for a, b in capacity] + [b for a, b in capacity]
-    columns = [b for a, b in capacity] + [a for a, b in capacity]
-    values = [*capacity.values(), *capacity.values()]
-    graph = csr_matrix((np.array(values, dtype=np.int32), (rows, columns)), shape=(count, count))
-    flow = maximum_flow(graph, start, end).flow
-    residual = (graph - flow).tocsr()
+def _graph(evidence: Evidence, pairs: Pairs) -> csr_array:
+    """Capacities between solids, both ways."""
+    capacity = {p: max(1, min(FIRM, round(SCALE * strength(evidence, *p)))) for p in pairs}
+    capacity |= {(min(p), max(p)): FIRM for p in evidence.pressed}
+    rows = [a for a, _ in capacity] + [b for _, b in capacity]
+    columns = [b for _, b in capacity] + [a for a, _ in capacity]
+    values = np.array([*capacity.values(), *capacity.values()], dtype=np.int32)
+    count = len(evidence.solids)
+    return csr_array((values, (rows, columns)), shape=(count, count))
+
+
+def _cut(graph: csr_array, pairs: Pairs, start: int, end: int) -> set[tuple[int, int]]:
+    """The minimum cut between two solids over the contacts that weld."""
+    residual = csr_array(graph - maximum_flow(graph, start, end).flow)
     reached = {start}
     queue = deque([start])
     while queue:
@@ -80,6 +83,4 @@ def _cheapest(evidence: Evidence, pairs: Pairs, sources: list[int], sinks: list[
             if residual.data[at] > 0 and other not in reached:
                 reached.add(other)
                 queue.append(other)
-    if end in reached:
-        return set()
-    return {(a, b) for a, b in pairs if (a in reached) != (b in reached)}
+    return set() if end in reached else {(a, b) for a, b in pairs if (a in reached) != (b in reached)}

@@ -19,6 +19,8 @@ from yellowiron.model.template import JointTemplate, Template
 
 NEIGHBOURHOOD = 0.04
 """How far, in machine sizes, a floating part looks for a neighbour."""
+NAMED = 0.9
+"""Confidence of a role whose very name the part bears, where geometry does not speak against it."""
 
 
 @dataclass(frozen=True)
@@ -55,6 +57,7 @@ class Spreader:
     def run(self, wheels: list[Wheel]) -> dict[int, Place]:
         """Every solid's place; solids that nothing speaks for are absent."""
         self._bodies()
+        self._torn()
         self._pins()
         self._hosted()
         self._by_contact()
@@ -81,6 +84,24 @@ class Spreader:
                 rival = self._named_other(i, body)
                 drop = 0.1 if rival else 0.0
                 self.places[i] = Place(body, body, confidence - drop, words, rival)
+
+    def _torn(self) -> None:
+        """Parts that hold to two bodies about as firmly: the one chosen is a guess."""
+        ties: dict[int, dict[str, float]] = {}
+        for flat in self.flats:
+            for i, j in ((flat.a, flat.b), (flat.b, flat.a)):
+                if i in self.places and j in self.places:
+                    body = self.places[j].body
+                    mine = ties.setdefault(i, {})
+                    mine[body] = mine.get(body, 0.0) + flat.area
+        for a, b, strength in self.structure.refused:
+            i, j = sorted((a, b), key=lambda k: self.solids[k].volume)
+            if i not in self.places or j not in self.places or self.places[i].body == self.places[j].body:
+                continue
+            place, other = self.places[i], self.places[j].body
+            if strength > 0.5 * ties.get(i, {}).get(place.body, 0.0):
+                words = f"{place.reason}; but it holds to {other} about as firmly"
+                self.places[i] = replace(place, confidence=min(place.confidence, 0.45), reason=words, runner_up=other)
 
     def _named_other(self, i: int, body: str) -> str | None:
         """The body that the part's name speaks for, if it clearly speaks for another."""
@@ -241,7 +262,7 @@ class Spreader:
                 body = self.template.body_of(role) if role is not None else None
                 if role is not None and body is not None:
                     words = f"bears the name of the role {role}"
-                    self.places[i] = Place(role, body, 0.9, words, by_name=True)
+                    self.places[i] = Place(role, body, NAMED, words, by_name=True)
 
     def _nearest(self) -> None:
         """What floats goes with what is nearest, and with its assembly."""
@@ -281,9 +302,10 @@ class Spreader:
         roles = exact_roles(self.template)
         for i, place in sorted(self.places.items()):
             named = exact_role(self.solids[i].part, roles)
-            if named is not None and named != place.role and self.template.body_of(named) == place.body:
+            if named is not None and self.template.body_of(named) == place.body:
                 words = f"{place.reason}; bears the role's name"
-                self.places[i] = replace(place, role=named, reason=words)
+                sure = max(place.confidence, NAMED)
+                self.places[i] = replace(place, role=named, confidence=sure, reason=words, by_name=place.confidence < NAMED)
         for role in self.template.roles:
             body = self.template.body_of(role.name)
             if role.rigid or body is None or any(p.role == role.name for p in self.places.values()):

@@ -1,7 +1,7 @@
 """Joining what holds together, and being careful about it: one false weld between two bodies sinks a whole machine.
 
-A pin that nothing turns on is a contradiction, and so are two bodies with two hinges between them. Careful welding joins
-first what raises no suspicion, then the least suspicious, and keeps back what would end in such a contradiction.
+A pin that nothing turns on is a contradiction, and so are two bodies with two hinges between them. Careful welding
+joins first what raises no suspicion, then the least suspicious, and keeps back what would end in such a contradiction.
 """
 
 from __future__ import annotations
