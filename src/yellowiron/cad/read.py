@@ -51,7 +51,6 @@ def read_cad(path: str | Path, *, timeout_s: float = 600.0, memory_mb: int = 819
         cause = part21.diagnose(source.read_bytes()) if error.message.startswith("The reader") else ""
         if not cause:
             raise
-        raise CadError(
-            f"{cause} ({error.message[0].lower()}{error.message[1:]})", where=error.where, hint=error.hint
-        ) from error
+        symptom = error.message[0].lower() + error.message[1:]
+        raise CadError(f"{cause} ({symptom})", where=error.where, hint=error.hint) from error
     return assembly
