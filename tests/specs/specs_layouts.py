@@ -1,7 +1,7 @@
 """Small sheets in the layouts that makers use, drawn on the fly: what the extraction tests read.
 
-Numbers are those of published specifications, each machine's source named where it is used. Nothing of a maker's document
-but its numbers is in here.
+Numbers are those of published specifications, each machine's source named where it is used. Nothing of a maker's
+document but its numbers is in here.
 """
 
 from __future__ import annotations

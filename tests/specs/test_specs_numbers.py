@@ -162,9 +162,16 @@ def test_settings_take_one_quantity() -> None:
         ("l/min", "liter/minute"),
         ("gal/min", "gallon/minute"),
         ("kgf/cm²", "kgf/centimeter**2"),
-    ]
-    + [("yd³", "yard**3"), ("cu yd", "yard**3"), ("KG", "kilogram"), ("MPa", "megapascal"), ("ft", "foot")]
-    + [("min-1", "revolution/minute"), ("N·m", "newton*meter"), ("seconds", "second"), ("º", "degree")],
+        ("yd³", "yard**3"),
+        ("cu yd", "yard**3"),
+        ("KG", "kilogram"),
+        ("MPa", "megapascal"),
+        ("ft", "foot"),
+        ("min-1", "revolution/minute"),
+        ("N·m", "newton*meter"),
+        ("seconds", "second"),
+        ("º", "degree"),
+    ],
 )
 def test_units(spelling: str, unit: str) -> None:
     found = printed_unit(spelling)

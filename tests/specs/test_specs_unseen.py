@@ -1,12 +1,20 @@
-"""Layouts and machines that were held back while the rules were made: what they give, right or wrong."""
+"""Layouts and machines that were held back while the rules were made.
+
+First reading, before any rule was changed for them: 15 of 25 right, 1 wrong, 9 not ok. The wrong one (a card's caption
+taken for a column's head) and the rest were then mended by general rules; these tests keep what was reached.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
+import pytest
 from reportlab.lib.colors import HexColor
 from specs_layouts import bar, canvas, lattice, put, template, wanted
 
+from yellowiron.library import load_template
+from yellowiron.model.template import Template
 from yellowiron.specs import extract
 
 
@@ -175,15 +183,33 @@ CAT_773F_TRUTH = {
 }
 
 
-def tally(found: object, truth: dict[str, float]) -> tuple[int, int, int]:
-    """(right, wrong, not ok)."""
-    right = wrong = other = 0
+@pytest.mark.parametrize(
+    ("draw", "asked", "truth", "config"),
+    [
+        (bobcat_s76, BOBCAT, BOBCAT_TRUTH, ""),
+        (cat_d6, D6, D6_TRUTH, "6SU"),
+        (cat_773f, CAT_773F, CAT_773F_TRUTH, "dual slope"),
+    ],
+)
+def test_held_back(
+    tmp_path: Path, draw: Callable[[Path], None], asked: Template, truth: dict[str, float], config: str
+) -> None:
+    draw(tmp_path / "sheet.pdf")
+    found = extract(asked, [tmp_path / "sheet.pdf"], config=config)
+    assert {s.name for s in found if s.status != "ok"} == set()
     for name, value in truth.items():
-        specification = found.get(name)  # type: ignore[attr-defined]
-        if specification.status != "ok":
-            other += 1
-        elif abs(specification.value - value) <= 2e-3 * value:
-            right += 1
-        else:
-            wrong += 1
-    return right, wrong, other
+        assert found.number(name) == pytest.approx(value, rel=2e-3), name
+
+
+def test_another_types_template_gets_nothing_wrong(tmp_path: Path) -> None:
+    """The wheel loader's questions put to other machines' sheets: what is `ok` is there, and means what is asked."""
+    loader = load_template("wheel_loader")
+    truths = {
+        cat_773f: {"Wheelbase": 4.215, "Overall Height": 4.116, "Ground Clearance": 0.777},
+        bobcat_s76: {"Operating Weight": 3635.1, "Bucket Width": 1.88, "Dumping Reach": 0.851, "Turning Radius": 2.126},
+        cat_d6: {"Operating Weight": 22130.0},
+    }
+    for draw, truth in truths.items():
+        draw(tmp_path / "sheet.pdf")
+        found = extract(loader, [tmp_path / "sheet.pdf"])
+        assert {s.name: s.value for s in found if s.status == "ok"} == pytest.approx(truth, rel=2e-3)

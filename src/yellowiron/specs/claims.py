@@ -165,7 +165,7 @@ def _checked(claim: Claim) -> Claim:
 
 
 def _unglued(quantity: Quantity, partner: Quantity) -> Quantity | None:
-    """ "Forward 16.4 km/h 4.0 mph" is gear 1 at 6.4 km/h: the value without leading digits that the partner confirms."""
+    """ "Forward 16.4 km/h 4.0 mph" is gear 1 at 6.4 km/h: the value without the digits that the partner denies."""
     digits = re.match(r"\d+", quantity.text)
     if digits is None or quantity.sign:
         return None

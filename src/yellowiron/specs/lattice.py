@@ -1,8 +1,11 @@
-"""Tables drawn with vertical and horizontal rules → statements. pdfplumber finds the cells; spanned cells fill their span."""
+"""Tables drawn with vertical and horizontal rules → statements. pdfplumber finds the cells; a cell fills its span."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import functools
+import itertools
+from bisect import bisect_right
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from yellowiron.specs.lines import Line, lines_of
@@ -18,7 +21,8 @@ from yellowiron.specs.statement import (
     unit_in_label,
     without_key,
 )
-from yellowiron.specs.words import Box, Page, Rule, Word
+from yellowiron.specs.strokes import Box, Rule
+from yellowiron.specs.words import Page, Word
 
 _SNAP = 3.0
 _WALL = 6.0
@@ -34,12 +38,12 @@ class Cell:
     columns: tuple[int, int]
     lines: tuple[Line, ...] = ()
 
-    @property
+    @functools.cached_property
     def pieces(self) -> tuple[Piece, ...]:
         """All its pieces, line by line."""
         return tuple(p for line in self.lines for p in line.pieces)
 
-    @property
+    @functools.cached_property
     def text(self) -> str:
         """All its words without footnote signs and example marks."""
         return EXAMPLE.sub("", " ".join(" ".join(p.bare for p in line.pieces) for line in self.lines)).strip()
@@ -53,13 +57,11 @@ class Grid:
     cells: tuple[Cell, ...]
     rows: int
     columns: int
+    places: Mapping[tuple[int, int], Cell]
 
     def at(self, row: int, column: int) -> Cell | None:
         """The cell that covers a grid position."""
-        for cell in self.cells:
-            if cell.rows[0] <= row < cell.rows[1] and cell.columns[0] <= column < cell.columns[1]:
-                return cell
-        return None
+        return self.places.get((row, column))
 
 
 def grids_of(page: Page) -> list[Grid]:
@@ -69,7 +71,8 @@ def grids_of(page: Page) -> list[Grid]:
         return []
     from pdfplumber.table import cells_to_tables, edges_to_intersections, intersections_to_cells, merge_edges
 
-    edges = merge_edges([_edge(r) for r in page.rules if r.horizontal or r in walls], _SNAP, _SNAP, _SNAP, _SNAP)
+    level = [r for r in page.rules if r.horizontal]
+    edges = merge_edges([_edge(r) for r in (*level, *walls)], _SNAP, _SNAP, _SNAP, _SNAP)
     if not 4 <= len(edges) <= 3000:
         return []
     found = []
@@ -98,22 +101,25 @@ def _grid(boxes: Sequence[Box], words: Sequence[Word]) -> Grid:
         _stops([b[0] for b in boxes] + [b[2] for b in boxes]),
         _stops([b[1] for b in boxes] + [b[3] for b in boxes]),
     )
+    inside: dict[tuple[int, int], list[Word]] = {}
+    for word in words:
+        place = (_slot(ys, (word.top + word.bottom) / 2), _slot(xs, (word.x0 + word.x1) / 2))
+        inside.setdefault(place, []).append(word)
     cells = []
+    places: dict[tuple[int, int], Cell] = {}
     for box in sorted(boxes, key=lambda b: (b[1], b[0])):
-        inside = [
-            w
-            for w in words
-            if box[0] - 1 <= (w.x0 + w.x1) / 2 <= box[2] + 1 and box[1] <= (w.top + w.bottom) / 2 <= box[3]
-        ]
-        cells.append(
-            Cell(
-                box,
-                (_index(ys, box[1]), _index(ys, box[3])),
-                (_index(xs, box[0]), _index(xs, box[2])),
-                tuple(lines_of(inside)),
-            )
-        )
-    return Grid(join_boxes(boxes), tuple(cells), len(ys) - 1, len(xs) - 1)
+        rows, columns = (_index(ys, box[1]), _index(ys, box[3])), (_index(xs, box[0]), _index(xs, box[2]))
+        covered = list(itertools.product(range(*rows), range(*columns)))
+        cell = Cell(box, rows, columns, tuple(lines_of([w for place in covered for w in inside.get(place, ())])))
+        cells.append(cell)
+        places.update((place, cell) for place in covered)
+    return Grid(join_boxes(boxes), tuple(cells), len(ys) - 1, len(xs) - 1, places)
+
+
+def _slot(stops: Sequence[float], value: float) -> int:
+    """The interval of the grid that a coordinate lies in; −1 outside."""
+    index = bisect_right(stops, value) - 1
+    return index if index < len(stops) - 1 else -1
 
 
 def _stops(values: Sequence[float]) -> list[float]:
@@ -158,12 +164,12 @@ def read_grid(page: Page, grid: Grid, first_row: int, section: str = "") -> list
 
 
 def _row_cells(grid: Grid, row: int) -> list[Cell]:
-    found: list[Cell] = []
+    found: dict[int, Cell] = {}
     for column in range(grid.columns):
         cell = grid.at(row, column)
-        if cell is not None and cell not in found:
-            found.append(cell)
-    return found
+        if cell is not None:
+            found.setdefault(id(cell), cell)
+    return list(found.values())
 
 
 def _labels(cells: Sequence[Cell], value: Cell) -> list[Cell]:
@@ -204,7 +210,7 @@ def _heads_over(grid: Grid, heads: Sequence[int], value: Cell, labels: Sequence[
         if row >= value.rows[0]:
             continue
         cell = grid.at(row, value.columns[0])
-        if cell is not None and cell.lines and cell not in over and cell not in labels:
+        if cell is not None and cell.lines and not any(cell is c for c in (*over, *labels)):
             over.append(cell)
     return over
 

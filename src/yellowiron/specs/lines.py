@@ -7,7 +7,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from yellowiron.specs.statement import Piece, kind_of
-from yellowiron.specs.words import Box, Rule, Word
+from yellowiron.specs.strokes import Box, Rule
+from yellowiron.specs.words import Word
 
 _GAP = 0.75
 """A gap wider than this times the type size parts a label from a value."""
@@ -87,7 +88,7 @@ class Block:
 
 
 def blocks_of(lines: Sequence[Line], bars: Sequence[Box] = (), across: Sequence[Box] = ()) -> list[Block]:
-    """The columns of text, in reading order: what stands above a pair of columns, the left one, the right one, the rest.
+    """The columns of text, in reading order: what is above a pair of columns, the left one, the right one, the rest.
 
     A gutter is an x at which several lines begin a label anew, each with a value to its right, and which no piece
     crosses; or at which a filled bar begins beside another. `across` are leaders and rules, which do not cross a gutter

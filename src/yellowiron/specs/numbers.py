@@ -13,7 +13,6 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from yellowiron.model.errors import YellowironError
 from yellowiron.model.units import parse_quantity
 from yellowiron.specs.printed_units import PrintedUnit, printed_unit, unit_pattern
 
@@ -97,7 +96,7 @@ class Quantity:
 
 @dataclass(frozen=True)
 class Reading:
-    """What a cell says at one place. `numbers`: one, or the factors of a product, or the ends of a range; `count` stands
+    """What a cell says at one place. `numbers`: one, the factors of a product, or the ends of a range; `count` stands
     before a product ("2 - 150 x 764 mm"). `partner`: the same in the other system. `condition`: a circumstance ("at
     2000 rpm"), no value."""
 
@@ -119,8 +118,8 @@ class Reading:
 
 
 def same(a: Quantity, b: Quantity) -> bool:
-    """Whether two quantities are one value, as far as their printed digits tell: within half a unit of the last digit of
-    each, or one of them cut off instead of rounded."""
+    """Whether two quantities are one value as far as their printed digits tell: within half a unit of the last digit
+    of each, or one of them cut off instead of rounded."""
     if a.dimension != b.dimension:
         return False
     difference = a.si_value - b.si_value
@@ -168,7 +167,7 @@ def read(text: str, *, unit: str = "", style: DecimalStyle = "unknown") -> tuple
     return _qualified(text, _paired(text, readings))
 
 
-# ---- single numbers ---------------------------------------------------------------------------------------------------
+# ---- single numbers ------------------------------------------------------------------------------------------------
 
 
 @functools.cache
@@ -321,7 +320,7 @@ def _signed(text: str, quantity: Quantity, earlier: list[Quantity]) -> Quantity:
     return quantity
 
 
-# ---- readings ---------------------------------------------------------------------------------------------------------
+# ---- readings ------------------------------------------------------------------------------------------------------
 
 
 def _reading(text: str, quantities: list[Quantity], index: int, unit: str) -> tuple[Reading, int]:

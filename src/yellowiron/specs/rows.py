@@ -20,11 +20,15 @@ from yellowiron.specs.statement import (
     without_key,
     words_beside_numbers,
 )
-from yellowiron.specs.words import Box, Page
-
+from yellowiron.specs.strokes import Box
+from yellowiron.specs.words import Page
 
 _LONGEST_LABEL = 12
 """Words; more are prose."""
+
+
+_INDENT = 4.0
+"""Points by which a row stands in under its sub-heading."""
 
 
 @dataclass(frozen=True)
@@ -46,6 +50,7 @@ class _State:
     pending: list[Piece] = field(default_factory=list)
     heads: list[tuple[Piece, ...]] = field(default_factory=list)
     data_since_heads: bool = False
+    indented: bool = False
     values_in_row: int = 0
     headings: list[Heading] = field(default_factory=list)
     orphans: list[int] = field(default_factory=list)
@@ -114,7 +119,7 @@ def _are_heads(pieces: Sequence[Piece], kinds: Sequence[str], state: _State) -> 
     return all(words_beside_numbers(p.bare, read(p.bare)) for p in pieces)
 
 
-# ---- rows without a value -----------------------------------------------------------------------------------------------
+# ---- rows without a value ------------------------------------------------------------------------------------------
 
 
 def _read_words(page: Page, block: Block, line: Line, state: _State, size: float) -> None:
@@ -134,6 +139,7 @@ def _read_words(page: Page, block: Block, line: Line, state: _State, size: float
         state.section = heading.text if rest else " ".join(p.text for p in same_bar)
         state.headings.append(Heading(line.bottom, block.x0, block.x1, state.section))
         state.context, state.pending, state.heads = [], [], [tuple(rest)] if rest else []
+        state.indented = False
         state.data_since_heads = False
         return
     units = all(is_unit(p.bare) for p in texts)
@@ -154,7 +160,7 @@ def _read_words(page: Page, block: Block, line: Line, state: _State, size: float
         return
     if at_label and len(texts) == 1 and not _is_prose(texts[0]):
         if texts[0].bold:
-            state.context, state.pending = [texts[0]], []
+            state.context, state.pending, state.indented = [texts[0]], [], False
         elif state.pending and _stacked(state.pending[-1], texts[0]) and not state.data_since_heads:
             state.pending = [*state.pending, texts[0]]
         else:
@@ -209,7 +215,7 @@ def _body_size(block: Block) -> float:
     return max(sizes, key=lambda s: (sizes[s], -s)) if sizes else 8.0
 
 
-# ---- rows with values ---------------------------------------------------------------------------------------------------
+# ---- rows with values ----------------------------------------------------------------------------------------------
 
 
 def _split_if_separate(row: Sequence[Line]) -> Iterator[Sequence[Line]]:
@@ -244,7 +250,8 @@ def _read_values(page: Page, row: Sequence[Line], state: _State, number: int, fo
         _continue(found, cells)
         return
     _end_heads(row, cells, state)
-    context = [*state.context, *pending]
+    _keep_sub_heading(cells, pending, state)
+    context = [*state.context, *(p for p in pending if p not in state.context)]
     marked = bool(EXAMPLE.search(state.section)) or any(
         EXAMPLE.search(p.text) for p in [*context, *(q for c in cells for q in [*c.notes, *c.label, *c.values])]
     )
@@ -265,6 +272,17 @@ def _read_values(page: Page, row: Sequence[Line], state: _State, number: int, fo
         state.pending = pending
         if not pending and not state.heads:
             state.orphans = list(range(len(found) - len(cells), len(found)))
+
+
+def _keep_sub_heading(cells: Sequence[_Cell], pending: Sequence[Piece], state: _State) -> None:
+    """A line of words holds for all the rows that are indented under it, not only the next."""
+    labels = [c.label[0].x0 for c in cells if c.label]
+    if not labels:
+        return
+    if state.indented and labels[0] < state.context[-1].x0 + _INDENT:
+        state.context, state.indented = [], False
+    if pending and labels[0] >= pending[-1].x0 + _INDENT:
+        state.context, state.indented = list(pending), True
 
 
 def _end_heads(row: Sequence[Line], cells: Sequence[_Cell], state: _State) -> None:
@@ -393,8 +411,10 @@ def _other_system(statement: Statement, cell: _Cell) -> bool:
     below = read(" ".join(p.text for p in cell.values), unit=cell.unit or statement.unit)
     if not above or not below or any(r.partner for r in above):
         return False
-    units = (above[-1].numbers[-1].printed, below[0].numbers[-1].printed)
-    return all(units) and units[0].dimension == units[1].dimension and units[0].system != units[1].system
+    first, second = above[-1].numbers[-1].printed, below[0].numbers[-1].printed
+    if first is None or second is None:
+        return False
+    return first.dimension == second.dimension and first.system != second.system
 
 
 def _continue(found: list[Statement], cells: Sequence[_Cell]) -> None:

@@ -66,7 +66,7 @@ def merge(*weakest_first: Specifications) -> Specifications:
     """One set of specifications out of several, the later ones stronger.
 
     A stronger source that knows nothing of a name (`missing`, `unreadable`) leaves the weaker one's word; one that is
-    in doubt (`review`, `conflict`) does not, for a doubt is not settled by a weaker source. Findings are kept, once each.
+    in doubt (`review`, `conflict`) does not, for a weaker source settles no doubt. Findings are kept, once each.
     """
     merged: dict[str, Specification] = {}
     spelling: dict[str, str] = {}

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import functools
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from yellowiron.specs.numbers import FEET_INCHES, Reading, read
 from yellowiron.specs.printed_units import printed_unit, unit_pattern
-from yellowiron.specs.words import Box, Word
+from yellowiron.specs.strokes import Box
+from yellowiron.specs.words import Word
 
 EXAMPLE = re.compile(
     r"[(\[]?\s*\b(?:example values?|beispielwerte?|valeurs? d'exemple|valor(?:es)? de ejemplo)\b\s*[)\]]?",
@@ -141,7 +143,8 @@ def kind_of(piece: Piece) -> str:
 
 
 _VALUE_START = re.compile(
-    r"^(?:(?:approx\.?|approximately|about|ca\.?|max\.?|min\.?|up to|bis|env\.?)\s*)?[(\[]?\s*[<>≤≥~≈±Øø⌀+\-–−]*\s*(?:[\d½¼¾⅛⅜⅝⅞]|[.,]\d)",
+    r"^(?:(?:approx\.?|approximately|about|ca\.?|max\.?|min\.?|up to|bis|env\.?)\s*)?"
+    r"[(\[]?\s*[<>≤≥~≈±Øø⌀+\-–−]*\s*(?:[\d½¼¾⅛⅜⅝⅞]|[.,]\d)",
     re.IGNORECASE,
 )
 _NOT_A_VALUE = re.compile(
@@ -149,6 +152,7 @@ _NOT_A_VALUE = re.compile(
 )
 
 
+@functools.lru_cache(maxsize=65536)
 def looks_like_value(text: str) -> bool:
     """Whether a piece of text is a value rather than a label: it begins with a number and is mostly numbers."""
     if not _VALUE_START.match(text) or _NOT_A_VALUE.match(text):

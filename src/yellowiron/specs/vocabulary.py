@@ -7,10 +7,15 @@ import re
 import unicodedata
 
 _STOP = frozenset(
-    "the of at to in with for on a an and or by per from as is its over"
-    " de du des la le les l d au aux et en a der die das des dem den bei mit und auf im am zu von"
-    " el los las del y al con por".split()
-) - {"over"}
+    word
+    for words in (
+        "the of at to in with for on a an and or by per from as is its",
+        "de du des la le les l d au aux et en a",
+        "der die das des dem den bei mit und auf im am zu von",
+        "el los las del y al con por",
+    )
+    for word in words.split()
+)
 """Words that say nothing of which property is meant."""
 
 _ALIAS = {
@@ -41,12 +46,21 @@ _ALIAS = {
     "discharge": "dump",
 }
 NEUTRAL = frozenset(
-    "iso sae din en jis ansi metric imperial us dimension value mm cm m in ft kg lb mpa kpa bar psi l min gal".split()
+    word
+    for words in (
+        "iso sae din en jis ansi metric imperial us dimension value",
+        "mm cm m in ft kg lb mpa kpa bar psi l min gal",
+    )
+    for word in words.split()
 )
 """Words that do not make a label mean something else."""
 REVERSING = frozenset(
-    "without less excluding except excl minus ohne sans sin optional option change difference increase decrease"
-    " additional versus".split()
+    word
+    for words in (
+        "without less excluding except excl minus ohne sans sin",
+        "optional option change difference increase decrease additional versus",
+    )
+    for word in words.split()
 )
 """Words that make a label mean something else than the words around them."""
 

@@ -8,17 +8,13 @@ from __future__ import annotations
 import ctypes
 import math
 import re
-from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-Box = tuple[float, float, float, float]
-"""x0, top, x1, bottom."""
+from yellowiron.specs.strokes import Box, Place, Rule, strokes_of
 
 _SUPERSCRIPT_UNITS = re.compile(r"(?:^|[\d\s(/])(?:m|cm|mm|dm|in|ft|yd)$")
 _LEADER = re.compile(r"[.·•_…]{3,}|^[.·•_…]+$")
-_THIN = 2.5
-"""A filled rectangle thinner than this is a rule."""
 
 
 @dataclass(frozen=True)
@@ -47,21 +43,6 @@ class Word:
     def box(self) -> Box:
         """x0, top, x1, bottom."""
         return (self.x0, self.top, self.x1, self.bottom)
-
-
-@dataclass(frozen=True)
-class Rule:
-    """A straight rule, horizontal (`top == bottom`) or vertical (`x0 == x1`)."""
-
-    x0: float
-    top: float
-    x1: float
-    bottom: float
-
-    @property
-    def horizontal(self) -> bool:
-        """True for a horizontal rule."""
-        return self.top == self.bottom
 
 
 @dataclass(frozen=True)
@@ -106,7 +87,7 @@ def read_page(page: Any, number: int) -> Page:
         glyphs, characters, unmapped = _glyphs(textpage, place)
     finally:
         textpage.close()
-    rules, bars, images = _strokes(page, place)
+    rules, bars, images = strokes_of(page, place)
     words, leaders = _words(glyphs)
     return Page(
         number=number,
@@ -122,7 +103,7 @@ def read_page(page: Any, number: int) -> Page:
     )
 
 
-def _placement(page: Any) -> Callable[[float, float], tuple[float, float]]:
+def _placement(page: Any) -> Place:
     """PDF user space → points from the top left of the page as shown (its crop box and rotation applied)."""
     left, bottom, right, top = page.get_bbox()
     turns = (page.get_rotation() // 90) % 4
@@ -139,14 +120,13 @@ def _placement(page: Any) -> Callable[[float, float], tuple[float, float]]:
     return place
 
 
-def _glyphs(textpage: Any, place: Callable[[float, float], tuple[float, float]]) -> tuple[list[_Glyph], int, int]:
+def _glyphs(textpage: Any, place: Place) -> tuple[list[_Glyph], int, int]:
     import pypdfium2.raw as pdfium
 
-    left, right, bottom, top = (ctypes.c_double() for _ in range(4))
     ox, oy = ctypes.c_double(), ctypes.c_double()
     rect = pdfium.FS_RECTF()
     matrix = pdfium.FS_MATRIX()
-    styles: dict[int, tuple[float, bool]] = {}
+    styles: dict[int, tuple[float, bool, bool]] = {}
     found: list[_Glyph] = []
     characters = unmapped = 0
     for index in range(textpage.count_chars()):
@@ -171,17 +151,19 @@ def _glyphs(textpage: Any, place: Callable[[float, float], tuple[float, float]])
         key = ctypes.cast(owner, ctypes.c_void_p).value or 0
         if key not in styles:
             pdfium.FPDFText_GetMatrix(textpage, index, matrix)
-            scale = math.hypot(matrix.c, matrix.d)
-            styles[key] = (pdfium.FPDFText_GetFontSize(textpage, index) * scale, _bold(textpage, index))
-        size, bold = styles[key]
-        x0, _ = place(rect.left, oy.value)
-        x1, _ = place(rect.right, oy.value)
+            size = pdfium.FPDFText_GetFontSize(textpage, index) * math.hypot(matrix.c, matrix.d)
+            (xa, ya), (xb, yb) = place(0, 0), place(matrix.a, matrix.b)
+            styles[key] = (size, _bold(textpage, index), xb - xa > 5 * abs(yb - ya))
+        size, bold, level = styles[key]
+        if not level:  # text that runs up or down the page as shown
+            continue
+        (xa, ya), (xb, yb) = place(rect.left, rect.bottom), place(rect.right, rect.top)
+        x0, x1 = min(xa, xb), max(xa, xb)
         _, baseline = place(ox.value, oy.value)
-        if x1 <= x0:  # text that runs down the page, or mirrored
+        if x1 <= x0:
             continue
         text = _SPELLED.get(code) or chr(code)
-        found.append(_Glyph(text, x0, x1, baseline, size if size > 0.5 else rect.top - rect.bottom, bold))
-    del left, right, bottom, top
+        found.append(_Glyph(text, x0, x1, baseline, size if size > 0.5 else abs(yb - ya), bold))
     return found, characters, unmapped
 
 
@@ -279,91 +261,3 @@ def _with_superscripts(words: list[Word]) -> list[Word]:
         else:
             joined[index] = replace(host, marks=host.marks + raised.text, x1=max(host.x1, raised.x1))
     return [w for original, w in zip(words, joined, strict=True) if id(original) not in hosts]
-
-
-def _strokes(page: Any, place: Callable[[float, float], tuple[float, float]]) -> tuple[list[Rule], list[Box], int]:
-    """Straight rules, filled bars (at least as high as a line of text), and the number of images."""
-    import pypdfium2.raw as pdfium
-
-    rules: list[Rule] = []
-    bars: list[Box] = []
-    images = 0
-    for item in page.get_objects(filter=(pdfium.FPDF_PAGEOBJ_PATH, pdfium.FPDF_PAGEOBJ_IMAGE)):
-        if item.type == pdfium.FPDF_PAGEOBJ_IMAGE:
-            images += 1
-            continue
-        mode, stroked = ctypes.c_int(), ctypes.c_int()
-        pdfium.FPDFPath_GetDrawMode(item.raw, mode, stroked)
-        if not (mode.value or stroked.value):
-            continue
-        points = _polylines(item)
-        for line in points:
-            placed = [place(x, y) for x, y in line]
-            box = _extent(placed)
-            if mode.value and _is_rectangle(placed):
-                if min(box[2] - box[0], box[3] - box[1]) < _THIN:
-                    rules.append(_as_rule(box))
-                    continue
-                if box[3] - box[1] >= 6:
-                    bars.append(box)
-            if stroked.value:
-                rules.extend(_edges(placed))
-    return rules, bars, images
-
-
-def _polylines(item: Any) -> list[list[tuple[float, float]]]:
-    """The straight parts of a path in page space (containers' matrices applied)."""
-    import pypdfium2.raw as pdfium
-
-    matrix = item.get_matrix()
-    container = getattr(item, "container", None)
-    while container is not None:
-        matrix = matrix.multiply(container.get_matrix())
-        container = getattr(container, "container", None)
-    lines: list[list[tuple[float, float]]] = []
-    x, y = ctypes.c_float(), ctypes.c_float()
-    for index in range(min(pdfium.FPDFPath_CountSegments(item.raw), 20000)):
-        segment = pdfium.FPDFPath_GetPathSegment(item.raw, index)
-        pdfium.FPDFPathSegment_GetPoint(segment, x, y)
-        point = matrix.on_point(x.value, y.value)
-        kind = pdfium.FPDFPathSegment_GetType(segment)
-        if kind == pdfium.FPDF_SEGMENT_MOVETO or not lines:
-            lines.append([point])
-        elif kind == pdfium.FPDF_SEGMENT_LINETO:
-            lines[-1].append(point)
-        else:  # a curve ends the straight part
-            lines.append([point])
-        if pdfium.FPDFPathSegment_GetClose(segment) and len(lines[-1]) > 2:
-            lines[-1].append(lines[-1][0])
-    return [line for line in lines if len(line) > 1]
-
-
-def _extent(points: list[tuple[float, float]]) -> Box:
-    xs, ys = [p[0] for p in points], [p[1] for p in points]
-    return (min(xs), min(ys), max(xs), max(ys))
-
-
-def _is_rectangle(points: list[tuple[float, float]]) -> bool:
-    if not 4 <= len(points) <= 6:
-        return False
-    x0, top, x1, bottom = _extent(points)
-    return all(min(abs(x - x0), abs(x - x1)) < 0.1 and min(abs(y - top), abs(y - bottom)) < 0.1 for x, y in points)
-
-
-def _as_rule(box: Box) -> Rule:
-    x0, top, x1, bottom = box
-    if x1 - x0 >= bottom - top:
-        middle = (top + bottom) / 2
-        return Rule(x0, middle, x1, middle)
-    middle = (x0 + x1) / 2
-    return Rule(middle, top, middle, bottom)
-
-
-def _edges(points: list[tuple[float, float]]) -> Iterator[Rule]:
-    for (xa, ya), (xb, yb) in zip(points, points[1:], strict=False):
-        if abs(ya - yb) < 0.5 and abs(xa - xb) > 3:
-            y = (ya + yb) / 2
-            yield Rule(min(xa, xb), y, max(xa, xb), y)
-        elif abs(xa - xb) < 0.5 and abs(ya - yb) > 3:
-            x = (xa + xb) / 2
-            yield Rule(x, min(ya, yb), x, max(ya, yb))

@@ -1,0 +1,120 @@
+"""A page's rules and filled bars: the straight, level parts of its drawing."""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+Box = tuple[float, float, float, float]
+"""x0, top, x1, bottom: points, origin at the page's top left, y down."""
+Place = Callable[[float, float], tuple[float, float]]
+"""PDF user space → points from the top left of the page as shown."""
+
+_THIN = 2.5
+"""A filled rectangle thinner than this is a rule."""
+
+
+@dataclass(frozen=True)
+class Rule:
+    """A straight rule, horizontal (`top == bottom`) or vertical (`x0 == x1`)."""
+
+    x0: float
+    top: float
+    x1: float
+    bottom: float
+
+    @property
+    def horizontal(self) -> bool:
+        """True for a horizontal rule."""
+        return self.top == self.bottom
+
+
+def strokes_of(page: Any, place: Place) -> tuple[list[Rule], list[Box], int]:
+    """Straight rules, filled bars (at least as high as a line of text), and the number of images."""
+    import pypdfium2.raw as pdfium
+
+    rules: list[Rule] = []
+    bars: list[Box] = []
+    images = 0
+    for item in page.get_objects(filter=(pdfium.FPDF_PAGEOBJ_PATH, pdfium.FPDF_PAGEOBJ_IMAGE)):
+        if item.type == pdfium.FPDF_PAGEOBJ_IMAGE:
+            images += 1
+            continue
+        mode, stroked = ctypes.c_int(), ctypes.c_int()
+        pdfium.FPDFPath_GetDrawMode(item.raw, mode, stroked)
+        if not (mode.value or stroked.value):
+            continue
+        points = _polylines(item)
+        for line in points:
+            placed = [place(x, y) for x, y in line]
+            box = _extent(placed)
+            if mode.value and _is_rectangle(placed):
+                if min(box[2] - box[0], box[3] - box[1]) < _THIN:
+                    rules.append(_as_rule(box))
+                    continue
+                if box[3] - box[1] >= 6:
+                    bars.append(box)
+            if stroked.value:
+                rules.extend(_edges(placed))
+    return rules, bars, images
+
+
+def _polylines(item: Any) -> list[list[tuple[float, float]]]:
+    """The straight parts of a path in page space (containers' matrices applied)."""
+    import pypdfium2.raw as pdfium
+
+    matrix = item.get_matrix()
+    container = getattr(item, "container", None)
+    while container is not None:
+        matrix = matrix.multiply(container.get_matrix())
+        container = getattr(container, "container", None)
+    lines: list[list[tuple[float, float]]] = []
+    x, y = ctypes.c_float(), ctypes.c_float()
+    for index in range(min(pdfium.FPDFPath_CountSegments(item.raw), 20000)):
+        segment = pdfium.FPDFPath_GetPathSegment(item.raw, index)
+        pdfium.FPDFPathSegment_GetPoint(segment, x, y)
+        point = matrix.on_point(x.value, y.value)
+        kind = pdfium.FPDFPathSegment_GetType(segment)
+        if kind == pdfium.FPDF_SEGMENT_MOVETO or not lines:
+            lines.append([point])
+        elif kind == pdfium.FPDF_SEGMENT_LINETO:
+            lines[-1].append(point)
+        else:  # a curve ends the straight part
+            lines.append([point])
+        if pdfium.FPDFPathSegment_GetClose(segment) and len(lines[-1]) > 2:
+            lines[-1].append(lines[-1][0])
+    return [line for line in lines if len(line) > 1]
+
+
+def _extent(points: list[tuple[float, float]]) -> Box:
+    xs, ys = [p[0] for p in points], [p[1] for p in points]
+    return (min(xs), min(ys), max(xs), max(ys))
+
+
+def _is_rectangle(points: list[tuple[float, float]]) -> bool:
+    if not 4 <= len(points) <= 6:
+        return False
+    x0, top, x1, bottom = _extent(points)
+    return all(min(abs(x - x0), abs(x - x1)) < 0.1 and min(abs(y - top), abs(y - bottom)) < 0.1 for x, y in points)
+
+
+def _as_rule(box: Box) -> Rule:
+    x0, top, x1, bottom = box
+    if x1 - x0 >= bottom - top:
+        middle = (top + bottom) / 2
+        return Rule(x0, middle, x1, middle)
+    middle = (x0 + x1) / 2
+    return Rule(middle, top, middle, bottom)
+
+
+def _edges(points: list[tuple[float, float]]) -> Iterator[Rule]:
+    for (xa, ya), (xb, yb) in pairwise(points):
+        if abs(ya - yb) < 0.5 and abs(xa - xb) > 3:
+            y = (ya + yb) / 2
+            yield Rule(min(xa, xb), y, max(xa, xb), y)
+        elif abs(xa - xb) < 0.5 and abs(ya - yb) > 3:
+            x = (xa + xb) / 2
+            yield Rule(x, min(ya, yb), x, max(ya, yb))
