@@ -157,7 +157,7 @@ def machine(shapes: dict[str, Shape], tmp_path_factory: pytest.TempPathFactory) 
     add("hanger", "Kugel-Größe 3", at(3.0, 1.5, 1.0), "boundingSphere")
     add("hanger", "Kugel-Größe 3", at(3.0, 1.9, 1.0), "analytic")
     add("chain", "Kapsel", at(3.0, 1.5, 0.4), "analytic")
-    add("cab", "bracket", at(-0.2, 0.0, 1.6), "sphereFill", material="")
+    add("cab", "bracket", at(-0.3, 0.0, 1.42), "sphereFill", material="")
 
     materials = {
         "steel": Material("steel", 7850.0, 2.1e11, 0.6, 0.5, 0.1, None, None, 0.4, 0.9),

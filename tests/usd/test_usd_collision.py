@@ -188,6 +188,7 @@ def test_an_angle_bracket_is_no_primitive() -> None:
     assert fit_primitive(shape_of(bracket)) is None
 
 
+@pytest.mark.filterwarnings("ignore::RuntimeWarning")
 def test_flat_and_tiny_shapes_are_no_primitive() -> None:
     flat = trimesh.Trimesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]], process=False)
     assert fit_primitive(shape_of(flat)) is None

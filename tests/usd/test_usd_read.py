@@ -142,7 +142,7 @@ def test_another_format(copy: Path) -> None:
 def test_damaged_data(copy: Path) -> None:
     path = copy / "test_machine.usda"
     path.write_text(path.read_text(encoding="utf-8").replace('"barrel": "barrel"', '"barrel": '), encoding="utf-8")
-    fails(path, "damaged")
+    fails(path, "stored data is damaged")
 
 
 def test_a_joint_to_nowhere(copy: Path) -> None:
@@ -150,3 +150,27 @@ def test_a_joint_to_nowhere(copy: Path) -> None:
     text = path.read_text(encoding="utf-8").replace("body1 = </test_machine/arm>", "body1 = </test_machine/leg>")
     path.write_text(text, encoding="utf-8")
     fails(copy / "test_machine.usda", "does not join two bodies")
+
+
+def test_random_damage_is_an_error_of_ours_or_none(copy: Path) -> None:
+    generator = np.random.default_rng(11)
+    files = ["payloads/geometry.usdc", "payloads/base.usda", "payloads/physics.usda", "test_machine.usda"]
+    for round_ in range(40):
+        path = copy / files[round_ % len(files)]
+        whole = path.read_bytes()
+        data = np.frombuffer(whole, dtype=np.uint8).copy()
+        data[generator.integers(0, len(data), size=10)] = generator.integers(0, 256, size=10)
+        path.write_bytes(data.tobytes()[: generator.integers(1, len(data)) if round_ % 3 == 0 else None])
+        try:
+            read_machine(copy / "test_machine.usda")
+        except YellowironError as error:
+            assert error.where and error.hint
+        path.write_bytes(whole)
+
+
+def test_a_body_without_its_data(copy: Path) -> None:
+    path = copy / "payloads" / "base.usda"
+    path.write_text(
+        path.read_text(encoding="utf-8").replace("double3 centerOfMass", "double3 centre"), encoding="utf-8"
+    )
+    fails(copy / "test_machine.usda", "data is damaged")

@@ -59,10 +59,10 @@ def openusd_errors(path: Path) -> list[tuple[str, str]]:
     return found
 
 
-def omniverse_errors(path: Path) -> list[tuple[str, str]]:
+def omniverse_errors(path: Path, *, variants: bool = True) -> list[tuple[str, str]]:
     validator = pytest.importorskip("omni.asset_validator")
     logging.getLogger("omni").setLevel(logging.ERROR)
-    issues = validator.ValidationEngine().validate(str(path)).issues()
+    issues = validator.ValidationEngine(variants=variants).validate(str(path)).issues()
     severe = (validator.IssueSeverity.ERROR, validator.IssueSeverity.FAILURE)
     return [(i.rule.__name__, f"{i.message} {i.at}") for i in issues if i.severity in severe]
 

@@ -25,6 +25,9 @@ from yellowiron.usd.stage import (
     set_transform,
 )
 
+SITE_RADIUS = 0.02
+"""Of the ball that marks a site, metres."""
+
 _SCALE_TOLERANCE = 1e-6
 _PRIMITIVE_TYPES = {"cylinder": "Cylinder", "capsule": "Capsule", "box": "Cube", "sphere": "Sphere"}
 
@@ -138,9 +141,13 @@ def _write_primitive(layer: Sdf.Layer, path: str, primitive: Primitive, matrix: 
 
 
 def _write_site(layer: Sdf.Layer, path: str, site: Site, body: Body) -> None:
-    """A named frame: an Xform that draws nothing."""
-    spec = define(layer, path, "Xform")
+    """A named frame: a small ball among the guides, since Newton takes only a Gprim for a site."""
+    spec = define(layer, path, "Sphere")
     set_display_name(spec, site.name)
+    set_attribute(spec, "purpose", Types.Token, "guide", uniform=True)
+    set_attribute(spec, "radius", Types.Double, SITE_RADIUS)
+    half = Gf.Vec3f(SITE_RADIUS)
+    set_attribute(spec, "extent", Types.Float3Array, Vt.Vec3fArray([-half, half]))
     x, z = np.asarray(site.x_axis), np.asarray(site.z_axis)
     rotation = np.column_stack([x, np.cross(z, x), z])
     set_placement(spec, np.asarray(site.position) - np.asarray(body.origin), quaternion_of(rotation))

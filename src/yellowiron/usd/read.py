@@ -41,7 +41,13 @@ def read_machine(path: str | Path) -> Mechanism:
             if prim.GetVariantSets().HasVariantSet(name):
                 prim.GetVariantSet(name).SetVariantSelection(choice)
     _check_composition(stage, str(path))
-    return _Reader(stage, prim, str(path)).read()
+    try:
+        return _Reader(stage, prim).read()
+    except (AttributeError, KeyError, TypeError, ValueError, Tf.ErrorException) as error:
+        # What a prim of ours holds is not there, or not of its type: someone removed it, or the file is damaged.
+        raise YellowironError(
+            "The machine's data is damaged", where=str(path), hint=f"Build the machine again. USD says: {_short(error)}"
+        ) from error
 
 
 def open_stage(path: str | Path) -> Usd.Stage:
@@ -64,13 +70,22 @@ def open_stage(path: str | Path) -> Usd.Stage:
 
 
 def _check_composition(stage: Usd.Stage, where: str) -> None:
-    errors = stage.GetCompositionErrors()
-    if errors:
+    try:
+        words = [_short(error) for error in stage.GetCompositionErrors()]
+    except UnicodeDecodeError as error:
+        # A damaged layer is quoted with the bytes that are no text.
+        words = [_short(error.object.decode("utf-8", errors="replace"))]
+    if words:
         raise YellowironError(
-            "The file refers to something that is not there",
+            "The file refers to something that is not there, or is damaged",
             where=where,
-            hint=f"Keep it together with its payloads folder. USD says: {str(errors[0]).strip()[:300]}",
+            hint=f"Keep it together with its payloads folder. USD says: {words[0]}",
         )
+
+
+def _short(words: object) -> str:
+    """The first words of what USD says, on one line."""
+    return " ".join(str(words).split())[:300]
 
 
 def _find_machine(stage: Usd.Stage, where: str) -> Usd.Prim:
@@ -94,10 +109,9 @@ def _find_machine(stage: Usd.Stage, where: str) -> Usd.Prim:
 class _Reader:
     """One machine prim on its stage. Positions are read relative to the machine's prim, wherever it stands."""
 
-    def __init__(self, stage: Usd.Stage, prim: Usd.Prim, where: str) -> None:
+    def __init__(self, stage: Usd.Stage, prim: Usd.Prim) -> None:
         self._stage = stage
         self._prim = prim
-        self._where = where
         self._cache = UsdGeom.XformCache()
         self._names: dict[Sdf.Path, str] = {}
 
@@ -110,20 +124,15 @@ class _Reader:
         scope = self._prim.GetChild(JOINTS)
         joint_prims = [p for p in scope.GetChildren() if _kind(p) == "joint"] if scope else []
         hints = typing.get_type_hints(Mechanism)
-        try:
-            return Mechanism(
-                name=str(data["name"]),
-                equipment_type=str(data["equipmentType"]),
-                root=str(data["root"]),
-                bodies=bodies,
-                joints=tuple(self._joint(p, origins) for p in joint_prims),
-                sites=tuple(s for p in body_prims for s in self._sites(p)),
-                **{name: from_json(hints[name], data[name]) for name in DOCUMENTS},
-            )
-        except KeyError as error:
-            raise YellowironError(
-                f"The machine lacks its entry {error}", where=self._where, hint="Build the machine again."
-            ) from error
+        return Mechanism(
+            name=str(data["name"]),
+            equipment_type=str(data["equipmentType"]),
+            root=str(data["root"]),
+            bodies=bodies,
+            joints=tuple(self._joint(p, origins) for p in joint_prims),
+            sites=tuple(s for p in body_prims for s in self._sites(p)),
+            **{name: from_json(hints[name], data[name]) for name in DOCUMENTS},
+        )
 
     def _body(self, prim: Usd.Prim) -> Body:
         data = _data(prim)
