@@ -98,7 +98,7 @@ class _Document:
         self._check_tree()
         top = ET.Element("mujoco", model=name)
         ET.SubElement(top, "compiler", angle="radian", meshdir=ASSETS, autolimits="true", inertiafromgeom="false")
-        ET.SubElement(top, "option", timestep=_text(self._timestep), integrator="implicitfast", cone="elliptic")
+        ET.SubElement(top, "option", timestep=_text(self._timestep), integrator="Euler", cone="elliptic")
         top.append(self._defaults())
         top.append(self._asset())
         top.append(world)

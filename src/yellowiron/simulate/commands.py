@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 
 import numpy as np
 
@@ -15,7 +16,7 @@ from yellowiron.model.mechanism import Actuator, Mechanism
 SHARE = 0.02
 """Of the stroke, left at both ends."""
 RAMP = 0.3
-"""Seconds in which a target reaches its speed."""
+"""Seconds in which a target reaches its speed at the soonest."""
 HOLD = 1.0
 """Seconds that a target rests at each end."""
 SETTLE = 1.5
@@ -24,10 +25,21 @@ CRAWL = 0.1
 """Share of its full speed at which a motor turns while the machine stands on the ground."""
 
 
+_GRID = 1001
+
+
+@dataclass(frozen=True, eq=False)
+class Pace:
+    """The largest acceleration `limits` (n,) of a target at `places` (n,) along its way, m/s² or rad/s²."""
+
+    places: Floats
+    limits: Floats
+
+
 @dataclass(frozen=True)
 class Motion:
-    """What one actuator does: `joint` is the driven one. Cylinders move between `low` and `high` (metres or radians from
-    the drawn pose) at `speed`; motors turn at `speed` (rad/s)."""
+    """What one actuator does: `joint` is the driven one. Cylinders move between `low` and `high` (metres or radians
+    from the drawn pose) at `speed`; motors turn at `speed` (rad/s)."""
 
     actuator: str
     joint: str
@@ -86,7 +98,9 @@ def _motions(mechanism: Mechanism, actuator: Actuator) -> Iterator[Motion]:
             yield Motion(actuator.name, joint.name, entry.sign, True, speed, low, high, stroke)
 
 
-def phases(moves: Sequence[Motion], timestep: float, *, on_ground: bool) -> Iterator[Phase]:
+def phases(
+    moves: Sequence[Motion], timestep: float, *, on_ground: bool, paces: Mapping[str, Pace] = MappingProxyType({})
+) -> Iterator[Phase]:
     """Settling, each actuator alone, all together. Every phase starts and ends at the drawn pose, motors at rest."""
     still = {motion.joint: np.zeros(1) for motion in moves}
     count = max(1, round(SETTLE / timestep))
@@ -96,10 +110,10 @@ def phases(moves: Sequence[Motion], timestep: float, *, on_ground: bool) -> Iter
     if len(groups) > 1:
         groups.append(("together", list(moves)))
     for name, group in groups:
-        yield _phase(name, group, timestep, on_ground)
+        yield _phase(name, group, timestep, on_ground, paces)
 
 
-def _phase(name: str, group: Sequence[Motion], timestep: float, on_ground: bool) -> Phase:
+def _phase(name: str, group: Sequence[Motion], timestep: float, on_ground: bool, paces: Mapping[str, Pace]) -> Phase:
     """Down, up and back, each at its own speed; who is done waits for the slowest."""
     parts: list[dict[str, Floats]] = []
     place = {motion.joint: 0.0 for motion in group}
@@ -108,7 +122,9 @@ def _phase(name: str, group: Sequence[Motion], timestep: float, on_ground: bool)
         for motion in group:
             if motion.position:
                 target = {"low": motion.low, "high": motion.high, "drawn": 0.0}[leg]
-                rows[motion.joint] = travel(place[motion.joint], target, motion.speed, timestep)
+                rows[motion.joint] = travel(
+                    place[motion.joint], target, motion.speed, timestep, paces.get(motion.joint)
+                )
                 place[motion.joint] = target
             else:
                 speed = motion.speed * (CRAWL if on_ground else 1.0) * motion.sign
@@ -130,20 +146,27 @@ def _spin(speed: float, timestep: float) -> Floats:
     return speed * np.concatenate([up, np.ones(round(HOLD / timestep)), up[::-1]])
 
 
-def travel(start: float, end: float, speed: float, timestep: float) -> Floats:
-    """Targets from one place to another: speed rises and falls evenly over `RAMP` seconds, lower on a short way."""
+def travel(start: float, end: float, speed: float, timestep: float, pace: Pace | None = None) -> Floats:
+    """Targets from one place to another, as fast as speed, `RAMP` and pace allow, from rest to rest.
+
+    On a fine grid along the way the squared speed grows from both ends by twice the acceleration allowed there.
+    """
     way = abs(end - start)
     if way == 0.0:
         return np.array([end])
-    ramp = min(RAMP, math.sqrt(way * RAMP / speed))
-    top = min(speed, way / ramp)
-    total = way / top + ramp
-    time = np.arange(1, math.ceil(total / timestep) + 1) * timestep
-    gone = np.where(
-        time < ramp,
-        0.5 * top / ramp * time**2,
-        np.where(
-            time < total - ramp, top * (time - 0.5 * ramp), way - 0.5 * top / ramp * np.maximum(total - time, 0.0) ** 2
-        ),
-    )
-    return np.asarray(start + math.copysign(1.0, end - start) * gone, dtype=np.float64)
+    places = np.linspace(start, end, _GRID)
+    step = way / (_GRID - 1)
+    limits = np.full(_GRID, speed / RAMP)
+    if pace is not None:
+        limits = np.minimum(limits, np.interp(places, pace.places, pace.limits))
+    gain = 2.0 * step * 0.5 * (limits[1:] + limits[:-1])
+    squared = np.full(_GRID, speed**2)
+    squared[0] = squared[-1] = 0.0
+    for i in range(1, _GRID):
+        squared[i] = min(squared[i], squared[i - 1] + gain[i - 1])
+    for i in range(_GRID - 2, -1, -1):
+        squared[i] = min(squared[i], squared[i + 1] + gain[i])
+    speeds = np.sqrt(squared)
+    time = np.concatenate([[0.0], np.cumsum(2.0 * step / (speeds[1:] + speeds[:-1]))])
+    steps = np.arange(1, math.ceil(float(time[-1]) / timestep) + 1)
+    return np.interp(steps * timestep, time, places)

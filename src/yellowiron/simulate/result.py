@@ -13,8 +13,9 @@ from yellowiron.model.finding import Finding
 @dataclass(frozen=True)
 class ActuatorResult:
     """One driven joint. `low`, `high`: the ends it was sent to, `reached_low`, `reached_high` how far it came (metres or
-    radians; 0 for motors). `final_error`: the worst distance from a target that it had come to rest at (m, rad, rad/s);
-    `lag`: the worst while moving."""
+    radians; 0 for motors). `final_error`: the worst distance from a target that has come to rest (m, rad, rad/s);
+    `final_sag`: what the weight on the drive's spring makes of it there; `unexplained`: by how much, at worst, the error
+    missed the sag by more than a tenth; `lag`: the worst while moving."""
 
     actuator: str
     joint: str
@@ -26,6 +27,8 @@ class ActuatorResult:
     reached_low: float
     reached_high: float
     final_error: float
+    final_sag: float
+    unexplained: float
     lag: float
 
     @property
@@ -122,6 +125,8 @@ def simulation_document(result: SimulationResult) -> dict[str, Any]:
                 "reached_high": a.reached_high,
                 "final_error": a.final_error,
                 "final_error_percent": a.final_error_percent,
+                "final_sag": a.final_sag,
+                "unexplained": a.unexplained,
                 "lag": a.lag,
             }
             for a in result.actuators

@@ -17,11 +17,14 @@ from yellowiron.model.geometry import Floats
 from yellowiron.simulate.commands import CRAWL, Motion, Phase, motions, phases
 from yellowiron.simulate.comparison import Agreement, Comparison, Worst
 from yellowiron.simulate.engine import Base, Engine, Setup, find_engine, load_engine
+from yellowiron.simulate.loads import paces, weight
 from yellowiron.simulate.payload import with_payload
 from yellowiron.simulate.result import ActuatorResult, BranchResult, PhaseResult, SimulationResult
 
 FINAL_BAR = 0.01
 """A cylinder ends within this share of its stroke from its target; a motor within ten times that of its speed."""
+SAG_SHARE = 0.1
+"""Or its distance is that of the weight on its drive's spring, within this share."""
 
 
 def simulate(
@@ -58,8 +61,9 @@ def simulate(
     progress(f"Loading the machine into {engine}")
     loaded = load_engine(engine, Setup(Path(usd_path), mechanism, base, step, comparison.measured, heavier))
     run = _Run(loaded, comparison, moves, step)
+    commands = phases(moves, step, on_ground=base == "floating", paces=paces(comparison.chain, moves))
     try:
-        for phase in phases(moves, step, on_ground=base == "floating"):
+        for phase in commands:
             progress(f"Simulating in {engine}: {phase.name}")
             if not run.phase(phase):
                 break
@@ -76,6 +80,8 @@ class _Seen:
     """What one driven joint did."""
 
     final_error: float = 0.0
+    final_sag: float = 0.0
+    unexplained: float = 0.0
     lag: float = 0.0
     low: float = math.inf
     high: float = -math.inf
@@ -115,20 +121,31 @@ class _Run:
         if phase.name == "settle":
             return
         for motion in self.moves:
-            if motion.joint not in phase.targets:
+            if motion.joint not in phase.targets or not len(phase.holds):
                 continue
             values, targets = measured[:, self.comparison.measured.index(motion.joint)], phase.targets[motion.joint]
             seen = self.seen.setdefault(motion.joint, _Seen())
             if motion.position:
-                error = np.abs(values - targets)
-                seen.lag = max(seen.lag, float(error.max()))
-                seen.final_error = max(seen.final_error, *(float(error[hold]) for hold in phase.holds))
+                seen.lag = max(seen.lag, float(np.abs(values - targets).max()))
+                for hold in phase.holds:
+                    self._rest(seen, motion, float(values[hold] - targets[hold]), measured[hold])
                 seen.low, seen.high = min(seen.low, float(values.min())), max(seen.high, float(values.max()))
             else:
                 error = np.abs(np.diff(values, prepend=values[:1]) / self.timestep - targets)
                 full = np.abs(targets) >= np.abs(targets).max()
                 seen.lag = max(seen.lag, float(error[1:].max()))
                 seen.final_error = max(seen.final_error, *error[full & ~np.roll(full, -1)].tolist())
+
+    def _rest(self, seen: _Seen, motion: Motion, error: float, coordinates: Floats) -> None:
+        """A drive at rest, `error` beyond its target: how much of that is the weight on its spring?"""
+        chain = self.comparison.chain
+        drive = chain.mechanism.joint(motion.joint).drive
+        state, fraction = chain.reach(dict(zip(self.comparison.measured, coordinates.tolist(), strict=True)))
+        stiffness = drive.stiffness if drive is not None else 0.0
+        sag = -weight(chain, state, motion.joint) / stiffness if fraction == 1.0 and stiffness else 0.0
+        if abs(error) >= seen.final_error:
+            seen.final_error, seen.final_sag = abs(error), abs(sag)
+        seen.unexplained = max(seen.unexplained, abs(error - sag) - SAG_SHARE * abs(sag))
 
     def result(
         self,
@@ -188,6 +205,8 @@ def _actuator(motion: Motion, seen: _Seen, base: Base) -> ActuatorResult:
         reached_low=seen.low if motion.position else 0.0,
         reached_high=seen.high if motion.position else 0.0,
         final_error=seen.final_error,
+        final_sag=seen.final_sag,
+        unexplained=seen.unexplained,
         lag=seen.lag,
     )
 
@@ -216,7 +235,7 @@ def _findings(result: SimulationResult, pin_bar: float, angle_bar: float) -> Ite
             yield Finding("SIM004", "error", branch.cut, message, "Check the limits of its loop's pivots.")
     for each in result.actuators:
         bar = FINAL_BAR if each.kind == "position" else 10.0 * FINAL_BAR
-        if each.final_error_percent > 100.0 * bar:
+        if each.final_error_percent > 100.0 * bar and (each.kind == "velocity" or each.unexplained > 0.0):
             what = "stroke" if each.kind == "position" else "speed"
             message = f"it ended {each.final_error_percent:.2g} % of its {what} away from its target"
             hint = "Its drive is too weak or too soft for the load: check pressure, bore and gains."

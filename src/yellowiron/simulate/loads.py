@@ -1,0 +1,54 @@
+"""What a drive has to do: the weight and the mass that it feels through the linkage. SI."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+
+from yellowiron.kinematics import ClosedChain, State
+from yellowiron.model.geometry import Floats
+from yellowiron.simulate.commands import Motion, Pace
+
+GRAVITY = 9.81
+SPARE = 0.5
+"""Share of a drive's force, less the weight it holds, that the targets' acceleration may ask for."""
+_POINTS = 13
+_STEP = 1e-4
+
+
+def weight(chain: ClosedChain, state: State, joint: str) -> float:
+    """Force (N) or torque (N·m) along a joint's coordinate that holds the machine's weight: the potential energy's
+    slope, the root upright."""
+    place = chain.coordinate(state, joint)
+    ends = [chain.reach({joint: place + step}, start=state)[0] for step in (-_STEP, _STEP)]
+    way = chain.coordinate(ends[1], joint) - chain.coordinate(ends[0], joint)
+    if way <= 0.0:
+        return 0.0
+    rotations, origins = chain.placements(ends)
+    energy = np.zeros(2)
+    for body in chain.mechanism.bodies:
+        index = chain.body_index(body.name)
+        arm = np.asarray(body.center_of_mass) - np.asarray(body.origin)
+        energy += GRAVITY * body.mass * (origins[:, index, 2] + rotations[:, index, 2] @ arm)
+    return float(energy[1] - energy[0]) / way
+
+
+def paces(chain: ClosedChain, moves: tuple[Motion, ...]) -> Mapping[str, Pace]:
+    """How fast each cylinder's target may gain speed along its stroke, the other actuators as drawn."""
+    return {motion.joint: _pace(chain, motion) for motion in moves if motion.position}
+
+
+def _pace(chain: ClosedChain, motion: Motion) -> Pace:
+    drive = chain.mechanism.joint(motion.joint).drive
+    force = drive.max_force if drive is not None else math.inf
+    places: Floats = np.linspace(motion.low, motion.high, _POINTS)
+    limits = np.full(_POINTS, math.inf)
+    state = chain.drawn
+    for number, place in enumerate(places.tolist()):
+        state, fraction = chain.reach({motion.joint: place}, start=state)
+        if fraction == 1.0 and math.isfinite(force):
+            spare = max(0.1 * force, force - abs(weight(chain, state, motion.joint)))
+            limits[number] = SPARE * spare / chain.effective_mass(state, motion.joint)
+    return Pace(places, limits)
