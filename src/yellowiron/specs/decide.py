@@ -13,7 +13,7 @@ from yellowiron.specs.claims import Claim
 from yellowiron.specs.match import Match
 from yellowiron.specs.numbers import DecimalStyle, Quantity, read
 from yellowiron.specs.stated import Stated
-from yellowiron.specs.vocabulary import tokens
+from yellowiron.specs.vocabulary import BENIGN, tokens
 
 _SURE = 0.7
 """Score from which one undisputed claim is `ok`."""
@@ -47,8 +47,11 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
     group = groups[0]
     top = max(group, key=_preference)
     quantity, doubt = _settled(wanted, top.claim)
-    if top.score < _SURE:
-        doubt = doubt or f"the label also says {', '.join(repr(t) for t in top.rest)}"
+    strange = [word for word in top.rest if word not in BENIGN]
+    if strange:
+        doubt = doubt or f"the label also says {', '.join(repr(word) for word in strange)}"
+    elif top.score < _SURE:
+        doubt = doubt or f"only part of the label says {wanted.name}"
     if top.claim.ranged:
         doubt = doubt or "the sheet prints a range"
     value = quantity.si_value
@@ -95,7 +98,9 @@ def evidence_of(found: Match, sheets: Sheets) -> Evidence:
     """Where a match stands."""
     statement = found.claim.statement
     box = tuple(round(v, 2) for v in statement.box)
-    return Evidence(sheets.files[id(statement)], statement.page, statement.quote, (box[0], box[1], box[2], box[3]))
+    heads = statement.heads if found.by_head else ()
+    quote = " … ".join(dict.fromkeys([*heads, statement.quote]))
+    return Evidence(sheets.files[id(statement)], statement.page, quote, (box[0], box[1], box[2], box[3]))
 
 
 def _preference(found: Match) -> tuple[float, bool, bool, float]:

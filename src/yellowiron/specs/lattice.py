@@ -243,7 +243,7 @@ def _statement(
         unit=unit or label_unit or head_unit,
         example=marked or bool(EXAMPLE.search(section)) or marked_by_legend(page, pieces),
         x0=value.box[0],
-        method="lattice",
+        heads=tuple(line.text for c in column for line in c.lines) if labels else (),
     )
 
 

@@ -10,6 +10,8 @@ from yellowiron.specs.statement import Piece, kind_of
 from yellowiron.specs.strokes import Box, Rule
 from yellowiron.specs.words import Word
 
+_HANGING = 20.0
+"""Points by which a heading may stand out to the left of the labels under it."""
 _GAP = 0.75
 """A gap wider than this times the type size parts a label from a value."""
 
@@ -131,7 +133,11 @@ def _gutter(lines: Sequence[Line], bars: Sequence[Box], across: Sequence[Box]) -
     for key in sorted(starts):
         near = starts[key] + starts.get(key + 1, [])
         if len(near) >= 4 and sum(paired for _, paired in near) >= max(3, 0.5 * len(near)):
-            candidates.append(min(x for x, _ in near))
+            label = min(x for x, _ in near)
+            candidates.append(label)
+            # headings may hang out to the left of their rows
+            hanging = {p.x0 for line in lines for p in line.pieces if label - _HANGING <= p.x0 < label - 2}
+            candidates.extend(sorted(hanging)[:3])
     by_bars = sorted({b[0] for b in bars if any(a[2] <= b[0] and a[1] < b[3] and b[1] < a[3] for a in bars)})
     candidates += by_bars
     best: tuple[int, float, int, int] | None = None

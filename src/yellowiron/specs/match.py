@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from yellowiron.model.template import Wanted
 from yellowiron.specs.claims import Claim
-from yellowiron.specs.vocabulary import NEUTRAL, REVERSING, has_cjk, squeezed, tokens
+from yellowiron.specs.vocabulary import NEUTRAL, OPPOSITES, REVERSING, has_cjk, squeezed, tokens
 
 LEAST = 0.55
 """Score below which a claim does not speak of a wanted value at all."""
@@ -18,7 +18,7 @@ LEAST = 0.55
 class Match:
     """A claim that speaks of a wanted value. `score` 0…1: the share of its label that the wanted value's phrases
     explain, less what is borrowed from headings. `rest` are the label's other words, `lost` what they cost;
-    `by_label` is False where only headings or heads name the property."""
+    `by_label` is False where only headings or heads name the property, `by_head` True where heads are needed for it."""
 
     wanted: Wanted
     claim: Claim
@@ -27,6 +27,7 @@ class Match:
     rest: tuple[str, ...] = ()
     lost: float = 0.0
     by_label: bool = True
+    by_head: bool = False
 
 
 def match(claims: Sequence[Claim], wanted: Sequence[Wanted]) -> dict[str, list[Match]]:
@@ -86,9 +87,14 @@ def match_one(wanted: Wanted, claim: Claim) -> Match | None:
     rest = {t for t in primary - explained - NEUTRAL if not _is_number(t)}
     if rest & REVERSING or (label - explained) & REVERSING:
         return None
+    asked = {t for p in (wanted.name, best) for t in tokens(p)}
+    if any(OPPOSITES.get(word) in asked for word in rest):
+        return None
     lost = len(rest) / max(len(primary - NEUTRAL), 1)
     score = 1.0 - lost - borrowed
-    return Match(wanted, claim, max(score, 0.0), best, tuple(sorted(rest)), lost, bool(explained & label))
+    return Match(
+        wanted, claim, max(score, 0.0), best, tuple(sorted(rest)), lost, bool(explained & label), bool(from_head)
+    )
 
 
 @functools.lru_cache(maxsize=1024)

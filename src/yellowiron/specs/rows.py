@@ -264,7 +264,6 @@ def _read_values(page: Page, row: Sequence[Line], state: _State, number: int, fo
                 statement,
                 section=EXAMPLE.sub("", state.section).strip(),
                 example=marked or statement.example,
-                method="bands" if len(row) > 1 else "gaps",
             )
         )
     if not has_label:
@@ -330,6 +329,7 @@ def _statement(
         example=any(EXAMPLE.search(h.text) for h in heads)
         or marked_by_legend(page, [*cell.label, *cell.values, *heads]),
         x0=box[0],
+        heads=tuple(h.text for h in column) if cell.label else (),
     )
 
 

@@ -76,7 +76,8 @@ class Statement:
     """One value cell. `label` is its row's, `context` the sub-headings above it (nearest last), `section` the heading,
     `column` the heads over it, `text` what it says; `unit` comes from its head or label, for numbers without one.
 
-    `row` groups the cells of one row. `quote` is what the page prints, pieces that stand apart joined by " … ".
+    `row` groups the cells of one row. `quote` is what the page prints, pieces that stand apart joined by " … "; `heads`
+    are the lines over the column as printed, for a quote that needs them.
     """
 
     page: int
@@ -91,7 +92,7 @@ class Statement:
     unit: str = ""
     example: bool = False
     x0: float = 0.0
-    method: str = ""
+    heads: tuple[str, ...] = ()
 
 
 def join_boxes(boxes: Iterable[Box]) -> Box:

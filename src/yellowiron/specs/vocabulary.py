@@ -64,6 +64,30 @@ REVERSING = frozenset(
 )
 """Words that make a label mean something else than the words around them."""
 
+BENIGN = frozenset(["valve", "angle", "position", "system", "equipped", "typical", "typically", "standard", "nominal"])
+"""Words a label may add without meaning something else."""
+OPPOSITES = {
+    a: b
+    for pair in (
+        ("front", "rear"),
+        ("left", "right"),
+        ("inner", "outer"),
+        ("inside", "outside"),
+        ("upper", "lower"),
+        ("maximum", "minimum"),
+        ("gross", "net"),
+        ("forward", "reverse"),
+        ("loaded", "empty"),
+        ("heaped", "struck"),
+        ("straight", "turn"),
+        ("raise", "lower"),
+        ("high", "low"),
+        ("total", "each"),
+    )
+    for a, b in (pair, pair[::-1])
+}
+"""Words that contradict each other."""
+
 _CJK = re.compile(r"[\u3040-\u30ff\u3400-\u9fff\uac00-\ud7af]")
 _TOKEN = re.compile(r"[^\W_]+(?:[.,]\d+)?|±")
 
