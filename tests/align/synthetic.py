@@ -1,7 +1,7 @@
-"""Parametric wheel loaders straight as `Assembly` objects, with the truth: simplified, honest in what the aligner uses.
+"""Parametric wheel loaders straight as `Assembly` objects, with the truth: simplified, honest in what aligning needs.
 
-Every dimension is drawn from a seed. Pins sit in bores, plates touch along their welds, cylinders are barrel, cap, gland,
-piston, rod and eyes, the steering stands at an angle, the rear axle may be rolled, and some things float (glass, steps).
+Every dimension is drawn from a seed. Pins sit in bores, plates touch along their welds, cylinders are barrel, cap,
+gland, piston, rod and eyes, the steering stands at an angle, the rear axle may be rolled, some things float (glass).
 """
 
 from __future__ import annotations
@@ -152,8 +152,16 @@ class Drawer:
     def at(self, pin: str, y: float) -> Array:
         return np.array([self.P[pin][0], y, self.P[pin][1]])
 
-    def side_plate(self, name: str, body: str, y: float, outline: Array, pins: str, holes: list[tuple[float, float, float]] | None = None,
-                   thickness: float | None = None) -> None:  # fmt: skip
+    def side_plate(
+        self,
+        name: str,
+        body: str,
+        y: float,
+        outline: Array,
+        pins: str,
+        holes: list[tuple[float, float, float]] | None = None,
+        thickness: float | None = None,
+    ) -> None:
         bores = [(*map(float, self.P[p]), self.bore_r) for p in pins] + (holes or [])
         self.m.add(
             name, body, body, plate(f"{name}_{y:.3f}", outline, thickness or self.t, bores), place((0, y, 0), XZ, X)
@@ -801,7 +809,7 @@ def loader(
 def disguise(
     machine: Machine, seed: int, *, names: bool = False, rotate: bool = True, shuffle: bool = True
 ) -> tuple[Assembly, dict[str, tuple[str, str]], Array]:
-    """The machine as a stranger sends it: renamed Part_001…, turned, moved, shuffled. (assembly, truth by id, CAD → machine)."""
+    """The machine as a stranger sends it, Part_001…, turned and shuffled: (assembly, truth by id, CAD → machine)."""
     rng = np.random.default_rng([seed, 7])
     world = np.eye(4)
     if rotate:

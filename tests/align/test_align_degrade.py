@@ -71,7 +71,9 @@ def test_triangles_alone(template: Template) -> None:
 
 def test_a_part_without_a_mesh(template: Template) -> None:
     machine = loader(2)
-    empty = replace(next(iter(machine.shapes.values())), key="empty", mesh=Mesh(np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int32)))
+    empty = replace(
+        next(iter(machine.shapes.values())), key="empty", mesh=Mesh(np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int32))
+    )
     machine.shapes["empty"] = empty
     machine.parts.append(Part("LOADER/nothing", "nothing", ("LOADER",), "empty", np.eye(4)))
     found = align(machine.assembly(), template, NOTHING)

@@ -45,7 +45,7 @@ def write_alignment(alignment: Alignment, assembly: Assembly, path: str | Path) 
 
 
 def _entry(p: PartAssignment) -> dict[str, Any]:
-    solved = p.runner_up if p.source == "edited" else p.role
+    solved = p.runner_up if p.source == "edited" and p.runner_up is not None else p.role
     return {
         "part": p.part,
         "role": p.role,

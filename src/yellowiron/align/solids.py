@@ -225,9 +225,8 @@ def flat_faces(shape: Shape) -> tuple[PlaneFeature, ...]:
     normals[good] = cross[good] / double[good, None]
     size = float(np.linalg.norm(np.ptp(shape.mesh.points, axis=0))) or 1.0
     offsets = np.einsum("ij,ij->i", normals, corners[:, 0])
-    keys = np.round(np.c_[normals * 500, offsets / size * 2000]).astype(np.int32)
-    found: Ints = keys[good]
-    which = np.unique(found, axis=0, return_inverse=True)[1].ravel()
+    scaled = np.concatenate([normals * 500, (offsets / size * 2000)[:, None]], axis=1)[good]
+    which = np.unique(np.round(scaled).astype(np.int32), axis=0, return_inverse=True)[1].ravel()
     areas = 0.5 * double[good]
     total = np.bincount(which, weights=areas)
     centres = corners[good].mean(axis=1)

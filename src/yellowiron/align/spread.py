@@ -254,13 +254,13 @@ class Spreader:
                     self._vote(i, votes, 0.9 * sure, "sits on a pin of {body}")
 
     def _by_exact_name(self) -> None:
-        """Parts that bear a role's very name, where geometry is silent."""
+        """Parts that bear a role's very name, where geometry found nothing of that body."""
         roles = exact_roles(self.template)
         for group in self._groups():
             for i in group:
                 role = exact_role(self.solids[i].part, roles)
                 body = self.template.body_of(role) if role is not None else None
-                if role is not None and body is not None:
+                if role is not None and body is not None and body not in self.cluster_of:
                     words = f"bears the name of the role {role}"
                     self.places[i] = Place(role, body, NAMED, words, by_name=True)
 
@@ -286,7 +286,7 @@ class Spreader:
             kin = self._kin(group[0])
             weight = {b: 1.0 / (d + 0.02 * reach) * (1 + 3 * kin.get(b, 0.0)) for b, d in far.items()}
             names = {b: max(self.scores[i].get(b, 0.0) for i in group) for b in weight}
-            weight = {b: w * (1 + names[b]) for b, w in weight.items()}
+            weight = {b: w * (1 + 3 * names[b]) for b, w in weight.items()}
             ranked = sorted(weight, key=lambda b: (-round(weight[b], 9), b))
             if not ranked:
                 continue
@@ -305,7 +305,8 @@ class Spreader:
             if named is not None and self.template.body_of(named) == place.body:
                 words = f"{place.reason}; bears the role's name"
                 sure = max(place.confidence, NAMED)
-                self.places[i] = replace(place, role=named, confidence=sure, reason=words, by_name=place.confidence < NAMED)
+                decided = place.confidence < NAMED
+                self.places[i] = replace(place, role=named, confidence=sure, reason=words, by_name=decided)
         for role in self.template.roles:
             body = self.template.body_of(role.name)
             if role.rigid or body is None or any(p.role == role.name for p in self.places.values()):
