@@ -9,16 +9,21 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Literal, Protocol, cast
 
+import numpy as np
+
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Body, Mechanism
+
+TOUCHING = 0.02
+"""Metres: a body that comes this near to the ground as drawn stands on it."""
 
 Base = Literal["fixed", "floating"]
 
 
 @dataclass(frozen=True, eq=False)
 class Block:
-    """A box on the ground, fixed to the world: its middle on the ground (x, y), its edges, metres."""
+    """A box on the ground, fixed to the world: its middle on the ground (x, y) and its edges, metres."""
 
     middle: tuple[float, float]
     edges: tuple[float, float, float]
@@ -28,8 +33,9 @@ class Block:
 class Setup:
     """What an engine loads. The machine file has the geometry; `mechanism` is what it says, with the payload in the
     masses of `heavier`, the bodies that differ from the file. A fixed base stands in the air (no ground); a floating
-    one stands on a ground plane at z = 0, friction 0.7, with `blocks` on it. Seconds. `measured` are the joints whose
-    coordinates are read.
+    one stands on a ground plane at z = 0, friction 0.7, with `blocks` on it. Ground and blocks touch the bodies
+    `standing` on them and no others: a bucket passes through, so that strokes stay whole. `timestep` in seconds;
+    `measured` are the joints whose coordinates are read.
     """
 
     usd_path: Path
@@ -38,7 +44,13 @@ class Setup:
     timestep: float
     measured: tuple[str, ...]
     heavier: tuple[Body, ...] = ()
+    standing: tuple[str, ...] = ()
     blocks: tuple[Block, ...] = ()
+
+
+def standing_bodies(mechanism: Mechanism) -> tuple[str, ...]:
+    """The bodies whose lowest point is on the ground (z = 0) in the drawn pose: wheels, tracks, feet."""
+    return tuple(b.name for b in mechanism.bodies if len(b.hull) and float(np.asarray(b.hull)[:, 2].min()) < TOUCHING)
 
 
 class Engine(Protocol):

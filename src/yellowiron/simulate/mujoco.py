@@ -26,6 +26,10 @@ def load(setup: Setup) -> MujocoEngine:
                 type=mujoco.mjtGeom.mjGEOM_BOX, pos=(*block.middle, z), size=(x, y, z), friction=(0.7, 0.005, 0.0001)
             )
         model = spec.compile()
+    touching = {int(model.body(name).id) for name in setup.standing} | {0}
+    for geom in range(model.ngeom):
+        if int(model.geom_bodyid[geom]) not in touching:
+            model.geom_contype[geom] = 0
     return MujocoEngine(model, setup)
 
 

@@ -16,7 +16,7 @@ from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
 from yellowiron.simulate.commands import CRAWL, Motion, Phase, motions, phases
 from yellowiron.simulate.comparison import Agreement, Comparison, Worst
-from yellowiron.simulate.engine import Base, Engine, Setup, find_engine, load_engine
+from yellowiron.simulate.engine import Base, Engine, Setup, find_engine, load_engine, standing_bodies
 from yellowiron.simulate.loads import paces, weight
 from yellowiron.simulate.payload import with_payload
 from yellowiron.simulate.result import ActuatorResult, BranchResult, PhaseResult, SimulationResult
@@ -59,7 +59,16 @@ def simulate(
     comparison = Comparison(mechanism)
     heavier = tuple(b for b, old in zip(mechanism.bodies, read.bodies, strict=True) if b is not old)
     progress(f"Loading the machine into {engine}")
-    loaded = load_engine(engine, Setup(Path(usd_path), mechanism, base, step, comparison.measured, heavier))
+    setup = Setup(
+        usd_path=Path(usd_path),
+        mechanism=mechanism,
+        base=base,
+        timestep=step,
+        measured=comparison.measured,
+        heavier=heavier,
+        standing=standing_bodies(mechanism),
+    )
+    loaded = load_engine(engine, setup)
     run = _Run(loaded, comparison, moves, step)
     commands = phases(moves, step, on_ground=base == "floating", paces=paces(comparison.chain, moves))
     try:

@@ -1,0 +1,358 @@
+"""Driving: the machine stands on its wheels, drives straight, turns at full lock, and climbs a block with one wheel.
+
+Every wheel with a motor turns at the speed of its own circle, as differentials let it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from yellowiron import usd
+from yellowiron.kinematics import ClosedChain
+from yellowiron.model.errors import YellowironError
+from yellowiron.model.geometry import Floats
+from yellowiron.model.mechanism import Joint, Mechanism
+from yellowiron.simulate.commands import Motion, motions, travel
+from yellowiron.simulate.engine import Block, Engine, Setup, find_engine, load_engine, standing_bodies
+from yellowiron.simulate.loads import paces
+from yellowiron.simulate.payload import with_payload
+
+DISTANCE = 5.0
+SPEED = 1.0
+"""m/s at the machine's middle."""
+BLOCK_HEIGHT = 0.15
+_SETTLE = 2.0
+_RAMP = 1.0
+_TURN = math.radians(120.0)
+_CLEAR = 0.01
+
+
+@dataclass(frozen=True)
+class DrivingResult:
+    """Metres, radians, seconds. `sunk` and `creep`: how far the root came down and its speed after settling. Travel is
+    the root's; `turning_radius` is that of the outermost wheel's middle, `geometry_radius` where the axles' lines meet
+    at the measured lock. `axle_angle`: the free axle's coordinate with one wheel on a block, `axle_geometry` what block
+    and tread make of it; `highest_wheel`: the most that a wheel ever rose from what it stood on. None: not driven."""
+
+    engine: str
+    dt: float
+    payload: float
+    sunk: float
+    creep: float
+    forward: float
+    backward: float
+    sideways: float
+    lock: float | None = None
+    turning_radius: float | None = None
+    geometry_radius: float | None = None
+    axle_angle: float | None = None
+    axle_geometry: float | None = None
+    highest_wheel: float | None = None
+
+
+def driving_document(result: DrivingResult) -> dict[str, Any]:
+    """The result as JSON: metres, degrees where the name says so, percentages against the geometry."""
+    radius = None
+    if result.turning_radius is not None and result.geometry_radius:
+        radius = 100.0 * (result.turning_radius / result.geometry_radius - 1.0)
+    return {
+        "engine": result.engine,
+        "dt_s": result.dt,
+        "payload_kg": result.payload,
+        "sunk_mm": 1e3 * result.sunk,
+        "creep_mm_s": 1e3 * result.creep,
+        "distance_m": DISTANCE,
+        "forward_m": result.forward,
+        "forward_error_percent": 100.0 * (result.forward / DISTANCE - 1.0),
+        "backward_m": result.backward,
+        "backward_error_percent": 100.0 * (result.backward / DISTANCE - 1.0),
+        "sideways_m": result.sideways,
+        "lock_deg": None if result.lock is None else math.degrees(result.lock),
+        "turning_radius_m": result.turning_radius,
+        "geometry_radius_m": result.geometry_radius,
+        "radius_error_percent": radius,
+        "block_m": BLOCK_HEIGHT,
+        "axle_angle_deg": None if result.axle_angle is None else math.degrees(result.axle_angle),
+        "axle_geometry_deg": None if result.axle_geometry is None else math.degrees(result.axle_geometry),
+        "highest_wheel_mm": None if result.highest_wheel is None else 1e3 * result.highest_wheel,
+    }
+
+
+@dataclass(frozen=True, eq=False)
+class Wheel:
+    """A driven wheel: its joint, its body's place among the bodies, middle and unit axis (machine frame, drawn pose),
+    radius, and the sign of its joint in the actuator's positive sense."""
+
+    joint: Joint
+    body: int
+    middle: Floats
+    axis: Floats
+    radius: float
+    sign: int
+
+
+def wheels(mechanism: Mechanism) -> tuple[Wheel, ...]:
+    """The wheels that motors drive, on the ground in the drawn pose.
+
+    `YellowironError` where there are fewer than three: what has none (tracks, a crane) does not drive this way.
+    """
+    number = {body.name: index for index, body in enumerate(mechanism.bodies)}
+    standing = standing_bodies(mechanism)
+    found = []
+    for actuator in mechanism.actuators:
+        for entry in actuator.joints if actuator.kind == "motor" else ():
+            joint = mechanism.joint(entry.joint)
+            if joint.drive is None or joint.drive.kind != "velocity" or joint.body1 not in standing:
+                continue
+            axis = np.asarray(joint.axis, dtype=np.float64)
+            offset = np.asarray(mechanism.body(joint.body1).hull) - np.asarray(joint.anchor)
+            along = offset @ axis
+            radius = float(np.linalg.norm(offset - np.outer(along, axis), axis=1).max())
+            middle = np.asarray(joint.anchor) + 0.5 * (float(along.min()) + float(along.max())) * axis
+            found.append(Wheel(joint, number[joint.body1], middle, axis, radius, entry.sign))
+    if len(found) < 3:
+        raise YellowironError(
+            "The machine has no driven wheels to drive on",
+            where=mechanism.name,
+            hint="Driving needs a motor actuator whose joints lead to wheels on the ground.",
+        )
+    return tuple(found)
+
+
+def drive(usd_path: str | Path, *, engine: str, payload_kg: float = 0.0, dt: float | None = None) -> DrivingResult:
+    """Lets a wheeled machine settle, drive 5 m forward and back, turn at full lock, and climb a 150 mm block with one
+    wheel of its free axle, where it has one.
+
+    Raises `YellowironError` for an unknown engine, one that is not installed, and a machine without driven wheels.
+    """
+    entry = find_engine(engine)
+    mechanism = with_payload(usd.read_machine(usd_path), payload_kg)
+    trip = _Trip(engine, Path(usd_path), mechanism, entry.timestep if dt is None else dt)
+    values: dict[str, Any] = {**trip.straight(), **trip.over_block()}
+    return DrivingResult(engine=engine, dt=trip.timestep, payload=payload_kg, **values)
+
+
+@dataclass
+class _Trip:
+    """One machine to drive, in one engine."""
+
+    engine: str
+    usd_path: Path
+    mechanism: Mechanism
+    timestep: float
+    chain: ClosedChain = field(init=False)
+    wheels: tuple[Wheel, ...] = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.wheels = wheels(self.mechanism)
+        self.chain = ClosedChain(self.mechanism)
+        names = [body.name for body in self.mechanism.bodies]
+        self._root = names.index(self.mechanism.root)
+        self._origin = np.asarray(self.mechanism.body(self.mechanism.root).origin)
+
+    def _load(self, *blocks: Block) -> Engine:
+        heavier = self.mechanism.bodies if self.mechanism.bodies else ()
+        return load_engine(
+            self.engine,
+            Setup(
+                usd_path=self.usd_path,
+                mechanism=self.mechanism,
+                base="floating",
+                timestep=self.timestep,
+                measured=self.chain.independent,
+                heavier=heavier,
+                standing=standing_bodies(self.mechanism),
+                blocks=blocks,
+            ),
+        )
+
+    # ---- driving ----------------------------------------------------------------------------------------------------
+    def _steps(self, seconds: float) -> int:
+        return max(1, math.ceil(seconds / self.timestep))
+
+    def _speeds(self, speed: float, factors: Mapping[str, float] | None = None) -> dict[str, float]:
+        """Wheel targets, rad/s, for a speed of the machine's middle in m/s."""
+        share = factors or {}
+        return {w.joint.name: w.sign * speed * share.get(w.joint.name, 1.0) / w.radius for w in self.wheels}
+
+    def _middles(self, poses: tuple[Floats, Floats]) -> Floats:
+        """The wheels' middles (n, 3) in the world."""
+        rotations, origins = poses
+        return np.array(
+            [
+                origins[w.body] + rotations[w.body] @ (w.middle - np.asarray(self.mechanism.bodies[w.body].origin))
+                for w in self.wheels
+            ]
+        )
+
+    def _go(self, engine: Engine, distance: float, record: list[Floats] | None = None) -> None:
+        """Drives a distance (negative: backwards) and comes to rest."""
+        time = abs(distance) / SPEED + _RAMP
+        for number in range(self._steps(time + 1.0)):
+            now = (number + 1) * self.timestep
+            share = min(1.0, now / _RAMP, max(0.0, (time - now) / _RAMP))
+            engine.set_targets(self._speeds(math.copysign(SPEED * share, distance)))
+            engine.step()
+            if record is not None:
+                record.append(self._middles(engine.poses()))
+
+    def _rest(self, engine: Engine, seconds: float) -> float:
+        """Waits; returns the root's speed at the end."""
+        engine.set_targets(self._speeds(0.0))
+        before = np.zeros(3)
+        for _ in range(self._steps(seconds)):
+            before = engine.poses()[1][self._root]
+            engine.step()
+        return float(np.linalg.norm(engine.poses()[1][self._root] - before)) / self.timestep
+
+    def straight(self) -> dict[str, float | None]:
+        """Settling, forward, back, and the turn."""
+        engine = self._load()
+        try:
+            creep = self._rest(engine, _SETTLE)
+            rest = engine.poses()[1][self._root]
+            self._go(engine, DISTANCE)
+            ahead = engine.poses()[1][self._root]
+            self._go(engine, -DISTANCE)
+            back = engine.poses()[1][self._root]
+            turn = self._turn(engine)
+        finally:
+            engine.close()
+        return {
+            "sunk": float(self._origin[2] - rest[2]),
+            "creep": creep,
+            "forward": float(np.linalg.norm((ahead - rest)[:2])),
+            "backward": float(np.linalg.norm((back - ahead)[:2])),
+            "sideways": float(max(abs(ahead[1] - rest[1]), abs(back[1] - rest[1]))),
+            **turn,
+        }
+
+    # ---- turning ----------------------------------------------------------------------------------------------------
+    def _steering(self) -> Motion | None:
+        """The actuator that turns wheels' axes about the vertical."""
+        for motion in motions(self.mechanism):
+            if motion.position:
+                state, _ = self.chain.reach({motion.joint: motion.high})
+                turned = [abs(a[0] * w.axis[1] - a[1] * w.axis[0]) for a, w in zip(self._axes(state), self.wheels)]
+                if max(turned) > 0.1:
+                    return motion
+        return None
+
+    def _axes(self, state: Any) -> list[Floats]:
+        return [self._apply(state, w)[:3, :3] @ w.axis for w in self.wheels]
+
+    def _apply(self, state: Any, wheel: Wheel) -> Floats:
+        return self.chain.displacement(state, wheel.joint.body0)
+
+    def _circles(self, coordinates: Mapping[str, float]) -> Floats:
+        """Radius of each wheel's middle about the point where all axles' lines (seen from above) come nearest."""
+        given = {n: v for n, v in coordinates.items() if not any(n == w.joint.name for w in self.wheels)}
+        state, _ = self.chain.reach(given)
+        places = np.array([(self._apply(state, w) @ np.append(w.middle, 1.0))[:2] for w in self.wheels])
+        axes = np.array([a[:2] / np.linalg.norm(a[:2]) for a in self._axes(state)])
+        normals = np.column_stack([-axes[:, 1], axes[:, 0]])
+        center, *_ = np.linalg.lstsq(normals, np.sum(normals * places, axis=1), rcond=None)
+        return np.asarray(np.linalg.norm(places - center, axis=1))
+
+    def _turn(self, engine: Engine) -> dict[str, float | None]:
+        motion = self._steering()
+        if motion is None:
+            return {}
+        measured = self.chain.independent
+        pace = paces(self.chain, (motion,))[motion.joint]
+        for target in travel(0.0, motion.high, motion.speed, self.timestep, pace).tolist():
+            circles = self._circles({motion.joint: target}) if abs(target) > 0.1 * motion.high else None
+            engine.set_targets({motion.joint: target, **self._speeds(0.5 * SPEED, self._factors(circles))})
+            engine.step()
+        circles = self._circles({motion.joint: motion.high})
+        factors, mean = self._factors(circles), float(circles.mean())
+        path, locks = [], []
+        for number in range(self._steps(_TURN * mean / SPEED + _RAMP)):
+            share = 0.5 + 0.5 * min(1.0, (number + 1) * self.timestep / _RAMP)
+            engine.set_targets(self._speeds(share * SPEED, factors))
+            engine.step()
+            if number * self.timestep > _RAMP:
+                path.append(self._middles(engine.poses()))
+                locks.append(engine.coordinates())
+        outer = int(np.argmax(circles))
+        geometry = self._circles(dict(zip(measured, np.mean(locks, axis=0).tolist(), strict=True)))
+        self._rest(engine, 1.0)
+        return {
+            "lock": self._lock(dict(zip(measured, np.mean(locks, axis=0).tolist(), strict=True))),
+            "turning_radius": circle_radius(np.array(path)[:, outer, :2]),
+            "geometry_radius": float(geometry[outer]),
+        }
+
+    def _lock(self, coordinates: Mapping[str, float]) -> float:
+        """The largest angle between two wheels' axes seen from above."""
+        given = {n: v for n, v in coordinates.items() if not any(n == w.joint.name for w in self.wheels)}
+        headings = [math.atan2(a[1], a[0]) for a in self._axes(self.chain.reach(given)[0])]
+        return max(headings) - min(headings)
+
+    def _factors(self, circles: Floats | None) -> dict[str, float]:
+        if circles is None:
+            return {}
+        shares = circles / circles.mean()
+        return {w.joint.name: float(share) for w, share in zip(self.wheels, shares, strict=True)}
+
+    # ---- the block --------------------------------------------------------------------------------------------------
+    def _axle(self) -> tuple[Joint, list[int]] | None:
+        """A free, undriven joint whose body carries a pair of wheels, and their places in `wheels`."""
+        for joint in self.mechanism.joints:
+            if joint.free and joint.drive is None and joint.type == "revolute":
+                pair = [i for i, w in enumerate(self.wheels) if w.joint.body0 == joint.body1]
+                if len(pair) == 2:
+                    return joint, pair
+        return None
+
+    def over_block(self) -> dict[str, float | None]:
+        """One wheel of the free axle onto a block: how the axle turns, and whether every wheel stays down."""
+        found = self._axle()
+        if found is None:
+            return {}
+        joint, pair = found
+        climbing = max((self.wheels[i] for i in pair), key=lambda w: float(w.middle[1]))
+        # From beside the tyre, forwards; the block's length lets the wheel come to rest on it.
+        start = float(climbing.middle[0]) + climbing.radius + 0.05
+        ahead = [w for w in self.wheels if w.middle[0] > climbing.middle[0] and w.middle[1] * climbing.middle[1] > 0]
+        room = min((float(w.middle[0]) - w.radius for w in ahead), default=start + 1.0) - start - 0.05
+        length = min(1.0, room)
+        block = Block((start + 0.5 * length, float(climbing.middle[1])), (length, 1.2, BLOCK_HEIGHT))
+        engine = self._load(block)
+        record: list[Floats] = []
+        try:
+            self._rest(engine, _SETTLE)
+            self._go(engine, start + 0.5 * length - float(climbing.middle[0]), record)
+            axle = float(engine.coordinates()[self.chain.independent.index(joint.name)])
+        finally:
+            engine.close()
+        one, other = (self.wheels[i].middle for i in pair)
+        tread = float(np.linalg.norm((one - other)[1:]))
+        return {
+            "axle_angle": abs(axle),
+            "axle_geometry": math.asin(BLOCK_HEIGHT / tread),
+            "highest_wheel": max(0.0, float(self._lift(np.array(record), block).max())),
+        }
+
+    def _lift(self, record: Floats, block: Block) -> Floats:
+        """Height (steps, wheels) of every wheel's lowest point over what it can stand on: ground or block."""
+        radii = np.array([w.radius for w in self.wheels])
+        over = np.abs(record[:, :, 1] - block.middle[1]) < 0.5 * block.edges[1]
+        beyond = np.maximum(np.abs(record[:, :, 0] - block.middle[0]) - 0.5 * block.edges[0], 0.0)
+        # A round wheel on an edge: the edge is a point of its rim.
+        reach = np.sqrt(np.maximum(radii**2 - beyond**2, 0.0))
+        standing = np.where(over & (beyond < radii), np.maximum(radii, block.edges[2] + reach), radii)
+        return np.asarray(record[:, :, 2] - standing)
+
+
+def circle_radius(points: Floats) -> float:
+    """Radius of the circle through points (n, 2), least squares (Kåsa 1976)."""
+    rows = np.column_stack([2.0 * points, np.ones(len(points))])
+    x, y, rest = np.linalg.lstsq(rows, np.sum(points**2, axis=1), rcond=None)[0]
+    return float(math.sqrt(rest + x * x + y * y))
