@@ -1,11 +1,14 @@
 """Layouts and machines that were held back while the rules were made.
 
-First reading, before any rule was changed for them: 15 of 25 right, 1 wrong, 9 not ok. The wrong one (a card's caption
-taken for a column's head) and the rest were then mended by general rules; these tests keep what was reached.
+First reading, before any rule was changed for them. Bobcat S76, D6 and 773F: 15 of 25 right, 1 wrong (a card's caption
+taken for a column's head), 9 not ok. After general rules for those, 140 and 740 GC: 16 of 20 right, 0 wrong, 4 not ok;
+and with the wheel loader's questions put to them, 1 wrong of 7 (a front axle's oscillation taken for the rear's). These
+tests keep what was reached then.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from pathlib import Path
 
@@ -183,12 +186,116 @@ CAT_773F_TRUTH = {
 }
 
 
+# Caterpillar 140, CAT-140-AEXQ4628-01-NAM (EXO-Robotics/exo-equipment-atlas, cat-140): headings that hang out, no rules
+def cat_140(path: Path) -> None:
+    c = canvas(path)
+    put(c, 36, 800, "Motor grader", size=18, bold=True)
+    put(c, 36, 778, "Technical Specifications", size=12, bold=True)
+    groups = (
+        (36, 130, 190, 758, "Moldboard", [("Width", "3.658 m", "12 ft"), ("Height", "556 mm", "21.9 in"),
+            ("Thickness", "22 mm", "0.87 in"), ("Throat clearance", "119 mm", "4.7 in")]),
+        (36, 130, 190, 690, "Steering and articulation", [("Steering range, left/right", "50°", ""),
+            ("Articulation, left/right", "20°", ""), ("Wheel lean, left/right", "18°", ""),
+            ("Front axle total oscillation", "32°", "")]),
+        (310, 470, 525, 758, "Dimensions", [("Height – Top of cab", "3454 mm", "136 in"),
+            ("Height – Top of cylinders", "3044 mm", "119.8 in"), ("Length – Between tandem axles", "1498 mm", "59 in"),
+            ("Width – Outside rear tires", "2532 mm", "99.7 in"), ("Ground clearance", "333 mm", "13.1 in")]),
+        (310, 470, 525, 672, "Weights", [("Operating weight, typically equipped", "19 027 kg", "41,948 lb"),
+            ("Front axle", "5327 kg", "11,744 lb"), ("Rear axle", "13 700 kg", "30,203 lb")]),
+    )  # fmt: skip
+    for x, first, second, y, heading, rows in groups:
+        put(c, x, y, heading, bold=True, size=9)
+        for i, (label, metric, imperial) in enumerate(rows):
+            put(c, x + 8, y - 14 - 11 * i, label)
+            put(c, first, y - 14 - 11 * i, metric)
+            put(c, second, y - 14 - 11 * i, imperial)
+    c.save()
+
+
+CAT_140 = template(
+    wanted("Moldboard Width", "length"),
+    wanted("Moldboard Height", "length"),
+    wanted("Throat Clearance", "length"),
+    wanted("Articulation Angle", "angle", "articulation left right"),
+    wanted("Front Axle Oscillation", "angle", "front axle total oscillation"),
+    wanted("Overall Height", "length", "height top of cab"),
+    wanted("Overall Width", "length", "width outside rear tires"),
+    wanted("Operating Weight", "mass"),
+    wanted("Tandem Axle Spacing", "length", "length between tandem axles"),
+)
+CAT_140_TRUTH = {
+    "Moldboard Width": 3.658,
+    "Moldboard Height": 0.556,
+    "Throat Clearance": 0.119,
+    "Articulation Angle": math.radians(20),
+    "Front Axle Oscillation": math.radians(32),
+    "Overall Height": 3.454,
+    "Overall Width": 2.532,
+    "Operating Weight": 19027.0,
+    "Tandem Axle Spacing": 1.498,
+}
+
+
+# Caterpillar 740 GC (manualmachine.com/cat/740gc/17904591-specifications): shaded rows; the hoist's figures are our own
+def cat_740gc(path: Path) -> None:
+    c = canvas(path)
+    y = 800.0
+    for heading, rows in (
+        ("ENGINE", [("Gross Power – SAE J1995", "337 kW", "452 hp"), ("Bore", "137 mm", "5.4 in"),
+            ("Stroke", "171.5 mm", "6.75 in"), ("Displacement", "15.2 L", "926 in³")]),
+        ("BODY CAPACITIES", [("Heaped SAE 2:1", "22.7 m³", "29.7 yd³"), ("Struck", "17 m³", "22.2 yd³"),
+            ("Tailgate Heaped SAE 2:1", "24.4 m³", "31.9 yd³"), ("Tailgate Struck", "17.9 m³", "23.4 yd³")]),
+        ("WEIGHTS", [("Rated Payload", "36.3 tonnes", "40 tons"), ("Front axle – empty", "19 064 kg", "42,029 lb"),
+            ("Total – empty", "33 165 kg", "73,116 lb"), ("Total – rated load", "69 465 kg", "153,144 lb")]),
+        ("HYDRAULICS", [("Hoist cylinders, bore and stroke", "2 x 150 x 1950 mm", "5.9 x 76.8 in"),
+            ("Raise time", "10 s", ""), ("Lower time", "8 s", ""), ("Relief valve setting", "26 MPa", "3,771 psi")]),
+    ):  # fmt: skip
+        put(c, 36, y, heading, bold=True, size=10)
+        y -= 16
+        for k, (label, metric, imperial) in enumerate(rows):
+            if k % 2 == 0:
+                c.setFillColor(HexColor("#e6e6e6"))
+                c.rect(36, y - 4, 400, 12, stroke=0, fill=1)
+            put(c, 40, y, label)
+            put(c, 300, y, metric, right=True)
+            put(c, 420, y, imperial, right=True)
+            y -= 12
+        y -= 10
+    c.save()
+
+
+CAT_740GC = template(
+    wanted("Body Capacity Heaped", "volume", "heaped sae 2:1", forbidden=("tailgate",)),
+    wanted("Body Capacity Struck", "volume", "struck", forbidden=("tailgate",)),
+    wanted("Rated Payload", "mass"),
+    wanted("Empty Weight", "mass", "total empty"),
+    wanted("Hoist Cylinder Bore", "length"),
+    wanted("Hoist Cylinder Stroke", "length"),
+    wanted("Raise Time", "time"),
+    wanted("Lower Time", "time"),
+    wanted("Main Relief Pressure", "pressure", "relief valve setting"),
+)
+CAT_740GC_TRUTH = {
+    "Body Capacity Heaped": 22.7,
+    "Body Capacity Struck": 17.0,
+    "Rated Payload": 36300.0,
+    "Empty Weight": 33165.0,
+    "Hoist Cylinder Bore": 0.15,
+    "Hoist Cylinder Stroke": 1.95,
+    "Raise Time": 10.0,
+    "Lower Time": 8.0,
+    "Main Relief Pressure": 26e6,
+}
+
+
 @pytest.mark.parametrize(
     ("draw", "asked", "truth", "config"),
     [
         (bobcat_s76, BOBCAT, BOBCAT_TRUTH, ""),
         (cat_d6, D6, D6_TRUTH, "6SU"),
         (cat_773f, CAT_773F, CAT_773F_TRUTH, "dual slope"),
+        (cat_140, CAT_140, CAT_140_TRUTH, ""),
+        (cat_740gc, CAT_740GC, CAT_740GC_TRUTH, ""),
     ],
 )
 def test_held_back(
@@ -208,6 +315,9 @@ def test_another_types_template_gets_nothing_wrong(tmp_path: Path) -> None:
         cat_773f: {"Wheelbase": 4.215, "Overall Height": 4.116, "Ground Clearance": 0.777},
         bobcat_s76: {"Operating Weight": 3635.1, "Bucket Width": 1.88, "Dumping Reach": 0.851, "Turning Radius": 2.126},
         cat_d6: {"Operating Weight": 22130.0},
+        cat_140: {"Overall Height": 3.454, "Operating Weight": 19027.0, "Ground Clearance": 0.333},
+        cat_740gc: {"Lift Cylinder Stroke": 1.95, "Lift Cylinder Bore": 0.15, "Main Relief Pressure": 26e6}
+        | {"Raise Time": 10.0, "Lower Time": 8.0},
     }
     for draw, truth in truths.items():
         draw(tmp_path / "sheet.pdf")

@@ -13,7 +13,7 @@ from yellowiron.specs.claims import Claim
 from yellowiron.specs.match import Match
 from yellowiron.specs.numbers import DecimalStyle, Quantity, read
 from yellowiron.specs.stated import Stated
-from yellowiron.specs.vocabulary import BENIGN, tokens
+from yellowiron.specs.vocabulary import tokens
 
 _SURE = 0.7
 """Score from which one undisputed claim is `ok`."""
@@ -47,9 +47,8 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
     group = groups[0]
     top = max(group, key=_preference)
     quantity, doubt = _settled(wanted, top.claim)
-    strange = [word for word in top.rest if word not in BENIGN]
-    if strange:
-        doubt = doubt or f"the label also says {', '.join(repr(word) for word in strange)}"
+    if top.rest:
+        doubt = doubt or f"the label also says {', '.join(repr(word) for word in top.rest)}"
     elif top.score < _SURE:
         doubt = doubt or f"only part of the label says {wanted.name}"
     if top.claim.ranged:

@@ -50,6 +50,7 @@ NEUTRAL = frozenset(
     for words in (
         "iso sae din en jis ansi metric imperial us dimension value",
         "mm cm m in ft kg lb mpa kpa bar psi l min gal",
+        "valve angle position system equipped typical typically standard nominal",
     )
     for word in words.split()
 )
@@ -64,8 +65,6 @@ REVERSING = frozenset(
 )
 """Words that make a label mean something else than the words around them."""
 
-BENIGN = frozenset(["valve", "angle", "position", "system", "equipped", "typical", "typically", "standard", "nominal"])
-"""Words a label may add without meaning something else."""
 OPPOSITES = {
     a: b
     for pair in (
