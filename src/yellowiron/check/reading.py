@@ -1,0 +1,106 @@
+"""Stage → `View`: everything the rules read, read once."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+
+import numpy as np
+from pxr import Gf, Usd, UsdGeom, UsdPhysics, Vt
+
+from yellowiron.check import read_layers
+from yellowiron.check.graph import build_islands
+from yellowiron.check.read_bodies import Poses, number, read_bodies, read_colliders, read_materials, record_of
+from yellowiron.check.read_bodies import rotation_and_scale as split
+from yellowiron.check.read_joints import read_joints
+from yellowiron.check.view import Units, View
+from yellowiron.model.geometry import Floats
+
+_SELF_COLLISION = ("physxArticulation:enabledSelfCollisions", "newton:selfCollisionEnabled")
+_PHYSICS = ("physics:", "drive:", "limit:", "physx", "newton:", "mjc:")
+_ARRAYS = ("points", "normals", "extent")
+
+
+def read_view(stage: Usd.Stage, name: str) -> View:
+    """A stage as values; `name` stands for the file in findings."""
+    units = read_layers.read_units(stage)
+    prims = list(stage.Traverse(Usd.TraverseInstanceProxies()))
+    poses = Poses(units)
+    colliders = read_colliders(prims, poses, units)
+    bodies = read_bodies(prims, colliders, poses, units)
+    joints = read_joints(prims, poses, units)
+    roots = tuple(str(p.GetPath()) for p in prims if p.HasAPI(UsdPhysics.ArticulationRootAPI))
+    machine = read_layers.find_machine(stage)
+    return View(
+        name=name,
+        units=units,
+        layer_units=tuple(read_layers.layer_units(stage)),
+        bodies=bodies,
+        joints=joints,
+        colliders=colliders,
+        materials=read_materials(prims, units),
+        roots=roots,
+        self_collision={r: _self_collision(stage.GetPrimAtPath(r)) for r in roots},
+        scenes=tuple(_scenes(prims, units)),
+        not_numbers=tuple(_not_numbers(prims)),
+        broken=tuple(read_layers.broken_references(stage)),
+        missing_assets=tuple(read_layers.missing_assets(stage)),
+        absolute_paths=tuple(read_layers.absolute_paths(stage)),
+        stray_physics=tuple(read_layers.stray_physics(stage, machine)),
+        islands=build_islands({k: b for k, b in bodies.items() if b.enabled}, joints, roots),
+        machine=str(machine.GetPath()) if machine else "",
+        frame=_frame(machine, poses) if machine else np.eye(4),
+        record=record_of(machine) if machine else {},
+    )
+
+
+def _frame(prim: Usd.Prim, poses: Poses) -> Floats:
+    matrix = poses.matrix(prim)
+    frame = np.eye(4)
+    frame[:3, :3] = split(matrix)[0]
+    frame[:3, 3] = np.array(matrix.ExtractTranslation()) * poses.meters
+    return frame
+
+
+def _self_collision(root: Usd.Prim) -> bool:
+    """Whether an articulation's links may collide: off where any engine's schema says so, on by default."""
+    said = [root.GetAttribute(n) for n in _SELF_COLLISION if root.GetAttribute(n)]
+    return not any(a.HasAuthoredValue() and a.Get() is False for a in said)
+
+
+def _scenes(prims: Iterable[Usd.Prim], units: Units) -> Iterator[tuple[str, float | None]]:
+    """Path and gravity (m/s², None: the default) of every physics scene."""
+    for prim in prims:
+        if prim.IsA(UsdPhysics.Scene):
+            gravity = number(prim, "physics:gravityMagnitude")
+            given = gravity is not None and math.isfinite(gravity) and gravity >= 0.0
+            yield str(prim.GetPath()), gravity * units.meters_per_unit if given and gravity is not None else None
+
+
+def _not_numbers(prims: Iterable[Usd.Prim]) -> Iterator[tuple[str, str]]:
+    """(prim, attribute) wherever a transform, a shape or a physics attribute holds NaN, and infinite transforms."""
+    seen = set()
+    for prim in prims:
+        original = prim.GetPrimInPrototype() if prim.IsInstanceProxy() else prim
+        if original.GetPath() in seen:
+            continue
+        seen.add(original.GetPath())
+        path = str(prim.GetPath())
+        if prim.IsA(UsdGeom.Xformable):
+            matrix = UsdGeom.Xformable(prim).GetLocalTransformation()
+            if not np.isfinite(np.array(matrix)).all():
+                yield path, "its transform"
+        for attribute in prim.GetAuthoredAttributes():
+            name = attribute.GetName()
+            if (name in _ARRAYS or name.startswith(_PHYSICS)) and _has_nan(attribute.Get()):
+                yield path, name
+
+
+def _has_nan(value: object) -> bool:
+    if isinstance(value, float):
+        return math.isnan(value)
+    if isinstance(value, Gf.Quatf | Gf.Quatd):
+        return any(math.isnan(v) for v in (value.GetReal(), *value.GetImaginary()))
+    if isinstance(value, Gf.Vec3f | Gf.Vec3d | Vt.FloatArray | Vt.DoubleArray | Vt.Vec3fArray | Vt.Vec3dArray):
+        return bool(np.isnan(np.array(value)).any())
+    return False

@@ -1,0 +1,51 @@
+"""OpenUSD's own validators (`pxr.UsdValidation`): what they say as findings `USD:<name>`, in their own severity."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import PurePosixPath
+
+from pxr import Usd, UsdValidation
+
+from yellowiron.check.read_layers import PROVIDED, name_of
+from yellowiron.model.finding import Finding, Severity
+
+_SEVERITIES: dict[object, Severity] = {
+    UsdValidation.ValidationErrorType.Error: "error",
+    UsdValidation.ValidationErrorType.Warn: "warning",
+    UsdValidation.ValidationErrorType.Info: "info",
+}
+_HINT = "See the documentation of OpenUSD's validator {}."
+
+
+def validate(stage: Usd.Stage) -> list[Finding]:
+    """Every validator that is registered, on the whole stage. Findings come sorted: the validators run in parallel."""
+    context = UsdValidation.ValidationContext(UsdValidation.ValidationRegistry().GetOrLoadAllValidators())
+    found = {_finding(error, stage) for error in context.Validate(stage) if not _is_provided(error)}
+    return sorted(found, key=lambda f: (f.code, f.where, f.message))
+
+
+def _is_provided(error: UsdValidation.ValidationError) -> bool:
+    """An application's own material library is not beside the file, and nothing is wrong with that."""
+    return error.GetName() == "UnresolvableDependency" and error.GetMessage().rstrip("'.").endswith(PROVIDED)
+
+
+def _finding(error: UsdValidation.ValidationError, stage: Usd.Stage) -> Finding:
+    folder = str(PurePosixPath(stage.GetRootLayer().realPath.replace("\\", "/")).parent)
+    return Finding(
+        code=f"USD:{error.GetName()}",
+        severity=_SEVERITIES.get(error.GetType(), "info"),
+        where=next(_sites(error), name_of(stage.GetRootLayer())),
+        message=" ".join(error.GetMessage().replace(f"{folder}/", "").split()),
+        hint=_HINT.format(error.GetValidator().GetMetadata().name),
+    )
+
+
+def _sites(error: UsdValidation.ValidationError) -> Iterator[str]:
+    for site in error.GetSites():
+        if site.IsPrim() and not site.GetPrim().IsPseudoRoot():
+            yield str(site.GetPrim().GetPath())
+        elif site.IsProperty():
+            yield str(site.GetProperty().GetPath())
+        elif site.GetLayer():
+            yield name_of(site.GetLayer())
