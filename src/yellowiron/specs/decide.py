@@ -203,7 +203,8 @@ def _by_value(wanted: Wanted, matches: Sequence[Match]) -> list[list[Match]]:
 def _settled(wanted: Wanted, claim: Claim) -> tuple[Quantity, str]:
     """The claim's quantity, metric where both are printed, and what is doubtful about it."""
     quantity, doubt = claim.quantity, claim.doubt
-    if quantity.sign == "-" and wanted.minimum is not None and wanted.minimum >= 0:
+    may_be_negative = wanted.dimension == "angle" and (wanted.minimum is None or wanted.minimum < 0)
+    if quantity.sign == "-" and not may_be_negative:
         doubt = doubt or f"'{quantity.text}' is negative"
     if quantity.other is not None:
         readings = [quantity.value, quantity.other]

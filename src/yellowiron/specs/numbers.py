@@ -35,9 +35,10 @@ _FEET = re.compile(
 )
 _FEET_DASH = re.compile(r"(?P<feet>\d+)\s*-\s*(?P<inches>\d+(?:\.\d+)?)(?:\s+" + _FRACTION.format("i") + r")?(?![\d-])")
 _MIXED = re.compile(r"(?P<whole>\d+)?\s*[- ]?\s*" + _FRACTION.format("i"))
-_SIGN = re.compile(r"(?P<both>±|\+\s?/\s?[-–−]|\+-)\s*|(?P<minus>[-−](?=\d))|(?P<plus>\+(?=\d))")
-_TIMES = re.compile(r"\s*[x×✕*]\s*(?=[\dØø⌀.½¼¾])", re.IGNORECASE)
-_DASH = re.compile(r"\s*(?:[-–—~]|\.\.\.|…|\bto\b|\bbis\b)\s*(?=[\dØø⌀.(])")
+_PLUS_MINUS = re.compile(r"(?:±|\+\s?/\s?[-–−]|\+-)\s*$")
+_MINUS = re.compile(r"(?:^|[\s(])[-−]$")
+_TIMES = re.compile(r"\s*[x×✕*]\s*[Øø⌀]?\s*", re.IGNORECASE)
+_DASH = re.compile(r"(?:\s*(?:[-–—~]|\.\.\.|…)|\s+(?:to|bis|à|a))\s*[Øø⌀]?\s*")
 _CONDITION = re.compile(r"(?:\bat|@|\bbei|\bà|\bfor|\bfür|\bpour|\bwith|\bper)\s*$", re.IGNORECASE)
 _JUNK = re.compile(r"[\s:=~≈<>≤≥Øø⌀•.·]+")
 
@@ -58,6 +59,11 @@ class Quantity:
     end: int = 0
     sign: str = ""
     other: float | None = None
+
+    @property
+    def unit_printed(self) -> bool:
+        """Whether the unit stands beside the number, not over its column."""
+        return bool(self.unit) and self.text.endswith(self.unit)
 
     @property
     def printed(self) -> PrintedUnit | None:
@@ -160,7 +166,7 @@ def read(text: str, *, unit: str = "", style: DecimalStyle = "unknown") -> tuple
     readings: list[tuple[Reading, int, int]] = []
     index = 0
     while index < len(quantities):
-        reading, used = _reading(text, quantities, index, unit)
+        reading, used = _reading(text, quantities, index)
         last = quantities[index + used - 1]
         readings.append((reading, quantities[index].start, last.end))
         index += used
@@ -305,68 +311,52 @@ def _decimals(text: str | None) -> int:
 
 
 def _signed(text: str, quantity: Quantity, earlier: list[Quantity]) -> Quantity:
+    """The quantity with the sign before it; a dash between two numbers is none."""
     floor = earlier[-1].end if earlier else 0
     before = text[floor : quantity.start]
-    match = re.search(_SIGN.pattern + r"$", before + "0"[:0])
-    match = match or re.search(r"(?P<both>±|\+\s?/\s?[-–−]|\+-)\s*$", before)
-    if match:
-        start = floor + match.start()
+    both = _PLUS_MINUS.search(before)
+    if both:
+        start = floor + both.start()
         return replace(quantity, sign="±", start=start, text=text[start : quantity.end].strip())
-    minus = re.search(r"(?:^|[\s(])[-−]$", before)
-    if minus and not (earlier and not before.strip(" -−")):
-        return replace(
-            quantity, sign="-", value=-quantity.value, start=quantity.start - 1, text=f"-{quantity.text}", other=None
-        )
+    if _MINUS.search(before) and (not earlier or before.strip(" -−")):
+        value, start = -quantity.value, quantity.start - 1
+        return replace(quantity, sign="-", value=value, start=start, text=f"-{quantity.text}", other=None)
     return quantity
 
 
 # ---- readings ------------------------------------------------------------------------------------------------------
 
 
-def _reading(text: str, quantities: list[Quantity], index: int, unit: str) -> tuple[Reading, int]:
+def _reading(text: str, quantities: list[Quantity], index: int) -> tuple[Reading, int]:
     """The product, range or single number that starts at `index`, and how many quantities it uses."""
-    first = quantities[index]
-    run = [first]
-    while index + len(run) < len(quantities) and _joined(text, run[-1], quantities[index + len(run)], _TIMES):
-        run.append(quantities[index + len(run)])
-    if len(run) > 1:
+    run = [quantities[index]]
+    for following in quantities[index + 1 :]:
+        if not _TIMES.fullmatch(text[run[-1].end : following.start]):
+            break
+        run.append(following)
+    used = len(run)
+    if used > 1:
         count = None
-        used = len(run)
-        if _is_count(run[0]) and (len(run) > 2 or not _bare_unit(text, run[0])) and _counts(run):
+        if _is_count(run[0]) and (used > 2 or run[1].value >= 20 * run[0].value):
             count, run = int(run[0].value), run[1:]
-        numbers = _shared_unit(run)
-        return Reading(numbers, "product" if len(numbers) > 1 else "single", count), used
-    following = quantities[index + 1] if index + 1 < len(quantities) else None
-    if following is None or not _joined(text, first, following, _DASH):
+        return Reading(_shared_unit(run), "product" if len(run) > 1 else "single", count), used
+    first = run[0]
+    second = quantities[index + 1] if index + 1 < len(quantities) else None
+    if second is None or not _DASH.fullmatch(text[first.end : second.start]):
         return Reading((first,)), 1
-    rest, used = _reading(text, quantities, index + 1, unit)
+    rest, used = _reading(text, quantities, index + 1)
     if rest.kind == "product" and rest.count is None and _is_count(first):
         return replace(rest, count=int(first.value)), used + 1
     if rest.kind == "single" and rest.count is None:
-        numbers = _shared_unit([first, *rest.numbers])
-        if numbers[0].dimension == numbers[1].dimension and numbers[0].value < numbers[1].value:
-            return Reading(numbers, "range"), used + 1
+        low, high = _shared_unit([first, *rest.numbers])
+        if low.dimension == high.dimension and low.value < high.value:
+            return Reading((low, high), "range"), used + 1
     return Reading((first,)), 1
 
 
-def _joined(text: str, a: Quantity, b: Quantity, by: re.Pattern[str]) -> bool:
-    between = text[a.end : b.start]
-    return by.fullmatch(between.strip() + " " if not between.strip() else between, 0) is not None or bool(
-        re.fullmatch(by.pattern.split("(?=")[0] + r"[Øø⌀]?\s*", between, by.flags)
-    )
-
-
 def _is_count(quantity: Quantity) -> bool:
-    return quantity.value == int(quantity.value) and 1 <= quantity.value <= 12 and quantity.half == 0.5
-
-
-def _bare_unit(text: str, quantity: Quantity) -> bool:
-    return text[quantity.start : quantity.end].strip().replace(",", "").isdigit() is False
-
-
-def _counts(run: list[Quantity]) -> bool:
-    """A small whole number before a product or a far larger number is how many there are of it."""
-    return len(run) > 2 or run[1].value >= 20 * run[0].value
+    """Whether a number may be how many there are of something: whole, small, without a unit."""
+    return not quantity.unit_printed and quantity.value in range(1, 13) and quantity.half == 0.5
 
 
 def _shared_unit(run: list[Quantity]) -> tuple[Quantity, ...]:
