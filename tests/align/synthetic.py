@@ -83,7 +83,7 @@ def away(q: Array, a: Array, b: Array) -> float:
 class Drawer:
     """One machine from one generator of random numbers."""
 
-    def __init__(self, seed: int, *, twin: bool | None, steered: bool, embedded: bool, stop: bool) -> None:
+    def __init__(self, seed: int, *, twin: bool | None, steered: bool, embedded: bool, stop: bool, hoses: int) -> None:
         self.rng = np.random.default_rng(seed)
         self.m = Machine(bool(self.rng.random() < 0.7) if twin is None else twin)
         u = self.rng.uniform
@@ -100,7 +100,7 @@ class Drawer:
         self.gap = float(self.rng.choice([0.0, 0.001, 0.004])) * s
         self.bushes = bool(self.rng.random() < 0.6)
         self.e = 0.004 * s if embedded else 0.0
-        self.stop = stop
+        self.stop, self.hoses = stop, hoses
         self.link_pins()
 
     # ---- planar linkage ----
@@ -278,7 +278,25 @@ class Drawer:
         self.lift()
         self.articulation()
         self.steering()
+        self.lay_hoses()
         return self.m
+
+    def lay_hoses(self) -> None:
+        """Straight hoses from anywhere on one body to anywhere on another, a bit into both; they belong to neither."""
+        assembly = self.m.assembly()
+        points = {p.id: assembly.points_of(p) for p in self.m.parts}
+        bodies = sorted({body for _, body in self.m.truth.values() if "wheel" not in body})
+        self.m.pose = np.eye(4)
+        for k in range(self.hoses):
+            ends = []
+            for body in self.rng.choice(bodies, size=2, replace=False):
+                own = [i for i, (_, b) in self.m.truth.items() if b == body]
+                cloud = points[own[int(self.rng.integers(len(own)))]]
+                ends.append(cloud[int(self.rng.integers(len(cloud)))])
+            d = ends[1] - ends[0]
+            length = float(np.linalg.norm(d))
+            shape = tube(f"hose{k}", 0.012 * self.s, 0.008 * self.s, length + 0.04 * self.s)
+            self.m.add("hose", "", "", shape, place(ends[0] - 0.02 * self.s * d / length, d))
 
     def rear_frame(self) -> None:
         e = self.e
@@ -799,11 +817,18 @@ class Drawer:
 
 
 def loader(
-    seed: int, *, twin: bool | None = None, steered: bool = True, embedded: bool = False, stop: bool = False
+    seed: int,
+    *,
+    twin: bool | None = None,
+    steered: bool = True,
+    embedded: bool = False,
+    stop: bool = False,
+    hoses: int = 0,
 ) -> Machine:
     """The machine of a seed, in its own frame, in drawing order, with names. `embedded`: plates are drawn into each
-    other along their welds; `stop`: a steering stop lies flat against both frames."""
-    return Drawer(seed, twin=twin, steered=steered and not stop, embedded=embedded, stop=stop).draw()
+    other along their welds; `stop`: a steering stop lies flat against both frames; `hoses` run between any two bodies
+    (their truth is empty)."""
+    return Drawer(seed, twin=twin, steered=steered and not stop, embedded=embedded, stop=stop, hoses=hoses).draw()
 
 
 def disguise(

@@ -45,7 +45,8 @@ class Hinge:
 class Structure:
     """What geometry alone says: clusters, hinges between them, slides (barrel, rod, number of the hydraulic cylinder),
     lines (the wheels' axes behind those of the evidence), for each pin and bolt its hosts, and the pairs of solids that
-    touch but were not welded, since a pin would have nothing to turn on, with the strength of their contact."""
+    touch but were not welded, since a pin would have nothing to turn on, with the strength of their contact;
+    and the hoses and such that hold nothing."""
 
     clusters: tuple[Cluster, ...] = ()
     hinges: tuple[Hinge, ...] = ()
@@ -53,6 +54,7 @@ class Structure:
     lines: tuple[Line, ...] = ()
     hosts: dict[int, tuple[Fit, ...]] = field(default_factory=dict)
     refused: tuple[tuple[int, int, float], ...] = ()
+    slight: frozenset[int] = frozenset()
 
 
 def structure_of(evidence: Evidence, *, leaves: bool, weak: bool, careful: bool) -> Structure:
@@ -105,7 +107,7 @@ def _touching(groups: Groups, evidence: Evidence) -> list[tuple[int, int]]:
         if groups.find(a) != groups.find(b)
         and groups.may_join(a, b)
         and not evidence.about[a] & evidence.about[b]
-        and not {a, b} & evidence.fasteners
+        and not {a, b} & (evidence.fasteners | evidence.slight)
         and evidence.touching(a, b)
     ]
 
@@ -199,4 +201,4 @@ def _collected(groups: Groups, evidence: Evidence, refused: Pairs) -> Structure:
     hinges = tuple(Hinge(a, b, k, tuple(sorted(p))) for (a, b, k), p in sorted(pins.items()))
     slides = tuple((cluster(min(r.barrel)), cluster(min(r.rod)), k) for k, r in enumerate(evidence.rams))
     apart = tuple((a, b, strength(evidence, a, b)) for a, b in refused if groups.find(a) != groups.find(b))
-    return Structure(clusters, hinges, slides, tuple(lines), dict(evidence.hosts), apart)
+    return Structure(clusters, hinges, slides, tuple(lines), dict(evidence.hosts), apart, evidence.slight)

@@ -12,6 +12,9 @@ from yellowiron.align.hydraulics import Ram
 from yellowiron.align.solids import Solid
 from yellowiron.align.wheels import Wheel
 
+SLIGHT = 5e-4
+"""Volume over the cube of the diagonal: a hose has less, a plate or a bar more."""
+
 
 @dataclass(frozen=True, eq=False)
 class Evidence:
@@ -21,6 +24,7 @@ class Evidence:
     - `hosts`: fastener → the fits of the solids around it; `line_of`: fastener → its lines;
     - `pinned`: solid → the lines it shares with a fastener (through a bush, too) or with another solid's shaft;
     - `about`: `pinned`, and for rings the lines that run through them;
+    - `slight`: hoses, rails and sheets on no pin line, which go with others but hold nothing together;
     - `bolted`: lines too thin to be a pivot, next to those through the cylinders' eyes;
     - `pressed`: rings in bores, (ring, host), which stay where they are;
     - `direct`: shafts of structural parts in bores, (line, fit);
@@ -40,6 +44,7 @@ class Evidence:
     line_of: dict[int, tuple[int, ...]]
     pinned: dict[int, frozenset[int]]
     about: dict[int, frozenset[int]]
+    slight: frozenset[int]
     bolted: frozenset[int]
     pressed: tuple[tuple[int, int], ...]
     direct: tuple[tuple[int, Fit], ...]
@@ -89,10 +94,14 @@ def evidence_of(
             pinned[fit.outer].add(number[k])
     _through_rings(pinned, pressed, lines)
     about = _about(solids, lines, pinned)
+    held = {i for f in pressed for i in (f.inner, f.outer)} | set(owner)
+    slight = frozenset(
+        s.index for s in solids if not pinned[s.index] and s.index not in held and s.volume < SLIGHT * s.size**3
+    )
     welds: list[Flat] = []
     turning: list[Flat] = []
     for flat in sorted(flats, key=lambda f: (-round(f.area, 9), f.a, f.b)):
-        if flat.a not in fasteners and flat.b not in fasteners:
+        if not {flat.a, flat.b} & (fasteners | slight):
             (turning if _may_turn(flat, lines, pinned, about) else welds).append(flat)
     area: dict[tuple[int, int], float] = {}
     for flat in welds:
@@ -109,6 +118,7 @@ def evidence_of(
         {p: tuple(sorted(k)) for p, k in sorted(line_of.items())},
         {i: frozenset(k) for i, k in pinned.items()},
         about,
+        slight,
         _bolted(lines, rams, solids),
         tuple((f.inner, f.outer) for f in pressed),
         tuple(direct),

@@ -181,7 +181,8 @@ class Spreader:
             beside.setdefault(b, []).append(a)
 
         def neighbours(i: int) -> list[tuple[int, float]]:
-            return [(j, 1.0) for j in beside.get(i, []) if j in self.places and self.touch.touching(i, j)]
+            found = [j for j in beside.get(i, []) if j in self.places and j not in self.structure.slight]
+            return [(j, 1.0) for j in found if self.touch.touching(i, j)]
 
         self._rounds(neighbours, 0.92, "touches {body}")
 
