@@ -10,7 +10,7 @@ import pytest
 from planar_zbar import length, mechanism, sketch, strokes
 
 from yellowiron.kinematics import ClosedChain, branch_pivots, branch_sine, complete
-from yellowiron.kinematics.completion import ANGLE_MARGIN, SLIDE_MARGIN, position_gains
+from yellowiron.kinematics.completion import ANGLE_MARGIN, FREQUENCY, SLIDE_MARGIN, position_gains
 from yellowiron.model.mechanism import Actuator, ActuatorJoint, Body, Cylinder, Drive, Joint, Loop, Mechanism
 
 
@@ -218,29 +218,29 @@ def test_a_branch_near_its_dead_point_is_a_finding():
     assert near.loops[0].branch == complete(machine).loops[0].branch != 0
 
 
-def test_gains_hold_the_largest_mass_at_two_hertz():
+def test_gains_hold_the_usual_mass_at_three_hertz():
     machine = crane(0.5)
     chain = ClosedChain(machine)
     masses = [chain.effective_mass(s, "ram") for s in chain.sweep({"ram": np.linspace(-0.1, 0.3, 41)})]
     drive = complete(machine).joint("ram").drive
-    omega = 4.0 * math.pi
-    assert drive.stiffness == pytest.approx(max(masses) * omega**2, rel=1e-9)
+    omega = math.tau * FREQUENCY
+    assert drive.stiffness == pytest.approx(np.quantile(masses, 0.95) * omega**2, rel=1e-9)
     assert drive.damping == pytest.approx(2.0 * drive.stiffness / omega)
-    assert "2 Hz" in drive.source and drive.max_force == 1e6
+    assert "3 Hz" in drive.source and drive.max_force == 1e6
 
 
 def test_a_steering_cylinder_sees_the_boom_wherever_it_is(planar, machine):
     _, travel = planar
     chain = ClosedChain(machine)
     drive = complete(machine).joint("steering_l").drive
-    seen = drive.stiffness / (4.0 * math.pi) ** 2
+    seen = drive.stiffness / (math.tau * FREQUENCY) ** 2
     masses = [
         chain.effective_mass(chain.solve({"steering_l": s, "lift_l": a, "tilt": b}), "steering_l")
-        for s in (machine.joint("steering_l").lower, machine.joint("steering_l").upper)
-        for a in np.linspace(*travel[0], 9)
-        for b in np.linspace(*travel[1], 5)
+        for s in np.linspace(machine.joint("steering_l").lower, machine.joint("steering_l").upper, 9)
+        for a in np.linspace(*travel[0], 5)
+        for b in np.linspace(*travel[1], 3)
     ]
-    assert seen == pytest.approx(max(masses), rel=0.01)
+    assert np.median(masses) < seen <= 1.001 * max(masses)
 
 
 def test_stated_gains_stay():
@@ -251,11 +251,11 @@ def test_stated_gains_stay():
 
 
 def test_provisional_gains_do_not_stay_unless_the_template_states_them():
-    omega = 4.0 * math.pi
+    omega = math.tau * FREQUENCY
     drive = Drive("position", 1e9, 1e9, 1e6, 0.2, "pressure times area: 400 kN; gains provisional")
     found = position_gains(drive, 1e5)
     assert found.stiffness == pytest.approx(1e5 * omega**2) and found.damping == pytest.approx(2e5 * omega)
-    assert "pressure times area: 400 kN; gains: 2 Hz" in found.source and "provisional" not in found.source
+    assert "pressure times area: 400 kN; gains: 3 Hz" in found.source and "provisional" not in found.source
     assert position_gains(found, 2e5) == found
     partly = position_gains(replace(drive, source=drive.source + "; template states damping"), 1e5)
     assert partly.damping == 1e9 and partly.stiffness == pytest.approx(1e5 * omega**2)
@@ -276,3 +276,12 @@ def test_a_machine_without_loops_is_complete_too():
     done = complete(arm)
     assert done.mobility.computed == done.mobility.expected == done.mobility.grubler == 1
     assert done.findings == ()
+
+
+def test_a_drive_is_no_stiffer_than_its_force_over_half_a_percent_of_its_travel():
+    drive = Drive("position", 0.0, 0.0, 1e5, 0.2, "gains provisional")
+    capped = position_gains(drive, 1e9, travel=0.5)
+    assert capped.stiffness == pytest.approx(1e5 / 0.0025)
+    assert capped.damping == pytest.approx(2.0 * capped.stiffness / (math.tau * FREQUENCY))
+    assert "0.5% of its travel" in capped.source
+    assert position_gains(drive, 1e3, travel=0.5) == position_gains(drive, 1e3)

@@ -97,3 +97,22 @@ def test_a_motor_without_torque_is_not_limited() -> None:
     assert drive is not None and math.isinf(drive.max_force) and math.isfinite(drive.damping)
     assert "MEC027" in codes(built)
     assert not built.joint("base2arm").cut, "a driven pivot stays in the tree"
+
+
+def test_a_stated_drive_needs_no_actuator() -> None:
+    """A template without actuators (the papers' JSON-4 and Fig. A1) still drives what it says it drives."""
+    plan = template()
+    driven = [j.name for j in plan.joints if j.drive is not None]
+    built = build(replace(plan, actuators=()))
+    assert driven and [a.name for a in built.actuators] == driven
+    for name in driven:
+        drive = built.joint(name).drive
+        assert drive is not None and drive.kind == "position" and math.isinf(drive.max_force)
+    assert "MEC027" in codes(built)
+
+
+def test_a_drive_without_limits_or_stiffness_holds_a_speed() -> None:
+    plan = template()
+    spun = tuple(replace(j, lower=None, upper=None) if j.drive else j for j in plan.joints)
+    for joint in build(replace(plan, actuators=(), joints=spun)).joints:
+        assert joint.drive is None or joint.drive.kind == "velocity"

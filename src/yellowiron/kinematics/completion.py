@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
+
+import numpy as np
 
 from yellowiron.kinematics.branches import branch_pivots, branch_sines
 from yellowiron.kinematics.chain import ClosedChain, Component, State, independent_joints
@@ -17,8 +20,8 @@ ANGLE_MARGIN = math.radians(0.5)
 """Radians added to a pivot's range from the loop, so that its limit never carries load."""
 SLIDE_MARGIN = 2e-3
 """Metres added to a passive slide's range from the loop."""
-FREQUENCY = 2.0
-"""Hertz of a position drive on the mass it moves: what every engine held at any step size that was tried."""
+FREQUENCY = 3.0
+"""Hertz of a position drive on the empty machine: with its payload about 2, which every engine holds."""
 PROVISIONAL = "gains provisional"
 """In a drive's source: its gains wait for the mass that only the kinematics knows."""
 STATED = "template states "
@@ -28,7 +31,12 @@ STRAIGHT = 0.05
 PARALLEL = 1e-4
 """Metres: gap at a loop's pins, half a metre along the axis included, that pins of a sound drawing do not leave."""
 _BACK = 2e-3
-_OTHERS = 40
+_OWN, _OTHERS = 13, 25
+"""Poses sampled for the mass a drive sees: of its own component, and of each other one."""
+_USUAL = 0.95
+"""The share of those poses whose masses the gains are for."""
+_SATURATED = 0.005
+"""A drive has its full force at no less than this share of its travel: stiffer, it would only saturate."""
 _PER_FREEDOM = {"fixed": 6, "revolute": 5, "prismatic": 5, "spherical": 3, "distance": 0}
 
 
@@ -53,7 +61,7 @@ def complete(mechanism: Mechanism) -> Mechanism:
     - The stroke of a driven slide ends where the linkage locks.
     - `Loop.branch`: the sign of each loop's triangle of pivots (`branches.branch_pivots`).
     - Gains of position drives that have none, or only provisional ones (`position_gains`): k = m(2πf)², d = 2k/(2πf),
-      m the mass the drive sees through the linkage at most, f = 2 Hz. A velocity drive without damping gets the one
+      m the mass the drive sees through the linkage, f = 3 Hz. A velocity drive without damping gets the one
       that gives full force at standstill and none at full speed.
 
     Findings: KIN001 stroke past a dead point, KIN002 unreachable combination of strokes, KIN003 branch, KIN004 passive
@@ -261,15 +269,20 @@ def _gains(mechanism: Mechanism, grids: list[Grid], work: _Work) -> None:
             continue
         if joint.name not in masses:
             masses[joint.name] = work.chain.effective_mass(work.chain.drawn, joint.name)
-        gained = position_gains(drive, masses[joint.name], "kg" if joint.type == "prismatic" else "kg·m²")
+        travel = joint.upper - joint.lower if joint.upper is not None and joint.lower is not None else None
+        unit = "kg" if joint.type == "prismatic" else "kg·m²"
+        gained = position_gains(drive, masses[joint.name], unit, travel=travel)
         work.joints[joint.name] = replace(work.joints[joint.name], drive=gained)
 
 
-def position_gains(drive: Drive, mass: float, unit: str = "kg", *, frequency: float = FREQUENCY) -> Drive:
+def position_gains(
+    drive: Drive, mass: float, unit: str = "kg", *, travel: float | None = None, frequency: float = FREQUENCY
+) -> Drive:
     """A position drive with gains for a mass (kg, or kg·m² for a pivot): k = m(2πf)², d = 2k/(2πf), critically damped.
 
-    Gains that the drive has stay, unless its source calls them provisional; those that "template states" names after
-    that stay too. A stiffness that stays gets the damping d = 2√(km) where it has none.
+    No stiffer than the drive's force over half a percent of its `travel` (metres, radians). Gains that the drive has
+    stay, unless its source calls them provisional; those that "template states" names after that stay too. A stiffness
+    that stays gets the damping d = 2√(km) where it has none.
     """
     provisional = PROVISIONAL in drive.source
     stated = drive.source.partition(STATED)[2]
@@ -278,11 +291,16 @@ def position_gains(drive: Drive, mass: float, unit: str = "kg", *, frequency: fl
     if keep_stiffness and keep_damping:
         return drive
     omega = 2.0 * math.pi * frequency
+    capped = ""
+    if not keep_stiffness and travel and mass * omega * omega * _SATURATED * travel > drive.max_force:
+        mass = drive.max_force / (_SATURATED * travel * omega * omega)
+        capped = f", no stiffer than its force over {_SATURATED:.1%} of its travel: as for"
     stiffness = drive.stiffness if keep_stiffness else mass * omega * omega
     damping = drive.damping if keep_damping else 2.0 * math.sqrt(stiffness * mass)
     shown = f"{1e-3 * mass:.4g} t" if unit == "kg" else f"{mass:.4g} {unit}"
     at = "" if keep_stiffness else f"{frequency:g} Hz, "
-    gains = f"gains: {at}critically damped on the {shown} it sees through the linkage at most"
+    on = capped + f" {shown}" if capped else f" on the {shown} it sees through the linkage"
+    gains = f"gains: {at}critically damped{on}"
     source = (
         drive.source.replace(PROVISIONAL, gains) if provisional else "; ".join(t for t in (drive.source, gains) if t)
     )
@@ -304,21 +322,19 @@ def _velocity_gain(drive: Drive, joint: Joint, work: _Work) -> Drive:
 
 
 def _seen_masses(chain: ClosedChain, grids: list[Grid]) -> dict[str, float]:
-    """Driver → the largest mass it sees: over its own component's poses, and in its corners and its middle over the
-    poses of the other components (a steering cylinder turns a raised or outstretched boom too)."""
-    masses: dict[str, float] = {}
-
-    def see(names: tuple[str, ...], state: State) -> None:
-        for name in names:
-            masses[name] = max(masses.get(name, 0.0), chain.effective_mass(state, name))
-
+    """Driver → the mass it sees in all but the rarest poses of its own component and of the others (a steering cylinder
+    turns a raised or outstretched boom too). The rarest are left out: at full lock a short lever makes it ten times the
+    usual mass, and gains for that saturate and buzz everywhere else."""
+    seen: dict[str, list[float]] = {}
     for component, grid in zip(chain.components(), grids, strict=True):
-        for state in grid.states:
-            see(grid.drivers, state)
-        own = [grid.states[index] for index in (*grid.corners, len(grid.states) // 2)] if grid.states else []
-        for other in grids:
-            if other is not grid:
-                for pose in other.states[:: max(1, len(other.states) // _OTHERS)]:
-                    for state in own:
-                        see(grid.drivers, chain.combined(state, component, pose))
-    return masses
+        others = [pose for other in grids if other is not grid for pose in _spread(other.states, _OTHERS)]
+        for state in _spread(grid.states, _OWN) if others else grid.states:
+            for pose in [chain.combined(state, component, other) for other in others] or [state]:
+                for name in grid.drivers:
+                    seen.setdefault(name, []).append(chain.effective_mass(pose, name))
+    return {name: float(np.quantile(masses, _USUAL)) for name, masses in seen.items()}
+
+
+def _spread(states: Sequence[State], most: int) -> Sequence[State]:
+    """At most about `most` of the states, evenly spread over them."""
+    return states[:: max(1, len(states) // most)]

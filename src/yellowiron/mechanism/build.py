@@ -77,7 +77,9 @@ def build_mechanism(
     findings += remarks
     powered = drives.slide_drives(template, fitted, findings)
     powered |= drives.motor_drives(template, frames, tree.sides, placement, specifications, findings)
-    actuators = drives.actuators(template, frames, fitted, findings)
+    stated = drives.stated_drives(template, frames, findings)
+    powered |= stated
+    actuators = drives.actuators(template, frames, fitted, stated, findings)
     slides = {f.cylinder.slide: f for group in fitted.values() for f in group}
     joints = tuple(_joint(frame, tree, slides, powered, specifications, findings) for frame in frames.values())
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from typing import Literal
 
 from yellowiron.mechanism.axes import Line
 from yellowiron.mechanism.cylinders import FittedCylinder
@@ -109,13 +110,38 @@ def _motor_drive(
     return _overridden(joint, Drive("velocity", 0.0, damping, limit, top, words))
 
 
+def stated_drives(template: Template, frames: Mapping[str, JointFrame], findings: list[Finding]) -> dict[str, Drive]:
+    """The drive of every joint that the template drives and no actuator claims (JSON-4; a template without actuators),
+    by joint name: a position drive where the joint has limits or a stiffness, else a velocity drive."""
+    claimed = {c.slide for a in template.actuators for c in a.cylinders} | {
+        j for a in template.actuators for j in a.joints
+    }
+    drives = {}
+    for frame in frames.values():
+        joint = frame.joint
+        if joint.drive is None or joint.name in claimed:
+            continue
+        holds = joint.stiffness is not None or joint.lower is not None or joint.upper is not None
+        source = "stated in the template"
+        if holds:
+            drive = Drive("position", 0.0, 0.0, math.inf, math.inf, f"{source}; gains provisional")
+        else:
+            drive = Drive("velocity", 0.0, 1e4, math.inf, math.inf, source)
+        if joint.max_force is None:
+            words = "Nothing gives its force: it moves with unlimited force."
+            findings.append(Finding("MEC027", "warning", joint.name, words, "State max_force in the joint's entry."))
+        drives[joint.name] = _overridden(joint, drive)
+    return drives
+
+
 def actuators(
     template: Template,
     frames: Mapping[str, JointFrame],
     fitted: Mapping[str, Sequence[FittedCylinder]],
+    stated: Mapping[str, Drive],
     findings: list[Finding],
 ) -> tuple[Actuator, ...]:
-    """The template's actuators that have something left to move."""
+    """The template's actuators that have something left to move, then one for every joint whose drive is `stated`."""
     result = []
     for entry in template.actuators:
         cylinders = fitted.get(entry.name, ())
@@ -131,6 +157,9 @@ def actuators(
             words = "None of the actuator's driven joints was found: it is left out."
             hint = "Check its cylinders' parts in the alignment."
             findings.append(Finding("MEC026", "error", entry.name, words, hint))
+    for name in stated:
+        kind: Literal["cylinder", "motor"] = "cylinder" if frames[name].joint.type == "prismatic" else "motor"
+        result.append(Actuator(name, kind, (ActuatorJoint(name),)))
     return tuple(result)
 
 
