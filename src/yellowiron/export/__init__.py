@@ -10,12 +10,13 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from yellowiron.export.geometry import Geometry, read_geometry
+    from yellowiron.export.geometry import BodyGeometry, Geometry, read_geometry
     from yellowiron.export.mjcf import actuator_names, export_mjcf
 
-__all__ = ["Geometry", "actuator_names", "export_mjcf", "read_geometry"]
+__all__ = ["BodyGeometry", "Geometry", "actuator_names", "export_mjcf", "read_geometry"]
 
 _HOMES = {
+    "BodyGeometry": "geometry",
     "Geometry": "geometry",
     "actuator_names": "mjcf",
     "export_mjcf": "mjcf",

@@ -19,6 +19,9 @@ from yellowiron.model.mechanism import Actuator, ActuatorJoint, Body, Drive, Joi
 
 TIMESTEP = 0.001
 """Seconds. Pins stay within 0.05 mm at this step, and do not hold at 4 ms."""
+INTEGRATOR = "Euler"
+"""Closes the loops a hundred times better than `implicitfast`: that one adds the drives' damping to the mass matrix for
+the step alone, after the constraint forces were found without it (wheel loader at rest: 0.0004 against 0.05 mm)."""
 SOLIMP = (0.999, 0.9999, 0.001, 0.5, 2.0)
 ASSETS = "assets"
 GROUND_FRICTION = 0.7
@@ -84,7 +87,7 @@ class _Document:
         self._timestep = timestep
         self._colors: dict[Color, str] = {}
         self._geoms: set[str] = set()
-        self._pieces: dict[tuple[int, str], tuple[Mesh, ...]] = {}
+        self._pieces: dict[tuple[bytes, bytes, str], tuple[Mesh, ...]] = {}
         self._order: list[Joint] = []
         self._children: dict[str, list[Joint]] = {}
         for joint in mechanism.joints:
@@ -98,7 +101,7 @@ class _Document:
         self._check_tree()
         top = ET.Element("mujoco", model=name)
         ET.SubElement(top, "compiler", angle="radian", meshdir=ASSETS, autolimits="true", inertiafromgeom="false")
-        ET.SubElement(top, "option", timestep=_text(self._timestep), integrator="Euler", cone="elliptic")
+        ET.SubElement(top, "option", timestep=_text(self._timestep), integrator=INTEGRATOR, cone="elliptic")
         top.append(self._defaults())
         top.append(self._asset())
         top.append(world)
@@ -201,12 +204,13 @@ class _Document:
         name = f"{body}.{collider.name}.collision"
         friction = {} if collider.friction is None else {"friction": _text(collider.friction)}
         if collider.mesh is None:
+            radius, *rest = collider.size
             size = {
-                "cylinder": lambda s: (s[0], 0.5 * s[1]),
-                "capsule": lambda s: (s[0], 0.5 * s[1]),
-                "box": lambda s: tuple(0.5 * v for v in s),
-                "sphere": lambda s: s,
-            }[collider.kind](collider.size)
+                "cylinder": (radius, *(0.5 * v for v in rest)),
+                "capsule": (radius, *(0.5 * v for v in rest)),
+                "box": tuple(0.5 * v for v in collider.size),
+                "sphere": (radius,),
+            }[collider.kind]
             rotation = _quaternion(collider.matrix[:3, :3])
             position = collider.matrix[:3, 3]
             self._geom(element, "collision", name, position, rotation, type=collider.kind, size=_row(size), **friction)
@@ -218,7 +222,7 @@ class _Document:
 
     def _convex(self, mesh: Mesh, token: str) -> tuple[Mesh, ...]:
         """Convex meshes for a collider's approximation; whatever may be hollow is cut into pieces."""
-        key = (id(mesh.points), token)
+        key = (mesh.points.tobytes(), mesh.triangles.tobytes(), token)
         if key not in self._pieces:
             if token == "boundingCube":
                 low, high = mesh.points.min(axis=0), mesh.points.max(axis=0)

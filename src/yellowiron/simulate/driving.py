@@ -18,7 +18,7 @@ from yellowiron.kinematics import ClosedChain
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Joint, Mechanism
-from yellowiron.simulate.commands import Motion, motions, travel
+from yellowiron.simulate.commands import SHARE, Motion, motions, travel
 from yellowiron.simulate.engine import Block, Engine, Setup, find_engine, load_engine, standing_bodies
 from yellowiron.simulate.loads import paces
 from yellowiron.simulate.payload import with_payload
@@ -30,7 +30,11 @@ BLOCK_HEIGHT = 0.15
 _SETTLE = 2.0
 _RAMP = 1.0
 _TURN = math.radians(120.0)
-_CLEAR = 0.01
+_RUN = 2.0
+"""Length of the block's ramps by its height: 27°."""
+_LOCK = 0.998
+"""Share of the steering stroke that is full lock."""
+_ROOM = 0.05
 
 
 @dataclass(frozen=True)
@@ -87,13 +91,14 @@ def driving_document(result: DrivingResult) -> dict[str, Any]:
 @dataclass(frozen=True, eq=False)
 class Wheel:
     """A driven wheel: its joint, its body's place among the bodies, middle and unit axis (machine frame, drawn pose),
-    radius, and the sign of its joint in the actuator's positive sense."""
+    radius and half its width, and the sign of its joint in the actuator's positive sense."""
 
     joint: Joint
     body: int
     middle: Floats
     axis: Floats
     radius: float
+    half_width: float
     sign: int
 
 
@@ -114,8 +119,9 @@ def wheels(mechanism: Mechanism) -> tuple[Wheel, ...]:
             offset = np.asarray(mechanism.body(joint.body1).hull) - np.asarray(joint.anchor)
             along = offset @ axis
             radius = float(np.linalg.norm(offset - np.outer(along, axis), axis=1).max())
-            middle = np.asarray(joint.anchor) + 0.5 * (float(along.min()) + float(along.max())) * axis
-            found.append(Wheel(joint, number[joint.body1], middle, axis, radius, entry.sign))
+            half, center = 0.5 * float(np.ptp(along)), 0.5 * (float(along.min()) + float(along.max()))
+            middle = np.asarray(joint.anchor) + center * axis
+            found.append(Wheel(joint, number[joint.body1], middle, axis, radius, half, entry.sign))
     if len(found) < 3:
         raise YellowironError(
             "The machine has no driven wheels to drive on",
@@ -191,16 +197,21 @@ class _Trip:
             ]
         )
 
-    def _go(self, engine: Engine, distance: float, record: list[Floats] | None = None) -> None:
-        """Drives a distance (negative: backwards) and comes to rest."""
-        time = abs(distance) / SPEED + _RAMP
+    def _places(self, poses: tuple[Floats, Floats]) -> Floats:
+        """The wheels' middles and how far a unit along their axes rises (n, 4)."""
+        rises = [abs(float(poses[0][w.body][2] @ w.axis)) for w in self.wheels]
+        return np.column_stack([self._middles(poses), rises])
+
+    def _go(self, engine: Engine, distance: float, *, speed: float = SPEED, record: list[Floats] | None = None) -> None:
+        """Drives a distance (negative: backwards) and comes to rest; `record` takes the wheels' places."""
+        time = abs(distance) / speed + _RAMP
         for number in range(self._steps(time + 1.0)):
             now = (number + 1) * self.timestep
             share = min(1.0, now / _RAMP, max(0.0, (time - now) / _RAMP))
-            engine.set_targets(self._speeds(math.copysign(SPEED * share, distance)))
+            engine.set_targets(self._speeds(math.copysign(speed * share, distance)))
             engine.step()
             if record is not None:
-                record.append(self._middles(engine.poses()))
+                record.append(self._places(engine.poses()))
 
     def _rest(self, engine: Engine, seconds: float) -> float:
         """Waits; returns the root's speed at the end."""
@@ -239,7 +250,10 @@ class _Trip:
         for motion in motions(self.mechanism):
             if motion.position:
                 state, _ = self.chain.reach({motion.joint: motion.high})
-                turned = [abs(a[0] * w.axis[1] - a[1] * w.axis[0]) for a, w in zip(self._axes(state), self.wheels)]
+                turned = [
+                    abs(a[0] * w.axis[1] - a[1] * w.axis[0])
+                    for a, w in zip(self._axes(state), self.wheels, strict=True)
+                ]
                 if max(turned) > 0.1:
                     return motion
         return None
@@ -266,11 +280,12 @@ class _Trip:
             return {}
         measured = self.chain.independent
         pace = paces(self.chain, (motion,))[motion.joint]
-        for target in travel(0.0, motion.high, motion.speed, self.timestep, pace).tolist():
-            circles = self._circles({motion.joint: target}) if abs(target) > 0.1 * motion.high else None
+        lock = motion.high + (_LOCK - 1.0 + SHARE) * motion.stroke
+        for target in travel(0.0, lock, motion.speed, self.timestep, pace).tolist():
+            circles = self._circles({motion.joint: target}) if abs(target) > 0.1 * lock else None
             engine.set_targets({motion.joint: target, **self._speeds(0.5 * SPEED, self._factors(circles))})
             engine.step()
-        circles = self._circles({motion.joint: motion.high})
+        circles = self._circles({motion.joint: lock})
         factors, mean = self._factors(circles), float(circles.mean())
         path, locks = [], []
         for number in range(self._steps(_TURN * mean / SPEED + _RAMP)):
@@ -318,17 +333,20 @@ class _Trip:
             return {}
         joint, pair = found
         climbing = max((self.wheels[i] for i in pair), key=lambda w: float(w.middle[1]))
-        # From beside the tyre, forwards; the block's length lets the wheel come to rest on it.
-        start = float(climbing.middle[0]) + climbing.radius + 0.05
+        run = _RUN * BLOCK_HEIGHT
+        start = float(climbing.middle[0]) + climbing.radius + _ROOM
         ahead = [w for w in self.wheels if w.middle[0] > climbing.middle[0] and w.middle[1] * climbing.middle[1] > 0]
-        room = min((float(w.middle[0]) - w.radius for w in ahead), default=start + 1.0) - start - 0.05
-        length = min(1.0, room)
-        block = Block((start + 0.5 * length, float(climbing.middle[1])), (length, 1.2, BLOCK_HEIGHT))
+        end = min((float(w.middle[0]) - w.radius - _ROOM for w in ahead), default=start + 1.0 + 2.0 * run)
+        length = min(1.0, end - start - 2.0 * run)
+        if length <= 0.0:
+            return {}
+        middle = start + run + 0.5 * length
+        block = Block((middle, float(climbing.middle[1])), length, 1.2, BLOCK_HEIGHT, run)
         engine = self._load(block)
         record: list[Floats] = []
         try:
             self._rest(engine, _SETTLE)
-            self._go(engine, start + 0.5 * length - float(climbing.middle[0]), record)
+            self._go(engine, middle - float(climbing.middle[0]), speed=0.5 * SPEED, record=record)
             axle = float(engine.coordinates()[self.chain.independent.index(joint.name)])
         finally:
             engine.close()
@@ -341,14 +359,15 @@ class _Trip:
         }
 
     def _lift(self, record: Floats, block: Block) -> Floats:
-        """Height (steps, wheels) of every wheel's lowest point over what it can stand on: ground or block."""
-        radii = np.array([w.radius for w in self.wheels])
-        over = np.abs(record[:, :, 1] - block.middle[1]) < 0.5 * block.edges[1]
-        beyond = np.maximum(np.abs(record[:, :, 0] - block.middle[0]) - 0.5 * block.edges[0], 0.0)
-        # A round wheel on an edge: the edge is a point of its rim.
-        reach = np.sqrt(np.maximum(radii**2 - beyond**2, 0.0))
-        standing = np.where(over & (beyond < radii), np.maximum(radii, block.edges[2] + reach), radii)
-        return np.asarray(record[:, :, 2] - standing)
+        """Height (steps, wheels) of every wheel, a leaning cylinder, over the place where it would just stand."""
+        lifts = []
+        for number, wheel in enumerate(self.wheels):
+            x, y, z, rise = record[:, number].T
+            along = np.linspace(-wheel.radius, wheel.radius, 61)
+            under = block.surface(x[:, None] + along, y[:, None]) + np.sqrt(wheel.radius**2 - along**2)
+            lean = np.sqrt(np.maximum(0.0, 1.0 - rise**2))
+            lifts.append(z - under.max(axis=1) + wheel.radius * (1.0 - lean) - wheel.half_width * rise)
+        return np.array(lifts).T
 
 
 def circle_radius(points: Floats) -> float:

@@ -18,22 +18,49 @@ from yellowiron.model.mechanism import Body, Mechanism
 TOUCHING = 0.02
 """Metres: a body that comes this near to the ground as drawn stands on it."""
 
+GROUND_FRICTION = 0.7
+"""Of ground and blocks."""
+
 Base = Literal["fixed", "floating"]
 
 
 @dataclass(frozen=True, eq=False)
 class Block:
-    """A box on the ground, fixed to the world: its middle on the ground (x, y) and its edges, metres."""
+    """A block on the ground, fixed to the world, with a ramp at both ends in x: its `middle` on the ground (x, y), the
+    `length` of its top, its `width`, `height` and the length `run` of each ramp, metres. Engines differ in what a wheel
+    does at a sharp edge, and agree on a ramp."""
 
     middle: tuple[float, float]
-    edges: tuple[float, float, float]
+    length: float
+    width: float
+    height: float
+    run: float
+
+    @property
+    def corners(self) -> Floats:
+        """(8, 3), world frame: the convex hull is the block."""
+        x, y = self.middle
+        low, high = 0.5 * self.length + self.run, 0.5 * self.length
+        rows = [
+            (x + sx * half, y + sy * 0.5 * self.width, z)
+            for half, z in ((low, 0.0), (high, self.height))
+            for sx in (-1.0, 1.0)
+            for sy in (-1.0, 1.0)
+        ]
+        return np.array(rows, dtype=np.float64)
+
+    def surface(self, x: Floats, y: Floats) -> Floats:
+        """Height of ground and block at points."""
+        ramp = (0.5 * self.length + self.run - np.abs(x - self.middle[0])) / self.run
+        inside = np.abs(y - self.middle[1]) <= 0.5 * self.width
+        return np.asarray(np.where(inside, self.height * np.clip(ramp, 0.0, 1.0), 0.0), dtype=np.float64)
 
 
 @dataclass(frozen=True, eq=False)
 class Setup:
     """What an engine loads. The machine file has the geometry; `mechanism` is what it says, with the payload in the
     masses of `heavier`, the bodies that differ from the file. A fixed base stands in the air (no ground); a floating
-    one stands on a ground plane at z = 0, friction 0.7, with `blocks` on it. Ground and blocks touch the bodies
+    one stands on a ground plane at z = 0, with `blocks` on it. Ground and blocks touch the bodies
     `standing` on them and no others: a bucket passes through, so that strokes stay whole. `timestep` in seconds;
     `measured` are the joints whose coordinates are read.
     """

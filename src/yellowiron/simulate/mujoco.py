@@ -9,27 +9,26 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
-from yellowiron.export import actuator_names, export_mjcf
+from yellowiron.export import BodyGeometry, Geometry, actuator_names, export_mjcf, read_geometry
 from yellowiron.model.geometry import Floats
-from yellowiron.simulate.engine import Setup
+from yellowiron.simulate.engine import GROUND_FRICTION, Setup
 
 
 def load(setup: Setup) -> MujocoEngine:
-    """The machine in MuJoCo: exported to MJCF and compiled without its visuals."""
+    """The machine in MuJoCo: exported to MJCF with what the ground can touch, and nothing to see."""
+    standing = setup.standing if setup.base == "floating" else ()
+    whole = read_geometry(setup.usd_path) if standing else Geometry()
+    touched = Geometry({n: BodyGeometry((), g.colliders) for n, g in whole.bodies.items() if n in standing})
     with tempfile.TemporaryDirectory(prefix="yellowiron-") as folder:
-        file = export_mjcf(setup.mechanism, setup.usd_path, Path(folder), base=setup.base, timestep=setup.timestep)
+        file = export_mjcf(setup.mechanism, touched, Path(folder), base=setup.base, timestep=setup.timestep)
         spec = mujoco.MjSpec.from_file(str(file if setup.base == "fixed" else file.with_name("scene.xml")))
-        spec.compiler.discardvisual = True
-        for block in setup.blocks:
-            x, y, z = (0.5 * edge for edge in block.edges)
+        for number, block in enumerate(setup.blocks):
+            name = f"block.{number}"
+            spec.add_mesh(name=name, uservert=block.corners.ravel())
             spec.worldbody.add_geom(
-                type=mujoco.mjtGeom.mjGEOM_BOX, pos=(*block.middle, z), size=(x, y, z), friction=(0.7, 0.005, 0.0001)
+                name=name, type=mujoco.mjtGeom.mjGEOM_MESH, meshname=name, friction=(GROUND_FRICTION, 0.005, 0.0001)
             )
         model = spec.compile()
-    touching = {int(model.body(name).id) for name in setup.standing} | {0}
-    for geom in range(model.ngeom):
-        if int(model.geom_bodyid[geom]) not in touching:
-            model.geom_contype[geom] = 0
     return MujocoEngine(model, setup)
 
 
@@ -48,7 +47,7 @@ class MujocoEngine:
             for control, joint in actuator_names(mechanism)[actuator.name].items():
                 self._controls[joint] = (int(model.actuator(control).id), signs[joint])
         mujoco.mj_resetDataKeyframe(model, self.data, 0)
-        mujoco.mj_kinematics(model, self.data)
+        mujoco.mj_step1(model, self.data)
 
     @property
     def version(self) -> str:
@@ -62,9 +61,10 @@ class MujocoEngine:
             self.data.ctrl[control] = sign * value
 
     def step(self) -> None:
-        """One step; body poses and coordinates then belong to the same instant."""
-        mujoco.mj_step(self.model, self.data)
-        mujoco.mj_kinematics(self.model, self.data)
+        """One step, in MuJoCo's two halves the other way round: poses and coordinates then belong to the same
+        instant."""
+        mujoco.mj_step2(self.model, self.data)
+        mujoco.mj_step1(self.model, self.data)
 
     def poses(self) -> tuple[Floats, Floats]:
         """See `Engine`."""

@@ -12,16 +12,20 @@ from yellowiron.model.finding import Finding
 
 @dataclass(frozen=True)
 class ActuatorResult:
-    """One driven joint. `low`, `high`: the ends it was sent to, `reached_low`, `reached_high` how far it came (metres or
-    radians; 0 for motors). `final_error`: the worst distance from a target that has come to rest (m, rad, rad/s);
-    `final_sag`: what the weight on the drive's spring makes of it there; `unexplained`: by how much, at worst, the error
-    missed the sag by more than a tenth; `lag`: the worst while moving."""
+    """One driven joint. `low`, `high`: the ends it was sent to, `reached_low`, `reached_high` how far it came (metres
+    or radians; 0 for motors); `speed` its rated one, `fastest` the fastest that it was told to move.
+
+    `final_error`: the worst distance from a target that has come to rest (m, rad; of a motor alone: rad/s);
+    `final_sag`: what the weight on the drive's spring makes of it there; `unexplained`: by how much the error
+    at worst missed the sag by more than a tenth of it; `lag`: the worst distance while moving.
+    """
 
     actuator: str
     joint: str
     kind: str
     stroke: float
     speed: float
+    fastest: float
     low: float
     high: float
     reached_low: float
@@ -63,9 +67,10 @@ class PhaseResult:
 
 @dataclass(frozen=True)
 class SimulationResult:
-    """A whole run. Seconds, kilograms, metres, radians. `pin_error` is a pin's worst distance from where the closed-chain
-    kinematics has it at the measured strokes, `gap` that between a cut pin's two halves, `angle_error` a body's worst
-    turn from its pose; `*_at` says where and in which phase. `steps_per_second` counts the engine's own time."""
+    """A whole run. Seconds, kilograms, metres, radians. `pin_error` is a pin's worst distance from where the
+    closed-chain kinematics has it at the measured strokes, `gap` that between a cut pin's two halves, `angle_error` a
+    body's worst turn from its pose; `*_at` says where and in which phase. `steps_per_second` counts the engine's own
+    time."""
 
     engine: str
     version: str
@@ -93,8 +98,8 @@ class SimulationResult:
 
 
 def simulation_document(result: SimulationResult) -> dict[str, Any]:
-    """The result for `simulate --json` and for `report.json`'s `simulation`. `seconds` and speeds of the computer are
-    left out but for `steps_per_second`."""
+    """The result for `simulate --json` and for `report.json`'s `simulation`. It differs between two runs in
+    `steps_per_second` alone."""
     return {
         "engine": result.engine,
         "version": result.version,
@@ -119,6 +124,7 @@ def simulation_document(result: SimulationResult) -> dict[str, Any]:
                 "kind": a.kind,
                 "stroke": a.stroke,
                 "speed": a.speed,
+                "fastest": a.fastest,
                 "low": a.low,
                 "high": a.high,
                 "reached_low": a.reached_low,

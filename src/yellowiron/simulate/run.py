@@ -92,6 +92,7 @@ class _Seen:
     final_sag: float = 0.0
     unexplained: float = 0.0
     lag: float = 0.0
+    fastest: float = 0.0
     low: float = math.inf
     high: float = -math.inf
 
@@ -109,10 +110,9 @@ class _Run:
 
     def phase(self, phase: Phase) -> bool:
         """Runs one phase; false where the simulation broke down."""
-        mechanism_size = len(self.engine.poses()[1])
-        count = phase.steps
+        count, bodies = phase.steps, len(self.comparison.chain.mechanism.bodies)
         measured = np.empty((count, len(self.comparison.measured)))
-        rotations, origins = np.empty((count, mechanism_size, 3, 3)), np.empty((count, mechanism_size, 3))
+        rotations, origins = np.empty((count, bodies, 3, 3)), np.empty((count, bodies, 3))
         for number in range(count):
             self.engine.set_targets({joint: float(values[number]) for joint, values in phase.targets.items()})
             start = time.perf_counter()
@@ -134,6 +134,8 @@ class _Run:
                 continue
             values, targets = measured[:, self.comparison.measured.index(motion.joint)], phase.targets[motion.joint]
             seen = self.seen.setdefault(motion.joint, _Seen())
+            change = np.abs(np.diff(targets)) / self.timestep if motion.position else np.abs(targets)
+            seen.fastest = max(seen.fastest, float(change.max(initial=0.0)))
             if motion.position:
                 seen.lag = max(seen.lag, float(np.abs(values - targets).max()))
                 for hold in phase.holds:
@@ -141,9 +143,10 @@ class _Run:
                 seen.low, seen.high = min(seen.low, float(values.min())), max(seen.high, float(values.max()))
             else:
                 error = np.abs(np.diff(values, prepend=values[:1]) / self.timestep - targets)
-                full = np.abs(targets) >= np.abs(targets).max()
                 seen.lag = max(seen.lag, float(error[1:].max()))
-                seen.final_error = max(seen.final_error, *error[full & ~np.roll(full, -1)].tolist())
+                if phase.name == motion.actuator:  # together, steering drags wheels of equal speed over the ground
+                    full = np.abs(targets) >= np.abs(targets).max()
+                    seen.final_error = max(seen.final_error, *error[full & ~np.roll(full, -1)].tolist())
 
     def _rest(self, seen: _Seen, motion: Motion, error: float, coordinates: Floats) -> None:
         """A drive at rest, `error` beyond its target: how much of that is the weight on its spring?"""
@@ -209,6 +212,7 @@ def _actuator(motion: Motion, seen: _Seen, base: Base) -> ActuatorResult:
         kind="position" if motion.position else "velocity",
         stroke=motion.stroke,
         speed=speed,
+        fastest=seen.fastest,
         low=motion.low,
         high=motion.high,
         reached_low=seen.low if motion.position else 0.0,
