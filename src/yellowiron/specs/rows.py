@@ -55,6 +55,31 @@ class _State:
     headings: list[Heading] = field(default_factory=list)
     orphans: list[int] = field(default_factory=list)
 
+    def open_section(self, heading: Heading, heads: tuple[Piece, ...]) -> None:
+        """A heading ends what held above it; `heads` stand on its line."""
+        self.section = heading.text
+        self.headings.append(heading)
+        self.context, self.pending, self.heads = [], [], [heads] if heads else []
+        self.indented = self.data_since_heads = False
+
+    def add_heads(self, heads: tuple[Piece, ...]) -> None:
+        """A line of column heads: under the ones above it, or in their place where values stand between."""
+        if self.data_since_heads:
+            self.heads = []
+            self.data_since_heads = False
+        self.heads.append(heads)
+
+    def add_label(self, piece: Piece) -> None:
+        """Words alone at the left: a sub-heading if bold, else the beginning of the next row's label."""
+        if piece.bold:
+            self.context, self.pending, self.indented = [piece], [], False
+        elif self.pending and not self.data_since_heads and _stacked(self.pending[-1], piece):
+            self.pending = [*self.pending, piece]
+        else:
+            self.pending = [piece]
+        if not self.heads:
+            self.data_since_heads = False
+
 
 def read_block(page: Page, block: Block, first_row: int, section: str = "") -> tuple[list[Statement], list[Heading]]:
     """The statements of a column of text, and its headings. `first_row` numbers its rows."""
@@ -123,51 +148,39 @@ def _are_heads(pieces: Sequence[Piece], kinds: Sequence[str], state: _State) -> 
 
 
 def _read_words(page: Page, block: Block, line: Line, state: _State, size: float) -> None:
-    """A heading, a sub-heading, column heads, or the first line of a label."""
-    pieces = line.pieces
-    texts = [p for p in pieces if kind_of(p) != "mark"]
+    """A heading, column heads, a sub-heading, or the first line of a label."""
+    texts = [p for p in line.pieces if kind_of(p) != "mark"]
     if not texts:
         if state.heads and not state.data_since_heads:
-            state.heads.append(tuple(pieces))
+            state.heads.append(line.pieces)
         return
-    at_label = texts[0].x0 < block.x0 + 0.12 * (block.x1 - block.x0) + 4
-    bar = _bar_under(page, texts[0])
+    labels_end = block.x0 + 0.12 * (block.x1 - block.x0) + 4
+    at_label = texts[0].x0 < labels_end
+    bar = _bar_under(page, texts[0], size)
     if bar is not None or (len(texts) == 1 and at_label and _is_heading(texts[0], size)):
-        same_bar = [p for p in pieces if bar is None or _inside(p.box, bar)]
-        heading = texts[0]
-        rest = [p for p in texts[1:] if p.x0 > heading.x1]
-        state.section = heading.text if rest else " ".join(p.text for p in same_bar)
-        state.headings.append(Heading(line.bottom, block.x0, block.x1, state.section))
-        state.context, state.pending, state.heads = [], [], [tuple(rest)] if rest else []
-        state.indented = False
-        state.data_since_heads = False
-        return
-    units = all(is_unit(p.bare) for p in texts)
-    in_values = [p for p in texts if p.x0 >= block.x0 + 0.12 * (block.x1 - block.x0) + 4]
-    bold = all(p.bold for p in texts)
-    if (
-        units
-        or len(in_values) >= 2
-        or (in_values and not at_label and (bold or not state.pending))
-        or (len(texts) == 2 and at_label and bold)
-    ):
-        if state.data_since_heads:
-            state.heads = []
-            state.data_since_heads = False
-        state.heads.append(tuple(texts))
-        if at_label and not units:
+        on_bar = [p.text for p in line.pieces if bar is None or _inside(p.box, bar)]
+        heads = tuple(texts[1:])
+        section = texts[0].text if heads else " ".join(on_bar)
+        state.open_section(Heading(line.bottom, block.x0, block.x1, section), heads)
+    elif _are_column_heads(texts, labels_end, state):
+        state.add_heads(tuple(texts))
+        if at_label and not is_unit(texts[0].bare):
             state.pending = []
-        return
-    if at_label and len(texts) == 1 and not _is_prose(texts[0]):
-        if texts[0].bold:
-            state.context, state.pending, state.indented = [texts[0]], [], False
-        elif state.pending and _stacked(state.pending[-1], texts[0]) and not state.data_since_heads:
-            state.pending = [*state.pending, texts[0]]
-        else:
-            state.pending = [texts[0]]
-        state.data_since_heads = False if not state.heads else state.data_since_heads
-        return
-    state.pending = []
+    elif at_label and len(texts) == 1 and not _is_prose(texts[0]):
+        state.add_label(texts[0])
+    else:
+        state.pending = []
+
+
+def _are_column_heads(texts: Sequence[Piece], labels_end: float, state: _State) -> bool:
+    """Whether a line of words names columns: units alone, several words over the values, or emphasis."""
+    over_values = [p for p in texts if p.x0 >= labels_end]
+    bold = all(p.bold for p in texts)
+    if all(is_unit(p.bare) for p in texts) or len(over_values) >= 2:
+        return True
+    if len(over_values) == len(texts):
+        return bold or not state.pending
+    return len(texts) == 2 and bold
 
 
 def _is_prose(piece: Piece) -> bool:
@@ -175,16 +188,21 @@ def _is_prose(piece: Piece) -> bool:
 
 
 def _is_heading(piece: Piece, size: float) -> bool:
-    text = EXAMPLE.sub("", piece.text)
-    letters = [c for c in text if c.isalpha()]
-    capitals = len(letters) >= 4 and sum(c.isupper() for c in letters) > 0.85 * len(letters)
-    return len(text.split()) <= 9 and (
-        piece.size > 1.12 * size or (capitals and piece.bold) or (capitals and len(letters) > 5)
+    return len(EXAMPLE.sub("", piece.text).split()) <= 9 and (
+        piece.size > 1.12 * size or (_in_capitals(piece) and (piece.bold or len(piece.text) > 5))
     )
 
 
-def _bar_under(page: Page, piece: Piece) -> Box | None:
-    """The filled bar a piece is printed on, if that is no higher than a heading needs."""
+def _in_capitals(piece: Piece) -> bool:
+    letters = [c for c in EXAMPLE.sub("", piece.text) if c.isalpha()]
+    return len(letters) >= 4 and sum(c.isupper() for c in letters) > 0.85 * len(letters)
+
+
+def _bar_under(page: Page, piece: Piece, size: float) -> Box | None:
+    """The filled bar an emphasised piece is printed on, if that is no higher than a heading needs; shaded rows of a
+    table are none."""
+    if not (piece.bold or piece.size > 1.05 * size or _in_capitals(piece)):
+        return None
     for bar in page.bars:
         if bar[3] - bar[1] < 3.2 * piece.size and bar[2] - bar[0] > 6 * piece.size and _inside(piece.box, bar):
             return bar
