@@ -180,15 +180,15 @@ def show_template(equipment_type: Type) -> None:
 def check_template(equipment_type: Type, as_json: Json = False) -> None:
     """Check a template: names, references, mobility."""
     from yellowiron import library
-    from yellowiron.report import finding_table
+    from yellowiron.report import lint_table
 
     lint = library.lint(library.load_template(equipment_type))
-    entries = [asdict(f) for f in lint.findings]
-    _show(
-        {"findings": entries, "counts": dict(lint.counts)},
-        finding_table(entries) if entries else Text("Sound."),
-        as_json,
-    )
+    document = {
+        "findings": [asdict(f) for f in lint.findings],
+        "counts": dict(lint.counts),
+        "mobility": [asdict(m) for m in lint.mobility],
+    }
+    _show(document, lint_table(document), as_json)
     raise typer.Exit(1 if any(f.severity == "error" for f in lint.findings) else 0)
 
 

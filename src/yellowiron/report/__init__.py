@@ -4,6 +4,7 @@ from yellowiron.report.console import (
     alignment_table,
     build_summary,
     finding_table,
+    lint_table,
     measurement_table,
     specification_table,
 )
@@ -23,6 +24,7 @@ __all__ = [
     "build_summary",
     "fell_short",
     "finding_table",
+    "lint_table",
     "measurement_table",
     "page",
     "report_document",

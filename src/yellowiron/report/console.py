@@ -85,6 +85,19 @@ def alignment_table(alignment: Alignment) -> RenderableType:
     return Group(*blocks)
 
 
+def lint_table(document: Mapping[str, Any]) -> RenderableType:
+    """A template's counts, its mobility in every combination of choices, and what the lint found."""
+    counts = ", ".join(f"{number} {name.replace('_', ' ')}" for name, number in document["counts"].items() if number)
+    blocks: list[RenderableType] = [Text(counts)]
+    for entry in document["mobility"]:
+        choice = ", ".join(f"{name}={value}" for name, value in entry["choices"].items())
+        held = entry["computed"] == entry["expected"]
+        line = f"mobility {entry['computed']}, expected {entry['expected']}" + (f"  ({choice})" if choice else "")
+        blocks.append(Text(line, "green" if held else "red"))
+    blocks += ["", finding_table(document["findings"]) if document["findings"] else Text("Sound.", "bold green")]
+    return Group(*blocks)
+
+
 def build_summary(document: Mapping[str, Any], reasons: Sequence[str], folder: str) -> RenderableType:
     """What a build ends with: the machine in a line, the measurements, what is left to a person."""
     counts, mobility, alignment = document["counts"], document["mobility"], document["alignment"]
