@@ -116,8 +116,7 @@ def _extrusion(points: Floats, triangles: np.ndarray, facets: Sequence[np.ndarra
     normals = _facet_normals(points, triangles, facets)
     areas = np.linalg.norm(_doubled_areas(points, triangles), axis=1)
     sizes = np.array([areas[facet].sum() for facet in facets])
-    for number in np.argsort(-sizes, kind="stable")[:8].tolist():
-        direction = normals[number]
+    for direction in _directions(normals[np.argsort(-sizes, kind="stable")[:8]]):
         along = np.abs(normals @ direction)
         ends = along > 1.0 - _PARALLEL
         if not bool((ends | (along < _PARALLEL)).all()):
@@ -132,6 +131,12 @@ def _extrusion(points: Floats, triangles: np.ndarray, facets: Sequence[np.ndarra
         if levels == {(True, False), (False, True)} and high - low > _FLAT:
             return np.asarray(direction, dtype=np.float64)
     return None
+
+
+def _directions(normals: Floats) -> list[Floats]:
+    """Directions along which a part may be drawn: its large facets' normals, and what is square to two of them."""
+    square = [np.cross(normals[0], other) for other in normals[1:]]
+    return [*normals, *(cross / np.linalg.norm(cross) for cross in square if np.linalg.norm(cross) > 0.1)]
 
 
 def _drawn(points: Floats, triangles: np.ndarray, facets: Sequence[np.ndarray], direction: Floats) -> list[Floats]:

@@ -100,7 +100,7 @@ class _Document:
         self._body(world, root, None)
         self._check_tree()
         top = ET.Element("mujoco", model=name)
-        ET.SubElement(top, "compiler", angle="radian", meshdir=ASSETS, autolimits="true", inertiafromgeom="false")
+        ET.SubElement(top, "compiler", angle="radian", meshdir=ASSETS, autolimits="true")
         ET.SubElement(top, "option", timestep=_text(self._timestep), integrator=INTEGRATOR, cone="elliptic")
         top.append(self._defaults())
         top.append(self._asset())
