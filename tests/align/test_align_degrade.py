@@ -16,7 +16,7 @@ from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.errors import AlignmentError
 from yellowiron.model.geometry import Mesh
 from yellowiron.model.specification import Specifications
-from yellowiron.model.template import Role, Template
+from yellowiron.model.template import Role, Template, choose
 
 NOTHING = Specifications()
 
@@ -58,6 +58,17 @@ def test_one_pin_gone(template: Template) -> None:
     found = align(assembly, template, NOTHING)
     assert "bucket_link_pin" in found.missing
     assert right(found, truth) > 0.9
+
+
+@pytest.mark.parametrize("embedded", [False, True])
+def test_no_pins_at_all(template: Template, embedded: bool) -> None:
+    """Bores side by side on one axis are hinges too; the pins are named as missing."""
+    pins = [r.name for r in template.roles if r.kind == "pin"]
+    assembly, truth, _ = disguise(without(loader(3, embedded=embedded), *pins), 3)
+    found = align(assembly, template, NOTHING)
+    assert right(found, truth) == 1.0
+    assert set(found.missing) == {p for p in pins if p in {r.name for r in choose(template, found.choices).roles}}
+    assert sum(f.code == "ALN002" for f in found.findings) >= 14
 
 
 def test_triangles_alone(template: Template) -> None:

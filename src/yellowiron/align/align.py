@@ -24,7 +24,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from yellowiron.align.clusters import Structure, loose_ends, structure_of
-from yellowiron.align.contacts import Flat, fits_of, flats_of, lines_of, neighbours
+from yellowiron.align.contacts import Flat, bare_fits_of, fits_of, flats_of, lines_of, neighbours
 from yellowiron.align.evidence import Evidence, evidence_of
 from yellowiron.align.frame import MachineFrame, machine_frame
 from yellowiron.align.hydraulics import rams_of
@@ -184,14 +184,15 @@ def _see(assembly: Assembly, template: Template) -> _Seen:
     size = float(np.linalg.norm(np.max([s.high for s in solids], axis=0) - np.min([s.low for s in solids], axis=0)))
     tolerance = CONTACT * size
     fits = fits_of(solids, tolerance)
-    lines = lines_of(fits, tolerance)
+    bare = bare_fits_of(solids, fits, tolerance)
+    lines = lines_of([*fits, *bare], tolerance)
     near = neighbours(solids, tolerance)
     flats = flats_of(solids, near, tolerance)
     rams = rams_of(solids) if any(r.kind in ("barrel", "rod") for r in template.roles) else []
     taken = {i for r in rams for i in r.barrel | r.rod}
     wheels = wheels_of(solids, sum(1 for r in template.roles if r.kind == "wheel" and r.rigid), taken)
     touch = Touch(solids, tolerance)
-    evidence = evidence_of(solids, fits, lines, flats, rams, wheels, near, touch.touching)
+    evidence = evidence_of(solids, fits, bare, lines, flats, rams, wheels, near, touch.touching)
     return _Seen(solids, flats, near, wheels, evidence, touch, size)
 
 

@@ -102,6 +102,33 @@ def fits_of(solids: tuple[Solid, ...], tolerance: float) -> list[Fit]:
     return _strongest(fits)
 
 
+def bare_fits_of(solids: tuple[Solid, ...], fits: list[Fit], tolerance: float) -> list[Fit]:
+    """Bores of two parts side by side on one axis, of one size and with nothing in them: where a pin is not drawn.
+
+    `inner` and `shaft` are one of the two, `outer` and `bore` the other.
+    """
+    filled = {id(f.bore) for f in fits}
+    bores = [(s.index, c) for s in solids for c in s.cylinders if c.inner and c.full and id(c) not in filled]
+    if len(bores) < 2:
+        return []
+    centres = np.array([c.center for _, c in bores])
+    tree = cKDTree(centres)
+    longest = max(c.half for _, c in bores)
+    found = []
+    for k, (a, one) in enumerate(bores):
+        for j in sorted(tree.query_ball_point(centres[k], 2 * one.half + longest + tolerance)):
+            b, other = bores[j]
+            if a == b or (other.half, j) < (one.half, k) or abs(float(one.direction @ other.direction)) < PARALLEL:
+                continue
+            alike = abs(one.radius - other.radius) < max(tolerance, 0.03 * one.radius)
+            near = other.interval(one.center, one.direction)
+            apart = max(near[0] - one.half, -one.half - near[1])
+            gap = other.off(one.center)
+            if alike and -0.1 * one.half < apart < one.half + tolerance and gap < max(tolerance, 0.02 * one.radius):
+                found.append(Fit(a, b, one, other, 0.0, gap))
+    return found
+
+
 def _coordinates(cylinders: list[Cyl], origin: Floats, size: float) -> Floats:
     """(n, 6) per axis: direction times size, and the foot of the perpendicular from the origin."""
     d = np.array([c.direction for c in cylinders])

@@ -27,7 +27,7 @@ class Evidence:
     - `slight`: hoses, rails and sheets on no pin line, which go with others but hold nothing together;
     - `bolted`: lines too thin to be a pivot, next to those through the cylinders' eyes;
     - `pressed`: rings in bores, (ring, host), which stay where they are;
-    - `direct`: shafts of structural parts in bores, (line, fit);
+    - `direct`: shafts of structural parts in bores, and empty bores side by side, (line, fit);
     - `welds`, `turning`: flat contacts that hold, and those that allow turning about a shared line;
     - `area`: m² of flat contact of a pair;
     - `near`: pairs whose boxes touch; `touching(a, b)` asks the meshes.
@@ -56,6 +56,7 @@ class Evidence:
 def evidence_of(
     solids: tuple[Solid, ...],
     fits: list[Fit],
+    bare: list[Fit],
     lines: list[Line],
     flats: list[Flat],
     rams: list[Ram],
@@ -63,7 +64,8 @@ def evidence_of(
     near: list[tuple[int, int]],
     touching: Callable[[int, int], bool],
 ) -> Evidence:
-    """Sorts fits and flat contacts. Fits between a barrel and its rod, and between a wheel and its axle, slide."""
+    """Sorts fits and flat contacts. Fits between a barrel and its rod, and between a wheel and its axle, slide. `bare`:
+    empty bores side by side; `lines` number the fits first, then these."""
     owner: dict[int, tuple[str, int]] = {}
     for k, ram in enumerate(rams):
         owner.update(dict.fromkeys(ram.barrel, ("barrel", k)) | dict.fromkeys(ram.rod, ("rod", k)))
@@ -89,6 +91,11 @@ def evidence_of(
         elif solids[fit.inner].axis is not None:
             pressed.append(fit)
         else:
+            direct.append((number[k], fit))
+            pinned[fit.inner].add(number[k])
+            pinned[fit.outer].add(number[k])
+    for k, fit in enumerate(bare, len(fits)):
+        if not {fit.inner, fit.outer} & (fasteners | set(owner)):
             direct.append((number[k], fit))
             pinned[fit.inner].add(number[k])
             pinned[fit.outer].add(number[k])
