@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from yellowiron import align, cad, kinematics, library, mechanism, report, specs, usd
+from yellowiron import align, cad, check, kinematics, library, mechanism, report, specs, usd
 from yellowiron.model.alignment import Alignment
 from yellowiron.model.mechanism import Measurement, Mechanism
 from yellowiron.model.specification import Specifications
@@ -110,10 +110,13 @@ def build(
                 texture_folders=[*data.folders, Path(template.folder)],
             )  # fmt: skip
 
+        with clock.stage("check", "Checking what was written"):
+            checked = check.check(folder / "scene.usda")
+
         with clock.stage("report", "Writing the report"):
             document = report.report_document(
                 machine, template, alignment, specifications, measurements,
-                findings=(*library.lint(template).findings, *assembly.findings, *data.findings),
+                findings=(*library.lint(template).findings, *assembly.findings, *data.findings, *checked),
                 usd_counts=usd.count_joints(folder / f"{machine.name}.usda"),
                 levers={a.name: kinematics.lever_table(machine, a.name) for a in machine.actuators},
             )  # fmt: skip

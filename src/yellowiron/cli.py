@@ -159,6 +159,62 @@ def measure(
     raise typer.Exit(1 if any(m.role == "checked" and within_tolerance(m) is False for m in found) else 0)
 
 
+@app.command()
+def check(
+    file: Annotated[Path, typer.Argument(metavar="FILE.usd", help="Any UsdPhysics file.")], as_json: Json = False
+) -> None:
+    """Check any UsdPhysics file, ours or not."""
+    from yellowiron.check import check as check_file
+    from yellowiron.report import finding_table
+
+    with _progress(as_json) as progress:
+        progress("Checking the file")
+        entries = [asdict(f) for f in check_file(file)]
+    sound = Text("Sound.", "bold green")
+    _show({"findings": entries}, finding_table(entries) if entries else sound, as_json)
+    raise typer.Exit(1 if any(e["severity"] == "error" for e in entries) else 0)
+
+
+@app.command()
+def simulate(
+    machine: Annotated[Path, typer.Argument(metavar="FILE.usd", help="A machine that build wrote.")],
+    engine: Annotated[str, typer.Option("--engine", help="mujoco, physx or newton.")],
+    base: Annotated[str, typer.Option("--base", help="fixed (in the air) or floating (on the ground).")] = "fixed",
+    payload: Annotated[float, typer.Option("--payload", help="Load in the bucket, kg.")] = 0.0,
+    dt: Annotated[float | None, typer.Option("--dt", help="Time step in seconds (default: the engine's).")] = None,
+    as_json: Json = False,
+) -> None:
+    """Drive every actuator in an engine; compare every step with the closed-chain kinematics."""
+    from yellowiron.report import simulation_table
+    from yellowiron.simulate import simulate as run
+    from yellowiron.simulate import simulation_document
+
+    with _progress(as_json) as progress:
+        result = run(machine, engine=engine, base=base, payload_kg=payload, dt=dt, progress=progress)  # type: ignore[arg-type]
+    document = simulation_document(result)
+    _show(document, simulation_table(document), as_json)
+    raise typer.Exit(1 if result.findings else 0)
+
+
+@app.command()
+def export(
+    machine: Annotated[Path, typer.Argument(metavar="FILE.usd", help="A machine that build wrote.")],
+    to: Annotated[str, typer.Option("--to", help="mjcf.")],
+    out: Annotated[Path, typer.Option("--out", help="The folder to write to.")],
+) -> None:
+    """Write the same machine for another simulator."""
+    from yellowiron import usd
+    from yellowiron.export import export_mjcf
+    from yellowiron.output import output_folder
+
+    if to != "mjcf":
+        raise YellowironError(f"There is no export to '{to}'", where="--to", hint="This version writes mjcf.")
+    with _progress(False) as progress, output_folder(out) as folder:
+        progress("Writing MJCF")
+        written = export_mjcf(usd.read_machine(machine), machine, folder)
+    _print(Text(f"{out / written.name}; scene.xml beside it is the machine on the ground"))
+
+
 @templates.command("list")
 def list_templates(as_json: Json = False) -> None:
     """List the equipment types of the library."""

@@ -6,6 +6,7 @@ from yellowiron.report.console import (
     finding_table,
     lint_table,
     measurement_table,
+    simulation_table,
     specification_table,
 )
 from yellowiron.report.document import (
@@ -28,6 +29,7 @@ __all__ = [
     "measurement_table",
     "page",
     "report_document",
+    "simulation_table",
     "specification_entry",
     "specification_table",
     "within_tolerance",

@@ -85,6 +85,32 @@ def alignment_table(alignment: Alignment) -> RenderableType:
     return Group(*blocks)
 
 
+def simulation_table(document: Mapping[str, Any]) -> RenderableType:
+    """A run in an engine: how far it strayed from the kinematics, and what each actuator did."""
+    head = Text.assemble(
+        (f"{document['engine']} {document['version']}", "bold"),
+        f"  {document['base']} base, {document['dt_s']:g} s steps, payload {document['payload_kg']:g} kg, "
+        f"{document['steps_per_second']} steps/s",
+    )
+    worst = Text(
+        f"pins within {document['pin_error_mm']:.3f} mm, bodies within {document['angle_error_deg']:.4f}°, "
+        f"branches {'kept' if document['branches_kept'] else 'flipped'}"
+    )
+    table = _table("Actuator", "Reached", "Of", "Final error", right=("Reached", "Of", "Final error"))
+    for entry in document["actuators"]:
+        moved = entry["reached_high"] - entry["reached_low"]
+        table.add_row(
+            entry["actuator"],
+            display(moved, "m") if entry["stroke"] else "",
+            display(entry["stroke"], "m") if entry["stroke"] else f"{entry['speed']:.3g} rad/s",
+            f"{entry['final_error_percent']:.2f} %",
+        )
+    blocks: list[RenderableType] = [head, worst, "", table]
+    if document["findings"]:
+        blocks += ["", finding_table(document["findings"])]
+    return Group(*blocks)
+
+
 def lint_table(document: Mapping[str, Any]) -> RenderableType:
     """A template's counts, its mobility in every combination of choices, and what the lint found."""
     counts = ", ".join(f"{number} {name.replace('_', ' ')}" for name, number in document["counts"].items() if number)
