@@ -234,9 +234,9 @@ def root_body(island: Island, tree: tuple[str, ...], recorded: str = "") -> str:
         for near, far in (joint.bodies, joint.bodies[::-1]):
             if near == WORLD and far in tree:
                 return far
-    for root in island.roots:
-        if root in tree:
-            return root
+    named = [r for r in island.roots if any(b == r or b.startswith(f"{r}/") for b in tree)]
+    if len(named) == 1 and named[0] in tree:
+        return named[0]
     return min(tree, key=lambda body: len(reversed_joints(joints, body)))
 
 

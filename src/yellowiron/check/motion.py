@@ -1,8 +1,8 @@
 """Which joint velocities the loops allow in the drawn pose: the null space of the loop closure equations.
 
 Around a loop the joints' twists sum to nothing: Σ ±S q̇ = 0, six equations a loop, S the screw of a freedom (Davies
-1981; Featherstone, Rigid Body Dynamics Algorithms, ch. 8). Lengths are in units of the island's size, so that turning and
-sliding weigh alike.
+1981; Featherstone, Rigid Body Dynamics Algorithms, ch. 8). Lengths are in units of the island's size, so that turning
+and sliding weigh alike.
 """
 
 from __future__ import annotations

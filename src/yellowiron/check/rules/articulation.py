@@ -102,7 +102,7 @@ def reversed_joint(view: View) -> Remarks:
     root = view.record.get("root")
     recorded = next((p for p, b in view.bodies.items() if root and b.record.get("name") == root), "")
     for island in view.islands:
-        if not island.roots or island.uncut:
+        if not island.roots or len(island.roots) > len(island.trees) or island.uncut:
             continue
         joints = [j for j in island.joints if not j.cut]
         for tree in island.trees:

@@ -104,8 +104,9 @@ def stranded_collider(view: View) -> Remarks:
     """A collider inside a machine belongs to no body."""
     links = {b.path.rsplit("/", 1)[0] for i in view.islands for b in i.bodies if len(i.bodies) > 1}
     said = set()
+    off = [b.path for b in view.bodies.values() if not b.enabled]
     for collider in view.colliders:
-        if collider.body:
+        if collider.body or any(collider.path.startswith(b) for b in off):
             continue
         root = view.under_root(collider.path)
         parts = collider.path.split("/")

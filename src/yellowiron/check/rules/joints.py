@@ -70,7 +70,9 @@ def no_rigid_body(view: View) -> Remarks:
         if joint.type == "fixed" or not view.bodies:
             continue
         for end, side, other in zip(_ENDS, joint.sides, joint.bodies[::-1], strict=True):
-            if side.targets and not side.missing and side.body == WORLD and not _holds(side.targets[0], other):
+            if not side.targets or side.missing or side.body != WORLD or side.targets[0] in view.bodies:
+                continue
+            if not _holds(side.targets[0], other):
                 yield joint.path, f"Its {end} {side.targets[0]} is no rigid body, so it holds to the world."
 
 

@@ -108,7 +108,7 @@ def layers_differ(view: View) -> Remarks:
     for name, meters, up in view.layer_units:
         if meters is not None and not math.isclose(meters, units.meters_per_unit, rel_tol=1e-6):
             yield name, f"Its unit is {meters:g} m, the root layer's {units.meters_per_unit:g} m."
-        if up is not None and units.up_axis is not None and up != units.up_axis:
+        if up is not None and units.up_axis in ("Y", "Z") and up != units.up_axis:
             yield name, f"Its up axis is {up}, the root layer's {units.up_axis}."
 
 
