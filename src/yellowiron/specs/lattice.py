@@ -8,8 +8,8 @@ from bisect import bisect_right
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+from yellowiron.specs.cells import marked_by_legend
 from yellowiron.specs.lines import Line, lines_of
-from yellowiron.specs.rows import marked_by_legend
 from yellowiron.specs.statement import (
     EXAMPLE,
     Piece,

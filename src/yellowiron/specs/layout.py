@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from yellowiron.specs.cells import legend_of
 from yellowiron.specs.lattice import grids_of, read_grid
 from yellowiron.specs.lines import blocks_of, lines_of
-from yellowiron.specs.rows import Heading, legend_of, read_block
+from yellowiron.specs.rows import Heading, read_block
 from yellowiron.specs.statement import Statement
 from yellowiron.specs.words import Page
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 
+from yellowiron.specs.cells import ValueCell, add_continuation, cells_of, continues, heads_over, statement_of
 from yellowiron.specs.lines import Block, Line, bands
 from yellowiron.specs.numbers import read
 from yellowiron.specs.statement import (
@@ -17,7 +17,6 @@ from yellowiron.specs.statement import (
     kind_of,
     split_inline,
     unit_in_label,
-    without_key,
     words_beside_numbers,
 )
 from yellowiron.specs.strokes import Box
@@ -250,22 +249,14 @@ def _split_if_separate(row: Sequence[Line]) -> Iterator[Sequence[Line]]:
         yield row
 
 
-@dataclass
-class _Cell:
-    label: list[Piece]
-    values: list[Piece]
-    notes: list[Piece] = field(default_factory=list)
-    unit: str = ""
-
-
 def _read_values(page: Page, row: Sequence[Line], state: _State, number: int, found: list[Statement]) -> None:
-    cells = [c for c in _cells(row) if sum(len(p.words) for p in c.label) <= _LONGEST_LABEL]
+    cells = [c for c in cells_of(row) if sum(len(p.words) for p in c.label) <= _LONGEST_LABEL]
     if not cells:
         return
     pending, state.pending = state.pending, []
     has_label = any(c.label for c in cells)
-    if not has_label and not pending and found and _continues(found, cells):
-        _continue(found, cells)
+    if not has_label and not pending and found and continues(found, cells):
+        add_continuation(found, cells)
         return
     _end_heads(row, cells, state)
     _keep_sub_heading(cells, pending, state)
@@ -274,9 +265,9 @@ def _read_values(page: Page, row: Sequence[Line], state: _State, number: int, fo
         EXAMPLE.search(p.text) for p in [*context, *(q for c in cells for q in [*c.notes, *c.label, *c.values])]
     )
     for cell in cells:
-        heads = _heads_over(state.heads, join_boxes(p.box for p in cell.values))
+        heads = heads_over(state.heads, join_boxes(p.box for p in cell.values))
         above = context if not cell.label or pending else []
-        statement = _statement(page, row, cell, heads, context, above, number)
+        statement = statement_of(page, row, cell, heads, context, above, number)
         found.append(
             replace(
                 statement,
@@ -291,7 +282,7 @@ def _read_values(page: Page, row: Sequence[Line], state: _State, number: int, fo
             state.orphans = list(range(len(found) - len(cells), len(found)))
 
 
-def _keep_sub_heading(cells: Sequence[_Cell], pending: Sequence[Piece], state: _State) -> None:
+def _keep_sub_heading(cells: Sequence[ValueCell], pending: Sequence[Piece], state: _State) -> None:
     """A line of words holds for all the rows that are indented under it, not only the next."""
     labels = [c.label[0].x0 for c in cells if c.label]
     if not labels:
@@ -302,7 +293,7 @@ def _keep_sub_heading(cells: Sequence[_Cell], pending: Sequence[Piece], state: _
         state.context, state.indented = list(pending), True
 
 
-def _end_heads(row: Sequence[Line], cells: Sequence[_Cell], state: _State) -> None:
+def _end_heads(row: Sequence[Line], cells: Sequence[ValueCell], state: _State) -> None:
     """Forgets column heads where their table has ended: a narrower row, a row of several labels, or a gap."""
     labels = {id(c.label[0]) for c in cells if c.label}
     narrower = state.data_since_heads and 2 * len(cells) < state.values_in_row
@@ -314,169 +305,3 @@ def _end_heads(row: Sequence[Line], cells: Sequence[_Cell], state: _State) -> No
     if narrower or apart or len(labels) > 1:
         state.heads = []
     state.values_in_row = len(cells)
-
-
-def _statement(
-    page: Page,
-    row: Sequence[Line],
-    cell: _Cell,
-    heads: Sequence[Piece],
-    context: Sequence[Piece],
-    above: Sequence[Piece],
-    number: int,
-) -> Statement:
-    label, text = " ".join(p.bare for p in cell.label), " ".join(p.text for p in cell.values)
-    if not cell.label:
-        inline = split_inline(" ".join(p.bare for p in cell.values))
-        if inline[0]:
-            label, text = inline
-    column = [h for h in heads if not is_unit(h.bare)]
-    unit = next((u for h in reversed(heads) if (u := is_unit(h.bare) or unit_in_label(h.bare)[1])), "")
-    label, label_unit = unit_in_label(without_key(label))
-    box = join_boxes(p.box for p in cell.values)
-    return Statement(
-        page=page.number,
-        row=number,
-        label=label,
-        text=EXAMPLE.sub("", text).strip(),
-        box=box,
-        quote=_quote(row, above, cell, column if not cell.label else []),
-        context=tuple(p.bare for p in context),
-        column=tuple(unit_in_label(h.bare)[0] for h in column if h.bare),
-        unit=cell.unit or label_unit or unit,
-        example=any(EXAMPLE.search(h.text) for h in heads)
-        or marked_by_legend(page, [*cell.label, *cell.values, *heads]),
-        x0=box[0],
-        heads=tuple(h.text for h in column) if cell.label else (),
-    )
-
-
-def _cells(row: Sequence[Line]) -> list[_Cell]:
-    """The row's values, each with the labels to its left back to the value before."""
-    pieces = sorted((p for line in row for p in line.pieces), key=lambda p: (p.words[0].baseline, p.x0))
-    kinds = {id(p): kind_of(p) for p in pieces}
-    values = [p for p in pieces if kinds[id(p)] == "value"]
-    if not values:
-        values = [p for p in pieces if split_inline(p.bare)[0]]
-    columns: list[list[Piece]] = []
-    for piece in sorted(values, key=lambda p: (p.x0, p.box[1])):
-        if columns and any(p.x0 < piece.x1 and piece.x0 < p.x1 for p in columns[-1]):
-            columns[-1].append(piece)
-        else:
-            columns.append([piece])
-    cells: list[_Cell] = []
-    others = [p for p in pieces if not any(p is v for v in values)]
-    left_edge = float("-inf")
-    for column in columns:
-        x0 = min(p.x0 for p in column)
-        x1 = max(p.x1 for p in column)
-        label = [p for p in others if left_edge <= p.x0 < x0 and kinds[id(p)] == "text"]
-        units = [p for p in others if left_edge <= p.x0 < x0 and kinds[id(p)] == "unit"]
-        if not label and cells:
-            label = cells[-1].label
-            units = units or []
-        unit = is_unit(units[-1].bare) if units else (cells[-1].unit if cells and label is cells[-1].label else "")
-        cells.append(_Cell(label, sorted(column, key=lambda p: (p.words[0].baseline, p.x0)), unit=unit))
-        left_edge = x1
-    if cells:
-        last = [p for p in others if p.x0 >= left_edge]
-        cells[-1].notes = last
-        trailing = [is_unit(p.bare) for p in last if kinds[id(p)] == "unit"]
-        if trailing and all(not c.unit for c in cells):
-            cells = [replace(c, unit=trailing[0]) for c in cells]
-        for note in last:  # the words after a value may say which it is
-            if kinds[id(note)] == "text" and len(note.words) <= 8:
-                cells[-1].values.append(note)
-    return cells
-
-
-def _heads_over(heads: Sequence[tuple[Piece, ...]], box: Box) -> list[Piece]:
-    """The head of each head line that stands over a value: the one that overlaps it, else the nearest one."""
-    over: list[Piece] = []
-    for line in heads:
-        overlap = [(min(p.x1, box[2]) - max(p.x0, box[0]), p) for p in line]
-        best = max(overlap, key=lambda pair: pair[0])
-        if best[0] > 0:
-            over.extend(p for _, p in overlap if p is best[1])
-        elif len(line) >= 2 or best[0] > -40:
-            nearest = max(overlap, key=lambda pair: pair[0])
-            if nearest[0] > -60:
-                over.append(nearest[1])
-    return over
-
-
-def _continues(found: Sequence[Statement], cells: Sequence[_Cell]) -> bool:
-    """Whether values without a label stand under those of the statements before (their imperial line)."""
-    return all(_above(found, c) is not None for c in cells)
-
-
-def _above(found: Sequence[Statement], cell: _Cell) -> int | None:
-    box = join_boxes(p.box for p in cell.values)
-    last = found[-1].row
-    for index in range(len(found) - 1, -1, -1):
-        statement = found[index]
-        if statement.row != last:
-            return None
-        under = statement.x0 < box[2] and box[0] < statement.box[2] and 0 <= box[1] - statement.box[3] < box[3] - box[1]
-        if under and _other_system(statement, cell):
-            return index
-    return None
-
-
-def _other_system(statement: Statement, cell: _Cell) -> bool:
-    """Whether a value is in another system of measurement than the one above it."""
-    above = read(statement.text, unit=statement.unit)
-    below = read(" ".join(p.text for p in cell.values), unit=cell.unit or statement.unit)
-    if not above or not below or any(r.partner for r in above):
-        return False
-    first, second = above[-1].numbers[-1].printed, below[0].numbers[-1].printed
-    if first is None or second is None:
-        return False
-    return first.dimension == second.dimension and first.system != second.system
-
-
-def _continue(found: list[Statement], cells: Sequence[_Cell]) -> None:
-    for cell in cells:
-        index = _above(found, cell)
-        if index is not None:
-            text = " ".join(p.text for p in cell.values)
-            statement = found[index]
-            first, second = statement.text, EXAMPLE.sub("", text).strip()
-            if cell.unit and cell.unit != statement.unit:
-                first, second = f"{first} {statement.unit}".strip(), f"{second} {cell.unit}"
-            found[index] = replace(
-                statement,
-                text=f"{first} {second}",
-                unit="" if cell.unit and cell.unit != statement.unit else statement.unit,
-                quote=f"{statement.quote} … {text}",
-                box=join_boxes([statement.box, *(p.box for p in cell.values)]),
-            )
-
-
-def _quote(row: Sequence[Line], context: Sequence[Piece], cell: _Cell, heads: Sequence[Piece]) -> str:
-    """What the page prints: sub-heading or head, then each line of the row from the label to the value."""
-    parts = [p.text for p in [*heads, *context]]
-    chosen = [*cell.label, *cell.values]
-    for line in row:
-        mine = [i for i, p in enumerate(line.pieces) if any(p is q for q in chosen)]
-        if mine:
-            parts.append(" ".join(p.text for p in line.pieces[mine[0] : mine[-1] + 1]))
-    return " … ".join(dict.fromkeys(parts))
-
-
-def marked_by_legend(page: Page, pieces: Sequence[Piece]) -> bool:
-    """Whether a footnote sign at one of the pieces stands for "example value" at the foot of the page."""
-    marks = "".join(p.marks for p in pieces)
-    return any(mark in marks and EXAMPLE.search(text) for mark, text in page.legend.items())
-
-
-def legend_of(lines: Sequence[Line]) -> dict[str, str]:
-    """Footnote signs and what they mean: lines that begin with one."""
-    found: dict[str, str] = {}
-    for line in lines:
-        match = re.match(r"^([*†‡§¤◊]+|\d\))\s*(\S.*)$", line.text)
-        if match:
-            found.setdefault(match.group(1), match.group(2))
-        elif line.pieces[0].words[0].marks and len(line.text.split()) > 1:
-            found.setdefault(line.pieces[0].words[0].marks, line.text)
-    return found
