@@ -2,7 +2,7 @@
 
 Findings: `ALN001` no part plays a required role · `ALN002` a joint is found but no part of its own plays its pin ·
 `ALN003` the machine's frame is partly a guess · `ALN004` the search was cut short · `ALN005` an edited role exists only
-under another choice of a variant.
+under another choice of a variant · `ALN006` a hydraulic cylinder is not drawn as the sheet has it.
 """
 
 from yellowiron.align.align import align

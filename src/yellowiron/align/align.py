@@ -6,7 +6,7 @@
 4. wheels
 5. what each contact means
 6. rigid clusters and the hinges between them
-7. names as weights
+7. names, and the sheet's diameters, as weights
 8. clusters to bodies by CP-SAT, one variant against the other
 9. the machine's frame, then left and right
 10. pins, hardware and all the rest
@@ -17,7 +17,6 @@ from __future__ import annotations
 
 import functools
 import itertools
-import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
@@ -27,13 +26,15 @@ from yellowiron.align.clusters import Structure, loose_ends, structure_of
 from yellowiron.align.contacts import Flat, bare_fits_of, fits_of, flats_of, lines_of, neighbours
 from yellowiron.align.evidence import Evidence, evidence_of
 from yellowiron.align.frame import MachineFrame, machine_frame
-from yellowiron.align.hydraulics import rams_of
+from yellowiron.align.hydraulics import Ram, rams_of
 from yellowiron.align.names import name_scores
 from yellowiron.align.report import reported
+from yellowiron.align.sheet import sheet_findings, sheet_weights
 from yellowiron.align.solids import Solid, solids_of
 from yellowiron.align.solve import Solution, solve
 from yellowiron.align.spread import Spreader
 from yellowiron.align.touch import Touch
+from yellowiron.align.weights import Weights, name_weights, side_weights
 from yellowiron.align.wheels import Wheel, wheels_of
 from yellowiron.model.alignment import Alignment
 from yellowiron.model.assembly import Assembly
@@ -43,11 +44,6 @@ from yellowiron.model.template import Template, choose
 
 CONTACT = 4e-5
 """Two faces touch within this share of the machine's diagonal (0.4 mm on 10 m)."""
-NAME_WEIGHT = 40
-EXACT_WEIGHT = 70
-EDIT_WEIGHT = 150
-SIDE_WEIGHT = 20
-_SIDE = re.compile(r"(?<=_)([lr])(?=_|$)")
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,6 +53,7 @@ class _Seen:
     solids: tuple[Solid, ...]
     flats: list[Flat]
     near: list[tuple[int, int]]
+    rams: tuple[Ram, ...]
     wheels: list[Wheel]
     evidence: Evidence | None
     touch: Touch
@@ -71,7 +68,7 @@ class _Answer:
     choices: dict[str, str]
     template: Template
     solution: Solution
-    unary: dict[tuple[int, str], int]
+    unary: Weights
 
 
 def align(
@@ -97,11 +94,11 @@ def align(
     edited = _edited(assembly, template, edits)
     seen = _see(assembly, template)
     scores = name_scores(tuple(s.part for s in seen.solids), template)
-    answer = _best(seen, template, choices or {}, scores, edited)
+    answer = _best(seen, template, specifications, choices or {}, scores, edited)
     structure, resolved, solution = answer.structure, answer.template, answer.solution
     frame = machine_frame(seen.solids, structure, solution, seen.wheels, resolved) if seen.solids else None
     if frame is not None and solution.body_of:
-        sided = _sides(seen, structure, resolved, solution, frame, answer.unary)
+        sided = side_weights(seen.solids, structure, resolved, solution, frame, answer.unary)
         if sided != answer.unary:
             solution = solve(structure, resolved, unary=sided)
             frame = machine_frame(seen.solids, structure, solution, seen.wheels, resolved)
@@ -129,12 +126,14 @@ def align(
         answer.choices,
         frame or MachineFrame(np.eye(4)),
         documents=documents,
+        remarks=sheet_findings(structure, seen.rams, resolved, specifications, solution),
     )
 
 
 def _best(
     seen: _Seen,
     template: Template,
+    specifications: Specifications,
     choices: Mapping[str, str],
     scores: list[dict[str, float]],
     edited: Mapping[str, str],
@@ -144,7 +143,9 @@ def _best(
     for structure in _structures(seen, template):
         for chosen in _variants(template, choices):
             resolved = choose(template, chosen)
-            unary = _unary(seen, structure, resolved, scores, edited)
+            unary = name_weights(seen.solids, structure, resolved, scores, edited)
+            for key, weight in sheet_weights(structure, seen.rams, resolved, specifications).items():
+                unary[key] = unary.get(key, 0) + weight
             answer = _Answer(structure, chosen, resolved, solve(structure, resolved, unary=unary), unary)
             if best is None or answer.solution.score > best.solution.score:
                 best = answer
@@ -180,7 +181,7 @@ def _whole(answer: _Answer) -> bool:
 def _see(assembly: Assembly, template: Template) -> _Seen:
     solids = solids_of(assembly)
     if not solids:
-        return _Seen((), [], [], [], None, Touch((), 0.0), 0.0)
+        return _Seen((), [], [], (), [], None, Touch((), 0.0), 0.0)
     size = float(np.linalg.norm(np.max([s.high for s in solids], axis=0) - np.min([s.low for s in solids], axis=0)))
     tolerance = CONTACT * size
     fits = fits_of(solids, tolerance)
@@ -193,7 +194,7 @@ def _see(assembly: Assembly, template: Template) -> _Seen:
     wheels = wheels_of(solids, sum(1 for r in template.roles if r.kind == "wheel" and r.rigid), taken)
     touch = Touch(solids, tolerance)
     evidence = evidence_of(solids, fits, bare, lines, flats, rams, wheels, near, touch.touching)
-    return _Seen(solids, flats, near, wheels, evidence, touch, size)
+    return _Seen(solids, flats, near, tuple(rams), wheels, evidence, touch, size)
 
 
 def _has_leaves(template: Template) -> bool:
@@ -224,72 +225,6 @@ def _variants(template: Template, choices: Mapping[str, str]) -> list[dict[str, 
         {**fixed, **dict(zip((v.name for v in open_ones), combination, strict=True))}
         for combination in itertools.product(*ordered)
     ]
-
-
-def _unary(
-    seen: _Seen, structure: Structure, template: Template, scores: list[dict[str, float]], edited: Mapping[str, str]
-) -> dict[tuple[int, str], int]:
-    """Weights of (cluster, body) from names and from what a person said; a found joint counts 100."""
-    unary: dict[tuple[int, str], int] = {}
-    bodies = {r.name for r in template.roles if r.rigid}
-    known = {r.name for r in template.roles}
-    for c, cluster in enumerate(structure.clusters):
-        members = sorted(cluster.members)
-        telling = [i for i in members if scores[i]]
-        votes: dict[str, float] = {}
-        for i in telling:
-            for body, score in scores[i].items():
-                votes[body] = votes.get(body, 0.0) + score / len(telling)
-        for body in sorted(votes):
-            if body in bodies:
-                exact = votes[body] > 1
-                unary[c, body] = round(EXACT_WEIGHT if exact else NAME_WEIGHT * votes[body])
-        for i in members:
-            role = edited.get(seen.solids[i].part.id)
-            body_said = template.body_of(role) if role in known and role is not None else None
-            if body_said is not None:
-                unary[c, body_said] = unary.get((c, body_said), 0) + EDIT_WEIGHT
-    return unary
-
-
-def twin_role(name: str) -> str | None:
-    """The mirrored name: `boom_piston_rod_l_pin` → `boom_piston_rod_r_pin`; None without a side."""
-    swapped = _SIDE.sub(lambda m: "r" if m.group(1) == "l" else "l", name)
-    return swapped if swapped != name else None
-
-
-def _sides(
-    seen: _Seen,
-    structure: Structure,
-    template: Template,
-    solution: Solution,
-    frame: MachineFrame,
-    unary: dict[tuple[int, str], int],
-) -> dict[tuple[int, str], int]:
-    """Weights that put the left one of each mirrored pair on +Y."""
-    sided = dict(unary)
-    cluster_of = {b: c for c, b in solution.body_of.items()}
-
-    def y(cluster: int) -> float:
-        members = [seen.solids[i] for i in sorted(structure.clusters[cluster].members)]
-        middle = np.mean([0.5 * (s.low + s.high) for s in members], axis=0)
-        return float(frame.matrix[1, :3] @ middle + frame.matrix[1, 3])
-
-    for name in sorted(cluster_of):
-        match = _SIDE.search(name)
-        twin = twin_role(name)
-        if match is None or twin is None or not any(r.name == twin for r in template.roles):
-            continue
-        own = cluster_of[name]
-        other = cluster_of.get(twin)
-        ahead = y(own) - (y(other) if other is not None else 0.0)
-        is_left = ahead > 0
-        left, right = (name, twin) if match.group(1) == "l" else (twin, name)
-        key = (own, left if is_left else right)
-        sided[key] = sided.get(key, 0) + SIDE_WEIGHT
-        wrong = (own, right if is_left else left)
-        sided[wrong] = sided.get(wrong, 0) - SIDE_WEIGHT
-    return sided
 
 
 def _edited(assembly: Assembly, template: Template, edits: Alignment | None) -> dict[str, str]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from yellowiron.align.frame import MachineFrame
 from yellowiron.align.solve import Solution
@@ -26,9 +26,10 @@ def reported(
     frame: MachineFrame,
     *,
     documents: Mapping[str, str] | None = None,
+    remarks: Sequence[Finding] = (),
 ) -> Alignment:
     """The alignment. `places` by part id; `edited`: part id → the role a person gave it ("": none), which wins;
-    `documents`: part id → why, for those of them that a document placed."""
+    `documents`: part id → why, for those of them that a document placed; `remarks`: further findings."""
     roles = {r.name for r in template.roles}
     parts = []
     for part in assembly.parts:
@@ -59,7 +60,7 @@ def reported(
     played = {p.role for p in parts} | {p.body for p in parts}
     missing = tuple(r.name for r in template.roles if _required(r.name, template) and r.name not in played)
     doubtful = tuple(p.part for p in sorted(parts, key=lambda p: p.confidence) if p.confidence < REVIEW)
-    findings = _findings(template, solution, missing, frame, edited)
+    findings = (*_findings(template, solution, missing, frame, edited), *remarks)
     return Alignment(
         template.equipment_type, frame.matrix, tuple(parts), dict(chosen), missing, (*missing, *doubtful), findings
     )

@@ -1,0 +1,95 @@
+"""What speaks for a cluster being a body besides its joints: names, a person's word, and the side it is on.
+
+A found joint counts `solve.JOINT_WEIGHT`; everything here counts less, save a person's word.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+
+import numpy as np
+
+from yellowiron.align.clusters import Structure
+from yellowiron.align.frame import MachineFrame
+from yellowiron.align.solids import Solid
+from yellowiron.align.solve import Solution
+from yellowiron.model.template import Template
+
+Weights = dict[tuple[int, str], int]
+"""(cluster, body) → weight."""
+NAME_WEIGHT = 40
+EXACT_WEIGHT = 70
+EDIT_WEIGHT = 250
+SIDE_WEIGHT = 80
+_SIDE = re.compile(r"(?<=_)([lr])(?=_|$)")
+
+
+def name_weights(
+    solids: tuple[Solid, ...],
+    structure: Structure,
+    template: Template,
+    scores: list[dict[str, float]],
+    edited: Mapping[str, str],
+) -> Weights:
+    """Weights from what the parts are called (`scores`, by solid) and from what a person said (part id → role)."""
+    unary: Weights = {}
+    bodies = {r.name for r in template.roles if r.rigid}
+    known = {r.name for r in template.roles}
+    for c, cluster in enumerate(structure.clusters):
+        members = sorted(cluster.members)
+        telling = [i for i in members if scores[i]]
+        votes: dict[str, float] = {}
+        for i in telling:
+            for body, score in scores[i].items():
+                votes[body] = votes.get(body, 0.0) + score / len(telling)
+        for body in sorted(votes):
+            if body in bodies:
+                exact = votes[body] > 1
+                unary[c, body] = round(EXACT_WEIGHT if exact else NAME_WEIGHT * votes[body])
+        for i in members:
+            role = edited.get(solids[i].part.id)
+            body_said = template.body_of(role) if role in known and role is not None else None
+            if body_said is not None:
+                unary[c, body_said] = unary.get((c, body_said), 0) + EDIT_WEIGHT
+    return unary
+
+
+def twin_role(name: str) -> str | None:
+    """The mirrored name: `boom_piston_rod_l_pin` → `boom_piston_rod_r_pin`; None without a side."""
+    swapped = _SIDE.sub(lambda m: "r" if m.group(1) == "l" else "l", name)
+    return swapped if swapped != name else None
+
+
+def side_weights(
+    solids: tuple[Solid, ...],
+    structure: Structure,
+    template: Template,
+    solution: Solution,
+    frame: MachineFrame,
+    unary: Weights,
+) -> Weights:
+    """Weights that put the left one of each mirrored pair on +Y."""
+    sided = dict(unary)
+    cluster_of = {b: c for c, b in solution.body_of.items()}
+
+    def y(cluster: int) -> float:
+        members = [solids[i] for i in sorted(structure.clusters[cluster].members)]
+        middle = np.mean([0.5 * (s.low + s.high) for s in members], axis=0)
+        return float(frame.matrix[1, :3] @ middle + frame.matrix[1, 3])
+
+    for name in sorted(cluster_of):
+        match = _SIDE.search(name)
+        twin = twin_role(name)
+        if match is None or twin is None or not any(r.name == twin for r in template.roles):
+            continue
+        own = cluster_of[name]
+        other = cluster_of.get(twin)
+        ahead = y(own) - (y(other) if other is not None else 0.0)
+        is_left = ahead > 0
+        left, right = (name, twin) if match.group(1) == "l" else (twin, name)
+        key = (own, left if is_left else right)
+        sided[key] = sided.get(key, 0) + SIDE_WEIGHT
+        wrong = (own, right if is_left else left)
+        sided[wrong] = sided.get(wrong, 0) - SIDE_WEIGHT
+    return sided
