@@ -2,7 +2,7 @@
 
 MuJoCo is imported with the first function that is asked for. One concept a module: `multibody` (mechanism → MuJoCo
 model), `chain` (the loops solved), `grid` (poses over the strokes), `branches`, `completion`, `bench` and `quantities`
-(how a measurement is made), `measurement`, `calibration`, `levers`.
+(how a measurement is made), `measurement`, `calibration`, `levers`, `poses`.
 
 Findings:
 
@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from yellowiron.kinematics.completion import complete
     from yellowiron.kinematics.levers import lever_table
     from yellowiron.kinematics.measurement import key_poses, measure
+    from yellowiron.kinematics.poses import pose_tables
 
 _HOME = {
     "ClosedChain": "chain",
@@ -45,6 +46,7 @@ _HOME = {
     "key_poses": "measurement",
     "lever_table": "levers",
     "measure": "measurement",
+    "pose_tables": "poses",
 }
 
 __all__ = [
@@ -58,6 +60,7 @@ __all__ = [
     "key_poses",
     "lever_table",
     "measure",
+    "pose_tables",
 ]
 
 

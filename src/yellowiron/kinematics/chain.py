@@ -359,6 +359,12 @@ class ClosedChain:
         turned = relative @ b
         return math.atan2(float(c @ turned), float(b @ turned))
 
+    def quaternion(self, state: State, joint: str) -> Floats:
+        """Unit quaternion (4,) w, x, y, z of a spherical tree joint: its child against its parent, machine axes in the
+        drawn pose."""
+        first = self._body.joints[joint][0]
+        return np.array(state.position[first : first + 4])
+
     def _rotation(self, body: str) -> Floats:
         return np.asarray(self._data.xmat[self._body.bodies[body]].reshape(3, 3), dtype=np.float64)
 

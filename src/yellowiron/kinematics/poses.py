@@ -1,0 +1,73 @@
+"""Pose tables: the loops solved once on a grid over the strokes, for pages and tools that have no solver."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from yellowiron.kinematics.bench import Bench
+from yellowiron.kinematics.chain import ClosedChain, Component, State
+from yellowiron.kinematics.grid import explore
+from yellowiron.kinematics.quantities import Unmeasurable
+from yellowiron.model.geometry import Floats
+from yellowiron.model.mechanism import Joint, Mechanism
+from yellowiron.model.poses import PoseTable, PoseTables
+
+POINTS = {1: 41, 2: 21, 3: 9, 4: 6}
+"""Grid points per driver, by how many drivers a group of loops has; groups with more get no table and stay as drawn."""
+
+
+def pose_tables(mechanism: Mechanism, *, chain: ClosedChain | None = None) -> PoseTables:
+    """The coordinates of all joints that follow from the loops, over the strokes of the joints that drive them.
+
+    Groups whose drivers have no limits, or that have more than four drivers, get no table. Raises `MechanismError`
+    where the joints are no tree with cuts.
+    """
+    bench = Bench(mechanism, chain=chain)
+    chain = bench.chain
+    joints = {joint.name: joint for joint in mechanism.joints}
+    components = chain.components()
+    tables = [_table(chain, component, joints) for component in components]
+    straight: dict[str, float] = {}
+    for component in components:
+        for name in (*component.dependent, *component.cuts):
+            if joints[name].type == "revolute":
+                try:
+                    straight[name] = bench.straight(name)
+                except Unmeasurable:
+                    straight[name] = 0.0
+    return PoseTables(chain.independent, tuple(table for table in tables if table is not None), straight)
+
+
+def _table(chain: ClosedChain, component: Component, joints: Mapping[str, Joint]) -> PoseTable | None:
+    ranges = {}
+    for name in component.drivers:
+        lower, upper = joints[name].lower, joints[name].upper
+        if lower is None or upper is None or not lower < upper:
+            return None
+        ranges[name] = (lower, upper)
+    if len(ranges) not in POINTS:
+        return None
+    count = POINTS[len(ranges)]
+    grid = explore(chain, ranges, points=count)
+    if not grid.states:
+        return None
+    axes = tuple(np.linspace(low, high, count) for low, high in ranges.values())
+    rows = np.array([_row(chain, state, component, joints) for state in grid.states])
+    # Distances in steps of the grid; of equally near states the first found is taken.
+    steps = np.array([axis[1] - axis[0] for axis in axes])
+    lattice = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, len(axes))
+    apart = np.linalg.norm((lattice[:, None, :] - grid.values[None, :, :]) / steps, axis=2)
+    values = rows[apart.argmin(axis=1)].reshape(*(count for _ in axes), -1)
+    return PoseTable(component.drivers, axes, component.dependent, values, len(grid.unreachable))
+
+
+def _row(chain: ClosedChain, state: State, component: Component, joints: Mapping[str, Joint]) -> Floats:
+    columns: list[float] = []
+    for name in component.dependent:
+        if joints[name].type == "spherical":
+            columns += chain.quaternion(state, name).tolist()
+        else:
+            columns.append(chain.coordinate(state, name))
+    return np.array(columns)
