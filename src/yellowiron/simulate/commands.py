@@ -168,5 +168,9 @@ def travel(start: float, end: float, speed: float, timestep: float, pace: Pace |
         squared[i] = min(squared[i], squared[i + 1] + gain[i])
     speeds = np.sqrt(squared)
     time = np.concatenate([[0.0], np.cumsum(2.0 * step / (speeds[1:] + speeds[:-1]))])
-    steps = np.arange(1, math.ceil(float(time[-1]) / timestep) + 1)
-    return np.interp(steps * timestep, time, places)
+    now = np.minimum(np.arange(1, math.ceil(float(time[-1]) / timestep) + 1) * timestep, time[-1])
+    cell = np.clip(np.searchsorted(time, now, side="right") - 1, 0, _GRID - 2)
+    within, gained = now - time[cell], np.diff(squared)[cell] / (2.0 * step)
+    gone = cell * step + speeds[cell] * within + 0.5 * gained * within**2
+    gone[-1] = way
+    return np.asarray(start + math.copysign(1.0, end - start) * gone, dtype=np.float64)

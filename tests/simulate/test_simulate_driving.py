@@ -1,0 +1,50 @@
+"""Driving, in MuJoCo."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from yellowiron.model.errors import YellowironError
+from yellowiron.model.mechanism import Mechanism
+from yellowiron.simulate.driving import circle_radius, drive, driving_document, wheels
+from yellowiron.simulate.engine import Block
+
+
+def test_a_circle_through_an_arc() -> None:
+    angle = np.linspace(0.0, 1.5, 50)
+    points = np.column_stack([3.0 + 6.2 * np.cos(angle), -1.0 + 6.2 * np.sin(angle)])
+    assert circle_radius(points) == pytest.approx(6.2)
+
+
+def test_wheels_are_found_with_their_size(mechanism: Mechanism) -> None:
+    found = wheels(mechanism)
+    assert len(found) == 4
+    assert all(w.radius == pytest.approx(0.5, rel=0.01) and w.half_width == pytest.approx(0.15) for w in found)
+
+
+def test_what_has_no_wheels_is_said(mechanism: Mechanism) -> None:
+    with pytest.raises(YellowironError, match="no driven wheels"):
+        wheels(dataclasses.replace(mechanism, actuators=()))
+
+
+def test_a_blocks_surface_has_a_ramp_at_both_ends() -> None:
+    block = Block((1.0, 0.0), length=0.5, width=1.0, height=0.15, run=0.3)
+    heights = block.surface(np.array([1.0, 1.4, 0.6, 2.0, 1.0]), np.array([0.0, 0.0, 0.0, 0.0, 0.6]))
+    assert heights == pytest.approx([0.15, 0.075, 0.075, 0.0, 0.0])
+    assert block.corners.shape == (8, 3)
+
+
+def test_the_small_machine_drives_and_climbs(usd_file: Path) -> None:
+    result = drive(usd_file, engine="mujoco")
+    assert result.creep < 1e-3 and result.sunk < 0.01
+    assert result.forward == pytest.approx(5.0, rel=0.03)
+    assert result.backward == pytest.approx(5.0, rel=0.03)
+    assert result.turning_radius is None
+    assert result.axle_angle == pytest.approx(math.asin(0.15 / 1.4), rel=0.05)
+    assert result.highest_wheel is not None and result.highest_wheel < 0.02
+    assert driving_document(result)["forward_error_percent"] == pytest.approx(0.0, abs=3.0)

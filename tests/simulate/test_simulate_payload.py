@@ -1,0 +1,47 @@
+"""The payload: where it comes from, and what it does to a body's mass properties."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from yellowiron.model.errors import YellowironError
+from yellowiron.model.mechanism import Mechanism
+from yellowiron.simulate.payload import rated_payload, tool, with_payload
+
+
+def test_half_the_tipping_load_comes_first(mechanism: Mechanism) -> None:
+    values = {**mechanism.specifications, "Static Tipping Load Full Turn": {"value": 1000.0}}
+    rated = rated_payload(dataclasses.replace(mechanism, specifications=values))
+    assert rated.mass == 500.0
+    assert "ISO 14397-1" in rated.source
+
+
+def test_else_the_heaped_capacity(mechanism: Mechanism) -> None:
+    assert rated_payload(mechanism).mass == pytest.approx(0.05 * 1800.0)
+
+
+def test_else_nothing_and_why(mechanism: Mechanism) -> None:
+    rated = rated_payload(dataclasses.replace(mechanism, specifications={"Bucket Capacity Heaped": {"value": None}}))
+    assert rated.mass == 0.0 and rated.source
+
+
+def test_mass_and_moments_add_up(mechanism: Mechanism) -> None:
+    before, after = tool(mechanism), tool(with_payload(mechanism, 500.0))
+    assert after.mass == before.mass + 500.0
+    middle = 0.5 * (np.asarray(before.hull).min(axis=0) + np.asarray(before.hull).max(axis=0))
+    weighted = before.mass * np.asarray(before.center_of_mass) + 500.0 * middle
+    assert np.asarray(after.center_of_mass) * after.mass == pytest.approx(weighted)
+    moments = np.linalg.eigvalsh(after.inertia)
+    assert moments[0] > 0.0 and moments[0] + moments[1] >= moments[2]
+
+
+def test_no_payload_changes_nothing(mechanism: Mechanism) -> None:
+    assert with_payload(mechanism, 0.0) is mechanism
+
+
+def test_a_machine_without_a_tool_is_said(mechanism: Mechanism) -> None:
+    with pytest.raises(YellowironError, match="which body carries"):
+        with_payload(dataclasses.replace(mechanism, sites=()), 1.0)
