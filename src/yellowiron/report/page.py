@@ -58,7 +58,7 @@ def page(
         pictures=pictures,
         joint_svg=_joint_svg(document["joints"], side, _data_uri(render(bodies, side))),
         measurements=[_measurement(m) for m in document["measurements"]],
-        joints=[_joint(j) for j in document["joints"]],
+        joints=[_joint(j, _levers(document)) for j in document["joints"]],
         cylinders=[_cylinder(c) for c in document["cylinders"]],
         specifications=[_specification(s) for s in document["specifications"]],
         bodies=_bodies(document, alignment),
@@ -100,7 +100,12 @@ def _measurement(entry: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-def _joint(entry: Mapping[str, Any]) -> dict[str, Any]:
+def _levers(document: Mapping[str, Any]) -> dict[str, str]:
+    """Joint → the actuator that moves it, by which people know it."""
+    return {j["joint"]: a["name"] for a in document["actuators"] for j in a["joints"]}
+
+
+def _joint(entry: Mapping[str, Any], levers: Mapping[str, str]) -> dict[str, Any]:
     unit = "m" if entry["type"] == "prismatic" else "rad"
     lower, upper = entry["lower"], entry["upper"]
     span = "free" if lower is None and upper is None else f"{display(lower, unit)} … {display(upper, unit)}"
@@ -110,11 +115,11 @@ def _joint(entry: Mapping[str, Any]) -> dict[str, Any]:
         **entry,
         "range": "–" if entry["type"] == "fixed" else span,
         "drive_text": f"{drive['kind']}, {display(drive['max_force'], force_unit, digits=4)}" if drive else "",
-        "source_text": _joint_source(entry["source"]),
+        "source_text": _joint_source(entry["source"], levers),
     }
 
 
-def _joint_source(source: Mapping[str, Any]) -> str:
+def _joint_source(source: Mapping[str, Any], levers: Mapping[str, str]) -> str:
     """The evidence of a joint as sentences: where its axis, its cut and its limits come from."""
     words = []
     if source.get("method"):
@@ -129,7 +134,10 @@ def _joint_source(source: Mapping[str, Any]) -> str:
         elif source.get(f"{end}_specification"):
             words.append(f"{end} limit {source[f'{end}_specification']} from {source.get(f'{end}_source', 'nowhere')}")
     words += [f"{key}: {source[key]}" for key in ("cut", "limits") if source.get(key)]
-    return "; ".join(words)
+    text = "; ".join(words)
+    for joint, lever in levers.items():
+        text = text.replace(joint, lever)
+    return text
 
 
 def _listed(names: Sequence[str], *, most: int = 4) -> str:
