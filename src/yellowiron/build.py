@@ -64,8 +64,8 @@ def build(
     """Fuses an equipment type's template, a CAD model and specification sheets into a USD machine in the folder `out`.
 
     `equipment_type` is a library type or a template folder; `alignment_file` an edited alignment (default: the one
-    that an earlier run left in `out`); `documents` are JSON-1 … JSON-4 or a filled joint template; `settings` are
-    texts such as `Lift Cylinder Stroke=764 mm`; `config` picks a column of the sheet. Raises `YellowironError` for
+    that an earlier run left in `out`); `documents` are JSON-1 … JSON-4, a filled joint template or sensors; `settings`
+    are texts such as `Lift Cylinder Stroke=764 mm`; `config` picks a column of the sheet. Raises `YellowironError` for
     unusable input, having written nothing.
     """
     clock = _Clock(progress)
@@ -80,7 +80,7 @@ def build(
 
         # Weakest first: template, sheet, documents, settings.
         data = library.load_documents([Path(d) for d in documents], template, assembly)
-        template = library.apply_joints(template, data)
+        template = library.apply_sensors(library.apply_joints(template, data), data)
         with clock.stage("extract", "Reading the specification sheets"):
             specifications = specs.merge(
                 specs.extract(template, [Path(s) for s in sheets], config=config),

@@ -85,7 +85,11 @@ def test_every_code_is_documented_and_tested(root: Path) -> None:
     codes = {f"{family}{number:03d}" for family in ("TPL", "DOC") for number in range(1, 40)}
     used = {code for code in codes if f'"{code}"' in source}
     assert used == {code for code in codes if f"`{code}`" in documented}
-    assert {c for c in used if c.startswith("TPL")} == {p.name.split(".")[0] for p in DEFECTS} | {"TPL015", "TPL016"}
+    assert {c for c in used if c.startswith("TPL")} == {p.name.split(".")[0] for p in DEFECTS} | {
+        "TPL015",
+        "TPL016",
+        "TPL018",
+    }
 
 
 def test_too_many_choices_are_said_to_be_unchecked(loader: Template, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -97,7 +101,9 @@ def test_too_many_choices_are_said_to_be_unchecked(loader: Template, monkeypatch
 
 
 def test_a_driven_joint_without_actuator_is_found(loader: Template) -> None:
-    without = replace(loader, actuators=tuple(a for a in loader.actuators if a.name != "bucket"), measurements=())
+    without = replace(
+        loader, actuators=tuple(a for a in loader.actuators if a.name != "bucket"), measurements=(), sensors=()
+    )
     (finding,) = library.lint(without).findings
     assert (finding.code, finding.where) == ("TPL007", "bucket_piston_rod2bucket_cylinder_barrel_joint")
 
@@ -114,7 +120,7 @@ def test_drives_that_hold_each_other_are_found(loader: Template) -> None:
         replace(j, drive=None) if j.name == "bucket_piston_rod2bucket_cylinder_barrel_joint" else j
         for j in template.joints
     )
-    report = library.lint(replace(template, actuators=both, joints=idle, measurements=()))
+    report = library.lint(replace(template, actuators=both, joints=idle, measurements=(), sensors=()))
     (working,) = report.mobility[0].groups[1:]
     assert (working.computed, working.expected, working.undetermined) == (2, 2, 1)
     assert [f.code for f in report.findings] == ["TPL016"]

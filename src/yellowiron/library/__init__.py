@@ -1,7 +1,7 @@
 """The template library: templates from JSON, their lint, the user's own documents, and what is shown of them."""
 
 from yellowiron.library.copying import copy_template
-from yellowiron.library.documents import Documents, apply_joints, load_documents, with_relations
+from yellowiron.library.documents import Documents, apply_joints, apply_sensors, load_documents, with_relations
 from yellowiron.library.filled import filled_joints
 from yellowiron.library.lint import LintReport, lint
 from yellowiron.library.load import list_templates, load_template
@@ -12,6 +12,7 @@ __all__ = [
     "Documents",
     "LintReport",
     "apply_joints",
+    "apply_sensors",
     "copy_template",
     "filled_joints",
     "lint",

@@ -1,4 +1,4 @@
-"""The user's own documents (`--data`): the conference paper's JSON-1 to JSON-4, or a filled joint template.
+"""The user's own documents (`--data`): the conference paper's JSON-1 to JSON-4, a filled joint template, or sensors.
 
 A document is known by its content. Its names are roles or CAD part names, in which `*` stands for any text; case, `_`,
 `-` and spaces do not count; relations also take a part's id, where several parts have one name.
@@ -16,17 +16,27 @@ from typing import Any
 
 import numpy as np
 
-from yellowiron.library.details import EVERYTHING, matches, read_material
+from yellowiron.library.details import EVERYTHING, check_choices, matches, read_material
 from yellowiron.library.joints import check_bodies, read_joint, split_index
 from yellowiron.library.reading import Document, check_document, near, read_json, template_schema, where
+from yellowiron.library.sensors import merged, read_sensor
 from yellowiron.model.alignment import Alignment, PartAssignment
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import TemplateError
 from yellowiron.model.finding import Finding
+from yellowiron.model.sensor import SensorTemplate
 from yellowiron.model.specification import fold
 from yellowiron.model.template import JointTemplate, Material, Template
 
-_KINDS = "materials (density, color …), collision (texts), relations (lists) or joints (joint_type, Body …)"
+_KINDS = (
+    "materials (density, color …), collision (texts), relations (lists), joints (joint_type, Body …) or sensors "
+    "(type, mount …)"
+)
+
+_ENTRIES = (("materials", "material"), ("joint_overrides", "joint"), ("sensors", "sensor"))
+"""Documents of objects, and their schema's word for one."""
+_AFTER = {"joint_overrides": 1, "sensors": 2}
+"""Relations are read before joints, which name what follows, and joints before the sensors on them."""
 
 
 @dataclass(frozen=True)
@@ -44,7 +54,8 @@ class Follower:
 class Documents:
     """What the user's documents say. `materials` and `collision` by role or CAD part name as spelled in the template or
     the CAD model (or `*`); `relations` body → followers (CAD part names or roles); `joints` by name, merged with the
-    template's; `folders` those of the documents, in which textures are looked for."""
+    template's; `folders` those of the documents, in which textures are looked for; `sensors` by name,
+    merged likewise."""
 
     materials: Mapping[str, Material] = field(default_factory=dict)
     collision: Mapping[str, str] = field(default_factory=dict)
@@ -53,12 +64,13 @@ class Documents:
     followers: tuple[Follower, ...] = ()
     folders: tuple[str, ...] = ()
     findings: tuple[Finding, ...] = ()
+    sensors: Mapping[str, SensorTemplate] = field(default_factory=dict)
 
 
 def load_documents(paths: Sequence[str | Path], template: Template, assembly: Assembly | None = None) -> Documents:
     """The documents of `--data`, later ones winning. Without an assembly only roles can be named.
 
-    `TemplateError` for a file that is none of the four documents, or that fails its schema.
+    `TemplateError` for a file that is none of the documents, or that fails its schema.
     """
     reader = _Reader(template, assembly)
     documents = []
@@ -69,7 +81,7 @@ def load_documents(paths: Sequence[str | Path], template: Template, assembly: As
             reader.find("DOC003", path, (), "The document says nothing.", "Remove it, or fill it.")
         else:
             documents.append((kind, check_document(path, content, kind)))
-    for kind, document in sorted(documents, key=lambda d: d[0] == "joint_overrides"):
+    for kind, document in sorted(documents, key=lambda d: _AFTER.get(d[0], 0)):
         reader.read(kind, document)
     return Documents(
         materials=reader.materials,
@@ -79,11 +91,12 @@ def load_documents(paths: Sequence[str | Path], template: Template, assembly: As
         followers=tuple(reader.followers.values()),
         folders=tuple(dict.fromkeys(str(Path(p).parent) for p in paths)),
         findings=tuple(dict.fromkeys(reader.findings)),
+        sensors=reader.sensors,
     )
 
 
 def kind_of(content: Any, path: Path) -> str | None:
-    """Which of the four documents a content is (the name of its schema), None where it is empty. `TemplateError` for
+    """Which of the documents a content is (the name of its schema), None where it is empty. `TemplateError` for
     anything else."""
     values = list(content.values()) if isinstance(content, dict) else None
     if values is not None and not values:
@@ -97,7 +110,7 @@ def kind_of(content: Any, path: Path) -> str | None:
             keys = {fold(k) for v in values for k in v}
             known = {
                 kind: keys & {fold(k) for k in template_schema(kind)["$defs"][entry]["properties"]}
-                for kind, entry in (("materials", "material"), ("joint_overrides", "joint"))
+                for kind, entry in _ENTRIES
             }
             best = max(known, key=lambda kind: len(known[kind]))
             if known[best]:
@@ -111,6 +124,11 @@ def apply_joints(template: Template, documents: Documents) -> Template:
     known = {j.name for j in template.joints}
     joints += [j for name, j in documents.joints.items() if name not in known]
     return replace(template, joints=tuple(joints))
+
+
+def apply_sensors(template: Template, documents: Documents) -> Template:
+    """The template with the documents' sensors: theirs replace those of the same name, new ones come after."""
+    return merged(template, documents.sensors)
 
 
 def with_relations(edits: Alignment | None, documents: Documents) -> Alignment | None:
@@ -140,6 +158,7 @@ class _Reader:
         self.collision: dict[str, str] = {}
         self.relations: dict[str, list[str]] = {}
         self.joints: dict[str, JointTemplate] = {}
+        self.sensors: dict[str, SensorTemplate] = {}
         self.followers: dict[str, Follower] = {}
         self.findings: list[Finding] = []
 
@@ -158,9 +177,11 @@ class _Reader:
                 self.collision.update(dict.fromkeys(self.names(key, document), token))
         elif kind == "relations":
             self.read_relations(document)
-        else:
+        elif kind == "joint_overrides":
             for name, entry in document.data.items():
                 self.read_joint(document, name, entry)
+        else:
+            self.read_sensors(document)
 
     def names(self, key: str, document: Document) -> list[str]:
         """The role and CAD part names that a key stands for."""
@@ -223,6 +244,16 @@ class _Reader:
         return self.parts.get(fold(name)) or [
             part for found in self.parts.values() for part in found if fold(part[1]) == fold(name)
         ]
+
+    # ---- sensors ---------------------------------------------------------------------------------------------------
+    def read_sensors(self, document: Document) -> None:
+        base = {fold(s.name): s for s in (*self.template.sensors, *self.sensors.values())}
+        joints = {j.name: j for j in (*self.template.joints, *self.joints.values())}
+        template = replace(self.template, joints=tuple(joints.values()))
+        for name, entry in document.data.items():
+            sensor = read_sensor(document, name, entry, template, base.get(fold(name)))
+            check_choices(sensor.when, template.variants, document.at(name, "when"))
+            self.sensors[sensor.name] = sensor
 
     # ---- joints -----------------------------------------------------------------------------------------------------
     def read_joint(self, document: Document, name: str, entry: Mapping[str, Any]) -> None:

@@ -240,6 +240,7 @@ def _references(template: Template, chosen: Template, choices: Mapping[str, str]
             for name in (cylinder.slide, cylinder.barrel_joint, cylinder.rod_joint):
                 if name and name not in joints:
                     yield gone(actuator.name, f"its joint '{name}'")
+    yield from _sensors(chosen, under)
     for kept in chosen.actuators:
         for cylinder in kept.cylinders:
             yield from _cylinder(chosen, kept.name, joints, cylinder.slide, (cylinder.barrel_joint, cylinder.rod_joint))
@@ -253,6 +254,23 @@ def _references(template: Template, chosen: Template, choices: Mapping[str, str]
                 "The joint has a drive, and no actuator moves it.",
                 "Add it to actuators.json.",
             )
+
+
+def _sensors(chosen: Template, under: str) -> Iterator[Finding]:
+    """Sensors whose place does not exist under the choices."""
+    joints = {j.name for j in chosen.joints}
+    there = {
+        "site": {s.name for s in chosen.sites},
+        "role": {r.name for r in chosen.roles},
+        "joint": joints,
+        "cylinder": joints,
+        "actuator": {a.name for a in chosen.actuators},
+    }
+    for sensor in chosen.sensors:
+        for kind, names in there.items():
+            if kind in sensor.mount and sensor.mount[kind] not in names:
+                words = f"Under {under}, the {kind} '{sensor.mount[kind]}' that it is mounted on is not there."
+                yield Finding("TPL018", "warning", sensor.name, words, "Give the sensor the same 'when'.")
 
 
 def _cylinder(

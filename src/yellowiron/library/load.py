@@ -13,6 +13,7 @@ from yellowiron.library.hierarchy import read_hierarchy, read_relations, root_of
 from yellowiron.library.infer import infer_actuators, infer_roles
 from yellowiron.library.joints import check_bodies, read_joints, resolve_parts
 from yellowiron.library.reading import Document, near, read_document
+from yellowiron.library.sensors import read_sensors
 from yellowiron.model.errors import TemplateError
 from yellowiron.model.specification import fold
 from yellowiron.model.template import JointTemplate, Role, Template
@@ -28,6 +29,7 @@ DOCUMENTS = (
     "actuators",
     "measurements",
     "reference",
+    "sensors",
 )
 """The documents a template folder can have, each `<name>.json`; only `joints` is needed."""
 _MACHINE = "machine"
@@ -123,6 +125,8 @@ def _assemble(documents: Mapping[str, Document], folder: Path) -> Template:
     template = replace(template, **_further(documents, template))
     if not template.actuators:
         template = replace(template, actuators=infer_actuators(template))
+    if "sensors" in documents:
+        template = replace(template, sensors=read_sensors(documents["sensors"], template))
     _check_variants(template, documents)
     return template
 
@@ -185,6 +189,10 @@ def _check_variants(template: Template, documents: Mapping[str, Document]) -> No
             if cylinder.when:
                 place = documents["actuators"].at(actuator.name, "cylinders", "when")
                 details.check_choices(cylinder.when, template.variants, place)
+    for sensor in template.sensors:
+        if sensor.when:
+            place = documents["sensors"].at(sensor.name, "when")
+            details.check_choices(sensor.when, template.variants, place)
 
 
 def _equipment_type(roles: tuple[Role, ...], folder: Path) -> str:

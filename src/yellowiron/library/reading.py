@@ -62,7 +62,7 @@ def _schema_text(kind: str) -> str:
 
 def template_schema(kind: str) -> dict[str, Any]:
     """The published JSON Schema of a document: `hierarchy`, `relations`, `joints`, `joint_overrides`, `materials`,
-    `collision`, `wanted`, `variants`, `actuators`, `measurements` or `reference`."""
+    `collision`, `wanted`, `variants`, `actuators`, `measurements`, `reference` or `sensors`."""
     try:
         schema: dict[str, Any] = json.loads(_schema_text(kind))
     except FileNotFoundError as error:

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, Protocol
 
-from yellowiron.mechanism import body, cylinders, drives, mass, sites, values
+from yellowiron.mechanism import body, cylinders, drives, mass, sensors, sites, values
 from yellowiron.mechanism.body import vector
 from yellowiron.mechanism.cylinders import FittedCylinder
 from yellowiron.mechanism.frames import JointFrame, joint_frames, weld
@@ -92,20 +92,26 @@ def build_mechanism(
         tree.bodies, _origins(tree, frames), placement, template, materials, moments, factors, collision, findings
     )
 
+    # What is named and what is sensed on it.
+    named = sites.sites(template, frames, placement, findings)
+    fitted_cylinders = tuple(f.cylinder for f in slides.values())
+    sensed = sensors.sensors(template, named, frames, fitted_cylinders, placement, findings)
+
     return Mechanism(
         name=name,
         equipment_type=template.equipment_type,
         root=template.root,
         bodies=bodies,
         joints=joints,
-        cylinders=tuple(f.cylinder for f in slides.values()),
+        cylinders=fitted_cylinders,
         actuators=actuators,
         loops=tree.loops,
-        sites=sites.sites(template, frames, placement, findings),
+        sites=named,
         materials=used,
         measurements=template.measurements,
         specifications=values.carried(specifications),
         findings=tuple(dict.fromkeys(findings)),
+        sensors=sensed,
     )
 
 

@@ -9,6 +9,7 @@ from typing import Any, Literal
 
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
+from yellowiron.model.sensor import Sensor
 from yellowiron.model.template import JointType, Material, MeasurementTemplate
 
 Vector = tuple[float, float, float]
@@ -179,6 +180,7 @@ class Mechanism:
     specifications: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
     mobility: Mobility | None = None
     findings: tuple[Finding, ...] = ()
+    sensors: tuple[Sensor, ...] = ()
 
     def body(self, name: str) -> Body:
         """The body of that name; `KeyError` if there is none."""

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
 from yellowiron.model.geometry import Color
+from yellowiron.model.sensor import SensorTemplate
 
 JointType = Literal["fixed", "distance", "spherical", "revolute", "prismatic"]
 DriveType = Literal["linear", "angular"]
@@ -174,6 +175,7 @@ class Template:
     measurements: tuple[MeasurementTemplate, ...] = ()
     variants: tuple[Variant, ...] = ()
     reference: Mapping[str, Any] = field(default_factory=dict)
+    sensors: tuple[SensorTemplate, ...] = ()
 
     def role(self, name: str) -> Role:
         """The role of that name; `KeyError` if there is none."""
@@ -229,4 +231,7 @@ def choose(template: Template, choices: Mapping[str, str]) -> Template:
         )
         if cylinders or motors:
             actuators.append(replace(actuator, cylinders=cylinders, joints=motors))
-    return replace(template, roles=roles, joints=joints, actuators=tuple(actuators), variants=())
+    sensors = tuple(replace(s, when={}) for s in template.sensors if holds(s.when))
+    return replace(
+        template, roles=roles, joints=joints, actuators=tuple(actuators), variants=(), sensors=sensors
+    )
