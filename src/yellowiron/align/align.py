@@ -42,8 +42,9 @@ from yellowiron.model.errors import AlignmentError
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import Template, choose
 
-CONTACT = 4e-5
-"""Two faces touch within this share of the machine's diagonal (0.4 mm on 10 m)."""
+CONTACT = (4e-5, 3e-4)
+"""Two faces touch within this share of the machine's diagonal (0.4 mm on 10 m); the wider one is for machines that the
+first does not find whole (moved or shrunk parts)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,9 +93,14 @@ def align(
             "The CAD model has no parts", where=assembly.name, hint="Check that the file holds solids."
         )
     edited = _edited(assembly, template, edits)
-    seen = _see(assembly, template)
-    scores = name_scores(tuple(s.part for s in seen.solids), template)
-    answer = _best(seen, template, specifications, choices or {}, scores, edited)
+    rungs = []
+    for contact in CONTACT:
+        seen = _see(assembly, template, contact)
+        scores = name_scores(tuple(s.part for s in seen.solids), template)
+        rungs.append((_best(seen, template, specifications, choices or {}, scores, edited), seen, scores))
+        if _whole(rungs[-1][0]):
+            break
+    answer, seen, scores = max(rungs, key=lambda rung: rung[0].solution.score)
     structure, resolved, solution = answer.structure, answer.template, answer.solution
     frame = machine_frame(seen.solids, structure, solution, seen.wheels, resolved) if seen.solids else None
     if frame is not None and solution.body_of:
@@ -178,22 +184,22 @@ def _whole(answer: _Answer) -> bool:
     return joints <= found and bodies <= set(answer.solution.body_of.values())
 
 
-def _see(assembly: Assembly, template: Template) -> _Seen:
+def _see(assembly: Assembly, template: Template, contact: float) -> _Seen:
     solids = solids_of(assembly)
     if not solids:
         return _Seen((), [], [], (), [], None, Touch((), 0.0), 0.0)
     size = float(np.linalg.norm(np.max([s.high for s in solids], axis=0) - np.min([s.low for s in solids], axis=0)))
-    tolerance = CONTACT * size
+    tolerance = contact * size
     fits = fits_of(solids, tolerance)
     bare = bare_fits_of(solids, fits, tolerance)
     lines = lines_of([*fits, *bare], tolerance)
     near = neighbours(solids, tolerance)
     flats = flats_of(solids, near, tolerance)
-    rams = rams_of(solids) if any(r.kind in ("barrel", "rod") for r in template.roles) else []
+    rams = rams_of(solids, tolerance) if any(r.kind in ("barrel", "rod") for r in template.roles) else []
     taken = {i for r in rams for i in r.barrel | r.rod}
-    wheels = wheels_of(solids, sum(1 for r in template.roles if r.kind == "wheel" and r.rigid), taken)
+    wheels = wheels_of(solids, sum(1 for r in template.roles if r.kind == "wheel" and r.rigid), taken, tolerance)
     touch = Touch(solids, tolerance)
-    evidence = evidence_of(solids, fits, bare, lines, flats, rams, wheels, near, touch.touching)
+    evidence = evidence_of(solids, fits, bare, lines, flats, rams, wheels, near, touch.touching, tolerance)
     return _Seen(solids, flats, near, tuple(rams), wheels, evidence, touch, size)
 
 

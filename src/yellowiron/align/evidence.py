@@ -63,6 +63,7 @@ def evidence_of(
     wheels: list[Wheel],
     near: list[tuple[int, int]],
     touching: Callable[[int, int], bool],
+    tolerance: float,
 ) -> Evidence:
     """Sorts fits and flat contacts. Fits between a barrel and its rod, and between a wheel and its axle, slide. `bare`:
     empty bores side by side; `lines` number the fits first, then these."""
@@ -99,8 +100,8 @@ def evidence_of(
             direct.append((number[k], fit))
             pinned[fit.inner].add(number[k])
             pinned[fit.outer].add(number[k])
-    _through_rings(pinned, pressed, lines)
-    about = _about(solids, lines, pinned)
+    _through_rings(pinned, pressed, lines, tolerance)
+    about = _about(solids, lines, pinned, tolerance)
     held = {i for f in pressed for i in (f.inner, f.outer)} | set(owner)
     slight = frozenset(
         s.index for s in solids if not pinned[s.index] and s.index not in held and s.volume < SLIGHT * s.size**3
@@ -154,19 +155,21 @@ def _bolted(lines: list[Line], rams: list[Ram], solids: tuple[Solid, ...]) -> fr
     return frozenset(k for k, line in enumerate(lines) if line.radius < least)
 
 
-def _through_rings(pinned: dict[int, set[int]], pressed: list[Fit], lines: list[Line]) -> None:
+def _through_rings(pinned: dict[int, set[int]], pressed: list[Fit], lines: list[Line], tolerance: float) -> None:
     """What holds a bush is on the line of the pin in the bush."""
     changed = True
     while changed:
         changed = False
         for fit in pressed:
             for k in sorted(pinned[fit.inner] - pinned[fit.outer]):
-                if lines[k].off(fit.bore.center) < 0.1 * lines[k].radius:
+                if lines[k].off(fit.bore.center) < max(2 * tolerance, 0.1 * lines[k].radius):
                     pinned[fit.outer].add(k)
                     changed = True
 
 
-def _about(solids: tuple[Solid, ...], lines: list[Line], pinned: dict[int, set[int]]) -> dict[int, frozenset[int]]:
+def _about(
+    solids: tuple[Solid, ...], lines: list[Line], pinned: dict[int, set[int]], tolerance: float
+) -> dict[int, frozenset[int]]:
     about = {i: frozenset(on) for i, on in pinned.items()}
     rails = sorted({k for on in pinned.values() for k in on})
     if not rails:
@@ -180,7 +183,7 @@ def _about(solids: tuple[Solid, ...], lines: list[Line], pinned: dict[int, set[i
         delta = s.axis.center - origins
         off = np.linalg.norm(delta - np.einsum("ij,ij->i", delta, directions)[:, None] * directions, axis=1)
         parallel = np.abs(directions @ s.axis.direction) > PARALLEL
-        good = parallel & (off < 0.05 * radii) & (s.hole > 0.95 * radii)
+        good = parallel & (off < np.maximum(2 * tolerance, 0.05 * radii)) & (s.hole > 0.95 * radii)
         about[s.index] |= {rails[i] for i in np.flatnonzero(good)}
     return about
 

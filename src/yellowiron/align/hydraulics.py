@@ -33,7 +33,7 @@ class _Pair:
     score: float
 
 
-def rams_of(solids: tuple[Solid, ...]) -> list[Ram]:
+def rams_of(solids: tuple[Solid, ...], tolerance: float) -> list[Ram]:
     """Every hydraulic cylinder, longest first; no solid belongs to two."""
     bores = [
         (s, c)
@@ -46,7 +46,7 @@ def rams_of(solids: tuple[Solid, ...]) -> list[Ram]:
     pairs = []
     for tube, bore in bores:
         for bar, shaft in shafts:
-            pair = _pair(tube, bore, bar, shaft, eyes)
+            pair = _pair(tube, bore, bar, shaft, eyes, tolerance)
             if pair is not None:
                 pairs.append(pair)
     rams: list[Ram] = []
@@ -54,16 +54,16 @@ def rams_of(solids: tuple[Solid, ...]) -> list[Ram]:
     for pair in sorted(pairs, key=lambda p: (-round(p.score, 6), p.tube.index, p.bar.index)):
         if pair.tube.index in used or pair.bar.index in used:
             continue
-        ram = _grown(pair, solids, used)
+        ram = _grown(pair, solids, used, tolerance)
         used |= ram.barrel | ram.rod
         rams.append(ram)
     return rams
 
 
-def _pair(tube: Solid, bore: Cyl, bar: Solid, shaft: Cyl, eyes: list[Cyl]) -> _Pair | None:
+def _pair(tube: Solid, bore: Cyl, bar: Solid, shaft: Cyl, eyes: list[Cyl], tolerance: float) -> _Pair | None:
     if tube.index == bar.index or not 0.25 * bore.radius < shaft.radius < 0.95 * bore.radius:
         return None
-    if not coaxial(bore, shaft, 0.03):
+    if not coaxial(bore, shaft, 0.03, tolerance):
         return None
     direction = bore.direction
     a, b = shaft.interval(bore.center, direction)
@@ -95,7 +95,7 @@ def _across(eye: Cyl, origin: Floats, direction: Floats, radius: float) -> float
     return float(delta @ direction) if skew < 0.5 * radius and abs(float(delta @ eye.direction)) < 12 * radius else None
 
 
-def _grown(pair: _Pair, solids: tuple[Solid, ...], used: set[int]) -> Ram:
+def _grown(pair: _Pair, solids: tuple[Solid, ...], used: set[int], tolerance: float) -> Ram:
     """The parts turned about the cylinder's axis, each to the barrel or to the rod."""
     origin, d, r = pair.bore.center, pair.direction, pair.bore.radius
     mouth, bottom = pair.bore.half, -pair.bore.half
@@ -105,7 +105,7 @@ def _grown(pair: _Pair, solids: tuple[Solid, ...], used: set[int]) -> Ram:
     for s in solids:
         if s.index in used or s.index in barrel or s.index in rod or s.line is None or s.reach > 1.7 * outside:
             continue
-        if not coaxial(s.line, pair.bore, 0.04):
+        if not coaxial(s.line, pair.bore, 0.04, tolerance):
             continue
         low, high = s.span(origin, d)
         if high < bottom - 4 * r or low > end + 2 * r:

@@ -97,12 +97,11 @@ class Patch:
     area: float
 
 
-def coaxial(a: Cyl, b: Cyl, slack: float) -> bool:
-    """True if two cylinders share an axis within `slack` times the smaller radius, over their own lengths."""
+def coaxial(a: Cyl, b: Cyl, slack: float, tolerance: float = 0.0) -> bool:
+    """True if two cylinders share an axis within `slack` times the smaller radius, or `tolerance` metres."""
     if abs(float(a.direction @ b.direction)) < 1 - 5e-6 * (1 + 100 * slack):
         return False
-    limit = slack * min(a.radius, b.radius)
-    return b.off(a.center) <= limit
+    return b.off(a.center) <= max(tolerance, slack * min(a.radius, b.radius))
 
 
 def solids_of(assembly: Assembly) -> tuple[Solid, ...]:

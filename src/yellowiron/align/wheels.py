@@ -22,7 +22,7 @@ class Wheel:
     width: float
 
 
-def wheels_of(solids: tuple[Solid, ...], count: int, taken: set[int]) -> list[Wheel]:
+def wheels_of(solids: tuple[Solid, ...], count: int, taken: set[int], tolerance: float) -> list[Wheel]:
     """Up to `count` wheels: the largest round things of at least half the largest's radius, equal ones together.
 
     `taken` solids (hydraulics) are left alone. Nothing is returned where no two equal rings are found.
@@ -43,7 +43,7 @@ def wheels_of(solids: tuple[Solid, ...], count: int, taken: set[int]) -> list[Wh
             break
         found.append(Wheel(frozenset({s.index}), s.index, centre, s.axis.direction, s.reach, width))
     equal = [w for w in found if any(v is not w and abs(v.radius - w.radius) < 0.02 * w.radius for v in found)]
-    return [_grown(w, solids, taken) for w in equal[:count]] if len(equal) >= 2 else []
+    return [_grown(w, solids, taken, tolerance) for w in equal[:count]] if len(equal) >= 2 else []
 
 
 def _same_place(wheel: Wheel, axis: Cyl, centre: Floats) -> bool:
@@ -55,7 +55,7 @@ def _same_place(wheel: Wheel, axis: Cyl, centre: Floats) -> bool:
     return off < 0.1 * wheel.radius and along < wheel.width
 
 
-def _grown(wheel: Wheel, solids: tuple[Solid, ...], taken: set[int]) -> Wheel:
+def _grown(wheel: Wheel, solids: tuple[Solid, ...], taken: set[int], tolerance: float) -> Wheel:
     """Everything round about the wheel's axis that is mostly between its sides."""
     axis = solids[wheel.tyre].axis
     assert axis is not None
@@ -64,7 +64,7 @@ def _grown(wheel: Wheel, solids: tuple[Solid, ...], taken: set[int]) -> Wheel:
     for s in solids:
         if s.axis is None or s.index in taken or s.index in members or s.reach > 1.01 * wheel.radius:
             continue
-        if not coaxial(s.axis, axis, 0.05):
+        if not coaxial(s.axis, axis, 0.05, tolerance):
             continue
         low, high = s.span(wheel.center, wheel.direction)
         inside = min(high, 1.15 * half) - max(low, -1.15 * half)
