@@ -181,3 +181,41 @@ def test_chinese_labels(tmp_path: Path) -> None:
         "Lift Cylinder Stroke": 0.764,
         "Operating Weight": 25510.0,
     }
+
+
+def test_a_unit_column_and_groups_that_span_their_rows(tmp_path: Path) -> None:
+    """Held back too: 18 right, 0 wrong, 5 in doubt at first reading (a group's name was taken for part of the label)."""
+    c = canvas(tmp_path / "a.pdf")
+    lattice(
+        c,
+        36,
+        795,
+        [100, 190, 55, 85, 85],
+        [
+            ("Item", "<", "Unit", "Standard arm", "High-lift arm"),
+            ("Dimensions", "Wheelbase", "mm", "3,450", "3,450"),
+            (None, "Hinge pin height (max. height)", "mm", "4,370", "4,870"),
+            ("Front axle", "Oscillation, total", "deg", "20", "20"),
+            ("Engine", "Bore x stroke", "mm", "125 x 150", "125 x 150"),
+            (None, "Rated power", "kW/min-1", "216/1,700", "216/1,700"),
+            ("Loader hydraulics", "Lift cylinders (bore x stroke)", "mm", "2 - 150 x 764", "2 - 150 x 764"),
+            (None, "Relief valve setting", "MPa", "31.4", "31.4"),
+        ],
+    )
+    c.save()
+    asked = template(
+        wanted("Wheelbase", "length"),
+        wanted("Hinge Pin Height", "length", "hinge pin height, max. height"),
+        wanted("Rear Axle Oscillation", "angle", "total oscillation"),
+        wanted("Lift Cylinder Bore", "length"),
+        wanted("Lift Cylinder Stroke", "length"),
+        wanted("Main Relief Pressure", "pressure", "relief valve setting"),
+    )
+    expected = {
+        "Wheelbase": 3.45,
+        "Lift Cylinder Bore": 0.15,
+        "Lift Cylinder Stroke": 0.764,
+        "Main Relief Pressure": 31.4e6,
+    }
+    assert ok(asked, tmp_path / "a.pdf") == expected
+    assert ok(asked, tmp_path / "a.pdf", "high-lift arm") == expected | {"Hinge Pin Height": 4.87}

@@ -218,7 +218,10 @@ def _heads_over(grid: Grid, heads: Sequence[int], value: Cell, labels: Sequence[
 def _statement(
     page: Page, value: Cell, labels: Sequence[Cell], over: Sequence[Cell], unit: str, number: int, section: str
 ) -> Statement:
-    label = " ".join(c.text for c in labels if not _is_key(c.text))
+    names = [c for c in labels if not _is_key(c.text)]
+    # cells that span more rows than the value are the sub-headings of theirs
+    groups = [c for c in names[:-1] if c.rows[1] - c.rows[0] > value.rows[1] - value.rows[0]]
+    label = " ".join(c.text for c in names if not any(c is g for g in groups))
     label, label_unit = unit_in_label(without_key(label))
     text = value.text
     if not label:
@@ -238,6 +241,7 @@ def _statement(
         text=text,
         box=value.box,
         quote=" … ".join(quote),
+        context=tuple(c.text for c in groups),
         section=EXAMPLE.sub("", section).strip(),
         column=tuple(unit_in_label(c.text)[0] for c in column if c.text),
         unit=unit or label_unit or head_unit,

@@ -85,10 +85,10 @@ def match_one(wanted: Wanted, claim: Claim) -> Match | None:
         return None
     primary = (label if explained & label else set()) | (head if from_head else set()) or context | section
     rest = {t for t in primary - explained - NEUTRAL if not _is_number(t)}
-    if rest & REVERSING or (label - explained) & REVERSING:
+    if (everything - explained) & REVERSING:
         return None
     asked = {t for p in (wanted.name, best) for t in tokens(p)}
-    if any(OPPOSITES.get(word) in asked for word in rest):
+    if any(_contradicts(group - explained, asked - group) for group in (label, head, context, section)):
         return None
     lost = len(rest) / max(len(primary - NEUTRAL), 1)
     score = 1.0 - lost - borrowed
@@ -115,6 +115,11 @@ def _anchored(words: set[str], label: set[str], head: set[str], above: set[str])
     if words & head:
         return len(words & head) >= 1
     return not label and not head and words <= above
+
+
+def _contradicts(words: set[str], asked: set[str]) -> bool:
+    """Whether one of the words is the opposite of one asked for: a front axle, where the rear one is meant."""
+    return any(OPPOSITES.get(word, frozenset()) & asked for word in words)
 
 
 def _is_number(token: str) -> bool:

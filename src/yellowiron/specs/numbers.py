@@ -298,12 +298,12 @@ def _value(digits: str, unit: str, style: DecimalStyle) -> tuple[float, int, flo
 
 
 def _half(digits: str, value: float, decimals: int) -> float:
-    """Half a unit of the last printed digit; trailing zeros of a large whole number count as rounding, up to 100."""
+    """Half a unit of the last printed digit; trailing zeros of a large whole number may be rounding."""
     if decimals or value < 1000 or value != int(value):
         return 0.5 * 10.0**-decimals
     bare = str(int(value))
     zeros = len(bare) - len(bare.rstrip("0"))
-    return 0.5 * 10.0 ** min(zeros, 2)
+    return max(0.5, min(0.5 * 10.0 ** min(zeros, 2), 0.005 * value))
 
 
 def _decimals(text: str | None) -> int:

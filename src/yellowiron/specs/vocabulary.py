@@ -65,25 +65,27 @@ REVERSING = frozenset(
 )
 """Words that make a label mean something else than the words around them."""
 
+_PAIRS = tuple(
+    pair.split("/")
+    for pair in [
+        "front/rear",
+        "left/right",
+        "inner/outer",
+        "inside/outside",
+        "upper/lower",
+        "maximum/minimum",
+        "gross/net",
+        "forward/reverse",
+        "loaded/empty",
+        "heaped/struck",
+        "straight/turn",
+        "raise/lower",
+        "high/low",
+        "total/each",
+    ]
+)
 OPPOSITES = {
-    a: b
-    for pair in (
-        ("front", "rear"),
-        ("left", "right"),
-        ("inner", "outer"),
-        ("inside", "outside"),
-        ("upper", "lower"),
-        ("maximum", "minimum"),
-        ("gross", "net"),
-        ("forward", "reverse"),
-        ("loaded", "empty"),
-        ("heaped", "struck"),
-        ("straight", "turn"),
-        ("raise", "lower"),
-        ("high", "low"),
-        ("total", "each"),
-    )
-    for a, b in (pair, pair[::-1])
+    word: frozenset(b if word == a else a for a, b in _PAIRS if word in (a, b)) for pair in _PAIRS for word in pair
 }
 """Words that contradict each other."""
 
