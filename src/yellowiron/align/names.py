@@ -123,7 +123,7 @@ def likeness(part: Part, role: frozenset[str]) -> float:
     """How well a part's name, and less so its assemblies', speak of a role: 0 (not at all, or of another) to 1."""
     weights: dict[str, float] = {}
     for depth, text in enumerate((part.name, *reversed(part.path[1:]))):
-        for concept in concepts(text):
+        for concept in sorted(concepts(text)):
             weights[concept] = max(weights.get(concept, 0.0), ABOVE**depth)
     if not weights:
         return 0.0
