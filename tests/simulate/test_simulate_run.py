@@ -192,7 +192,8 @@ def test_mujoco_keeps_the_small_machine_together(usd_file: Path, mechanism: Mech
     assert not result.findings, result.findings
     assert result.pin_error < engines.ENGINES["mujoco"].pin_bars[base]
     boom = result.actuators[0]
-    assert boom.reached_high == pytest.approx(boom.high, abs=0.01 * boom.stroke + boom.final_sag)
+    assert boom.reached_high == pytest.approx(boom.high, abs=0.01 * boom.stroke)
+    assert boom.sag > 0.001
 
 
 def test_two_runs_say_the_same(usd_file: Path) -> None:

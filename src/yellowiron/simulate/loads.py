@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -15,6 +15,7 @@ GRAVITY = 9.81
 SPARE = 0.5
 """Share of a drive's force, less the weight it holds, that the targets' acceleration may ask for."""
 _POINTS = 13
+_SAMPLE = 0.05
 _STEP = 1e-4
 
 
@@ -33,6 +34,33 @@ def weight(chain: ClosedChain, state: State, joint: str) -> float:
         arm = np.asarray(body.center_of_mass) - np.asarray(body.origin)
         energy += GRAVITY * body.mass * (origins[:, index, 2] + rotations[:, index, 2] @ arm)
     return float(energy[1] - energy[0]) / way
+
+
+def carried(
+    chain: ClosedChain, moves: Sequence[Motion], targets: Mapping[str, Floats], timestep: float
+) -> dict[str, Floats]:
+    """The targets, and what a drive must be told so that its slide goes there with the machine's weight on it.
+
+    A position drive is a spring: it holds a weight only some way short of its target, so it is sent that much further,
+    as an operator does, but never past its joint's limits. Cylinders that no target is given for hold the drawn pose.
+    Weights are those of the target pose, sampled every `_SAMPLE` seconds.
+    """
+    count = max((len(values) for values in targets.values()), default=0)
+    told = dict(targets)
+    held = [motion for motion in moves if motion.position]
+    if not held or not count:
+        return told
+    wanted = {m.joint: targets.get(m.joint, np.zeros(count)) for m in held}
+    sampled = np.unique(np.append(np.arange(0, count, max(1, round(_SAMPLE / timestep))), count - 1))
+    states = chain.sweep({joint: values[sampled] for joint, values in wanted.items()})
+    for motion in held if states else ():
+        joint = chain.mechanism.joint(motion.joint)
+        if joint.drive is None or joint.drive.stiffness <= 0.0:
+            continue
+        sags = [weight(chain, state, motion.joint) / joint.drive.stiffness for state in states]
+        further = np.interp(np.arange(count), sampled[: len(sags)], sags)
+        told[motion.joint] = np.clip(wanted[motion.joint] + further, joint.lower, joint.upper)
+    return told
 
 
 def paces(chain: ClosedChain, moves: tuple[Motion, ...]) -> Mapping[str, Pace]:

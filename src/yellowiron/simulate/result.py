@@ -15,9 +15,8 @@ class ActuatorResult:
     """One driven joint. `low`, `high`: the ends it was sent to, `reached_low`, `reached_high` how far it came (metres
     or radians; 0 for motors); `speed` its rated one, `fastest` the fastest that it was told to move.
 
-    `final_error`: the worst distance from a target that has come to rest (m, rad; of a motor alone: rad/s);
-    `final_sag`: what the weight on the drive's spring makes of it there; `unexplained`: by how much the error
-    at worst missed the sag by more than a tenth of it; `lag`: the worst distance while moving.
+    `final_error`: the worst distance from a target that has come to rest (m, rad; of a motor alone: rad/s); `lag`: the
+    worst while moving; `sag`: the most that the weight on the drive's spring takes, by which it is told to go further.
     """
 
     actuator: str
@@ -31,8 +30,7 @@ class ActuatorResult:
     reached_low: float
     reached_high: float
     final_error: float
-    final_sag: float
-    unexplained: float
+    sag: float
     lag: float
 
     @property
@@ -131,8 +129,7 @@ def simulation_document(result: SimulationResult) -> dict[str, Any]:
                 "reached_high": a.reached_high,
                 "final_error": a.final_error,
                 "final_error_percent": a.final_error_percent,
-                "final_sag": a.final_sag,
-                "unexplained": a.unexplained,
+                "sag": a.sag,
                 "lag": a.lag,
             }
             for a in result.actuators

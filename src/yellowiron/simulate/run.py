@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -16,15 +16,13 @@ from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
 from yellowiron.simulate.commands import CRAWL, Motion, Phase, motions, phases
 from yellowiron.simulate.comparison import Agreement, Comparison, Worst
-from yellowiron.simulate.engine import Base, Engine, Setup, find_engine, load_engine, standing_bodies
-from yellowiron.simulate.loads import paces, weight
+from yellowiron.simulate.engine import Base, Engine, Setup, find_engine, import_engine, load_engine, standing_bodies
+from yellowiron.simulate.loads import carried, paces
 from yellowiron.simulate.payload import with_payload
 from yellowiron.simulate.result import ActuatorResult, BranchResult, PhaseResult, SimulationResult
 
 FINAL_BAR = 0.01
 """A cylinder ends within this share of its stroke from its target; a motor within ten times that of its speed."""
-SAG_SHARE = 0.1
-"""Or its distance is that of the weight on its drive's spring, within this share."""
 
 
 def simulate(
@@ -53,6 +51,7 @@ def simulate(
         raise YellowironError("The time step must be above 0 and at most 0.1 s", where=f"{step:g} s")
     if not 0.0 <= payload_kg < math.inf:
         raise YellowironError("The payload must be 0 kg or more", where=f"{payload_kg:g} kg")
+    import_engine(engine)
     read = usd.read_machine(usd_path)
     mechanism = with_payload(read, payload_kg)
     moves = motions(mechanism, actuators)
@@ -89,8 +88,7 @@ class _Seen:
     """What one driven joint did."""
 
     final_error: float = 0.0
-    final_sag: float = 0.0
-    unexplained: float = 0.0
+    sag: float = 0.0
     lag: float = 0.0
     fastest: float = 0.0
     low: float = math.inf
@@ -113,20 +111,21 @@ class _Run:
         count, bodies = phase.steps, len(self.comparison.chain.mechanism.bodies)
         measured = np.empty((count, len(self.comparison.measured)))
         rotations, origins = np.empty((count, bodies, 3, 3)), np.empty((count, bodies, 3))
+        told = carried(self.comparison.chain, self.moves, phase.targets, self.timestep)
         for number in range(count):
-            self.engine.set_targets({joint: float(values[number]) for joint, values in phase.targets.items()})
+            self.engine.set_targets({joint: float(values[number]) for joint, values in told.items()})
             start = time.perf_counter()
             self.engine.step()
             self.seconds += time.perf_counter() - start
             measured[number] = self.engine.coordinates()
             rotations[number], origins[number] = self.engine.poses()
         self.steps += count
-        self._track(phase, measured)
+        self._track(phase, measured, told)
         agreement = self.comparison.compare(measured, rotations, origins)
         self.done.append((phase, agreement))
         return agreement.followed
 
-    def _track(self, phase: Phase, measured: Floats) -> None:
+    def _track(self, phase: Phase, measured: Floats, told: Mapping[str, Floats]) -> None:
         if phase.name == "settle":
             return
         for motion in self.moves:
@@ -138,8 +137,8 @@ class _Run:
             seen.fastest = max(seen.fastest, float(change.max(initial=0.0)))
             if motion.position:
                 seen.lag = max(seen.lag, float(np.abs(values - targets).max()))
-                for hold in phase.holds:
-                    self._rest(seen, motion, float(values[hold] - targets[hold]), measured[hold])
+                seen.final_error = max(seen.final_error, *(abs(float(values[h] - targets[h])) for h in phase.holds))
+                seen.sag = max(seen.sag, float(np.abs(told[motion.joint] - targets).max()))
                 seen.low, seen.high = min(seen.low, float(values.min())), max(seen.high, float(values.max()))
             else:
                 error = np.abs(np.diff(values, prepend=values[:1]) / self.timestep - targets)
@@ -147,17 +146,6 @@ class _Run:
                 if phase.name == motion.actuator:  # together, steering drags wheels of equal speed over the ground
                     full = np.abs(targets) >= np.abs(targets).max()
                     seen.final_error = max(seen.final_error, *error[full & ~np.roll(full, -1)].tolist())
-
-    def _rest(self, seen: _Seen, motion: Motion, error: float, coordinates: Floats) -> None:
-        """A drive at rest, `error` beyond its target: how much of that is the weight on its spring?"""
-        chain = self.comparison.chain
-        drive = chain.mechanism.joint(motion.joint).drive
-        state, fraction = chain.reach(dict(zip(self.comparison.measured, coordinates.tolist(), strict=True)))
-        stiffness = drive.stiffness if drive is not None else 0.0
-        sag = -weight(chain, state, motion.joint) / stiffness if fraction == 1.0 and stiffness else 0.0
-        if abs(error) >= seen.final_error:
-            seen.final_error, seen.final_sag = abs(error), abs(sag)
-        seen.unexplained = max(seen.unexplained, abs(error - sag) - SAG_SHARE * abs(sag))
 
     def result(
         self,
@@ -218,8 +206,7 @@ def _actuator(motion: Motion, seen: _Seen, base: Base) -> ActuatorResult:
         reached_low=seen.low if motion.position else 0.0,
         reached_high=seen.high if motion.position else 0.0,
         final_error=seen.final_error,
-        final_sag=seen.final_sag,
-        unexplained=seen.unexplained,
+        sag=seen.sag,
         lag=seen.lag,
     )
 
@@ -248,7 +235,7 @@ def _findings(result: SimulationResult, pin_bar: float, angle_bar: float) -> Ite
             yield Finding("SIM004", "error", branch.cut, message, "Check the limits of its loop's pivots.")
     for each in result.actuators:
         bar = FINAL_BAR if each.kind == "position" else 10.0 * FINAL_BAR
-        if each.final_error_percent > 100.0 * bar and (each.kind == "velocity" or each.unexplained > 0.0):
+        if each.final_error_percent > 100.0 * bar:
             what = "stroke" if each.kind == "position" else "speed"
             message = f"it ended {each.final_error_percent:.2g} % of its {what} away from its target"
             hint = "Its drive is too weak or too soft for the load: check pressure, bore and gains."
