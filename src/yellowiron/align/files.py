@@ -16,6 +16,7 @@ from yellowiron.model.errors import AlignmentError, OutputError
 from yellowiron.model.template import Template
 
 FORMAT = 1
+_FRAME = "the frame, a row a line"
 
 
 def write_alignment(alignment: Alignment, assembly: Assembly, path: str | Path) -> None:
@@ -28,13 +29,15 @@ def write_alignment(alignment: Alignment, assembly: Assembly, path: str | Path) 
     document = {
         "format": FORMAT,
         "equipment_type": alignment.equipment_type,
-        "frame": [[float(v) for v in row] for row in alignment.frame],
+        "frame": _FRAME,
         "choices": dict(sorted(alignment.choices.items())),
         "to_review": list(alignment.to_review),
         "missing": list(alignment.missing),
         "parts": [_entry(p) for p in alignment.parts],
     }
+    rows = ",\n".join("  " + json.dumps([float(v) for v in row]) for row in alignment.frame)
     text = json.dumps(document, ensure_ascii=False, indent=1) + "\n"
+    text = text.replace(f'"{_FRAME}"', f"[\n{rows}\n ]", 1)
     target = Path(path)
     try:
         target.write_text(text, encoding="utf-8")

@@ -74,7 +74,7 @@ def machine_frame(
     origin = _origin(solids, structure, cluster_of, template, lines[swing] if swing else None, rolling, up)
     matrix = np.eye(4)
     matrix[:3, :3] = rotation
-    matrix[:3, 3] = -rotation @ origin
+    matrix[:3, 3] = np.round(-rotation @ origin, 12) + 0.0
     return MachineFrame(matrix, tuple(doubts))
 
 
