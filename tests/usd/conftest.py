@@ -28,6 +28,7 @@ from yellowiron.model.mechanism import (
     Mobility,
     Site,
 )
+from yellowiron.model.sensor import PARAMETERS, Sensor
 from yellowiron.model.template import Material, MeasurementTemplate
 
 Place = np.ndarray
@@ -253,9 +254,30 @@ def machine(shapes: dict[str, Shape], tmp_path_factory: pytest.TempPathFactory) 
         specifications={"Stroke": {"value": 1 / 3 + 1 / 7, "unit": "m", "page": 3}},
         mobility=Mobility(7, 7, 6),
         findings=(Finding("MEC001", "info", "cab", "welded"),),
+        sensors=sensors(),
     )
     assembly = Assembly("MACHINE", "step", 0.001, tuple(parts), {s.key: s for s in shapes.values()})
     return Machine(mechanism, assembly, folder)
+
+
+def sensors() -> tuple[Sensor, ...]:
+    """One of every type, those on bodies tilted, beside a site of the same name."""
+    axes = {"x_axis": (0.6, 0.0, -0.8), "z_axis": (0.8, 0.0, 0.6)}
+
+    def sensor(name: str, kind: str, **more: object) -> Sensor:
+        parameters = {key: p.default for key, p in PARAMETERS[kind].items()}
+        return Sensor(name, kind, parameters=parameters, **more)  # type: ignore[arg-type]
+
+    return (
+        sensor("tip", "camera", body="铲斗", position=(3.7, 0.1, 1 / 3), **axes),
+        sensor("roof lidar", "lidar", body="cab", position=(-0.2, 0.0, 2.0), source="ours"),
+        sensor("imu", "imu", body="frame", position=(0.1, 0.2, 1 / 7), **axes),
+        sensor("gnss", "gnss", body="cab", position=(-0.2, 0.3, 2.0)),
+        sensor("斗 contact", "contact", body="铲斗", position=(3.5, 0.0, 1.0)),
+        sensor("arm angle", "joint_encoder", joint="arm_joint"),
+        sensor("stroke", "cylinder_encoder", joint="slide", cylinder="lift"),
+        sensor("pressure", "cylinder_pressure", joint="slide", cylinder="lift"),
+    )
 
 
 def _write_picture(path: Path) -> None:

@@ -27,6 +27,7 @@ FILES = {
     "payloads/physics.usda",
     "payloads/physx.usda",
     "payloads/mujoco.usda",
+    "payloads/sensors.usda",
     "payloads/textures/rust.png",
 }
 

@@ -110,7 +110,8 @@ def _framed(
             return None
         body, axes = owner, np.eye(3)
         position, where = _place(entry, rows, placement)
-    position = position + np.asarray(mount.get("offset", (0.0, 0.0, 0.0)))
+    # A mount is no better known than to a micrometre.
+    position = np.round(position + np.asarray(mount.get("offset", (0.0, 0.0, 0.0))), 6) + 0.0
     axes = turn @ axes
     return Sensor(
         name=entry.name,
@@ -120,7 +121,7 @@ def _framed(
         x_axis=vector(axes[:, 0]),
         z_axis=vector(axes[:, 2]),
         parameters=_complete(entry),
-        source="; ".join(text for text in (entry.source, where) if text),
+        source="; ".join(text for text in (entry.source.rstrip("."), where) if text),
     )
 
 

@@ -61,6 +61,7 @@ def report_document(
         "actuators": [asdict(a) for a in mechanism.actuators],
         "loops": [asdict(loop) for loop in mechanism.loops],
         "levers": dict(levers or {}),
+        "sensors": [asdict(s) for s in mechanism.sensors],
         "counts": _counts(mechanism, template),
         "usd_counts": dict(usd_counts or {}),
         "mobility": asdict(mechanism.mobility) if mechanism.mobility else None,

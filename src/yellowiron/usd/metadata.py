@@ -17,6 +17,7 @@ from pxr import Gf, Sdf, Vt
 
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.mechanism import Body, BodyPart, Joint, Mechanism, Site
+from yellowiron.model.sensor import Sensor
 
 KEY = "yellowiron"
 FORMAT = 1
@@ -97,6 +98,17 @@ def describe_site(site: Site) -> dict[str, Any]:
         "xAxis": Gf.Vec3d(*map(float, site.x_axis)),
         "zAxis": Gf.Vec3d(*map(float, site.z_axis)),
         "source": site.source,
+    }
+
+
+def describe_sensor(sensor: Sensor) -> dict[str, Any]:
+    """A sensor's customData: its type and parameters, for people and scripts; `read` has the exact record."""
+    return {
+        "kind": "sensor",
+        "name": sensor.name,
+        "type": sensor.type,
+        "parameters": {key: float(value) for key, value in sensor.parameters.items()},
+        "source": sensor.source,
     }
 
 

@@ -48,7 +48,8 @@ class PlacedPart:
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """Paths by name. `root` is the machine's prim; `body_paths`, `joint_paths`, `site_paths` and `material_paths` are
+    """Paths by name. `root` is the machine's prim; `body_paths`, `joint_paths`, `site_paths`, `sensor_paths` (of
+    sensors on bodies) and `material_paths` are
     absolute in the composed machine; `hull_paths` are in the geometry layer. `parts` holds each body's parts in the
     mechanism's order."""
 
@@ -57,6 +58,7 @@ class Plan:
     body_paths: Mapping[str, str]
     joint_paths: Mapping[str, str]
     site_paths: Mapping[str, str]
+    sensor_paths: Mapping[str, str]
     material_paths: Mapping[str, str]
     hull_paths: Mapping[str, str]
     parts: Mapping[str, tuple[PlacedPart, ...]]
@@ -79,22 +81,21 @@ def make_plan(mechanism: Mechanism, assembly: Assembly, frame: Floats, name: str
     joint_names, material_names, hull_names = Names(BASE_JOINT), Names(), Names()
     placer = _Placer(mechanism, assembly, frame)
     parts = {body.name: placer.place(body) for body in mechanism.bodies}
+    inside = {body: Names(VISUALS, COLLIDERS, HULL) for body in body_paths}
     return Plan(
         mechanism=mechanism,
         root=root,
         body_paths=body_paths,
         joint_paths={j.name: f"{root}/{JOINTS}/{joint_names.give(j.name)}" for j in mechanism.joints},
-        site_paths=_site_paths(mechanism, body_paths),
+        site_paths={s.name: f"{body_paths[s.body]}/{inside[s.body].give(s.name)}" for s in mechanism.sites},
+        sensor_paths={
+            s.name: f"{body_paths[s.body]}/{inside[s.body].give(s.name)}" for s in mechanism.sensors if s.body
+        },
         material_paths={m: f"{root}/{MATERIALS}/{material_names.give(m)}" for m in mechanism.materials},
         hull_paths={b.name: f"{HULLS}/{hull_names.give(b.name)}" for b in mechanism.bodies},
         parts=parts,
         prototypes=tuple(placer.prototypes.prototypes),
     )
-
-
-def _site_paths(mechanism: Mechanism, body_paths: Mapping[str, str]) -> dict[str, str]:
-    names = {body: Names(VISUALS, COLLIDERS, HULL) for body in body_paths}
-    return {site.name: f"{body_paths[site.body]}/{names[site.body].give(site.name)}" for site in mechanism.sites}
 
 
 class Prototypes:

@@ -22,6 +22,7 @@ from yellowiron.usd.drives import INSTANCES, per_usd_unit, to_usd_unit
 from yellowiron.usd.metadata import DOCUMENTS, FORMAT, KEY, from_json
 from yellowiron.usd.plan import HULL, JOINTS, VISUALS
 from yellowiron.usd.rotation import axis_of, principal_axes
+from yellowiron.usd.sensors import read_sensors
 
 _SUFFIXES = {".usd", ".usda", ".usdc", ".usdz"}
 _BUILD_HINT = "Give the machine file or the scene.usda that `yellowiron build` wrote."
@@ -35,7 +36,7 @@ def read_machine(path: str | Path) -> Mechanism:
     `YellowironError` where the file is no USD, references that it needs are missing, or there is no machine of ours.
     """
     stage = open_stage(path)
-    prim = _find_machine(stage, str(path))
+    prim = find_machine(stage, str(path))
     with Usd.EditContext(stage, stage.GetSessionLayer()):
         for name, choice in (("Physics", "on"), ("Base", "floating")):
             if prim.GetVariantSets().HasVariantSet(name):
@@ -88,7 +89,8 @@ def _short(words: object) -> str:
     return " ".join(str(words).split())[:300]
 
 
-def _find_machine(stage: Usd.Stage, where: str) -> Usd.Prim:
+def find_machine(stage: Usd.Stage, where: str) -> Usd.Prim:
+    """The prim of our machine on a stage; `YellowironError`, which says `where`, if there is none of this form."""
     candidates: Iterable[Usd.Prim] = stage.Traverse()
     default = stage.GetDefaultPrim()
     if default:
@@ -131,6 +133,7 @@ class _Reader:
             bodies=bodies,
             joints=tuple(self._joint(p, origins) for p in joint_prims),
             sites=tuple(s for p in body_prims for s in self._sites(p)),
+            sensors=read_sensors(self._prim, self._cache),
             **{name: from_json(hints[name], data[name]) for name in DOCUMENTS},
         )
 

@@ -6,6 +6,7 @@ from pxr import Gf, Sdf, Vt
 
 from yellowiron.usd.metadata import describe_machine, set_custom
 from yellowiron.usd.plan import BASE_JOINT, JOINTS, Plan
+from yellowiron.usd.sensors import FILE as SENSOR_FILE
 from yellowiron.usd.stage import (
     Names,
     Types,
@@ -41,7 +42,7 @@ def write_machine_layer(layer: Sdf.Layer, plan: Plan) -> None:
     spec.SetInfo("kind", "component")
     spec.SetInfo("assetInfo", {"name": plan.root_name})
     set_custom(spec, describe_machine(plan.mechanism))
-    _add_payload(spec, "base.usda")
+    _add_payload(spec, *([SENSOR_FILE] if plan.mechanism.sensors else []), "base.usda")
     spec.variantSetNameList.prependedItems = ["Base", "Physics"]
     spec.variantSelections.update({"Base": "floating", "Physics": "on"})
     bases = Sdf.VariantSetSpec(spec, "Base")

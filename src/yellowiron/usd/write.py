@@ -20,6 +20,8 @@ from yellowiron.usd.physics import write_physics
 from yellowiron.usd.physx import write_physx
 from yellowiron.usd.plan import GEOMETRY_FILE, HULLS, PROTOTYPES, Plan, make_plan
 from yellowiron.usd.scene import PAYLOAD_FOLDER, write_machine_layer, write_scene_layer
+from yellowiron.usd.sensors import FILE as SENSOR_FILE
+from yellowiron.usd.sensors import write_contact_reports, write_sensors
 from yellowiron.usd.stage import create_layer, define, save_layer
 
 SCENE_FILE = "scene.usda"
@@ -53,13 +55,16 @@ def write_machine(
     machine_file = f"{name}.usda"
     machine, scene = create_layer(plan.root_name), create_layer("World")
     geometry = create_layer(PROTOTYPES[1:], binary=True)
-    base, physics, physx, mujoco = (create_layer(plan.root_name) for _ in range(4))
+    base, physics, physx, mujoco, sensors = (create_layer(plan.root_name) for _ in range(5))
     with Sdf.ChangeBlock():
         _write_geometry(geometry, plan, textures)
         write_bodies(base, plan)
         write_physics(physics, base, plan)
         write_physx(physx, base, plan)
+        write_contact_reports(physx, plan)
         write_mujoco(mujoco, base, plan)
+        if mechanism.sensors:
+            write_sensors(sensors, plan)
         write_machine_layer(machine, plan)
         write_scene_layer(scene, plan, machine_file)
     layers = {
@@ -71,6 +76,8 @@ def write_machine(
         payloads / "physx.usda": physx,
         payloads / "mujoco.usda": mujoco,
     }
+    if mechanism.sensors:
+        layers[payloads / SENSOR_FILE] = sensors
     return (*(save_layer(layer, path) for path, layer in layers.items()), *texture_files)
 
 
