@@ -9,7 +9,7 @@ from __future__ import annotations
 import functools
 import itertools
 from collections import deque
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -222,6 +222,19 @@ def _loop(closing: Joint, tree: list[Joint], ends: Mapping[str, tuple[str, str]]
         steps.append(step)
         node = ends[step.joint.path][0 if step.sign > 0 else 1]
     return Loop((Step(closing, 1), *reversed(steps)))
+
+
+def cylinders(island: Island) -> Iterator[tuple[Joint, Joint, Joint]]:
+    """Slides between two pins of a loop, each once, with these pins."""
+    seen = set()
+    for loop in island.loops:
+        joints = loop.joints
+        for index, joint in enumerate(joints if len(joints) >= 4 else ()):
+            before, after = joints[index - 1], joints[(index + 1) % len(joints)]
+            pinned = all(p.type in ("revolute", "spherical") for p in (before, after))
+            if joint.type == "prismatic" and pinned and joint.path not in seen:
+                seen.add(joint.path)
+                yield joint, before, after
 
 
 def root_body(island: Island, tree: tuple[str, ...], recorded: str = "") -> str:

@@ -19,8 +19,8 @@ from yellowiron.model.geometry import Floats
 if TYPE_CHECKING:
     from yellowiron.check.graph import Loop
 
-RANK_TOLERANCE = 1e-3
-"""Singular values below this close nothing: axes that differ by 0.05° still count as parallel."""
+RANK_TOLERANCE = 2e-4
+"""Singular values below this close nothing: axes that differ by some hundredths of a degree still count as parallel."""
 STILL = 1e-6
 """A joint whose share in every motion is below this cannot move."""
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from yellowiron.check.graph import Island, Loop
+from yellowiron.check.graph import cylinders
 from yellowiron.check.rule import Remarks, rule
 from yellowiron.check.view import WORLD, Joint, View
 
@@ -16,6 +16,8 @@ _ROUND = 0.02
 _SHARE = 0.1
 """A hinge whose limits give it less than this share of what its loop asks has its limits in radians (1/57)."""
 _SLACK = {"revolute": math.radians(0.1), "prismatic": 1e-3}
+_STAGES = 5.0
+"""A cylinder's stroke, in its closed lengths: a telescopic one has five stages at most, and each is shorter."""
 _RADIANS = 2.0 * math.pi
 
 
@@ -144,10 +146,13 @@ def unlimited_slide(view: View) -> Remarks:
 )
 def long_stroke(view: View) -> Remarks:
     """A slide's stroke is longer than the machine."""
-    for island, joint, stroke in _strokes(view):
-        on_rails = WORLD in joint.bodies
-        if stroke > island.size > 0.0 and joint.path not in island.in_loops and not on_rails:
-            yield joint.path, f"It may travel {stroke:.4g} m, and the machine is {island.size:.4g} m across."
+    for island in view.islands:
+        for joint in island.joints:
+            if joint.type != "prismatic" or joint.path in island.in_loops or WORLD in joint.bodies:
+                continue
+            stroke = 0.0 if joint.lower is None or joint.upper is None else joint.upper - joint.lower
+            if stroke > island.size > 0.0:
+                yield joint.path, f"It may travel {stroke:.4g} m, and the machine is {island.size:.4g} m across."
 
 
 @rule(
@@ -156,29 +161,15 @@ def long_stroke(view: View) -> Remarks:
     "Give it the cylinder's stroke, in the stage's unit.",
 )
 def beyond_reach(view: View) -> Remarks:
-    """A slide's stroke is longer than its loop can reach."""
-    for island, joint, stroke in _strokes(view):
-        for loop in island.loops:
-            if joint in loop.joints and not _others_slide(loop, joint) and stroke > 2.0 * _perimeter(loop):
-                yield joint.path, f"It may travel {stroke:.4g} m in a loop of {_perimeter(loop):.4g} m."
-                break
-
-
-def _strokes(view: View) -> Iterator[tuple[Island, Joint, float]]:
+    """A slide's stroke is longer than its cylinder can hold."""
     for island in view.islands:
-        for joint in island.joints:
-            if joint.type == "prismatic" and joint.lower is not None and joint.upper is not None:
-                yield island, joint, joint.upper - joint.lower
-
-
-def _others_slide(loop: Loop, joint: Joint) -> bool:
-    return any(j.type in ("prismatic", "generic") for j in loop.joints if j is not joint)
-
-
-def _perimeter(loop: Loop) -> float:
-    """The length of the way around a loop from pin to pin, metres."""
-    points = [j.sides[0].position for j in loop.joints]
-    return float(sum(np.linalg.norm(b - a) for a, b in zip(points, [*points[1:], points[0]], strict=True)))
+        for slide, before, after in cylinders(island):
+            if slide.lower is None or slide.upper is None or slide.lower >= slide.upper:
+                continue
+            drawn = float(np.linalg.norm(after.sides[0].position - before.sides[0].position))
+            closed, stroke = drawn + slide.lower - slide.coordinate, slide.upper - slide.lower
+            if stroke > _STAGES * closed:
+                yield slide.path, f"Its stroke is {stroke:.4g} m, and its pins are {drawn:.4g} m apart as drawn."
 
 
 @rule(

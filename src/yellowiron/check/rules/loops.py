@@ -7,14 +7,15 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from yellowiron.check.graph import Island, Loop
+from yellowiron.check.graph import Island, cylinders
 from yellowiron.check.motion import STILL, Motion
 from yellowiron.check.rule import Remarks, rule
 from yellowiron.check.view import WORLD, Body, Joint, View
 from yellowiron.model.geometry import Floats
 
 _PARALLEL = math.radians(0.1)
-_OFF_PINS = math.radians(3.0)
+_OFF_PINS = 3.0
+"""Degrees."""
 _OFF_WHEEL = math.radians(5.0)
 _CENTRED = 0.1
 """Of a wheel's radius: its hinge passes this close to its middle."""
@@ -172,7 +173,7 @@ def _adjacent(joints: list[Joint]) -> list[list[Joint]]:
 @rule(
     "CHK094",
     "warning",
-    "Drive one of twin cylinders at twice the force and leave the other without a drive.",
+    "Of twin cylinders drive one at twice the force, the other not at all. Elsewhere a pivot of the loop is missing.",
 )
 def fighting(view: View) -> Remarks:
     """Drives hold each other."""
@@ -207,38 +208,17 @@ def _dependent(motion: Motion, joints: list[Joint]) -> list[Joint]:
 def off_pins(view: View) -> Remarks:
     """A cylinder does not point along its pins."""
     for island in view.islands:
-        seen = set()
-        for loop in island.loops:
-            for slide, before, after in _cylinders(loop):
-                if slide.path in seen:
-                    continue
-                seen.add(slide.path)
-                line = after.sides[0].position - before.sides[0].position
-                axis = slide.axis
-                for pin in (before, after):
-                    if pin.type == "revolute":
-                        line = line - (line @ pin.axis) * pin.axis
-                        axis = axis - (axis @ pin.axis) * pin.axis
-                        break
-                if np.linalg.norm(line) < 1e-3 * island.size or np.linalg.norm(axis) < 0.1:
-                    continue
-                angle = _angle(axis, line)
-                if angle > _OFF_PINS:
-                    yield (
-                        slide.path,
-                        f"It slides {math.degrees(angle):.4g}° off the line between {before.name} and {after.name}.",
-                    )
-
-
-def _cylinders(loop: Loop) -> Iterator[tuple[Joint, Joint, Joint]]:
-    """Slides between two pins, with these pins."""
-    joints = loop.joints
-    if len(joints) < 4:
-        return
-    for index, joint in enumerate(joints):
-        before, after = joints[index - 1], joints[(index + 1) % len(joints)]
-        if joint.type == "prismatic" and all(p.type in ("revolute", "spherical") for p in (before, after)):
-            yield joint, before, after
+        for slide, before, after in cylinders(island):
+            line = after.sides[0].position - before.sides[0].position
+            axis = slide.axis
+            hinge = next((p.axis for p in (before, after) if p.type == "revolute"), None)
+            if hinge is not None:
+                line, axis = line - (line @ hinge) * hinge, axis - (axis @ hinge) * hinge
+            if np.linalg.norm(line) < 1e-3 * island.size or np.linalg.norm(axis) < 0.1:
+                continue
+            angle = math.degrees(_angle(axis, line))
+            if angle > _OFF_PINS:
+                yield slide.path, f"It slides {angle:.4g}° off the line between {before.name} and {after.name}."
 
 
 @rule(
