@@ -190,7 +190,7 @@ def test_twice_the_same(found: Specifications, wheel_loader: Template, sheet: Pa
 
 def test_the_sheet_is_what_its_script_writes(sheet: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.syspath_prepend(str(sheet.parent))
-    for name in ("sheet", "values", "sheet_parts", "sheet_views"):
+    for name in ("sheet", "values", "sheet_parts", "sheet_views", "sheet_buckets"):
         monkeypatch.delitem(sys.modules, name, raising=False)
     import sheet as script  # type: ignore[import-not-found]
 

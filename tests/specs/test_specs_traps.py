@@ -184,7 +184,7 @@ def test_chinese_labels(tmp_path: Path) -> None:
 
 
 def test_a_unit_column_and_groups_that_span_their_rows(tmp_path: Path) -> None:
-    """Held back too: 18 right, 0 wrong, 5 in doubt at first reading (a group's name was taken for part of the label)."""
+    """Held back too. First reading: 18 right, 0 wrong, 5 in doubt (a group's name was taken for part of the label)."""
     c = canvas(tmp_path / "a.pdf")
     lattice(
         c,
