@@ -126,7 +126,10 @@ def build(
                 library.filled_joints(template, machine, specifications), folder / "joints.filled.json"
             )
             align.write_alignment(alignment, assembly, folder / "alignment.json")
-            page = report.page(document, machine, assembly, alignment, poses=kinematics.key_poses(machine))
+            page = report.page(
+                document, machine, assembly, alignment,
+                poses=kinematics.key_poses(machine), tables=kinematics.pose_tables(machine),
+            )  # fmt: skip
             (folder / "report.html").write_text(page, encoding="utf-8")
         report.write_document({**clock.seconds, "total": sum(clock.seconds.values())}, folder / "timings.json")
     return Machine(

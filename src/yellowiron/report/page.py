@@ -16,9 +16,11 @@ from yellowiron.model.alignment import Alignment
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Measurement, Mechanism
+from yellowiron.model.poses import PoseTables
 from yellowiron.model.text import display
 from yellowiron.report.document import fell_short, within_tolerance
 from yellowiron.report.pictures import Camera, encode, look_at, machine_soup, render
+from yellowiron.report.viewer import viewer
 
 Poses = Mapping[str, Mapping[str, Floats]]
 """Caption → body → (4, 4) displacement from the drawn pose, machine frame."""
@@ -31,8 +33,10 @@ def page(
     alignment: Alignment,
     *,
     poses: Poses | None = None,
+    tables: PoseTables | None = None,
 ) -> str:
-    """The page as text. Deterministic: no time, no path of this machine."""
+    """The page as text; with `tables` it has a 3D view to move the machine in. Deterministic: no time, no path of this
+    machine."""
     import jinja2
 
     environment = jinja2.Environment(autoescape=True, trim_blocks=True, undefined=jinja2.StrictUndefined)
@@ -56,6 +60,7 @@ def page(
         reasons=fell_short(document),
         figures=_figures(document),
         pictures=pictures,
+        viewer=viewer(mechanism, assembly, alignment, tables, poses=poses) if tables is not None else None,
         joint_svg=_joint_svg(document["joints"], side, _data_uri(render(bodies, side))),
         measurements=[_measurement(m) for m in document["measurements"]],
         joints=[_joint(j, _levers(document)) for j in document["joints"]],

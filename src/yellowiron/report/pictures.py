@@ -22,7 +22,7 @@ from yellowiron.model.mechanism import Mechanism
 _SUN = np.array([0.35, -0.70, 1.0]) / math.sqrt(0.35**2 + 0.70**2 + 1.0)
 _SKY = np.array([0.85, 0.89, 0.93])
 _GROUND = np.array([0.78, 0.77, 0.74])
-_YELLOW = (0.87, 0.47, 0.01)
+YELLOW = (0.87, 0.47, 0.01)
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,7 +94,7 @@ def machine_soup(
                 turned = shape.mesh.normals @ np.linalg.inv(place[:3, :3])
                 turned /= np.maximum(np.linalg.norm(turned, axis=1, keepdims=True), 1e-30)
                 corner_normals = turned[triangles]
-            color = _body_color(index) if by_body else (part.color or shape.color or _YELLOW)
+            color = body_color(index) if by_body else (part.color or shape.color or YELLOW)
             corners.append(soup)
             normals.append(corner_normals)
             colors.append(np.broadcast_to(np.asarray(color, dtype=np.float64), (len(soup), 3)))
@@ -209,7 +209,7 @@ def contact_sheet(images: Sequence[Image.Image]) -> Image.Image:
     return sheet
 
 
-def _body_color(index: int) -> tuple[float, float, float]:
+def body_color(index: int) -> tuple[float, float, float]:
     """Linear RGB by the golden angle of hue, so that any number of neighbours differ; every third is darker."""
     hue = (0.11 + 0.61803398875 * index) % 1.0
     value = (0.95, 0.72, 0.52)[index % 3]

@@ -1,0 +1,549 @@
+// The 3D view of the report: its controls, what they do, and what is known of the part that was clicked.
+
+/** The packing of viewer.py: gzip of [length, JSON header, binary], in base64. */
+async function unpack(text) {
+  const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
+  const buffer = await new Response(stream).arrayBuffer();
+  const length = new DataView(buffer).getUint32(0, true);
+  const model = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
+  const kinds = { f32: Float32Array, i32: Int32Array, u16: Uint16Array, i8: Int8Array };
+  const array = ([kind, offset, count]) => new kinds[kind](buffer, 4 + length + offset, count);
+  for (const table of model.tables) table.values = array(table.values);
+  for (const shape of model.shapes)
+    for (const key of ["points", "indices", "normals"]) shape[key] = shape[key] && array(shape[key]);
+  return model;
+}
+
+/** An element: `element("button", {class: "x", onclick: …}, child, "text")`. */
+function element(tag, attributes = {}, ...children) {
+  const made = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) {
+    if (name.startsWith("on")) made.addEventListener(name.slice(2), value);
+    else if (value !== false && value != null) made.setAttribute(name, value === true ? "" : value);
+  }
+  made.append(...children.filter((child) => child != null));
+  return made;
+}
+
+function svg(tag, attributes = {}) {
+  const made = document.createElementNS("http://www.w3.org/2000/svg", tag);
+  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
+  return made;
+}
+
+const words = (name) => name.replaceAll("_", " ");
+const sentence = (name) => words(name).replace(/^./, (letter) => letter.toUpperCase());
+const signed = (value, digits) => (value < -0.5 * 10 ** -digits ? "−" : "") + Math.abs(value).toFixed(digits);
+const degrees = (radians) => `${signed((radians * 180) / Math.PI, 1)}°`;
+const STEPS = 400; // of a slider
+const SLOW = 400; // milliseconds for a frame
+
+function boxOf(points) {
+  const [low, high] = [Math.min, Math.max].map((best) =>
+    [0, 1, 2].map((k) => points.reduce((value, point) => best(value, point[k]), points[0][k])),
+  );
+  return { low, high, middle: scaled(add(low, high), 0.5) };
+}
+
+class Viewer {
+  constructor(root, model) {
+    this.root = root;
+    this.model = model;
+    this.given = {};
+    this.byBody = false;
+    this.chosen = 0;
+    this.trials = 0;
+    this.quickest = Infinity;
+    model.parts.forEach((part, index) => Object.assign(part, { number: index + 1, hidden: false, drawn: part.color }));
+    this.#layout();
+    this.renderer = new Renderer(this.canvas, model.shapes);
+    this.#measure();
+    this.#controls();
+    this.#pointer();
+    root.classList.add("v-ready");
+    root.replaceChildren(this.stage, this.panel);
+    this.move({});
+    this.reset();
+    new ResizeObserver(() => this.request()).observe(this.stage);
+    this.canvas.addEventListener("webglcontextlost", () => {
+      this.hint.textContent = "The browser has taken the graphics away; reload the page to see the machine again.";
+    });
+  }
+
+  // ---- layout ------------------------------------------------------------------------------------------------------
+  #layout() {
+    this.canvas = element("canvas", {
+      tabindex: 0,
+      role: "img",
+      "aria-label": "The machine in three dimensions. Arrow keys turn it, plus and minus zoom, 0 shows all of it.",
+    });
+    this.overlay = svg("svg", { "aria-hidden": "true" });
+    this.tip = element("div", { class: "v-tip", hidden: true });
+    this.card = element("div", { class: "v-card", role: "status", hidden: true });
+    const toggle = (label, change) =>
+      element("button", {
+        type: "button",
+        "aria-pressed": "false",
+        onclick: (event) => {
+          const on = event.currentTarget.getAttribute("aria-pressed") !== "true";
+          event.currentTarget.setAttribute("aria-pressed", on);
+          change(on);
+        },
+      }, label);
+    const tools = element(
+      "div",
+      { class: "v-tools" },
+      toggle("By body", (on) => { this.byBody = on; this.#recolor(); }),
+      toggle("Joints", (on) => { this.showJoints = on; this.#drawJoints(); }),
+      element("button", { type: "button", onclick: () => this.reset() }, "Reset view"),
+      element("button", { type: "button", onclick: () => this.#fullscreen() }, "Full screen"),
+    );
+    this.hint = element("div", { class: "v-hint" }, "Drag to turn, right-drag to move, click and scroll to zoom");
+    this.stage = element("div", { class: "v-stage" }, this.canvas, this.overlay, tools, this.hint, this.card, this.tip);
+    this.panel = element("div", { class: "v-panel" });
+  }
+
+  #fullscreen() {
+    if (document.fullscreenElement) document.exitFullscreen();
+    else this.root.requestFullscreen?.();
+  }
+
+  #recolor() {
+    for (const part of this.model.parts) part.color = this.byBody ? this.model.bodies[part.body].color : part.drawn;
+    this.request();
+  }
+
+  /** Each part's drawn placement and the corners of its box; the machine's box. */
+  #measure() {
+    for (const part of this.model.parts) {
+      const [a, b, c, d] = [0, 1, 2, 3].map((k) => part.place.slice(3 * k, 3 * k + 3));
+      part.rest = [...a, 0, ...b, 0, ...c, 0, ...d, 1];
+      const shape = this.model.shapes[part.shape];
+      part.corners = [0, 1, 2, 3, 4, 5, 6, 7].map((bits) =>
+        moved(part.rest, [0, 1, 2].map((k) => shape.low[k] + ((bits >> k) & 1) * shape.size[k])),
+      );
+    }
+    const { low, high, middle } = boxOf(this.model.parts.flatMap((part) => part.corners));
+    this.scene = { middle, radius: 0.5 * Math.hypot(...high.map((value, k) => value - low[k])) };
+  }
+
+  // ---- controls ----------------------------------------------------------------------------------------------------
+  #controls() {
+    const { sliders, poses } = this.model;
+    this.sliders = sliders.map((slider) => this.#slider(slider));
+    this.angles = element("dl", { class: "v-angles" });
+    const buttons = element(
+      "div",
+      { class: "v-poses" },
+      ...[{ name: "As drawn", at: [] }, ...poses].map((pose) =>
+        element("button", { type: "button", onclick: () => this.animate(Object.fromEntries(pose.at)) }, pose.name),
+      ),
+    );
+    const section = (title, ...content) => element("section", {}, element("h3", {}, title), ...content);
+    this.panel.append(section("Move it", ...this.sliders.map((slider) => slider.row), buttons));
+    if (this.model.readouts.length + this.model.sites.length) this.panel.append(section("How it stands", this.angles));
+    this.panel.append(this.#partList());
+  }
+
+  #slider(slider) {
+    const [lower, upper] = slider.range;
+    const [from, to] = slider.sign > 0 ? [lower, upper] : [upper, lower];
+    const id = `v-${slider.name}`;
+    const output = element("output", { for: id });
+    const input = element("input", {
+      type: "range", id, min: 0, max: STEPS, step: 1,
+      oninput: () => this.set(slider.name, from + ((to - from) * input.value) / STEPS),
+    });
+    const show = (value) => {
+      input.value = Math.round((STEPS * (value - from)) / (to - from));
+      output.textContent =
+        slider.unit === "rad"
+          ? degrees(value * slider.sign)
+          : slider.extension == null
+            ? `${signed(1e3 * value, 0)} mm`
+            : `${signed(1e3 * (value + slider.extension), 0)} of ${(1e3 * slider.stroke).toFixed(0)} mm`;
+      input.setAttribute("aria-valuetext", output.textContent);
+      input.style.setProperty("--share", `${(100 * input.value) / STEPS}%`);
+    };
+    const label = element("label", { for: id }, sentence(slider.name.replace(/_joint$/, "").replace("2", " to ")));
+    return { ...slider, show, row: element("div", { class: "v-slider" }, label, output, input) };
+  }
+
+  #partList() {
+    this.search = element("input", {
+      type: "search", placeholder: "Search parts, roles, bodies", "aria-label": "Search parts", oninput: () => this.#fill(),
+    });
+    this.list = element("div", { class: "v-list" });
+    this.count = element("span", { class: "dim" });
+    const all = element("button", { type: "button", onclick: () => this.show(() => true) }, "Show all");
+    this.#fill();
+    const head = element("h3", {}, "Parts ", this.count, all);
+    return element("section", { class: "v-parts" }, head, this.search, this.list);
+  }
+
+  /** The parts that the search leaves, body by body. */
+  #fill() {
+    const wanted = this.search.value.trim().toLowerCase().split(/\s+/).filter(Boolean);
+    const found = this.model.parts.filter((part) => {
+      const text = `${part.path} ${part.role} ${this.model.bodies[part.body].name}`.toLowerCase();
+      return wanted.every((word) => text.includes(word) || words(text).includes(word));
+    });
+    const hidden = this.model.parts.filter((part) => part.hidden).length;
+    const left = this.model.leftOut ? `, ${this.model.leftOut} small ones not drawn` : "";
+    this.count.textContent = `${found.length}${hidden ? `, ${hidden} hidden` : ""}${left}`;
+    const open = new Set([...this.list.querySelectorAll("details[open]")].map((each) => each.dataset.body));
+    this.list.replaceChildren(
+      ...this.model.bodies.map((body, index) => {
+        const parts = found.filter((part) => part.body === index);
+        if (!parts.length) return "";
+        const group = element("details", { "data-body": body.name });
+        const rows = () => group.childElementCount < 2 && group.append(...parts.map((part) => this.#row(part)));
+        const swatch = element("i", { style: `background:rgb(${body.color})` });
+        const name = element("span", {}, words(body.name), element("span", { class: "dim" }, ` ${parts.length}`));
+        group.append(element("summary", {}, swatch, name, this.#eye(words(body.name), parts)));
+        group.addEventListener("toggle", () => group.open && rows());
+        if ((group.open = open.has(body.name) || (wanted.length > 0 && found.length <= 60))) rows();
+        return group;
+      }),
+    );
+  }
+
+  #row(part) {
+    const name = element("button", {
+      type: "button", class: "v-name", title: part.path, "aria-current": part.number === this.chosen,
+      onclick: () => this.choose(part.number),
+    }, part.name);
+    return element("div", { class: "v-row" }, name, this.#eye(part.name, [part]));
+  }
+
+  #eye(name, parts) {
+    const hidden = parts.every((part) => part.hidden);
+    return element("button", {
+      type: "button", class: "v-eye", "aria-pressed": !hidden, "aria-label": `Show ${name}`,
+      title: hidden ? "Show" : "Hide",
+      onclick: (event) => {
+        event.preventDefault();
+        const set = new Set(parts);
+        this.show((part) => (set.has(part) ? hidden : !part.hidden));
+      },
+    }, hidden ? "○" : "●");
+  }
+
+  /** Shows the parts that a test holds for, hides all others. */
+  show(test) {
+    for (const part of this.model.parts) part.hidden = !test(part);
+    this.#fill();
+    this.#changed();
+  }
+
+  /** Chooses a part by its number (0: none) and says what is known of it. */
+  choose(number) {
+    this.chosen = number;
+    const part = this.model.parts[number - 1];
+    this.card.hidden = !part;
+    if (part) {
+      const action = (label, act) => element("button", { type: "button", onclick: act }, label);
+      const sure = part.confidence == null ? "" : `, confidence ${part.confidence.toFixed(2)}`;
+      const body = this.model.bodies[part.body].name;
+      const role = part.role && part.role !== body ? `${words(part.role)} on ` : "";
+      this.card.replaceChildren(
+        action("×", () => this.choose(0)),
+        element("b", {}, part.name),
+        element("p", {}, `${role}${words(body)}${sure}`, part.review ? element("span", { class: "tag review" }, "to review") : null),
+        element("p", { class: "dim v-reason" }, part.reason),
+        action("Hide", () => this.show((each) => each !== part && !each.hidden)),
+        action("Isolate", () => this.show((each) => each === part)),
+        action("Isolate body", () => this.show((each) => each.body === part.body)),
+      );
+      this.card.firstChild.setAttribute("aria-label", "Close");
+    }
+    for (const button of this.list.querySelectorAll("[aria-current=true]")) button.setAttribute("aria-current", "false");
+    this.#fill();
+    this.request();
+  }
+
+  // ---- the machine's pose ------------------------------------------------------------------------------------------
+  /** Sets a slider by its name to a coordinate of its first joint (metres or radians from the drawn pose). */
+  set(name, value) {
+    this.animation = null;
+    const slider = this.sliders.find((each) => each.name === name);
+    this.move({ ...this.given, ...Object.fromEntries(slider.joints.map(([joint, sign]) => [joint, sign * value])) });
+  }
+
+  /** Poses the machine: coordinates of independent joints, 0 where none is given. */
+  move(given) {
+    this.given = given;
+    this.pose = poseOf(this.model, given);
+    for (const slider of this.sliders) slider.show(given[slider.joints[0][0]] ?? 0);
+    const row = (name, value) => [element("dt", {}, name), element("dd", {}, value)];
+    const joints = Object.fromEntries(this.model.joints.map((joint) => [joint.name, joint]));
+    this.angles.replaceChildren(
+      ...this.model.sites.flatMap((site) => {
+        const at = moved(this.pose[site.body], site.at);
+        const x = turned(this.pose[site.body], site.x);
+        const pitch = Math.atan2(x[2], Math.sign(x[0] || 1) * Math.hypot(x[0], x[1]));
+        return row(sentence(site.name), `${at[2].toFixed(2)} m high${site.tilts ? `, ${degrees(pitch)}` : ""}`);
+      }),
+      ...this.model.readouts.flatMap((name) => {
+        const joint = joints[name];
+        const angle = coordinateOf(joint, this.pose) - joint.straight;
+        return row(`${sentence(joint.child)} to ${words(joint.parent)}`, degrees(angle));
+      }),
+    );
+    this.#changed();
+  }
+
+  /** Goes to a pose within a second, at once where motion is unwelcome; the camera keeps all of it in the frame. */
+  animate(given) {
+    const start = { ...this.given };
+    const [from, to] = [this.camera, this.#fitted(poseOf(this.model, given))];
+    const names = [...new Set([...Object.keys(start), ...Object.keys(given)])];
+    const begin = performance.now();
+    const length = matchMedia("(prefers-reduced-motion: reduce)").matches ? 0 : 600;
+    const step = (now) => {
+      if (this.animation !== step) return;
+      const t = length ? Math.min(Math.max((now - begin) / length, 0), 1) : 1;
+      const share = t * t * (3 - 2 * t);
+      this.camera = {
+        ...this.camera,
+        target: add(scaled(from.target, 1 - share), scaled(to.target, share)),
+        distance: (1 - share) * from.distance + share * to.distance,
+      };
+      const between = (name) => (1 - share) * (start[name] ?? 0) + share * (given[name] ?? 0);
+      this.move(Object.fromEntries(names.map((name) => [name, between(name)])));
+      if (t < 1) requestAnimationFrame(step);
+      else this.animation = null;
+    };
+    this.animation = step;
+    this.goal = given;
+    requestAnimationFrame(step);
+  }
+
+  #changed() {
+    for (const part of this.model.parts)
+      part.place = multiply(this.pose[this.model.bodies[part.body].name] ?? IDENTITY, part.rest);
+    this.shadowsOld = true;
+    this.request();
+  }
+
+  // ---- camera ------------------------------------------------------------------------------------------------------
+  get #aspect() {
+    return (this.stage.clientWidth || 16) / (this.stage.clientHeight || 9);
+  }
+
+  /** Looks at all that is shown, from the front right. */
+  reset() {
+    this.camera = { ...this.camera, azimuth: -0.75, elevation: 0.3 };
+    Object.assign(this.camera, this.#fitted(this.pose));
+    this.request();
+  }
+
+  /** Target and distance from which all shown parts in a pose are seen at the camera's angles. */
+  #fitted(pose) {
+    const parts = this.model.parts.filter((part) => !part.hidden);
+    const corners = (parts.length ? parts : this.model.parts).flatMap((part) =>
+      part.corners.map((corner) => moved(pose[this.model.bodies[part.body].name] ?? IDENTITY, corner)),
+    );
+    const { middle } = boxOf(corners);
+    const { back, right, up, slope } = cameraOf({ ...this.camera, target: middle, distance: 1 }, this.#aspect, 1);
+    const seen = corners.map((corner) => {
+      const offset = add(corner, scaled(middle, -1));
+      return [dot(offset, right), dot(offset, up), dot(offset, back)];
+    });
+    // Aim at the middle of what is seen, then step back until every corner is in the frame.
+    const box = boxOf(seen);
+    const need = seen.map(([x, y, z]) =>
+      z + Math.max(Math.abs(x - box.middle[0]) / this.#aspect, Math.abs(y - box.middle[1])) / slope,
+    );
+    const target = add(middle, add(scaled(right, box.middle[0]), scaled(up, box.middle[1])));
+    return { target, distance: 1.06 * need.reduce((most, value) => Math.max(most, value), 0) };
+  }
+
+  /** The hand on the camera ends its own movement. */
+  #steady() {
+    if (this.animation) this.move(this.goal);
+    this.animation = null;
+  }
+
+  #orbit(dx, dy) {
+    this.#steady();
+    this.camera.azimuth -= 0.006 * dx;
+    this.camera.elevation = Math.min(Math.max(this.camera.elevation + 0.006 * dy, -1.5), 1.5);
+    this.request();
+  }
+
+  #pan(dx, dy) {
+    this.#steady();
+    const { right, up, slope } = cameraOf(this.camera, this.#aspect, 1);
+    const metres = (2 * slope * this.camera.distance) / this.stage.clientHeight;
+    this.camera.target = add(this.camera.target, add(scaled(right, -dx * metres), scaled(up, dy * metres)));
+    this.request();
+  }
+
+  /** Zooms by a factor towards a pixel of the stage. */
+  #zoom(factor, x, y) {
+    const radius = this.scene.radius;
+    const distance = Math.min(Math.max(this.camera.distance * factor, 0.05 * radius), 30 * radius);
+    const share = 1 - distance / this.camera.distance;
+    this.#pan((this.stage.clientWidth / 2 - x) * share, (this.stage.clientHeight / 2 - y) * share);
+    this.camera.distance = distance;
+  }
+
+  #pointer() {
+    const { canvas } = this;
+    const down = new Map();
+    let travelled = 0;
+    const at = (event) => {
+      const box = canvas.getBoundingClientRect();
+      return [event.clientX - box.left, event.clientY - box.top];
+    };
+    canvas.addEventListener("pointerdown", (event) => {
+      canvas.setPointerCapture(event.pointerId);
+      canvas.focus({ preventScroll: true });
+      if (!down.size) travelled = 0;
+      down.set(event.pointerId, at(event));
+      this.tip.hidden = true;
+    });
+    canvas.addEventListener("pointermove", (event) => {
+      const before = down.get(event.pointerId);
+      if (!before) return this.#hover(at(event));
+      const now = at(event);
+      const [dx, dy] = [now[0] - before[0], now[1] - before[1]];
+      travelled += Math.hypot(dx, dy);
+      if (down.size === 2) {
+        const other = [...down].find(([id]) => id !== event.pointerId)[1];
+        const apart = (p) => Math.hypot(p[0] - other[0], p[1] - other[1]) || 1;
+        this.#pan(dx / 2, dy / 2);
+        this.#zoom(apart(before) / apart(now), (now[0] + other[0]) / 2, (now[1] + other[1]) / 2);
+      } else if (event.buttons & 6 || event.shiftKey) this.#pan(dx, dy);
+      else this.#orbit(dx, dy);
+      down.set(event.pointerId, now);
+    });
+    const up = (event) => {
+      const was = down.delete(event.pointerId);
+      if (was && event.type === "pointerup" && travelled < 5 && event.button === 0) this.choose(this.pick(...at(event)));
+    };
+    canvas.addEventListener("pointerup", up);
+    canvas.addEventListener("pointercancel", up);
+    canvas.addEventListener("pointerleave", () => (this.tip.hidden = true));
+    canvas.addEventListener("contextmenu", (event) => event.preventDefault());
+    canvas.addEventListener("dblclick", () => this.reset());
+    const wheel = (event) => {
+      // The page keeps scrolling until the view was clicked.
+      if (document.activeElement !== canvas && !event.ctrlKey && !document.fullscreenElement) return;
+      event.preventDefault();
+      this.#zoom(Math.exp(Math.max(-0.5, Math.min(0.5, event.deltaY * 0.0015))), ...at(event));
+    };
+    canvas.addEventListener("wheel", wheel, { passive: false });
+    canvas.addEventListener("keydown", (event) => {
+      const middle = [this.stage.clientWidth / 2, this.stage.clientHeight / 2];
+      const act = {
+        ArrowLeft: () => this.#orbit(25, 0), ArrowRight: () => this.#orbit(-25, 0),
+        ArrowUp: () => this.#orbit(0, 25), ArrowDown: () => this.#orbit(0, -25),
+        "+": () => this.#zoom(0.85, ...middle), "=": () => this.#zoom(0.85, ...middle),
+        "-": () => this.#zoom(1.18, ...middle), 0: () => this.reset(), Escape: () => this.choose(0),
+      }[event.key];
+      if (!act || event.altKey || event.ctrlKey || event.metaKey) return;
+      event.preventDefault();
+      act();
+    });
+  }
+
+  #hover([x, y]) {
+    this.over = [x, y];
+    if (this.waiting) return;
+    const part = this.model.parts[this.pick(x, y) - 1];
+    this.#tell(part && `${part.name} · ${words(this.model.bodies[part.body].name)}`, x, y);
+  }
+
+  #tell(text, x, y) {
+    this.tip.hidden = !text;
+    this.tip.textContent = text ?? "";
+    this.tip.style.transform = `translate(${x + 14}px, ${y + 16}px)`;
+  }
+
+  /** Number of the part at a pixel of the stage, 0: none. */
+  pick(x, y) {
+    const ratio = this.canvas.width / this.stage.clientWidth;
+    return this.renderer.partAt(Math.floor(x * ratio), Math.floor(y * ratio));
+  }
+
+  /** Pixel of the stage where a point of the machine frame is seen. */
+  project(point) {
+    const m = cameraOf(this.camera, this.#aspect, this.scene.radius).matrix;
+    const depth = m[3] * point[0] + m[7] * point[1] + m[11] * point[2] + m[15];
+    const [x, y] = moved(m, point);
+    return [(0.5 + (0.5 * x) / depth) * this.stage.clientWidth, (0.5 - (0.5 * y) / depth) * this.stage.clientHeight];
+  }
+
+  // ---- drawing on demand -------------------------------------------------------------------------------------------
+  /** Draws with the next frame, and once more, finer, when nothing has changed for a moment. */
+  request() {
+    clearTimeout(this.resting);
+    if (this.waiting) return;
+    this.waiting = requestAnimationFrame(() => {
+      this.waiting = 0;
+      this.draw(1);
+      this.resting = setTimeout(() => this.draw(devicePixelRatio < 2 && this.quickest < SLOW ? 2 : 1), 140);
+    });
+  }
+
+  draw(fine) {
+    const start = performance.now();
+    const ratio = devicePixelRatio || 1;
+    const [width, height] = [this.stage.clientWidth, this.stage.clientHeight].map((size) => Math.max(1, Math.round(size * ratio)));
+    if (this.canvas.width !== width || this.canvas.height !== height) Object.assign(this.canvas, { width, height });
+    const camera = cameraOf(this.camera, this.#aspect, this.scene.radius);
+    this.renderer.draw(this.model.parts, camera, this.scene, { fine, chosen: this.chosen, moved: this.shadowsOld });
+    this.shadowsOld = false;
+    if (fine === 1 && this.trials < 3) {
+      // Reading a pixel waits for the frame: where even coarse ones are slow (no graphics card), fine ones are left out.
+      this.renderer.partAt(0, 0);
+      this.quickest = Math.min(this.quickest, performance.now() - start);
+      this.trials++;
+    }
+    this.#drawJoints();
+  }
+
+  /** Joint axes over the picture: filled marks for joints of the tree, hollow ones where a loop is cut. */
+  #drawJoints() {
+    this.overlay.replaceChildren();
+    if (!this.showJoints) return;
+    for (const joint of this.model.joints) {
+      const pose = this.pose[joint.parent];
+      if (!pose) continue;
+      const reach = 0.045 * this.scene.radius;
+      const middle = moved(pose, joint.anchor);
+      const axis = scaled(turned(pose, joint.axis), reach);
+      const [a, b, m] = [add(middle, axis), add(middle, scaled(axis, -1)), middle].map((point) => this.project(point));
+      const group = svg("g", { class: `v-joint v-${joint.type}${joint.cut ? " v-cut" : ""}` });
+      group.append(svg("line", { x1: a[0], y1: a[1], x2: b[0], y2: b[1] }));
+      group.append(
+        joint.type === "prismatic"
+          ? svg("rect", { x: m[0] - 4.5, y: m[1] - 4.5, width: 9, height: 9 })
+          : svg("circle", { cx: m[0], cy: m[1], r: 5 }),
+      );
+      const tell = () => {
+        const value = coordinateOf(joint, this.pose);
+        const now = value == null ? "" : joint.type === "prismatic" ? `, ${signed(1e3 * value, 0)} mm` : `, ${degrees(value)}`;
+        this.#tell(`${words(joint.name)} · ${joint.type}${joint.cut ? ", cut" : ""}${now}`, ...m);
+      };
+      group.addEventListener("pointerenter", tell);
+      group.addEventListener("click", tell);
+      group.addEventListener("pointerleave", () => (this.tip.hidden = true));
+      this.overlay.append(group);
+    }
+  }
+}
+
+const place = document.getElementById("viewer");
+try {
+  if (!("DecompressionStream" in window)) throw new Error("no DecompressionStream");
+  const viewer = new Viewer(place, await unpack(document.getElementById("viewer-data").textContent.trim()));
+  document.getElementById("viewer-caption").textContent = "The machine as built: move it, turn it, click a part.";
+  window.yellowiron = viewer;
+} catch (error) {
+  document.getElementById("viewer-caption").textContent =
+    `As drawn in the CAD model. The 3D view needs a browser with WebGL2 (${error.message}).`;
+}
