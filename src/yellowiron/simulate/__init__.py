@@ -4,7 +4,8 @@ A layer above the stages, like `build`: it may import `model`, `kinematics`, `us
 it. Engines are imported only where they are used.
 
 One concept a module: `engine` (what an engine must do, and which there are), one module an engine, `payload`,
-`commands` (what the levers do), `comparison` (engine against kinematics), `result`, `run`, `driving`.
+`commands` (what the levers do), `loads` (what their drives must bear), `comparison` (engine against kinematics),
+`result`, `run`, `driving`.
 
 Findings:
 
@@ -23,12 +24,16 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from yellowiron.simulate.driving import DrivingResult, drive, driving_document
     from yellowiron.simulate.engine import ENGINES, Engine, Setup
     from yellowiron.simulate.payload import rated_payload
     from yellowiron.simulate.result import SimulationResult, simulation_document
     from yellowiron.simulate.run import simulate
 
 _HOMES = {
+    "DrivingResult": "driving",
+    "drive": "driving",
+    "driving_document": "driving",
     "ENGINES": "engine",
     "Engine": "engine",
     "Setup": "engine",
@@ -38,7 +43,18 @@ _HOMES = {
     "simulation_document": "result",
 }
 
-__all__ = ["ENGINES", "Engine", "Setup", "SimulationResult", "rated_payload", "simulate", "simulation_document"]
+__all__ = [
+    "ENGINES",
+    "DrivingResult",
+    "Engine",
+    "Setup",
+    "SimulationResult",
+    "drive",
+    "driving_document",
+    "rated_payload",
+    "simulate",
+    "simulation_document",
+]
 
 
 def __getattr__(name: str) -> Any:

@@ -39,6 +39,8 @@ class MujocoEngine:
         self.model = model
         self.data = mujoco.MjData(model)
         mechanism = setup.mechanism
+        self._rotations, self._origins = self.data.xmat.reshape(-1, 3, 3), self.data.xpos
+        self._qpos, self._ctrl = self.data.qpos, self.data.ctrl
         self._bodies = np.array([model.body(body.name).id for body in mechanism.bodies])
         self._positions = np.array([int(model.joint(name).qposadr[0]) for name in setup.measured], dtype=int)
         self._controls: dict[str, tuple[int, int]] = {}
@@ -58,7 +60,7 @@ class MujocoEngine:
         """See `Engine`."""
         for joint, value in targets.items():
             control, sign = self._controls[joint]
-            self.data.ctrl[control] = sign * value
+            self._ctrl[control] = sign * value
 
     def step(self) -> None:
         """One step, in MuJoCo's two halves the other way round: poses and coordinates then belong to the same
@@ -68,11 +70,11 @@ class MujocoEngine:
 
     def poses(self) -> tuple[Floats, Floats]:
         """See `Engine`."""
-        return self.data.xmat[self._bodies].reshape(-1, 3, 3), self.data.xpos[self._bodies]
+        return self._rotations.take(self._bodies, axis=0), self._origins.take(self._bodies, axis=0)
 
     def coordinates(self) -> Floats:
         """See `Engine`."""
-        return np.asarray(self.data.qpos[self._positions], dtype=np.float64)
+        return np.asarray(self._qpos.take(self._positions), dtype=np.float64)
 
     def close(self) -> None:
         """Nothing is held outside Python."""
