@@ -465,7 +465,7 @@ def built(example: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="session")
 def stripped(built: Path) -> Path:
     """The same scene in one file, without visuals, that says nothing of yellowiron."""
-    stage = Usd.Stage.Open(str(built), Sdf.Layer.CreateAnonymous())
+    stage = Usd.Stage.Open(str(built))
     stage.SetEditTarget(stage.GetSessionLayer())
     for prim in [p for p in stage.Traverse() if p.IsInstance()]:
         prim.SetActive(False)

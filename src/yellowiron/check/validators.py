@@ -15,6 +15,7 @@ _SEVERITIES: dict[object, Severity] = {
     UsdValidation.ValidationErrorType.Warn: "warning",
     UsdValidation.ValidationErrorType.Info: "info",
 }
+_MDL = "sourceType 'mdl'"
 _HINT = "See the documentation of OpenUSD's validator {}."
 
 
@@ -26,8 +27,11 @@ def validate(stage: Usd.Stage) -> list[Finding]:
 
 
 def _is_provided(error: UsdValidation.ValidationError) -> bool:
-    """An application's own material library is not beside the file, and nothing is wrong with that."""
-    return error.GetName() == "UnresolvableDependency" and error.GetMessage().rstrip("'.").endswith(PROVIDED)
+    """MDL materials are an application's own: neither their library nor their shaders are known outside of it."""
+    message = error.GetMessage()
+    if error.GetName() == "UnresolvableDependency":
+        return message.rstrip("'.").endswith(PROVIDED)
+    return error.GetName() == "MissingSourceTypeInRegistry" and _MDL in message
 
 
 def _finding(error: UsdValidation.ValidationError, stage: Usd.Stage) -> Finding:
