@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 from pathlib import Path
 from typing import Literal
 from xml.etree import ElementTree as ET
 
 import numpy as np
 
+from yellowiron.export import sensors
 from yellowiron.export.assets import Assets, plain, unique
 from yellowiron.export.convex import convex_pieces, hull
 from yellowiron.export.geometry import BodyGeometry, Collider, Geometry, read_geometry
+from yellowiron.export.values import axes_of, minus, quaternion, row, text
 from yellowiron.model.errors import MechanismError
 from yellowiron.model.geometry import Color, Floats, Mesh
-from yellowiron.model.mechanism import Actuator, ActuatorJoint, Body, Drive, Joint, Mechanism, Site
+from yellowiron.model.mechanism import Actuator, ActuatorJoint, Body, Drive, Joint, Mechanism
 
 TIMESTEP = 0.001
 """Seconds. Pins stay within 0.05 mm at this step, and do not hold at 4 ms."""
@@ -39,8 +40,8 @@ def export_mjcf(
     base: Literal["floating", "fixed"] = "floating",
     timestep: float = TIMESTEP,
 ) -> Path:
-    """Writes `<machine>.xml`, `scene.xml` (the machine on a ground plane, with light) and `assets/` into a folder;
-    returns the machine's file.
+    """Writes `<machine>.xml`, `scene.xml` (the machine on a ground plane, with light) and `assets/` into a folder,
+    and `lidar.xml` where there is one; returns the machine's file.
 
     `geometry` is the machine's USD file, or what `read_geometry` made of one. Positions are metres in the drawn pose,
     where all coordinates and controls are 0; controls are an actuator's coordinate: metres of its driven slide, rad/s
@@ -51,10 +52,15 @@ def export_mjcf(
     """
     shapes = geometry if isinstance(geometry, Geometry) else read_geometry(geometry)
     folder.mkdir(parents=True, exist_ok=True)
-    name = unique(plain(mechanism.name), {"scene"})
+    name = unique(plain(mechanism.name), {"scene", "lidar"})
     document = _Document(mechanism, shapes, Assets(folder / ASSETS), base, timestep)
     _write(document.element(name), folder / f"{name}.xml")
     _write(_scene(mechanism, f"{name}.xml"), folder / "scene.xml")
+    beams = sensors.section(mechanism, lidars=True)
+    if len(beams):
+        top = ET.Element("mujoco", model="lidar")
+        top.append(beams)
+        _write(top, folder / "lidar.xml")
     return folder / f"{name}.xml"
 
 
@@ -101,11 +107,12 @@ class _Document:
         self._check_tree()
         top = ET.Element("mujoco", model=name)
         ET.SubElement(top, "compiler", angle="radian", meshdir=ASSETS, autolimits="true")
-        ET.SubElement(top, "option", timestep=_text(self._timestep), integrator=INTEGRATOR, cone="elliptic")
+        ET.SubElement(top, "option", timestep=text(self._timestep), integrator=INTEGRATOR, cone="elliptic")
         top.append(self._defaults())
         top.append(self._asset())
         top.append(world)
-        for section in (self._contact(), self._equality(), self._tendon(), self._actuator(), self._keyframe()):
+        held = (self._contact(), self._equality(), self._tendon(), self._actuator())
+        for section in (*held, sensors.section(self._mechanism), self._keyframe()):
             if len(section):
                 top.append(section)
         return top
@@ -122,7 +129,7 @@ class _Document:
         top = ET.Element("default")
         inner = ET.SubElement(top, "default", {"class": "machine"})
         ET.SubElement(inner, "mesh", inertia="shell")
-        ET.SubElement(inner, "equality", solref=_row((2.0 * self._timestep, 1.0)), solimp=_row(SOLIMP))
+        ET.SubElement(inner, "equality", solref=row((2.0 * self._timestep, 1.0)), solimp=row(SOLIMP))
         visual = ET.SubElement(inner, "default", {"class": "visual"})
         ET.SubElement(visual, "geom", type="mesh", contype="0", conaffinity="0", group="2", mass="0")
         collision = ET.SubElement(inner, "default", {"class": "collision"})
@@ -132,7 +139,7 @@ class _Document:
     def _asset(self) -> ET.Element:
         asset = ET.Element("asset")
         for color, name in self._colors.items():
-            ET.SubElement(asset, "material", name=name, rgba=_row((*map(_srgb, color), 1.0)))
+            ET.SubElement(asset, "material", name=name, rgba=row((*map(_srgb, color), 1.0)))
         for name, file in self._assets.files.items():
             ET.SubElement(asset, "mesh", {"class": "machine", "name": name, "file": file})
         return asset
@@ -140,7 +147,7 @@ class _Document:
     # ---- bodies -----------------------------------------------------------------------------------------------------
     def _body(self, parent: ET.Element, body: Body, joint: Joint | None) -> None:
         around = self._mechanism.body(joint.body0).origin if joint is not None else (0.0, 0.0, 0.0)
-        element = ET.SubElement(parent, "body", name=body.name, pos=_row(_minus(body.origin, around)))
+        element = ET.SubElement(parent, "body", name=body.name, pos=row(minus(body.origin, around)))
         if joint is None:
             element.set("childclass", "machine")
             if self._base == "floating":
@@ -154,21 +161,22 @@ class _Document:
         ET.SubElement(
             element,
             "inertial",
-            pos=_row(_minus(body.center_of_mass, body.origin)),
-            mass=_text(body.mass),
-            fullinertia=_row([inertia[i, j] for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]),
+            pos=row(minus(body.center_of_mass, body.origin)),
+            mass=text(body.mass),
+            fullinertia=row([inertia[i, j] for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]),
         )
         self._geometry_of(element, body.name, self._geometry.bodies.get(body.name, BodyGeometry()))
         for site in self._mechanism.sites:
             if site.body == body.name:
-                rotation = _quaternion(_site_axes(site))
+                rotation = quaternion(axes_of(site))
                 ET.SubElement(
-                    element, "site", name=site.name, pos=_row(_minus(site.position, body.origin)), quat=_row(rotation)
+                    element, "site", name=site.name, pos=row(minus(site.position, body.origin)), quat=row(rotation)
                 )
+        element.extend(sensors.on_body(self._mechanism, body))
         for cut in self._mechanism.joints:
             if cut.cut and cut.type == "distance" and body.name in (cut.body0, cut.body1):
                 number = int(body.name == cut.body1)
-                ET.SubElement(element, "site", name=f"{cut.name}.{number}", pos=_row(_minus(cut.anchor, body.origin)))
+                ET.SubElement(element, "site", name=f"{cut.name}.{number}", pos=row(minus(cut.anchor, body.origin)))
         for following in self._children.get(body.name, ()):
             self._body(element, self._mechanism.body(following.body1), following)
 
@@ -180,14 +188,14 @@ class _Document:
         if joint.type == "fixed":
             return
         made = ET.SubElement(element, "joint", name=joint.name, type=_JOINTS[joint.type])
-        made.set("pos", _row(_minus(joint.anchor, body.origin)))
+        made.set("pos", row(minus(joint.anchor, body.origin)))
         if joint.type == "spherical":
             if joint.upper is not None:
-                made.set("range", _row((0.0, joint.upper)))
+                made.set("range", row((0.0, joint.upper)))
             return
-        made.set("axis", _row(joint.axis))
+        made.set("axis", row(joint.axis))
         if joint.lower is not None and joint.upper is not None:
-            made.set("range", _row((joint.lower, joint.upper)))
+            made.set("range", row((joint.lower, joint.upper)))
 
     def _geometry_of(self, element: ET.Element, body: str, shapes: BodyGeometry) -> None:
         for visual in shapes.visuals:
@@ -202,7 +210,7 @@ class _Document:
 
     def _collider(self, element: ET.Element, body: str, collider: Collider) -> None:
         name = f"{body}.{collider.name}.collision"
-        friction = {} if collider.friction is None else {"friction": _text(collider.friction)}
+        friction = {} if collider.friction is None else {"friction": text(collider.friction)}
         if collider.mesh is None:
             radius, *rest = collider.size
             size = {
@@ -211,9 +219,9 @@ class _Document:
                 "box": tuple(0.5 * v for v in collider.size),
                 "sphere": (radius,),
             }[collider.kind]
-            rotation = _quaternion(collider.matrix[:3, :3])
+            rotation = quaternion(collider.matrix[:3, :3])
             position = collider.matrix[:3, 3]
-            self._geom(element, "collision", name, position, rotation, type=collider.kind, size=_row(size), **friction)
+            self._geom(element, "collision", name, position, rotation, type=collider.kind, size=row(size), **friction)
             return
         mesh, position, rotation = _placed(collider.mesh, collider.matrix)
         for piece in self._convex(mesh, collider.approximation):
@@ -241,9 +249,9 @@ class _Document:
     ) -> None:
         values = {"class": group, "name": unique(name, self._geoms)}
         if np.abs(position).max() > 0.0:
-            values["pos"] = _row(position)
+            values["pos"] = row(position)
         if rotation[0] < 1.0:
-            values["quat"] = _row(rotation)
+            values["quat"] = row(rotation)
         ET.SubElement(element, "geom", {**values, **more})
 
     def _color(self, color: Color) -> str:
@@ -268,11 +276,11 @@ class _Document:
                 )
             if joint.cut and joint.type != "distance":
                 kind = "weld" if joint.type == "fixed" else "connect"
-                anchor = _minus(
+                anchor = minus(
                     joint.anchor, self._mechanism.body(joint.body0 if kind == "connect" else joint.body1).origin
                 )
                 ends = {"class": "machine", "name": joint.name, "body1": joint.body0, "body2": joint.body1}
-                ET.SubElement(section, kind, {**ends, "anchor": _row(anchor)})
+                ET.SubElement(section, kind, {**ends, "anchor": row(anchor)})
         return section
 
     def _tendon(self) -> ET.Element:
@@ -281,7 +289,7 @@ class _Document:
         for joint in self._mechanism.joints:
             if joint.cut and joint.type == "distance":
                 ends = (joint.lower or 0.0, joint.upper if joint.upper is not None else _FAR)
-                spatial = ET.SubElement(section, "spatial", name=joint.name, range=_row(ends))
+                spatial = ET.SubElement(section, "spatial", name=joint.name, range=row(ends))
                 for number in (0, 1):
                     ET.SubElement(spatial, "site", site=f"{joint.name}.{number}")
         return section
@@ -304,24 +312,24 @@ class _Document:
         for joint in self._order:
             values += [1.0, 0.0, 0.0, 0.0] if joint.type == "spherical" else [0.0] * _POSITIONS[joint.type]
         if values:
-            ET.SubElement(section, "key", name="drawn", qpos=_row(values))
+            ET.SubElement(section, "key", name="drawn", qpos=row(values))
         return section
 
 
 def _gains(joint: Joint, drive: Drive, sign: int) -> dict[str, str]:
     values: dict[str, str] = {}
     if drive.kind == "position":
-        values = {"kp": _text(drive.stiffness), "kv": _text(drive.damping)}
+        values = {"kp": text(drive.stiffness), "kv": text(drive.damping)}
         if joint.lower is not None and joint.upper is not None:
-            values["ctrlrange"] = _row(sorted((sign * joint.lower, sign * joint.upper)))
+            values["ctrlrange"] = row(sorted((sign * joint.lower, sign * joint.upper)))
     else:
-        values = {"kv": _text(drive.damping)}
+        values = {"kv": text(drive.damping)}
         if 0.0 < drive.max_velocity < math.inf:
-            values["ctrlrange"] = _row((-drive.max_velocity, drive.max_velocity))
+            values["ctrlrange"] = row((-drive.max_velocity, drive.max_velocity))
     if sign < 0:
         values["gear"] = "-1"
     if 0.0 < drive.max_force < math.inf:
-        values["forcerange"] = _row((-drive.max_force, drive.max_force))
+        values["forcerange"] = row((-drive.max_force, drive.max_force))
     return values
 
 
@@ -331,7 +339,7 @@ def _scene(mechanism: Mechanism, machine_file: str) -> ET.Element:
     ET.SubElement(top, "include", file=machine_file)
     points = [body.hull for body in mechanism.bodies if len(body.hull)]
     size = float(np.ptp(np.concatenate(points), axis=0).max()) if points else 10.0
-    ET.SubElement(top, "statistic", center=_row((0.0, 0.0, 0.2 * size)), extent=_text(round(size, 3)))
+    ET.SubElement(top, "statistic", center=row((0.0, 0.0, 0.2 * size)), extent=text(round(size, 3)))
     visual = ET.SubElement(top, "visual")
     ET.SubElement(visual, "headlight", diffuse="0.5 0.5 0.5", ambient="0.35 0.35 0.35", specular="0.1 0.1 0.1")
     ET.SubElement(visual, "global", azimuth="140", elevation="-20")
@@ -344,7 +352,7 @@ def _scene(mechanism: Mechanism, machine_file: str) -> ET.Element:
     world = ET.SubElement(top, "worldbody")
     ET.SubElement(world, "light", pos="0 0 20", dir="0.3 0.4 -1", directional="true", diffuse="0.6 0.6 0.6")
     ground = {"name": "ground", "type": "plane", "size": "0 0 1", "material": "soil"}
-    ET.SubElement(world, "geom", {**ground, "friction": _text(GROUND_FRICTION)})
+    ET.SubElement(world, "geom", {**ground, "friction": text(GROUND_FRICTION)})
     return top
 
 
@@ -353,7 +361,7 @@ def _placed(mesh: Mesh, matrix: Floats) -> tuple[Mesh, Floats, Floats]:
     to its points."""
     linear = matrix[:3, :3]
     if np.abs(linear.T @ linear - np.eye(3)).max() < 1e-9 and np.linalg.det(linear) > 0.0:
-        return mesh, matrix[:3, 3], _quaternion(linear)
+        return mesh, matrix[:3, 3], quaternion(linear)
     triangles = mesh.triangles[:, ::-1] if np.linalg.det(linear) < 0.0 else mesh.triangles
     return Mesh(mesh.points @ linear.T, triangles), matrix[:3, 3], np.array([1.0, 0.0, 0.0, 0.0])
 
@@ -366,36 +374,10 @@ def _ball(points: Floats) -> Mesh:
     return Mesh(np.asarray(ball.vertices) + middle, np.asarray(ball.faces, dtype=np.int32))
 
 
-def _site_axes(site: Site) -> Floats:
-    x, z = np.asarray(site.x_axis), np.asarray(site.z_axis)
-    return np.column_stack([x, np.cross(z, x), z])
-
-
-def _quaternion(rotation: Floats) -> Floats:
-    """(w, x, y, z) with w >= 0."""
-    from scipy.spatial.transform import Rotation
-
-    x, y, z, w = Rotation.from_matrix(rotation).as_quat(canonical=True)
-    return np.array([w, x, y, z])
-
-
-def _minus(point: Iterable[float], origin: Iterable[float]) -> Floats:
-    return np.asarray(tuple(point), dtype=np.float64) - np.asarray(tuple(origin), dtype=np.float64)
-
-
 def _srgb(value: float) -> float:
     """IEC 61966-2-1: the display value of a linear one."""
     value = min(1.0, max(0.0, value))
     return 12.92 * value if value <= 0.0031308 else 1.055 * value ** (1.0 / 2.4) - 0.055
-
-
-def _text(value: float) -> str:
-    """Twelve digits: a micrometre in a thousand kilometres."""
-    return f"{float(value) + 0.0:.12g}"
-
-
-def _row(values: Iterable[float]) -> str:
-    return " ".join("0" if abs(v) < 1e-15 else _text(v) for v in values)
 
 
 def _write(element: ET.Element, path: Path) -> None:

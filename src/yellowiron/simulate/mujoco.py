@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import tempfile
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 
 import mujoco
@@ -20,7 +21,9 @@ def load(setup: Setup) -> MujocoEngine:
     whole = read_geometry(setup.usd_path) if standing else Geometry()
     touched = Geometry({n: BodyGeometry((), g.colliders) for n, g in whole.bodies.items() if n in standing})
     with tempfile.TemporaryDirectory(prefix="yellowiron-") as folder:
-        file = export_mjcf(setup.mechanism, touched, Path(folder), base=setup.base, timestep=setup.timestep)
+        # Sensors would be computed at every step, and nobody reads them here.
+        bare = replace(setup.mechanism, sensors=())
+        file = export_mjcf(bare, touched, Path(folder), base=setup.base, timestep=setup.timestep)
         spec = mujoco.MjSpec.from_file(str(file if setup.base == "fixed" else file.with_name("scene.xml")))
         for number, block in enumerate(setup.blocks):
             name = f"block.{number}"

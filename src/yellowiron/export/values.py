@@ -1,0 +1,40 @@
+"""Numbers and frames as MJCF writes them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from yellowiron.model.geometry import Floats
+from yellowiron.model.mechanism import Site
+from yellowiron.model.sensor import Sensor
+
+
+def axes_of(frame: Site | Sensor) -> Floats:
+    """The axes (3, 3; columns) of a site or sensor in the machine frame."""
+    x, z = np.asarray(frame.x_axis), np.asarray(frame.z_axis)
+    return np.column_stack([x, np.cross(z, x), z])
+
+
+def quaternion(rotation: Floats) -> Floats:
+    """(w, x, y, z) with w >= 0 of a rotation matrix (3, 3)."""
+    from scipy.spatial.transform import Rotation
+
+    x, y, z, w = Rotation.from_matrix(rotation).as_quat(canonical=True)
+    return np.array([w, x, y, z])
+
+
+def minus(point: Iterable[float], origin: Iterable[float]) -> Floats:
+    """The difference of two points."""
+    return np.asarray(tuple(point), dtype=np.float64) - np.asarray(tuple(origin), dtype=np.float64)
+
+
+def text(value: float) -> str:
+    """Twelve digits: a micrometre in a thousand kilometres."""
+    return f"{float(value) + 0.0:.12g}"
+
+
+def row(values: Iterable[float]) -> str:
+    """Numbers with spaces between; rounding errors of zero are zero."""
+    return " ".join("0" if abs(v) < 1e-15 else text(v) for v in values)
