@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 import small_machine
-from yellowiron.export import Geometry, actuator_names, export_mjcf
-from yellowiron.model.errors import MechanismError
+from yellowiron.export import Geometry, actuator_names, export_mjcf, read_geometry
+from yellowiron.model.errors import MechanismError, YellowironError
 from yellowiron.model.mechanism import Joint, Mechanism
 from yellowiron.usd import read_machine
 
@@ -185,3 +185,25 @@ def test_a_body_without_a_joint_is_said(mechanism: Mechanism, tmp_path: Path) ->
     joints = tuple(j for j in mechanism.joints if j.name != "axle_joint")
     with pytest.raises(MechanismError, match="rear_axle"):
         export_mjcf(dataclasses.replace(mechanism, joints=joints), Geometry(), tmp_path)
+
+
+def test_geometry_has_its_colliders_whatever_variant_is_chosen(usd_file: Path, tmp_path: Path) -> None:
+    from pxr import Usd
+
+    stage = Usd.Stage.CreateNew(str(tmp_path / "off.usda"))
+    prim = stage.DefinePrim("/machine")
+    prim.GetReferences().AddReference(str(usd_file))
+    prim.GetVariantSet("Physics").SetVariantSelection("off")
+    stage.GetRootLayer().Save()
+    chosen, default = read_geometry(tmp_path / "off.usda"), read_geometry(usd_file)
+    counts = [{n: len(g.colliders) for n, g in each.bodies.items()} for each in (chosen, default)]
+    assert counts[0] == counts[1] and sum(counts[0].values()) > 5
+
+
+@pytest.mark.parametrize("content", [None, "#usda 1.0\n", "no USD at all"])
+def test_what_is_no_machine_is_said(tmp_path: Path, content: str | None) -> None:
+    file = tmp_path / "machine.usda"
+    if content is not None:
+        file.write_text(content)
+    with pytest.raises(YellowironError, match=r"machine\.usda"):
+        read_geometry(file)

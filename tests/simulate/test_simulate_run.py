@@ -206,3 +206,15 @@ def test_two_runs_say_the_same(usd_file: Path) -> None:
     assert {"engine", "dt_s", "base", "pin_error_mm", "angle_error_deg", "branches_kept", "actuators"} <= set(
         documents[0]
     )
+
+
+def test_a_step_that_is_too_long_breaks_down_and_says_so(
+    usd_file: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    """MuJoCo would start again from the drawn pose, and leave a log in the working folder."""
+    monkeypatch.chdir(tmp_path)
+    result = simulate(usd_file, engine="mujoco", dt=0.1)
+    assert not result.completed
+    assert result.findings[0].code == "SIM001"
+    assert not list(tmp_path.iterdir())
+    assert capfd.readouterr() == ("", "")

@@ -61,8 +61,7 @@ class Geometry:
 
 
 def read_geometry(path: str | Path) -> Geometry:
-    """The geometry of the machine in a USD file (or in a scene that holds one), everything that its variants switch on
-    included.
+    """The geometry of the machine in a USD file (or in a scene that holds one), its physics switched on.
 
     `YellowironError` where the file does not open or holds no machine of ours.
     """
@@ -70,6 +69,9 @@ def read_geometry(path: str | Path) -> Geometry:
         stage = Usd.Stage.Open(str(path))
     except Tf.ErrorException as error:
         raise YellowironError("The file cannot be read as USD", where=str(path)) from error
+    with Usd.EditContext(stage, stage.GetSessionLayer()):
+        for prim in [p for p in stage.Traverse() if p.GetVariantSets().HasVariantSet("Physics")]:
+            prim.GetVariantSet("Physics").SetVariantSelection("on")
     bodies = {str(data["name"]): prim for prim, data in _described(stage) if data.get("kind") == "body"}
     if not bodies:
         raise YellowironError(

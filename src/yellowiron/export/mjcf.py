@@ -19,7 +19,7 @@ from yellowiron.model.geometry import Color, Floats, Mesh
 from yellowiron.model.mechanism import Actuator, ActuatorJoint, Body, Drive, Joint, Mechanism
 
 TIMESTEP = 0.001
-"""Seconds. Pins stay within 0.05 mm at this step, and do not hold at 4 ms."""
+"""Seconds. Pins of a loaded wheel loader stay within 0.02 mm at this step, 0.3 mm at 4 ms and 1.8 mm at 10 ms."""
 INTEGRATOR = "Euler"
 """Closes the loops a hundred times better than `implicitfast`: that one adds the drives' damping to the mass matrix for
 the step alone, after the constraint forces were found without it (wheel loader at rest: 0.0004 against 0.05 mm)."""

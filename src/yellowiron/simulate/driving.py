@@ -17,7 +17,7 @@ from yellowiron import usd
 from yellowiron.kinematics import ClosedChain
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.geometry import Floats
-from yellowiron.model.mechanism import Joint, Mechanism
+from yellowiron.model.mechanism import Body, Joint, Mechanism
 from yellowiron.simulate.commands import SHARE, Motion, motions, travel
 from yellowiron.simulate.engine import Block, Engine, Setup, find_engine, load_engine, standing_bodies
 from yellowiron.simulate.loads import paces
@@ -138,8 +138,10 @@ def drive(usd_path: str | Path, *, engine: str, payload_kg: float = 0.0, dt: flo
     Raises `YellowironError` for an unknown engine, one that is not installed, and a machine without driven wheels.
     """
     entry = find_engine(engine)
-    mechanism = with_payload(usd.read_machine(usd_path), payload_kg)
-    trip = _Trip(engine, Path(usd_path), mechanism, entry.timestep if dt is None else dt)
+    read = usd.read_machine(usd_path)
+    mechanism = with_payload(read, payload_kg)
+    heavier = tuple(b for b, old in zip(mechanism.bodies, read.bodies, strict=True) if b is not old)
+    trip = _Trip(engine, Path(usd_path), mechanism, heavier, entry.timestep if dt is None else dt)
     values: dict[str, Any] = {**trip.straight(), **trip.over_block()}
     return DrivingResult(engine=engine, dt=trip.timestep, payload=payload_kg, **values)
 
@@ -151,6 +153,7 @@ class _Trip:
     engine: str
     usd_path: Path
     mechanism: Mechanism
+    heavier: tuple[Body, ...]
     timestep: float
     chain: ClosedChain = field(init=False)
     wheels: tuple[Wheel, ...] = field(init=False)
@@ -163,7 +166,6 @@ class _Trip:
         self._origin = np.asarray(self.mechanism.body(self.mechanism.root).origin)
 
     def _load(self, *blocks: Block) -> Engine:
-        heavier = self.mechanism.bodies if self.mechanism.bodies else ()
         return load_engine(
             self.engine,
             Setup(
@@ -172,7 +174,7 @@ class _Trip:
                 base="floating",
                 timestep=self.timestep,
                 measured=self.chain.independent,
-                heavier=heavier,
+                heavier=self.heavier,
                 standing=standing_bodies(self.mechanism),
                 blocks=blocks,
             ),

@@ -32,6 +32,8 @@ def load(setup: Setup) -> MujocoEngine:
                 name=name, type=mujoco.mjtGeom.mjGEOM_MESH, meshname=name, friction=(GROUND_FRICTION, 0.005, 0.0001)
             )
         model = spec.compile()
+    # On a state that is not finite MuJoCo starts again from the drawn pose, as if nothing had happened.
+    model.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_AUTORESET)
     return MujocoEngine(model, setup)
 
 
@@ -51,6 +53,9 @@ class MujocoEngine:
             signs = {entry.joint: entry.sign for entry in actuator.joints}
             for control, joint in actuator_names(mechanism)[actuator.name].items():
                 self._controls[joint] = (int(model.actuator(control).id), signs[joint])
+        # Else a warning is printed, and written to a file in the working folder; the comparison finds what it is about.
+        self._warned = mujoco.get_mju_user_warning()
+        mujoco.set_mju_user_warning(lambda message: None)
         mujoco.mj_resetDataKeyframe(model, self.data, 0)
         mujoco.mj_step1(model, self.data)
 
@@ -80,4 +85,5 @@ class MujocoEngine:
         return np.asarray(self._qpos.take(self._positions), dtype=np.float64)
 
     def close(self) -> None:
-        """Nothing is held outside Python."""
+        """Gives MuJoCo's warnings back to whom they went before."""
+        mujoco.set_mju_user_warning(self._warned)

@@ -132,6 +132,8 @@ class _Run:
             if motion.joint not in phase.targets or not len(phase.holds):
                 continue
             values, targets = measured[:, self.comparison.measured.index(motion.joint)], phase.targets[motion.joint]
+            if not np.isfinite(values).all():
+                continue
             seen = self.seen.setdefault(motion.joint, _Seen())
             change = np.abs(np.diff(targets)) / self.timestep if motion.position else np.abs(targets)
             seen.fastest = max(seen.fastest, float(change.max(initial=0.0)))
