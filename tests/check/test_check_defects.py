@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import math
 from pathlib import Path
 
 import pytest
@@ -80,3 +81,21 @@ def test_what_is_no_usd_is_one_sentence(tmp_path: Path, name: str, content: byte
     with pytest.raises(YellowironError, match=words) as caught:
         check(tmp_path / name)
     assert caught.value.hint
+
+
+def test_values_of_a_wrong_type_are_findings_too(tmp_path: Path) -> None:
+    """Every attribute of the sound machine, once with a value that it cannot have."""
+    from pxr import Sdf, Usd
+
+    types = Sdf.ValueTypeNames
+    wrong = [(types.String, "x"), (types.Float, math.nan), (types.TokenArray, ["W"]), (types.Token, "W")]
+    stage = Usd.Stage.Open(str(DATA / "sound.usda"))
+    for index, attribute in enumerate(a for p in stage.TraverseAll() for a in p.GetAuthoredAttributes()):
+        kind, value = wrong[index % len(wrong)]
+        path = tmp_path / f"{index}.usda"
+        layer = Sdf.Layer.CreateNew(str(path))
+        layer.subLayerPaths.append(str(DATA / "sound.usda"))
+        spec = Sdf.AttributeSpec(Sdf.CreatePrimInLayer(layer, attribute.GetPrimPath()), attribute.GetName(), kind)
+        spec.default = value
+        layer.Save()
+        assert check(path), attribute.GetPath()

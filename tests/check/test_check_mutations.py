@@ -141,6 +141,13 @@ def drive(prim: Usd.Prim, instance: str) -> None:
     api.CreateDampingAttr(1e5)
 
 
+def unroot(v: Victims) -> None:
+    """Newton's root schema brings UsdPhysics' with it, where it is registered."""
+    root = v.root
+    for schema in [s for s in root.GetAppliedSchemas() if "ArticulationRootAPI" in s]:
+        root.RemoveAppliedSchema(schema)
+
+
 def rename_drive(v: Victims) -> None:
     v.slide.RemoveAPI(UsdPhysics.DriveAPI, "linear")
     drive(v.slide, "X")
@@ -161,11 +168,6 @@ def swap_bodies(v: Victims) -> None:
     lower, upper = (a.Get() for a in limits)
     limits[0].Set(-upper)
     limits[1].Set(-lower)
-
-
-def recut(v: Victims) -> None:
-    """The cut moves from a pin to the slide of the same loop."""
-    put(v.passive, "physics:excludeFromArticulation", True)
 
 
 def nest(v: Victims) -> None:
@@ -389,7 +391,7 @@ MUTATIONS: dict[str, dict[str, tuple[Mutation, set[str]]]] = {
     },
     "body no body": {"a wheel": (lambda v: v.wheel.RemoveAPI(UsdPhysics.RigidBodyAPI), {"CHK044"})},
     "articulation root": {
-        "none": (lambda v: v.root.RemoveAPI(UsdPhysics.ArticulationRootAPI), {"CHK080"}),
+        "none": (unroot, {"CHK080"}),
         "two": (lambda v: UsdPhysics.ArticulationRootAPI.Apply(v.wheel), {"CHK081"}),
     },
     "loop not cut": {

@@ -7,8 +7,9 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
-from pxr import Gf, Usd, UsdGeom, UsdPhysics, UsdShade
+from pxr import Gf, Tf, Usd, UsdGeom, UsdPhysics, UsdShade
 
+from yellowiron.check.read_values import axis_token, number, quaternion, vector
 from yellowiron.check.view import Body, Collider, Material, Units, union
 from yellowiron.model.geometry import Floats
 
@@ -37,11 +38,17 @@ class Poses:
 
     def matrix(self, prim: Usd.Prim) -> Gf.Matrix4d:
         """Local to world, stage units, row vectors as in Gf."""
-        return self._transforms.GetLocalToWorldTransform(prim)
+        try:
+            return self._transforms.GetLocalToWorldTransform(prim)
+        except Tf.ErrorException:  # an operation of the wrong type: CHK004
+            return Gf.Matrix4d(1.0)
 
     def bounds(self, prim: Usd.Prim) -> Floats | None:
         """The box (2, 3) of a prim's geometry in the world, metres; None where it has none."""
-        reach = self._boxes.ComputeWorldBound(prim).ComputeAlignedRange()
+        try:
+            reach = self._boxes.ComputeWorldBound(prim).ComputeAlignedRange()
+        except Tf.ErrorException:
+            return None
         if reach.IsEmpty():
             return None
         box = np.array([reach.GetMin(), reach.GetMax()]) * self.meters
@@ -52,13 +59,6 @@ def record_of(prim: Usd.Prim) -> Mapping[str, Any]:
     """What a yellowiron build wrote on a prim, or nothing."""
     found = prim.GetCustomDataByKey(RECORD)
     return found if isinstance(found, dict) else {}
-
-
-def number(prim: Usd.Prim, name: str) -> float | None:
-    """An authored number, or None."""
-    attribute = prim.GetAttribute(name)
-    value = attribute.Get() if attribute and attribute.HasAuthoredValue() else None
-    return float(value) if isinstance(value, int | float) else None
 
 
 def rotation_and_scale(matrix: Gf.Matrix4d) -> tuple[Floats, Floats, bool, bool]:
@@ -113,14 +113,12 @@ def _read_body(prim: Usd.Prim, solid: dict[str, list[Floats]], owners: set[str],
     pose = np.eye(4)
     pose[:3, :3] = rotation
     pose[:3, 3] = np.array(matrix.ExtractTranslation()) * poses.meters
-    api, mass = UsdPhysics.RigidBodyAPI(prim), UsdPhysics.MassAPI(prim)
+    api = UsdPhysics.RigidBodyAPI(prim)
     kilograms, meters = units.kilograms_per_unit, units.meters_per_unit
     authored = number(prim, "physics:mass")
     density = number(prim, "physics:density")
-    center = mass.GetCenterOfMassAttr() if prim.HasAPI(UsdPhysics.MassAPI) else None
-    local = center.Get() if center and center.HasAuthoredValue() else None
-    inertia = mass.GetDiagonalInertiaAttr() if prim.HasAPI(UsdPhysics.MassAPI) else None
-    moments = inertia.Get() if inertia and inertia.HasAuthoredValue() else None
+    local = vector(prim, "physics:centerOfMass")
+    moments = vector(prim, "physics:diagonalInertia")
     filtered = prim.GetRelationship("physics:filteredPairs")
     return Body(
         path=path,
@@ -133,7 +131,7 @@ def _read_body(prim: Usd.Prim, solid: dict[str, list[Floats]], owners: set[str],
         kinematic=bool(api.GetKinematicEnabledAttr().Get()),
         mass=None if authored is None else authored * kilograms,
         density=None if density is None else density * kilograms / meters**3,
-        center_of_mass=None if not _given(local) else np.array(matrix.Transform(Gf.Vec3d(local))) * meters,
+        center_of_mass=None if not _given(local) else np.array(matrix.Transform(local)) * meters,
         inertia=None if moments is None else np.array(moments, dtype=np.float64) * kilograms * meters**2,
         bounds=union(_boxes(prim, poses)),
         solid=union(solid.get(path, [])),
@@ -144,7 +142,7 @@ def _read_body(prim: Usd.Prim, solid: dict[str, list[Floats]], owners: set[str],
     )
 
 
-def _disc_axis(prim: Usd.Prim, moments: Gf.Vec3f | None, rotation: Floats) -> Floats | None:
+def _disc_axis(prim: Usd.Prim, moments: Gf.Vec3d | None, rotation: Floats) -> Floats | None:
     """The axis of the largest moment where the other two are equal: the body turns like a disc or a wheel."""
     if moments is None or not all(math.isfinite(m) and m > 0.0 for m in moments):
         return None
@@ -152,15 +150,15 @@ def _disc_axis(prim: Usd.Prim, moments: Gf.Vec3f | None, rotation: Floats) -> Fl
     small, middle, large = (float(moments[int(i)]) for i in order)
     if middle - small > _EQUAL * large or large - middle < _DISC * large:
         return None
-    written = UsdPhysics.MassAPI(prim).GetPrincipalAxesAttr().Get()
-    length = Gf.Quatd(written).GetLength() if written is not None else 0.0
+    written = quaternion(prim, "physics:principalAxes") or Gf.Quatd(0.0)
+    length = written.GetLength()
     if not math.isfinite(length):
         return None
-    turn = Gf.Matrix3d(Gf.Quatd(written).GetNormalized()) if length > 0.0 else Gf.Matrix3d(1.0)
+    turn = Gf.Matrix3d(written.GetNormalized()) if length > 0.0 else Gf.Matrix3d(1.0)
     return np.asarray(rotation @ np.array(turn, dtype=np.float64).T[:, int(order[2])])
 
 
-def _given(local: Gf.Vec3f | None) -> bool:
+def _given(local: Gf.Vec3d | None) -> bool:
     """UsdPhysics writes "not given" as minus infinity."""
     return local is not None and all(math.isfinite(c) for c in local)
 
@@ -198,11 +196,8 @@ def _read_collider(prim: Usd.Prim, poses: Poses, units: Units) -> Collider:
     if prim.HasAPI(UsdPhysics.MeshCollisionAPI):
         approximation = str(UsdPhysics.MeshCollisionAPI(prim).GetApproximationAttr().Get())
     rotation, scale, _, _ = rotation_and_scale(poses.matrix(prim))
-    axis = None
-    token = prim.GetAttribute("axis").Get() if prim.GetAttribute("axis") else None
-    if shape in ("Cylinder", "Capsule", "Cone") and token in ("X", "Y", "Z"):
-        axis = rotation[:, "XYZ".index(token)]
-    values = {f: prim.GetAttribute(f).Get() if prim.GetAttribute(f) else None for f in ("radius", "height")}
+    round_about = shape in ("Cylinder", "Capsule", "Cone")
+    axis = rotation[:, "XYZ".index(axis_token(prim, "axis", "Z"))] if round_about else None
     density = number(prim, "physics:density")
     material, missing = _physics_material(prim)
     per_volume = units.kilograms_per_unit / units.meters_per_unit**3
@@ -215,8 +210,8 @@ def _read_collider(prim: Usd.Prim, poses: Poses, units: Units) -> Collider:
         approximation=approximation,
         bounds=poses.bounds(prim),
         axis=axis,
-        radius=float(values["radius"] or 0.0) * poses.meters * float(scale.max()),
-        height=float(values["height"] or 0.0) * poses.meters * float(scale.max()),
+        radius=(number(prim, "radius") or 0.0) * poses.meters * float(scale.max()),
+        height=(number(prim, "height") or 0.0) * poses.meters * float(scale.max()),
         empty=_is_empty(prim, scale),
         density=None if density is None else density * per_volume,
         material=material,
@@ -230,7 +225,7 @@ def _is_empty(prim: Usd.Prim, scale: Floats) -> bool:
     if kind == "Mesh":
         points, counts = (prim.GetAttribute(n).Get() for n in ("points", "faceVertexCounts"))
         return not points or not counts
-    sizes = [prim.GetAttribute(f).Get() for f in _FIELDS.get(kind, ())]
+    sizes = [number(prim, f) for f in _FIELDS.get(kind, ())]
     return any(s is not None and not s > 0.0 for s in sizes) or bool((scale == 0.0).any())
 
 

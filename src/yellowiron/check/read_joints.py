@@ -8,7 +8,8 @@ from collections.abc import Iterable, Mapping
 import numpy as np
 from pxr import Gf, Usd, UsdPhysics
 
-from yellowiron.check.read_bodies import Poses, body_of, number, record_of, rotation_and_scale
+from yellowiron.check.read_bodies import Poses, body_of, record_of, rotation_and_scale
+from yellowiron.check.read_values import axis_token, number, quaternion, vector
 from yellowiron.check.view import ANGULAR, LINEAR, Drive, Joint, Side, Units
 
 _TYPES = {
@@ -92,7 +93,7 @@ def _instances(prim: Usd.Prim, schema: str) -> list[str]:
 
 
 def _freedoms(prim: Usd.Prim, kind: str) -> tuple[str, ...]:
-    axis = str(prim.GetAttribute("physics:axis").Get() or "X") if prim.GetAttribute("physics:axis") else "X"
+    axis = axis_token(prim, "physics:axis", "X")
     if kind == "revolute":
         return (f"rot{axis}",)
     if kind == "prismatic":
@@ -165,18 +166,15 @@ def _read_side(prim: Usd.Prim, index: int, poses: Poses) -> Side:
     missing = tuple(t for t in targets if not stage.GetPrimAtPath(t))
     target = stage.GetPrimAtPath(targets[0]) if targets and not missing else None
     matrix = poses.matrix(target) if target else Gf.Matrix4d(1.0)
-    position, written = (
-        prim.GetAttribute(f"physics:{n}{index}").Get() if prim.GetAttribute(f"physics:{n}{index}") else None
-        for n in ("localPos", "localRot")
-    )
-    quaternion = Gf.Quatd(written) if written is not None else Gf.Quatd(1.0)
-    norm = quaternion.GetLength()
-    turn = Gf.Matrix3d(quaternion.GetNormalized()) if norm > 0.0 and math.isfinite(norm) else Gf.Matrix3d(1.0)
+    position = vector(prim, f"physics:localPos{index}") or Gf.Vec3d(0.0)
+    written = quaternion(prim, f"physics:localRot{index}") or Gf.Quatd(1.0)
+    norm = written.GetLength()
+    turn = Gf.Matrix3d(written.GetNormalized()) if norm > 0.0 and math.isfinite(norm) else Gf.Matrix3d(1.0)
     return Side(
         targets=targets,
         missing=missing,
         body=body_of(target) if target else "",
-        position=np.array(matrix.Transform(Gf.Vec3d(position or (0.0, 0.0, 0.0)))) * poses.meters,
+        position=np.array(matrix.Transform(position)) * poses.meters,
         rotation=rotation_and_scale(matrix)[0] @ np.array(turn, dtype=np.float64).T,
         norm=norm,
     )

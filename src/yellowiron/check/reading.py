@@ -6,13 +6,14 @@ import math
 from collections.abc import Iterable, Iterator
 
 import numpy as np
-from pxr import Gf, Usd, UsdGeom, UsdPhysics, Vt
+from pxr import Gf, Tf, Usd, UsdGeom, UsdPhysics, Vt
 
 from yellowiron.check import read_layers
 from yellowiron.check.graph import build_islands
-from yellowiron.check.read_bodies import Poses, number, read_bodies, read_colliders, read_materials, record_of
+from yellowiron.check.read_bodies import Poses, read_bodies, read_colliders, read_materials, record_of
 from yellowiron.check.read_bodies import rotation_and_scale as split
 from yellowiron.check.read_joints import read_joints
+from yellowiron.check.read_values import number
 from yellowiron.check.view import Units, View
 from yellowiron.model.geometry import Floats
 
@@ -86,14 +87,20 @@ def _not_numbers(prims: Iterable[Usd.Prim]) -> Iterator[tuple[str, str]]:
             continue
         seen.add(original.GetPath())
         path = str(prim.GetPath())
-        if prim.IsA(UsdGeom.Xformable):
-            matrix = UsdGeom.Xformable(prim).GetLocalTransformation()
-            if not np.isfinite(np.array(matrix)).all():
-                yield path, "its transform"
+        if prim.IsA(UsdGeom.Xformable) and not _is_placed(prim):
+            yield path, "its transform"
         for attribute in prim.GetAuthoredAttributes():
             name = attribute.GetName()
             if (name in _ARRAYS or name.startswith(_PHYSICS)) and _has_nan(attribute.Get()):
                 yield path, name
+
+
+def _is_placed(prim: Usd.Prim) -> bool:
+    """Whether a prim's transform can be computed and is finite."""
+    try:
+        return bool(np.isfinite(np.array(UsdGeom.Xformable(prim).GetLocalTransformation())).all())
+    except Tf.ErrorException:
+        return False
 
 
 def _has_nan(value: object) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import PurePosixPath
 
-from pxr import Usd, UsdValidation
+from pxr import Tf, Usd, UsdValidation
 
 from yellowiron.check.read_layers import PROVIDED, name_of
 from yellowiron.model.finding import Finding, Severity
@@ -22,7 +22,13 @@ _HINT = "See the documentation of OpenUSD's validator {}."
 def validate(stage: Usd.Stage) -> list[Finding]:
     """Every validator that is registered, on the whole stage. Findings come sorted: the validators run in parallel."""
     context = UsdValidation.ValidationContext(UsdValidation.ValidationRegistry().GetOrLoadAllValidators())
-    found = {_finding(error, stage) for error in context.Validate(stage) if not _is_provided(error)}
+    try:
+        said = context.Validate(stage)
+    except Tf.ErrorException as error:  # some stop at a value of the wrong type instead of reporting it
+        where, reason = name_of(stage.GetRootLayer()), " ".join(str(error).split())[-200:]
+        message = f"OpenUSD's validators stopped: {reason}"
+        return [Finding("USD:NotValidated", "warning", where, message, "Correct the errors above, and check again.")]
+    found = {_finding(error, stage) for error in said if not _is_provided(error)}
     return sorted(found, key=lambda f: (f.code, f.where, f.message))
 
 
