@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import os
+import resource
+import subprocess
+import sys
 import time
 from pathlib import Path
 
@@ -59,3 +62,32 @@ def test_nothing_stays_behind(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
     run_guarded("math:sqrt", 4.0, where="x")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_full_disk_is_not_the_file_s_fault() -> None:
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    # Python ignores SIGXFSZ, so a file past the limit is an error of the write, as on a full disk.
+    resource.setrlimit(resource.RLIMIT_FSIZE, (8192, before[1]))
+    try:
+        with pytest.raises(CadError, match="cannot be stored") as caught:
+            run_guarded("builtins:bytes", 100_000, where="fine.step", error=CadError)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+    assert "TMPDIR" in caught.value.hint
+
+
+def test_the_child_ends_with_its_parent(tmp_path: Path) -> None:
+    script = "from yellowiron.guard import run_guarded; run_guarded('time:sleep', 60, where='x')"
+    parent = subprocess.Popen([sys.executable, "-c", script])
+    deadline = time.monotonic() + 20.0
+    children: list[str] = []
+    while not children and time.monotonic() < deadline:
+        children = Path(f"/proc/{parent.pid}/task/{parent.pid}/children").read_text().split()
+        time.sleep(0.05)
+    # The child arms itself in its first moments.
+    time.sleep(1.0)
+    parent.kill()
+    parent.wait()
+    while any(Path(f"/proc/{child}").exists() for child in children) and time.monotonic() < deadline:
+        time.sleep(0.05)
+    assert children and not any(Path(f"/proc/{child}").exists() for child in children)

@@ -33,13 +33,17 @@ def test_a_second_run_replaces_its_own_and_keeps_the_user_s(tmp_path: Path) -> N
     for content in ("first", "second"):
         with output_folder(tmp_path / "out") as folder:
             (folder / "payloads").mkdir()
-            (folder / "payloads" / content).write_text(content)
+            (folder / "payloads" / "base").write_text(content)
         (tmp_path / "out" / "notes.txt").write_text("mine")
+        (tmp_path / "out" / "payloads" / "notes.txt").write_text("mine")
+    assert (tmp_path / "out" / "payloads" / "base").read_text() == "second"
     assert sorted(str(p.relative_to(tmp_path / "out")) for p in (tmp_path / "out").rglob("*")) == [
         "notes.txt",
         "payloads",
-        "payloads/second",
+        "payloads/base",
+        "payloads/notes.txt",
     ]
+    assert [p.name for p in tmp_path.iterdir()] == ["out"]
 
 
 def test_a_file_appears_whole(tmp_path: Path) -> None:
@@ -61,3 +65,8 @@ def test_a_place_that_cannot_be_written_is_an_error(tmp_path: Path) -> None:
         pass
     with pytest.raises(OutputError), output_file(tmp_path):
         pass
+
+
+def test_another_suffix_is_refused_before_any_work(tmp_path: Path) -> None:
+    with pytest.raises(OutputError, match=r"\.stl"), output_file(tmp_path / "a.stl", suffixes=(".usd",)):
+        raise AssertionError("the block must not run")

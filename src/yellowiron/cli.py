@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -74,11 +75,12 @@ def extract(
     """Read the specifications a template asks for, each with its evidence."""
     from yellowiron import library, specs
     from yellowiron.output import output_folder
-    from yellowiron.report import specification_entry, specification_table
+    from yellowiron.report import missing_limits, specification_entry, specification_table
 
     with _progress(as_json) as progress:
         progress("Reading the specification sheets")
-        found = specs.extract(library.load_template(equipment_type), pdfs, config=config)
+        template = library.load_template(equipment_type)
+        found = specs.extract(template, pdfs, config=config)
         if show is not None:
             with output_folder(show) as folder:
                 specs.draw_evidence(pdfs, found, folder)
@@ -88,7 +90,7 @@ def extract(
         specification_table(entries),
         as_json,
     )
-    short = any(e["status"] in ("review", "conflict", "unreadable") for e in entries)
+    short = any(e["status"] in ("review", "conflict", "unreadable") for e in entries) or missing_limits(template, found)
     raise typer.Exit(1 if short else 0)
 
 
@@ -101,8 +103,9 @@ def convert(
     from yellowiron import cad as readers
     from yellowiron import usd
     from yellowiron.output import output_file
+    from yellowiron.usd.convert import SUFFIXES
 
-    with _progress(False) as progress, output_file(out) as temporary:
+    with _progress(False) as progress, output_file(out, suffixes=SUFFIXES) as temporary:
         progress("Reading the CAD model")
         assembly = readers.read_cad(cad)
         progress("Writing USD")
@@ -257,8 +260,27 @@ def copy_template(equipment_type: Type, folder: Annotated[Path, typer.Argument(m
     _print(Text(f"{folder}: yours to change; build with it by naming the folder."))
 
 
+def _version(asked: bool) -> None:
+    if asked:
+        from importlib.metadata import version
+
+        _print(Text(f"yellowiron {version('yellowiron')}"))
+        raise typer.Exit
+
+
+@app.callback()
+def options(
+    version: Annotated[
+        bool, typer.Option("--version", help="Print it and stop.", callback=_version, is_eager=True)
+    ] = False,
+) -> None:
+    """From a construction machine's CAD model and specification sheet to a simulation-ready USD machine."""
+
+
 def main() -> None:
     """The console script: an unusable input is one sentence on stderr and exit code 2, never a traceback."""
+    # A terminated run leaves as an interrupted one does: its child ends, its temporary folders go.
+    signal.signal(signal.SIGTERM, lambda number, frame: sys.exit(128 + number))
     try:
         app()
     except YellowironError as error:

@@ -16,6 +16,8 @@ from typing import Any
 
 from yellowiron.model.errors import YellowironError
 
+_PR_SET_PDEATHSIG = 1
+"""linux/prctl.h."""
 _CRASH_HINT = "The file is damaged, or made to break its reader; open it in its own program and export it again."
 
 
@@ -56,6 +58,12 @@ def run_guarded(
             with contextlib.suppress(ProcessLookupError, PermissionError):
                 os.killpg(child.pid, signal.SIGKILL)
             child.wait()
+        if child.returncode == os.EX_IOERR and not answer.exists():
+            raise error(
+                f"What was read cannot be stored: {noise.decode(errors='replace')}",
+                where=tempfile.gettempdir(),
+                hint="Make room in the folder for temporary files, or set TMPDIR to another.",
+            )
         if not answer.exists():
             raise error(_obituary(child.returncode, noise), where=where, hint=_CRASH_HINT)
         kind, value = pickle.loads(answer.read_bytes())
@@ -77,7 +85,16 @@ def _obituary(returncode: int, noise: bytes) -> str:
     return f"The reader ended with code {returncode} and no result{detail}"
 
 
+def _die_with_parent() -> None:
+    """Asks the kernel to end this process when its parent ends, however that ends (Linux; elsewhere it may linger)."""
+    import ctypes
+
+    with contextlib.suppress(AttributeError, OSError):
+        ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
+
+
 def _child(call: Path) -> None:
+    _die_with_parent()
     target, args, memory_mb, answer = pickle.loads(call.read_bytes())
     limit = memory_mb * 1024 * 1024
     resource.setrlimit(resource.RLIMIT_AS, (limit, limit))
@@ -93,8 +110,13 @@ def _child(call: Path) -> None:
     except Exception as error:  # noqa: BLE001 - whatever a third-party reader throws becomes one sentence in the parent
         outcome = ("failure", f"{type(error).__name__}: {error}"[:500])
     part = Path(f"{answer}.part")
-    part.write_bytes(pickle.dumps(outcome))
-    part.rename(answer)
+    try:
+        part.write_bytes(pickle.dumps(outcome))
+        part.rename(answer)
+    except OSError as error:
+        sys.stderr.write(str(error.strerror))
+        sys.stderr.flush()
+        os._exit(os.EX_IOERR)
     # Past this point only library teardown could run, and that is where some readers crash.
     os._exit(0)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import shutil
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -42,8 +42,14 @@ def output_folder(target: Path) -> Iterator[Path]:
 
 
 @contextmanager
-def output_file(target: Path) -> Iterator[Path]:
-    """A temporary path of the same suffix, renamed to `target` when the block ends well. `OutputError` as above."""
+def output_file(target: Path, *, suffixes: Collection[str] = ()) -> Iterator[Path]:
+    """A temporary path of the same name, renamed to `target` when the block ends well. `OutputError` as above, and for
+    another suffix than one of `suffixes`."""
+    if suffixes and target.suffix.lower() not in suffixes:
+        hint = f"Use {', '.join(suffixes)}."
+        raise OutputError(
+            f"'{target.suffix}' is not among the file extensions written here", where=str(target), hint=hint
+        )
     if target.is_dir():
         raise OutputError("The output file is a folder", where=str(target), hint="Name a file.")
     try:
@@ -59,12 +65,13 @@ def output_file(target: Path) -> Iterator[Path]:
 
 
 def _install(temporary: Path, target: Path) -> None:
+    """Moves a folder's content into its place, file by file where a folder is there already."""
     if not target.exists():
         temporary.rename(target)
         return
     for entry in sorted(temporary.iterdir()):
         place = target / entry.name
-        if place.is_dir() and not place.is_symlink():
-            # A folder cannot be replaced by a rename while it has content: move the old one into the temporary folder.
-            place.rename(temporary / f".replaced-{entry.name}")
-        entry.replace(place)
+        if entry.is_dir() and place.is_dir() and not place.is_symlink():
+            _install(entry, place)
+        else:
+            entry.replace(place)

@@ -69,11 +69,12 @@ def test_a_limit_without_a_sure_value_is_missing(status: str) -> None:
     assert any("Press Stroke" in reason for reason in fell_short(report))
 
 
-def test_errors_and_wrong_mobility_fall_short_and_warnings_do_not() -> None:
-    warned = replace(MECHANISM, findings=(Finding("MEC999", "warning", "pin", "loose"),))
-    assert fell_short(document(mechanism=warned)) == []
-    failed = replace(MECHANISM, findings=(Finding("MEC998", "error", "pin", "gone"),))
-    assert fell_short(document(mechanism=failed)) == ["MEC998 pin: gone"]
+def test_errors_warnings_and_wrong_mobility_fall_short_and_remarks_do_not() -> None:
+    noted = replace(MECHANISM, findings=(Finding("MEC999", "info", "pin", "scaled"),))
+    assert fell_short(document(mechanism=noted)) == []
+    for severity in ("warning", "error"):
+        failed = replace(MECHANISM, findings=(Finding("MEC998", severity, "pin", "gone"),))  # type: ignore[arg-type]
+        assert fell_short(document(mechanism=failed)) == ["MEC998 pin: gone"]
     stuck = replace(MECHANISM, mobility=Mobility(0, 1, 0))
     assert fell_short(document(mechanism=stuck)) == ["mobility 0, expected 1"]
 

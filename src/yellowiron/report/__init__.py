@@ -12,6 +12,7 @@ from yellowiron.report.console import (
 from yellowiron.report.document import (
     alignment_entry,
     fell_short,
+    missing_limits,
     report_document,
     specification_entry,
     within_tolerance,
@@ -27,6 +28,7 @@ __all__ = [
     "finding_table",
     "lint_table",
     "measurement_table",
+    "missing_limits",
     "page",
     "report_document",
     "simulation_table",

@@ -136,9 +136,6 @@ def build_summary(document: Mapping[str, Any], reasons: Sequence[str], folder: s
         else "",
     )
     blocks: list[RenderableType] = [line, "", measurement_table(document["measurements"])]
-    notable = [f for f in document["findings"] if f["severity"] != "info"]
-    if notable:
-        blocks += ["", finding_table(notable)]
     if reasons:
         blocks += [
             "",

@@ -67,7 +67,7 @@ def report_document(
         "mobility": asdict(mechanism.mobility) if mechanism.mobility else None,
         "measurements": [asdict(m) for m in measurements],
         "findings": [asdict(f) for f in _unique(everything)],
-        "missing": _missing(template, specifications),
+        "missing": missing_limits(template, specifications),
     }
 
 
@@ -131,7 +131,11 @@ def fell_short(document: Mapping[str, Any]) -> list[str]:
         for s in document["specifications"]
         if s["status"] in ("conflict", "review", "unreadable")
     ]
-    reasons += [f"{f['code']} {f['where']}: {f['message']}" for f in document["findings"] if f["severity"] == "error"]
+    reasons += [
+        f"{f['code']} {f['where']}: {f['message']} {f['hint']}".rstrip()
+        for f in document["findings"]
+        if f["severity"] != "info"
+    ]
     mobility = document["mobility"]
     if mobility is not None and mobility["computed"] != mobility["expected"]:
         reasons.append(f"mobility {mobility['computed']}, expected {mobility['expected']}")
@@ -166,7 +170,7 @@ def _counts(mechanism: Mechanism, template: Template) -> dict[str, int]:
     }
 
 
-def _missing(template: Template, specifications: Specifications) -> list[str]:
+def missing_limits(template: Template, specifications: Specifications) -> list[str]:
     """Names that a joint limit needs and nothing gives: what a person must supply."""
     names: dict[str, None] = {}
     for joint in template.joints:
