@@ -1,0 +1,113 @@
+"""The pages for users of simulators say what a built machine has."""
+
+from __future__ import annotations
+
+import ast
+import json
+import re
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from yellowiron.model.sensor import PARAMETERS
+
+
+def blocks(page: Path) -> list[str]:
+    return re.findall(r"^```python\n(.*?)^```", page.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
+
+
+def test_every_parameter_of_a_sensor_is_documented(root: Path) -> None:
+    page = (root / "docs" / "sensors.md").read_text(encoding="utf-8")
+    rows: dict[str, str] = {}
+    kind = ""
+    for first, second in re.findall(r"^\| (.*?)\| (.*?) \|", page, re.MULTILINE):
+        kind = first.strip(" `") or kind
+        rows[kind] = rows.get(kind, "") + second
+    for name, parameters in PARAMETERS.items():
+        assert {p for p in parameters if f"`{p}`" not in rows[name]} == set(), name
+
+
+@pytest.mark.parametrize("name", ["isaac-lab", "isaac-sim", "learners"])
+def test_code_on_the_pages_is_python(root: Path, name: str) -> None:
+    for block in blocks(root / "docs" / f"{name}.md"):
+        ast.parse(block)
+
+
+@pytest.fixture(scope="module")
+def built(example: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The example, built."""
+    from yellowiron.build import build
+
+    if not (example / "wheel_loader.step").is_file():
+        pytest.skip("the example's STEP file is not there: run its draw.py")
+    out = tmp_path_factory.mktemp("docs") / "out"
+    build("wheel_loader", example / "wheel_loader.step", out, sheets=[example / "specifications.pdf"])
+    return out
+
+
+@pytest.fixture(scope="module")
+def joints(built: Path) -> dict[str, dict[str, Any]]:
+    report = json.loads((built / "report.json").read_text(encoding="utf-8"))
+    return {j["name"]: j for j in report["joints"]}
+
+
+def groups(root: Path) -> dict[str, list[str]]:
+    """Actuator group → its expressions, from the page's `ArticulationCfg`."""
+    (block,) = blocks(root / "docs" / "isaac-lab.md")
+    found: dict[str, list[str]] = {}
+    for node in ast.walk(ast.parse(block)):
+        if isinstance(node, ast.Dict):
+            for key, value in zip(node.keys, node.values, strict=True):
+                if isinstance(value, ast.Call) and isinstance(key, ast.Constant):
+                    (names,) = (k.value for k in value.keywords if k.arg == "joint_names_expr")
+                    found[str(key.value)] = ast.literal_eval(names)
+    return found
+
+
+@pytest.mark.slow
+def test_the_articulation_cfg_names_every_joint_once(root: Path, joints: dict[str, dict[str, Any]]) -> None:
+    """As Isaac Lab does: an expression matches a whole name, and each finds at least one."""
+    tree = [j for j in joints.values() if not j["cut"] and j["type"] != "fixed"]
+    owners: dict[str, list[str]] = {j["name"]: [] for j in tree}
+    for group, expressions in groups(root).items():
+        for expression in expressions:
+            matched = [name for name in owners if re.fullmatch(expression, name)]
+            assert matched, expression
+            for name in matched:
+                owners[name].append(group)
+    assert {name: found for name, found in owners.items() if len(found) != 1} == {}
+    driven = {j["name"]: j["drive"]["kind"] for j in tree if j["drive"]}
+    assert {name for name, (group,) in owners.items() if group != "passive"} == set(driven)
+    assert {driven[name] for name, (group,) in owners.items() if group == "wheels"} == {"velocity"}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["isaac-lab", "isaac-sim"])
+def test_joints_named_on_the_pages_exist(root: Path, joints: dict[str, dict[str, Any]], name: str) -> None:
+    text = (root / "docs" / f"{name}.md").read_text(encoding="utf-8")
+    single = {"boom_cylinder_barrel2boom_piston_rod_joint"}
+    named = set(re.findall(r"\b[a-z_0-9]+_joint\b", text)) - {"_joint"} - single
+    assert {n for n in named if n not in joints and not n.startswith("_")} == set()
+    for cut in re.findall(r"`(rear2front_joint|front_frame2boom_joint|boom2bucket_joint)`", text):
+        assert joints[cut]["cut"]
+
+
+@pytest.mark.slow
+def test_prims_named_on_the_pages_exist(built: Path, root: Path) -> None:
+    from pxr import Usd
+
+    stage = Usd.Stage.Open(str(built / "scene.usda"))
+    for path in ("rear_frame/cab_camera", "rear_frame/roof_lidar/device", "bucket", "front_frame/bucket_camera"):
+        assert stage.GetPrimAtPath(f"/World/wheel_loader/{path}"), path
+
+
+@pytest.mark.slow
+def test_the_learners_page_runs(root: Path, built: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(built)
+    names: dict[str, Any] = {}
+    for block in blocks(root / "docs" / "learners.md"):
+        exec(compile(block, "docs/learners.md", "exec"), names)
+    assert names["boom"].angle(names["boom"].stroke(-0.5)) == pytest.approx(-0.5, abs=1e-6)
+    turned = names["chain"].coordinate(names["state"], names["boom"].pivot)
+    assert turned == pytest.approx(float(names["boom"].angle(0.2)), abs=2e-4)
