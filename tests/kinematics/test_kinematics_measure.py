@@ -162,6 +162,17 @@ def test_what_cannot_be_measured_says_why(machine):
         assert words in m.reason, m.reason
 
 
+@pytest.mark.parametrize("at", [0.0, 0.02])
+def test_a_stroke_without_length_is_told_and_does_not_crash(machine, at):
+    both = template("low", EDGE, solve(("boom", EDGE, 0.8), ("bucket", PITCH, 0.0)))
+    stuck = [replace(j, lower=at, upper=at) if j.name == "lift_l" else j for j in machine.joints]
+    found = complete(replace(machine, joints=tuple(stuck), measurements=(both, *TEMPLATES)))
+    assert [f.where for f in found.findings if f.code == "KIN009"] == ["lift_l"]
+    values = {m.name: m for m in measure(found)}
+    assert values["low"].model is None and "no stroke between its ends" in values["low"].reason
+    assert values["wheelbase"].model == pytest.approx(3.4)
+
+
 def test_roles_and_status(machine):
     known = {
         "Hinge at Top": {"value": 3.0, "unit": "m", "status": "ok", "example": True},

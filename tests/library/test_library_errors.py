@@ -34,7 +34,7 @@ DEFECTS = {
     "joints.limit_in_degrees": ("'30 deg'", "barrel2rod_joint.Limit", "0.8 m"),
     "joints.limit_unknown_unit": ("'cubits'", "barrel2rod_joint.Limit", "mm"),
     "joints.limit_no_name": ("'?'", "barrel2rod_joint.Limit", "Lift Cylinder Stroke"),
-    "joints.limits_swapped": ("above its upper limit", "barrel2rod_joint.Limit", "[lower, upper]"),
+    "joints.limits_swapped": ("not below its upper limit", "barrel2rod_joint.Limit", "[lower, upper]"),
     "joints.fixed_with_limits": ("has limits", "barrel2rod_joint.Limit", "Remove"),
     "joints.negative_stiffness": ("at least 0", "barrel2rod_joint.stiffness", "N/m"),
     "joints.zero_force": ("more than 0", "barrel2rod_joint.max_force", "N or N*m"),

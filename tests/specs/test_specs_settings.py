@@ -74,6 +74,39 @@ def test_bad_settings(texts: list[str], sentence: str, hint: str) -> None:
     assert caught.value.where.startswith("--set")
 
 
+RANGED = template(
+    wanted("Lift Cylinder Stroke", "length", minimum=0.1, maximum=2.5),
+    wanted("Digging Depth", "length", minimum=0.0, maximum=0.8),
+    wanted("Bore", "length"),
+    wanted("Rack Back", "angle"),
+)
+
+
+@pytest.mark.parametrize(
+    ("text", "hint"),
+    [
+        ("Lift Cylinder Stroke=0 mm", "from 100 mm to 2500 mm"),
+        ("Lift Cylinder Stroke=-764 mm", "from 100 mm to 2500 mm"),
+        ("Lift Cylinder Stroke=1e99 mm", "from 100 mm to 2500 mm"),
+        ("Digging Depth=-1 mm", "from 0 mm to 800 mm"),
+        ("Bore=0 mm", "more than 0"),
+        ("Bore=-5 mm", "more than 0"),
+        ("Bore=1e999 mm", "more than 0"),
+        ("Rack Back=1e999 rad", "finite"),
+    ],
+)
+def test_values_that_cannot_be_are_refused(text: str, hint: str) -> None:
+    with pytest.raises(YellowironError, match="outside what") as caught:
+        parse_settings([text], RANGED)
+    assert text in caught.value.where and hint in caught.value.hint
+
+
+@pytest.mark.parametrize("text", ["Lift Cylinder Stroke=100 mm", "Lift Cylinder Stroke=2500 mm", "Digging Depth=0 mm",
+                                  "Rack Back=-10 deg", "Rack Back=0 deg"])  # fmt: skip
+def test_the_ends_of_a_range_are_inside_it(text: str) -> None:
+    assert len(parse_settings([text], RANGED)) == 1
+
+
 def test_choices_are_split_from_values() -> None:
     machine = template(wanted("Wheelbase", "length"))
     machine = type(machine)(**{**machine.__dict__, "variants": (Variant("wheel_drive", ("all", "rear"), "all"),)})

@@ -179,6 +179,9 @@ class Bench:
         """Several coordinates at once: least squares within the strokes, from the best of a lattice of poses."""
         driven = [self.actuator(name).joints[0].joint for name in names]
         low, high = np.array([sorted(self.range(name)) for name in names]).T
+        for name, width in zip(names, high - low, strict=True):
+            if not width > 0.0:
+                raise Unmeasurable(f"{words} cannot be reached: the actuator '{name}' has no stroke between its ends")
 
         def errors(state: State) -> np.ndarray:
             return np.array([self.value(c["quantity"], state) - _number(c["value"]) for c in conditions])

@@ -122,6 +122,9 @@ def _ranges(work: _Work) -> list[dict[str, tuple[float, float]]]:
                 continue
             ends = [_reachable(work, joint, end, float(getattr(joint, end))) for end in ("lower", "upper")]
             found[name] = (min(ends), max(ends))
+            if ends[0] == ends[1]:
+                words = "its two ends of stroke are the same: it cannot move"
+                work.find("KIN009", "warning", name, words, "Check the stroke and the limits of this joint.")
         ranges.append(found)
     return ranges
 

@@ -133,9 +133,11 @@ def _limits(
 ) -> tuple[float | str | None, float | str | None]:
     place = document.at(name, "Limit")
     lower, upper = (limit(v, DIMENSION[kind], where=place) for v in value)
-    if isinstance(lower, float) and isinstance(upper, float) and lower > upper:
+    if isinstance(lower, float) and isinstance(upper, float) and lower >= upper:
         raise TemplateError(
-            f"The lower limit of joint '{name}' is above its upper limit", where=place, hint="Limit is [lower, upper]."
+            f"The lower limit of joint '{name}' is not below its upper limit",
+            where=place,
+            hint="Limit is [lower, upper]; a joint that cannot move is Fixed.",
         )
     if kind == "fixed" and (lower is not None or upper is not None):
         raise TemplateError(f"The fixed joint '{name}' has limits", where=place, hint="Remove Limit.")

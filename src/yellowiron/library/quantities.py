@@ -26,12 +26,12 @@ def quantity(value: float | str, dimension: str, *, where: str) -> float:
             raise TemplateError(
                 f"'{value}' is not a quantity of dimension {dimension}", where=where, hint=_example(dimension)
             )
-        if unit:
-            return number
     else:
-        number = float(value)
+        number, unit = float(value), ""
     if not math.isfinite(number):
         raise TemplateError(f"{number} is not a number that can be used", where=where)
+    if unit:
+        return number
     return math.radians(number) if dimension == "angle" else number
 
 

@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Sequence
 
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.finding import Finding
 from yellowiron.model.specification import Specification, Specifications, fold
 from yellowiron.model.template import Template, Variant, Wanted
+from yellowiron.model.text import display
 from yellowiron.model.units import SI_UNIT
 from yellowiron.specs.asked import asked, hint_for
 from yellowiron.specs.numbers import parse_one
 
 _WHERE = "--set"
+_SIGNED = {"angle", "count"}
+"""Dimensions whose values may be zero or negative where no range is stated."""
+_ROUNDING = 1e-9
+"""A value may be outside its range by this share: what a change of units rounds."""
 
 
 def split_settings(texts: Iterable[str], template: Template) -> tuple[tuple[str, ...], dict[str, str]]:
@@ -38,8 +44,9 @@ def parse_settings(texts: Iterable[str], template: Template) -> Specifications:
     """`("Lift Cylinder Stroke=764 mm", …)` as specifications in SI with source `set`.
 
     Names are those the template asks for, without regard to case, `_`, `-` or spaces. `YellowironError` for an unknown
-    name (with the nearest ones), a value that is no number with a unit, a unit of another dimension, and a name given
-    twice with different values.
+    name (with the nearest ones), a value that is no number with a unit, a unit of another dimension, one outside the
+    wanted entry's minimum and maximum (without them: not finite, or not positive), and a name given twice with
+    different values.
     """
     known = {fold(w.name): w for w in asked(template)}
     found: dict[str, Specification] = {}
@@ -113,6 +120,7 @@ def _specification(wanted: Wanted, value: str, text: str) -> Specification:
         raise YellowironError(
             f"'{value}' is not a {wanted.dimension}, as {wanted.name} is", where=_WHERE, hint=hint_for(wanted)
         )
+    _check_range(wanted, quantity.si_value, value, text)
     return Specification(
         name=wanted.name,
         value=quantity.si_value,
@@ -122,6 +130,30 @@ def _specification(wanted: Wanted, value: str, text: str) -> Specification:
         text=value,
         confidence=1.0,
         reason=f'given with --set "{text}"',
+    )
+
+
+def _check_range(wanted: Wanted, value: float, text: str, setting: str) -> None:
+    """`YellowironError` for a value that the wanted entry's range, or its dimension, rules out."""
+    unit = SI_UNIT[wanted.dimension]
+    low, high = wanted.minimum, wanted.maximum
+    least = low if low is not None else -math.inf
+    most = high if high is not None else math.inf
+    slack = _ROUNDING * max(abs(b) for b in (least, most, 0.0) if math.isfinite(b))
+    positive = low is None and wanted.dimension not in _SIGNED
+    if math.isfinite(value) and least - slack <= value <= most + slack and (value > 0.0 or not positive):
+        return
+    if low is not None and high is not None:
+        usual = f"from {display(low, unit)} to {display(high, unit)}"
+    elif low is not None:
+        usual = f"at least {display(low, unit)}"
+    else:
+        usual = "more than 0" if positive else "finite"
+        usual += f" and at most {display(high, unit)}" if high is not None else ""
+    raise YellowironError(
+        f"'{text}' is outside what {wanted.name} can be",
+        where=f"{_WHERE} {setting}",
+        hint=f"It is {usual}; check number and unit.",
     )
 
 
