@@ -176,6 +176,7 @@ def test_an_engine_that_is_not_installed_is_said(usd_file: Path, monkeypatch: py
         ({"engine": "mujoco", "dt": float("nan")}, "time step"),
         ({"engine": "mujoco", "payload_kg": -1.0}, "payload"),
         ({"engine": "mujoco", "actuators": ["arm"]}, "no actuator 'arm'"),
+        ({"engine": "mujoco", "actuators": []}, "nothing to drive"),
     ],
 )
 def test_bad_orders_are_refused(usd_file: Path, more: dict[str, object], words: str) -> None:

@@ -55,6 +55,10 @@ def simulate(
     read = usd.read_machine(usd_path)
     mechanism = with_payload(read, payload_kg)
     moves = motions(mechanism, actuators)
+    if not moves:
+        raise YellowironError(
+            "The machine has nothing to drive", where=mechanism.name, hint="Name its actuators in the template."
+        )
     comparison = Comparison(mechanism)
     heavier = tuple(b for b, old in zip(mechanism.bodies, read.bodies, strict=True) if b is not old)
     progress(f"Loading the machine into {engine}")
