@@ -144,9 +144,11 @@ def test_quaternion_to_axis(vector) -> None:
     assert np.allclose(axis_of(quaternion_to(axis)), axis, atol=1e-9)
 
 
-@pytest.mark.parametrize("axis", [(-1.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)])
-def test_quaternion_to_special_axes(axis) -> None:
-    assert np.allclose(axis_of(quaternion_to(axis)), axis, atol=1e-15)
+@pytest.mark.parametrize("axis", [*np.eye(3).tolist(), *(-np.eye(3)).tolist()])
+def test_quaternions_to_the_frames_axes_are_exact_in_single_precision(axis) -> None:
+    quaternion = quaternion_to(axis)
+    assert set(map(abs, quaternion)) <= {0.0, 0.5, 1.0}
+    assert axis_of(quaternion) == tuple(axis)
 
 
 @given(st.lists(st.floats(-2, 2), min_size=9, max_size=9))

@@ -15,8 +15,10 @@ from yellowiron.usd.drives import INSTANCES, to_usd_unit
 from yellowiron.usd.plan import COLLIDERS, Plan
 from yellowiron.usd.stage import Types, apply_schemas, over, set_attribute
 
-POSITION_ITERATIONS = 64
-"""Solver iterations of the articulation: at 60 Hz the worst pin error is 31 mm with 4 and 0.28 mm with 64."""
+POSITION_ITERATIONS = 255
+"""Solver iterations of the articulation, PhysX's most. They cost next to nothing where a single machine's step is spent
+elsewhere, and a pin of a loader that holds its payload errs at 120 Hz by 1.5 mm with 32, by 0.53 with 64, by 0.20 with
+128 and by 0.08 with 255."""
 
 _VALUE_TYPES = {bool: Types.Bool, int: Types.Int, float: Types.Float}
 

@@ -14,6 +14,16 @@ from yellowiron.model.geometry import Floats
 Quaternion = tuple[float, float, float, float]
 """(w, x, y, z), unit, w ≥ 0."""
 
+_TURNS: dict[tuple[int, float], Quaternion] = {
+    (0, 1.0): (1.0, 0.0, 0.0, 0.0),
+    (0, -1.0): (0.0, 0.0, 0.0, 1.0),
+    (1, 1.0): (0.5, 0.5, 0.5, 0.5),
+    (1, -1.0): (0.5, 0.5, -0.5, -0.5),
+    (2, 1.0): (0.5, -0.5, -0.5, -0.5),
+    (2, -1.0): (0.5, 0.5, 0.5, -0.5),
+}
+"""What takes +X to an axis of the frame, by its number and sign."""
+
 
 def quaternion_of(rotation: Floats) -> Quaternion:
     """The quaternion of a rotation matrix (3, 3)."""
@@ -23,14 +33,21 @@ def quaternion_of(rotation: Floats) -> Quaternion:
 
 
 def quaternion_to(axis: ArrayLike) -> Quaternion:
-    """The shortest rotation that takes +X to the unit vector `axis`; half a turn about +Z where it is −X."""
-    x, y, z = (float(v) for v in np.asarray(axis, dtype=np.float64))
-    across = y * y + z * z
-    if x < 0.0 and across < 1e-24:
-        return (0.0, 0.0, 0.0, 1.0)
-    # 1 + x, without the cancellation near −X.
-    real = 1.0 + x if x >= 0.0 else across / (1.0 - x)
-    return _canonical([real, 0.0, -z, y])
+    """A rotation that takes +X to the unit vector `axis`: the one in `_TURNS` to the nearest of the six directions of
+    the frame's axes, then the shortest one from there.
+
+    Those six are exact in single precision. A quarter turn's 0.7071 is not: engines that multiply frames in single
+    precision would stretch a chain of ten pins by micrometres, and its loops would not close.
+    """
+    wanted = np.asarray(axis, dtype=np.float64)
+    nearest = int(np.argmax(np.abs(wanted)))
+    sign = 1.0 if wanted[nearest] >= 0.0 else -1.0
+    start = np.zeros(3)
+    start[nearest] = sign
+    across = np.cross(start, wanted)
+    rest = Gf.Quatd(1.0 + float(start @ wanted), Gf.Vec3d(*across.tolist())).GetNormalized()
+    found = rest * Gf.Quatd(*_TURNS[nearest, sign])
+    return _canonical([found.GetReal(), *found.GetImaginary()])
 
 
 def axis_of(quaternion: Quaternion) -> tuple[float, float, float]:
