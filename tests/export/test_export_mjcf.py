@@ -207,3 +207,19 @@ def test_what_is_no_machine_is_said(tmp_path: Path, content: str | None) -> None
         file.write_text(content)
     with pytest.raises(YellowironError, match=r"machine\.usda"):
         read_geometry(file)
+
+
+def test_what_is_seen_fills_the_bodies_extents(model: mujoco.MjModel, mechanism: Mechanism) -> None:
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    for body in mechanism.bodies:
+        points = []
+        for geom in range(model.ngeom):
+            if model.geom_bodyid[geom] == model.body(body.name).id and model.geom_group[geom] == 2:
+                mesh = model.geom_dataid[geom]
+                first, count = model.mesh_vertadr[mesh], model.mesh_vertnum[mesh]
+                turn = data.geom_xmat[geom].reshape(3, 3)
+                points.append(model.mesh_vert[first : first + count] @ turn.T + data.geom_xpos[geom])
+        seen, hull = np.concatenate(points), np.asarray(body.hull)
+        assert seen.min(axis=0) == pytest.approx(hull.min(axis=0), abs=1e-5)
+        assert seen.max(axis=0) == pytest.approx(hull.max(axis=0), abs=1e-5)
