@@ -37,7 +37,7 @@ const sentence = (name) => words(name).replace(/^./, (letter) => letter.toUpperC
 const signed = (value, digits) => (value < -0.5 * 10 ** -digits ? "−" : "") + Math.abs(value).toFixed(digits);
 const degrees = (radians) => `${signed((radians * 180) / Math.PI, 1)}°`;
 const STEPS = 400; // of a slider
-const SLOW = 400; // milliseconds for a frame
+const SLOW = 150; // milliseconds for a frame
 
 function boxOf(points) {
   const [low, high] = [Math.min, Math.max].map((best) =>
@@ -141,9 +141,37 @@ class Viewer {
       ),
     );
     const section = (title, ...content) => element("section", {}, element("h3", {}, title), ...content);
-    this.panel.append(section("Move it", ...this.sliders.map((slider) => slider.row), buttons));
-    if (this.model.readouts.length + this.model.sites.length) this.panel.append(section("How it stands", this.angles));
-    this.panel.append(this.#partList());
+    const move = element("div", {}, section("Actuators", ...this.sliders.map((slider) => slider.row)), section("Poses", buttons));
+    if (this.model.readouts.length + this.model.sites.length) move.append(section("How it stands", this.angles));
+    this.#tabs([["Move", move], ["Parts", this.#partList()]]);
+  }
+
+  /** Tabs of the panel; arrow keys go from one to the next. */
+  #tabs(pages) {
+    const tabs = pages.map(([name, page]) => {
+      const tab = element("button", { type: "button", role: "tab", id: `v-tab-${name}` }, name);
+      page.setAttribute("role", "tabpanel");
+      page.setAttribute("aria-labelledby", tab.id);
+      return tab;
+    });
+    const open = (chosen) =>
+      pages.forEach(([, page], index) => {
+        page.hidden = index !== chosen;
+        tabs[index].setAttribute("aria-selected", index === chosen);
+        tabs[index].tabIndex = index === chosen ? 0 : -1;
+      });
+    tabs.forEach((tab, index) => {
+      tab.addEventListener("click", () => open(index));
+      tab.addEventListener("keydown", (event) => {
+        const way = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
+        if (!way) return;
+        const next = (index + way + tabs.length) % tabs.length;
+        open(next);
+        tabs[next].focus();
+      });
+    });
+    open(0);
+    this.panel.append(element("div", { class: "v-tabs", role: "tablist" }, ...tabs), ...pages.map(([, page]) => page));
   }
 
   #slider(slider) {
@@ -178,8 +206,8 @@ class Viewer {
     this.count = element("span", { class: "dim" });
     const all = element("button", { type: "button", onclick: () => this.show(() => true) }, "Show all");
     this.#fill();
-    const head = element("h3", {}, "Parts ", this.count, all);
-    return element("section", { class: "v-parts" }, head, this.search, this.list);
+    const head = element("div", { class: "v-head" }, this.count, all);
+    return element("section", { class: "v-parts" }, this.search, head, this.list);
   }
 
   /** The parts that the search leaves, body by body. */
@@ -191,7 +219,7 @@ class Viewer {
     });
     const hidden = this.model.parts.filter((part) => part.hidden).length;
     const left = this.model.leftOut ? `, ${this.model.leftOut} small ones not drawn` : "";
-    this.count.textContent = `${found.length}${hidden ? `, ${hidden} hidden` : ""}${left}`;
+    this.count.textContent = `${found.length} parts${hidden ? `, ${hidden} hidden` : ""}${left}`;
     const open = new Set([...this.list.querySelectorAll("details[open]")].map((each) => each.dataset.body));
     this.list.replaceChildren(
       ...this.model.bodies.map((body, index) => {
@@ -276,7 +304,7 @@ class Viewer {
     this.given = given;
     this.pose = poseOf(this.model, given);
     for (const slider of this.sliders) slider.show(given[slider.joints[0][0]] ?? 0);
-    const row = (name, value) => [element("dt", {}, name), element("dd", {}, value)];
+    const row = (name, value) => [element("div", {}, element("dt", {}, name), element("dd", {}, value))];
     const joints = Object.fromEntries(this.model.joints.map((joint) => [joint.name, joint]));
     this.angles.replaceChildren(
       ...this.model.sites.flatMap((site) => {
@@ -485,7 +513,7 @@ class Viewer {
     this.waiting = requestAnimationFrame(() => {
       this.waiting = 0;
       this.draw(1);
-      this.resting = setTimeout(() => this.draw(devicePixelRatio < 2 && this.quickest < SLOW ? 2 : 1), 140);
+      if (devicePixelRatio < 2 && this.quickest < SLOW) this.resting = setTimeout(() => this.draw(2), 140);
     });
   }
 
@@ -510,10 +538,10 @@ class Viewer {
   #drawJoints() {
     this.overlay.replaceChildren();
     if (!this.showJoints) return;
-    for (const joint of this.model.joints) {
+    for (const [index, joint] of this.model.joints.entries()) {
       const pose = this.pose[joint.parent];
       if (!pose) continue;
-      const reach = 0.045 * this.scene.radius;
+      const reach = 0.06 * this.scene.radius;
       const middle = moved(pose, joint.anchor);
       const axis = scaled(turned(pose, joint.axis), reach);
       const [a, b, m] = [add(middle, axis), add(middle, scaled(axis, -1)), middle].map((point) => this.project(point));
@@ -527,7 +555,7 @@ class Viewer {
       const tell = () => {
         const value = coordinateOf(joint, this.pose);
         const now = value == null ? "" : joint.type === "prismatic" ? `, ${signed(1e3 * value, 0)} mm` : `, ${degrees(value)}`;
-        this.#tell(`${words(joint.name)} · ${joint.type}${joint.cut ? ", cut" : ""}${now}`, ...m);
+        this.#tell(`${index + 1} ${joint.name} · ${joint.type}${joint.cut ? ", cut" : ""}${now}`, ...m);
       };
       group.addEventListener("pointerenter", tell);
       group.addEventListener("click", tell);
@@ -542,7 +570,7 @@ try {
   if (!("DecompressionStream" in window)) throw new Error("no DecompressionStream");
   const viewer = new Viewer(place, await unpack(document.getElementById("viewer-data").textContent.trim()));
   document.getElementById("viewer-caption").textContent = "The machine as built: move it, turn it, click a part.";
-  window.yellowiron = viewer;
+  window.yellowiron = Object.assign(viewer, { moved });
 } catch (error) {
   document.getElementById("viewer-caption").textContent =
     `As drawn in the CAD model. The 3D view needs a browser with WebGL2 (${error.message}).`;

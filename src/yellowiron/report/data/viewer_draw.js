@@ -123,7 +123,8 @@ function normalMatrix(m) {
 class Renderer {
   /** Throws where WebGL2 is missing. */
   constructor(canvas, shapes) {
-    const gl = canvas.getContext("webgl2", { antialias: false, alpha: false, powerPreference: "high-performance" });
+    // A preserved picture survives printing, screenshots and tabs in the background without being drawn again.
+    const gl = canvas.getContext("webgl2", { antialias: false, alpha: false, preserveDrawingBuffer: true });
     if (!gl) throw new Error("no WebGL2");
     this.gl = gl;
     this.canvas = canvas;
@@ -318,6 +319,8 @@ class Renderer {
     gl.bindFramebuffer(gl.READ_FRAMEBUFFER, this.target.buffer);
     gl.readBuffer(gl.COLOR_ATTACHMENT1);
     gl.readPixels(x * this.fine, this.target.height - 1 - y * this.fine, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
+    // The browser shows the canvas from the framebuffer that is bound for reading.
+    gl.bindFramebuffer(gl.READ_FRAMEBUFFER, null);
     return bytes[0] + 256 * bytes[1];
   }
 }

@@ -1,0 +1,214 @@
+"""The page in a real browser, from disk: it opens in silence, moves, and knows what was clicked."""
+
+from __future__ import annotations
+
+import base64
+import io
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from yellowiron.build import build
+from yellowiron.kinematics import ClosedChain
+
+pytestmark = pytest.mark.slow
+
+FLAGS = (
+    "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+    "--ignore-gpu-blocklist", "--disable-quic", "--no-first-run", "--disable-background-networking",
+    "--disable-component-update", "--disable-sync",
+)  # fmt: skip
+BETWEEN = 2e-3
+"""Metres between the solver's pose and the page's, anywhere on a body."""
+MOST_BYTES = 3_000_000
+
+
+@pytest.fixture(scope="module")
+def machine(example: Path, tmp_path_factory: pytest.TempPathFactory) -> Any:
+    """The example, built: what the page was made from."""
+    return build(
+        "wheel_loader", example / "wheel_loader.step", tmp_path_factory.mktemp("page") / "machine",
+        sheets=[example / "specifications.pdf"],
+    )  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Any]:
+    """Debian's Chromium, drawing in software: no display and no graphics card are needed."""
+    sync_api = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
+    chromium = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+    if chromium is None:
+        pytest.skip("no Chromium on this machine")
+    with sync_api.sync_playwright() as playwright:
+        started = playwright.chromium.launch(executable_path=chromium, args=list(FLAGS))
+        yield started
+        started.close()
+
+
+@pytest.fixture(scope="module")
+def opened(browser: Any, machine: Any) -> Iterator[tuple[Any, list[str], list[str]]]:
+    """The page, what the console complained of, and what was asked of any network."""
+    page = browser.new_page(viewport={"width": 1280, "height": 900}, reduced_motion="reduce")
+    page.set_default_timeout(60_000)
+    errors: list[str] = []
+    requests: list[str] = []
+    page.on("console", lambda message: errors.append(message.text) if message.type == "error" else None)
+    page.on("pageerror", lambda error: errors.append(str(error)))
+    page.on("request", lambda request: requests.append(request.url))
+    page.goto((machine.folder / "report.html").as_uri())
+    page.wait_for_selector("#viewer.v-ready")
+    page.locator("#viewer").scroll_into_view_if_needed()
+    yield page, errors, requests
+    page.close()
+
+
+@pytest.fixture
+def page(opened: tuple[Any, list[str], list[str]]) -> Any:
+    """The page with everything shown as drawn, nothing chosen."""
+    page = opened[0]
+    page.evaluate("yellowiron.choose(0), yellowiron.show(() => true), yellowiron.move({}), yellowiron.reset()")
+    return page
+
+
+def picture(page: Any) -> np.ndarray:
+    """What the canvas shows, (rows, columns, 3), once it is drawn."""
+    data = page.evaluate("(yellowiron.draw(1), yellowiron.canvas.toDataURL('image/png'))")
+    return np.asarray(Image.open(io.BytesIO(base64.b64decode(data.partition(",")[2]))).convert("RGB")).astype(int)
+
+
+def on_screen(page: Any, body: str, point: tuple[float, float, float]) -> tuple[float, float]:
+    """Pixel of the browser's window at which a point of a body is seen."""
+    x, y = page.evaluate(
+        "([body, point]) => yellowiron.project(yellowiron.moved(yellowiron.pose[body], point))", [body, point]
+    )
+    box = page.locator("#viewer canvas").bounding_box()
+    return box["x"] + x, box["y"] + y
+
+
+def test_it_opens_from_disk_in_silence(opened: tuple[Any, list[str], list[str]], machine: Any) -> None:
+    page, errors, requests = opened
+    assert errors == []
+    assert all(url.startswith(("file:", "data:", "blob:")) for url in requests)
+    assert (machine.folder / "report.html").stat().st_size < MOST_BYTES
+    seen = picture(page)
+    assert len(np.unique(seen.reshape(-1, 3), axis=0)) > 1000
+
+
+def test_every_actuator_moves_the_picture(page: Any, machine: Any) -> None:
+    before = picture(page)
+    for actuator in machine.mechanism.actuators:
+        slider = page.locator(f"#v-{actuator.name}")
+        assert slider.get_attribute("type") == "range"
+        said = slider.get_attribute("aria-valuetext")
+        slider.focus()
+        page.keyboard.press("End")
+        assert slider.get_attribute("aria-valuetext") != said
+        after = picture(page)
+        moved = np.abs(after - before).max(axis=2) > 24
+        # Wheels look much the same wherever they turn.
+        assert moved.sum() > (20 if actuator.kind == "motor" else 500), actuator.name
+        before = after
+
+
+def test_poses_are_the_solvers(page: Any, machine: Any) -> None:
+    """Steering, boom, bucket and wheels at once: the page's interpolation against the closed chain."""
+    chain = ClosedChain(machine.mechanism)
+    random = np.random.default_rng(5)
+    joints = {joint.name: joint for joint in machine.mechanism.joints}
+    for _ in range(10):
+        given = {
+            name: float(random.uniform(*((-2.0, 2.0) if joints[name].lower is None else
+                                         (joints[name].lower, joints[name].upper))))
+            for name in chain.independent
+        }  # fmt: skip
+        solved = chain.pose(chain.solve(given))
+        shown = page.evaluate("(given) => { yellowiron.move(given); return yellowiron.pose; }", given)
+        for body in machine.mechanism.bodies:
+            gap = solved[body.name] - np.array(shown[body.name]).reshape(4, 4).T
+            corners = np.c_[body.hull, np.ones(len(body.hull))]
+            assert np.abs(corners @ gap.T).max() < BETWEEN, body.name
+
+
+def test_a_click_picks_the_bucket_and_tells_about_it(page: Any, machine: Any) -> None:
+    body = machine.mechanism.body("bucket")
+    low, high = body.hull.min(axis=0), body.hull.max(axis=0)
+    # Some pixel of its box shows it; the first on a lattice is clicked.
+    x0, y0 = on_screen(page, "bucket", tuple(low))
+    x1, y1 = on_screen(page, "bucket", tuple(high))
+    box = page.locator("#viewer canvas").bounding_box()
+    bucket = [each.name for each in machine.mechanism.bodies].index("bucket")
+    picture(page)
+    for share in np.linspace(0.1, 0.9, 17):
+        x, y = x0 + share * (x1 - x0), y0 + share * (y1 - y0)
+        found = page.evaluate(
+            "([x, y]) => yellowiron.model.parts[yellowiron.pick(x, y) - 1]?.body", [x - box["x"], y - box["y"]]
+        )
+        if found == bucket:
+            break
+    else:
+        pytest.fail("the bucket is nowhere to be seen")
+    page.mouse.click(x, y)
+    card = page.locator(".v-card")
+    card.wait_for(state="visible")
+    assert "bucket" in card.inner_text()
+    assert "confidence" in card.inner_text()
+    chosen = page.evaluate("yellowiron.model.parts[yellowiron.chosen - 1].path")
+    assert chosen in machine.alignment.parts_of_body("bucket")
+
+    # Hidden, the pixel shows something else; the list brings it back.
+    card.get_by_role("button", name="Hide", exact=True).click()
+    picture(page)
+    assert page.evaluate("(at) => yellowiron.pick(...at)", [x - box["x"], y - box["y"]]) != page.evaluate(
+        "yellowiron.chosen"
+    )
+
+
+def test_parts_that_cannot_be_seen_are_found_by_name(page: Any, machine: Any) -> None:
+    """The whole alignment is listed; isolating one part leaves only that."""
+    page.get_by_role("tab", name="Parts").click()
+    assert page.evaluate("yellowiron.model.parts.length") == sum(len(b.parts) for b in machine.mechanism.bodies)
+    name = machine.mechanism.body("rocker").parts[-1].part.rsplit("/", 1)[-1]
+    page.get_by_role("searchbox", name="Search parts").fill(f"rocker {name}")
+    page.locator(".v-name", has_text=name).first.click()
+    page.locator(".v-card").get_by_role("button", name="Isolate", exact=True).click()
+    assert page.evaluate("yellowiron.model.parts.filter((part) => !part.hidden).length") == 1
+    page.get_by_role("button", name="Show all").click()
+    page.get_by_role("searchbox", name="Search parts").fill("")
+    page.get_by_role("tab", name="Move").click()
+    assert page.evaluate("yellowiron.model.parts.every((part) => !part.hidden)")
+
+
+def test_joints_are_drawn_where_they_are(page: Any, machine: Any) -> None:
+    page.get_by_role("button", name="Joints").click()
+    assert page.locator(".v-joint").count() == len(machine.mechanism.joints)
+    page.get_by_role("button", name="Joints").click()
+    assert page.locator(".v-joint").count() == 0
+
+
+def test_the_camera_answers_mouse_and_keys(page: Any) -> None:
+    before = page.evaluate("({...yellowiron.camera})")
+    box = page.locator("#viewer canvas").bounding_box()
+    page.mouse.move(box["x"] + 300, box["y"] + 300)
+    page.mouse.down()
+    page.mouse.move(box["x"] + 380, box["y"] + 320, steps=3)
+    page.mouse.up()
+    turned = page.evaluate("({...yellowiron.camera})")
+    assert turned["azimuth"] != before["azimuth"] and turned["elevation"] != before["elevation"]
+    page.mouse.wheel(0, -300)
+    page.wait_for_function("(far) => yellowiron.camera.distance < far", arg=turned["distance"])
+    page.keyboard.press("0")
+    assert page.evaluate("yellowiron.camera.azimuth") == before["azimuth"]
+
+
+def test_without_webgl_the_picture_stays(browser: Any, machine: Any) -> None:
+    page = browser.new_page()
+    page.add_init_script("HTMLCanvasElement.prototype.getContext = () => null")
+    page.goto((machine.folder / "report.html").as_uri())
+    page.wait_for_function("document.getElementById('viewer-caption').textContent.includes('WebGL2')")
+    assert page.locator("#viewer img").is_visible()
+    page.close()
