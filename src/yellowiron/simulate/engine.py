@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import importlib
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from types import MappingProxyType
+from types import MappingProxyType, ModuleType
 from typing import Literal, Protocol, cast
 
 import numpy as np
@@ -122,6 +123,19 @@ ENGINES: Mapping[str, EngineEntry] = MappingProxyType(
         "mujoco": EngineEntry(
             "yellowiron.simulate.mujoco", 0.001, {"fixed": 5e-5, "floating": 1e-4}, install="pip install mujoco"
         ),
+        "newton": EngineEntry(
+            "yellowiron.simulate.newton",
+            0.001,
+            {"fixed": 5e-5, "floating": 1e-4},
+            install="pip install 'yellowiron[newton]'",
+        ),
+        "physx": EngineEntry(
+            "yellowiron.simulate.physx",
+            1.0 / 120.0,
+            {"fixed": 2.5e-4, "floating": 2.5e-4},
+            angle_bar=math.radians(0.06),
+            install="pip install 'yellowiron[physx]'",
+        ),
     }
 )
 
@@ -133,13 +147,20 @@ def find_engine(name: str) -> EngineEntry:
     return ENGINES[name]
 
 
-def load_engine(name: str, setup: Setup) -> Engine:
-    """The engine with the machine loaded; `YellowironError` that says what to install where it is not there."""
+def import_engine(name: str) -> ModuleType:
+    """The engine's module; `YellowironError` that says what to install where it is not there.
+
+    Called before the first stage is opened: some engines bring USD schemas, which USD looks up only once.
+    """
     entry = find_engine(name)
     try:
-        module = importlib.import_module(entry.module)
+        return importlib.import_module(entry.module)
     except ModuleNotFoundError as error:
         raise YellowironError(
             f"The engine '{name}' needs the module '{error.name}', which is not installed", hint=f"{entry.install}"
         ) from error
-    return cast(Engine, module.load(setup))
+
+
+def load_engine(name: str, setup: Setup) -> Engine:
+    """The engine with the machine loaded; errors as in `import_engine`."""
+    return cast(Engine, import_engine(name).load(setup))

@@ -1,0 +1,106 @@
+"""Newton, with MuJoCo's solver on the CPU, on our USD."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import warnings
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import newton
+import newton_usd_schemas  # noqa: F401  registers its schemas before a stage opens
+import numpy as np
+import physx_usd_schemas  # noqa: F401  likewise
+import warp
+from pxr import Usd
+
+from yellowiron.model.errors import YellowironError
+from yellowiron.model.geometry import Floats
+from yellowiron.simulate.coordinates import Coordinates, rotation_matrices
+from yellowiron.simulate.engine import Setup
+from yellowiron.simulate.world import World, compose
+
+
+def load(setup: Setup) -> NewtonEngine:
+    """The machine in Newton. `YellowironError` where Newton takes it, but not all of it."""
+    return NewtonEngine(compose(setup), setup)
+
+
+class NewtonEngine:
+    """An `Engine`. Newton's state is single precision; MuJoCo steps in double."""
+
+    def __init__(self, world: World, setup: Setup) -> None:
+        warp.config.quiet = True
+        self._timestep = setup.timestep
+        with warp.ScopedDevice("cpu"), _quiet():
+            builder = newton.ModelBuilder(up_axis=newton.Axis.Z)
+            newton.solvers.SolverMuJoCo.register_custom_attributes(builder)
+            found = builder.add_usd(Usd.Stage.Open(world.layer), load_visual_shapes=False)
+            self._model: Any = builder.finalize(device="cpu")
+            self._solver: Any = newton.solvers.SolverMuJoCo(
+                self._model, use_mujoco_cpu=True, integrator="euler", cone="elliptic"
+            )
+            self._states = [self._model.state(), self._model.state()]
+            self._control: Any = self._model.control()
+            newton.eval_fk(self._model, self._model.joint_q, self._model.joint_qd, self._states[0])
+        self._bodies = np.array([_index(found["path_body_map"], world.bodies[b.name]) for b in setup.mechanism.bodies])
+        starts = {"position": self._model.joint_q_start.numpy(), "velocity": self._model.joint_qd_start.numpy()}
+        self._drives = {
+            joint.name: (joint.drive.kind, int(starts[joint.drive.kind][_index(found["path_joint_map"], path)]))
+            for joint in setup.mechanism.joints
+            if joint.drive is not None and not joint.cut and (path := world.joints[joint.name])
+        }
+        self._targets = {
+            "position": (self._control.joint_target_q, self._control.joint_target_q.numpy()),
+            "velocity": (self._control.joint_target_qd, self._control.joint_target_qd.numpy()),
+        }
+        self._measured = Coordinates(setup.mechanism, setup.measured)
+
+    @property
+    def version(self) -> str:
+        """Newton's version."""
+        return str(newton.__version__)
+
+    def set_targets(self, targets: Mapping[str, float]) -> None:
+        """See `Engine`."""
+        for joint, value in targets.items():
+            kind, place = self._drives[joint]
+            self._targets[kind][1][place] = value
+
+    def step(self) -> None:
+        """See `Engine`."""
+        before, after = self._states
+        self._solver.step(before, after, self._control, None, self._timestep)
+        self._states = [after, before]
+
+    def poses(self) -> tuple[Floats, Floats]:
+        """See `Engine`."""
+        rows = self._states[0].body_q.numpy()[self._bodies].astype(np.float64)
+        return rotation_matrices(rows[:, 3:]), rows[:, :3]
+
+    def coordinates(self) -> Floats:
+        """See `Engine`."""
+        return self._measured.read(*self.poses())
+
+    def velocities(self) -> Floats:
+        """Velocities of all joints, m/s or rad/s. After the first step they must be small."""
+        return np.array(self._states[0].joint_qd.numpy(), dtype=np.float64)
+
+    def close(self) -> None:
+        """Nothing is held outside Python."""
+
+
+def _index(found: Mapping[str, int], path: str) -> int:
+    if path not in found:
+        raise YellowironError("Newton has left out a body or joint of the machine", where=path)
+    return found[path]
+
+
+@contextlib.contextmanager
+def _quiet() -> Iterator[None]:
+    """Without what Newton says of MuJoCo's version and of meshes that it takes as their hulls."""
+    with warnings.catch_warnings(), Path(os.devnull).open("w") as nowhere, contextlib.redirect_stdout(nowhere):
+        warnings.simplefilter("ignore")
+        yield
