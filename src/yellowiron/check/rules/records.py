@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 
 from yellowiron.check.rule import Remarks, rule
-from yellowiron.check.view import Joint, View
+from yellowiron.check.view import Joint, View, direction
+from yellowiron.model.geometry import Floats
 
 _MOVED = 1e-4
 _TURNED = math.radians(0.01)
@@ -31,6 +32,23 @@ def _entries(view: View, name: str) -> list[Mapping[str, Any]]:
     return [e for e in found if isinstance(e, dict)] if isinstance(found, list) else []
 
 
+def _list(value: Any) -> list[Any]:
+    return value if isinstance(value, list) else []
+
+
+def _number(value: Any) -> float | None:
+    return float(value) if isinstance(value, int | float) and math.isfinite(value) else None
+
+
+def _vector(value: Any) -> Floats | None:
+    """A recorded vector (3,), or None where it is none."""
+    try:
+        found = np.asarray(value, dtype=np.float64)
+    except (TypeError, ValueError):
+        return None
+    return found if found.shape == (3,) and np.isfinite(found).all() else None
+
+
 def _recorded(view: View) -> Iterator[tuple[Joint, Mapping[str, Any]]]:
     for joint in view.joints:
         if joint.record.get("kind") == "joint":
@@ -46,11 +64,12 @@ def gone(view: View) -> Remarks:
     """A joint that the build made is gone."""
     named: dict[str, None] = {}
     for loop in _entries(view, "loops"):
-        named.update(dict.fromkeys(str(j) for j in loop.get("joints", ())))
+        named.update(dict.fromkeys(str(j) for j in _list(loop.get("joints"))))
     for cylinder in _entries(view, "cylinders"):
         named.update(dict.fromkeys(str(cylinder[k]) for k in ("slide", "barrel_joint", "rod_joint") if k in cylinder))
     for actuator in _entries(view, "actuators"):
-        named.update(dict.fromkeys(str(j["joint"]) for j in actuator.get("joints", ()) if "joint" in j))
+        moved = (j.get("joint") for j in _list(actuator.get("joints")) if isinstance(j, dict))
+        named.update(dict.fromkeys(str(j) for j in moved if j))
     there = {str(j.record.get("name")) for j in view.joints if j.enabled}
     for name in named:
         if name not in there:
@@ -86,16 +105,17 @@ def changed(view: View) -> Remarks:
 def moved(view: View) -> Remarks:
     """A joint is not on the pin that the build found."""
     for joint, record in _recorded(view):
-        if "anchor" not in record or "axis" not in record:
+        where, along = _vector(record.get("anchor")), _vector(record.get("axis"))
+        if where is None or along is None:
             continue
-        anchor = view.frame[:3, :3] @ np.array(record["anchor"]) + view.frame[:3, 3]
-        axis = view.frame[:3, :3] @ np.array(record["axis"])
+        anchor = view.frame[:3, :3] @ where + view.frame[:3, 3]
+        axis = view.frame[:3, :3] @ along
         for end, side in enumerate(joint.sides):
             if side.missing or not np.isfinite(side.position).all() or not np.isfinite(side.rotation).all():
                 continue
             distance = float(np.linalg.norm(side.position - anchor))
-            along = side.rotation[:, 0]
-            angle = math.atan2(float(np.linalg.norm(np.cross(along, axis))), float(along @ axis))
+            found = direction(side.rotation, joint.freedoms[0]) if len(joint.freedoms) == 1 else side.rotation[:, 0]
+            angle = math.atan2(float(np.linalg.norm(np.cross(found, axis))), float(found @ axis))
             if distance > _MOVED * max(1.0, float(np.abs(anchor).max()) / 10.0):
                 yield joint.path, f"Its frame on body{end} is {1e3 * distance:.4g} mm from there."
             elif angle > _TURNED and joint.type != "fixed":
@@ -115,8 +135,8 @@ def edited_limits(view: View) -> Remarks:
         if joint.type not in ("revolute", "prismatic"):
             continue
         for name, value in (("lower", joint.lower), ("upper", joint.upper)):
-            built = record.get(name)
-            if (value is None) != (built is None) or not _same(value, built):
+            built = _number(record.get(name))
+            if not _same(value, built):
                 yield joint.path, f"Its {name} limit is {_say(value)}, and was built as {_say(built)} (m or rad)."
 
 
@@ -147,8 +167,9 @@ def edited_drive(view: View) -> Remarks:
                 "maxForce": (drive.max_force, built.get("max_force")),
             }
             for name, (value, before) in pairs.items():
-                if isinstance(before, int | float) and math.isfinite(before) and not _same(value, before):
-                    yield joint.path, f"Its {name} is {value:.5g}, and was built as {before:.5g} (SI)."
+                given = _number(before)
+                if given is not None and not _same(value, given):
+                    yield joint.path, f"Its {name} is {value:.5g}, and was built as {given:.5g} (SI)."
 
 
 @rule(
@@ -159,8 +180,8 @@ def edited_drive(view: View) -> Remarks:
 def edited_mass(view: View) -> Remarks:
     """A body's mass is not that of the build."""
     for body in view.bodies.values():
-        built = body.record.get("mass")
-        if isinstance(built, int | float) and not _same(body.mass, built):
+        built = _number(body.record.get("mass"))
+        if built is not None and not _same(body.mass, built):
             yield body.path, f"It is {_say(body.mass)} kg, and was built as {built:.5g} kg."
 
 
@@ -185,13 +206,13 @@ def mobility(view: View) -> Remarks:
         yield view.machine, f"It moves in {freedoms} way(s), and was built to move in {built['computed']}."
 
 
-def _same(value: float | None, built: Any) -> bool:
+def _same(value: float | None, built: float | None) -> bool:
     if value is None or built is None:
         return value is None and built is None
     return abs(value - built) <= _EDITED * max(abs(built), 1e-3)
 
 
-def _say(value: Any) -> str:
+def _say(value: float | None) -> str:
     return "none" if value is None else f"{value:.5g}"
 
 
