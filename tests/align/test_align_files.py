@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -106,11 +107,53 @@ def test_a_part_can_be_left_out(file: Path, assembly: Assembly, template: Templa
 
 
 def test_a_part_that_is_gone(file: Path, assembly: Assembly, template: Template) -> None:
-    change(file, part_named(assembly, "step"), part="LOADER/rear_frame/stepp#9")
+    """One that a person set is missed; one that was only found is not: the CAD model was revised."""
+    step = part_named(assembly, "step")
+    change(file, step, part="LOADER/rear_frame/stepp#9")
+    read = read_alignment(file, assembly, template)
+    assert len(read.parts) == len(assembly.parts) - 1
+    assert not [p for p in read.parts if p.source == "edited"]
+    change(file, "LOADER/rear_frame/stepp#9", role="front_frame")
     with pytest.raises(AlignmentError, match="not in the CAD model") as caught:
         read_alignment(file, assembly, template)
     assert str(file) in caught.value.where
     assert "Did you mean" in caught.value.hint
+    assert "Delete that entry" in caught.value.hint
+
+
+@pytest.mark.parametrize(
+    ("entry", "edited"),
+    [
+        ({"role": "boom"}, True),
+        ({"role": None}, True),
+        ({"role": "boom", "source": "edited"}, True),
+        ({"role": "boom", "solved": "boom", "source": "edited"}, True),
+        ({"role": "boom", "solved": "bucket", "source": "solved"}, True),
+        ({"role": "boom", "solved": "boom"}, False),
+        ({"role": "boom", "source": "solved"}, False),
+        ({"role": "no longer a role", "solved": "no longer a role", "source": "solved"}, False),
+        ({}, False),
+    ],
+)
+def test_what_counts_as_an_edit(
+    tmp_path: Path, assembly: Assembly, template: Template, entry: dict[str, Any], edited: bool
+) -> None:
+    path = tmp_path / "alignment.json"
+    path.write_text(json.dumps({"parts": [{"part": assembly.parts[0].id, **entry}]}), encoding="utf-8")
+    assert any(p.source == "edited" for p in read_alignment(path, assembly, template).parts) is edited
+    path.write_text(json.dumps({"parts": [{"part": "gone", **entry}]}), encoding="utf-8")
+    if edited:
+        with pytest.raises(AlignmentError, match="not in the CAD model"):
+            read_alignment(path, assembly, template)
+    else:
+        assert read_alignment(path, assembly, template).parts == ()
+
+
+def test_another_equipment_type(file: Path, assembly: Assembly, template: Template) -> None:
+    document = json.loads(file.read_text(encoding="utf-8"))
+    file.write_text(json.dumps({**document, "equipment_type": "tower_crane"}), encoding="utf-8")
+    with pytest.raises(AlignmentError, match="tower_crane"):
+        read_alignment(file, assembly, template)
 
 
 def test_an_unknown_role(file: Path, assembly: Assembly, template: Template) -> None:
@@ -160,3 +203,14 @@ def test_explain(solved: Alignment) -> None:
     with pytest.raises(AlignmentError, match="neither a role nor a part") as caught:
         explain(solved, "bom_pin")
     assert "boom_pin" in caught.value.hint
+
+
+def test_explain_by_the_end_of_a_path(solved: Alignment, assembly: Assembly) -> None:
+    part = part_named(assembly, "step")
+    name = part.rpartition("/")[2]
+    assert explain(solved, name) == explain(solved, part) == explain(solved, f"REAR_FRAME/{name.upper()}")
+    twice = Alignment("t", solved.frame, tuple(replace(solved.parts[0], part=f"A/{k}/PLATE") for k in "xy"))
+    assert explain(twice, "y/PLATE").startswith("A/y/PLATE: ")
+    with pytest.raises(AlignmentError, match="2 parts") as caught:
+        explain(twice, "plate")
+    assert "'A/x/PLATE', 'A/y/PLATE'" in caught.value.hint

@@ -64,11 +64,19 @@ def _entry(p: PartAssignment) -> dict[str, Any]:
 def read_alignment(path: str | Path, assembly: Assembly, template: Template) -> Alignment:
     """An alignment file, as `align` takes it for `edits`.
 
-    A role that differs from `solved`, and one whose source is `edited`, is a person's. `AlignmentError` for a file that
-    is not one, for parts that are not in the CAD model, and for roles that are not in the template.
+    A role that differs from `solved` is a person's, and so is one whose source is `edited`, or that has neither (an
+    entry written by hand). Other entries say nothing that is not found again: those of parts that a revision of the CAD
+    model took away are passed over. `AlignmentError` for a file that is not one or is another equipment type's, and for
+    a person's role of a part that is not in the CAD model, or that is not in the template.
     """
     source = Path(path)
     document = _load(source)
+    made_for = document.get("equipment_type", template.equipment_type)
+    if made_for != template.equipment_type:
+        raise AlignmentError(
+            f"The alignment is of equipment type '{made_for}', not '{template.equipment_type}'", where=str(source),
+            hint="Build that type, or delete the file: it is written anew.",
+        )  # fmt: skip
     parts = {p.id for p in assembly.parts}
     roles = {r.name for r in template.roles}
     seen: set[str] = set()
@@ -77,11 +85,13 @@ def read_alignment(path: str | Path, assembly: Assembly, template: Template) -> 
         where = f"{source}: parts[{number}]"
         if not isinstance(entry, Mapping) or not isinstance(entry.get("part"), str):
             raise AlignmentError("An entry has no part", where=where, hint='Each needs "part" and "role".')
-        part, role = entry["part"], entry.get("role")
+        part, role, edited = entry["part"], entry.get("role"), _is_edit(entry)
+        if not edited and (part not in parts or (role is not None and role not in roles)):
+            continue
         if part not in parts:
             raise AlignmentError(
                 f"The alignment names a part that is not in the CAD model: '{part}'", where=where,
-                hint=_near(part, parts) or "Remove that entry, or align the CAD model it was made for.",
+                hint=f"{_near(part, parts)} Delete that entry if the part is gone, or the file to start anew.".strip(),
             )  # fmt: skip
         if part in seen:
             raise AlignmentError(f"The part '{part}' is there twice", where=where, hint="Keep one entry.")
@@ -91,7 +101,6 @@ def read_alignment(path: str | Path, assembly: Assembly, template: Template) -> 
                 f"'{role}' is no role of the template {template.equipment_type}", where=where,
                 hint=_near(str(role), roles) or "`yellowiron templates show TYPE` lists the roles.",
             )  # fmt: skip
-        edited = entry.get("source") == "edited" or ("solved" in entry and role != entry["solved"])
         read.append(_assignment(entry, role, template, edited=edited))
     choices = document.get("choices", {})
     return Alignment(
@@ -102,6 +111,15 @@ def read_alignment(path: str | Path, assembly: Assembly, template: Template) -> 
         missing=_names(document.get("missing")),
         to_review=_names(document.get("to_review")),
     )
+
+
+def _is_edit(entry: Mapping[str, Any]) -> bool:
+    """True for an entry that a person wrote or changed."""
+    if entry.get("source") == "edited":
+        return True
+    if "solved" in entry:
+        return bool(entry.get("role") != entry["solved"])
+    return "role" in entry and "source" not in entry
 
 
 def _assignment(entry: Mapping[str, Any], role: str | None, template: Template, *, edited: bool) -> PartAssignment:
@@ -161,19 +179,40 @@ def _near(name: str, known: set[str]) -> str:
 
 
 def explain(alignment: Alignment, role_or_part: str) -> str:
-    """Why a role has its parts, or a part its role, in sentences. `AlignmentError` for a name that is neither."""
+    """Why a role has its parts, or a part its role, in sentences.
+
+    A part is named by its id, or by the end of it (its name, say) where that leaves no doubt. `AlignmentError` for a
+    name that is neither, or that several parts end with.
+    """
     chosen = [p for p in alignment.parts if role_or_part in (p.part, p.role)]
     if not chosen:
         chosen = [p for p in alignment.parts if p.body == role_or_part]
+    if not chosen and role_or_part not in alignment.missing:
+        chosen = _ending(alignment, role_or_part)
     if not chosen:
         if role_or_part in alignment.missing:
             return f"{role_or_part}: no part plays it."
-        known = {p.part for p in alignment.parts} | {r for p in alignment.parts for r in (p.role, p.body) if r}
+        known = {p.part for p in alignment.parts} | {p.part.rpartition("/")[2] for p in alignment.parts}
+        known |= {r for p in alignment.parts for r in (p.role, p.body) if r}
         raise AlignmentError(
             f"'{role_or_part}' is neither a role nor a part of this alignment", where=role_or_part,
             hint=_near(role_or_part, known) or "Name a role of the template or a part id.",
         )  # fmt: skip
     return "\n".join(_sentence(p) for p in sorted(chosen, key=lambda p: p.confidence))
+
+
+def _ending(alignment: Alignment, name: str) -> list[PartAssignment]:
+    """The one part whose id ends with these names; as they are written, else without regard to case."""
+    for fold in (str, str.casefold):
+        found = [p for p in alignment.parts if f"/{fold(p.part)}".endswith(f"/{fold(name.strip('/'))}")]
+        if len(found) > 1:
+            some = ", ".join(f"'{p.part}'" for p in found[:4]) + (", …" if len(found) > 4 else "")
+            raise AlignmentError(
+                f"{len(found)} parts are named '{name}'", where=name, hint=f"Say more of the path: {some}."
+            )
+        if found:
+            return found
+    return []
 
 
 def _sentence(p: PartAssignment) -> str:
