@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import asdict
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 import typer
 from rich.console import Console, RenderableType
@@ -182,18 +182,29 @@ def check(
 def simulate(
     machine: Annotated[Path, typer.Argument(metavar="FILE.usd", help="A machine that build wrote.")],
     engine: Annotated[str, typer.Option("--engine", help="mujoco, physx or newton.")],
-    base: Annotated[str, typer.Option("--base", help="fixed (in the air) or floating (on the ground).")] = "fixed",
-    payload: Annotated[float, typer.Option("--payload", help="Load in the bucket, kg.")] = 0.0,
+    base: Annotated[
+        Literal["fixed", "floating"], typer.Option("--base", help="In the air, or on the ground.")
+    ] = "fixed",
+    payload: Annotated[str, typer.Option("--payload", help="Load in the bucket: kg, or 'rated'.")] = "0",
     dt: Annotated[float | None, typer.Option("--dt", help="Time step in seconds (default: the engine's).")] = None,
     as_json: Json = False,
 ) -> None:
     """Drive every actuator in an engine; compare every step with the closed-chain kinematics."""
     from yellowiron.report import simulation_table
+    from yellowiron.simulate import parse_payload, simulation_document
     from yellowiron.simulate import simulate as run
-    from yellowiron.simulate import simulation_document
 
+    load = parse_payload(payload, machine)
     with _progress(as_json) as progress:
-        result = run(machine, engine=engine, base=base, payload_kg=payload, dt=dt, progress=progress)  # type: ignore[arg-type]
+        result = run(
+            machine,
+            engine=engine,
+            base=base,
+            payload_kg=load.mass,
+            payload_source=load.source,
+            dt=dt,
+            progress=progress,
+        )
     document = simulation_document(result)
     _show(document, simulation_table(document), as_json)
     raise typer.Exit(1 if result.findings else 0)

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
 
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.mechanism import Body, Mechanism
+from yellowiron.model.units import parse_quantity
 
 MATERIAL_DENSITY = 1800.0
 """kg/m³ of loose earth and gravel, for machines whose tipping load is not known."""
@@ -32,6 +34,20 @@ def rated_payload(mechanism: Mechanism) -> RatedPayload:
         if volume is not None:
             return RatedPayload(MATERIAL_DENSITY * volume, f"{name}, {volume:g} m³, at {MATERIAL_DENSITY:g} kg/m³")
     return RatedPayload(0.0, "neither a tipping load nor a capacity is known")
+
+
+def parse_payload(text: str, usd_path: str | Path) -> RatedPayload:
+    """A payload as a person gives it: kilograms, or `rated` for the machine file's own (`rated_payload`)."""
+    if text.strip().casefold() == "rated":
+        from yellowiron.usd import read_machine
+
+        return rated_payload(read_machine(usd_path))
+    value, unit = parse_quantity(text, where="--payload")
+    if unit not in ("", "kg") or not value >= 0.0:
+        raise YellowironError(
+            "A payload is a mass of 0 kg or more", where=f"--payload {text}", hint="Write 5000, or rated."
+        )
+    return RatedPayload(value, "given")
 
 
 def _value(mechanism: Mechanism, name: str) -> float | None:
