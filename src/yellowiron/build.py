@@ -59,14 +59,15 @@ def build(
     documents: Sequence[Path | str] = (),
     settings: Sequence[str] = (),
     config: str = "",
+    engines: Sequence[str] = (),
     progress: Progress = lambda words: None,
 ) -> Machine:
     """Fuses an equipment type's template, a CAD model and specification sheets into a USD machine in the folder `out`.
 
     `equipment_type` is a library type or a template folder; `alignment_file` an edited alignment (default: the one
-    that an earlier run left in `out`); `documents` are JSON-1 … JSON-4, a filled joint template or sensors; `settings`
-    are texts such as `Lift Cylinder Stroke=764 mm`; `config` picks a column of the sheet. Raises `YellowironError` for
-    unusable input, having written nothing.
+    that an earlier run left in `out`); `documents` are JSON-1 … JSON-4 or a filled joint template; `settings` are
+    texts such as `Lift Cylinder Stroke=764 mm`; `config` picks a column of the sheet; the machine is driven in each of
+    `engines` with its rated payload. Raises `YellowironError` for unusable input, having written nothing.
     """
     clock = _Clock(progress)
     cad_file, out = Path(cad_file), Path(out)
@@ -113,12 +114,18 @@ def build(
         with clock.stage("check", "Checking what was written"):
             checked = check.check(folder / "scene.usda")
 
+        simulation = {}
+        if engines:
+            with clock.stage("simulate", "Driving the machine"):
+                simulation = {engine: driven(folder / f"{machine.name}.usda", engine, progress) for engine in engines}
+
         with clock.stage("report", "Writing the report"):
             document = report.report_document(
                 machine, template, alignment, specifications, measurements,
                 findings=(*library.lint(template).findings, *assembly.findings, *data.findings, *checked),
                 usd_counts=usd.count_joints(folder / f"{machine.name}.usda"),
                 levers={a.name: kinematics.lever_table(machine, a.name) for a in machine.actuators},
+                simulation=simulation,
             )  # fmt: skip
             report.write_document(document, folder / "report.json")
             report.write_document({"specifications": document["specifications"]}, folder / "specifications.json")
@@ -141,6 +148,17 @@ def build(
         folder=out,
         fell_short=tuple(report.fell_short(document)),
     )
+
+
+def driven(machine_file: Path, engine: str, progress: Progress) -> dict[str, Any]:
+    """A machine driven in an engine through all its strokes, on a fixed base, with its rated payload, as a document."""
+    from yellowiron import simulate
+
+    load = simulate.rated_payload(usd.read_machine(machine_file))
+    result = simulate.simulate(
+        machine_file, engine=engine, payload_kg=load.mass, payload_source=load.source, progress=progress
+    )
+    return simulate.simulation_document(result)
 
 
 class _Callable(types.ModuleType):

@@ -48,16 +48,22 @@ def build(
     ] = None,
     settings: Settings = None,
     config: Config = "",
+    simulate: Annotated[bool, typer.Option("--simulate", help="Drive it in every engine that is installed.")] = False,
     as_json: Json = False,
 ) -> None:
     """Build a machine: the whole way."""
+    engines: tuple[str, ...] = ()
+    if simulate:
+        from yellowiron.simulate import installed_engines
+
+        engines = installed_engines()
     from yellowiron.build import build as build_machine
     from yellowiron.report import build_summary
 
     with _progress(as_json) as progress:
         machine = build_machine(
             equipment_type, cad, out, sheets=specs or (), alignment_file=alignment, documents=data or (),
-            settings=settings or (), config=config, progress=progress,
+            settings=settings or (), config=config, engines=engines, progress=progress,
         )  # fmt: skip
     reasons = machine.fell_short
     _show(machine.report, build_summary(machine.report, reasons, str(out)), as_json)

@@ -30,6 +30,7 @@ def report_document(
     findings: Sequence[Finding] = (),
     usd_counts: Mapping[str, int] | None = None,
     levers: Mapping[str, Any] | None = None,
+    simulation: Mapping[str, Any] | None = None,
 ) -> dict[str, Any]:
     """The document behind `report.json` and `report.html`. SI units, machine frame, radians."""
     everything = (*findings, *specifications.findings, *alignment.findings, *mechanism.findings)
@@ -67,6 +68,11 @@ def report_document(
         "mobility": asdict(mechanism.mobility) if mechanism.mobility else None,
         "measurements": [asdict(m) for m in measurements],
         "findings": [asdict(f) for f in _unique(everything)],
+        # Steps per second differ from run to run: they belong to the console, not to a file that should not.
+        "simulation": {
+            engine: {key: value for key, value in run.items() if key != "steps_per_second"}
+            for engine, run in (simulation or {}).items()
+        },
         "missing": missing_limits(template, specifications),
     }
 
@@ -135,6 +141,11 @@ def fell_short(document: Mapping[str, Any]) -> list[str]:
         f"{f['code']} {f['where']}: {f['message']} {f['hint']}".rstrip()
         for f in document["findings"]
         if f["severity"] != "info"
+    ]
+    reasons += [
+        f"{f['code']} {engine}, {f['where']}: {f['message']}"
+        for engine, run in document["simulation"].items()
+        for f in run["findings"]
     ]
     mobility = document["mobility"]
     if mobility is not None and mobility["computed"] != mobility["expected"]:

@@ -25,7 +25,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from yellowiron.simulate.driving import DrivingResult, drive, driving_document
-    from yellowiron.simulate.engine import ENGINES, Engine, Setup
+    from yellowiron.simulate.engine import ENGINES, Engine, Setup, installed_engines
     from yellowiron.simulate.payload import parse_payload, rated_payload
     from yellowiron.simulate.result import SimulationResult, simulation_document
     from yellowiron.simulate.run import simulate
@@ -38,6 +38,7 @@ _HOMES = {
     "Engine": "engine",
     "Setup": "engine",
     "SimulationResult": "result",
+    "installed_engines": "engine",
     "parse_payload": "payload",
     "rated_payload": "payload",
     "simulate": "run",
@@ -52,6 +53,7 @@ __all__ = [
     "SimulationResult",
     "drive",
     "driving_document",
+    "installed_engines",
     "parse_payload",
     "rated_payload",
     "simulate",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import importlib
 import math
 from collections.abc import Mapping
@@ -159,6 +160,16 @@ def import_engine(name: str) -> ModuleType:
         raise YellowironError(
             f"The engine '{name}' needs the module '{error.name}', which is not installed", hint=f"{entry.install}"
         ) from error
+
+
+def installed_engines() -> tuple[str, ...]:
+    """The engines whose modules are there, in the order of `ENGINES`."""
+    found = []
+    for name, entry in ENGINES.items():
+        with contextlib.suppress(ModuleNotFoundError):
+            importlib.import_module(entry.module)
+            found.append(name)
+    return tuple(found)
 
 
 def load_engine(name: str, setup: Setup) -> Engine:
