@@ -66,6 +66,14 @@ def test_the_same_file_gives_the_same_findings() -> None:
     assert checked("CHK041") == check(str(DATA / "CHK041.usda"))
 
 
+def test_a_file_that_changed_is_read_again(tmp_path: Path) -> None:
+    path = tmp_path / "machine.usda"
+    for name in ("CHK052", "CHK072"):
+        text = (DATA / f"{name}.usda").read_text(encoding="utf-8")
+        path.write_text(text.replace("./sound.usda", str(DATA / "sound.usda")), encoding="utf-8")
+        assert ours(check(path)) == {name, "CHK012"}
+
+
 @pytest.mark.parametrize(
     ("name", "content", "words"),
     [

@@ -544,5 +544,15 @@ def test_what_the_build_recorded_is_compared(built: Path) -> None:
         assert code in codes(mutate(built, mutation))
 
 
+@pytest.mark.parametrize(("variant", "choice", "expected"), [("Base", "fixed", "CHK006"), ("Physics", "off", "CHK027")])
+def test_every_variant_is_sound(built: Path, variant: str, choice: str, expected: str) -> None:
+    machine = next(p for p in built.parent.glob("*.usda") if p.stem != "scene" and not p.stem.startswith("mutant"))
+
+    def choose(v: Victims) -> None:
+        v.stage.GetDefaultPrim().GetVariantSet(variant).SetVariantSelection(choice)
+
+    assert codes(mutate(machine, choose)) == {expected}
+
+
 def test_findings_are_json(built: Path) -> None:
     assert json.loads(json.dumps([f.__dict__ for f in check(mutate(built, rename_drive))]))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 import math
 from collections.abc import Iterator
 from pathlib import PurePosixPath, PureWindowsPath
@@ -90,19 +89,15 @@ def missing_assets(stage: Usd.Stage) -> Iterator[str]:
 
 def absolute_paths(stage: Usd.Stage) -> Iterator[tuple[str, str]]:
     """(file, path) of every reference that only this computer can follow."""
+    assets = _asset_paths(stage)
     for layer in used_layers(stage):
-        for path in sorted(set(layer.GetCompositionAssetDependencies()) | set(_assets(stage, layer))):
+        for path in sorted({*layer.GetCompositionAssetDependencies(), *assets.get(layer.identifier, ())}):
             if PurePosixPath(path).is_absolute() or PureWindowsPath(path).is_absolute() or path.startswith("file:"):
                 yield name_of(layer), path
 
 
-def _assets(stage: Usd.Stage, layer: Sdf.Layer) -> Iterator[str]:
-    """Asset attributes' paths in one layer."""
-    yield from _asset_paths(stage).get(layer.identifier, ())
-
-
-@functools.lru_cache(maxsize=1)
 def _asset_paths(stage: Usd.Stage) -> dict[str, list[str]]:
+    """Layer → the paths that its asset attributes hold."""
     found: dict[str, list[str]] = {}
     for prim in stage.TraverseAll():
         for attribute in prim.GetAuthoredAttributes():

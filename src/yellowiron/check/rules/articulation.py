@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from yellowiron.check.graph import Island, reversed_joints, root_body
+from yellowiron.check.graph import KINDS, Island, reversed_joints, root_body
 from yellowiron.check.rule import Remarks, rule
 from yellowiron.check.view import WORLD, View
 
@@ -104,7 +104,7 @@ def reversed_joint(view: View) -> Remarks:
     for island in view.islands:
         if not island.roots or len(island.roots) > len(island.trees) or island.uncut:
             continue
-        joints = [j for j in island.joints if not j.cut]
+        joints = [j for j in island.joints if not j.cut and j.type in KINDS]
         for tree in island.trees:
             of_tree = [j for j in joints if set(tree).intersection(j.bodies)]
             for joint in reversed_joints(of_tree, root_body(island, tree, recorded)):

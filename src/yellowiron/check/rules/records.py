@@ -9,8 +9,9 @@ from typing import Any
 
 import numpy as np
 
+from yellowiron.check.graph import KINDS
 from yellowiron.check.rule import Remarks, rule
-from yellowiron.check.view import Joint, View, direction
+from yellowiron.check.view import WORLD, Joint, View, direction
 from yellowiron.model.geometry import Floats
 
 _MOVED = 1e-4
@@ -62,6 +63,8 @@ def _recorded(view: View) -> Iterator[tuple[Joint, Mapping[str, Any]]]:
 )
 def gone(view: View) -> Remarks:
     """A joint that the build made is gone."""
+    if not view.bodies:  # Physics=off: CHK027
+        return
     named: dict[str, None] = {}
     for loop in _entries(view, "loops"):
         named.update(dict.fromkeys(str(j) for j in _list(loop.get("joints"))))
@@ -193,13 +196,14 @@ def edited_mass(view: View) -> Remarks:
 def mobility(view: View) -> Remarks:
     """The machine moves in more or fewer ways than the build found."""
     built = _document(view, "mobility")
-    if not isinstance(built, dict) or not isinstance(built.get("computed"), int):
+    if not view.bodies or not isinstance(built, dict) or not isinstance(built.get("computed"), int):
         return
     freedoms = 0
     for island in view.islands:
         if island.motion is None or not any(b.path.startswith(f"{view.machine}/") for b in island.bodies):
             continue
-        loose = [j for j in island.joints if j.path not in island.in_loops and "" not in j.bodies]
+        tree = [j for j in island.joints if j.path not in island.in_loops and j.type in KINDS]
+        loose = [j for j in tree if WORLD not in j.bodies]
         one_way = [j for j in island.joints if j.type in ("revolute", "prismatic")]
         freedoms += sum(len(j.freedoms) for j in loose) + island.motion.rank(one_way)
     if freedoms != built["computed"]:
