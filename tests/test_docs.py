@@ -98,7 +98,7 @@ def test_prims_named_on_the_pages_exist(built: Path, root: Path) -> None:
     from pxr import Usd
 
     stage = Usd.Stage.Open(str(built / "scene.usda"))
-    for path in ("rear_frame/cab_camera", "rear_frame/roof_lidar/device", "bucket", "front_frame/bucket_camera"):
+    for path in ("rear_frame/cab_camera", "rear_frame/roof_lidar/device", "bucket", "boom/bucket_camera"):
         assert stage.GetPrimAtPath(f"/World/wheel_loader/{path}"), path
 
 

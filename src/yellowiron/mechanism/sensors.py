@@ -112,7 +112,7 @@ def _framed(
         position, where = _place(entry, rows, placement)
     # A mount is no better known than to a micrometre.
     position = np.round(position + np.asarray(mount.get("offset", (0.0, 0.0, 0.0))), 6) + 0.0
-    axes = turn @ axes
+    axes = np.round(turn @ axes, 15) + 0.0
     return Sensor(
         name=entry.name,
         type=entry.type,
