@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mechanism_machine import A, C, D, feature, machine, specifications, template
+from mechanism_machine import A, C, D, box, feature, machine, specifications, template
 
 from yellowiron.mechanism import build_mechanism
-from yellowiron.model.alignment import Alignment
-from yellowiron.model.assembly import Assembly
+from yellowiron.model.alignment import Alignment, PartAssignment
+from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.errors import MechanismError
 from yellowiron.model.geometry import Floats, Mesh
 from yellowiron.model.mechanism import Mechanism
@@ -215,6 +215,34 @@ def test_sites_at_joints_points_and_edges() -> None:
     assert found["tip"].position == pytest.approx((2.0, 0.0, 0.95))
     assert found["tip"].x_axis == pytest.approx((1.0, 0.0, 0.0))
     assert found["tip"].z_axis == pytest.approx((0.0, 0.0, 1.0))
+
+
+@pytest.mark.parametrize("shared", [True, False])
+def test_a_row_of_teeth_is_one_edge_however_the_cad_model_shares_their_shape(shared: bool) -> None:
+    """Four teeth before the arm's edge: occurrences of one shape, or each drawn on its own, in place and mirrored."""
+    assembly, alignment = machine()
+    shapes, parts, roles = dict(assembly.shapes), list(assembly.parts), list(alignment.parts)
+    for i, y in enumerate((-0.21, -0.07, 0.07, 0.21)):
+        turn = rotation(0.0, 0.0, 0.3 * i)
+        turn[1] *= -1.0 if i % 2 else 1.0
+        at = np.eye(4)
+        at[:3, 3] = (2.05, y, 0.96)
+        tooth = box("tooth", (0.2, 0.06, 0.02))
+        if not shared:
+            # the same box in a frame of its own, a hair off as a translator leaves it
+            points = np.linalg.inv(turn)[:3, :3] @ (tooth.mesh.points * (1 + 1e-6 * i)).T
+            tooth = replace(
+                tooth, key=f"tooth{i}", planes=(), mesh=replace(tooth.mesh, points=points.T),
+                inertia=turn[:3, :3].T @ tooth.inertia @ turn[:3, :3],
+            )  # fmt: skip
+            at = at @ turn
+        shapes[tooth.key] = tooth
+        parts.append(Part(f"CRANE/TOOTH#{i}", f"TOOTH {i}", ("CRANE",), tooth.key, at))
+        roles.append(PartAssignment(parts[-1].id, "arm", "arm", 1.0, "made so"))
+    made = (replace(assembly, parts=tuple(parts), shapes=shapes), replace(alignment, parts=tuple(roles)))
+    (tip,) = (s for s in build(made).sites if s.name == "tip")
+    assert tip.position == pytest.approx((2.15, 0.0, 0.95), abs=1e-5)
+    assert "TOOTH#0 and 3 like it" in tip.source
 
 
 def test_twice_the_same_inputs_give_the_same_mechanism() -> None:

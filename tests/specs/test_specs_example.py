@@ -168,6 +168,23 @@ def test_another_configuration_gives_its_own_values(wheel_loader: Template, shee
     assert weight is not None and weight.example
 
 
+@pytest.mark.parametrize("config", ["High-lift boom; Teeth", "high lift; teeth"])
+def test_a_head_that_says_the_phrase_and_no_more_is_meant(wheel_loader: Template, sheet: Path, config: str) -> None:
+    chosen = extract(wheel_loader, [sheet], config=config)
+    assert [s.name for s in chosen if s.status == "conflict"] == [] and chosen.findings == ()
+    assert (chosen.number("Hinge Pin Height at Maximum Lift"), chosen.number("Operating Weight")) == (4.87, 25450.0)
+    more = extract(wheel_loader, [sheet], config="high lift; teeth and segments")
+    assert more.number("Operating Weight") == 25585.0
+
+
+def test_a_phrase_that_no_sheet_says_is_told(wheel_loader: Template, sheet: Path, found: Specifications) -> None:
+    chosen = extract(wheel_loader, [sheet], config="nonsense column; standard boom, 4.2 m3")
+    assert chosen.values == found.values
+    (finding,) = chosen.findings
+    assert (finding.code, finding.severity) == ("SPC002", "warning")
+    assert "'nonsense column'" in finding.message and "High-lift boom" in finding.hint
+
+
 def test_quotes_stand_on_their_pages(found: Specifications, sheet: Path) -> None:
     import pdfplumber  # an independent reader
 

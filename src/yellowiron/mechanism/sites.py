@@ -19,6 +19,8 @@ from yellowiron.model.template import SiteTemplate, Template
 
 _EDGE = 5e-4
 """Points this near to the farthest one belong to the edge, metres."""
+_ALIKE = 1e-3
+"""Relative difference of the lengths by which parts are compared up to which they are congruent."""
 _ON_PLANE = 1e-3
 """A plane this near to the edge contains it, metres."""
 _ACROSS = math.sin(math.radians(0.5))
@@ -138,18 +140,41 @@ def _one_edge(tip: Floats, line: Line) -> Floats:
 
 
 def _wide_groups(rows: Sequence[int], line: Line, spanning: float, placement: Placement) -> list[tuple[int, ...]]:
-    """Parts that span a share of the body's width along the axis, alone or as a row of equal parts."""
+    """Parts that span a share of the body's width along the axis, alone or as a row of congruent parts (a CAD model may
+    draw every tooth as a part of its own, turned or mirrored)."""
     reach = {row: (line.along(p := placement.points(row)).min(), line.along(p).max()) for row in rows}
     width = max(high for _, high in reach.values()) - min(low for low, _ in reach.values())
-    alike: dict[str, list[int]] = {}
+    sizes = {row: _invariants(row, placement) for row in rows}
+    alike: list[list[int]] = []
     for row in rows:
-        alike.setdefault(placement.shapes[row].key, []).append(row)
+        group = next((g for g in alike if _congruent(row, g[0], sizes, placement)), None)
+        if group is None:
+            alike.append([row])
+        else:
+            group.append(row)
     wide = []
-    for equal in alike.values():
+    for equal in alike:
         covered = max(reach[r][1] for r in equal) - min(reach[r][0] for r in equal)
         if covered >= spanning * width:
             wide.append(tuple(equal))
     return wide
+
+
+def _invariants(row: int, placement: Placement) -> Floats:
+    """What turning and mirroring leave of a placed part: the lengths (m) that its volume, its area and its principal
+    moments of inertia make, the latter in order."""
+    shape = placement.shapes[row]
+    scale = abs(np.linalg.det(placement.transforms[row][:3, :3])) ** (1.0 / 3.0)
+    moments = np.sort(np.abs(np.linalg.eigvalsh(0.5 * (shape.inertia + shape.inertia.T))))
+    lengths = [abs(shape.volume) ** (1.0 / 3.0), math.sqrt(abs(shape.area)), *moments**0.2]
+    return scale * np.array(lengths, dtype=np.float64)
+
+
+def _congruent(row: int, other: int, sizes: Mapping[int, Floats], placement: Placement) -> bool:
+    """Whether two parts are equal, or equal when one is turned or mirrored, as far as their invariants tell."""
+    if placement.shapes[row].key == placement.shapes[other].key:
+        return True
+    return bool(np.all(np.abs(sizes[row] - sizes[other]) <= _ALIKE * np.maximum(sizes[row], sizes[other])))
 
 
 def _plane_at(position: Floats, line: Line, rows: Sequence[int], placement: Placement) -> tuple[Floats | None, float]:

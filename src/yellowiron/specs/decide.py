@@ -19,6 +19,8 @@ _SURE = 0.7
 """Score from which one undisputed claim is `ok`."""
 _NEAR = 0.15
 """Claims this much weaker than the best still have a say."""
+_SAID = 0.5
+"""A column says a phrase of the configuration if it says this share of its words."""
 
 
 @dataclass(frozen=True)
@@ -116,16 +118,44 @@ def configuration(found: Match) -> str:
 
 
 def _configured(matches: Sequence[Match], sheets: Sheets, config: str) -> list[Match]:
-    """The matches that fit the configuration asked for: each of its phrases keeps those whose column says it best."""
+    """The matches that fit the configuration asked for: each of its phrases keeps those whose column says it best. A
+    head that says the phrase and no more ("Teeth") beats one that says more ("Teeth and segments")."""
     kept = list(matches)
-    for phrase in config.replace(";", ",").split(","):
-        words = set(tokens(_without_quantities(phrase))) | quantity_words(phrase)
-        if not words:
-            continue
-        shares = [len(words & _config_words(m, sheets)) / len(words) for m in kept]
-        if max(shares) >= 0.5 and max(shares) > min(shares):
+    for words in phrases_of(config).values():
+        shares = [_share(words, m.claim, sheets) for m in kept]
+        if max(shares) >= _SAID and max(shares) > min(shares):
             kept = [m for m, share in zip(kept, shares, strict=True) if share == max(shares)]
+        heads = [[_words_of(head) for head in m.claim.statement.column] for m in kept]
+        if any(words in own for own in heads):
+            kept = [
+                m for m, own in zip(kept, heads, strict=True) if words in own or not any(words < head for head in own)
+            ]
     return [_explained(m, set(tokens(config))) for m in kept]
+
+
+def phrases_of(config: str) -> dict[str, set[str]]:
+    """The phrases of a configuration that say anything, with their words."""
+    phrases = {phrase.strip(): _words_of(phrase) for phrase in config.replace(";", ",").split(",")}
+    return {phrase: words for phrase, words in phrases.items() if words}
+
+
+def unmatched(config: str, claims: Sequence[Claim], sheets: Sheets) -> list[str]:
+    """The phrases of a configuration that no column, heading or label says."""
+    return [
+        phrase
+        for phrase, words in phrases_of(config).items()
+        if not any(_share(words, claim, sheets) >= _SAID for claim in claims)
+    ]
+
+
+def _share(words: set[str], claim: Claim, sheets: Sheets) -> float:
+    """The share of a phrase's words that a claim's column, headings or label say."""
+    return len(words & _config_words(claim, sheets)) / len(words)
+
+
+def _words_of(phrase: str) -> set[str]:
+    """A phrase's words, its quantities as words that can be compared."""
+    return set(tokens(_without_quantities(phrase))) | quantity_words(phrase)
 
 
 def _as_stated(matches: Sequence[Match], sheets: Sheets) -> tuple[Stated | None, list[Match]]:
@@ -165,9 +195,9 @@ def _without_quantities(text: str) -> str:
     return text
 
 
-def _config_words(found: Match, sheets: Sheets) -> set[str]:
-    statement = found.claim.statement
-    texts = [*statement.column, *statement.context, statement.section, found.claim.words]
+def _config_words(claim: Claim, sheets: Sheets) -> set[str]:
+    statement = claim.statement
+    texts = [*statement.column, *statement.context, statement.section, claim.words]
     words = {t for text in texts for t in tokens(text)}
     for text in statement.column:
         words |= quantity_words(text)

@@ -12,9 +12,12 @@ from yellowiron.model.specification import Specification, Specifications
 from yellowiron.model.template import Template
 from yellowiron.specs.asked import asked
 from yellowiron.specs.claims import Claim, claims_of
-from yellowiron.specs.decide import Sheets, decide, missing, quantity_words, unreadable
+from yellowiron.specs.decide import Sheets, decide, missing, quantity_words, unmatched, unreadable
 from yellowiron.specs.match import match
 from yellowiron.specs.reader import MEMORY_MB, TIMEOUT_S, Sheet, check_file
+
+_MOST_COLUMNS = 20
+"""Columns that a hint names."""
 
 
 def extract(template: Template, pdfs: Sequence[Path], *, config: str = "") -> Specifications:
@@ -57,14 +60,35 @@ def from_sheets(template: Template, sheets: Sequence[Sheet], *, config: str = ""
     matches = match(claims, wanted)
     silent = [s.file for s in sheets if not s.statements and s.silent]
     stated = tuple(one for sheet in sheets for one in sheet.stated)
+    known = Sheets(files, columns, stated)
     values: dict[str, Specification] = {}
     for one in wanted:
         found = matches[one.name]
         if found:
-            values[one.name] = decide(one, found, Sheets(files, columns, stated), config)
+            values[one.name] = decide(one, found, known, config)
         else:
             values[one.name] = unreadable(one, silent) if silent else missing(one)
-    return Specifications(values, tuple(_findings(sheets)))
+    findings = [*_findings(sheets), *_ignored(config, claims, known, sheets)]
+    return Specifications(values, tuple(findings))
+
+
+def _ignored(config: str, claims: Sequence[Claim], known: Sheets, sheets: Sequence[Sheet]) -> list[Finding]:
+    """A finding for every phrase of the configuration that no sheet says, with the columns there are."""
+    if not claims:
+        return []
+    heads = [", ".join(s.column) for sheet in sheets for s in sheet.statements if s.column]
+    columns = list(dict.fromkeys(heads))
+    named = " | ".join(columns[:_MOST_COLUMNS]) + (" | …" if len(columns) > _MOST_COLUMNS else "")
+    return [
+        Finding(
+            code="SPC002",
+            severity="warning",
+            where=f"--config {phrase}",
+            message=f"No column, heading or label of the sheets says '{phrase}': it chooses nothing",
+            hint=f"The columns there are: {named}." if columns else "The sheets have no columns to choose from.",
+        )
+        for phrase in unmatched(config, claims, known)
+    ]
 
 
 def _columns(sheet: Sheet) -> dict[int, frozenset[str]]:
