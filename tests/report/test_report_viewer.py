@@ -6,6 +6,7 @@ import base64
 import gzip
 import json
 import struct
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -104,6 +105,11 @@ def test_meshes_joints_and_tables_survive(press: Any) -> None:
     (slider,) = header["sliders"]
     assert slider["sign"] == -1 and slider["range"] == [-0.2, 0.3]
     assert slider["extension"] == pytest.approx(0.2) and slider["stroke"] == 0.5
+
+
+def test_a_machine_without_shapes_has_no_view(press: Any) -> None:
+    mechanism, *rest = press
+    assert viewer(replace(mechanism, bodies=(body("frame"), body("ram"), body("lever"))), *rest) is None
 
 
 def test_the_same_machine_gives_the_same_bytes(press: Any) -> None:

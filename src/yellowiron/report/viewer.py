@@ -10,6 +10,7 @@ from __future__ import annotations
 import base64
 import gzip
 import json
+import math
 import struct
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -48,10 +49,13 @@ def viewer(
     tables: PoseTables,
     *,
     poses: Mapping[str, Mapping[str, Floats]] | None = None,
-) -> Viewer:
-    """The 3D view of a machine. `poses` (caption → body → (4, 4) displacement) become buttons that set the sliders."""
+) -> Viewer | None:
+    """The 3D view of a machine, None where it has nothing to see. `poses` (caption → body → (4, 4) displacement) become
+    buttons that set the sliders."""
     block = _Block()
     parts, shapes, left_out = _parts(mechanism, assembly, alignment, block)
+    if not parts:
+        return None
     tilting = {m.quantity.get("site") for m in mechanism.measurements if m.quantity.get("kind") == "angle"}
     header = {
         "root": mechanism.root,
@@ -232,7 +236,7 @@ def _sliders(mechanism: Mechanism, tables: PoseTables) -> list[dict[str, Any]]:
             {
                 **_slider(actuator.name, first, moved[0].sign),
                 "joints": [[entry.joint, entry.sign * moved[0].sign] for entry in _together(actuator, moved)],
-                "extension": cylinder.extension if cylinder else None,
+                "extension": cylinder.extension if cylinder and math.isfinite(cylinder.extension) else None,
                 "stroke": cylinder.stroke if cylinder else None,
             }
         )

@@ -100,7 +100,8 @@ class Viewer {
       element("button", { type: "button", onclick: () => this.#fullscreen() }, "Full screen"),
     );
     this.hint = element("div", { class: "v-hint" }, "Drag to turn, right-drag to move, click and scroll to zoom");
-    this.stage = element("div", { class: "v-stage" }, this.canvas, this.overlay, tools, this.hint, this.card, this.tip);
+    const layers = [this.canvas, this.overlay, tools, this.hint, this.card, this.tip];
+    this.stage = element("div", { class: "v-stage" }, ...layers);
     this.panel = element("div", { class: "v-panel" });
   }
 
@@ -141,8 +142,11 @@ class Viewer {
       ),
     );
     const section = (title, ...content) => element("section", {}, element("h3", {}, title), ...content);
-    const move = element("div", {}, section("Actuators", ...this.sliders.map((slider) => slider.row)), section("Poses", buttons));
-    if (this.model.readouts.length + this.model.sites.length) move.append(section("How it stands", this.angles));
+    const rows = this.sliders.map((slider) => slider.row);
+    const move = element("div", {});
+    if (rows.length) move.append(section("Actuators", ...rows), section("Poses", buttons));
+    const note = element("p", { class: "dim" }, "Heights above the ground; angles of pivots from the drawn pose.");
+    if (this.model.readouts.length + this.model.sites.length) move.append(section("How it stands", this.angles, note));
     this.#tabs([["Move", move], ["Parts", this.#partList()]]);
   }
 
@@ -200,7 +204,8 @@ class Viewer {
 
   #partList() {
     this.search = element("input", {
-      type: "search", placeholder: "Search parts, roles, bodies", "aria-label": "Search parts", oninput: () => this.#fill(),
+      type: "search", placeholder: "Search parts, roles, bodies", "aria-label": "Search parts",
+      oninput: () => this.#fill(),
     });
     this.list = element("div", { class: "v-list" });
     this.count = element("span", { class: "dim" });
@@ -272,13 +277,14 @@ class Viewer {
     this.card.hidden = !part;
     if (part) {
       const action = (label, act) => element("button", { type: "button", onclick: act }, label);
+      const doubt = part.review ? element("span", { class: "tag review" }, "to review") : null;
       const sure = part.confidence == null ? "" : `, confidence ${part.confidence.toFixed(2)}`;
       const body = this.model.bodies[part.body].name;
       const role = part.role && part.role !== body ? `${words(part.role)} on ` : "";
       this.card.replaceChildren(
         action("×", () => this.choose(0)),
         element("b", {}, part.name),
-        element("p", {}, `${role}${words(body)}${sure}`, part.review ? element("span", { class: "tag review" }, "to review") : null),
+        element("p", {}, `${role}${words(body)}${sure} `, doubt),
         element("p", { class: "dim v-reason" }, part.reason),
         action("Hide", () => this.show((each) => each !== part && !each.hidden)),
         action("Isolate", () => this.show((each) => each === part)),
@@ -286,7 +292,6 @@ class Viewer {
       );
       this.card.firstChild.setAttribute("aria-label", "Close");
     }
-    for (const button of this.list.querySelectorAll("[aria-current=true]")) button.setAttribute("aria-current", "false");
     this.#fill();
     this.request();
   }
@@ -374,7 +379,7 @@ class Viewer {
       part.corners.map((corner) => moved(pose[this.model.bodies[part.body].name] ?? IDENTITY, corner)),
     );
     const { middle } = boxOf(corners);
-    const { back, right, up, slope } = cameraOf({ ...this.camera, target: middle, distance: 1 }, this.#aspect, 1);
+    const { back, right, up, slope } = cameraOf({ ...this.camera, target: middle, distance: 1 }, this.#aspect);
     const seen = corners.map((corner) => {
       const offset = add(corner, scaled(middle, -1));
       return [dot(offset, right), dot(offset, up), dot(offset, back)];
@@ -403,7 +408,7 @@ class Viewer {
 
   #pan(dx, dy) {
     this.#steady();
-    const { right, up, slope } = cameraOf(this.camera, this.#aspect, 1);
+    const { right, up, slope } = cameraOf(this.camera, this.#aspect);
     const metres = (2 * slope * this.camera.distance) / this.stage.clientHeight;
     this.camera.target = add(this.camera.target, add(scaled(right, -dx * metres), scaled(up, dy * metres)));
     this.request();
@@ -450,7 +455,8 @@ class Viewer {
     });
     const up = (event) => {
       const was = down.delete(event.pointerId);
-      if (was && event.type === "pointerup" && travelled < 5 && event.button === 0) this.choose(this.pick(...at(event)));
+      const click = was && event.type === "pointerup" && travelled < 5 && event.button === 0;
+      if (click) this.choose(this.pick(...at(event)));
     };
     canvas.addEventListener("pointerup", up);
     canvas.addEventListener("pointercancel", up);
@@ -499,7 +505,7 @@ class Viewer {
 
   /** Pixel of the stage where a point of the machine frame is seen. */
   project(point) {
-    const m = cameraOf(this.camera, this.#aspect, this.scene.radius).matrix;
+    const m = cameraOf(this.camera, this.#aspect, this.scene).matrix;
     const depth = m[3] * point[0] + m[7] * point[1] + m[11] * point[2] + m[15];
     const [x, y] = moved(m, point);
     return [(0.5 + (0.5 * x) / depth) * this.stage.clientWidth, (0.5 - (0.5 * y) / depth) * this.stage.clientHeight];
@@ -520,13 +526,14 @@ class Viewer {
   draw(fine) {
     const start = performance.now();
     const ratio = devicePixelRatio || 1;
-    const [width, height] = [this.stage.clientWidth, this.stage.clientHeight].map((size) => Math.max(1, Math.round(size * ratio)));
+    const { clientWidth, clientHeight } = this.stage;
+    const [width, height] = [clientWidth, clientHeight].map((size) => Math.max(1, Math.round(size * ratio)));
     if (this.canvas.width !== width || this.canvas.height !== height) Object.assign(this.canvas, { width, height });
-    const camera = cameraOf(this.camera, this.#aspect, this.scene.radius);
+    const camera = cameraOf(this.camera, this.#aspect, this.scene);
     this.renderer.draw(this.model.parts, camera, this.scene, { fine, chosen: this.chosen, moved: this.shadowsOld });
     this.shadowsOld = false;
     if (fine === 1 && this.trials < 3) {
-      // Reading a pixel waits for the frame: where even coarse ones are slow (no graphics card), fine ones are left out.
+      // Reading a pixel waits for the frame: where coarse ones are slow (no graphics card), fine ones are left out.
       this.renderer.partAt(0, 0);
       this.quickest = Math.min(this.quickest, performance.now() - start);
       this.trials++;
@@ -554,7 +561,8 @@ class Viewer {
       );
       const tell = () => {
         const value = coordinateOf(joint, this.pose);
-        const now = value == null ? "" : joint.type === "prismatic" ? `, ${signed(1e3 * value, 0)} mm` : `, ${degrees(value)}`;
+        const shown = joint.type === "prismatic" ? `${signed(1e3 * value, 0)} mm` : degrees(value);
+        const now = value == null ? "" : `, ${shown}`;
         this.#tell(`${index + 1} ${joint.name} · ${joint.type}${joint.cut ? ", cut" : ""}${now}`, ...m);
       };
       group.addEventListener("pointerenter", tell);

@@ -21,7 +21,7 @@ vec2 fold(vec3 n) {
 const LIT = `
 uniform sampler2DShadow shadow; uniform mat4 sunView; uniform vec3 sun, eye, sky;
 float lit(vec3 at, vec3 n) {
-  vec3 p = (sunView * vec4(at + n * 0.012, 1.0)).xyz * 0.5 + 0.5;
+  vec3 p = (sunView * vec4(at + n * 0.02, 1.0)).xyz * 0.5 + 0.5;
   if (any(lessThan(p, vec3(0.0))) || any(greaterThan(p, vec3(1.0)))) return 1.0;
   float sum = 0.0;
   for (int i = -1; i <= 1; i++) for (int j = -1; j <= 1; j++)
@@ -73,10 +73,11 @@ const SHADOW_VERTEX = `${COMMON}
 layout(location = 0) in vec3 position; uniform mat4 view, place; uniform vec3 low, size;
 void main() { gl_Position = view * (place * vec4(low + position * size, 1.0)); }`;
 const SHADOW_FRAGMENT = `${COMMON} void main() {}`;
+const CHOSEN_FRAGMENT = `${COMMON} out vec4 pixel; void main() { pixel = vec4(0.10, 0.45, 0.95, 0.5); }`;
 const SCREEN_VERTEX = `${COMMON}
 void main() { gl_Position = vec4(vec2(gl_VertexID & 1, gl_VertexID >> 1) * 4.0 - 1.0, 0.0, 1.0); }`;
 const SCREEN_FRAGMENT = `${COMMON}
-uniform sampler2D colors, labels; uniform int fine; uniform vec2 chosen; uniform float ink; out vec4 pixel;
+uniform sampler2D colors, labels; uniform int fine; uniform float ink; out vec4 pixel;
 bool differ(vec4 a, vec4 b) {
   bool seen = a.x + a.y > 0.0 && b.x + b.y > 0.0;
   return a.xy != b.xy || (seen && dot(unfold(a.zw * 2.0 - 1.0), unfold(b.zw * 2.0 - 1.0)) < 0.82);
@@ -90,8 +91,6 @@ void main() {
     bool edge = differ(here, texelFetch(labels, min(p + ivec2(1, 0), last), 0))
       || differ(here, texelFetch(labels, min(p + ivec2(0, 1), last), 0));
     vec3 c = texelFetch(colors, p, 0).rgb;
-    if (chosen.x + chosen.y > 0.0 && all(lessThan(abs(here.xy - chosen), vec2(0.001))))
-      c = mix(c, vec3(0.10, 0.45, 0.95), 0.5);
     sum += edge ? c * ink : c;
   }
   pixel = vec4(sum / float(fine * fine), 1.0);
@@ -102,7 +101,10 @@ function decodeMesh(shape) {
   const count = shape.points.length / 3;
   const points = new Uint16Array(3 * count);
   for (let k = 0; k < 3; k++)
-    for (let i = 0, value = 0; i < count; i++) points[3 * i + k] = value = (value + shape.points[k * count + i]) & 65535;
+    for (let i = 0, value = 0; i < count; i++) {
+      value = (value + shape.points[k * count + i]) & 65535;
+      points[3 * i + k] = value;
+    }
   const wide = shape.indices instanceof Int32Array;
   const indices = new (wide ? Uint32Array : Uint16Array)(shape.indices.length);
   for (let i = 0, value = 0; i < indices.length; i++) indices[i] = value = value + shape.indices[i];
@@ -132,6 +134,7 @@ class Renderer {
       part: this.#program(PART_VERTEX, PART_FRAGMENT),
       ground: this.#program(GROUND_VERTEX, GROUND_FRAGMENT),
       shadow: this.#program(SHADOW_VERTEX, SHADOW_FRAGMENT),
+      chosen: this.#program(SHADOW_VERTEX, CHOSEN_FRAGMENT),
       screen: this.#program(SCREEN_VERTEX, SCREEN_FRAGMENT),
     };
     this.shapes = shapes.map((shape) => this.#upload(shape));
@@ -143,6 +146,7 @@ class Renderer {
     gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.DEPTH_ATTACHMENT, gl.TEXTURE_2D, this.shadowMap, 0);
     gl.drawBuffers([gl.NONE]);
     gl.enable(gl.DEPTH_TEST);
+    gl.depthFunc(gl.LEQUAL);
   }
 
   #program(vertex, fragment) {
@@ -272,12 +276,28 @@ class Renderer {
     gl.uniform1i(screen.at.labels, 1);
     gl.uniform1i(screen.at.fine, fine);
     gl.uniform1f(screen.at.ink, fine > 1 ? 0.48 : 0.68);
-    gl.uniform2f(screen.at.chosen, (chosen & 255) / 255, (chosen >> 8) / 255);
     gl.disable(gl.DEPTH_TEST);
     gl.bindVertexArray(this.empty);
     gl.drawArrays(gl.TRIANGLES, 0, 3);
     gl.enable(gl.DEPTH_TEST);
     this.fine = fine;
+    this.#mark(visible.filter((each) => each.number === chosen), camera);
+  }
+
+  /** Tints a part through all that is in front of it: its own depth first, then its colour once. */
+  #mark(parts, camera) {
+    const gl = this.gl;
+    const { program, at } = this.programs.chosen;
+    gl.clear(gl.DEPTH_BUFFER_BIT);
+    gl.useProgram(program);
+    gl.uniformMatrix4fv(at.view, false, camera.matrix);
+    gl.colorMask(false, false, false, false);
+    this.#each(parts, at);
+    gl.colorMask(true, true, true, true);
+    gl.enable(gl.BLEND);
+    gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
+    this.#each(parts, at);
+    gl.disable(gl.BLEND);
   }
 
   #each(parts, at, before) {
@@ -325,16 +345,19 @@ class Renderer {
   }
 }
 
-/** A camera that looks at a target from an azimuth, elevation and distance; `matrix` takes the world to clip space. */
-function cameraOf({ target, azimuth, elevation, distance }, aspect, radius) {
+/** A camera that looks at a target from an azimuth, elevation and distance; `matrix` takes the world to clip space.
+ * The scene's ball bounds what is near. */
+function cameraOf({ target, azimuth, elevation, distance }, aspect, scene = { middle: target, radius: 1 }) {
+  const { middle, radius } = scene;
   const level = Math.cos(elevation);
   const back = [level * Math.cos(azimuth), level * Math.sin(azimuth), Math.sin(elevation)];
   const right = [-Math.sin(azimuth), Math.cos(azimuth), 0];
   const up = cross(back, right);
   const eye = add(target, scaled(back, distance));
   const slope = Math.tan(FIELD / 2);
-  const far = distance + 8 * radius;
-  const near = Math.max(distance - 8 * radius, 0.004 * distance);
+  const away = Math.hypot(...add(eye, scaled(middle, -1)));
+  const far = away + 8 * radius;
+  const near = Math.max(away - 1.8 * radius, 0.004 * distance);
   const depth = [(far + near) / (near - far), (2 * far * near) / (near - far)];
   const rows = [scaled(right, 1 / (slope * aspect)), scaled(up, 1 / slope), scaled(back, depth[0]), scaled(back, -1)];
   const ends = rows.map((row) => -dot(row, eye));
