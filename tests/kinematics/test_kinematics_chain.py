@@ -12,6 +12,7 @@ from planar_zbar import ZBar, mechanism, sketch, strokes, wrapped
 
 from yellowiron.kinematics import ClosedChain, KinematicsError
 from yellowiron.model.errors import MechanismError
+from yellowiron.model.mechanism import Loop
 
 BAR = 1e-9
 
@@ -187,6 +188,27 @@ def test_a_wrong_tree_is_refused():
         ClosedChain(changed("axle_joint", cut=True))
     with pytest.raises(MechanismError, match="does not exist"):
         ClosedChain(changed("tilt", body1="nothing"))
+
+
+@pytest.mark.parametrize("document", ["", "mine.json"])
+def test_a_loop_that_is_held_rigid_names_what_holds_it(document: str):
+    z = sketch()
+    machine = mechanism(z, strokes(z))
+    plate = replace(machine.body("boom"), name="plate")
+    pin = machine.joint("boom_pin")
+    weld = replace(pin, name="weld", type="fixed", body0="boom", body1="plate", cut=False, drive=None,
+                   source={"document": document} if document else {})  # fmt: skip
+    twice = replace(pin, name="twice", body0="boom", body1="plate", cut=True, drive=None)
+    rigid = replace(
+        machine,
+        bodies=(*machine.bodies, plate),
+        joints=(*machine.joints, weld, twice),
+        loops=(*machine.loops, Loop(("weld", "twice"), "twice")),
+    )
+    with pytest.raises(MechanismError, match="cannot move against each other") as caught:
+        ClosedChain(rigid)
+    assert caught.value.where == "twice" and "held by weld" in caught.value.hint
+    assert ("'weld' of mine.json" in caught.value.hint) == bool(document)
 
 
 def test_bodies_without_mass_and_spherical_cuts_are_fine():

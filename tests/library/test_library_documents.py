@@ -54,6 +54,19 @@ def test_joints_of_a_document_are_merged_or_added(loader: Template, assembly: As
     assert [j.name for j in template.joints][:-1] == [j.name for j in loader.joints]
 
 
+def test_a_joint_says_which_document_stated_it(loader: Template, assembly: Assembly, tmp_path: Path) -> None:
+    slide = "bucket_piston_rod2bucket_cylinder_barrel_joint"
+    (tmp_path / "mine.json").write_text(json.dumps({slide: {"Limit": [0, 0.5]}, "boom2bucket_joint": {"damping": 5}}))
+    template = library.apply_joints(loader, library.load_documents([*FOUR, tmp_path / "mine.json"], loader, assembly))
+    assert template.joint(slide).documents == {"limit": "mine.json"}
+    assert template.joint("bucket_tip_joint").documents == {"joint": "json4_joints.json"}
+    assert template.joint("boom2bucket_joint").documents == {}
+    for lower, upper in ((0, 0), (0.5, 0), ("0 m", "-764 mm"), ("0 m", "1e999 m")):
+        (tmp_path / "mine.json").write_text(json.dumps({slide: {"Limit": [lower, upper]}}))
+        with pytest.raises(TemplateError):
+            library.load_documents([tmp_path / "mine.json"], loader)
+
+
 def test_order_of_documents_does_not_matter_across_kinds(loader: Template, assembly: Assembly) -> None:
     forwards, backwards = (library.load_documents(o, loader, assembly) for o in (FOUR, FOUR[::-1]))
     assert (forwards.joints, forwards.relations, forwards.collision) == (

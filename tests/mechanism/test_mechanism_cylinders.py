@@ -85,6 +85,40 @@ def test_a_missing_stroke_is_the_piston_s_travel() -> None:
     assert "MEC023" in codes(built)
 
 
+def limited(upper: float | str, document: str = "") -> Template:
+    plan = template()
+    said = {"limit": document} if document else {}
+    joints = (replace(j, upper=upper, documents=said) if j.name == "slide" else j for j in plan.joints)
+    return replace(plan, joints=tuple(joints))
+
+
+def test_a_document_s_limit_is_the_stroke_and_names_the_document() -> None:
+    assembly, alignment = machine()
+    for sheet in (Specifications(), specifications()):
+        built = build_mechanism(assembly, limited(0.35, "mine.json"), alignment, sheet, name="crane")
+        cylinder, slide = only(built), built.joint("slide")
+        assert cylinder.stroke == 0.35 and cylinder.sources["stroke"].startswith("data: mine.json: limit of slide")
+        assert (slide.lower, slide.upper) == pytest.approx((-EXTENSION, 0.35 - EXTENSION))
+        assert slide.source["limits"] == "data: mine.json"
+        assert "MEC023" not in codes(built)
+
+
+def test_a_stroke_set_by_hand_wins_over_a_limit_that_is_a_number() -> None:
+    assembly, alignment = machine()
+    by_hand = Specifications({"Stroke": replace(specification("Stroke", STROKE), source="set", evidence=None)})
+    built = build_mechanism(assembly, limited(0.35, "mine.json"), alignment, by_hand, name="crane")
+    assert only(built).stroke == STROKE
+    assert built.joint("slide").upper == pytest.approx(STROKE - EXTENSION)
+    assert built.joint("slide").source["upper_source"] == "set"
+
+
+def test_a_template_s_own_number_yields_to_the_sheet_and_stands_in_for_it() -> None:
+    assembly, alignment = machine()
+    alone = build_mechanism(assembly, limited(0.35), alignment, Specifications(), name="crane")
+    assert only(alone).sources["stroke"].startswith("template: limit of slide") and "MEC023" not in codes(alone)
+    assert only(build(plan=limited(0.35))).stroke == STROKE
+
+
 def test_a_drawn_pose_outside_the_limits_is_a_finding() -> None:
     built = build(extension=0.3, Stroke=0.2)
     assert "MEC024" in codes(built)

@@ -89,6 +89,29 @@ def test_a_motor_s_speed_on_the_ground_becomes_its_own(dimension: str, expected:
     assert built.actuators[-1].kind == "motor"
 
 
+def test_the_hint_on_an_assumed_value_says_what_can_be_given() -> None:
+    plan = template()
+    motor = ActuatorTemplate("swing", "motor", joints=("base2arm",), specifications={"speed": "Swing Speed"},
+                             defaults={"torque": 5e3, "speed": 1.0})  # fmt: skip
+    built = build(replace(plan, actuators=(*plan.actuators, motor)))
+    hints = {f.message.partition(":")[0]: f.hint for f in built.findings if f.code == "MEC025" and f.where == "swing"}
+    assert hints == {
+        "No specification gives its torque": 'State "max_force" of base2arm in a joints document (--data).',
+        "No sheet gives 'Swing Speed'": '--set "Swing Speed=…"',
+    }
+
+
+@pytest.mark.parametrize(("given", "torque"), [({}, 5e3), ({"Rimpull": 8e3}, 8e3 * math.hypot(2.0, 0.05))])
+def test_a_pull_at_the_ground_becomes_a_torque(given: dict[str, float], torque: float) -> None:
+    """The arm's box ends 2 m from its pivot, ± 0.05 m: that is its rim. The default is a torque already."""
+    plan = template()
+    motor = ActuatorTemplate("swing", "motor", joints=("base2arm",), specifications={"torque": "Rimpull"},
+                             defaults={"torque": 5e3})  # fmt: skip
+    plan = replace(plan, actuators=(*plan.actuators, motor), wanted=(*plan.wanted, Wanted("Rimpull", "force")))
+    drive = build(plan, **given).joint("base2arm").drive
+    assert drive is not None and drive.max_force == pytest.approx(torque)
+
+
 def test_a_motor_without_torque_is_not_limited() -> None:
     plan = template()
     motor = ActuatorTemplate("swing", "motor", joints=("base2arm",))

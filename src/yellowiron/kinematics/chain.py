@@ -104,7 +104,7 @@ class ClosedChain:
             raise MechanismError(
                 "the drawn pose is at a dead point of a loop",
                 where=", ".join(self._body.cuts),
-                hint="Draw another pose.",
+                hint=suspects(self.mechanism) or "Draw another pose.",
             )
         self._columns = loose[chosen]
         self._block = np.ix_(self._rows, self._columns)
@@ -289,14 +289,27 @@ class ClosedChain:
         mujoco.mj_makeConstraint(model, data)
         points = len(self._body.bases)
         if data.nefc != 3 * points:
-            raise MechanismError(
-                "a cut joins two bodies that cannot move against each other",
-                where=", ".join(self._body.cuts),
-                hint="Its loop has no moving joint; remove the cut or add the missing pivots.",
-            )
+            raise self._locked()
         turned = self._body.frames @ data.xmat[self._body.bases].reshape(points, 3, 3).transpose(0, 2, 1)
         self._gaps = (turned @ data.efc_pos.reshape(points, 3, 1)).reshape(-1)
         self._jacobian = (turned @ data.efc_J.reshape(points, 3, model.nv)).reshape(3 * points, model.nv)
+
+    def _locked(self) -> MechanismError:
+        """The error for cuts whose bodies cannot move against each other, with the joints that hold them."""
+        rigid = {
+            loop.cut: [name for name in loop.joints if name != loop.cut]
+            for loop in self.mechanism.loops
+            if all(self._joints[name].type == "fixed" for name in loop.joints if name != loop.cut)
+        }
+        holding = list(dict.fromkeys(name for names in rigid.values() for name in names)) or list(self._body.cuts)
+        hint = suspects(self.mechanism, holding)
+        if not hint:
+            hint = "Their loop has no moving joint: remove one of its joints, or add the missing pivots."
+        return MechanismError(
+            "a joint joins two bodies that cannot move against each other",
+            where=", ".join(rigid or self._body.cuts),
+            hint=f"{hint} They are held by {', '.join(holding)}." if rigid else hint,
+        )
 
     def _at(self, state: State) -> Floats:
         """Brings the model to a state; returns the closure Jacobian there."""
@@ -399,6 +412,17 @@ class ClosedChain:
         mujoco.mj_makeM(self._model, self._data)
         mujoco.mj_mulM(self._model, self._data, momentum, velocity)
         return float(velocity @ momentum)
+
+
+def suspects(mechanism: Mechanism, among: Sequence[str] | None = None) -> str:
+    """A hint at the joints that a user's document added or changed, the likely cause where loops lock; "" without any.
+    `among`: joints that alone come into question."""
+    stated = [
+        f"'{joint.name}' of {joint.source['document']}"
+        for joint in mechanism.joints
+        if "document" in joint.source and (among is None or joint.name in among)
+    ]
+    return f"The likely cause is the joint {'; '.join(stated)}: remove or correct it." if stated else ""
 
 
 def independent_joints(mechanism: Mechanism) -> tuple[str, ...]:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from yellowiron.kinematics.branches import branch_pivots, branch_sines
-from yellowiron.kinematics.chain import ClosedChain, Component, State, independent_joints
+from yellowiron.kinematics.chain import ClosedChain, Component, State, independent_joints, suspects
 from yellowiron.kinematics.grid import Grid, explore, joint_values
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
@@ -106,7 +106,7 @@ def _mobility(mechanism: Mechanism, work: _Work) -> Mobility:
             f"{mobility.expected}",
             f"Nothing holds: {', '.join(work.chain.idle) or 'a body'}."
             if more
-            else "A pivot is missing: a loop is locked.",
+            else suspects(mechanism) or "A pivot is missing: a loop is locked.",
         )
     return mobility
 

@@ -145,6 +145,15 @@ def with_relations(edits: Alignment | None, documents: Documents) -> Alignment |
     return replace(edits, parts=(*(a for a in edits.parts if a.part not in said), *said.values()))
 
 
+def _signed(joint: JointTemplate, known: JointTemplate | None, document: str) -> JointTemplate:
+    """The joint with the document's name at what it says otherwise than the joint known before."""
+    said = {
+        "joint": known is None or (joint.type, joint.parts) != (known.type, known.parts),
+        "limit": (joint.lower, joint.upper) != ((known.lower, known.upper) if known else (None, None)),
+    }
+    return replace(joint, documents={**joint.documents, **{key: document for key, new in said.items() if new}})
+
+
 class _Reader:
     """What the documents say so far, and what the names in them can mean."""
 
@@ -271,7 +280,7 @@ class _Reader:
                 return
             joint = replace(joint, parts=(parts[0], parts[1]))
             check_bodies(joint, self.template.bodies_of(joint), document.at(name, "Body"))
-        self.joints[joint.name] = joint
+        self.joints[joint.name] = _signed(joint, known, document.path.name)
 
     def role_of(self, part: str) -> str | None:
         """The role that a joint's part stands for: its own name, or the body it follows."""

@@ -163,6 +163,8 @@ def _joint(
         source |= fit.evidence
     else:
         lower, upper = _limits(entry, specifications, source, findings)
+    if "joint" in entry.documents:
+        source["document"] = entry.documents["joint"]
     if entry.name in tree.cuts:
         source["cut"] = tree.cuts[entry.name]
     return Joint(

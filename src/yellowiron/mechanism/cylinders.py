@@ -1,6 +1,7 @@
 """Hydraulic cylinders: sizes, stroke, closed length, forces and speeds, each with its source.
 
-What decides, best first: the sheet, the CAD model, the template's defaults. Every way to a closed length is tried and
+What decides, best first: what is set by hand, the user's documents, the sheet, the template's limits, the CAD model,
+the template's defaults. Every way to a closed length is tried and
 recorded, whichever is used.
 """
 
@@ -22,7 +23,7 @@ from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Cylinder
 from yellowiron.model.specification import Specifications
-from yellowiron.model.template import ActuatorTemplate, CylinderTemplate, Template
+from yellowiron.model.template import ActuatorTemplate, CylinderTemplate, JointTemplate, Template
 from yellowiron.model.text import display
 
 _SIZE_TOLERANCE = 0.02
@@ -198,9 +199,13 @@ def _fit(one: _Sizes, group: list[_Sizes], work: _Work) -> FittedCylinder:
 
 
 def _stroke(one: _Sizes, work: _Work) -> Known:
-    """The stroke: the sheet's, else the piston's travel in the CAD model, else the template's; 0 where nothing gives
-    it."""
+    """The stroke: set by hand, else a document's limit of the slide, else the sheet's, else the template's limit, else
+    the piston's travel in the CAD model, else the template's default; 0 where nothing gives it."""
     printed, travel, slide = work.printed("stroke"), one.ram.travel, one.template.slide
+    joint = work.frames[slide].joint
+    limited = _limited(joint, work)
+    if limited is not None and (printed is None or ("limit" in joint.documents and not _by_hand(printed.source))):
+        printed = limited
     if printed is not None and travel is None:
         return printed
     if printed is not None and travel is not None:
@@ -219,6 +224,20 @@ def _stroke(one: _Sizes, work: _Work) -> Known:
     name = work.actuator.specifications.get("stroke", "the stroke")
     work.warn("MEC023", slide, f"No sheet gives '{name}': {words}.", work.setting("stroke"))
     return found
+
+
+def _limited(joint: JointTemplate, work: _Work) -> Known | None:
+    """The stroke that a slide's own upper limit states, where it is a number; with its source."""
+    upper, named = limit(joint.upper, work.specifications)
+    if named or upper is None or not upper > 0.0:
+        return None
+    document = joint.documents.get("limit")
+    source = f"data: {document}" if document else "template"
+    return Known(upper, f"{source}: limit of {joint.name}, {_mm(upper)}")
+
+
+def _by_hand(source: str) -> bool:
+    return source.startswith("set:")
 
 
 def _closed_length(one: _Sizes, drawn: float, stroke: float, work: _Work) -> Known:
@@ -290,6 +309,11 @@ def _limits(cylinder: Cylinder, work: _Work) -> tuple[float | None, float | None
     high, high_evidence = limit(joint.upper, work.specifications)
     evidence = {f"lower_{k}": v for k, v in low_evidence.items()} | {f"upper_{k}": v for k, v in high_evidence.items()}
     low = 0.0 if low is None else low
+    if high is not None and not high_evidence and _by_hand(cylinder.sources["stroke"]):
+        # A stroke set by hand wins over a limit that is a number; one that names the stroke has it already.
+        high, evidence["upper_source"] = cylinder.stroke, "set"
+    elif (document := joint.documents.get("limit")) is not None:
+        evidence["limits"] = f"data: {document}"
     if high is None and cylinder.stroke > 0.0:
         high = cylinder.stroke
     if high is None:

@@ -14,10 +14,10 @@ from yellowiron.mechanism.axes import Line
 from yellowiron.mechanism.cylinders import FittedCylinder
 from yellowiron.mechanism.frames import JointFrame
 from yellowiron.mechanism.placement import Placement
-from yellowiron.mechanism.values import Known, default, known
+from yellowiron.mechanism.values import DEFAULT, Known, default, known
 from yellowiron.model.finding import Finding
 from yellowiron.model.mechanism import Actuator, ActuatorJoint, Drive
-from yellowiron.model.specification import Specifications
+from yellowiron.model.specification import Specifications, fold
 from yellowiron.model.template import ActuatorTemplate, JointTemplate, Template
 
 _FREQUENCY = 2.0
@@ -90,7 +90,8 @@ def motor_drives(
         for frame in joints:
             moved = sides[frame.joint.name][1]
             speed = _angular(top, actuator, template, frame, placement, moved)
-            drives[frame.joint.name] = _motor_drive(frame.joint, torque, speed, actuator, findings)
+            turning = _share_of_pull(torque, len(joints), actuator, template, frame, placement, moved)
+            drives[frame.joint.name] = _motor_drive(frame.joint, turning, speed, actuator, findings)
     return drives
 
 
@@ -173,12 +174,38 @@ def _angular(
 ) -> Known | None:
     """A motor's top speed in rad/s: as it is, or that of the ground under the moved body's rim where it is wanted as
     such."""
-    name = actuator.specifications.get("speed", "")
-    if top is None or not any(w.name == name and w.dimension == "speed" for w in template.wanted):
+    if top is None or not _wanted_as(actuator, "speed", "speed", template):
         return top
-    line = Line(frame.anchor, frame.axis)
-    radius = max(float(line.distance(placement.points(row)).max()) for row in placement.rows_of_body(moved))
+    radius = _rim(frame, placement, moved)
     return Known(top.value / radius, f"{top.source}, at a radius of {radius:.3f} m") if radius > 0.0 else None
+
+
+def _share_of_pull(
+    torque: Known | None,
+    joints: int,
+    actuator: ActuatorTemplate,
+    template: Template,
+    frame: JointFrame,
+    placement: Placement,
+    moved: str,
+) -> Known | None:
+    """A motor's torque: as it is, or its share of a pull at the ground (rimpull) where it is wanted as such."""
+    if torque is None or torque.source == DEFAULT or not _wanted_as(actuator, "torque", "force", template):
+        return torque
+    radius = _rim(frame, placement, moved)
+    return Known(torque.value * radius / joints, f"{torque.source}, 1/{joints} of it at a radius of {radius:.3f} m")
+
+
+def _wanted_as(actuator: ActuatorTemplate, quantity: str, dimension: str, template: Template) -> bool:
+    """Whether the specification that gives a quantity has that dimension."""
+    name = fold(actuator.specifications.get(quantity, ""))
+    return any(fold(w.name) == name and w.dimension == dimension for w in template.wanted)
+
+
+def _rim(frame: JointFrame, placement: Placement, moved: str) -> float:
+    """The largest radius of a body about a joint's axis, metres."""
+    line = Line(frame.anchor, frame.axis)
+    return max(float(line.distance(placement.points(row)).max()) for row in placement.rows_of_body(moved))
 
 
 def _value(

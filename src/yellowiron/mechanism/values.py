@@ -11,6 +11,21 @@ from yellowiron.model.specification import Specification, Specifications
 from yellowiron.model.template import ActuatorTemplate
 from yellowiron.model.text import display
 
+DEFAULT = "template's default"
+"""The source of a value that the template assumes."""
+_JOINT_KEYS: Mapping[str, str] = {
+    "torque": "max_force",
+    "pressure": "max_force",
+    "bore": "max_force",
+    "rod_diameter": "max_force",
+    "speed": "max_velocity",
+    "flow": "max_velocity",
+    "extend_time": "max_velocity",
+    "retract_time": "max_velocity",
+    "stroke": "Limit",
+}
+"""Quantity of an actuator → the key of a joints document that states what it decides."""
+
 
 @dataclass(frozen=True)
 class Known:
@@ -41,10 +56,22 @@ def default(actuator: ActuatorTemplate, quantity: str, findings: list[Finding]) 
     value = actuator.defaults.get(quantity)
     if value is None:
         return None
-    name = actuator.specifications.get(quantity, quantity)
-    words = f"No sheet gives '{name}': the template's {quantity.replace('_', ' ')} of {value:g} (SI) is used."
-    findings.append(Finding("MEC025", "info", actuator.name, words, f'--set "{name}=…"'))
-    return Known(value, "template's default")
+    name = actuator.specifications.get(quantity)
+    said, hint = (f"No sheet gives '{name}'", f'--set "{name}=…"') if name else _elsewhere(actuator, quantity)
+    words = f"{said}: the template's {quantity.replace('_', ' ')} of {value:g} (SI) is used."
+    findings.append(Finding("MEC025", "info", actuator.name, words, hint))
+    return Known(value, DEFAULT)
+
+
+def _elsewhere(actuator: ActuatorTemplate, quantity: str) -> tuple[str, str]:
+    """What to say of a quantity for which the template names no specification: that, and where to state it."""
+    joints = [c.slide for c in actuator.cylinders if not c.passive] or list(actuator.joints)
+    key = _JOINT_KEYS.get(quantity)
+    if key and joints:
+        hint = f'State "{key}" of {", ".join(joints)} in a joints document (--data).'
+    else:
+        hint = "State it in the actuator's defaults, in a template of your own."
+    return f"No specification gives its {quantity.replace('_', ' ')}", hint
 
 
 def limit(entry: float | str | None, specifications: Specifications) -> tuple[float | None, dict[str, Any]]:

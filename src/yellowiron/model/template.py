@@ -37,7 +37,11 @@ class Role:
 @dataclass(frozen=True)
 class JointTemplate:
     """A joint entry. `parts` are role names as written in `Body`; limits are numbers (metres, radians), texts naming a
-    specification (with an optional leading minus), or None (free). Gains in SI (N/m, N·m/rad …) or None: computed."""
+    specification (with an optional leading minus), or None (free). Gains in SI (N/m, N·m/rad …) or None: computed.
+
+    `documents`: where a user's document, not the template, says what the entry joins (`joint`) or its limits (`limit`),
+    that document's file name.
+    """
 
     name: str
     type: JointType
@@ -52,6 +56,7 @@ class JointTemplate:
     max_velocity: float | None = None
     when: Choices = field(default_factory=dict)
     drive_when: Choices = field(default_factory=dict)
+    documents: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
