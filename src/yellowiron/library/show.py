@@ -33,6 +33,12 @@ def tree(template: Template) -> Tree:
         for actuator in template.actuators:
             moved = [c.slide for c in actuator.cylinders] or list(actuator.joints)
             levers.add(Text.assemble((actuator.name, "bold"), f"  {actuator.kind}: {', '.join(moved)}"))
+    if template.sensors:
+        sensed = top.add(Text("sensors", style="italic"))
+        for sensor in template.sensors:
+            kind, place = next(iter(sensor.mount.items()))
+            words = [f"{sensor.type} on {kind} {place}", *_when(sensor.when)]
+            sensed.add(Text.assemble((sensor.name, "bold"), (f"  {', '.join(words)}", "dim")))
     if template.variants:
         choices = top.add(Text("variants", style="italic"))
         for variant in template.variants:
