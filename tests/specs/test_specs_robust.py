@@ -68,8 +68,28 @@ def test_what_is_no_sheet_says_so(tmp_path: Path, content: bytes | None, sentenc
 
 
 def test_a_folder_is_no_sheet(tmp_path: Path) -> None:
-    with pytest.raises(SheetError, match="cannot be opened"):
+    with pytest.raises(SheetError, match=f"{tmp_path.name} is a folder"):
         extract(ASKED, [tmp_path])
+
+
+def test_the_folder_one_is_in_has_a_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(SheetError, match=f"^{tmp_path.name} is a folder"):
+        extract(ASKED, [Path()])
+
+
+NO_PAGES = (
+    b"%PDF-1.4\n1 0 obj\n<< /Type /Catalog /Pages 2 0 R >>\nendobj\n"
+    b"2 0 obj\n<< /Type /Pages /Kids [] /Count 0 >>\nendobj\n"
+    b"xref\n0 3\n0000000000 65535 f \n0000000009 00000 n \n0000000058 00000 n \n"
+    b"trailer\n<< /Size 3 /Root 1 0 R >>\nstartxref\n110\n%%EOF\n"
+)
+
+
+def test_a_sheet_without_pages_says_so(tmp_path: Path) -> None:
+    (tmp_path / "sheet.pdf").write_bytes(NO_PAGES)
+    with pytest.raises(SheetError, match=r"^sheet\.pdf has no pages"):
+        extract(ASKED, [tmp_path / "sheet.pdf"])
 
 
 def test_a_truncated_sheet_says_so(tmp_path: Path) -> None:

@@ -32,7 +32,8 @@ class Sheet:
 
 
 def read_sheet(path: Path) -> Sheet:
-    """A PDF's statements, page by page. `SheetError` if absent, empty, no PDF, cut short, damaged or encrypted."""
+    """A PDF's statements, page by page. `SheetError` if absent, empty, no PDF, cut short, damaged, encrypted or without
+    pages."""
     import pypdfium2
 
     check_file(path)
@@ -72,7 +73,13 @@ def read_sheet(path: Path) -> Sheet:
 
 
 def check_file(path: Path) -> None:
-    """`SheetError` for what can be told from the bytes: no file, empty, too big, no PDF, cut short."""
+    """`SheetError` for what can be told from the bytes: no file, a folder, empty, too big, no PDF, cut short."""
+    if path.is_dir():
+        raise SheetError(
+            f"{path.name or path.resolve().name or path} is a folder, not a PDF",
+            where=str(path),
+            hint="Give the sheet's file.",
+        )
     try:
         size = path.stat().st_size
         with path.open("rb") as stream:
@@ -104,6 +111,24 @@ def _open_error(path: Path, message: str) -> SheetError:
             where=str(path),
             hint="Open it with its password and print it to a new PDF without one.",
         )
+    if _has_no_pages(path):
+        return SheetError(f"{path.name} has no pages", where=str(path), hint="Get the file again.")
     return SheetError(
         f"{path.name} is a damaged PDF", where=str(path), hint="Get the file again, or print it to a new PDF."
     )
+
+
+def _has_no_pages(path: Path) -> bool:
+    """Whether a file that PDFium refuses is sound but for its page tree, which is empty."""
+    from pdfminer.pdfdocument import PDFDocument
+    from pdfminer.pdfexceptions import PDFException
+    from pdfminer.pdfparser import PDFParser
+    from pdfminer.pdftypes import dict_value, list_value
+    from pdfminer.psexceptions import PSException
+
+    try:
+        with path.open("rb") as stream:
+            pages = dict_value(PDFDocument(PDFParser(stream)).catalog.get("Pages"))
+            return bool(pages) and not list_value(pages.get("Kids"))
+    except (PDFException, PSException):
+        return False
