@@ -136,6 +136,34 @@ def test_a_new_joint_needs_type_and_bodies(loader: Template, tmp_path: Path) -> 
         library.load_documents([tmp_path / "j.json"], loader)
 
 
+@pytest.mark.parametrize(
+    ("entry", "density", "elasticity"),
+    [
+        ({"density": "1200 kg/m3", "elasticity": "210 GPa"}, 1200.0, 2.1e11),
+        ({"density": "7.85 g/cm^3", "elasticity": "2e5 N/mm²"}, 7850.0, 2e11),
+        ({"density": "0.0785e5", "elasticity": 1e6}, 7850.0, 1e6),
+        ({"density": "1.2 t/m³"}, 1200.0, None),
+    ],
+)
+def test_density_and_elasticity_may_carry_a_unit(
+    entry: dict[str, object], density: float, elasticity: float | None, loader: Template, tmp_path: Path
+) -> None:
+    (tmp_path / "m.json").write_text(json.dumps({"boom": entry}))
+    material = library.load_documents([tmp_path / "m.json"], loader).materials["boom"]
+    assert material.density == pytest.approx(density, rel=1e-12)
+    assert material.elasticity == (None if elasticity is None else pytest.approx(elasticity, rel=1e-12))
+
+
+@pytest.mark.parametrize(
+    "density", ["heavy", "1200 kg", "1200 bananas", "-5 kg/m3", "0 kg/m3", "1e999 kg/m3", -7900, True, "7 kg/m3 m3("]
+)
+def test_a_density_that_is_none_is_refused(density: object, loader: Template, tmp_path: Path) -> None:
+    (tmp_path / "m.json").write_text(json.dumps({"boom": {"density": density}}))
+    with pytest.raises(TemplateError) as caught:
+        library.load_documents([tmp_path / "m.json"], loader)
+    assert "density" in caught.value.where
+
+
 def test_a_texture_must_be_there(loader: Template, tmp_path: Path) -> None:
     (tmp_path / "m.json").write_text('{"boom": {"texture": "paint.png"}}')
     with pytest.raises(TemplateError, match=r"paint\.png"):

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any, TypeVar
 
 from yellowiron.library.hierarchy import choices_of, yes
-from yellowiron.library.quantities import quantity
+from yellowiron.library.quantities import in_unit, quantity
 from yellowiron.library.reading import Document, near
 from yellowiron.model.errors import TemplateError
 from yellowiron.model.geometry import Color
@@ -40,6 +40,9 @@ QUANTITY_DIMENSION: Mapping[str, str] = {
     "torque": "torque",
 }
 """What an actuator can need → its dimension. A motor's speed is the tyre's or track's at the ground."""
+
+_MATERIAL_UNITS: Mapping[str, str] = {"density": "kg/m^3", "elasticity": "Pa"}
+"""What a material states in units, and the SI ones."""
 
 T = TypeVar("T")
 
@@ -78,7 +81,8 @@ def check_choices(when: Choices, variants: Iterable[Variant], where: str) -> Non
 
 
 def read_material(document: Document, key: str, entry: Mapping[str, Any]) -> Material:
-    """One entry of JSON-1. `TemplateError` for a texture that is not there, and for frictions in the wrong order."""
+    """One entry of JSON-1. `TemplateError` for a texture that is not there, frictions in the wrong order, and a density
+    or elasticity that is none."""
     static, dynamic = entry.get("static friction"), entry.get("dynamic friction")
     if static is not None and dynamic is not None and dynamic > static:
         raise TemplateError(
@@ -91,9 +95,10 @@ def read_material(document: Document, key: str, entry: Mapping[str, Any]) -> Mat
             where=document.at(key, "texture"),
             hint="Its path is relative to this document.",
         )
-    numbers = {
-        k: float(entry[k]) for k in ("density", "elasticity", "restitution", "roughness", "metalness") if k in entry
-    }
+    numbers = {k: float(entry[k]) for k in ("restitution", "roughness", "metalness") if k in entry}
+    for k, unit in _MATERIAL_UNITS.items():
+        if k in entry:
+            numbers[k] = in_unit(entry[k], unit, where=document.at(key, k))
     return Material(
         name=entry.get("name", key),
         density=numbers.get("density"),

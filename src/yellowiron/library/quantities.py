@@ -6,9 +6,11 @@ import math
 import re
 
 from yellowiron.model.errors import TemplateError, YellowironError
-from yellowiron.model.units import SI_UNIT, parse_quantity
+from yellowiron.model.units import SI_UNIT, parse_quantity, registry
 
 _STARTS_A_NUMBER = re.compile(r"^[-+−]?\s*\.?\d")
+_NUMBER_AND_UNIT = re.compile(r"^\s*([-+−]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*$")
+_POWER = re.compile(r"([A-Za-z])([23])\b")
 _NAME = re.compile(r"^([-−]?)\s*([^\W\d_].*)$", re.DOTALL)
 
 
@@ -50,6 +52,36 @@ def limit(value: float | str | None, dimension: str, *, where: str) -> float | s
             )
         return ("-" if match.group(1) else "") + " ".join(match.group(2).split())
     return quantity(value, dimension, where=where)
+
+
+def in_unit(value: float | str, unit: str, *, where: str) -> float:
+    """A material's number in an SI unit ("kg/m^3", "Pa"): a number or text without a unit is in it already, a text may
+    carry another of its kind ("7.85 g/cm3", "210 GPa").
+
+    `TemplateError` for a text that is no such quantity, and for a number that is not positive and finite.
+    """
+    if isinstance(value, str):
+        match = _NUMBER_AND_UNIT.match(value)
+        if match is None:
+            raise TemplateError(
+                f"'{value}' is not a number with a unit",
+                where=where,
+                hint=f"Write a number in {unit}, or a text with a unit of its kind.",
+            )
+        number = float(match.group(1).replace("−", "-"))
+        if spelled := _POWER.sub(r"\1^\2", match.group(2)):
+            try:
+                number = float(registry().Quantity(number, spelled).to(unit).magnitude)
+            except Exception as error:  # pint raises half a dozen unrelated classes for bad text
+                message = f"'{match.group(2)}' is no unit that can be {unit}"
+                raise TemplateError(
+                    message, where=where, hint=f"Write a number in {unit}, or a text with a unit of its kind."
+                ) from error
+    else:
+        number = float(value)
+    if not (math.isfinite(number) and number > 0.0):
+        raise TemplateError(f"'{value}' should be more than 0 and finite", where=where)
+    return number
 
 
 def number_text(value: float, unit: str) -> str:
