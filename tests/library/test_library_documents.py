@@ -103,6 +103,20 @@ def test_a_leader_that_is_no_body_is_a_finding(loader: Template, assembly: Assem
     assert found.relations == {"boom": ("Solid17", "bucket bolt1")}
 
 
+def test_a_document_adds_no_body_and_says_where_one_is_added(
+    loader: Template, assembly: Assembly, tmp_path: Path
+) -> None:
+    (tmp_path / "j.json").write_text('{"door_joint": {"joint_type": "Revolute", "Body": ["rear_frame", "Solid17"]}}')
+    (tmp_path / "r.json").write_text('{"Solid17": ["Solid17"]}')
+    found = library.load_documents([tmp_path / "r.json", tmp_path / "j.json"], loader, assembly)
+    assert [f.code for f in found.findings] == ["DOC004", "DOC002"] and found.joints == {}
+    for finding in found.findings:
+        assert "templates copy" in finding.hint and "mean Solid17" not in finding.hint
+    (tmp_path / "r.json").write_text('{"bukket": ["Solid17"]}')
+    (typo,) = library.load_documents([tmp_path / "r.json"], loader, assembly).findings
+    assert "mean bucket" in typo.hint
+
+
 def test_relations_take_patterns_and_ids(loader: Template, assembly: Assembly, tmp_path: Path) -> None:
     (tmp_path / "r.json").write_text('{"bucket": ["bucket bolt*"], "boom": ["M/Solid17#8"]}')
     found = library.load_documents([tmp_path / "r.json"], loader, assembly)

@@ -33,6 +33,10 @@ _KINDS = (
     "(type, mount …)"
 )
 
+_NEW_BODY = (
+    "A new body goes, as a rigid body, into hierarchy.json of a template of your own (`yellowiron templates copy`); a "
+    "relations document then names its parts."
+)
 _ENTRIES = (("materials", "material"), ("joint_overrides", "joint"), ("sensors", "sensor"))
 """Documents of objects, and their schema's word for one."""
 _AFTER = {"joint_overrides": 1, "sensors": 2}
@@ -220,8 +224,12 @@ class _Reader:
                 body = self.leader(leader)
                 names = waiting.pop(leader)
                 if body is None:
-                    message = f"'{leader}' leads others and is no body of the template."
-                    self.find("DOC004", document.path, (leader,), message, self.near(leader))
+                    message = (
+                        f"'{leader}' leads others and is no body of the template, to which a document can add none: "
+                        "what follows it stays where the alignment puts it."
+                    )
+                    hint = f"{near(leader, self.roles.values())} {_NEW_BODY}".strip()
+                    self.find("DOC004", document.path, (leader,), message, hint)
                 else:
                     for index, name in enumerate(names):
                         self.follow(name, body, document.path, (leader, index))
@@ -274,7 +282,8 @@ class _Reader:
             for part, role in zip(joint.parts, parts, strict=True):
                 if role is None:
                     message = f"Which body '{part}' moves with is not known; the joint is left out."
-                    hint = self.near(part) or "Say it in a relations document."
+                    close = "" if fold(part) in self.parts else self.near(part)
+                    hint = f"{close or 'Say it in a relations document, under a body of the template.'} {_NEW_BODY}"
                     self.find("DOC002", document.path, (name, "Body"), message, hint)
             if parts[0] is None or parts[1] is None:
                 return
