@@ -37,8 +37,8 @@ def tree(template: Template) -> Tree:
         sensed = top.add(Text("sensors", style="italic"))
         for sensor in template.sensors:
             kind, place = next(iter(sensor.mount.items()))
-            words = [f"{sensor.type} on {kind} {place}", *_when(sensor.when)]
-            sensed.add(Text.assemble((sensor.name, "bold"), (f"  {', '.join(words)}", "dim")))
+            notes = [f"{sensor.type} on {kind} {place}", *_when(sensor.when)]
+            sensed.add(Text.assemble((sensor.name, "bold"), (f"  {', '.join(notes)}", "dim")))
     if template.variants:
         choices = top.add(Text("variants", style="italic"))
         for variant in template.variants:
