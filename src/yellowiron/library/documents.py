@@ -34,8 +34,8 @@ _KINDS = (
 )
 
 _NEW_BODY = (
-    "A new body goes, as a rigid body, into hierarchy.json of a template of your own (`yellowiron templates copy`), its "
-    "joint into joints.json; the CAD model must show the pin or the bores it turns on."
+    "A new body goes, as a rigid body, into hierarchy.json of a template of your own (`yellowiron templates copy`), "
+    "its joint into joints.json; the CAD model must show the pin or the bores it turns on."
 )
 _ENTRIES = (("materials", "material"), ("joint_overrides", "joint"), ("sensors", "sensor"))
 """Documents of objects, and their schema's word for one."""
