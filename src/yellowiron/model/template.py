@@ -237,6 +237,4 @@ def choose(template: Template, choices: Mapping[str, str]) -> Template:
         if cylinders or motors:
             actuators.append(replace(actuator, cylinders=cylinders, joints=motors))
     sensors = tuple(replace(s, when={}) for s in template.sensors if holds(s.when))
-    return replace(
-        template, roles=roles, joints=joints, actuators=tuple(actuators), variants=(), sensors=sensors
-    )
+    return replace(template, roles=roles, joints=joints, actuators=tuple(actuators), variants=(), sensors=sensors)
