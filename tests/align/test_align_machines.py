@@ -71,6 +71,9 @@ def test_wrong_names_lose_against_geometry(template: Template) -> None:
     found = align(machine.assembly(), template, NOTHING)
     bodies = [p.body == machine.truth[p.part][1] for p in found.parts]
     assert np.mean(bodies) > 0.97
+    assert found.missing == ()
+    pins = [p for p in found.parts if machine.truth[p.part][0].endswith("_pin")]
+    assert [p.part for p in pins if p.role != machine.truth[p.part][0]] == []
 
 
 def test_the_order_does_not_matter(template: Template) -> None:

@@ -2,7 +2,9 @@
 
 Findings: `ALN001` no part plays a required role · `ALN002` a joint is found but no part of its own plays its pin ·
 `ALN003` the machine's frame is partly a guess · `ALN004` the search was cut short · `ALN005` an edited role exists only
-under another choice of a variant · `ALN006` a hydraulic cylinder is not drawn as the sheet has it.
+under another choice of a variant · `ALN006` a hydraulic cylinder is not drawn as the sheet has it ·
+`ALN007` no body is left for parts that could move · `ALN008` a cylinder is to one side · `ALN009` parts stand apart and
+are left out · `ALN010` there seems to be more than one machine · `ALN011` the wheels have no tyres.
 """
 
 from yellowiron.align.align import align

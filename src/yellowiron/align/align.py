@@ -18,20 +18,22 @@ from __future__ import annotations
 import functools
 import itertools
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from yellowiron.align.clusters import Structure, loose_ends, structure_of
 from yellowiron.align.contacts import Flat, bare_fits_of, fits_of, flats_of, lines_of, neighbours
+from yellowiron.align.doubts import doubts, one_sided
 from yellowiron.align.evidence import Evidence, evidence_of
 from yellowiron.align.frame import MachineFrame, machine_frame
 from yellowiron.align.hydraulics import Ram, rams_of
+from yellowiron.align.islands import islands
 from yellowiron.align.names import name_scores
 from yellowiron.align.report import reported
 from yellowiron.align.sheet import sheet_findings, sheet_weights
 from yellowiron.align.solids import Solid, solids_of
-from yellowiron.align.solve import Solution, solve
+from yellowiron.align.solve import MISSING_WEIGHT, Solution, solve
 from yellowiron.align.spread import Spreader
 from yellowiron.align.touch import Touch
 from yellowiron.align.weights import Weights, name_weights, side_weights
@@ -45,6 +47,8 @@ from yellowiron.model.template import Template, choose
 CONTACT = (4e-5, 3e-4)
 """Two faces touch within this share of the machine's diagonal (0.4 mm on 10 m); the wider one is for machines that the
 first does not find whole (moved or shrunk parts)."""
+SIDED_WEIGHT = 4 * MISSING_WEIGHT
+"""What a variant loses for a cylinder that stands to one side where it should be in the middle."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,6 +74,12 @@ class _Answer:
     template: Template
     solution: Solution
     unary: Weights
+    sided: tuple[str, ...]
+
+    @property
+    def score(self) -> int:
+        """What variants and readings are compared by: a cylinder at the wrong place is worse than a missing one."""
+        return self.solution.score - SIDED_WEIGHT * len(self.sided)
 
 
 def align(
@@ -93,14 +103,16 @@ def align(
             "The CAD model has no parts", where=assembly.name, hint="Check that the file holds solids."
         )
     edited = _edited(assembly, template, edits)
+    apart = islands(assembly, [part for part, role in edited.items() if role])
+    machine = replace(assembly, parts=tuple(p for p in assembly.parts if p.id not in apart))
     rungs = []
     for contact in CONTACT:
-        seen = _see(assembly, template, contact)
+        seen = _see(machine, template, contact)
         scores = name_scores(tuple(s.part for s in seen.solids), template)
         rungs.append((_best(seen, template, specifications, choices or {}, scores, edited), seen, scores))
         if _whole(rungs[-1][0]):
             break
-    answer, seen, scores = max(rungs, key=lambda rung: rung[0].solution.score)
+    answer, seen, scores = max(rungs, key=lambda rung: rung[0].score)
     structure, resolved, solution = answer.structure, answer.template, answer.solution
     frame = machine_frame(seen.solids, structure, solution, seen.wheels, resolved) if seen.solids else None
     if frame is not None and solution.body_of:
@@ -121,6 +133,7 @@ def align(
         frame.matrix[2, :3] if frame is not None else np.array([0.0, 0.0, 1.0]),
     )
     places = spreader.run(seen.wheels)
+    apart |= {seen.solids[i].part.id: metres for i, metres in spreader.apart.items()}
     by_id = {seen.solids[i].part.id: place for i, place in places.items()}
     documents = {item.part: item.reason for item in edits.parts if item.source == "data"} if edits is not None else {}
     return reported(
@@ -132,7 +145,21 @@ def align(
         answer.choices,
         frame or MachineFrame(np.eye(4)),
         documents=documents,
-        remarks=sheet_findings(structure, seen.rams, resolved, specifications, solution),
+        apart=apart,
+        remarks=[
+            *sheet_findings(structure, seen.rams, resolved, specifications, solution),
+            *doubts(
+                seen.solids,
+                structure,
+                solution,
+                resolved,
+                answer.sided,
+                spreader.loose,
+                {part: metres for part, metres in apart.items() if part not in edited},
+                frozenset(p.role for p in places.values()) | frozenset(edited.values()),
+                frozenset(edited),
+            ),
+        ],
     )
 
 
@@ -152,8 +179,10 @@ def _best(
             unary = name_weights(seen.solids, structure, resolved, scores, edited)
             for key, weight in sheet_weights(structure, seen.rams, resolved, specifications).items():
                 unary[key] = unary.get(key, 0) + weight
-            answer = _Answer(structure, chosen, resolved, solve(structure, resolved, unary=unary), unary)
-            if best is None or answer.solution.score > best.solution.score:
+            solution = solve(structure, resolved, unary=unary)
+            sided = one_sided(seen.solids, structure, solution, seen.rams, template, resolved)
+            answer = _Answer(structure, chosen, resolved, solution, unary, sided)
+            if best is None or answer.score > best.score:
                 best = answer
         if best is not None and _whole(best):
             break
@@ -177,11 +206,11 @@ def _structures(seen: _Seen, template: Template) -> Iterator[Structure]:
 
 
 def _whole(answer: _Answer) -> bool:
-    """True where every body is played and every joint found."""
+    """True where every body is played and every joint found, each at a place it may have."""
     found = {*answer.solution.hinge_of, *answer.solution.slide_of}
     joints = {j.name for j in answer.template.joints if j.type in ("revolute", "prismatic")}
     bodies = {r.name for r in answer.template.roles if r.rigid and not r.optional}
-    return joints <= found and bodies <= set(answer.solution.body_of.values())
+    return not answer.sided and joints <= found and bodies <= set(answer.solution.body_of.values())
 
 
 def _see(assembly: Assembly, template: Template, contact: float) -> _Seen:

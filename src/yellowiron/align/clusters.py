@@ -8,7 +8,10 @@ with nothing to turn is refused (`careful`) as long as the machine is whole with
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
+
+import numpy as np
 
 from yellowiron.align.contacts import PARALLEL, Fit, Line
 from yellowiron.align.cuts import false_welds, strength
@@ -20,6 +23,8 @@ from yellowiron.align.wheels import Wheel
 
 ROUNDS = 4
 """How often a careful reading starts again without the false welds it found."""
+LONG = 6.0
+"""A part that reaches this many pin radii from the pin's axis is no ring, boss or keeper."""
 
 
 @dataclass(frozen=True)
@@ -163,8 +168,18 @@ def _absorb_leaves(groups: Groups, evidence: Evidence, *, leaves: bool) -> None:
         axes = wheel_axes.get(group, set())
         rings = all(evidence.solids[i].axis is not None for i in members[group])
         found = {groups.find(p) for p in partners[group]} - {group}
+        lines = [evidence.lines[k] for k in on.get(group, set())]
+        if any(hangs(evidence.solids, members[group], line) for line in lines):
+            continue
         if len(on.get(group, set())) + len(axes) <= 1 and (rings or (not leaves and not axes)) and len(found) == 1:
             groups.join(group, found.pop())
+
+
+def hangs(solids: tuple[Solid, ...], members: Iterable[int], line: Line) -> bool:
+    """True for solids that reach far out from a pin's line: no rings and spacers on it, but something that turns."""
+    points = np.concatenate([solids[i].points for i in sorted(members)]) - line.origin
+    off = np.linalg.norm(points - np.outer(points @ line.direction, line.direction), axis=1)
+    return float(off.max()) > LONG * line.radius
 
 
 def _collected(groups: Groups, evidence: Evidence, refused: Pairs) -> Structure:

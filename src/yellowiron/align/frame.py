@@ -57,6 +57,8 @@ def machine_frame(
         above = _middle([s for s in solids if all(s.index not in w.members for w in wheels)])
         if float((above - below) @ up) < 0:
             up = -up
+    elif lines and "wheel" in kinds.values():
+        doubts.append("no wheels were found, so the ground is taken under the lowest part")
     left = _left(template, structure, cluster_of, wheels, lines, swing, up)
     if left is None:
         if not lines and not rolling:

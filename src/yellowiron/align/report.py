@@ -15,6 +15,9 @@ from yellowiron.model.template import Template
 REVIEW = 0.5
 """Parts and roles below this confidence are for a person to look at."""
 
+APART = 0.6
+"""Confidence that a part which stands apart is no part of the machine: one remark speaks for all of them."""
+
 
 def reported(
     assembly: Assembly,
@@ -26,10 +29,12 @@ def reported(
     frame: MachineFrame,
     *,
     documents: Mapping[str, str] | None = None,
+    apart: Mapping[str, float] | None = None,
     remarks: Sequence[Finding] = (),
 ) -> Alignment:
     """The alignment. `places` by part id; `edited`: part id → the role a person gave it ("": none), which wins;
-    `documents`: part id → why, for those of them that a document placed; `remarks`: further findings."""
+    `documents`: part id → why, for those of them that a document placed; `apart`: part id → metres from the rest, for
+    those left out; `remarks`: further findings."""
     roles = {r.name for r in template.roles}
     parts = []
     for part in assembly.parts:
@@ -42,6 +47,9 @@ def reported(
                 parts.append(PartAssignment(part.id, said, body, 1.0, documents[part.id], "data", before))
             else:
                 parts.append(PartAssignment(part.id, said, body, 1.0, "set by a person", "edited", before))
+        elif apart is not None and part.id in apart:
+            words = f"stands {apart[part.id]:.3g} m from every part of the machine"
+            parts.append(PartAssignment(part.id, None, None, APART, words))
         elif place is None:
             parts.append(PartAssignment(part.id, None, None, 0.0, "nothing speaks for any role"))
         else:

@@ -9,6 +9,8 @@ import numpy as np
 
 from yellowiron.align.clusters import Structure
 from yellowiron.align.contacts import Flat
+from yellowiron.align.doubts import has_tyre, unheld
+from yellowiron.align.islands import FAR
 from yellowiron.align.names import exact_role, exact_roles
 from yellowiron.align.solids import Solid
 from yellowiron.align.solve import Solution
@@ -19,6 +21,10 @@ from yellowiron.model.template import JointTemplate, Template
 
 NEIGHBOURHOOD = 0.04
 """How far, in machine sizes, a floating part looks for a neighbour."""
+CLOSE = 0.01
+"""How far, in machine sizes, a floating part may be from its neighbour without a person's look."""
+DOUBTFUL = 0.4
+"""Confidence of what a person should look at."""
 NAMED = 0.9
 """Confidence of a role whose very name the part bears, where geometry does not speak against it."""
 
@@ -52,10 +58,12 @@ class Spreader:
 
     def __post_init__(self) -> None:
         self.places: dict[int, Place] = {}
+        self.loose = unheld(self.solids, self.structure, self.solution)
+        self.apart: dict[int, float] = {}
         self.cluster_of = {b: c for c, b in self.solution.body_of.items()}
 
     def run(self, wheels: list[Wheel]) -> dict[int, Place]:
-        """Every solid's place; solids that nothing speaks for are absent."""
+        """Every solid's place; solids that nothing speaks for are absent, and those far from all others (`apart`)."""
         self._bodies()
         self._torn()
         self._pins()
@@ -156,7 +164,14 @@ class Spreader:
         share = votes[ranked[0]] / total
         second = ranked[1] if len(ranked) > 1 else None
         confidence = best * (0.55 + 0.45 * share if second else 1.0)
-        self.places[i] = Place(ranked[0], ranked[0], confidence, words.format(body=ranked[0]), second)
+        self._give(i, Place(ranked[0], ranked[0], confidence, words.format(body=ranked[0]), second))
+
+    def _give(self, i: int, place: Place) -> None:
+        """What could move on its own goes with a neighbour for want of a body, for a person to look at."""
+        if i in self.loose:
+            words = f"{place.reason}; but it could move on its own, and no body of the template is left for it"
+            place = replace(place, confidence=min(place.confidence, DOUBTFUL), reason=words)
+        self.places[i] = place
 
     def _groups(self) -> list[list[int]]:
         """Clusters and loose fasteners that are not placed yet."""
@@ -266,36 +281,47 @@ class Spreader:
                     self.places[i] = Place(role, body, NAMED, words, by_name=True)
 
     def _nearest(self) -> None:
-        """What floats goes with what is nearest, and with its assembly."""
-        reach = NEIGHBOURHOOD * self.size
-        placed = sorted(self.places)
-        if not placed:
-            return
+        """What floats goes with what is nearest, and with its assembly; what is far from everything is left out."""
+        grown = bool(self.places)
+        while grown:
+            placed = sorted(self.places)
+            self.apart = {}
+            for group in self._groups():
+                self._float(group, placed)
+            grown = bool(self.apart) and len(self.places) > len(placed)
+
+    def _float(self, group: list[int], placed: list[int]) -> None:
         low = np.array([self.solids[j].low for j in placed])
         high = np.array([self.solids[j].high for j in placed])
-        for group in self._groups():
-            far: dict[str, float] = {}
-            for i in group:
-                s = self.solids[i]
-                gap = np.linalg.norm(np.maximum(0, np.maximum(low - s.high, s.low - high)), axis=1)
-                limit = max(reach, float(gap.min()) * 1.2)
-                for k in np.flatnonzero(gap <= limit):
-                    j = placed[int(k)]
-                    body = self.places[j].body
-                    if gap[k] < far.get(body, np.inf):
-                        far[body] = min(far.get(body, np.inf), self.touch.distance(min(i, j), max(i, j)))
-            kin = self._kin(group[0])
-            weight = {b: 1.0 / (d + 0.02 * reach) * (1 + 3 * kin.get(b, 0.0)) for b, d in far.items()}
-            names = {b: max(self.scores[i].get(b, 0.0) for i in group) for b in weight}
-            weight = {b: w * (1 + 3 * names[b]) for b, w in weight.items()}
-            ranked = sorted(weight, key=lambda b: (-round(weight[b], 9), b))
-            if not ranked:
-                continue
-            rival = weight[ranked[1]] / weight[ranked[0]] if len(ranked) > 1 else 0.0
-            confidence = 0.45 + 0.45 * (1 - rival)
-            words = f"floats; {ranked[0]} is nearest, {1e3 * far[ranked[0]]:.3g} mm away"
-            for i in group:
-                self.places[i] = Place(ranked[0], ranked[0], confidence, words, ranked[1] if len(ranked) > 1 else None)
+        size = float(np.linalg.norm(high.max(axis=0) - low.min(axis=0)))
+        reach = NEIGHBOURHOOD * size
+        far: dict[str, float] = {}
+        for i in group:
+            s = self.solids[i]
+            gap = np.linalg.norm(np.maximum(0, np.maximum(low - s.high, s.low - high)), axis=1)
+            limit = max(reach, float(gap.min()) * 1.2)
+            for k in np.flatnonzero(gap <= limit):
+                j = placed[int(k)]
+                body = self.places[j].body
+                if gap[k] < far.get(body, np.inf):
+                    far[body] = min(far.get(body, np.inf), self.touch.distance(min(i, j), max(i, j)))
+        if not far:
+            return
+        if min(far.values()) > FAR * size:
+            self.apart.update(dict.fromkeys(group, min(far.values())))
+            return
+        kin = self._kin(group[0])
+        weight = {b: 1.0 / (d + 0.02 * reach) * (1 + 3 * kin.get(b, 0.0)) for b, d in far.items()}
+        names = {b: max(self.scores[i].get(b, 0.0) for i in group) for b in weight}
+        weight = {b: w * (1 + 3 * names[b]) for b, w in weight.items()}
+        ranked = sorted(weight, key=lambda b: (-round(weight[b], 9), b))
+        rival = weight[ranked[1]] / weight[ranked[0]] if len(ranked) > 1 else 0.0
+        confidence = 0.45 + 0.45 * (1 - rival)
+        if far[ranked[0]] > CLOSE * size:
+            confidence = min(confidence, DOUBTFUL)
+        words = f"floats; {ranked[0]} is nearest, {1e3 * far[ranked[0]]:.3g} mm away"
+        for i in group:
+            self._give(i, Place(ranked[0], ranked[0], confidence, words, ranked[1] if len(ranked) > 1 else None))
 
     # ---- the most specific role ----
     def _specific(self, wheels: list[Wheel]) -> None:
@@ -303,6 +329,8 @@ class Spreader:
         roles = exact_roles(self.template)
         for i, place in sorted(self.places.items()):
             named = exact_role(self.solids[i].part, roles)
+            if place.role != place.body:
+                continue  # a pin, by the bores it runs through
             if named is not None and self.template.body_of(named) == place.body:
                 words = f"{place.reason}; bears the role's name"
                 sure = max(place.confidence, NAMED)
@@ -314,7 +342,7 @@ class Spreader:
                 continue
             if role.kind == "tyre" and body in self.cluster_of:
                 cluster = self.structure.clusters[self.cluster_of[body]]
-                if cluster.kind == "wheel":
+                if cluster.kind == "wheel" and has_tyre(wheels[cluster.number], self.solids):
                     tyre = wheels[cluster.number].tyre
                     words = "the outermost ring of the wheel"
                     self.places[tyre] = replace(self.places[tyre], role=role.name, reason=words)

@@ -22,6 +22,10 @@ class Wheel:
     width: float
 
 
+LEAST = 0.025
+"""The least radius of a wheel, in sizes of the whole."""
+
+
 def wheels_of(solids: tuple[Solid, ...], count: int, taken: set[int], tolerance: float) -> list[Wheel]:
     """Up to `count` wheels: the largest round things of at least half the largest's radius, equal ones together.
 
@@ -29,7 +33,8 @@ def wheels_of(solids: tuple[Solid, ...], count: int, taken: set[int], tolerance:
     """
     if count == 0:
         return []
-    round_ones = [s for s in solids if s.axis is not None and s.index not in taken]
+    size = float(np.linalg.norm(np.max([s.high for s in solids], axis=0) - np.min([s.low for s in solids], axis=0)))
+    round_ones = [s for s in solids if s.axis is not None and s.index not in taken and s.reach > LEAST * size]
     round_ones.sort(key=lambda s: (-round(s.reach, 5), s.index))
     found: list[Wheel] = []
     for s in round_ones:

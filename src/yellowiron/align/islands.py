@@ -1,0 +1,63 @@
+"""What stands apart from the machine: a pallet beside it, a second machine in the same file."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+
+import numpy as np
+from numpy.typing import NDArray
+
+from yellowiron.model.assembly import Assembly
+from yellowiron.model.geometry import Floats
+
+FAR = 0.05
+"""What is further than this from every part of the machine, in machine sizes, is no part of it."""
+
+
+def islands(assembly: Assembly, wanted: Collection[str] = ()) -> dict[str, float]:
+    """Part id → metres (between boxes) to the machine, for the parts that stand apart from it.
+
+    The machine is the group of most parts (then of most volume) of which each is near another; groups that hold one of
+    the `wanted` parts belong to it too. Parts without a mesh are never apart.
+    """
+    parts = [p for p in assembly.parts if len(assembly.shape_of(p).mesh.points)]
+    if not parts:
+        return {}
+    points = [assembly.points_of(p) for p in parts]
+    low = np.array([p.min(axis=0) for p in points])
+    high = np.array([p.max(axis=0) for p in points])
+    volume = np.array([assembly.shape_of(p).volume for p in parts])
+    main = np.ones(len(parts), dtype=bool)
+    while True:
+        size = float(np.linalg.norm(high[main].max(axis=0) - low[main].min(axis=0)))
+        group = _groups(low, high, FAR * size)
+        ranked = [(int((group == g).sum()), round(float(volume[group == g].sum()), 6), -g) for g in set(group.tolist())]
+        mine = group == -max(ranked)[2]
+        if mine.sum() >= main.sum():
+            break
+        main = mine
+    kept = {g for g, p in zip(group.tolist(), parts, strict=True) if p.id in wanted}
+    main = main | np.isin(group, sorted(kept))
+    return {parts[i].id: float(_gaps(low[i], high[i], low[main], high[main]).min()) for i in np.flatnonzero(~main)}
+
+
+def _gaps(low: Floats, high: Floats, lows: Floats, highs: Floats) -> Floats:
+    """(n,) distances of one box, (3,) corners, from others, (n, 3) corners; metres."""
+    return np.asarray(np.linalg.norm(np.maximum(0.0, np.maximum(lows - high, low - highs)), axis=1), dtype=np.float64)
+
+
+def _groups(low: Floats, high: Floats, limit: float) -> NDArray[np.int64]:
+    """(n,) numbers of the groups of boxes, of which each is within `limit` of another."""
+    group = np.full(len(low), -1, dtype=np.int64)
+    for start in range(len(low)):
+        if group[start] >= 0:
+            continue
+        group[start] = start
+        front = [start]
+        while front:
+            i = front.pop()
+            free = np.flatnonzero(group < 0)
+            near = free[_gaps(low[i], high[i], low[free], high[free]) <= limit]
+            group[near] = start
+            front += near.tolist()
+    return group
