@@ -18,7 +18,7 @@ from yellowiron.usd.stage import Types, apply_schemas, over, set_attribute
 SOLREF = (0.002, 1.0)
 """Time constant (s) and damping ratio of a cut: twice a step of 1 ms, the stiffest that stays stable."""
 SOLIMP = (0.9999, 0.9999, 0.001, 0.5, 2.0)
-"""As hard as MuJoCo takes it from the first micrometre on: 0.999 there makes a loader's pins err by half as much again."""
+"""As hard as MuJoCo takes it from the first micrometre on: with 0.999 there, pins err by half as much again."""
 
 _EQUALITIES = {"spherical": "MjcEqualityConnectAPI", "fixed": "MjcEqualityWeldAPI"}
 
