@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 import trimesh
 from pxr import Gf, Usd, UsdGeom, UsdPhysics, UsdShade
+from usd_shapes import ACROSS, at, make_shape, open_box, round_shape
 
-from conftest import ACROSS, at, make_shape, open_box, round_shape
 from yellowiron.library import apply_joints, load_documents, with_relations
 from yellowiron.mechanism import build_mechanism
 from yellowiron.model.alignment import Alignment, PartAssignment
