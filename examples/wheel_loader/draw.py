@@ -133,9 +133,9 @@ def draw_hydraulics(k: Linkage, pose: Pose, s: Steering) -> Assembly:
     steer.name = "STRG CYL ASSY"
     for letter, sign in (("l", 1.0), ("r", -1.0)):
         p, along = s.P, s.Q - s.P
-        at = frame(
-            (p[0], sign * p[1], STEER_Z), (along[0], sign * along[1], 0.0), (0.0, 0.0, 1.0)
-        ).Multiplied(turn(X, 90.0))
+        at = frame((p[0], sign * p[1], STEER_Z), (along[0], sign * along[1], 0.0), (0.0, 0.0, 1.0)).Multiplied(
+            turn(X, 90.0)
+        )
         put(steer, at, f"steering_cylinder_barrel_{letter}", f"steering_piston_rod_{letter}")
     return tree
 
@@ -185,9 +185,7 @@ def main(folder: Path) -> None:
     k, pose, s = drawn_pose()
     cylinders = {"lift": lift_cylinder(), "tilt": tilt_cylinder(), "steer": steering_cylinder(s.length(0.0))}
     document = truth(root, k, pose, s, cylinders, STEER_Z, LIFT_Y)
-    (folder / "truth.json").write_text(
-        json.dumps(document, indent=1, ensure_ascii=False) + "\n", encoding="utf-8"
-    )
+    (folder / "truth.json").write_text(json.dumps(document, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
     logging.getLogger(__name__).info("%d parts", len(document["parts"]))
 
 

@@ -70,9 +70,7 @@ def draw_front_frame(k: Linkage, s: Steering, hardware: Assembly) -> Assembly:
         tree.add(bush(150, PIN_ARTICULATION, high - low), body, at=place)
 
     tree.add(Part("MAIN VALVE", box(760, 960, -120, 120, 670, 812), GREY), body)
-    shaft = fuse(
-        rod((620, 0, AXLE_Z), X, 42, 640), rod((1225, 0, AXLE_Z), X, 85, 34), rod((620, 0, AXLE_Z), X, 85, 34)
-    )
+    shaft = fuse(rod((620, 0, AXLE_Z), X, 42, 640), rod((1225, 0, AXLE_Z), X, 85, 34), rod((620, 0, AXLE_Z), X, 85, 34))
     tree.add(Part("PROP SHAFT FRT", shaft, GREY), body)
     hose = Part("HOSE 3/4", pipe([(0, 0, 0), (0, 0, 500), (120, 0, 620), (120, 0, 1090)], 14, 90), BLACK)
     for y in (-95, -65, 65, 95):
@@ -142,9 +140,7 @@ def draw_front_frame(k: Linkage, s: Steering, hardware: Assembly) -> Assembly:
             keep=(1.0,),
             turned=-90,
         )
-    fit_pin(
-        hardware, (ex, -115, ez), PIN_E, 230, body, "bucket_cylinder_barrel_pin", keep=(1.0, -1.0), turned=80
-    )
+    fit_pin(hardware, (ex, -115, ez), PIN_E, 230, body, "bucket_cylinder_barrel_pin", keep=(1.0, -1.0), turned=80)
     return tree
 
 

@@ -30,9 +30,7 @@ SIDE = 16.0
 """Thickness of the bucket's side plates."""
 
 
-def _both(
-    tree: Assembly, name: str, shape: TopoDS_Shape, at: gp_Trsf, body: str, colour: Colour = YELLOW
-) -> None:
+def _both(tree: Assembly, name: str, shape: TopoDS_Shape, at: gp_Trsf, body: str, colour: Colour = YELLOW) -> None:
     """A part on the left and its mirror image on the right."""
     tree.add(Part(f"{name}_LH", moved(shape, at), colour), body)
     tree.add(Part(f"{name}_RH", moved(mirrored(shape), at), colour), body)
@@ -106,9 +104,7 @@ def draw_rocker(k: Linkage, pose: Pose, hardware: Assembly) -> Assembly:
     tree = Assembly("BELLCRANK ASSY")
     f, (hx, hz) = k.rocker, k.H
     side = plate([(f, 0, 105), (hx, hz, 95), (0, -40, 150)], "xz", 75, 115)
-    side = bored(
-        side, Y, ((0, 0, 0), 110.0), ((f, 0, 0), PIN_F / 2 + CLEARANCE), ((hx, 0, hz), PIN_H / 2 + CLEARANCE)
-    )
+    side = bored(side, Y, ((0, 0, 0), 110.0), ((f, 0, 0), PIN_F / 2 + CLEARANCE), ((hx, 0, hz), PIN_H / 2 + CLEARANCE))
     tree.add(Part("Bellcrank", moved(side, at)), "rocker")
     tree.add(Part("Bellcrank RH", moved(mirrored(side), at)), "rocker")
     tree.add(Part("BELLCRANK HUB", moved(ring((0, -120, 0), Y, 110, PIN_G / 2, 240), at), GREY), "rocker")
@@ -213,9 +209,7 @@ class BucketShape:
         """End of the skin."""
         return self.skin(inset, length, 0.0)[-1][-1]
 
-    def sheet(
-        self, inner: float, outer: float, length: float, front: float
-    ) -> list[tuple[tuple[float, float], ...]]:
+    def sheet(self, inner: float, outer: float, length: float, front: float) -> list[tuple[tuple[float, float], ...]]:
         """Closed path between two insets."""
         out, back = self.skin(outer, length, front), self.skin(inner, length, front)
         turn = [tuple(reversed(seg)) for seg in reversed(back)]
@@ -248,10 +242,7 @@ def _sampled(seg: tuple[tuple[float, float], ...]) -> list[tuple[float, float]]:
     r = math.hypot(ax - ox, ay - oy)
     start, end = math.atan2(ay - oy, ax - ox), math.atan2(cy - oy, cx - ox)
     sweep = (end - start + math.pi) % (2 * math.pi) - math.pi
-    return [
-        (ox + r * math.cos(start + sweep * i / 24), oy + r * math.sin(start + sweep * i / 24))
-        for i in range(25)
-    ]
+    return [(ox + r * math.cos(start + sweep * i / 24), oy + r * math.sin(start + sweep * i / 24)) for i in range(25)]
 
 
 def draw_bucket(k: Linkage, pose: Pose, heel: float, hardware: Assembly) -> Assembly:

@@ -35,9 +35,7 @@ def bush(outer: float, inner: float, length: float) -> Part:
 def bolt(size: float, length: float) -> Part:
     """A hexagon bolt: the shank goes from the origin along -y, the head sits at y = 0 .. 0.65 size."""
     r = 0.75 * size / math.cos(math.pi / 6)
-    hexagon = [
-        (r * math.cos(math.radians(60 * i)), r * math.sin(math.radians(60 * i)), 0.0) for i in range(6)
-    ]
+    hexagon = [(r * math.cos(math.radians(60 * i)), r * math.sin(math.radians(60 * i)), 0.0) for i in range(6)]
     shape = fuse(plate(hexagon, "xz", 0.0, 0.65 * size), rod((0, -length, 0), Y, size / 2, length))
     return Part(f"BOLT M{size:g}x{length:g}", shape, GREY)
 

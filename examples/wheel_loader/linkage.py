@@ -180,9 +180,7 @@ _SKETCH = np.array(
         *(-130.0, 345.0),  # J, in the level bucket
     ]
 )
-_LOOSE = np.array(
-    [40.0, 20.0, 40.0, 40.0, 40.0, 0.10, 80.0, 80.0, 100.0, 60.0, 60.0, 60.0, 0.3, 60.0, 40.0, 40.0]
-)
+_LOOSE = np.array([40.0, 20.0, 40.0, 40.0, 40.0, 0.10, 80.0, 80.0, 100.0, 60.0, 60.0, 60.0, 0.3, 60.0, 40.0, 40.0])
 _LEAST_SINE = 0.27
 """How far every lever of the bucket's linkage stays from its dead point, as a sine."""
 

@@ -195,12 +195,8 @@ def _sorted_colours(text: str) -> str:
         while not statements[style].startswith("COLOUR_RGB"):
             style = re.findall(r"#\d+", statements[style])[-1]
         own = next(key for key, value in statements.items() if value == statement)
-        group = next(
-            v for v in statements.values() if v.startswith("MECHANICAL") and re.findall(r"#\d+", v)[0] == own
-        )
-        rgb = ",".join(
-            f"{float(c):.6g}" for c in re.findall(r"[\d.]+E?-?\d*", statements[style].split("'',")[1])
-        )
+        group = next(v for v in statements.values() if v.startswith("MECHANICAL") and re.findall(r"#\d+", v)[0] == own)
+        rgb = ",".join(f"{float(c):.6g}" for c in re.findall(r"[\d.]+E?-?\d*", statements[style].split("'',")[1]))
         colours.append((int(item[1:]), item, re.findall(r"#\d+", group)[-1], rgb))
     n = int(text[start + 1 : text.index(" ", start)])
     lines: list[str] = []

@@ -91,9 +91,7 @@ def box(x0: float, x1: float, y0: float, y1: float, z0: float, z1: float) -> Top
     return plate([(x0, y0, 0), (x1, y0, 0), (x1, y1, 0), (x0, y1, 0)], "xy", z0, z1)
 
 
-def turned(
-    profile: Sequence[tuple[float, float]], origin: Vector = (0, 0, 0), axis: Vector = Y
-) -> TopoDS_Shape:
+def turned(profile: Sequence[tuple[float, float]], origin: Vector = (0, 0, 0), axis: Vector = Y) -> TopoDS_Shape:
     """A solid of revolution; the profile is a closed polygon of (position along the axis, radius)."""
     a = gp_Dir(*axis)
     side = gp_Ax2(gp_Pnt(*origin), a).XDirection()
@@ -193,9 +191,7 @@ def pipe(points: Sequence[Vector], radius: float, bend: float) -> TopoDS_Shape:
         inward = (w - u).Normalized()
         mid = corner + inward * (bend / math.cos(angle / 2) - bend)
         wire.Add(BRepBuilderAPI_MakeEdge(_pnt(here), _pnt(start)).Edge())
-        wire.Add(
-            BRepBuilderAPI_MakeEdge(GC_MakeArcOfCircle(_pnt(start), _pnt(mid), _pnt(end)).Value()).Edge()
-        )
+        wire.Add(BRepBuilderAPI_MakeEdge(GC_MakeArcOfCircle(_pnt(start), _pnt(mid), _pnt(end)).Value()).Edge())
         here = end
     wire.Add(BRepBuilderAPI_MakeEdge(_pnt(here), _pnt(pts[-1])).Edge())
     first = (pts[1] - pts[0]).Normalized()

@@ -15,9 +15,7 @@ FLOOR = 2010.0
 """Top of the cab's platform."""
 
 
-def _pair(
-    tree: Assembly, name: str, shape: TopoDS_Shape, colour: Colour = YELLOW, density: float = 7850.0
-) -> None:
+def _pair(tree: Assembly, name: str, shape: TopoDS_Shape, colour: Colour = YELLOW, density: float = 7850.0) -> None:
     tree.add(Part(f"{name} LH", shape, colour, density), BODY)
     tree.add(Part(f"{name} RH", mirrored(shape), colour, density), BODY)
 
@@ -31,9 +29,7 @@ def draw_cab() -> Assembly:
     """Base, platform, pillars, roof, glazing, seat and steering column."""
     tree = Assembly("CAB ASSY ROPS")
     tree.add(Part("CAB BASE", _shell(-1750, -400, 580, DECK, FLOOR - 12, 8)), BODY)
-    floor = fuse(
-        box(-1760, -340, -790, 790, FLOOR - 12, FLOOR), box(-800, -420, -1110, 1110, FLOOR - 12, FLOOR)
-    )
+    floor = fuse(box(-1760, -340, -790, 790, FLOOR - 12, FLOOR), box(-800, -420, -1110, 1110, FLOOR - 12, FLOOR))
     tree.add(Part("PLATFORM", floor, GREY), BODY)
     top = v.CAB_HEIGHT.value
     frame = Assembly("ROPS FRAME")
@@ -152,9 +148,7 @@ def draw_power_train() -> Assembly:
     """Engine, radiator, transmission; blocks, their density that of the real thing."""
     tree = Assembly("POWER TRAIN")
     engine = fuse(box(-3350, -2250, -330, 330, DECK, 2150), box(-3250, -2350, -180, 180, 2150, 2450))
-    engine = cut(
-        engine, box(-3320, -2280, -300, 300, DECK + 30, 2120), box(-3220, -2380, -150, 150, 2119, 2420)
-    )
+    engine = cut(engine, box(-3320, -2280, -300, 300, DECK + 30, 2120), box(-3220, -2380, -150, 150, 2119, 2420))
     tree.add(Part("ENGINE", engine, GREY), BODY)
     tree.add(
         Part(
@@ -192,9 +186,7 @@ def draw_sides() -> Assembly:
             steps.add(part, BODY, at=shift(0, 0, z))
         rail = pipe([(-785, sign * 1085, 1379), (-785, sign * 1085, 2900), (-785, sign * 782, 2900)], 17, 120)
         steps.add(Part("HANDRAIL", rail, BLACK), BODY)
-        front = pipe(
-            [(-500, sign * 1085, 1379), (-500, sign * 1085, 2450), (-440, sign * 770, 2450)], 17, 100
-        )
+        front = pipe([(-500, sign * 1085, 1379), (-500, sign * 1085, 2450), (-440, sign * 770, 2450)], 17, 100)
         steps.add(Part("HANDRAIL", front, BLACK), BODY)
     cap = Part("FILLER CAP", rod((0, 0, 0), Z, 60, 45), STEEL)
     for y in (760.0, -760.0):

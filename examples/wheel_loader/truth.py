@@ -195,9 +195,7 @@ def drawn(root: Assembly, k: Linkage, pose: Pose) -> dict[str, float]:
         return float(_extent(heel, slope.Multiplied(put(k.pose(k.lift_for_hinge(hinge), TILT_MAX))))[0, 2])
 
     return {
-        v.WHEELBASE.name: float(
-            _extent(of("front_wheel_l")).mean(0)[0] - _extent(of("rear_wheel_l")).mean(0)[0]
-        ),
+        v.WHEELBASE.name: float(_extent(of("front_wheel_l")).mean(0)[0] - _extent(of("rear_wheel_l")).mean(0)[0]),
         v.WIDTH_OVER_TYRES.name: float(tyres[1, 1] - tyres[0, 1]),
         v.BUCKET_WIDTH.name: float(level[1, 1] - level[0, 1]),
         v.OVERALL_LENGTH.name: float(level[1, 0] - _extent(fixed)[0, 0]),

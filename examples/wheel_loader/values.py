@@ -109,9 +109,7 @@ STEER_CLOSED = Value("Steering cylinder closed length", 745.0, "mm")
 TYRE_SIZE = "26.5R25"
 MAKE, MODEL = "Komatsu", "WA475-10"
 
-PUBLISHED: tuple[Value, ...] = tuple(
-    v for v in list(globals().values()) if isinstance(v, Value) and v.published
-)
+PUBLISHED: tuple[Value, ...] = tuple(v for v in list(globals().values()) if isinstance(v, Value) and v.published)
 """Every published value, in the order above."""
 DRAWN_ONLY: tuple[Value, ...] = (LIFT_CLOSED, TILT_CLOSED, STEER_CLOSED)
 EXAMPLE: tuple[Value, ...] = tuple(

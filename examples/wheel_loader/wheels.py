@@ -32,12 +32,7 @@ def draw_wheel() -> Assembly:
         (-270, r),
     ]
     inside = [(-200, 318), (-205, 370), (-255, 450), (-288, 560), (-288, 640), (-275, 740), (-240, r - 95)]
-    profile = (
-        outside
-        + [(-s, q) for s, q in reversed(outside)]
-        + [(-s, q) for s, q in inside]
-        + list(reversed(inside))
-    )
+    profile = outside + [(-s, q) for s, q in reversed(outside)] + [(-s, q) for s, q in inside] + list(reversed(inside))
     tree.add(Part("TYRE 26.5R25", turned(profile), BLACK, TYRE_DENSITY), "wheel")
     rim = [
         (-272, 318),
@@ -68,9 +63,7 @@ def draw_wheel() -> Assembly:
 def axle_housing() -> Part:
     """Axle beam with its spindles, about the axle's middle; used for both axles."""
     half = v.TREAD.value / 2
-    ball = [
-        (BANJO * math.cos(math.radians(a)), BANJO * math.sin(math.radians(a))) for a in range(138, 41, -12)
-    ]
+    ball = [(BANJO * math.cos(math.radians(a)), BANJO * math.sin(math.radians(a))) for a in range(138, 41, -12)]
     left = [(-s, q) for s, q in _beam(half)]
     hollow = [
         (-820, 0),

@@ -74,9 +74,7 @@ def bores(leaves: list[Leaf]) -> dict[str, list[Bore]]:
 
 def _coaxial(bore: Bore, joint: dict[str, Any]) -> bool:
     axis, offset = np.array(joint["axis"]), bore.point - np.array(joint["anchor"])
-    return bool(
-        np.linalg.norm(np.cross(bore.axis, axis)) < 1e-7 and np.linalg.norm(np.cross(offset, axis)) < 1e-7
-    )
+    return bool(np.linalg.norm(np.cross(bore.axis, axis)) < 1e-7 and np.linalg.norm(np.cross(offset, axis)) < 1e-7)
 
 
 # ---- the linkage --------
@@ -206,9 +204,7 @@ def test_pins_lie_on_their_joints(truth: dict[str, Any], bores: dict[str, list[B
         if row["role"].endswith("_pin"):
             near = [n for n, j in truth["joints"].items() if all(_coaxial(bore, j) for bore in bores[path])]
             assert near, path
-            assert any(
-                row["body"] in (truth["joints"][n]["body0"], truth["joints"][n]["body1"]) for n in near
-            ), path
+            assert any(row["body"] in (truth["joints"][n]["body0"], truth["joints"][n]["body1"]) for n in near), path
 
 
 def test_piston_travel_is_the_stroke(leaves: list[Leaf], truth: dict[str, Any]) -> None:
@@ -304,9 +300,7 @@ def moves_of(linkage: ModuleType) -> Callable[..., dict[str, np.ndarray]]:
 
 
 @pytest.mark.slow
-def test_parts_touch_within_bodies_and_only_at_hinges_between_them(
-    leaves: list[Leaf], truth: dict[str, Any]
-) -> None:
+def test_parts_touch_within_bodies_and_only_at_hinges_between_them(leaves: list[Leaf], truth: dict[str, Any]) -> None:
     body = [truth["parts"][leaf.path]["body"] for leaf in leaves]
     jointed = {frozenset((j["body0"], j["body1"])) for j in truth["joints"].values()}
     touching: dict[int, list[int]] = collections.defaultdict(list)
