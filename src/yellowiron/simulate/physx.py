@@ -70,11 +70,11 @@ class PhysxEngine:
     def set_targets(self, targets: Mapping[str, float]) -> None:
         """See `Engine`."""
         for kind, (query, scale, paths) in self._drives.items():
-            new = {name: value for name, value in targets.items() if name in scale}
+            held = self._targets[kind]
+            new = {name: value for name, value in targets.items() if name in scale and value != held[name]}
             if not new:
                 continue
-            self._targets[kind].update(new)
-            held = self._targets[kind]
+            held.update(new)
             with self._physx.write(query, [_TARGETS[kind]]).wait() as session:
                 while (group := session.fetch_next().wait()) is not None:
                     for name, tensor in zip(paths, group.tensors, strict=True):
