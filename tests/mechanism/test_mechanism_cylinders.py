@@ -171,8 +171,8 @@ def twin_template(sign: int) -> Template:
     return replace(plan, roles=roles, joints=joints, actuators=(lift,))
 
 
-def build_twin(sign: int) -> Mechanism:
-    """The twin's parts are the first cylinder's, moved 0.2 m aside."""
+def build_twin(sign: int, *, alone: bool = False) -> Mechanism:
+    """The twin's parts are the first cylinder's, moved 0.2 m aside; `alone`: nobody plays the first cylinder."""
     assembly, alignment = machine()
     aside = np.eye(4)
     aside[1, 3] = 0.2
@@ -186,10 +186,13 @@ def build_twin(sign: int) -> Mechanism:
         replace(a, part=a.part + "#2", role=rename[str(a.role)], body=bodies.get(str(a.body), a.body))
         for a in (assigned[p.id] for p in copied)
     )
+    first = alignment.parts
+    if alone:
+        first = tuple(replace(a, role=None, body=None) if a.body in bodies else a for a in first)
     return build_mechanism(
         replace(assembly, parts=assembly.parts + parts),
         twin_template(sign),
-        replace(alignment, parts=alignment.parts + more),
+        replace(alignment, parts=first + more),
         Specifications(
             {s.name: s for s in (specification("Stroke", STROKE), specification("Pressure", PRESSURE, "Pa"))}
         ),
@@ -210,3 +213,13 @@ def test_the_driven_twin_carries_both_and_the_passive_follows(sign: int) -> None
     assert not built.joint("twin_slide").cut
     wide = built.joint("twin_slide")
     assert wide.lower is not None and wide.lower < -passive.extension
+
+
+def test_a_twin_left_alone_is_driven_in_its_place() -> None:
+    built = build_twin(1, alone=True)
+    (left,) = built.cylinders
+    assert left.slide == "twin_slide" and not left.passive
+    drive = built.joint("twin_slide").drive
+    assert drive is not None and drive.max_force == pytest.approx(left.push_force)
+    assert built.joint("base2arm").cut, "its loop is cut at the structural pin, as any driven cylinder's"
+    assert "MEC028" in {f.code for f in built.findings}

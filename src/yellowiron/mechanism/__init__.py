@@ -32,6 +32,7 @@ MEC024  the drawn pose is outside a slide's limits
 MEC025  the template's default stands for a value that no sheet gives
 MEC026  an actuator has no cylinder or motor left
 MEC027  nothing gives a value that a cylinder or motor needs; it has no force limit
+MEC028  a twin is driven in the place of the cylinder it follows, which was not found
 MEC030  a part's material has no density; steel's was taken
 MEC031  an open or empty solid: its mass is that of a thin shell
 MEC032  masses were scaled to published weights (a warning where the factor is not plausible)

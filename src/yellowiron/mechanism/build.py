@@ -64,6 +64,7 @@ def build_mechanism(
         )
     frames, remarks = joint_frames(placement, template)
     findings += remarks
+    template = cylinders.with_leaders(template, frames, findings)
 
     # Which joints make the tree, which close its loops; axes of a loop exactly parallel.
     frames = _weld_loose(frames, placement, template, findings)

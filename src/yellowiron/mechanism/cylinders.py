@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -99,6 +99,22 @@ class _Sizes:
     @property
     def pull_area(self) -> float:
         return math.pi / 4.0 * (self.bore.value**2 - self.rod_diameter.value**2)
+
+
+def with_leaders(template: Template, frames: Mapping[str, JointFrame], findings: list[Finding]) -> Template:
+    """The template with a twin driven where the one it follows was not found."""
+    actuators = []
+    for actuator in template.actuators:
+        present = [c for c in actuator.cylinders if c.slide in frames]
+        if present and all(c.passive for c in present):
+            words = f"The cylinder it follows was not found: '{present[0].slide}' is driven in its place, alone."
+            findings.append(
+                Finding("MEC028", "warning", actuator.name, words, "Check its twin's parts in the alignment.")
+            )
+            cylinders = tuple(replace(c, passive=False) if c is present[0] else c for c in actuator.cylinders)
+            actuator = replace(actuator, cylinders=cylinders)
+        actuators.append(actuator)
+    return replace(template, actuators=tuple(actuators))
 
 
 def fit_cylinders(
