@@ -11,13 +11,15 @@ demo: $(STAMP)
 	$(VENV)/bin/yellowiron build wheel_loader \
 	  --cad $(EXAMPLE)/wheel_loader.step --specs $(EXAMPLE)/specifications.pdf --out out/wheel_loader
 
-# Fast tests first: a mistake shows before the slow ones start.
+# Fast tests first: a mistake shows before the slow ones start. A file's tests share their fixtures: one worker each.
+PYTEST := $(VENV)/bin/python -m pytest -n 2 --dist loadfile
+
 test: $(STAMP)
-	$(VENV)/bin/python -m pytest -m "not slow"
-	$(VENV)/bin/python -m pytest -m slow
+	$(PYTEST) -m "not slow"
+	$(PYTEST) -m slow
 
 test-fast: $(STAMP)
-	$(VENV)/bin/python -m pytest -m "not slow"
+	$(PYTEST) -m "not slow"
 
 lint: $(STAMP)
 	$(VENV)/bin/ruff check . && $(VENV)/bin/ruff format --check . && $(VENV)/bin/mypy

@@ -10,7 +10,7 @@ import math
 from dataclasses import dataclass, field
 
 import numpy as np
-from solids import Array, around, bolt, box, lathe, place, plate, tube
+from align_solids import Array, around, bolt, box, lathe, place, plate, tube
 
 from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.geometry import Shape

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from solids import bolt, box, place
+from align_solids import bolt, box, place
 from synthetic import Machine, disguise, loader
 
 from yellowiron.align import align

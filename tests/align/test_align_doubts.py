@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from solids import Array, box, place
+from align_solids import Array, box, place
 from synthetic import Machine, disguise, loader
 
 from yellowiron.align import align
