@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 import trimesh
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from yellowiron.report.pictures import Soup, encode, look_at, render
@@ -46,6 +46,7 @@ def test_the_same_scene_gives_the_same_bytes(two_boxes: Soup) -> None:
 
 
 @settings(max_examples=50, deadline=None)
+@example(0.0, 0.0, [(0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (1.0, 2.0, 0.0), (2.0, 0.0, 1.0)])
 @given(
     st.floats(-math.pi, math.pi),
     st.floats(0.0, 1.3),

@@ -129,7 +129,11 @@ def look_at(
     right = np.cross(forward, [0.0, 0.0, 1.0])
     right /= np.linalg.norm(right)
     up = np.cross(right, forward)
-    scale = 0.88 * min(width / (high[0] - low[0]), height / (high[1] - low[1]))
+    offset = points - eye
+    depth = offset @ forward
+    widest = max(float(np.abs(offset @ right / depth).max()), 1e-9)
+    highest = max(float(np.abs(offset @ up / depth).max()), 1e-9)
+    scale = 0.44 * min(width / widest, height / highest)
     return Camera(eye, forward, right, up, scale, width, height)
 
 
