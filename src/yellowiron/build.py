@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import sys
 import time
 import types
@@ -18,6 +19,10 @@ from yellowiron.model.specification import Specifications
 from yellowiron.model.template import choose
 from yellowiron.output import output_folder
 
+_LIBRARIES = (
+    "mujoco", "ortools.sat.python.cp_model", "pxr.Usd", "pxr.UsdPhysics", "pxr.UsdShade", "scipy.optimize", "scipy.spatial",
+    "yellowiron.kinematics.completion", "yellowiron.kinematics.measurement", "yellowiron.usd.write",
+)  # fmt: skip
 Progress = Callable[[str], None]
 
 
@@ -72,6 +77,11 @@ def build(
     clock = _Clock(progress)
     cad_file, out = Path(cad_file), Path(out)
     with output_folder(out) as folder:
+        # Libraries load in a stage of their own: their second or two is no stage's work.
+        with clock.stage("load", "Loading libraries"):
+            for name in _LIBRARIES:
+                importlib.import_module(name)
+
         # What is known of the type, and what was asked for by hand.
         template = library.load_template(equipment_type)
         values, choices = specs.split_settings(settings, template)
