@@ -20,7 +20,7 @@ from yellowiron.model.template import choose
 from yellowiron.output import output_folder
 
 _LIBRARIES = (
-    "mujoco", "ortools.sat.python.cp_model", "pxr.Usd", "pxr.UsdPhysics", "pxr.UsdShade", "scipy.optimize", "scipy.spatial",
+    "mujoco", "ortools.sat.python.cp_model", "pxr.Usd", "pxr.UsdPhysics", "scipy.optimize", "scipy.spatial",
     "yellowiron.kinematics.completion", "yellowiron.kinematics.measurement", "yellowiron.usd.write",
 )  # fmt: skip
 Progress = Callable[[str], None]
