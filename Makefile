@@ -2,6 +2,7 @@
 PYTHON ?= python3
 VENV := .venv
 STAMP := $(VENV)/.installed
+ENGINES := $(VENV)/.engines
 EXAMPLE := examples/wheel_loader
 
 .PHONY: demo test test-fast lint bench clean
@@ -14,7 +15,7 @@ demo: $(STAMP)
 # Fast tests first: a mistake shows before the slow ones start. A file's tests share their fixtures: one worker each.
 PYTEST := $(VENV)/bin/python -m pytest -n 2 --dist loadfile
 
-test: $(STAMP)
+test: $(ENGINES)
 	$(PYTEST) -m "not slow"
 	$(PYTEST) -m slow
 
@@ -24,7 +25,7 @@ test-fast: $(STAMP)
 lint: $(STAMP)
 	$(VENV)/bin/ruff check . && $(VENV)/bin/ruff format --check . && $(VENV)/bin/mypy
 
-bench: $(STAMP)
+bench: $(ENGINES)
 	for script in benchmarks/bench_*.py; do $(VENV)/bin/python $$script || exit 1; done
 
 $(STAMP): pyproject.toml
@@ -33,6 +34,12 @@ $(STAMP): pyproject.toml
 	@$(PYTHON) -m venv $(VENV) || { echo "On Debian: apt-get install python3-venv"; exit 1; }
 	$(VENV)/bin/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]'
 	touch $(STAMP)
+
+# The other engines are extras: where a machine has no wheels for them, their tests say that they were skipped.
+$(ENGINES): $(STAMP)
+	$(VENV)/bin/python -m pip install --quiet --disable-pip-version-check --editable '.[dev,physx,newton]' || \
+	  echo "PhysX and Newton could not be installed: their tests will be skipped"
+	touch $(ENGINES)
 
 clean:
 	rm -rf $(VENV) out
