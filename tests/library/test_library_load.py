@@ -257,6 +257,24 @@ def test_flat_hierarchy_with_lists_and_parents(tmp_path: Path) -> None:
     assert {(r.name, r.parent, r.rigid) for r in flat.roles} == {(r.name, r.parent, r.rigid) for r in nested.roles}
 
 
+def test_a_role_that_is_a_body_under_some_choices_only(tmp_path: Path) -> None:
+    """Under the others it moves with its nearest rigid ancestor."""
+    documents = {
+        "hierarchy": {"car": {"rigid body": "Y", "child": {
+            "idler": {"rigid body": "Y", "rigid_when": {"tracks": "shoes"}}}}},
+        "joints": {"car2idler_joint": {"joint_type": "Revolute", "Body": ["idler", "car"], "free": "Y",
+                                       "when": {"tracks": "shoes"}}},
+        "variants": {"tracks": {"choices": ["belt", "shoes"], "default": "belt"}},
+    }  # fmt: skip
+    for name, content in documents.items():
+        (tmp_path / f"{name}.json").write_text(json.dumps(content))
+    template = library.load_template(tmp_path)
+    assert choose(template, {"tracks": "shoes"}).body_of("idler") == "idler"
+    belt = choose(template, {})
+    assert belt.body_of("idler") == "car"
+    assert not belt.joints
+
+
 def test_a_row_of_parts(tmp_path: Path) -> None:
     (tmp_path / "hierarchy.json").write_text('{"base": {"rigid body": "Y", "child": {"shoe[*]": {"rigid body": "Y"}}}}')
     (tmp_path / "joints.json").write_text(

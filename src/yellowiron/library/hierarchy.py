@@ -168,4 +168,5 @@ def _role(node: _Node, nodes: Mapping[str, _Node], document: Document) -> Role:
         optional=yes(node.entry.get("optional")),
         many=node.name.strip().endswith(_ROW),
         when=choices_of(node.entry, "when"),
+        rigid_when=choices_of(node.entry, "rigid_when"),
     )

@@ -178,8 +178,9 @@ def _further(documents: Mapping[str, Document], template: Template) -> dict[str,
 def _check_variants(template: Template, documents: Mapping[str, Document]) -> None:
     """Every `when` names a declared variant and choice."""
     for role in template.roles:
-        if role.when:
-            details.check_choices(role.when, template.variants, documents["hierarchy"].at(role.name, "when"))
+        for key, choices in (("when", role.when), ("rigid_when", role.rigid_when)):
+            if choices:
+                details.check_choices(choices, template.variants, documents["hierarchy"].at(role.name, key))
     for joint in template.joints:
         place = documents["joints"].at(joint.name)
         details.check_choices({**joint.when}, template.variants, f"{place}.when")

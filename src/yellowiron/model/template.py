@@ -21,7 +21,8 @@ class Role:
 
     `rigid` roles are bodies; others move with their nearest rigid ancestor or only group. `kind` tells the aligner
     what geometry to expect: `frame`, `pin`, `barrel`, `rod`, `wheel`, `tyre`, `arm`, `edge`, `group`, or "" (anything).
-    `many`: the role is written `name[*]` and stands for a counted row of parts. `side`: `l`, `r` or "".
+    `many`: the role is written `name[*]` and stands for a counted row of parts. `side`: `l`, `r` or "". `rigid_when`:
+    the choices under which a rigid role is a body; under others it moves with its nearest rigid ancestor.
     """
 
     name: str
@@ -32,6 +33,7 @@ class Role:
     optional: bool = False
     many: bool = False
     when: Choices = field(default_factory=dict)
+    rigid_when: Choices = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -221,7 +223,11 @@ def choose(template: Template, choices: Mapping[str, str]) -> Template:
     def holds(when: Choices) -> bool:
         return all(chosen.get(name) in allowed for name, allowed in when.items())
 
-    roles = tuple(replace(r, when={}) for r in template.roles if holds(r.when))
+    roles = tuple(
+        replace(r, when={}, rigid_when={}, rigid=r.rigid and holds(r.rigid_when))
+        for r in template.roles
+        if holds(r.when)
+    )
     joints = tuple(
         replace(j, when={}, drive_when={}, drive=j.drive if holds(j.drive_when) else None)
         for j in template.joints
