@@ -104,6 +104,7 @@ def extract(
 def convert(
     cad: Annotated[Path, typer.Argument(metavar="CAD", help="The CAD model.")],
     out: Annotated[Path, typer.Option("--out", help="The .usd, .usda or .usdc file to write.")],
+    as_json: Json = False,
 ) -> None:
     """Convert CAD to USD, nothing else."""
     from yellowiron import cad as readers
@@ -111,12 +112,18 @@ def convert(
     from yellowiron.output import output_file
     from yellowiron.usd.convert import SUFFIXES
 
-    with _progress(False) as progress, output_file(out, suffixes=SUFFIXES) as temporary:
+    with _progress(as_json) as progress, output_file(out, suffixes=SUFFIXES) as temporary:
         progress("Reading the CAD model")
         assembly = readers.read_cad(cad)
         progress("Writing USD")
         usd.write_assembly(assembly, temporary)
-    _print(Text(f"{out}: {len(assembly.parts)} parts, {len(assembly.shapes)} shapes"))
+    document = {
+        "file": str(out),
+        "parts": len(assembly.parts),
+        "shapes": len(assembly.shapes),
+        "findings": [asdict(f) for f in assembly.findings],
+    }
+    _show(document, Text(f"{out}: {document['parts']} parts, {document['shapes']} shapes"), as_json)
 
 
 @app.command("align")
@@ -146,10 +153,11 @@ def align_parts(
         if out is not None:
             with output_file(out) as temporary:
                 align.write_alignment(alignment, assembly, temporary)
-    renderable: RenderableType = alignment_table(alignment)
     if explain is not None:
-        renderable = Text(align.explain(alignment, explain))
-    _show(alignment_entry(alignment), renderable, as_json)
+        words = align.explain(alignment, explain)
+        _show({"explain": explain, "reason": words}, Text(words), as_json)
+    else:
+        _show(alignment_entry(alignment), alignment_table(alignment), as_json)
     raise typer.Exit(1 if alignment.to_review or alignment.missing else 0)
 
 
@@ -221,6 +229,7 @@ def export(
     machine: Annotated[Path, typer.Argument(metavar="FILE.usd", help="A machine that build wrote.")],
     to: Annotated[str, typer.Option("--to", help="mjcf.")],
     out: Annotated[Path, typer.Option("--out", help="The folder to write to.")],
+    as_json: Json = False,
 ) -> None:
     """Write the same machine for another simulator."""
     from yellowiron import usd
@@ -229,10 +238,11 @@ def export(
 
     if to != "mjcf":
         raise YellowironError(f"There is no export to '{to}'", where="--to", hint="This version writes mjcf.")
-    with _progress(False) as progress, output_folder(out) as folder:
+    with _progress(as_json) as progress, output_folder(out) as folder:
         progress("Writing MJCF")
         written = export_mjcf(usd.read_machine(machine), machine, folder)
-    _print(Text(f"{out / written.name}; scene.xml beside it is the machine on the ground"))
+    files = {"machine": str(out / written.name), "scene": str(out / "scene.xml")}
+    _show(files, Text(f"{files['machine']}; scene.xml beside it is the machine on the ground"), as_json)
 
 
 @templates.command("list")
@@ -245,11 +255,12 @@ def list_templates(as_json: Json = False) -> None:
 
 
 @templates.command("show")
-def show_template(equipment_type: Type) -> None:
+def show_template(equipment_type: Type, as_json: Json = False) -> None:
     """Show a template's hierarchy and joints."""
     from yellowiron import library
 
-    _print(library.tree(library.load_template(equipment_type)))
+    template = library.load_template(equipment_type)
+    _show(asdict(template), library.tree(template), as_json)
 
 
 @templates.command("check")
@@ -269,12 +280,14 @@ def check_template(equipment_type: Type, as_json: Json = False) -> None:
 
 
 @templates.command("copy")
-def copy_template(equipment_type: Type, folder: Annotated[Path, typer.Argument(metavar="DIR")]) -> None:
+def copy_template(
+    equipment_type: Type, folder: Annotated[Path, typer.Argument(metavar="DIR")], as_json: Json = False
+) -> None:
     """Copy a template to a folder of yours, to change it."""
     from yellowiron import library
 
     library.copy_template(equipment_type, folder)
-    _print(Text(f"{folder}: yours to change; build with it by naming the folder."))
+    _show({"folder": str(folder)}, Text(f"{folder}: yours to change; build with it by naming the folder."), as_json)
 
 
 def _version(asked: bool) -> None:

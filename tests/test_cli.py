@@ -1,0 +1,46 @@
+"""Every command answers `--json` with one document and nothing else."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from yellowiron.cli import app
+
+
+def _asked(capsys: pytest.CaptureFixture[str], *words: str | Path) -> tuple[int, Any]:
+    code = app([*map(str, words), "--json"], standalone_mode=False)
+    printed = capsys.readouterr()
+    assert printed.err == ""
+    return code or 0, json.loads(printed.out)
+
+
+def test_templates_list_and_show(capsys: pytest.CaptureFixture[str]) -> None:
+    code, listed = _asked(capsys, "templates", "list")
+    assert code == 0 and "wheel_loader" in listed["templates"]
+    code, shown = _asked(capsys, "templates", "show", "wheel_loader")
+    assert code == 0 and shown["equipment_type"] == "wheel_loader" and shown["root"] == "rear_frame"
+    assert {"boom", "boom_pin"} <= {role["name"] for role in shown["roles"]}
+
+
+def test_a_copy_says_where_it_is(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    code, copied = _asked(capsys, "templates", "copy", "wheel_loader", tmp_path / "mine")
+    assert code == 0 and (Path(copied["folder"]) / "joints.json").is_file()
+
+
+@pytest.mark.slow
+def test_convert_counts_what_it_wrote(capsys: pytest.CaptureFixture[str], tmp_path: Path, example: Path) -> None:
+    file = tmp_path / "loader.usdc"
+    code, converted = _asked(capsys, "convert", example / "wheel_loader.step", "--out", file)
+    assert code == 0 and file.is_file()
+    assert converted["parts"] > converted["shapes"] > 0
+
+
+@pytest.mark.slow
+def test_align_explains_a_role(capsys: pytest.CaptureFixture[str], example: Path) -> None:
+    code, explained = _asked(capsys, "align", "wheel_loader", example / "wheel_loader.step", "--explain", "boom_pin")
+    assert code == 0 and explained["explain"] == "boom_pin"
+    assert "coaxial" in explained["reason"]
