@@ -219,3 +219,30 @@ def test_a_step_that_is_too_long_breaks_down_and_says_so(
     assert result.findings[0].code == "SIM001"
     assert not list(tmp_path.iterdir())
     assert capfd.readouterr() == ("", "")
+
+
+def test_a_sweep_is_kept_to_be_looked_at(usd_file: Path, mechanism: Mechanism, puppet: Callable[..., None]) -> None:
+    """Frames from low to high, at the engine's own poses; no worst error gets lost in thinning."""
+    boom = [body.name for body in mechanism.bodies].index("boom")
+
+    def slip(count: int, coordinates: Floats, rotations: Floats, origins: Floats) -> None:
+        if count == 301:
+            origins[boom] += (0.0, 0.002, 0.0)
+
+    puppet(slip)
+    result = simulate(usd_file, engine="puppet", actuators=["boom"])
+    (sweep,) = result.sweeps
+    assert sweep.name == "boom"
+    assert sweep.pin_error.max() == pytest.approx(0.002)
+    assert len(sweep.times) == len(sweep.pin_error) == len(sweep.angle_error) <= 240
+    assert sweep.times[-1] == pytest.approx(0.02 * result.phases[-1].steps)
+    assert [frame.share for frame in sweep.frames] == pytest.approx([0.02, 0.26, 0.5, 0.74, 0.98], abs=0.03)
+    (track,) = sweep.tracks
+    assert track.kind == "position" and np.abs(track.wanted - track.measured).max() < 0.05
+    chain = ClosedChain(mechanism)
+    joint = mechanism.joint(track.joint)
+    for frame in sweep.frames:
+        relative = np.linalg.inv(frame.poses[joint.body0]) @ frame.poses[joint.body1]
+        stroke = float(relative[:3, 3] @ np.asarray(joint.axis))
+        solved = chain.pose(chain.solve({joint.name: stroke}))
+        assert np.abs(frame.poses["boom"] - solved["boom"]).max() < 1e-6

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -31,7 +31,8 @@ class Agreement:
     `pin`: distance of a pin, carried by either of its bodies, from where the kinematics has it; `gap`: between its
     places on its two bodies, for cut joints; `angle`: by which a body is turned from its pose. `sines`: cut joint → the
     least signed sine at its loop's triangle of pivots, positive on the drawn branch. `followed` is false where poses
-    were not finite or no pose of the kinematics belongs to the measured strokes.
+    were not finite or no pose of the kinematics belongs to the measured strokes. `pins`, `angles` (m ≤ n,): the worst
+    of each step that was compared.
     """
 
     pin: Worst
@@ -39,6 +40,8 @@ class Agreement:
     angle: Worst
     sines: dict[str, float]
     followed: bool
+    pins: Floats = field(default_factory=lambda: np.zeros(0))
+    angles: Floats = field(default_factory=lambda: np.zeros(0))
 
 
 class Comparison:
@@ -111,6 +114,8 @@ class Comparison:
                 for cut, (pivots, sign) in self._triangles.items()
             },
             followed=followed,
+            pins=off.max(axis=1, initial=0.0),
+            angles=angles.max(axis=1, initial=0.0),
         )
 
     def _without_root(self, rotations: Floats, origins: Floats) -> tuple[Floats, Floats]:
@@ -140,4 +145,6 @@ def _together(parts: list[Agreement], finite: bool) -> Agreement:
         angle=max((p.angle for p in parts), key=lambda w: w.value, default=Worst()),
         sines={cut: min(p.sines[cut] for p in parts if cut in p.sines) for p in parts[:1] for cut in p.sines},
         followed=finite and all(p.followed for p in parts),
+        pins=np.concatenate([np.zeros(0), *(p.pins for p in parts)]),
+        angles=np.concatenate([np.zeros(0), *(p.angles for p in parts)]),
     )

@@ -8,6 +8,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from yellowiron.model.finding import Finding
+from yellowiron.model.sweep import Sweep
 
 
 @dataclass(frozen=True)
@@ -68,7 +69,8 @@ class SimulationResult:
     """A whole run. Seconds, kilograms, metres, radians. `pin_error` is a pin's worst distance from where the
     closed-chain kinematics has it at the measured strokes, `gap` that between a cut pin's two halves, `angle_error` a
     body's worst turn from its pose; `*_at` says where and in which phase. `steps_per_second` counts the engine's own
-    time."""
+    time. `sweeps`: a few poses and the errors over time of each phase, for pictures. `pin_bar`, `angle_bar`: the
+    engine's bars."""
 
     engine: str
     version: str
@@ -88,6 +90,9 @@ class SimulationResult:
     actuators: tuple[ActuatorResult, ...]
     phases: tuple[PhaseResult, ...]
     findings: tuple[Finding, ...] = ()
+    sweeps: tuple[Sweep, ...] = ()
+    pin_bar: float = math.inf
+    angle_bar: float = math.inf
 
     @property
     def branches_kept(self) -> bool:
@@ -109,9 +114,11 @@ def simulation_document(result: SimulationResult) -> dict[str, Any]:
         "steps_per_second": round(result.steps_per_second),
         "completed": result.completed,
         "pin_error_mm": 1e3 * result.pin_error,
+        "pin_bar_mm": _bar(1e3 * result.pin_bar),
         "pin_error_at": result.pin_error_at,
         "loop_gap_mm": 1e3 * result.gap,
         "angle_error_deg": math.degrees(result.angle_error),
+        "angle_bar_deg": _bar(math.degrees(result.angle_bar)),
         "angle_error_at": result.angle_error_at,
         "branches_kept": result.branches_kept,
         "branches": [{"cut": b.cut, "least_sine": b.least_sine, "kept": b.kept} for b in result.branches],
@@ -145,3 +152,8 @@ def simulation_document(result: SimulationResult) -> dict[str, Any]:
         ],
         "findings": [asdict(finding) for finding in result.findings],
     }
+
+
+def _bar(value: float) -> float | None:
+    """A bar without the last digits of its conversion; None where there is none."""
+    return round(value, 9) if math.isfinite(value) else None

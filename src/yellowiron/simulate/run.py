@@ -14,11 +14,13 @@ from yellowiron import usd
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
+from yellowiron.model.sweep import Sweep
 from yellowiron.simulate.commands import CRAWL, Motion, Phase, motions, phases
 from yellowiron.simulate.comparison import Agreement, Comparison, Worst
 from yellowiron.simulate.engine import Base, Engine, Setup, find_engine, import_engine, load_engine, standing_bodies
 from yellowiron.simulate.loads import carried, paces
 from yellowiron.simulate.payload import with_payload
+from yellowiron.simulate.recording import record
 from yellowiron.simulate.result import ActuatorResult, BranchResult, PhaseResult, SimulationResult
 
 FINAL_BAR = 0.01
@@ -107,6 +109,7 @@ class _Run:
     timestep: float
     seen: dict[str, _Seen] = field(default_factory=dict)
     done: list[tuple[Phase, Agreement]] = field(default_factory=list)
+    sweeps: list[Sweep] = field(default_factory=list)
     steps: int = 0
     seconds: float = 0.0
 
@@ -127,6 +130,13 @@ class _Run:
         self._track(phase, measured, told)
         agreement = self.comparison.compare(measured, rotations, origins)
         self.done.append((phase, agreement))
+        if phase.holds:
+            columns = [self.comparison.measured.index(motion.joint) for motion in self.moves]
+            errors = (agreement.pins, agreement.angles)
+            mechanism = self.comparison.chain.mechanism
+            self.sweeps.append(
+                record(phase, self.moves, mechanism, self.timestep, measured[:, columns], rotations, origins, errors)
+            )
         return agreement.followed
 
     def _track(self, phase: Phase, measured: Floats, told: Mapping[str, Floats]) -> None:
@@ -188,8 +198,11 @@ class _Run:
                 _actuator(motion, self.seen[motion.joint], base) for motion in self.moves if motion.joint in self.seen
             ),
             phases=tuple(PhaseResult(p.name, p.steps, a.pin.value, a.angle.value) for p, a in self.done),
+            sweeps=tuple(self.sweeps),
+            pin_bar=pin_bar,
+            angle_bar=angle_bar,
         )
-        return replace(made, findings=tuple(_findings(made, pin_bar, angle_bar)))
+        return replace(made, findings=tuple(_findings(made)))
 
     def _worst(self, kind: str) -> tuple[Worst, Phase]:
         return max(((getattr(a, kind), p) for p, a in self.done), key=lambda pair: pair[0].value)
@@ -217,7 +230,7 @@ def _actuator(motion: Motion, seen: _Seen, base: Base) -> ActuatorResult:
     )
 
 
-def _findings(result: SimulationResult, pin_bar: float, angle_bar: float) -> Iterator[Finding]:
+def _findings(result: SimulationResult) -> Iterator[Finding]:
     if not result.completed:
         yield Finding(
             "SIM001",
@@ -226,13 +239,13 @@ def _findings(result: SimulationResult, pin_bar: float, angle_bar: float) -> Ite
             "the simulation broke down: the linkage left every pose that its measured strokes allow",
             "Try a smaller time step, and check gains, masses and limits.",
         )
-    if result.pin_error > pin_bar:
-        message = f"a pin stood {1e3 * result.pin_error:.3g} mm from its place, more than {1e3 * pin_bar:g} mm"
+    if result.pin_error > result.pin_bar:
+        message = f"a pin stood {1e3 * result.pin_error:.3g} mm from its place, more than {1e3 * result.pin_bar:g} mm"
         yield Finding("SIM002", "warning", result.pin_error_at, message, "Try a smaller time step.")
-    if result.angle_error > angle_bar:
+    if result.angle_error > result.angle_bar:
         message = (
             f"a body was turned {math.degrees(result.angle_error):.3g}° from its pose, more than "
-            f"{math.degrees(angle_bar):.3g}°"
+            f"{math.degrees(result.angle_bar):.3g}°"
         )
         yield Finding("SIM003", "warning", result.angle_error_at, message, "Try a smaller time step.")
     for branch in result.branches:
