@@ -17,13 +17,14 @@ from typing import Any
 import numpy as np
 
 from yellowiron.library.details import EVERYTHING, check_choices, matches, read_material
-from yellowiron.library.joints import check_bodies, read_joint, split_index
+from yellowiron.library.joints import check_bodies, read_joint
 from yellowiron.library.reading import Document, check_document, near, read_json, template_schema, where
 from yellowiron.library.sensors import merged, read_sensor
 from yellowiron.model.alignment import Alignment, PartAssignment
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import TemplateError
 from yellowiron.model.finding import Finding
+from yellowiron.model.rows import split_index
 from yellowiron.model.sensor import SensorTemplate
 from yellowiron.model.specification import fold
 from yellowiron.model.template import JointTemplate, Material, Template

@@ -77,6 +77,8 @@ def _further(joint: JointTemplate) -> dict[str, Any]:
     entry: dict[str, Any] = dict(stated_gains(joint))
     if joint.free:
         entry["free"] = "Y"
+    if joint.ring:
+        entry["ring"] = "Y"
     for key, when in (("when", joint.when), ("drive_when", joint.drive_when)):
         if when:
             entry[key] = {name: list(choices) for name, choices in when.items()}

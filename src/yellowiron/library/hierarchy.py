@@ -12,6 +12,7 @@ from yellowiron.model.specification import fold
 from yellowiron.model.template import Choices, JointTemplate, Role
 
 _ROW = "[*]"
+_HIDDEN = {"radius": 0.9, "mass": 1.0}
 
 
 @dataclass
@@ -169,4 +170,23 @@ def _role(node: _Node, nodes: Mapping[str, _Node], document: Document) -> Role:
         many=node.name.strip().endswith(_ROW),
         when=choices_of(node.entry, "when"),
         rigid_when=choices_of(node.entry, "rigid_when"),
+        hidden=_hidden(node),
     )
+
+
+def _hidden(node: _Node) -> dict[str, Any]:
+    """The rule of a row of hidden bodies, with its defaults; empty for any other entry."""
+    rule = node.entry.get("hidden")
+    if rule is None:
+        return {}
+    if not node.name.strip().endswith(_ROW) or not yes(node.entry.get("rigid body")):
+        raise TemplateError(
+            f"'{node.name}' has a hidden rule and is no row of bodies",
+            where=node.where,
+            hint='Write name[*] and "rigid body": "Y".',
+        )
+    return {
+        "row": _bare(rule["row"]),
+        "at": tuple(map(float, rule["at"])),
+        **{k: float(rule.get(k, v)) for k, v in _HIDDEN.items()},
+    }

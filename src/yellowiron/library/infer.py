@@ -10,9 +10,9 @@ import re
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
-from yellowiron.library.joints import split_index
 from yellowiron.library.reading import Document
 from yellowiron.model.errors import TemplateError
+from yellowiron.model.rows import split_index
 from yellowiron.model.template import ActuatorTemplate, CylinderTemplate, JointTemplate, Role, Template
 
 _SIDE = re.compile(r"_([lr])(?=_|2|$)")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any, cast
@@ -11,6 +10,7 @@ from yellowiron.library.hierarchy import choices_of, yes
 from yellowiron.library.quantities import limit
 from yellowiron.library.reading import Document, near
 from yellowiron.model.errors import TemplateError
+from yellowiron.model.rows import split_index
 from yellowiron.model.specification import fold
 from yellowiron.model.template import DriveType, JointTemplate, JointType, Role
 
@@ -25,7 +25,6 @@ DIMENSION: Mapping[str, str] = {
 GAINS = ("stiffness", "damping", "max_force", "max_velocity")
 """The keys of JSON-4, all in SI units."""
 _DRIVABLE: Mapping[str, str] = {"linear": "prismatic", "angular": "revolute"}
-_INDEX = re.compile(r"^(.*?)\s*\[\s*(\*|i(?:\s*[+-]\s*\d+)?)\s*\]$")
 
 
 def read_joints(document: Document) -> tuple[JointTemplate, ...]:
@@ -62,7 +61,14 @@ def read_joint(document: Document, name: str, entry: Mapping[str, Any], base: Jo
         free=yes(entry["free"]) if "free" in entry else base.free,
         when=choices_of(entry, "when") if "when" in entry else base.when,
         drive_when=choices_of(entry, "drive_when") if "drive_when" in entry else base.drive_when,
+        ring=yes(entry["ring"]) if "ring" in entry else base.ring,
     )
+    if joint.ring and [split_index(part)[1] for part in joint.parts] != ["i", "i+1"]:
+        raise TemplateError(
+            f"Joint '{name}' closes a ring, but does not run along a row",
+            where=document.at(name, "Body"),
+            hint="Its Body is [name[i], name[i+1]].",
+        )
     return replace(
         joint,
         stiffness=gains.get("stiffness", base.stiffness),
@@ -70,12 +76,6 @@ def read_joint(document: Document, name: str, entry: Mapping[str, Any], base: Jo
         max_force=gains.get("max_force", base.max_force),
         max_velocity=gains.get("max_velocity", base.max_velocity),
     )
-
-
-def split_index(part: str) -> tuple[str, str]:
-    """`track_shoe_l[i+1]` → (`track_shoe_l`, `i+1`); the index is empty for a single part."""
-    match = _INDEX.match(part)
-    return (match.group(1), match.group(2).replace(" ", "")) if match else (part, "")
 
 
 def stated_gains(joint: JointTemplate) -> Iterator[tuple[str, float]]:

@@ -6,15 +6,18 @@ import itertools
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-from yellowiron.library.joints import DIMENSION, split_index, stated_gains
+from yellowiron.library.joints import DIMENSION, stated_gains
 from yellowiron.library.mobility import Group, TemplateMobility, blocks, mobility, welded_ends
 from yellowiron.library.reading import near
 from yellowiron.model.finding import Finding
+from yellowiron.model.rows import expand, rings, split_index
 from yellowiron.model.specification import fold
 from yellowiron.model.template import Choices, JointTemplate, Template, choose
 
 MOST_COMBINATIONS = 512
 """Sets of choices that are looked at; a template with more says so."""
+SAMPLE = 2
+"""Parts of a row that the mobility is looked at with: how many there are shows in the CAD model only."""
 _EVERY_BODY = "*"
 _ORDER = ("error", "warning", "info")
 
@@ -46,10 +49,11 @@ def lint(template: Template) -> LintReport:
         findings.update(dict.fromkeys(broken))
         chosen = _without(chosen, broken)
         findings.update(dict.fromkeys(_connections(chosen)))
-        figures.append(mobility(chosen, choices))
+        expanded = expand(chosen, {r.name: SAMPLE for r in chosen.roles})
+        figures.append(mobility(expanded, choices))
         for group in figures[-1].groups:
-            findings.update(dict.fromkeys(_movement(chosen, group)))
-        findings.update(dict.fromkeys(_loose(chosen, figures[-1].loose)))
+            findings.update(dict.fromkeys(_movement(expanded, group)))
+        findings.update(dict.fromkeys(_loose(expanded, figures[-1].loose)))
     if next(combinations, None) is not None:
         findings[
             Finding(
@@ -115,7 +119,10 @@ def _whole(template: Template) -> Iterator[Finding]:
             )
     if any(r.many for r in template.roles):
         yield Finding(
-            "TPL014", "info", template.equipment_type, "Rows of parts (name[*]) are not counted in the mobility."
+            "TPL014",
+            "info",
+            template.equipment_type,
+            f"Rows of parts (name[*]) are looked at with {SAMPLE} parts; rings are joined to nothing and not counted.",
         )
     if not template.actuators:
         yield Finding(
@@ -311,8 +318,8 @@ def _without(template: Template, broken: list[Finding]) -> Template:
 
 
 def _connections(template: Template) -> Iterator[Finding]:
-    """Every body is reached from the root over joints."""
-    reached, front = {template.root}, [template.root]
+    """Every body is reached from the root over joints, save rings, which touch the machine only."""
+    reached, front = {template.root, *rings(template)}, [template.root]
     pairs = [template.bodies_of(j) for j in template.joints]
     while front:
         body = front.pop()

@@ -143,7 +143,26 @@ def _roles(documents: Mapping[str, Document], joints: tuple[JointTemplate, ...])
         raise TemplateError(
             "The hierarchy has no body", where=str(document.path), hint='Mark the bodies "rigid body": "Y".'
         )
+    _check_rows(roles, document)
     return roles, root
+
+
+def _check_rows(roles: tuple[Role, ...], document: Document) -> None:
+    """What moves with a row's part is a row itself; a hidden row stands for one that is there."""
+    rows = {r.name for r in roles if r.many}
+    for role in roles:
+        if role.parent in rows and not role.many:
+            raise TemplateError(
+                f"'{role.name}' moves with the row '{role.parent}' and is no row",
+                where=document.at(role.name),
+                hint=f"Write {role.name}[*]: one for each part of the row.",
+            )
+        if role.hidden and role.hidden["row"] not in rows:
+            raise TemplateError(
+                f"'{role.name}' stands for '{role.hidden['row']}', which is no row",
+                where=document.at(role.name, "hidden", "row"),
+                hint=near(role.hidden["row"], rows) or "Name a row, without [*].",
+            )
 
 
 def _resolved(

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from yellowiron.library.joints import split_index
 from yellowiron.model.geometry import Floats
+from yellowiron.model.rows import split_index
 from yellowiron.model.template import JointTemplate, Template
 
 SPATIAL_FREEDOM: Mapping[str, int] = {"fixed": 0, "distance": 5, "spherical": 3, "revolute": 1, "prismatic": 1}
@@ -54,8 +54,9 @@ class TemplateMobility:
 
 
 def mobility(template: Template, choices: Mapping[str, str]) -> TemplateMobility:
-    """The mobility of a template whose variants are decided, as the `choices` say; rows of parts are left out."""
-    joints = [j for j in template.joints if not any(split_index(p)[1] for p in j.parts)]
+    """The mobility of a template whose variants are decided, as the `choices` say. Rings are left out, and rows
+    that are not expanded."""
+    joints = [j for j in template.joints if not j.ring and not any(split_index(p)[1] for p in j.parts)]
     ends = welded_ends(template, joints)
     coordinates = coordinates_of(template)
     groups, loose = [], []
@@ -89,7 +90,7 @@ def coordinates_of(template: Template) -> tuple[str, ...]:
     return tuple(
         j.name
         for j in template.joints
-        if j.name in given or (j.drive and j.name not in passive) or (j.free and not j.drive)
+        if not j.ring and (j.name in given or (j.drive and j.name not in passive) or (j.free and not j.drive))
     )
 
 

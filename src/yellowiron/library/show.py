@@ -5,8 +5,9 @@ from __future__ import annotations
 from rich.text import Text
 from rich.tree import Tree
 
-from yellowiron.library.joints import DIMENSION, split_index
+from yellowiron.library.joints import DIMENSION
 from yellowiron.library.quantities import number_text
+from yellowiron.model.rows import split_index
 from yellowiron.model.template import Choices, JointTemplate, Role, Template
 from yellowiron.model.units import SI_UNIT
 
@@ -52,6 +53,8 @@ def _role(role: Role, template: Template) -> Text:
     notes = ["root"] if role.name == template.root else []
     notes += [role.kind] if role.kind else []
     notes += ["optional"] if role.optional else []
+    notes += [f"hidden, for {role.hidden['row']}"] if role.hidden else []
+    notes += _when(role.rigid_when, "body where ")
     notes += _when(role.when)
     return text.append(f"  {', '.join(notes)}" if notes else "", style="dim not bold")
 
@@ -67,6 +70,7 @@ def _joint(joint: JointTemplate, other: str) -> Text:
         words.append(f"{ends[0]} to {ends[1]}")
     words += [f"{joint.drive} drive"] if joint.drive else []
     words += _when(joint.drive_when, "driven where ") if joint.drive else []
+    words += ["closed to a ring"] if joint.ring else []
     words += ["free"] if joint.free and (joint.drive is None or joint.drive_when) else []
     words += _when(joint.when)
     return Text.assemble((joint.name, "cyan"), (f"  {', '.join(words)}", "dim"))

@@ -20,9 +20,12 @@ class Role:
     """A part name of the hierarchy.
 
     `rigid` roles are bodies; others move with their nearest rigid ancestor or only group. `kind` tells the aligner
-    what geometry to expect: `frame`, `pin`, `barrel`, `rod`, `wheel`, `tyre`, `arm`, `edge`, `group`, or "" (anything).
-    `many`: the role is written `name[*]` and stands for a counted row of parts. `side`: `l`, `r` or "". `rigid_when`:
-    the choices under which a rigid role is a body; under others it moves with its nearest rigid ancestor.
+    what geometry to expect: `frame`, `pin`, `barrel`, `rod`, `wheel`, `tyre`, `arm`, `edge`, `group`, of tracks `shoe`,
+    `sprocket`, `idler`, `roller`, `carrier`, or "" (anything). `many`: the role is written `name[*]` and stands for a
+    counted row of parts. `side`: `l`, `r` or "". `rigid_when`: the choices under which a rigid role is a body; under
+    others it moves with its nearest rigid ancestor. `row`: the row that a concrete part belongs to ("" for parts of no
+    row; see `rows.expand`). `hidden`: how a body that no CAD part plays is made from a row's parts (docs: template
+    format, hidden wheels).
     """
 
     name: str
@@ -34,12 +37,16 @@ class Role:
     many: bool = False
     when: Choices = field(default_factory=dict)
     rigid_when: Choices = field(default_factory=dict)
+    row: str = ""
+    hidden: Mapping[str, Any] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
 class JointTemplate:
     """A joint entry. `parts` are role names as written in `Body`; limits are numbers (metres, radians), texts naming a
     specification (with an optional leading minus), or None (free). Gains in SI (N/m, N·m/rad …) or None: computed.
+    `ring`: of a joint along a row (`shoe[i]`, `shoe[i+1]`), the last part is joined to the first; such a ring is joined
+    to nothing else and touches the machine only.
 
     `documents`: where a user's document, not the template, says what the entry joins (`joint`) or its limits (`limit`),
     that document's file name.
@@ -59,6 +66,7 @@ class JointTemplate:
     when: Choices = field(default_factory=dict)
     drive_when: Choices = field(default_factory=dict)
     documents: Mapping[str, str] = field(default_factory=dict)
+    ring: bool = False
 
 
 @dataclass(frozen=True)
@@ -185,11 +193,29 @@ class Template:
     sensors: tuple[SensorTemplate, ...] = ()
 
     def role(self, name: str) -> Role:
-        """The role of that name; `KeyError` if there is none."""
+        """The role of that name; of a row's member (`shoe_7` of `shoe[*]`) the row's, under the member's name.
+        `KeyError` if there is none."""
         for role in self.roles:
             if role.name == name:
                 return role
-        raise KeyError(name)
+        row = self.row_of(name)
+        if row is None:
+            raise KeyError(name)
+        return replace(self.role(row), name=name, many=False, row=row)
+
+    def row_of(self, name: str) -> str | None:
+        """The row that a name is a member of (`shoe_7`: `shoe`), also once it is expanded; None for any other name."""
+        row, _, number = name.rpartition("_")
+        if not number.isdigit():
+            return None
+        for role in self.roles:
+            if (role.many and role.name == row) or (role.row == row and role.name == name):
+                return row
+        return None
+
+    def knows(self, name: str) -> bool:
+        """Whether a name is a role or a member of a row."""
+        return any(role.name == name for role in self.roles) or self.row_of(name) is not None
 
     def joint(self, name: str) -> JointTemplate:
         """The joint of that name; `KeyError` if there is none."""
