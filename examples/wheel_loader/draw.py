@@ -1,8 +1,8 @@
 """Draws a wheel loader of the Komatsu WA475-10 class as one STEP assembly, and the truth about it.
 
-`python draw.py [folder]` writes `wheel_loader.step` and `truth.json`; the same bytes every time. The values
-it is drawn to are in `values.py`, where its pins are in `linkage.py`. It knows nothing of what is later made
-of the file.
+`python -m wheel_loader.draw [folder]`, run in `examples/`, writes `wheel_loader.step` and `truth.json`; the same bytes
+every time. The values it is drawn to are in `values.py`, where its pins are in `linkage.py`. It knows nothing of what
+is later made of the file.
 """
 
 from __future__ import annotations
@@ -12,9 +12,16 @@ import logging
 import sys
 from pathlib import Path
 
-import values as v
-from cylinders import Cylinder, draw_cylinder
-from frames import (
+from OCP.gp import gp_Trsf
+
+from drawing.cylinders import Cylinder, draw_cylinder
+from drawing.hardware import placed
+from drawing.planar import direction
+from drawing.product import GREY, Assembly, Use, write_step
+from drawing.solids import X, Z, frame, shift, turn
+
+from . import values as v
+from .frames import (
     PIN_C,
     PIN_E,
     PIN_STEER,
@@ -25,15 +32,11 @@ from frames import (
     draw_front_frame,
     draw_rear_frame,
 )
-from front_end import draw_boom, draw_bucket, draw_link, draw_rocker, heel_x
-from hardware import placed
-from linkage import Linkage, Pose, Steering, direction, solve, solve_steering
-from OCP.gp import gp_Trsf
-from product import GREY, Assembly, Use, write_step
-from solids import X, Z, frame, shift, turn
-from superstructure import draw_cab, draw_hood, draw_power_train, draw_sides
-from truth import truth
-from wheels import draw_front_axle, draw_rear_axle, draw_wheel
+from .front_end import draw_boom, draw_bucket, draw_link, draw_rocker, heel_x
+from .linkage import Linkage, Pose, Steering, solve, solve_steering
+from .superstructure import draw_cab, draw_hood, draw_power_train, draw_sides
+from .truth import to_cad, truth
+from .wheels import draw_front_axle, draw_rear_axle, draw_wheel
 
 LIFT_DRAWN = v.LIFT_CLOSED.value + 0.30 * v.LIFT_STROKE.value
 TILT_DRAWN = v.TILT_CLOSED.value + 0.58 * v.TILT_STROKE.value
@@ -181,7 +184,7 @@ def draw_machine() -> Assembly:
 def main(folder: Path) -> None:
     """Writes both files into `folder`."""
     root = draw_machine()
-    write_step(root, folder / "wheel_loader.step")
+    write_step(root, folder / "wheel_loader.step", cad=to_cad())
     k, pose, s = drawn_pose()
     cylinders = {"lift": lift_cylinder(), "tilt": tilt_cylinder(), "steer": steering_cylinder(s.length(0.0))}
     document = truth(root, k, pose, s, cylinders, STEER_Z, LIFT_Y)

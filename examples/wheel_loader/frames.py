@@ -6,13 +6,15 @@ axle swings on two short pins along x that hang from the rear frame's cross memb
 
 from __future__ import annotations
 
-import values as v
-from front_end import PIN_A
-from hardware import bolt, bush, fit_pin
-from linkage import Linkage, Steering
 from OCP.TopoDS import TopoDS_Shape
-from product import BLACK, GREY, STEEL, YELLOW, Assembly, Colour, Part
-from solids import X, Y, Z, bored, box, cut, fuse, mirrored, pipe, plate, ring, rod, shift, turn
+
+from drawing.hardware import bolt, bush, fit_pin
+from drawing.product import BLACK, GREY, STEEL, YELLOW, Assembly, Colour, Part
+from drawing.solids import X, Y, Z, bored, box, cut, fuse, mirrored, pipe, plate, ring, rod, shift, turn
+
+from . import values as v
+from .front_end import PIN_A
+from .linkage import Linkage, Steering
 
 HINGES = ((690.0, 770.0), (1350.0, 1430.0))
 """Heights of the front frame's lower and upper tongue."""

@@ -17,48 +17,17 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-import values as v
-from numpy.typing import NDArray
 from scipy.optimize import brentq, least_squares
 
-Point = NDArray[np.float64]
+from drawing.planar import Point, direction, meet, rot, sine, vec
+
+from . import values as v
+
 FRONT_AXLE_X = v.WHEELBASE.value / 2
 """Articulation in the middle of the wheelbase, as on the real machine."""
 TYRE_RADIUS = v.TYRE_DIAMETER.value / 2
 EDGE_DEPTH = 290.0
 """Hinge pin above the floor's underside, bucket level."""
-
-
-def _vec(x: float, z: float) -> Point:
-    return np.array([x, z], dtype=np.float64)
-
-
-def rot(angle: float, p: Point) -> Point:
-    """`p` turned by `angle` (radians, counter-clockwise) about the origin."""
-    c, s = math.cos(angle), math.sin(angle)
-    return _vec(c * p[0] - s * p[1], s * p[0] + c * p[1])
-
-
-def direction(p: Point) -> float:
-    """Angle of `p` from the x axis, radians."""
-    return math.atan2(p[1], p[0])
-
-
-def meet(p: Point, rp: float, q: Point, rq: float, side: float) -> Point:
-    """Point at `rp` from `p` and `rq` from `q`, left (+1) or right (-1) of p -> q; nearest to both when the
-    circles miss."""
-    d = float(np.hypot(*(q - p)))
-    along = (d * d + rp * rp - rq * rq) / (2 * d)
-    square = rp * rp - along * along
-    across = math.sqrt(max(0.0, square))
-    u = (q - p) / d
-    return p + along * u + side * across * _vec(-u[1], u[0])
-
-
-def sine(p: Point, corner: Point, q: Point) -> float:
-    """Signed sine of the angle p-corner-q; 0 at a dead point."""
-    a, b = p - corner, q - corner
-    return float((a[0] * b[1] - a[1] * b[0]) / (np.hypot(*a) * np.hypot(*b)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,7 +80,7 @@ class Linkage:
         return self._pose(self.boom_angle(lift), lift, tilt)
 
     def _pose(self, beta: float, lift: float, tilt: float) -> Pose:
-        b = self.A + rot(beta, _vec(self.boom, 0.0))
+        b = self.A + rot(beta, vec(self.boom, 0.0))
         g = self.A + rot(beta, self.G)
         f = meet(self.E, tilt, g, self.rocker, 1.0)
         rocker = direction(f - g)
@@ -155,13 +124,13 @@ class Linkage:
 
 LIFT_MIN, LIFT_MAX = v.LIFT_CLOSED.value, v.LIFT_CLOSED.value + v.LIFT_STROKE.value
 TILT_MIN, TILT_MAX = v.TILT_CLOSED.value, v.TILT_CLOSED.value + v.TILT_STROKE.value
-EDGE = _vec(math.sqrt(2) * (v.HINGE_HEIGHT_MAX.value - v.DUMP_CLEARANCE.value) - EDGE_DEPTH, -EDGE_DEPTH)
+EDGE = vec(math.sqrt(2) * (v.HINGE_HEIGHT_MAX.value - v.DUMP_CLEARANCE.value) - EDGE_DEPTH, -EDGE_DEPTH)
 """T in the bucket: at a 45 degree dump its height below B is (x + depth)/sqrt 2, the published hinge height
 less the clearance."""
 EDGE_GROUND_X = v.OVERALL_LENGTH.value - FRONT_AXLE_X - v.REAR_OVERHANG.value
 """x of the edge with the bucket level on the ground, from the overall length."""
-HINGE_GROUND = _vec(EDGE_GROUND_X - EDGE[0], EDGE_DEPTH)
-HINGE_MAX = _vec(
+HINGE_GROUND = vec(EDGE_GROUND_X - EDGE[0], EDGE_DEPTH)
+HINGE_MAX = vec(
     FRONT_AXLE_X + TYRE_RADIUS + v.DUMP_REACH.value - rot(math.radians(-45.0), EDGE)[0],
     v.HINGE_HEIGHT_MAX.value,
 )
@@ -186,18 +155,18 @@ _LEAST_SINE = 0.27
 
 
 def _linkage(x: Point) -> Linkage:
-    a = _vec(x[0], x[1])
+    a = vec(x[0], x[1])
     return Linkage(
         A=a,
-        C=_vec(x[2], x[3]),
-        E=_vec(x[6], x[7]),
+        C=vec(x[2], x[3]),
+        E=vec(x[6], x[7]),
         boom=float(np.hypot(*(HINGE_MAX - a))),
-        D=rot(x[5], _vec(x[4], 0.0)),
-        G=_vec(x[8], x[9]),
+        D=rot(x[5], vec(x[4], 0.0)),
+        G=vec(x[8], x[9]),
         rocker=float(x[10]),
-        H=rot(x[12], _vec(x[11], 0.0)),
+        H=rot(x[12], vec(x[11], 0.0)),
         link=float(x[13]),
-        J=_vec(x[14], x[15]),
+        J=vec(x[14], x[15]),
         T=EDGE,
     )
 
@@ -278,8 +247,8 @@ def solve_steering(p_x: float = -500.0, q_x: float = 520.0) -> Steering:
     lock, closed = math.radians(v.STEER_ANGLE.value), v.STEER_CLOSED.value
 
     def residual(y: Point) -> Point:
-        s = Steering(_vec(p_x, y[0]), _vec(q_x, y[1]))
+        s = Steering(vec(p_x, y[0]), vec(q_x, y[1]))
         return np.array([s.length(lock) - closed, s.length(-lock) - closed - v.STEER_STROKE.value])
 
     y = least_squares(residual, [300.0, 350.0], xtol=1e-15, ftol=1e-15, gtol=1e-15).x
-    return Steering(_vec(p_x, y[0]), _vec(q_x, y[1]))
+    return Steering(vec(p_x, y[0]), vec(q_x, y[1]))

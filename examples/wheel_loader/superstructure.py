@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-import values as v
-from hardware import bolt
 from OCP.TopoDS import TopoDS_Shape
-from product import AMBER, BLACK, GLASS, GREY, STEEL, YELLOW, Assembly, Colour, Part
-from solids import X, Y, Z, box, cut, fuse, mirrored, pipe, plate, ring, rod, shift, turn, turned
+
+from drawing.hardware import bolt
+from drawing.product import AMBER, BLACK, GLASS, GREY, STEEL, YELLOW, Assembly, Colour, Part
+from drawing.solids import X, Y, Z, box, cut, fuse, mirrored, pipe, plate, ring, rod, shift, turn, turned
+
+from . import values as v
 
 BODY = "rear_frame"
 DECK = 1512.0

@@ -7,10 +7,17 @@ import math
 from typing import Any
 
 import numpy as np
-import values as v
-from cylinders import Cylinder
-from hardware import placed
-from linkage import (
+from numpy.typing import NDArray
+from OCP.gp import gp_Ax3, gp_Dir, gp_Pnt, gp_Trsf
+from scipy.optimize import brentq
+
+from drawing.cylinders import Cylinder
+from drawing.hardware import placed
+from drawing.product import Assembly, Occurrence, extent, occurrences
+from drawing.solids import turn
+
+from . import values as v
+from .linkage import (
     EDGE_DEPTH,
     FRONT_AXLE_X,
     LIFT_MAX,
@@ -22,18 +29,20 @@ from linkage import (
     Pose,
     Steering,
 )
-from numpy.typing import NDArray
-from OCP.Bnd import Bnd_Box
-from OCP.BRepBndLib import BRepBndLib
-from OCP.gp import gp_Trsf
-from product import ORIGIN, Assembly, Occurrence, occurrences
-from scipy.optimize import brentq
-from solids import moved, turn
 
 Array = NDArray[np.float64]
+ORIGIN = (-v.WHEELBASE.value / 2, 0.0, v.TYRE_DIAMETER.value / 2)
+"""CAD origin in the machine frame: the middle of the rear axle, millimetres."""
 _TO_MACHINE = np.array([[-1.0, 0, 0], [0, 0, 1.0], [0, 1.0, 0]])
-"""CAD x is backward, y up, z left."""
+"""CAD x is backward, y up, z left, as the drawing office of this example has it."""
 Y, Z, X = (0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (1.0, 0.0, 0.0)
+
+
+def to_cad() -> gp_Trsf:
+    """Machine frame to CAD frame: CAD x = -x, y = z, z = y, about `ORIGIN`."""
+    t = gp_Trsf()
+    t.SetTransformation(gp_Ax3(), gp_Ax3(gp_Pnt(*ORIGIN), gp_Dir(0, 1, 0), gp_Dir(-1, 0, 0)))
+    return t
 
 
 def frame_matrix() -> list[list[float]]:
@@ -156,17 +165,6 @@ def measured(k: Linkage, s: Steering) -> dict[str, float]:
     }
 
 
-def _extent(leaves: list[Occurrence], where: gp_Trsf | None = None) -> Array:
-    """[[lowest x, y, z], [highest x, y, z]] of the parts in the machine frame, moved by `where`; exact,
-    millimetres."""
-    bounds = Bnd_Box()
-    for leaf in leaves:
-        place = where.Multiplied(leaf.place) if where else leaf.place
-        BRepBndLib.AddOptimal_s(moved(leaf.part.shape, place), bounds, False, False)
-    low, high = bounds.CornerMin(), bounds.CornerMax()
-    return np.array([[low.X(), low.Y(), low.Z()], [high.X(), high.Y(), high.Z()]])
-
-
 def drawn(root: Assembly, k: Linkage, pose: Pose) -> dict[str, float]:
     """What the drawn shapes give for the published values, by the value's name; millimetres."""
     leaves = occurrences(root)
@@ -178,34 +176,34 @@ def drawn(root: Assembly, k: Linkage, pose: Pose) -> dict[str, float]:
         return [leaf for leaf in leaves if leaf.part.name.startswith(name)]
 
     bucket, fixed = of("bucket"), of("rear_frame", "rear_axle", "front_frame")
-    tyres = _extent(named("TYRE"))
+    tyres = extent(named("TYRE"))
     at = placed((pose.B[0], 0, pose.B[1]), pose.bucket_angle).Inverted()
 
     def put(other: Pose) -> gp_Trsf:
         return placed((other.B[0], 0, other.B[1]), other.bucket_angle).Multiplied(at)
 
     ground = k.lift_for_hinge(EDGE_DEPTH)
-    level = _extent(bucket, put(k.pose(ground, k.tilt_for_angle(ground, 0.0))))
-    high = _extent(bucket, put(k.pose(LIFT_MAX, TILT_MAX)))
-    dump = _extent(bucket, put(k.pose(LIFT_MAX, k.tilt_for_angle(LIFT_MAX, math.radians(-45.0)))))
+    level = extent(bucket, put(k.pose(ground, k.tilt_for_angle(ground, 0.0))))
+    high = extent(bucket, put(k.pose(LIFT_MAX, TILT_MAX)))
+    dump = extent(bucket, put(k.pose(LIFT_MAX, k.tilt_for_angle(LIFT_MAX, math.radians(-45.0)))))
     slope = turn(Y, v.APPROACH_ANGLE_CARRY.value, (FRONT_AXLE_X, 0.0, TYRE_RADIUS))
     heel = [leaf for leaf in bucket if leaf.part.name.startswith(("WRAPPER", "HINGE EAR", "SIDE PL"))]
 
     def above(hinge: float) -> float:
-        return float(_extent(heel, slope.Multiplied(put(k.pose(k.lift_for_hinge(hinge), TILT_MAX))))[0, 2])
+        return float(extent(heel, slope.Multiplied(put(k.pose(k.lift_for_hinge(hinge), TILT_MAX))))[0, 2])
 
     return {
-        v.WHEELBASE.name: float(_extent(of("front_wheel_l")).mean(0)[0] - _extent(of("rear_wheel_l")).mean(0)[0]),
+        v.WHEELBASE.name: float(extent(of("front_wheel_l")).mean(0)[0] - extent(of("rear_wheel_l")).mean(0)[0]),
         v.WIDTH_OVER_TYRES.name: float(tyres[1, 1] - tyres[0, 1]),
         v.BUCKET_WIDTH.name: float(level[1, 1] - level[0, 1]),
-        v.OVERALL_LENGTH.name: float(level[1, 0] - _extent(fixed)[0, 0]),
+        v.OVERALL_LENGTH.name: float(level[1, 0] - extent(fixed)[0, 0]),
         v.OPERATING_HEIGHT.name: float(high[1, 2]),
         v.DUMP_CLEARANCE.name: float(dump[0, 2]),
         v.HINGE_HEIGHT_CARRY.name: float(brentq(above, 500.0, 700.0, xtol=1e-6)),
-        v.GROUND_CLEARANCE.name: float(_extent(fixed)[0, 2]),
-        v.HITCH_HEIGHT.name: float(_extent(named("HITCH PIN")).mean(0)[2]),
-        v.STACK_HEIGHT.name: float(_extent(named("EXHAUST STACK"))[1, 2]),
-        v.CAB_HEIGHT.name: float(_extent(named("ROOF"))[1, 2]),
+        v.GROUND_CLEARANCE.name: float(extent(fixed)[0, 2]),
+        v.HITCH_HEIGHT.name: float(extent(named("HITCH PIN")).mean(0)[2]),
+        v.STACK_HEIGHT.name: float(extent(named("EXHAUST STACK"))[1, 2]),
+        v.CAB_HEIGHT.name: float(extent(named("ROOF"))[1, 2]),
     }
 
 

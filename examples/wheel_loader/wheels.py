@@ -5,10 +5,11 @@ from __future__ import annotations
 
 import math
 
-import values as v
-from hardware import bolt
-from product import BLACK, GREY, STEEL, YELLOW, Assembly, Part
-from solids import X, Y, bored, box, cut, fuse, ring, rod, shift, turn, turned
+from drawing.hardware import bolt
+from drawing.product import BLACK, GREY, STEEL, YELLOW, Assembly, Part
+from drawing.solids import X, Y, bored, box, cut, fuse, ring, rod, shift, turn, turned
+
+from . import values as v
 
 SPINDLE = 190.0
 """Diameter of the spindle a wheel turns on."""

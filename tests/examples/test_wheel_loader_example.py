@@ -363,8 +363,7 @@ def test_nothing_meets_over_the_strokes(
 
 @pytest.mark.slow
 def test_drawing_again_gives_the_same_bytes(tmp_path: Path) -> None:
-    subprocess.run(
-        [sys.executable, str(FOLDER / "draw.py"), str(tmp_path)], check=True, capture_output=True, timeout=300
-    )
+    command = [sys.executable, "-m", f"{FOLDER.name}.draw", str(tmp_path)]
+    subprocess.run(command, check=True, capture_output=True, timeout=300, cwd=FOLDER.parent)
     for name in ("wheel_loader.step", "truth.json"):
         assert (tmp_path / name).read_bytes() == (FOLDER / name).read_bytes(), name

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import collections
-import functools
 import importlib
 import sys
 from dataclasses import dataclass
@@ -30,19 +29,11 @@ from OCP.XCAFDoc import XCAFDoc_DocumentTool, XCAFDoc_ShapeTool
 FOLDER = Path(__file__).resolve().parents[2] / "examples" / "wheel_loader"
 
 
-@functools.cache
 def module(name: str) -> ModuleType:
-    """A module of the example; other modules of the same plain names stay what they were."""
-    own = {path.stem for path in FOLDER.glob("*.py")}
-    kept = {other: sys.modules.pop(other) for other in own & sys.modules.keys()}
-    sys.path.insert(0, str(FOLDER))
-    try:
-        return importlib.import_module(name)
-    finally:
-        sys.path.remove(str(FOLDER))
-        for other in own:
-            sys.modules.pop(other, None)
-        sys.modules.update(kept)
+    """A module of the example's package, which is imported from the examples' folder."""
+    if str(FOLDER.parent) not in sys.path:
+        sys.path.insert(0, str(FOLDER.parent))
+    return importlib.import_module(f"{FOLDER.name}.{name}")
 
 
 @dataclass(frozen=True)

@@ -44,8 +44,10 @@ def machine(example):
 def drawing(example):
     """The example's own planar solution (millimetres); it shares no code with the package."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.syspath_prepend(str(example))
-        linkage, draw, values = (importlib.import_module(name) for name in ("linkage", "draw", "values"))
+        patch.syspath_prepend(str(example.parent))
+        linkage, draw, values = (
+            importlib.import_module(f"wheel_loader.{name}") for name in ("linkage", "draw", "values")
+        )
         yield linkage, draw, values
 
 

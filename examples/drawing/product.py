@@ -1,19 +1,21 @@
-"""The product tree of the example: parts, assemblies, and the STEP file they are written to.
+"""The product tree of an example: parts, assemblies, and the STEP file they are written to.
 
-Everything is designed in the machine frame (x forward, y left, z up; millimetres) and delivered in another:
-`TO_CAD` turns it so that CAD x points backward, y up and z left, with the origin in the middle of the rear
-axle, as the drawing office of this example has it.
+Everything is designed in the machine frame (x forward, y left, z up; millimetres) and delivered in the frame of
+the example's drawing office.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
-import values as v
-from OCP.gp import gp_Ax3, gp_Dir, gp_Pnt, gp_Trsf
+import numpy as np
+from numpy.typing import NDArray
+from OCP.Bnd import Bnd_Box
+from OCP.BRepBndLib import BRepBndLib
+from OCP.gp import gp_Trsf
 from OCP.IFSelect import IFSelect_ReturnStatus
 from OCP.Interface import Interface_Static
 from OCP.Message import Message
@@ -27,7 +29,8 @@ from OCP.TDocStd import TDocStd_Document
 from OCP.TopLoc import TopLoc_Location
 from OCP.TopoDS import TopoDS_Shape
 from OCP.XCAFDoc import XCAFDoc_ColorType, XCAFDoc_DocumentTool, XCAFDoc_ShapeTool
-from solids import moved
+
+from .solids import moved
 
 Colour = tuple[float, float, float]
 YELLOW: Colour = (0.98, 0.72, 0.07)
@@ -39,16 +42,6 @@ BRONZE: Colour = (0.72, 0.53, 0.25)
 GLASS: Colour = (0.55, 0.72, 0.80)
 RED: Colour = (0.75, 0.10, 0.08)
 AMBER: Colour = (1.0, 0.55, 0.0)
-
-ORIGIN = (-v.WHEELBASE.value / 2, 0.0, v.TYRE_DIAMETER.value / 2)
-"""CAD origin in the machine frame: the middle of the rear axle, millimetres."""
-
-
-def to_cad() -> gp_Trsf:
-    """Machine frame to CAD frame: CAD x = -x, y = z, z = y, about `ORIGIN`."""
-    t = gp_Trsf()
-    t.SetTransformation(gp_Ax3(), gp_Ax3(gp_Pnt(*ORIGIN), gp_Dir(0, 1, 0), gp_Dir(-1, 0, 0)))
-    return t
 
 
 @dataclass(eq=False)
@@ -124,12 +117,22 @@ def _walk(
             yield below, use.child, here, body, role
 
 
-def write_step(root: Assembly, path: Path) -> None:
-    """The tree as one STEP AP214 file in the CAD frame; the same bytes every time."""
+def extent(leaves: Iterable[Occurrence], where: gp_Trsf | None = None) -> NDArray[np.float64]:
+    """[[lowest x, y, z], [highest x, y, z]] of the parts in the machine frame, moved by `where`; exact,
+    millimetres."""
+    bounds = Bnd_Box()
+    for leaf in leaves:
+        place = where.Multiplied(leaf.place) if where else leaf.place
+        BRepBndLib.AddOptimal_s(moved(leaf.part.shape, place), bounds, False, False)
+    low, high = bounds.CornerMin(), bounds.CornerMax()
+    return np.array([[low.X(), low.Y(), low.Z()], [high.X(), high.Y(), high.Z()]])
+
+
+def write_step(root: Assembly, path: Path, *, cad: gp_Trsf) -> None:
+    """The tree as one STEP AP214 file, the same bytes every time; `cad` takes the machine frame to the file's."""
     document = TDocStd_Document(TCollection_ExtendedString("BinXCAF"))
     shapes = XCAFDoc_DocumentTool.ShapeTool_s(document.Main())
     colours = XCAFDoc_DocumentTool.ColorTool_s(document.Main())
-    cad = to_cad()
     made: dict[tuple[int, bool], TDF_Label] = {}
 
     def name(label: TDF_Label, text: str) -> None:

@@ -9,8 +9,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from product import CHROME, GREY, STEEL, YELLOW, Assembly, Colour, Part
-from solids import X, Y, Z, bored, box, cut, fuse, plate, ring, rod, shift
+from .product import CHROME, GREY, STEEL, YELLOW, Assembly, Colour, Part
+from .solids import X, Y, Z, bored, box, cut, fuse, plate, ring, rod, shift
 
 
 @dataclass(frozen=True, slots=True)

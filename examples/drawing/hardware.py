@@ -6,8 +6,9 @@ import functools
 import math
 
 from OCP.gp import gp_Trsf
-from product import BRONZE, GREY, STEEL, Assembly, Part
-from solids import X, Y, Z, bored, fuse, plate, ring, rod, shift, turn
+
+from .product import BRONZE, GREY, STEEL, Assembly, Part
+from .solids import X, Y, Z, bored, fuse, plate, ring, rod, shift, turn
 
 CLEARANCE = 0.2
 """Radial clearance between a pin and the bores that turn on it."""
