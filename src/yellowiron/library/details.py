@@ -39,7 +39,8 @@ QUANTITY_DIMENSION: Mapping[str, str] = {
     "speed": "speed",
     "torque": "torque",
 }
-"""What an actuator can need → its dimension. A motor's speed is the tyre's or track's at the ground."""
+"""What an actuator can need → its dimension. A motor's speed is the tyre's or track's at the ground, or its own: then
+it is of dimension angular_speed."""
 
 _MATERIAL_UNITS: Mapping[str, str] = {"density": "kg/m^3", "elasticity": "Pa"}
 """What a material states in units, and the SI ones."""
@@ -228,13 +229,21 @@ def read_actuators(document: Document, joints: tuple[JointTemplate, ...]) -> tup
                 joints=motors,
                 specifications=dict(entry.get("specifications", {})),
                 defaults={
-                    key: quantity(value, QUANTITY_DIMENSION[key], where=document.at(name, "defaults", key))
+                    key: _default(key, value, document.at(name, "defaults", key))
                     for key, value in entry.get("defaults", {}).items()
                 },
                 source=entry.get("source", ""),
             )
         )
     return tuple(actuators)
+
+
+def _default(key: str, value: float | str, where: str) -> float:
+    """An actuator's default in SI; a speed may be a turning one ("11 rpm")."""
+    dimension = QUANTITY_DIMENSION[key]
+    if dimension == "speed" and isinstance(value, str) and value.strip().endswith(("rpm", "rad/s", "deg/s")):
+        dimension = "angular_speed"
+    return quantity(value, dimension, where=where)
 
 
 def read_measurements(
