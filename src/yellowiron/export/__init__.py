@@ -1,7 +1,7 @@
 """Export: the same machine in other simulators' formats. MJCF first; the names here import what they need when used.
 
-One concept a module: `geometry` (a machine file's visuals and colliders), `convex` (concave parts as convex pieces),
-`assets` (mesh files), `mjcf` (the documents).
+One concept a module: `geometry` (a machine file's visuals and colliders), `assets` (mesh files), `mjcf` (the
+documents).
 """
 
 from __future__ import annotations

@@ -9,9 +9,9 @@ from xml.etree import ElementTree as ET
 
 import numpy as np
 
+from yellowiron.convex import convex_pieces, hull
 from yellowiron.export import sensors
 from yellowiron.export.assets import Assets, plain, unique
-from yellowiron.export.convex import convex_pieces, hull
 from yellowiron.export.geometry import BodyGeometry, Collider, Geometry, read_geometry
 from yellowiron.export.values import axes_of, minus, quaternion, row, text
 from yellowiron.model.errors import MechanismError

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 import trimesh
@@ -9,7 +11,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import small_machine
-from yellowiron.export.convex import convex_pieces, hull
+from yellowiron import convex
+from yellowiron.cache import VARIABLE, cache_folder
+from yellowiron.convex import MOST, convex_pieces, hull
 from yellowiron.model.geometry import Mesh
 
 
@@ -95,3 +99,81 @@ def test_the_same_pieces_every_time() -> None:
     tube = as_mesh(trimesh.creation.annulus(0.2, 0.25, 1.0, sections=48))
     first, second = convex_pieces(tube), convex_pieces(tube)
     assert [p.points.tobytes() for p in first] == [p.points.tobytes() for p in second]
+
+
+def test_a_fine_curved_shell_gets_few_pieces_and_stays_hollow() -> None:
+    outer, inner = trimesh.creation.icosphere(4, 0.5), trimesh.creation.icosphere(4, 0.48)
+    inner.invert()
+    pieces = convex_pieces(as_mesh(trimesh.util.concatenate([outer, inner])))
+    assert 10 < len(pieces) <= MOST
+    assert not inside(pieces, (0.0, 0.0, 0.0)) and not inside(pieces, (0.2, 0.2, 0.2))
+
+
+def test_a_finely_meshed_plate_gets_few_pieces() -> None:
+    tube = trimesh.creation.annulus(0.4, 0.5, 1.0, sections=64).subdivide().subdivide()
+    pieces = convex_pieces(as_mesh(tube))
+    assert len(pieces) <= MOST and not inside(pieces, (0.0, 0.0, 0.0))
+    assert volume(pieces) == pytest.approx(tube.volume, rel=0.1)
+
+
+def test_a_box_of_sheets_without_a_lid_stays_open() -> None:
+    box = trimesh.creation.box((1.0, 1.0, 1.0))
+    open_faces = box.faces[box.face_normals[:, 2] < 0.5]
+    pieces = convex_pieces(Mesh(np.array(box.vertices), np.array(open_faces, dtype=np.int32)))
+    assert len(pieces) == 5 and not inside(pieces, (0.0, 0.0, 0.2))
+
+
+@pytest.fixture
+def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setenv(VARIABLE, str(tmp_path / "cache"))
+    return tmp_path / "cache"
+
+
+def content(pieces: tuple[Mesh, ...]) -> list[tuple[bytes, str, bytes, str]]:
+    return [(p.points.tobytes(), p.points.dtype.str, p.triangles.tobytes(), p.triangles.dtype.str) for p in pieces]
+
+
+def never(*_: object) -> tuple[Mesh, ...]:
+    raise AssertionError("the mesh was cut again")
+
+
+def test_pieces_are_kept_by_content(cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    box = as_mesh(small_machine.open_box(0.9, 1.2, 0.4, 0.02))
+    made = content(convex_pieces(box))
+    assert len(list(cache.rglob("*.npz"))) == 1
+    monkeypatch.setattr(convex, "_cut", never)
+    assert content(convex_pieces(Mesh(box.points.copy(), box.triangles.copy()))) == made
+    with pytest.raises(AssertionError, match="cut again"):
+        convex_pieces(as_mesh(small_machine.open_box(0.9, 1.2, 0.4, 0.03)))
+
+
+def test_a_damaged_entry_is_made_anew(cache: Path) -> None:
+    box = as_mesh(small_machine.open_box(0.9, 1.2, 0.4, 0.02))
+    made = content(convex_pieces(box))
+    (entry,) = cache.rglob("*.npz")
+    good = entry.read_bytes()
+    flipped = bytearray(good)
+    flipped[len(good) // 3] ^= 0xFF
+    for damage in (b"", b"not an archive", good[: len(good) // 2], bytes(flipped)):
+        entry.write_bytes(damage)
+        assert content(convex_pieces(box)) == made
+        assert entry.read_bytes() == good
+
+
+def test_without_a_cache_folder_it_works_all_the_same(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    box = as_mesh(small_machine.open_box(0.9, 1.2, 0.4, 0.02))
+    (tmp_path / "file").write_text("in the way")
+    for folder in (tmp_path / "file" / "cache", Path("/proc/nothing")):
+        monkeypatch.setenv(VARIABLE, str(folder))
+        assert len(convex_pieces(box)) == 3
+    monkeypatch.setenv(VARIABLE, "off")
+    assert cache_folder() is None
+    assert len(convex_pieces(box)) == 3
+
+
+def test_where_the_cache_is(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv(VARIABLE)
+    monkeypatch.setenv("XDG_CACHE_HOME", "/var/somewhere")
+    assert cache_folder() == Path("/var/somewhere/yellowiron")
+    monkeypatch.setenv("XDG_CACHE_HOME", "relative")
+    assert cache_folder() == Path.home() / ".cache" / "yellowiron"

@@ -1,0 +1,77 @@
+"""What is costly to compute and follows from its inputs alone, kept on disk between runs: arrays, by content.
+
+`$YELLOWIRON_CACHE` names the folder, or is `off`; else it is `$XDG_CACHE_HOME/yellowiron`, else `~/.cache/yellowiron`.
+It may be deleted at any time. A hit gives the same arrays as a miss; an entry that cannot be read is made anew, and a
+folder that cannot be written is done without.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import tempfile
+import zipfile
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+VARIABLE = "YELLOWIRON_CACHE"
+OFF = ("off", "0", "none")
+
+Arrays = tuple[NDArray[Any], ...]
+
+
+def cache_folder() -> Path | None:
+    """Where things are kept; None: nowhere. The folder need not exist."""
+    chosen = os.environ.get(VARIABLE, "").strip()
+    if chosen.lower() in OFF:
+        return None
+    if chosen:
+        return Path(chosen)
+    base = Path(os.environ.get("XDG_CACHE_HOME", ""))
+    if base.is_absolute():  # the specification of XDG has others ignored
+        return base / "yellowiron"
+    try:
+        return Path.home() / ".cache" / "yellowiron"
+    except RuntimeError:
+        return None
+
+
+def remember(kind: str, key: str, make: Callable[[], Arrays]) -> Arrays:
+    """The arrays of `make`, from the cache where it has them. `key` must stand for everything they depend on, in
+    letters and digits (a digest); `kind` is the folder that entries of one sort lie in."""
+    folder = cache_folder()
+    if folder is None:
+        return make()
+    path = folder / kind / f"{key}.npz"
+    found = _read(path)
+    if found is None:
+        found = make()
+        _write(path, found)
+    return found
+
+
+def _read(path: Path) -> Arrays | None:
+    """None where there is no whole entry: zip archives carry a checksum of every array."""
+    try:
+        with np.load(path, allow_pickle=False) as entry:
+            return tuple(entry[f"arr_{number}"] for number in range(len(entry.files)))
+    except (OSError, ValueError, KeyError, EOFError, AttributeError, zipfile.BadZipFile):
+        return None
+
+
+def _write(path: Path, arrays: Arrays) -> None:
+    """Beside its place, then renamed into it: nobody reads half an entry."""
+    with contextlib.suppress(OSError):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        handle, name = tempfile.mkstemp(prefix=".new-", dir=path.parent)
+        try:
+            with os.fdopen(handle, "wb") as file:
+                np.savez(file, *arrays)
+            Path(name).replace(path)
+        except OSError:
+            Path(name).unlink()
+            raise
