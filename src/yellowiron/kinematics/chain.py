@@ -14,10 +14,11 @@ from dataclasses import dataclass
 import mujoco
 import numpy as np
 
+from yellowiron.kinematics.floating import attached
 from yellowiron.kinematics.multibody import build, transverse
 from yellowiron.model.errors import MechanismError
 from yellowiron.model.geometry import Floats
-from yellowiron.model.mechanism import Mechanism
+from yellowiron.model.mechanism import Mechanism, chained
 
 CLOSED = 1e-12
 """Metres: largest gap left in a loop's independent closure equations, for machines up to 10 m; it grows beyond."""
@@ -59,19 +60,26 @@ class Component:
 
 class ClosedChain:
     """The closed-chain kinematics of a mechanism, its root held still. Coordinates are 0 in the drawn pose; lengths in
-    metres, angles in radians, poses in the machine frame. Not safe for use by several threads at once."""
+    metres, angles in radians, poses in the machine frame. Not safe for use by several threads at once.
+
+    `mechanism` is what was given without its floating chains, whose bodies stay with the root as they are drawn.
+    """
 
     def __init__(self, mechanism: Mechanism) -> None:
         """Builds the model and chooses, in the drawn pose, which equations and coordinates make a square system.
 
         Raises `MechanismError` where the joints are no tree with cuts.
         """
-        self.mechanism = mechanism
+        floating = chained(mechanism)
+        self.mechanism = mechanism = attached(mechanism)
         self._body = build(mechanism)
         self._model = self._body.model
         self._data = mujoco.MjData(self._model)
         self._joints = {joint.name: joint for joint in mechanism.joints}
         self._origins = {body.name: np.array(body.origin, dtype=np.float64) for body in mechanism.bodies}
+        for name in floating:
+            self._body.bodies[name] = self._body.bodies[mechanism.root]
+            self._origins[name] = self._origins[mechanism.root]
         self._axes = {joint.name: transverse(joint.axis) for joint in mechanism.joints if joint.type in _STEP}
         self._jacobian = np.zeros((0, self._model.nv))
         self._gaps = np.zeros(0)

@@ -71,6 +71,7 @@ def complete(mechanism: Mechanism) -> Mechanism:
     """
     chain = ClosedChain(mechanism)
     work = _Work(chain, {joint.name: joint for joint in mechanism.joints})
+    whole, mechanism = mechanism, chain.mechanism
     mobility = _mobility(mechanism, work)
     grids = [explore(chain, ranges) for ranges in _ranges(work)]
     placed = [chain.placements(grid.states) for grid in grids]
@@ -83,11 +84,11 @@ def complete(mechanism: Mechanism) -> Mechanism:
     loops = _branches(mechanism, grids, placed, work)
     _gains(mechanism, grids, work)
     return replace(
-        mechanism,
-        joints=tuple(work.joints[joint.name] for joint in mechanism.joints),
-        loops=loops,
+        whole,
+        joints=tuple(work.joints[joint.name] for joint in whole.joints),
+        loops=(*loops, *(loop for loop in whole.loops if loop not in mechanism.loops)),
         mobility=mobility,
-        findings=(*mechanism.findings, *work.findings),
+        findings=(*whole.findings, *work.findings),
     )
 
 

@@ -41,6 +41,8 @@ MEC034  a body has no volume and no area; it weighs 1 kg
 MEC040  a site's place was not found
 MEC041  no plane meets the edge of an edge site; its x axis points from the hinge to the edge
 MEC050  a limit names a specification that is not known; the joint is not limited there
+MEC070  hidden wheels stand for a row of which no part is there; they are left out
+MEC071  hidden wheels would weigh more than the body that carries the track; it keeps its mass besides
 ======  ========================================================================================================
 """
 

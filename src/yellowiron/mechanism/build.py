@@ -3,20 +3,24 @@ what everything weighs."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, Protocol
 
-from yellowiron.mechanism import body, cylinders, drives, mass, sensors, sites, values
+import numpy as np
+
+from yellowiron.mechanism import body, chains, cylinders, drives, mass, sensors, sites, values
 from yellowiron.mechanism.body import vector
 from yellowiron.mechanism.cylinders import FittedCylinder
 from yellowiron.mechanism.frames import JointFrame, joint_frames, weld
+from yellowiron.mechanism.hidden import hidden_wheels, with_wheels
 from yellowiron.mechanism.placement import Placement, ancestors, place
 from yellowiron.mechanism.planarity import make_parallel
-from yellowiron.mechanism.tree import Tree, links, loop_groups, loose_bodies, span_tree
+from yellowiron.mechanism.tree import Tree, links, loop_groups, loose_bodies
 from yellowiron.model.alignment import Alignment
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import MechanismError
 from yellowiron.model.finding import Finding
+from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Drive, Joint, Mechanism, Vector
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import JointTemplate, Material, Template
@@ -62,13 +66,15 @@ def build_mechanism(
             where=assembly.name,
             hint="Give its parts that role in the alignment.",
         )
-    frames, remarks = joint_frames(placement, template)
+    wheels = hidden_wheels(placement, template, findings)
+    frames, remarks = joint_frames(placement, template, wheels)
     findings += remarks
     template = cylinders.with_leaders(template, frames, findings)
 
     # Which joints make the tree, which close its loops; axes of a loop exactly parallel.
-    frames = _weld_loose(frames, placement, template, findings)
-    tree = span_tree(template.root, links(template, frames))
+    floating = chains.heads(placement, template, frames)
+    frames = _weld_loose(frames, placement, template, floating, findings)
+    tree = chains.span(template.root, floating, links(template, frames))
     findings += _uncuttable(tree, frames)
     frames, remarks = make_parallel(frames, loop_groups(tree.loops))
     findings += remarks
@@ -77,7 +83,8 @@ def build_mechanism(
     fitted, remarks = cylinders.fit_cylinders(placement, template, frames, specifications)
     findings += remarks
     powered = drives.slide_drives(template, fitted, findings)
-    powered |= drives.motor_drives(template, frames, tree.sides, placement, specifications, findings)
+    radii = chains.pitch_radii(placement, template, frames) | {name: wheel.radius for name, wheel in wheels.items()}
+    powered |= drives.motor_drives(template, frames, tree.sides, placement, specifications, findings, radii)
     stated = drives.stated_drives(template, frames, findings)
     powered |= stated
     actuators = drives.actuators(template, frames, fitted, stated, findings)
@@ -89,9 +96,10 @@ def build_mechanism(
     moments = mass.part_moments(placement, materials, findings)
     weights = {b: sum(moments[row].mass for row in placement.rows_of_body(b)) for b in tree.bodies}
     factors = mass.reconcile(weights, template, specifications, findings)
-    bodies = body.bodies(
-        tree.bodies, _origins(tree, frames), placement, template, materials, moments, factors, collision, findings
-    )
+    drawn = [b for b in tree.bodies if b not in wheels]
+    origins = _origins(tree, frames) | {b: vector(_middle(placement, b)) for b in floating}
+    bodies = body.bodies(drawn, origins, placement, template, materials, moments, factors, collision, findings)
+    bodies = with_wheels(bodies, tree.bodies, wheels, placement, template, by_document, used, findings)
 
     # What is named and what is sensed on it.
     named = sites.sites(template, frames, placement, findings)
@@ -115,16 +123,24 @@ def build_mechanism(
         sensors=sensed,
     )
 
+        floating=floating,
 
 def _weld_loose(
-    frames: Mapping[str, JointFrame], placement: Placement, template: Template, findings: list[Finding]
+    frames: Mapping[str, JointFrame],
+    placement: Placement,
+    template: Template,
+    floating: Sequence[str],
+    findings: list[Finding],
 ) -> dict[str, JointFrame]:
-    """Frames with a weld for every group of bodies that no joint ties to the root, so that nothing falls apart."""
+    """Frames with a weld for every group of bodies that no joint ties to the root, so that nothing falls apart; save
+    the `floating` ones."""
     present = [r.name for r in template.roles if r.rigid and placement.has_body(r.name)]
     result = dict(frames)
     for loose in loose_bodies(template.root, present, links(template, frames)):
         above = [r.name for r in ancestors(template, loose)[1:] if r.rigid and placement.has_body(r.name)]
         holder = above[0] if above else template.root
+        if loose in floating:
+            continue
         joint = JointTemplate(f"{holder}2{loose}_weld_joint", "fixed", (holder, loose))
         result[joint.name] = weld(joint, (holder, loose), placement, method="weld: no joint leads to this body")
         words = f"No joint leads to the body '{loose}': it was welded to '{holder}'."
@@ -206,3 +222,9 @@ def _origins(tree: Tree, frames: Mapping[str, JointFrame]) -> dict[str, Vector]:
     """Each body's origin: the joint that leads to it; the root's is the machine's."""
     origins: dict[str, Vector] = dict.fromkeys(tree.bodies, (0.0, 0.0, 0.0))
     return origins | {b: vector(frames[joint].anchor) for b, joint in tree.leading.items()}
+
+
+def _middle(placement: Placement, name: str) -> Floats:
+    """The middle of the box around a body's points."""
+    points = placement.points_of(placement.rows_of_body(name))
+    return np.asarray(0.5 * (points.min(axis=0) + points.max(axis=0)), dtype=np.float64)

@@ -35,7 +35,8 @@ class Choice(Generic[Entry]):
         return self._by_role[role]
 
     def _of_role(self, role: str | None) -> tuple[Entry, str] | None:
-        names = [*(r.name for r in ancestors(self._template, role)), "*"]
+        above = ancestors(self._template, role)
+        names = [*(name for r in above for name in (r.name, r.row) if name), "*"]
         for name in names:
             for entries, origin in ((self._documents, "data"), (self._own, "template")):
                 if (key := fold(name)) in entries:

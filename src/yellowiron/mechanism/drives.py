@@ -80,17 +80,25 @@ def motor_drives(
     placement: Placement,
     specifications: Specifications,
     findings: list[Finding],
+    radii: Mapping[str, float] | None = None,
 ) -> dict[str, Drive]:
-    """The velocity drive of every motor joint, by joint name. `sides` gives each joint's (body0, body1)."""
+    """The velocity drive of every motor joint, by joint name. `sides` gives each joint's (body0, body1); `radii` are
+    those of bodies whose parts do not show it, metres."""
     drives = {}
+    pulling = _pulling(template, frames)
     for actuator in template.actuators:
         joints = [frames[name] for name in actuator.joints if name in frames]
         torque = _value(actuator, "torque", specifications, findings) if joints else None
         top = _value(actuator, "speed", specifications, findings) if joints else None
         for frame in joints:
             moved = sides[frame.joint.name][1]
-            speed = _angular(top, actuator, template, frame, placement, moved)
-            turning = _share_of_pull(torque, len(joints), actuator, template, frame, placement, moved)
+            rim = (radii or {}).get(moved) or _rim(frame, placement, moved)
+            speed = _angular(top, actuator, template, rim)
+            share = pulling.get(fold(actuator.specifications.get("torque", "")), len(joints))
+            turning = _share_of_pull(torque, share, actuator, template, rim)
+            if turning is not None and turning.source == DEFAULT and template.role(moved).hidden:
+                # The default is the one motor's whose place they take together.
+                turning = Known(turning.value / len(joints), DEFAULT)
             drives[frame.joint.name] = _motor_drive(frame.joint, turning, speed, actuator, findings)
     return drives
 
@@ -164,19 +172,20 @@ def actuators(
     return tuple(result)
 
 
-def _angular(
-    top: Known | None,
-    actuator: ActuatorTemplate,
-    template: Template,
-    frame: JointFrame,
-    placement: Placement,
-    moved: str,
-) -> Known | None:
+def _pulling(template: Template, frames: Mapping[str, JointFrame]) -> dict[str, int]:
+    """Specification of a torque → how many joints share it: those of all the motors that name it (both tracks')."""
+    joints: dict[str, set[str]] = {}
+    for actuator in template.actuators:
+        name = fold(actuator.specifications.get("torque", ""))
+        joints.setdefault(name, set()).update(j for j in actuator.joints if j in frames)
+    return {name: len(found) for name, found in joints.items()}
+
+
+def _angular(top: Known | None, actuator: ActuatorTemplate, template: Template, radius: float) -> Known | None:
     """A motor's top speed in rad/s: as it is, or that of the ground under the moved body's rim where it is wanted as
     such."""
     if top is None or not _wanted_as(actuator, "speed", "speed", template):
         return top
-    radius = _rim(frame, placement, moved)
     return Known(top.value / radius, f"{top.source}, at a radius of {radius:.3f} m") if radius > 0.0 else None
 
 
@@ -185,14 +194,11 @@ def _share_of_pull(
     joints: int,
     actuator: ActuatorTemplate,
     template: Template,
-    frame: JointFrame,
-    placement: Placement,
-    moved: str,
+    radius: float,
 ) -> Known | None:
     """A motor's torque: as it is, or its share of a pull at the ground (rimpull) where it is wanted as such."""
     if torque is None or torque.source == DEFAULT or not _wanted_as(actuator, "torque", "force", template):
         return torque
-    radius = _rim(frame, placement, moved)
     return Known(torque.value * radius / joints, f"{torque.source}, 1/{joints} of it at a radius of {radius:.3f} m")
 
 

@@ -14,10 +14,14 @@ import numpy as np
 
 from yellowiron.mechanism.axes import Line, machine_sense
 from yellowiron.mechanism.bearings import Bearing, outline_bearing, pin_bearing, shared_bearing, slide_bearing
+from yellowiron.mechanism.hidden import HiddenWheel
 from yellowiron.mechanism.placement import Placement
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
 from yellowiron.model.template import JointTemplate, Template
+
+WHEELS = ("wheel", "sprocket", "idler", "roller", "carrier")
+"""Kinds of roles that turn about their own axis of symmetry."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,12 +39,20 @@ class JointFrame:
     exact: bool = True
 
 
-def joint_frames(placement: Placement, template: Template) -> tuple[dict[str, JointFrame], list[Finding]]:
-    """The frame of every joint that has one, by name in template order, and what is wrong with the others."""
+def joint_frames(
+    placement: Placement, template: Template, hidden: Mapping[str, HiddenWheel] | None = None
+) -> tuple[dict[str, JointFrame], list[Finding]]:
+    """The frame of every joint that has one, by name in template order, and what is wrong with the others. `hidden`
+    wheels bring their own."""
     findings: list[Finding] = []
     pivots: dict[str, JointFrame] = {}
     slides: list[tuple[JointTemplate, tuple[str, str]]] = []
+    made = {r.name for r in template.roles if r.hidden}
     for joint in template.joints:
+        if made & set(joint.parts):
+            if (frame := _axle(joint, template, hidden or {})) is not None:
+                pivots[joint.name] = frame
+            continue
         bodies = _bodies(joint, placement, template, findings)
         if bodies is None:
             continue
@@ -55,6 +67,16 @@ def joint_frames(placement: Placement, template: Template) -> tuple[dict[str, Jo
         if (frame := _slide(joint, bodies, placement, template, pivots, findings)) is not None:
             found[joint.name] = frame
     return {j.name: found[j.name] for j in template.joints if j.name in found}, findings
+
+
+def _axle(joint: JointTemplate, template: Template, hidden: Mapping[str, HiddenWheel]) -> JointFrame | None:
+    """The axle of a hidden wheel; None for one that was not made."""
+    wheel = next((hidden[part] for part in joint.parts if part in hidden), None)
+    first, second = template.bodies_of(joint)
+    if wheel is None or first is None or second is None:
+        return None
+    source = {"template": joint.name, "method": "hidden wheel: across the machine, over the track on the ground"}
+    return JointFrame(joint, (first, second), wheel.center, wheel.axis, 0.0, source)
 
 
 def weld(joint: JointTemplate, bodies: tuple[str, str], placement: Placement, *, method: str) -> JointFrame:
@@ -98,7 +120,7 @@ def _pivot(
 ) -> JointFrame | None:
     """A pivot: on its pin, else on the bores both bodies have; a wheel without either on its own axis of symmetry."""
     pins = [row for part in joint.parts if not template.role(part).rigid for row in placement.rows_of_role(part)]
-    wheel = next((part for part in joint.parts if template.role(part).kind == "wheel"), None)
+    wheel = next((part for part in joint.parts if template.role(part).kind in WHEELS), None)
     bearing = pin_bearing(placement, pins, bodies) or shared_bearing(placement, bodies)
     if bearing is None and wheel is not None:
         bearing = outline_bearing(placement, placement.rows_of_body(wheel))

@@ -112,11 +112,16 @@ def part_materials(
     choice = Choice(template, by_document, template.materials)
     for part, role in zip(placement.parts, placement.roles, strict=True):
         material, source = choice.of(part.name, role) or (Material("steel", density=STEEL), "default")
-        key, number = material.name, 2
-        while keys.setdefault(key, material) != material:
-            key, number = f"{material.name} {number}", number + 1
-        chosen.append(PartMaterial(key, material, source))
+        chosen.append(PartMaterial(key_of(material, keys), material, source))
     return tuple(chosen), keys
+
+
+def key_of(material: Material, keys: dict[str, Material]) -> str:
+    """The key of a material among those in use, to which it is added: its name, numbered where two differ."""
+    key, number = material.name, 2
+    while keys.setdefault(key, material) != material:
+        key, number = f"{material.name} {number}", number + 1
+    return key
 
 
 def part_moments(

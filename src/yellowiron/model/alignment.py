@@ -35,7 +35,8 @@ class Alignment:
     """Every part's role. `frame` (4, 4) takes CAD metres to the machine frame (DESIGN: frames).
 
     `choices` are the template's variants as found in the CAD (`{"lift_cylinders": "twin"}`); `missing` lists roles
-    that the template requires and no part plays; `to_review` the part ids and roles a person should look at.
+    that the template requires and no part plays; `to_review` the part ids and roles a person should look at. `counts`:
+    row of the template → how many parts it has (`rows.expand` makes them concrete).
     """
 
     equipment_type: str
@@ -45,6 +46,7 @@ class Alignment:
     missing: tuple[str, ...] = ()
     to_review: tuple[str, ...] = ()
     findings: tuple[Finding, ...] = ()
+    counts: Mapping[str, int] = field(default_factory=dict)
 
     def parts_of_body(self, body: str) -> tuple[str, ...]:
         """Ids of the parts that move with a body, in CAD order."""

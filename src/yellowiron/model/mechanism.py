@@ -28,11 +28,23 @@ class BodyPart:
     source: str = ""
 
 
+@dataclass(frozen=True)
+class BodyShape:
+    """A collider that no CAD part has: a ball of `radius` metres about `center` (machine frame, drawn pose), of a
+    material among `Mechanism.materials`."""
+
+    name: str
+    center: Vector
+    radius: float
+    material: str = ""
+
+
 @dataclass(frozen=True, eq=False)
 class Body:
     """A rigid body. `origin` is its frame's origin (axes parallel to the machine's in the drawn pose);
     `center_of_mass` and `inertia` (3, 3, kg·m² about the centre of mass) are in the machine frame. `hull` (n, 3):
-    corners of the convex hulls of its parts in the machine frame, for extents and ground contact."""
+    corners of the convex hulls of its parts in the machine frame, for extents and ground contact. `shapes` are
+    colliders of its own: a hidden wheel has no parts."""
 
     name: str
     origin: Vector
@@ -42,6 +54,7 @@ class Body:
     parts: tuple[BodyPart, ...]
     hull: Floats
     source: str = ""
+    shapes: tuple[BodyShape, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -164,7 +177,10 @@ class Mobility:
 @dataclass(frozen=True, eq=False)
 class Mechanism:
     """The whole machine. `root` is the articulation's root body; `measurements` are the template's, carried along so
-    that the USD file can be measured alone; `specifications` maps wanted names to SI values for the same reason."""
+    that the USD file can be measured alone; `specifications` maps wanted names to SI values for the same reason.
+
+    `floating` are the first bodies of chains that no joint ties to the root (rings of track shoes): with what hangs on
+    them they lie on the machine, touch it and are no part of its articulation."""
 
     name: str
     equipment_type: str
@@ -181,6 +197,7 @@ class Mechanism:
     mobility: Mobility | None = None
     findings: tuple[Finding, ...] = ()
     sensors: tuple[Sensor, ...] = ()
+    floating: tuple[str, ...] = ()
 
     def body(self, name: str) -> Body:
         """The body of that name; `KeyError` if there is none."""
@@ -195,6 +212,17 @@ class Mechanism:
             if joint.name == name:
                 return joint
         raise KeyError(name)
+
+
+def chained(mechanism: Mechanism) -> frozenset[str]:
+    """The bodies of the floating chains, over their joints that are not cut."""
+    found = set(mechanism.floating)
+    grown = bool(found)
+    while grown:
+        more = {j.body1 for j in mechanism.joints if not j.cut and j.body0 in found} - found
+        found |= more
+        grown = bool(more)
+    return frozenset(found)
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,141 @@
+"""Tracks as they come: shoes in rings that float, hidden wheels that carry, and an undercarriage that stands."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from crawler import PITCH_RADIUS, Crawler, crawler
+from tracked_template import write_tracked_template
+from yellowiron import kinematics
+from yellowiron.library import load_template
+from yellowiron.mechanism import build_mechanism
+from yellowiron.model.mechanism import Mechanism, chained
+from yellowiron.model.rows import expand
+from yellowiron.model.specification import Specification, Specifications
+from yellowiron.model.template import Template, choose
+
+SHEET = {"Drawbar Pull": (203e3, "N"), "Maximum Travel Speed": (1.5, "m/s")}
+
+
+@pytest.fixture(scope="module")
+def drawn() -> Crawler:
+    return crawler(36)
+
+
+@pytest.fixture(scope="module")
+def template(tmp_path_factory: pytest.TempPathFactory) -> Template:
+    return load_template(write_tracked_template(tmp_path_factory.mktemp("crawler")))
+
+
+def build(drawn: Crawler, template: Template, tracks: str) -> Mechanism:
+    aligned = drawn.aligned(shoes=tracks == "shoes")
+    chosen = expand(choose(template, {"tracks": tracks}), aligned.counts)
+    sheet = Specifications({k: Specification(k, v, u, "ok", "sheet") for k, (v, u) in SHEET.items()})
+    return kinematics.complete(build_mechanism(drawn.assembly(), chosen, aligned, sheet, name="crawler"))
+
+
+@pytest.fixture(scope="module")
+def shoes(drawn: Crawler, template: Template) -> Mechanism:
+    return build(drawn, template, "shoes")
+
+
+@pytest.fixture(scope="module")
+def belt(drawn: Crawler, template: Template) -> Mechanism:
+    return build(drawn, template, "belt")
+
+
+def test_shoes_turn_about_their_pins(shoes: Mechanism, drawn: Crawler) -> None:
+    for side in "lr":
+        for k in range(drawn.shoes):
+            joint = shoes.joint(f"track_shoe_{side}2track_shoe_{side}_joint_{k + 1}")
+            pin = drawn.pins[side][(k + 1) % drawn.shoes]
+            assert {joint.body0, joint.body1} == {f"track_shoe_{side}_{i}" for i in (k + 1, (k + 1) % drawn.shoes + 1)}
+            assert np.abs(np.array(joint.axis) - (0, 1, 0)).max() < 1e-9
+            assert math.dist((joint.anchor[0], joint.anchor[2]), (pin[0], pin[2])) < 1e-9
+
+
+def test_each_ring_floats_with_one_cut(shoes: Mechanism, drawn: Crawler) -> None:
+    assert shoes.floating == ("track_shoe_l_1", "track_shoe_r_1")
+    assert len(chained(shoes)) == 2 * drawn.shoes
+    rings = [loop for loop in shoes.loops if "shoe" in loop.cut]
+    assert [len(loop.joints) for loop in rings] == [drawn.shoes, drawn.shoes]
+    assert {j.name for j in shoes.joints if j.cut} == {loop.cut for loop in rings}
+    leading = [j.body1 for j in shoes.joints if not j.cut]
+    assert len(leading) == len(set(leading)) == len(shoes.bodies) - 3
+
+
+def test_rings_do_not_count_as_freedom(shoes: Mechanism) -> None:
+    assert shoes.mobility is not None
+    assert shoes.mobility.computed == shoes.mobility.expected == 1 + 2 * (1 + 1 + 5 + 2)
+    assert not [f for f in shoes.findings if f.severity == "error"]
+
+
+def test_the_sprocket_drives_at_the_pitch_circle(shoes: Mechanism) -> None:
+    drive = shoes.joint("undercarriage2sprocket_l_joint").drive
+    assert drive is not None
+    assert drive.max_velocity == pytest.approx(1.5 / PITCH_RADIUS, rel=1e-6)
+    # Two tracks share the pull.
+    assert drive.max_force == pytest.approx(203e3 / 2 * PITCH_RADIUS, rel=1e-6)
+
+
+def test_wheels_turn_about_their_axles(shoes: Mechanism, drawn: Crawler) -> None:
+    for role, at in drawn.axles.items():
+        joint = next(j for j in shoes.joints if j.body1 == role)
+        assert joint.body0 == "undercarriage"
+        assert math.dist((joint.anchor[0], joint.anchor[2]), (at[0], at[2])) < 1e-9, role
+
+
+def test_hidden_wheels_stand_on_the_ground(belt: Mechanism, drawn: Crawler) -> None:
+    length = drawn.pins["l"][:, 0].max() - drawn.pins["l"][:, 0].min() - 2 * PITCH_RADIUS
+    for side, y in (("l", 1.2), ("r", -1.2)):
+        wheels = [belt.body(f"track_wheel_{side}_{k}") for k in (1, 2, 3)]
+        for wheel, at in zip(wheels, (0.2, 0.0, -0.2), strict=True):
+            (ball,) = wheel.shapes
+            assert ball.center[1] == pytest.approx(y, abs=1e-9)
+            assert ball.center[2] == pytest.approx(ball.radius, abs=1e-9)
+            assert ball.center[0] == pytest.approx(at * length, abs=0.05)
+            joint = next(j for j in belt.joints if j.body1 == wheel.name)
+            assert joint.axis == (0.0, 1.0, 0.0)
+            assert joint.drive is not None
+            assert joint.drive.max_velocity == pytest.approx(1.5 / ball.radius)
+            assert joint.drive.max_force == pytest.approx(203e3 / 6 * ball.radius)
+            assert joint.drive.kind == "velocity"
+    assert not {p.collision for b in belt.bodies for p in b.parts if (p.role or "").startswith("track_shoe")} - {"none"}
+
+
+def whole(mechanism: Mechanism) -> tuple[float, np.ndarray, np.ndarray]:
+    mass = sum(b.mass for b in mechanism.bodies)
+    center = sum(b.mass * np.array(b.center_of_mass) for b in mechanism.bodies) / mass
+    inertia = np.zeros((3, 3))
+    for b in mechanism.bodies:
+        arm = np.array(b.center_of_mass) - center
+        inertia += b.inertia + b.mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+    return mass, center, inertia
+
+
+def test_the_machine_weighs_the_same(drawn: Crawler, template: Template, belt: Mechanism, shoes: Mechanism) -> None:
+    fixed = whole(build(drawn, template, "fixed"))
+    for other in (belt, shoes):
+        mass, center, inertia = whole(other)
+        assert mass == pytest.approx(fixed[0], rel=1e-12)
+        assert np.abs(center - fixed[1]).max() < 1e-9
+        assert np.abs(inertia - fixed[2]).max() < 1e-6 * np.abs(fixed[2]).max()
+    tracks = sum(b.mass for b in shoes.bodies if "shoe" in b.name)
+    wheels = [b for b in belt.bodies if "track_wheel" in b.name]
+    assert sum(b.mass for b in wheels) == pytest.approx(tracks)
+    # Rolling at v they turn with the energy of a chain that runs around with v.
+    turning = sum(b.inertia[1, 1] / b.shapes[0].radius ** 2 for b in wheels)
+    assert turning == pytest.approx(tracks)
+
+
+def test_a_track_that_is_not_there(drawn: Crawler, template: Template) -> None:
+    aligned = drawn.aligned(shoes=False)
+    kept = [p for p in aligned.parts if "shoe_l" not in (p.role or "")]
+    aligned = type(aligned)(**{**vars(aligned), "parts": tuple(kept)})
+    chosen = expand(choose(template, {}), aligned.counts)
+    found = build_mechanism(drawn.assembly(), chosen, aligned, Specifications(), name="crawler")
+    assert "MEC070" in {f.code for f in found.findings}
+    assert sum("track_wheel" in b.name for b in found.bodies) == 3
