@@ -22,7 +22,7 @@ from OCP.TopAbs import TopAbs_FACE, TopAbs_SHELL, TopAbs_SOLID
 from OCP.TopExp import TopExp_Explorer
 from OCP.TopoDS import TopoDS
 
-from yellowiron.cad import features, meshed
+from yellowiron.cad import facets, features, meshed
 from yellowiron.cad.tessellate import MILLIMETRE, mesh_of
 from yellowiron.model.geometry import Color, Floats, Shape
 
@@ -256,6 +256,7 @@ def finish(body: Body) -> tuple[Shape, int]:
     if exact and body.closed and not 0.0 < body.volume <= float(np.prod(body.box[1] - body.box[0])) * (1.0 + 1e-6):
         volume, centroid, inertia = meshed.volume_properties(mesh)
         exact = False
+    found = facets.find(mesh) if body.tessellated and len(mesh.triangles) else None
     shape = Shape(
         key=body.key,
         name=body.name,
@@ -267,8 +268,8 @@ def finish(body: Body) -> tuple[Shape, int]:
         closed=body.closed,
         exact=exact,
         color=body.color,
-        cylinders=features.cylinders(body.survey),
-        planes=features.planes(body.survey),
+        cylinders=features.cylinders(body.survey) if found is None else found.cylinders,
+        planes=features.planes(body.survey) if found is None else found.planes,
         bounds=body.box * MILLIMETRE,
     )
     return shape, missing

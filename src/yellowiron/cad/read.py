@@ -16,7 +16,8 @@ Findings:
 | CAD008 | error    | files that the file refers to are missing                                                  |
 | CAD009 | warning, info | the unit of length is unknown; units are mixed                                        |
 | CAD010 | info     | names are not in a standard encoding, and which was taken                                  |
-| CAD011 | info     | a body of triangles without surfaces: no exact measures, no features                       |
+| CAD011 | info     | a body of triangles without surfaces: its measures are theirs, its cylinders are fitted    |
+| CAD012 | info     | textures are not read                                                                      |
 """
 
 from __future__ import annotations
@@ -28,18 +29,28 @@ from yellowiron.guard import run_guarded
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import CadError
 
+_READERS = {
+    "STEP": "yellowiron.cad.step:read_step",
+    "GLB": "yellowiron.cad.gltf:read_gltf",
+    "glTF": "yellowiron.cad.gltf:read_gltf",
+    "STL": "yellowiron.cad.stl:read_stl",
+    "OBJ": "yellowiron.cad.obj:read_obj",
+}
+"""Format → the function that reads it, in the child process."""
+
 
 def read_cad(path: str | Path, *, timeout_s: float = 600.0, memory_mb: int = 8192) -> Assembly:
     """The assembly in a CAD file, in metres, in the file's own frame.
 
-    STEP (AP203, AP214, AP242) is read. The reader may take `timeout_s` seconds and `memory_mb` MB. `CadError` for a
-    file that is missing, empty, damaged, of no or of an unreadable CAD format, or without a part in it.
+    STEP (AP203, AP214, AP242), GLB, glTF, STL and OBJ are read; cylinders and planes of triangles are fitted to them.
+    The reader may take `timeout_s` seconds and `memory_mb` MB. `CadError` for a file that is missing, empty, damaged,
+    of no or of an unreadable CAD format, or without a part in it.
     """
     source = Path(path)
-    sniff.require_step(source)
+    kind = sniff.format_of(source)
     try:
         assembly: Assembly = run_guarded(
-            "yellowiron.cad.step:read_step",
+            _READERS[kind],
             str(source),
             where=str(source),
             error=CadError,
@@ -48,7 +59,8 @@ def read_cad(path: str | Path, *, timeout_s: float = 600.0, memory_mb: int = 819
         )
     except CadError as error:
         # What the reader says itself is better than a guess; a crash or hang says nothing.
-        cause = part21.diagnose(source.read_bytes()) if error.message.startswith("The reader") else ""
+        silent = kind == "STEP" and error.message.startswith("The reader")
+        cause = part21.diagnose(source.read_bytes()) if silent else ""
         if not cause:
             raise
         symptom = error.message[0].lower() + error.message[1:]

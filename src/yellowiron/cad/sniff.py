@@ -38,7 +38,7 @@ _PROPRIETARY: dict[str, tuple[str, str]] = {
 }
 """Formats without an open reader, by extension: name and how to export."""
 
-_LATER = {
+_OPEN = {
     ".glb": "GLB",
     ".gltf": "glTF",
     ".stl": "STL",
@@ -59,16 +59,19 @@ _LATER = {
     ".blend": "Blender",
     ".brep": "BREP",
 }
-"""Formats that other versions may read, by extension."""
+"""Open formats by extension, read here or by other versions."""
+READABLE = ("STEP", "GLB", "glTF", "STL", "OBJ")
+"""The formats that are read here, by the names that `format_of` gives."""
 
+_OBJ_LINE = re.compile(rb"^[ \t]*(?:v|vn|vt|f|o|g|mtllib|usemtl)[ \t]", re.MULTILINE)
 _STEP_XML = re.compile(rb"urn:oid:1\.0\.10303|<\s*(?:\w+:)?Uos\b|iso_10303_28")
 
 
-def require_step(path: Path) -> None:
-    """Returns if the file is STEP (ISO 10303-21); otherwise `CadError` says what it is and what to do."""
+def format_of(path: Path) -> str:
+    """Which of the `READABLE` formats a file has; for any other `CadError` says what it is and what to do."""
     head = _head(path)
     if _is_step(head):
-        return
+        return "STEP"
     if head.startswith(_BOM) and _is_step(head.removeprefix(_BOM)):
         raise CadError(
             "The STEP file starts with a byte-order mark, which STEP does not have",
@@ -76,9 +79,11 @@ def require_step(path: Path) -> None:
             hint="Save it again as plain text or UTF-8 without a signature.",
         )
     name, hint = recognise(head, path)
-    if name in _LATER.values():
+    if name in READABLE:
+        return name
+    if name in _OPEN.values():
         raise CadError(
-            f"This is a {name} file, and this version reads STEP only",
+            f"This is a {name} file, and this version reads {', '.join(READABLE[:-1])} and {READABLE[-1]} only",
             where=str(path),
             hint="Export the model as STEP AP214 or AP242 from the program that made it.",
         )
@@ -97,7 +102,7 @@ def require_step(path: Path) -> None:
     raise CadError(
         "This is no CAD file that is known here",
         where=str(path),
-        hint="Give a STEP file (AP203, AP214 or AP242: .step, .stp).",
+        hint="Give a STEP file (AP203, AP214 or AP242: .step, .stp), or triangles (.glb, .gltf, .stl, .obj).",
     )
 
 
@@ -133,8 +138,8 @@ def recognise(head: bytes, path: Path) -> tuple[str, str]:
         return by_content
     if suffix in _PROPRIETARY and not _is_text(head):
         return _PROPRIETARY[suffix]
-    if suffix in _LATER and _may_be(suffix, head):
-        return _LATER[suffix], ""
+    if suffix in _OPEN and _may_be(suffix, head):
+        return _OPEN[suffix], ""
     return "", ""
 
 
@@ -216,6 +221,10 @@ def _may_be(suffix: str, head: bytes) -> bool:
     """False where an extension is a lie, as far as a few bytes can tell."""
     if suffix == ".stl":
         return head.lstrip().startswith(b"solid") or (len(head) >= 84 and not _is_text(head))
-    if suffix in (".obj", ".ply", ".dxf", ".gltf", ".dae", ".ifc", ".brep"):
+    if suffix == ".gltf":
+        return head.lstrip(_BOM + b" \t\r\n").startswith(b"{")
+    if suffix == ".obj":
+        return _is_text(head) and _OBJ_LINE.search(head) is not None
+    if suffix in (".ply", ".dxf", ".dae", ".ifc", ".brep"):
         return _is_text(head)
     return True

@@ -237,7 +237,7 @@ def _shapes(bodies: Sequence[brep.Body]) -> tuple[dict[str, Shape], list[Finding
             )
         if body.tessellated:
             findings.append(
-                Finding("CAD011", "info", body.name, "Triangles without surfaces: no exact measures, no features")
+                Finding("CAD011", "info", body.name, "Triangles without surfaces: its cylinders are fitted to them")
             )
         elif not shape.exact:
             findings.append(

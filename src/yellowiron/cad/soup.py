@@ -1,0 +1,99 @@
+"""A triangle mesh with what stands beside what: welded corners, normals, and the edges between two triangles."""
+
+from __future__ import annotations
+
+import functools
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from yellowiron.cad import meshed
+from yellowiron.model.geometry import Floats, Mesh
+
+Indices = NDArray[np.int64]
+Flags = NDArray[np.bool_]
+
+
+@dataclass(frozen=True, eq=False)
+class Soup:
+    """Triangles `corners` (m, 3) of `points`, their unit `normals` and `areas`; and the `edges` (k, 2) of exactly two
+    triangles each that face the same way: the `pair` (k, 2) of triangles, their corners `opposite` (k, 2) the edge, the
+    `angle` (k,) between their normals in radians, and whether the fold is `concave`. Metres.
+
+    `rounding`: what the coordinates may be off by; `size`: the diagonal.
+    """
+
+    points: Floats
+    corners: Indices
+    normals: Floats
+    areas: Floats
+    middles: Floats
+    edges: Indices
+    pair: Indices
+    opposite: Indices
+    angle: Floats
+    concave: Flags
+    size: float
+    rounding: float
+
+    @functools.cached_property
+    def tree(self) -> cKDTree:
+        """The triangles' middles, to look things up by place."""
+        return cKDTree(self.middles)
+
+
+def soup_of(mesh: Mesh) -> Soup:
+    """The triangles of a mesh, its coincident points made one; those that lose their area by it are left out."""
+    number = meshed.welded(mesh)
+    points = np.zeros((int(number.max()) + 1, 3))
+    points[number[::-1]] = mesh.points[::-1]
+    corners = number[mesh.triangles]
+    cross = np.cross(points[corners[:, 1]] - points[corners[:, 0]], points[corners[:, 2]] - points[corners[:, 0]])
+    twice = np.linalg.norm(cross, axis=1)
+    low, high = meshed.bounds(mesh)
+    size = float(np.linalg.norm(high - low))
+    good = twice > 1e-14 * size**2
+    corners, cross, twice = corners[good], cross[good], twice[good]
+    normals = cross / twice[:, None]
+    edges, pair, opposite = _edges(corners)
+    dot = np.clip(np.einsum("ij,ij->i", normals[pair[:, 0]], normals[pair[:, 1]]), -1.0, 1.0)
+    over = points[opposite[:, 1]] - points[edges[:, 0]]
+    largest = float(np.abs(mesh.points).max()) if len(mesh.points) else 0.0
+    return Soup(
+        points=points,
+        corners=corners,
+        normals=normals,
+        areas=0.5 * twice,
+        middles=points[corners].mean(axis=1),
+        edges=edges,
+        pair=pair,
+        opposite=opposite,
+        angle=np.arccos(dot),
+        concave=np.einsum("ij,ij->i", over, normals[pair[:, 0]]) > 0.0,
+        size=size,
+        rounding=2.0 * float(np.finfo(np.float32).eps) * largest,
+    )
+
+
+def _edges(corners: Indices) -> tuple[Indices, Indices, Indices]:
+    """(edges, pair, opposite) of the edges that two triangles run through in opposite directions, and no third."""
+    count = len(corners)
+    start = np.concatenate([corners[:, 0], corners[:, 1], corners[:, 2]])
+    end = np.concatenate([corners[:, 1], corners[:, 2], corners[:, 0]])
+    far = np.concatenate([corners[:, 2], corners[:, 0], corners[:, 1]])
+    face = np.tile(np.arange(count), 3)
+    low, high = np.minimum(start, end), np.maximum(start, end)
+    order = np.lexsort((face, start != low, high, low))
+    low, high, start, face, far = low[order], high[order], start[order], face[order], far[order]
+    same = np.zeros(len(low) + 1, dtype=bool)
+    same[1:-1] = (low[1:] == low[:-1]) & (high[1:] == high[:-1])
+    first = np.flatnonzero(~same[:-1] & same[1:])
+    first = first[~same[np.minimum(first + 2, len(same) - 1)]]
+    first = first[start[first] != start[first + 1]]
+    return (
+        np.stack([low[first], high[first]], axis=1),
+        np.stack([face[first], face[first + 1]], axis=1),
+        np.stack([far[first], far[first + 1]], axis=1),
+    )
