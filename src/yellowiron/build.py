@@ -16,6 +16,7 @@ from yellowiron import align, cad, check, kinematics, library, mechanism, report
 from yellowiron.model.alignment import Alignment
 from yellowiron.model.mechanism import Measurement, Mechanism
 from yellowiron.model.specification import Specifications
+from yellowiron.model.sweep import Sweep
 from yellowiron.model.template import choose
 from yellowiron.output import output_folder
 
@@ -124,10 +125,11 @@ def build(
         with clock.stage("check", "Checking what was written"):
             checked = check.check(folder / "scene.usda")
 
-        simulation = {}
+        simulation, sweeps = {}, {}
         if engines:
             with clock.stage("simulate", "Driving the machine"):
-                simulation = {engine: driven(folder / f"{machine.name}.usda", engine, progress) for engine in engines}
+                for engine in engines:
+                    simulation[engine], sweeps[engine] = driven(folder / f"{machine.name}.usda", engine, progress)
 
         with clock.stage("report", "Writing the report"):
             document = report.report_document(
@@ -145,7 +147,7 @@ def build(
             align.write_alignment(alignment, assembly, folder / "alignment.json")
             page = report.page(
                 document, machine, assembly, alignment,
-                poses=kinematics.key_poses(machine), tables=kinematics.pose_tables(machine),
+                poses=kinematics.key_poses(machine), tables=kinematics.pose_tables(machine), sweeps=sweeps,
             )  # fmt: skip
             (folder / "report.html").write_text(page, encoding="utf-8")
         report.write_document({**clock.seconds, "total": sum(clock.seconds.values())}, folder / "timings.json")
@@ -160,15 +162,16 @@ def build(
     )
 
 
-def driven(machine_file: Path, engine: str, progress: Progress) -> dict[str, Any]:
-    """A machine driven in an engine through all its strokes, on a fixed base, with its rated payload, as a document."""
+def driven(machine_file: Path, engine: str, progress: Progress) -> tuple[dict[str, Any], tuple[Sweep, ...]]:
+    """A machine driven in an engine through all its strokes, on a fixed base, with its rated payload: as a document,
+    and what there is to look at."""
     from yellowiron import simulate
 
     load = simulate.rated_payload(usd.read_machine(machine_file))
     result = simulate.simulate(
         machine_file, engine=engine, payload_kg=load.mass, payload_source=load.source, progress=progress
     )
-    return simulate.simulation_document(result)
+    return simulate.simulation_document(result), result.sweeps
 
 
 class _Callable(types.ModuleType):

@@ -5,11 +5,12 @@ Machine frame: metres, Z up, the ground at z = 0.
 
 from __future__ import annotations
 
+import base64
 import colorsys
 import io
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +19,7 @@ from PIL import Image
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Mechanism
+from yellowiron.report.rows import in_rows
 
 _SUN = np.array([0.35, -0.70, 1.0]) / math.sqrt(0.35**2 + 0.70**2 + 1.0)
 _SKY = np.array([0.85, 0.89, 0.93])
@@ -27,13 +29,14 @@ YELLOW = (0.87, 0.47, 0.01)
 
 @dataclass(frozen=True, eq=False)
 class Soup:
-    """Triangles to draw: corners (m, 3, 3) in metres, corner normals (m, 3, 3), colours (m, 3), part numbers
-    (m,)."""
+    """Triangles to draw: corners (m, 3, 3) in metres, corner normals (m, 3, 3), colours (m, 3), part numbers (m,).
+    `spans`: body → its first triangle and the one after its last."""
 
     corners: Floats
     normals: Floats
     colors: Floats
     parts: NDArray[np.int64]
+    spans: Mapping[str, tuple[int, int]] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,14 +71,18 @@ def machine_soup(
     """All parts of a mechanism's bodies.
 
     `frame` (4, 4): CAD → machine; `poses`: body → (4, 4) displacement from the drawn pose, machine frame; `by_body`
-    colours every body by itself instead of by its parts' CAD colours.
+    colours every body (a counted row of them alike) by itself instead of by its parts' CAD colours.
     """
     parts = {p.id: p for p in assembly.parts}
     corners: list[Floats] = []
     normals: list[Floats] = []
     colors: list[Floats] = []
     numbers: list[NDArray[np.int64]] = []
-    for index, body in enumerate(mechanism.bodies):
+    spans: dict[str, tuple[int, int]] = {}
+    count = 0
+    own = body_colors(mechanism)
+    for body in mechanism.bodies:
+        first = count
         displacement = poses.get(body.name, np.eye(4)) if poses else np.eye(4)
         for body_part in body.parts:
             part = parts[body_part.part]
@@ -94,15 +101,30 @@ def machine_soup(
                 turned = shape.mesh.normals @ np.linalg.inv(place[:3, :3])
                 turned /= np.maximum(np.linalg.norm(turned, axis=1, keepdims=True), 1e-30)
                 corner_normals = turned[triangles]
-            color = body_color(index) if by_body else (part.color or shape.color or YELLOW)
+            color = own[body.name] if by_body else (part.color or shape.color or YELLOW)
             corners.append(soup)
             normals.append(corner_normals)
             colors.append(np.broadcast_to(np.asarray(color, dtype=np.float64), (len(soup), 3)))
             numbers.append(np.full(len(soup), len(numbers), dtype=np.int64))
+            count += len(soup)
+        spans[body.name] = (first, count)
     if not corners:
         nothing = np.zeros((0, 3, 3))
         return Soup(nothing, nothing, np.zeros((0, 3)), np.zeros(0, dtype=np.int64))
-    return Soup(np.concatenate(corners), np.concatenate(normals), np.concatenate(colors), np.concatenate(numbers))
+    return Soup(
+        np.concatenate(corners), np.concatenate(normals), np.concatenate(colors), np.concatenate(numbers), spans
+    )
+
+
+def posed(soup: Soup, poses: Mapping[str, Floats]) -> Soup:
+    """A machine's triangles with its bodies moved: body → (4, 4) displacement."""
+    corners, normals = soup.corners.copy(), soup.normals.copy()
+    for name, (first, last) in soup.spans.items():
+        if name in poses:
+            turn, way = poses[name][:3, :3], poses[name][:3, 3]
+            corners[first:last] = corners[first:last] @ turn.T + way
+            normals[first:last] = normals[first:last] @ turn.T
+    return replace(soup, corners=corners, normals=normals)
 
 
 def look_at(
@@ -204,6 +226,11 @@ def encode(image: Image.Image, *, quality: int = 82) -> bytes:
     return buffer.getvalue()
 
 
+def data_uri(image: Image.Image) -> str:
+    """The picture for a page that has no files beside it."""
+    return "data:image/webp;base64," + base64.b64encode(encode(image)).decode("ascii")
+
+
 def contact_sheet(images: Sequence[Image.Image]) -> Image.Image:
     """Pictures of one size side by side."""
     width, height = images[0].size
@@ -211,6 +238,12 @@ def contact_sheet(images: Sequence[Image.Image]) -> Image.Image:
     for index, image in enumerate(images):
         sheet.paste(image, (index * width, 0))
     return sheet
+
+
+def body_colors(mechanism: Mechanism) -> dict[str, tuple[float, float, float]]:
+    """Body → linear RGB; the bodies of a counted row share theirs."""
+    rows = in_rows([body.name for body in mechanism.bodies])
+    return {mechanism.bodies[place].name: body_color(n) for n, places in enumerate(rows.values()) for place in places}
 
 
 def body_color(index: int) -> tuple[float, float, float]:

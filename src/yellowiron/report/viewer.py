@@ -13,7 +13,7 @@ import json
 import math
 import struct
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from importlib import resources
 from typing import Any
 
@@ -25,7 +25,9 @@ from yellowiron.model.assembly import Assembly
 from yellowiron.model.geometry import Floats, Mesh, Shape
 from yellowiron.model.mechanism import Actuator, Joint, Mechanism
 from yellowiron.model.poses import PoseTables
-from yellowiron.report.pictures import YELLOW, body_color
+from yellowiron.report.pictures import YELLOW, body_colors
+from yellowiron.report.rows import in_rows
+from yellowiron.report.sensors import views
 
 MOST_TRIANGLES = 700_000
 """Distinct triangles that keep a page under 8 MB; the smallest shapes beyond are not drawn, and the view says so."""
@@ -53,13 +55,14 @@ def viewer(
     """The 3D view of a machine, None where it has nothing to see. `poses` (caption → body → (4, 4) displacement) become
     buttons that set the sliders."""
     block = _Block()
+    colors = body_colors(mechanism)
     parts, shapes, left_out = _parts(mechanism, assembly, alignment, block)
     if not parts:
         return None
     tilting = {m.quantity.get("site") for m in mechanism.measurements if m.quantity.get("kind") == "angle"}
     header = {
         "root": mechanism.root,
-        "bodies": [{"name": b.name, "color": _rgb(body_color(i))} for i, b in enumerate(mechanism.bodies)],
+        "bodies": [{"name": b.name, "color": _rgb(colors[b.name])} for b in mechanism.bodies],
         "parts": parts,
         "shapes": shapes,
         "leftOut": left_out,
@@ -75,6 +78,7 @@ def viewer(
         ],
         "sliders": _sliders(mechanism, tables),
         "readouts": _readouts(mechanism, tables),
+        "sensors": _sensors(mechanism),
         "sites": [
             {"name": s.name, "body": s.body, "at": s.position, "x": s.x_axis, "tilts": s.name in tilting}
             for s in mechanism.sites
@@ -240,8 +244,10 @@ def _sliders(mechanism: Mechanism, tables: PoseTables) -> list[dict[str, Any]]:
                 "stroke": cylinder.stroke if cylinder else None,
             }
         )
+    # A roller or shoe of a counted row is nothing to set by hand.
+    rows = {mechanism.joints[p].name for places in in_rows(list(joints)).values() if len(places) > 1 for p in places}
     for name in tables.independent:
-        if name not in taken and joints[name].type in ("revolute", "prismatic"):
+        if name not in taken and name not in rows and joints[name].type in ("revolute", "prismatic"):
             sliders.append({**_slider(name, joints[name], 1), "joints": [[name, 1]], "extension": None, "stroke": None})
     return sliders
 
@@ -256,9 +262,36 @@ def _slider(name: str, joint: Joint, sign: int) -> dict[str, Any]:
     return {"name": name, "unit": "m" if joint.type == "prismatic" else "rad", "range": [lower, upper], "sign": sign}
 
 
+def _sensors(mechanism: Mechanism) -> list[dict[str, Any]]:
+    """Where each sensor sits, and the outlines of what it sees, in the drawn pose."""
+    joints = {joint.name: joint for joint in mechanism.joints}
+    hulls = [np.asarray(body.hull) for body in mechanism.bodies if len(body.hull)]
+    size = float(np.linalg.norm(np.ptp(np.concatenate(hulls), axis=0))) if hulls else 1.0
+    made = []
+    for sensor in mechanism.sensors:
+        joint = joints.get(sensor.joint)
+        if not sensor.body and joint is None:
+            continue
+        made.append(
+            {
+                "name": sensor.name,
+                "type": sensor.type,
+                "body": sensor.body or (joint.body0 if joint else ""),
+                "at": sensor.position if sensor.body or joint is None else joint.anchor,
+                "views": [
+                    [kind, [float(f"{x:.5g}") for x in outline.reshape(-1)]]
+                    for kind, outline in views([asdict(sensor)], size)
+                ],
+            }
+        )
+    return made
+
+
 def _readouts(mechanism: Mechanism, tables: PoseTables) -> list[str]:
-    """Pivots of the loops that are no cylinder's own pin: their angles say how the machine stands."""
+    """Pivots of the loops that are no cylinder's own pin and in no counted row: they say how the machine stands."""
     pins = {name for cylinder in mechanism.cylinders for name in (cylinder.barrel_joint, cylinder.rod_joint)}
+    names = [joint.name for joint in mechanism.joints]
+    pins |= {names[p] for places in in_rows(names).values() if len(places) > 1 for p in places}
     return [j.name for j in mechanism.joints if j.name in tables.straight and j.name not in pins]
 
 

@@ -36,6 +36,7 @@ const words = (name) => name.replaceAll("_", " ");
 const sentence = (name) => words(name).replace(/^./, (letter) => letter.toUpperCase());
 const signed = (value, digits) => (value < -0.5 * 10 ** -digits ? "−" : "") + Math.abs(value).toFixed(digits);
 const degrees = (radians) => `${signed((radians * 180) / Math.PI, 1)}°`;
+const tenth = (value) => value.toFixed(1);
 const STEPS = 400; // of a slider
 const SLOW = 150; // milliseconds for a frame
 
@@ -95,7 +96,8 @@ class Viewer {
       "div",
       { class: "v-tools" },
       toggle("By body", (on) => { this.byBody = on; this.#recolor(); }),
-      toggle("Joints", (on) => { this.showJoints = on; this.#drawJoints(); }),
+      toggle("Joints", (on) => { this.showJoints = on; this.#drawMarks(); }),
+      this.model.sensors.length ? toggle("Sensors", (on) => { this.showSensors = on; this.#drawMarks(); }) : null,
       element("button", { type: "button", onclick: () => this.reset() }, "Reset view"),
       element("button", { type: "button", onclick: () => this.#fullscreen() }, "Full screen"),
     );
@@ -503,10 +505,11 @@ class Viewer {
     return this.renderer.partAt(Math.floor(x * ratio), Math.floor(y * ratio));
   }
 
-  /** Pixel of the stage where a point of the machine frame is seen. */
+  /** Pixel of the stage where a point of the machine frame is seen; null behind the camera. */
   project(point) {
     const m = cameraOf(this.camera, this.#aspect, this.scene).matrix;
     const depth = m[3] * point[0] + m[7] * point[1] + m[11] * point[2] + m[15];
+    if (depth <= 0) return null;
     const [x, y] = moved(m, point);
     return [(0.5 + (0.5 * x) / depth) * this.stage.clientWidth, (0.5 - (0.5 * y) / depth) * this.stage.clientHeight];
   }
@@ -538,13 +541,43 @@ class Viewer {
       this.quickest = Math.min(this.quickest, performance.now() - start);
       this.trials++;
     }
-    this.#drawJoints();
+    this.#drawMarks();
+  }
+
+  #drawMarks() {
+    this.overlay.replaceChildren();
+    if (this.showSensors) this.#drawSensors();
+    if (this.showJoints) this.#drawJoints();
+  }
+
+  /** Sensors over the picture, with what they see; they move with their bodies. */
+  #drawSensors() {
+    for (const sensor of this.model.sensors) {
+      const pose = this.pose[sensor.body];
+      if (!pose) continue;
+      const group = svg("g", { class: `v-sensor${sensor.views.length ? " v-looks" : ""}` });
+      for (const [kind, outline] of sensor.views) {
+        const points = [];
+        for (let i = 0; i < outline.length; i += 3) points.push(this.project(moved(pose, outline.slice(i, i + 3))));
+        // An outline that reaches behind the camera has no place in the picture.
+        if (points.some((point) => !point)) continue;
+        group.append(svg("polygon", { class: `view ${kind}`, points: points.map((p) => p.map(tenth).join(",")).join(" ") }));
+      }
+      const spot = this.project(moved(pose, sensor.at));
+      if (!spot) continue;
+      const [x, y] = spot;
+      const mark = svg("circle", { cx: x, cy: y, r: 5 });
+      const tell = () => this.#tell(`${words(sensor.name)} · ${words(sensor.type)}`, x, y);
+      mark.addEventListener("pointerenter", tell);
+      mark.addEventListener("click", tell);
+      mark.addEventListener("pointerleave", () => (this.tip.hidden = true));
+      group.append(mark);
+      this.overlay.append(group);
+    }
   }
 
   /** Joint axes over the picture: filled marks for joints of the tree, hollow ones where a loop is cut. */
   #drawJoints() {
-    this.overlay.replaceChildren();
-    if (!this.showJoints) return;
     for (const [index, joint] of this.model.joints.entries()) {
       const pose = this.pose[joint.parent];
       if (!pose) continue;
@@ -552,6 +585,7 @@ class Viewer {
       const middle = moved(pose, joint.anchor);
       const axis = scaled(turned(pose, joint.axis), reach);
       const [a, b, m] = [add(middle, axis), add(middle, scaled(axis, -1)), middle].map((point) => this.project(point));
+      if (!a || !b || !m) continue;
       const group = svg("g", { class: `v-joint v-${joint.type}${joint.cut ? " v-cut" : ""}` });
       group.append(svg("line", { x1: a[0], y1: a[1], x2: b[0], y2: b[1] }));
       group.append(

@@ -1,0 +1,37 @@
+"""Values and names as the page words them."""
+
+from __future__ import annotations
+
+from yellowiron.model.text import display
+
+MINUS = "\N{MINUS SIGN}"
+DOT = "\N{DOT OPERATOR}"
+
+
+def shown(value: float | None, unit: str, *, digits: int = 5) -> str:
+    """`display`, set as a page sets it: −40.5°, 35000 N⋅m."""
+    return display(value, unit, digits=digits).replace("-", MINUS).replace(" °", "°").replace("*", DOT)
+
+
+def signed(value: float, digits: int, unit: str) -> str:
+    """A difference with its sign; none where it rounds to nothing."""
+    text = f"{value:+.{digits}f}"
+    if float(text) == 0.0:
+        text = text[1:]
+    return f"{text.replace('-', MINUS)}{unit}"
+
+
+def spoken(name: str) -> str:
+    """`rear_frame` → `rear frame`."""
+    return name.replace("_", " ")
+
+
+def sentence(name: str) -> str:
+    """`rear_frame` → `Rear frame`."""
+    words = spoken(name)
+    return words[:1].upper() + words[1:]
+
+
+def counted(number: int, thing: str, things: str = "") -> str:
+    """`1 part`, `2 parts`."""
+    return f"{number} {thing if number == 1 else things or thing + 's'}"
