@@ -10,8 +10,10 @@ import numpy as np
 from scipy.optimize import brentq, least_squares
 
 from yellowiron.kinematics.chain import ClosedChain, KinematicsError, State
+from yellowiron.kinematics.extremes import Strokes, extreme, level_cut
 from yellowiron.kinematics.grid import Grid, explore
 from yellowiron.kinematics.quantities import Posed, Unmeasurable, evaluate, wheels
+from yellowiron.kinematics.sheet import specified
 from yellowiron.model.mechanism import Actuator, Mechanism
 from yellowiron.model.units import parse_quantity
 
@@ -38,6 +40,7 @@ class Bench:
         self._cylinders = {cylinder.name: cylinder for cylinder in mechanism.cylinders}
         self._wheels = wheels(mechanism)
         self._grids: dict[tuple[str, ...], Grid] = {}
+        self._strokes: dict[tuple[tuple[str, ...], bytes], Strokes] = {}
         self._states: dict[str, State] = {}
         self._straight: State | None = None
 
@@ -47,6 +50,10 @@ class Bench:
         if name not in self._actuators or not self._actuators[name].joints:
             raise Unmeasurable(f"the machine has no actuator '{name}'")
         return self._actuators[name]
+
+    def driven(self, name: str) -> str:
+        """The joint that an actuator drives."""
+        return self.actuator(name).joints[0].joint
 
     def range(self, name: str) -> tuple[float, float]:
         """An actuator's driven joint coordinate at its `min` and `max`: the ends in the actuator's own sense."""
@@ -101,6 +108,10 @@ class Bench:
                 state = self._set(name, where, state)
         if "solve" in step:
             state = self._solve(step["solve"], state)
+        if "extreme" in step:
+            state = self._extreme(step["extreme"], state)
+        if "level_cut" in step:
+            state = self._level_cut(step["level_cut"], state)
         return state
 
     def _set(self, name: str, where: object, state: State) -> State:
@@ -129,7 +140,7 @@ class Bench:
         if len(names) == 1:
             (condition,) = conditions
             return self._root(
-                self.actuator(names[0]).joints[0].joint,
+                self.driven(names[0]),
                 self.range(names[0]),
                 state,
                 lambda each: self.value(condition["quantity"], each),
@@ -138,6 +149,23 @@ class Bench:
                 condition["quantity"],
             )
         return self._roots(names, conditions, state, words)
+
+    def _extreme(self, wanted: Mapping[str, Any], state: State) -> State:
+        subjects = [(each["quantity"], _number(each["value"])) for each in wanted.get("subject", ())]
+        strokes = self._over(wanted.get("actuators") or [wanted["actuator"]], state)
+        return extreme(strokes, wanted["quantity"], greatest=wanted.get("of", "max") == "max", subjects=subjects)[0]
+
+    def _level_cut(self, wanted: Mapping[str, Any], state: State) -> State:
+        entry = wanted["length"]
+        length = specified(self.mechanism, str(entry.get("specification", "")))[0] or _number(entry["value"])
+        return level_cut(self._over(wanted["actuators"], state), wanted["height"], wanted["reach"], length)[0]
+
+    def _over(self, actuators: Sequence[str], state: State) -> Strokes:
+        """The poses over these actuators' strokes, the others as in `state`."""
+        key = (tuple(actuators), state.position.tobytes())
+        if key not in self._strokes:
+            self._strokes[key] = Strokes(self, actuators, state)
+        return self._strokes[key]
 
     def _root(
         self,
@@ -177,7 +205,7 @@ class Bench:
 
     def _roots(self, names: list[str], conditions: Sequence[Mapping[str, Any]], start: State, words: str) -> State:
         """Several coordinates at once: least squares within the strokes, from the best of a lattice of poses."""
-        driven = [self.actuator(name).joints[0].joint for name in names]
+        driven = [self.driven(name) for name in names]
         low, high = np.array([sorted(self.range(name)) for name in names]).T
         for name, width in zip(names, high - low, strict=True):
             if not width > 0.0:

@@ -10,8 +10,9 @@ from scipy.optimize import least_squares
 
 from yellowiron.kinematics.bench import Bench
 from yellowiron.kinematics.chain import ClosedChain
-from yellowiron.kinematics.measurement import CALIBRATED, specified
+from yellowiron.kinematics.measurement import CALIBRATED
 from yellowiron.kinematics.quantities import Unmeasurable
+from yellowiron.kinematics.sheet import specified
 from yellowiron.model.finding import Finding
 from yellowiron.model.mechanism import Cylinder, Joint, Mechanism
 from yellowiron.model.template import MeasurementTemplate
@@ -92,7 +93,10 @@ def _settled_by(actuator: str, mechanism: Mechanism) -> tuple[MeasurementTemplat
         last: object = None
         for step in template.steps:
             last = step.get("set", {}).get(actuator, last)
-            if any(condition["actuator"] == actuator for condition in step.get("solve", ())):
+            moved = {condition["actuator"] for condition in step.get("solve", ())}
+            for key in ("extreme", "level_cut"):
+                moved |= set(step.get(key, {}).get("actuators", ()))
+            if actuator in moved:
                 last = None
         if last is not None and last not in ("drawn", "straight"):
             found.append(template)

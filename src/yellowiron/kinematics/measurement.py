@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 
 from yellowiron.kinematics.bench import Bench
 from yellowiron.kinematics.chain import State
 from yellowiron.kinematics.quantities import Unmeasurable
+from yellowiron.kinematics.sheet import specified
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Measurement, Mechanism
 from yellowiron.model.specification import fold
@@ -42,17 +42,6 @@ def calibrating(mechanism: Mechanism) -> frozenset[str]:
         if source.startswith(CALIBRATED):
             names.update(fold(name) for name in source.removeprefix(CALIBRATED).split(";"))
     return frozenset(names)
-
-
-def specified(mechanism: Mechanism, name: str) -> tuple[float | None, bool, str]:
-    """(value in SI if its status is `ok`, whether it is the publisher's example value, else why there is none)."""
-    entry = _entry(mechanism, name)
-    if entry is None or entry.get("status", "ok") == "missing":
-        return None, False, ""
-    status, value = str(entry.get("status", "ok")), entry.get("value")
-    if status != "ok" or value is None:
-        return None, bool(entry.get("example")), f"the specification's status is '{status}'"
-    return float(value), bool(entry.get("example")), ""
 
 
 def key_poses(mechanism: Mechanism, *, count: int = _POSES) -> dict[str, dict[str, Floats]]:
@@ -113,11 +102,3 @@ def _measured(template: MeasurementTemplate, bench: Bench, placed: frozenset[str
         definition=template.definition,
         reason=reason,
     )
-
-
-def _entry(mechanism: Mechanism, name: str) -> Mapping[str, Any] | None:
-    wanted = fold(name)
-    for key, entry in mechanism.specifications.items():
-        if fold(key) == wanted:
-            return entry
-    return None

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from fnmatch import fnmatchcase
 from typing import Any
 
 import numpy as np
@@ -108,8 +109,10 @@ def _angle(quantity: Mapping[str, Any], posed: Posed) -> float:
 
 
 def _reach(quantity: Mapping[str, Any], posed: Posed) -> float:
-    """Level distance along x from the front of the front-most tyres (of `bodies`, where named) to a site or joint,
-    positive ahead of them."""
+    """Level distance along x to a site or joint, positive ahead, from the anchor of the joint `from` (a swing axis),
+    else from the front of the front-most tyres (of `bodies`, where named)."""
+    if "from" in quantity:
+        return float(_place(quantity, posed)[0] - _place({"joint": quantity["from"]}, posed)[0])
     rolling = [each for each in posed.rolling if each[0].body1 in quantity.get("bodies", each[0].body1)]
     if not rolling:
         raise Unmeasurable("the machine has no wheels to measure the reach from")
@@ -134,26 +137,57 @@ def _joint_range(quantity: Mapping[str, Any], posed: Posed) -> float:
 def _bodies(quantity: Mapping[str, Any], posed: Posed) -> list[Body]:
     wanted = quantity.get("bodies", "*")
     names = [wanted] if isinstance(wanted, str) else list(wanted)
-    found = [b for b in posed.mechanism.bodies if len(b.hull) and ("*" in names or b.name in names)]
+    found = [b for b in posed.mechanism.bodies if len(b.hull) and any(fnmatchcase(b.name, name) for name in names)]
     if not found:
         raise Unmeasurable(f"none of these bodies has a shape: {', '.join(map(str, names))}")
     return found
 
 
 def _extent(quantity: Mapping[str, Any], posed: Posed) -> float:
-    """Length, largest or smallest coordinate along an axis of the machine frame, over bodies' hulls."""
+    """Length, largest or smallest coordinate along an axis of the machine frame, over bodies' hulls, or over what of
+    them is in a `zone`."""
     axis = _AXES[str(quantity.get("axis", "x"))]
-    values = np.concatenate([posed.hull(body)[:, axis] for body in _bodies(quantity, posed)])
+    values = _zone(quantity, np.concatenate([posed.hull(body) for body in _bodies(quantity, posed)]))[:, axis]
     low, high = float(values.min()), float(values.max())
     return {"length": high - low, "max": high, "min": low}[str(quantity.get("of", "length"))]
 
 
+def _zone(quantity: Mapping[str, Any], corners: Floats) -> Floats:
+    """The corners within a zone: axis → shares, 0 to 1, of their own extent along it."""
+    inside = np.ones(len(corners), dtype=bool)
+    for name, shares in quantity.get("zone", {}).items():
+        along = corners[:, _AXES[str(name)]]
+        low, high = along.min() + (along.max() - along.min()) * np.array(shares, dtype=np.float64)
+        inside &= (along >= low) & (along <= high)
+    if not inside.any():
+        raise Unmeasurable("nothing of these bodies is in that zone")
+    return np.asarray(corners[inside], dtype=np.float64)
+
+
+def _radius(quantity: Mapping[str, Any], posed: Posed) -> float:
+    """Largest distance of bodies' corners, or of a site, from a joint's axis; of `front` or `rear` only those ahead of
+    it or behind."""
+    joint = _joint(quantity.get("joint"), posed)
+    if "site" in quantity:
+        corners = _place({"site": quantity["site"]}, posed)[None]
+    else:
+        corners = np.concatenate([posed.hull(body) for body in _bodies(quantity, posed)])
+    away = corners - posed.point(joint.body0, joint.anchor)
+    side = {"front": 1.0, "rear": -1.0}.get(str(quantity.get("of", "")), 0.0)
+    away = away[side * away[:, 0] >= 0.0]
+    if not len(away):
+        raise Unmeasurable("nothing of these bodies is on that side of the axis")
+    axis = posed.direction(joint.body0, joint.axis)
+    away = away - np.outer(away @ axis, axis) / (axis @ axis)
+    return float(np.linalg.norm(away, axis=1).max())
+
+
 def _distance(quantity: Mapping[str, Any], posed: Posed) -> float:
-    """Distance of two joints' anchors, along an axis where one is named."""
-    names = quantity.get("joints", ())
-    if len(names) != 2:
-        raise Unmeasurable("a distance needs two joints")
-    one, two = (_place({"joint": name}, posed) for name in names)
+    """Distance of two joints' anchors or two sites, along an axis where one is named."""
+    ends = [{"joint": n} for n in quantity.get("joints", ())] + [{"site": n} for n in quantity.get("sites", ())]
+    if len(ends) != 2:
+        raise Unmeasurable("a distance needs two joints or sites")
+    one, two = (_place(end, posed) for end in ends)
     if "axis" in quantity:
         return float(abs(two - one)[_AXES[str(quantity["axis"])]])
     return float(np.linalg.norm(two - one))
@@ -205,6 +239,7 @@ _KINDS: Mapping[str, Callable[[Mapping[str, Any], Posed], float]] = {
     "joint_range": _joint_range,
     "extent": _extent,
     "distance": _distance,
+    "radius": _radius,
     "approach_angle": _approach_angle,
     "overhang": _overhang,
     "tyre_diameter": _tyre_diameter,

@@ -175,6 +175,7 @@ def read_wanted(document: Document, roles: tuple[Role, ...]) -> tuple[Wanted, ..
                 where=entry.get("where", ""),
                 mass_of=mass_of,
                 minimum=bounds[0],
+                in_label_of=_other(entry.get("in_label_of"), document, name),
                 maximum=bounds[1],
             )
         )
@@ -182,6 +183,17 @@ def read_wanted(document: Document, roles: tuple[Role, ...]) -> tuple[Wanted, ..
 
 
 def read_actuators(document: Document, joints: tuple[JointTemplate, ...]) -> tuple[ActuatorTemplate, ...]:
+def _other(wanted: str | None, document: Document, name: str) -> str | None:
+    """Another value of the same document, as it is spelled there."""
+    if wanted is None:
+        return None
+    names = {fold(each): " ".join(each.split()) for each in document.data}
+    if fold(wanted) not in names:
+        place = document.at(name, "in_label_of")
+        raise TemplateError(f"'{wanted}' is no wanted value", where=place, hint=near(wanted, names.values()))
+    return names[fold(wanted)]
+
+
     """The actuators of an `actuators.json`; defaults in SI. `TemplateError` for a joint that is not there."""
     names = {fold(j.name): j for j in joints}
 
@@ -252,6 +264,7 @@ def read_measurements(
     """The sites and measurements of a `measurements.json`; texts with a unit become SI numbers."""
     bodies = {fold(r.name): r.name for r in roles if r.rigid}
     names = {fold(j.name): j.name for j in joints}
+    parts = {fold(r.name): r.name for r in roles}
 
     def known(name: str, where: str, kinds: Mapping[str, str], word: str) -> str:
         if fold(name) not in kinds:
@@ -261,9 +274,14 @@ def read_measurements(
     sites = []
     for name, entry in document.data.get("sites", {}).items():
         rule = {k: v for k, v in entry.items() if k != "body"}
-        for key in ("joint", "edge_from"):
+        for key in ("joint", "edge_from", "inside_from"):
             if key in rule:
-                rule[key] = known(rule[key], document.at("sites", name, key), names, "joint")
+                place, given = document.at("sites", name, key), rule[key]
+                several = isinstance(given, list)
+                found = tuple(known(joint, place, names, "joint") for joint in (given if several else [given]))
+                rule[key] = found if several else found[0]
+        if "middle_of" in rule:
+            rule["middle_of"] = known(rule["middle_of"], document.at("sites", name, "middle_of"), parts, "role")
         sites.append(SiteTemplate(name, known(entry["body"], document.at("sites", name, "body"), bodies, "body"), rule))
     measurements = []
     for i, entry in enumerate(document.data.get("measurements", ())):
@@ -272,8 +290,8 @@ def read_measurements(
             MeasurementTemplate(
                 name=entry["name"],
                 specification=entry.get("specification", entry["name"]),
-                quantity=_in_si(entry["quantity"], place),
-                steps=tuple(_in_si(step, place) for step in entry.get("steps", ())),
+                quantity=in_si(entry["quantity"], place),
+                steps=tuple(in_si(step, place) for step in entry.get("steps", ())),
                 unit=entry.get("unit", "m"),
                 definition=entry.get("definition", ""),
             )
@@ -297,14 +315,14 @@ def _color(value: str | list[float] | None) -> Color | None:
     return (float(value[0]), float(value[1]), float(value[2]))
 
 
-def _in_si(value: Any, where: str) -> Any:
+def in_si(value: Any, where: str) -> Any:
     """A measurement's quantity or step with every `value` that is a text with a unit as a number in SI."""
     if isinstance(value, Mapping):
         return {
-            k: _measure(v, where) if k == "value" and isinstance(v, str) else _in_si(v, where) for k, v in value.items()
+            k: _measure(v, where) if k == "value" and isinstance(v, str) else in_si(v, where) for k, v in value.items()
         }
     if isinstance(value, list):
-        return tuple(_in_si(v, where) for v in value)
+        return tuple(in_si(v, where) for v in value)
     return value
 
 

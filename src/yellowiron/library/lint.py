@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import fnmatch
 import itertools
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -187,7 +188,7 @@ def _measurements(template: Template) -> Iterator[Finding]:
         "actuator": {a.name for a in template.actuators},
         "site": {s.name for s in template.sites},
         "joint": {j.name for j in template.joints},
-        "body": {r.name for r in template.roles if r.rigid} | {_EVERY_BODY},
+        "body": {f"{r.name}_1" if r.many else r.name for r in template.roles if r.rigid},
     }
     wanted = {fold(w.name) for w in template.wanted}
     for measurement in template.measurements:
@@ -199,22 +200,9 @@ def _measurements(template: Template) -> Iterator[Finding]:
                 f"'{measurement.specification}' is not in wanted.json: nothing to compare with.",
                 near(measurement.specification, (w.name for w in template.wanted)),
             )
-        named: list[tuple[str, str]] = []
-        quantities = [measurement.quantity]
-        for step in measurement.steps:
-            named += [("actuator", name) for name in step.get("set", {})]
-            for goal in step.get("solve", ()):
-                named.append(("actuator", goal["actuator"]))
-                quantities.append(goal["quantity"])
-        for quantity in quantities:
-            named += [(kind, quantity[kind]) for kind in ("site", "joint") if kind in quantity]
-            named += [
-                (k, n)
-                for k, many in (("site", "sites"), ("joint", "joints"), ("body", "bodies"))
-                for n in quantity.get(many, ())
-            ]
-        for kind, name in named:
-            if name not in known[kind]:
+        for kind, name in dict.fromkeys(_named((measurement.quantity, measurement.steps))):
+            pattern = kind == "body" and _EVERY_BODY in name
+            if name not in known[kind] and not (pattern and fnmatch.filter(sorted(known[kind]), name)):
                 yield Finding(
                     "TPL011",
                     "error",
@@ -226,6 +214,32 @@ def _measurements(template: Template) -> Iterator[Finding]:
 
 def _references(template: Template, chosen: Template, choices: Mapping[str, str]) -> Iterator[Finding]:
     """Entries that stay under the choices and refer to others that do not."""
+_NAMING = {
+    "actuator": "actuator",
+    "actuators": "actuator",
+    "set": "actuator",
+    "site": "site",
+    "sites": "site",
+    "joint": "joint",
+    "joints": "joint",
+    "from": "joint",
+    "bodies": "body",
+}
+
+
+def _named(value: object) -> Iterator[tuple[str, str]]:
+    """(kind, name) of everything that a measurement's quantity and steps name."""
+    if isinstance(value, Mapping):
+        for key, inner in value.items():
+            if key in _NAMING:
+                yield from ((_NAMING[key], n) for n in ([inner] if isinstance(inner, str) else inner))
+            else:
+                yield from _named(inner)
+    elif isinstance(value, (list, tuple)):
+        for inner in value:
+            yield from _named(inner)
+
+
     roles, joints = {r.name for r in chosen.roles}, {j.name: j for j in chosen.joints}
     under = ", ".join(f"{k}={v}" for k, v in choices.items()) or "the template's own choices"
 

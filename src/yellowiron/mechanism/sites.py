@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.spatial import ConvexHull, QhullError
 
 from yellowiron.mechanism.axes import Line
 from yellowiron.mechanism.body import vector
@@ -53,13 +54,69 @@ def _site(
     rule = entry.rule
     if "point" in rule:
         return Site(entry.name, entry.body, vector(np.array(rule["point"], dtype=np.float64)), source="template: point")
-    name = rule.get("joint", rule.get("edge_from"))
+    if "middle_of" in rule:
+        return _middle_site(entry, placement)
+    name = rule.get("joint", rule.get("edge_from", rule.get("inside_from")))
+    if isinstance(name, tuple):
+        name = next((each for each in name if each in frames), name[0])
     frame = frames.get(name)
     if frame is None:
         return None
     if "joint" in rule:
         return Site(entry.name, entry.body, vector(frame.anchor), source=f"anchor of {name}")
-    return _edge_site(entry, frame, float(rule.get("spanning", 0.8)), template, placement, findings)
+    spanning = float(rule.get("spanning", 0.8))
+    if "inside_from" in rule:
+        return _inside_site(entry, frame, spanning, placement)
+    edge = _edge_site(entry, frame, spanning, template, placement, findings)
+    return _at_tip(edge, frame, placement) if edge is not None and rule.get("tip") else edge
+
+
+def _middle_site(entry: SiteTemplate, placement: Placement) -> Site | None:
+    """The middle of the box around a role's parts."""
+    points = placement.points_of(placement.rows_of_role(str(entry.rule["middle_of"])))
+    if not len(points):
+        return None
+    middle = 0.5 * (points.min(axis=0) + points.max(axis=0))
+    return Site(entry.name, entry.body, vector(middle), source=f"middle of {entry.rule['middle_of']}")
+
+
+def _at_tip(edge: Site, frame: JointFrame, placement: Placement) -> Site:
+    """The edge's site moved to the body's points farthest from the joint's axis (the teeth, whatever part they are
+    of), in their middle along it."""
+    line = Line(frame.anchor, frame.axis)
+    points = placement.points_of(placement.rows_of_body(edge.body))
+    distance = line.distance(points)
+    tip = _one_edge(points[distance > distance.max() - _EDGE], line)
+    along = line.along(tip)
+    position = tip.mean(axis=0) + (0.5 * (along.min() + along.max()) - along.mean()) * line.direction
+    return replace(edge, position=vector(position), source=f"{edge.source}; at the body's farthest point")
+
+
+def _inside_site(entry: SiteTemplate, frame: JointFrame, spanning: float, placement: Placement) -> Site | None:
+    """The middle of what a body's wide parts enclose (a bucket's floor, back and edge; of rows such as teeth no part is
+    wide): of their common hull without their own solids. All parts where none is wide."""
+    rows = placement.rows_of_body(entry.body)
+    line = Line(frame.anchor, frame.axis)
+    wide = [g[0] for g in _wide_groups(rows, line, spanning, placement) if len(g) == 1] or list(rows)
+    points = placement.points_of(tuple(wide))
+    try:
+        hull = ConvexHull(points)
+    except QhullError:
+        return None
+    middle = points[hull.vertices].mean(axis=0)
+    corners = points[hull.simplices] - middle
+    volumes = np.abs(np.linalg.det(corners)) / 6.0
+    first = volumes @ (corners.sum(axis=1) / 4.0 + middle)
+    volume = float(volumes.sum())
+    for row in wide:
+        shape, matrix = placement.shapes[row], placement.transforms[row]
+        solid = abs(float(np.linalg.det(matrix[:3, :3]))) * shape.volume if shape.closed else 0.0
+        if solid < 0.5 * volume:
+            volume -= solid
+            first = first - solid * (matrix[:3, :3] @ shape.centroid + matrix[:3, 3])
+    also = f" and {len(wide) - 1} more" if len(wide) > 1 else ""
+    source = f"middle of the {volume:.2f} m³ that {placement.parts[wide[0]].id}{also} enclose"
+    return Site(entry.name, entry.body, vector(first / volume), source=source)
 
 
 @dataclass(frozen=True, eq=False)

@@ -93,7 +93,8 @@ class Wanted:
     """A value the template can ask a sheet for. `dimension` is one of: length, angle, mass, pressure, flow, volume,
     force, torque, power, speed, angular_speed, time, count. `synonyms` by language code (`en`, `de`, …); `forbidden`
     words rule a statement out; `sections` are headings that support it; `mass_of` names the body (or `*`, the whole
-    machine) whose mass it is; `where` says in which table makers print it."""
+    machine) whose mass it is; `in_label_of` another wanted value in whose label it is printed; `where` says in which
+    table makers print it."""
 
     name: str
     dimension: str
@@ -107,6 +108,7 @@ class Wanted:
     maximum: float | None = None
 
 
+    in_label_of: str | None = None
 @dataclass(frozen=True)
 class CylinderTemplate:
     """One cylinder of an actuator: its slide joint; `sign` −1 where it retracts when the actuator moves positive;
