@@ -174,15 +174,14 @@ def read_wanted(document: Document, roles: tuple[Role, ...]) -> tuple[Wanted, ..
                 use=entry.get("use", ""),
                 where=entry.get("where", ""),
                 mass_of=mass_of,
-                minimum=bounds[0],
                 in_label_of=_other(entry.get("in_label_of"), document, name),
+                minimum=bounds[0],
                 maximum=bounds[1],
             )
         )
     return tuple(wanted)
 
 
-def read_actuators(document: Document, joints: tuple[JointTemplate, ...]) -> tuple[ActuatorTemplate, ...]:
 def _other(wanted: str | None, document: Document, name: str) -> str | None:
     """Another value of the same document, as it is spelled there."""
     if wanted is None:
@@ -194,6 +193,7 @@ def _other(wanted: str | None, document: Document, name: str) -> str | None:
     return names[fold(wanted)]
 
 
+def read_actuators(document: Document, joints: tuple[JointTemplate, ...]) -> tuple[ActuatorTemplate, ...]:
     """The actuators of an `actuators.json`; defaults in SI. `TemplateError` for a joint that is not there."""
     names = {fold(j.name): j for j in joints}
 
@@ -263,8 +263,8 @@ def read_measurements(
 ) -> tuple[tuple[SiteTemplate, ...], tuple[MeasurementTemplate, ...]]:
     """The sites and measurements of a `measurements.json`; texts with a unit become SI numbers."""
     bodies = {fold(r.name): r.name for r in roles if r.rigid}
-    names = {fold(j.name): j.name for j in joints}
     parts = {fold(r.name): r.name for r in roles}
+    names = {fold(j.name): j.name for j in joints}
 
     def known(name: str, where: str, kinds: Mapping[str, str], word: str) -> str:
         if fold(name) not in kinds:

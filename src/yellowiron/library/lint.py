@@ -212,8 +212,6 @@ def _measurements(template: Template) -> Iterator[Finding]:
                 )
 
 
-def _references(template: Template, chosen: Template, choices: Mapping[str, str]) -> Iterator[Finding]:
-    """Entries that stay under the choices and refer to others that do not."""
 _NAMING = {
     "actuator": "actuator",
     "actuators": "actuator",
@@ -240,6 +238,8 @@ def _named(value: object) -> Iterator[tuple[str, str]]:
             yield from _named(inner)
 
 
+def _references(template: Template, chosen: Template, choices: Mapping[str, str]) -> Iterator[Finding]:
+    """Entries that stay under the choices and refer to others that do not."""
     roles, joints = {r.name for r in chosen.roles}, {j.name: j for j in chosen.joints}
     under = ", ".join(f"{k}={v}" for k, v in choices.items()) or "the template's own choices"
 

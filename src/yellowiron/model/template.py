@@ -104,11 +104,11 @@ class Wanted:
     use: str = ""
     where: str = ""
     mass_of: str | None = None
+    in_label_of: str | None = None
     minimum: float | None = None
     maximum: float | None = None
 
 
-    in_label_of: str | None = None
 @dataclass(frozen=True)
 class CylinderTemplate:
     """One cylinder of an actuator: its slide joint; `sign` −1 where it retracts when the actuator moves positive;
