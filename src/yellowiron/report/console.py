@@ -86,7 +86,21 @@ def alignment_table(alignment: Alignment) -> RenderableType:
 
 
 def simulation_table(document: Mapping[str, Any]) -> RenderableType:
-    """A run in an engine: how far it strayed from the kinematics, and what each actuator did."""
+    """What a machine did in an engine: strokes, driving and tests, as far as they ran, and what fell short."""
+    blocks: list[RenderableType] = []
+    if "actuators" in document:
+        blocks += [*_strokes(document), ""]
+    if "driving" in document:
+        blocks += [Text("Driving", "bold"), _driving_table(document), ""]
+    if "tests" in document:
+        blocks += [Text("Tests", "bold"), _test_table(document["tests"]), ""]
+    if document["findings"]:
+        blocks += [finding_table(document["findings"]), ""]
+    return Group(*blocks[:-1])
+
+
+def _strokes(document: Mapping[str, Any]) -> list[RenderableType]:
+    """How far the machine strayed from the kinematics, and what each actuator did."""
     head = Text.assemble(
         (f"{document['engine']} {document['version']}", "bold"),
         f"  {document['base']} base, {document['dt_s']:g} s steps, payload {document['payload_kg']:g} kg, "
@@ -105,10 +119,51 @@ def simulation_table(document: Mapping[str, Any]) -> RenderableType:
             display(entry["stroke"], "m") if entry["stroke"] else f"{entry['speed']:.3g} rad/s",
             f"{entry['final_error_percent']:.2f} %",
         )
-    blocks: list[RenderableType] = [head, worst, "", table]
-    if document["findings"]:
-        blocks += ["", finding_table(document["findings"])]
-    return Group(*blocks)
+    return [head, worst, "", table]
+
+
+_DRIVING = (
+    ("Forward", "forward_m", "distance_m", "m", 3),
+    ("Back", "backward_m", "distance_m", "m", 3),
+    ("Turning radius at full lock", "turning_radius_m", "geometry_radius_m", "m", 3),
+    ("Axle on the block", "axle_angle_deg", "axle_geometry_deg", "°", 2),
+)
+"""Row, keys of the figure and of what it should be, unit, digits after the point."""
+
+
+def _driving_table(document: Mapping[str, Any]) -> RenderableType:
+    driving = document["driving"]
+    if driving is None:
+        return Text(document["driving_reason"], "dim")
+    table = _table("Figure", "Engine", "Geometry", "Error", right=("Engine", "Geometry", "Error"))
+    for name, key, of, unit, digits in _DRIVING:
+        value, wanted = driving[key], driving[of]
+        if value is not None and wanted:
+            shown = (f"{number:.{digits}f} {unit}" for number in (value, wanted))
+            table.add_row(name, *shown, f"{100.0 * (value / wanted - 1.0):+.2f} %")
+    if driving["highest_wheel_mm"] is not None:
+        table.add_row("Highest wheel over its ground", f"{driving['highest_wheel_mm']:.1f} mm", "", "")
+    return table
+
+
+def _test_table(entries: Iterable[Mapping[str, Any]]) -> Table:
+    """Tests: what the sheet says, what the engine and statics give."""
+    table = _table("Test", "Sheet", "Engine", "Statics", "Error", "", right=("Sheet", "Engine", "Statics", "Error"))
+    for entry in entries:
+        mark = {True: Text("✓", "green"), False: Text("✗", "red"), None: Text("")}[entry["passed"]]
+        if entry["role"] != "checked":
+            mark = mark + Text(f" {entry['role']} value", "dim")
+        unpublished = [i["name"] for i in entry["inputs"] if not i["published"]]
+        notes = [entry["reason"], f"not published: {', '.join(unpublished)}" if unpublished else ""]
+        mark = mark + Text(f" {'; '.join(note for note in notes if note)}", "dim")
+        unit = entry["unit"]
+        shown = (
+            "" if value is None else f"{100.0 * value:.0f} %" if unit == "1" else display(value, unit, digits=4)
+            for value in (entry["spec"], entry["engine_value"], entry["statics_value"])
+        )
+        error = "" if entry["error_percent"] is None else f"{entry['error_percent']:+.1f} %"
+        table.add_row(entry["name"], *shown, error, mark)
+    return table
 
 
 def lint_table(document: Mapping[str, Any]) -> RenderableType:

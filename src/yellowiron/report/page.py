@@ -150,11 +150,13 @@ def _measurement(entry: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _cylinder(entry: Mapping[str, Any]) -> dict[str, Any]:
-    lengths = [shown(entry[key], "m") for key in ("bore", "rod_diameter", "stroke", "closed_length", "extension")]
-    forces = [shown(entry[key], "N", digits=4) for key in ("push_force", "pull_force")]
+    lengths = [("bore", "bore"), ("rod", "rod_diameter"), ("stroke", "stroke"), ("closed", "closed_length"),
+               ("drawn out", "extension")]  # fmt: skip
+    cells = [(label, shown(entry[key], "m")) for label, key in lengths]
+    cells += [(label, shown(entry[f"{label}_force"], "N", digits=4)) for label in ("push", "pull")]
     return {
         **entry,
-        "cells": [*lengths, *forces, f"{entry['speed']:.3g} m/s"],
+        "cells": [*cells, ("speed", f"{entry['speed']:.3g} m/s")],
         "sources_text": "; ".join(f"{key.replace('_', ' ')}: {value}" for key, value in entry["sources"].items()),
     }
 

@@ -5,12 +5,15 @@ from __future__ import annotations
 from yellowiron.model.text import display
 
 MINUS = "\N{MINUS SIGN}"
-DOT = "\N{DOT OPERATOR}"
+_SET = {"-": MINUS, " °": "°", "*": "\N{DOT OPERATOR}", "^2": "²", "^3": "³"}
 
 
 def shown(value: float | None, unit: str, *, digits: int = 5) -> str:
-    """`display`, set as a page sets it: −40.5°, 35000 N⋅m."""
-    return display(value, unit, digits=digits).replace("-", MINUS).replace(" °", "°").replace("*", DOT)
+    """`display`, set as a page sets it: −40.5°, 35000 N⋅m, 4.2 m³."""
+    text = display(value, unit, digits=digits)
+    for plain, fine in _SET.items():
+        text = text.replace(plain, fine)
+    return text
 
 
 def signed(value: float, digits: int, unit: str) -> str:

@@ -101,7 +101,8 @@ class Viewer {
       element("button", { type: "button", onclick: () => this.reset() }, "Reset view"),
       element("button", { type: "button", onclick: () => this.#fullscreen() }, "Full screen"),
     );
-    this.hint = element("div", { class: "v-hint" }, "Drag to turn, right-drag to move, click and scroll to zoom");
+    this.hint = element("div", { class: "v-hint" }, matchMedia("(hover: none)").matches
+      ? "Drag to turn, pinch to zoom" : "Drag to turn, right-drag to move, click and scroll to zoom");
     const layers = [this.canvas, this.overlay, tools, this.hint, this.card, this.tip];
     this.stage = element("div", { class: "v-stage" }, ...layers);
     this.panel = element("div", { class: "v-panel" });
