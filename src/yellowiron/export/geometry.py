@@ -32,7 +32,8 @@ class Visual:
 class Collider:
     """A shape to touch, placed by `matrix` (4, 4; a proper rotation for the analytic kinds, along whose z cylinders and
     capsules lie). `size`: (radius, height) of these (a capsule's height without its caps), (radius,) of a sphere, the
-    three edges of a box. A mesh's `approximation` is UsdPhysics' token. `friction` is the dynamic one, None: not said.
+    three edges of a box. A mesh's `approximation` is UsdPhysics' token. `friction` is the dynamic one, None: not said;
+    it `rules` over that of what it touches where its material says so.
     """
 
     name: str
@@ -42,6 +43,7 @@ class Collider:
     mesh: Mesh | None = None
     approximation: str = ""
     friction: float | None = None
+    rules: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -136,13 +138,14 @@ class _Reader:
         return self._meshes[key]
 
     def _collider(self, prim: Usd.Prim, body: Usd.Prim) -> Collider | None:
-        matrix, name, friction = self._matrix(prim, body), _label(prim, body), _friction(prim)
+        matrix, name = self._matrix(prim, body), _label(prim, body)
+        friction, rules = _friction(prim)
         if prim.IsA(UsdGeom.Mesh):
             token = "none"
             if prim.HasAPI(UsdPhysics.MeshCollisionAPI):
                 token = str(UsdPhysics.MeshCollisionAPI(prim).GetApproximationAttr().Get())
             mesh = self._mesh(prim)
-            return Collider(name, "mesh", matrix, (), mesh, token, friction) if len(mesh.triangles) else None
+            return Collider(name, "mesh", matrix, (), mesh, token, friction, rules) if len(mesh.triangles) else None
         scale = np.linalg.norm(matrix[:3, :3], axis=0)
         proper = matrix.copy()
         proper[:3, :3] /= scale
@@ -204,8 +207,11 @@ def _rgb(value: Gf.Vec3f) -> Color:
     return (float(value[0]), float(value[1]), float(value[2]))
 
 
-def _friction(prim: Usd.Prim) -> float | None:
+def _friction(prim: Usd.Prim) -> tuple[float | None, bool]:
+    """The dynamic friction of a collider's material, None where it has none, and whether it rules."""
     material, _ = UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial("physics")
     if not material or not material.GetPrim().HasAPI(UsdPhysics.MaterialAPI):
-        return None
-    return float(UsdPhysics.MaterialAPI(material.GetPrim()).GetDynamicFrictionAttr().Get())
+        return None, False
+    combine = material.GetPrim().GetAttribute("physxMaterial:frictionCombineMode")
+    rules = bool(combine) and combine.Get() in ("min", "multiply")
+    return float(UsdPhysics.MaterialAPI(material.GetPrim()).GetDynamicFrictionAttr().Get()), rules

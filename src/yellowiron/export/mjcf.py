@@ -16,7 +16,7 @@ from yellowiron.export.geometry import BodyGeometry, Collider, Geometry, read_ge
 from yellowiron.export.values import axes_of, minus, quaternion, row, text
 from yellowiron.model.errors import MechanismError
 from yellowiron.model.geometry import Color, Floats, Mesh
-from yellowiron.model.mechanism import Actuator, ActuatorJoint, Body, Drive, Joint, Mechanism
+from yellowiron.model.mechanism import Actuator, ActuatorJoint, Body, Drive, Joint, Mechanism, chained, rolling
 
 TIMESTEP = 0.001
 """Seconds. Pins of a loaded wheel loader stay within 0.02 mm at this step, 0.3 mm at 4 ms and 1.8 mm at 10 ms."""
@@ -95,6 +95,9 @@ class _Document:
         self._geoms: set[str] = set()
         self._pieces: dict[tuple[bytes, bytes, str], tuple[Mesh, ...]] = {}
         self._order: list[Joint] = []
+        self._drawn: list[float] = []
+        self._chained = chained(mechanism)
+        self._rolling = rolling(mechanism) if mechanism.floating else frozenset()
         self._children: dict[str, list[Joint]] = {}
         for joint in mechanism.joints:
             if not joint.cut:
@@ -103,7 +106,9 @@ class _Document:
     def element(self, name: str) -> ET.Element:
         world = ET.Element("worldbody")
         root = self._mechanism.body(self._mechanism.root)
-        self._body(world, root, None)
+        self._body(world, root, None, free=self._base == "floating")
+        for head in self._mechanism.floating:
+            self._body(world, self._mechanism.body(head), None, free=True)
         self._check_tree()
         top = ET.Element("mujoco", model=name)
         ET.SubElement(top, "compiler", angle="radian", meshdir=ASSETS, autolimits="true")
@@ -118,7 +123,7 @@ class _Document:
         return top
 
     def _check_tree(self) -> None:
-        reached = {self._mechanism.root, *(joint.body1 for joint in self._order)}
+        reached = {self._mechanism.root, *self._mechanism.floating, *(joint.body1 for joint in self._order)}
         for body in self._mechanism.bodies:
             if body.name not in reached:
                 raise MechanismError(
@@ -145,17 +150,19 @@ class _Document:
         return asset
 
     # ---- bodies -----------------------------------------------------------------------------------------------------
-    def _body(self, parent: ET.Element, body: Body, joint: Joint | None) -> None:
+    def _body(self, parent: ET.Element, body: Body, joint: Joint | None, *, free: bool = False) -> None:
         around = self._mechanism.body(joint.body0).origin if joint is not None else (0.0, 0.0, 0.0)
         element = ET.SubElement(parent, "body", name=body.name, pos=row(minus(body.origin, around)))
         if joint is None:
             element.set("childclass", "machine")
-            if self._base == "floating":
+            if free:
                 ET.SubElement(element, "freejoint", name=f"{body.name}.free")
+                self._drawn += [*body.origin, 1.0, 0.0, 0.0, 0.0]
         elif any(known.body1 == body.name for known in self._order) or body.name == self._mechanism.root:
             raise MechanismError(f"two tree joints lead to the body '{body.name}'", where=joint.name)
         else:
             self._order.append(joint)
+            self._drawn += [1.0, 0.0, 0.0, 0.0] if joint.type == "spherical" else [0.0] * _POSITIONS.get(joint.type, 0)
             self._joint(element, body, joint)
         inertia = 0.5 * (np.asarray(body.inertia) + np.asarray(body.inertia).T)
         ET.SubElement(
@@ -211,6 +218,10 @@ class _Document:
     def _collider(self, element: ET.Element, body: str, collider: Collider) -> None:
         name = f"{body}.{collider.name}.collision"
         friction = {} if collider.friction is None else {"friction": text(collider.friction)}
+        friction |= {"priority": "1"} if collider.rules else {}
+        # A ring's parts touch the wheels that it runs on, the ground, and nothing else of the machine.
+        friction |= {"conaffinity": "2"} if body in self._chained else {}
+        friction |= {"contype": "3"} if body in self._rolling else {}
         if collider.mesh is None:
             radius, *rest = collider.size
             size = {
@@ -306,13 +317,8 @@ class _Document:
 
     def _keyframe(self) -> ET.Element:
         section = ET.Element("keyframe")
-        values: list[float] = []
-        if self._base == "floating":
-            values = [*self._mechanism.body(self._mechanism.root).origin, 1.0, 0.0, 0.0, 0.0]
-        for joint in self._order:
-            values += [1.0, 0.0, 0.0, 0.0] if joint.type == "spherical" else [0.0] * _POSITIONS[joint.type]
-        if values:
-            ET.SubElement(section, "key", name="drawn", qpos=row(values))
+        if self._drawn:
+            ET.SubElement(section, "key", name="drawn", qpos=row(self._drawn))
         return section
 
 

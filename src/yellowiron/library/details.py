@@ -111,6 +111,7 @@ def read_material(document: Document, key: str, entry: Mapping[str, Any]) -> Mat
         texture=texture,
         roughness=numbers.get("roughness"),
         metalness=numbers.get("metalness"),
+        friction_combine=entry.get("friction combine"),
     )
 
 

@@ -12,7 +12,7 @@ from yellowiron.model.specification import fold
 from yellowiron.model.template import Choices, JointTemplate, Role
 
 _ROW = "[*]"
-_HIDDEN = {"radius": 0.9, "mass": 1.0}
+_HIDDEN = {"radius": 0.9, "mass": 1.0, "above": 0.0}
 
 
 @dataclass

@@ -67,7 +67,7 @@ def hidden_wheels(placement: Placement, template: Template, findings: list[Findi
         radius = 0.5 * rule["radius"] * float(high[2] - low[2])
         middle, length = 0.5 * (ground[0] + ground[1]), ground[1] - ground[0]
         for role, at in zip(roles, rule["at"], strict=True):
-            center = np.array([middle + at * length, 0.5 * (low[1] + high[1]), low[2] + radius])
+            center = np.array([middle + at * length, 0.5 * (low[1] + high[1]), low[2] + radius + rule["above"]])
             share = rule["mass"] / len(roles)
             found[role.name] = HiddenWheel(role.name, center, radius, parts, share, placement.bodies[parts[0]])
     return found
@@ -125,8 +125,9 @@ def _bare(body: Body, parts: frozenset[str]) -> Body:
 
 def _wheel(wheel: HiddenWheel, mass: float, material: str) -> Body:
     center, r = vector(wheel.center), wheel.radius
-    # A hoop about its axle; across it that of a ring, half as much, is too little for no engine.
-    inertia = mass * r * r * np.diag([0.5, 1.0, 0.5])
+    # A hoop as wide as its radius: m r² about its axle, m r²/2 + m r²/12 across it.
+    across = 7.0 / 12.0
+    inertia = mass * r * r * np.diag([across, 1.0, across])
     corners = wheel.center + r * np.concatenate([np.eye(3), -np.eye(3)])
     shape = BodyShape(wheel.role, center, r, material)
     source = f"hidden wheel: {wheel.share:.3g} of the track's mass, as a hoop"

@@ -225,6 +225,14 @@ def chained(mechanism: Mechanism) -> frozenset[str]:
     return frozenset(found)
 
 
+def rolling(mechanism: Mechanism) -> frozenset[str]:
+    """The bodies that a pivot of the tree lets turn without limit: wheels, and a slewing body."""
+    loose = chained(mechanism)
+    pivots = [j for j in mechanism.joints if j.type == "revolute" and not j.cut and j.lower is None and j.upper is None]
+    looped = {name for loop in mechanism.loops for name in loop.joints}
+    return frozenset(j.body1 for j in pivots if j.name not in looped) - loose
+
+
 @dataclass(frozen=True)
 class Measurement:
     """A specification measured on the mechanism, SI. `role`: `checked` (published), `calibrated` (used to place a

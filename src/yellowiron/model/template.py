@@ -73,7 +73,9 @@ class JointTemplate:
 class Material:
     """Physical and visual properties (the conference paper's JSON-1). Density kg/m³, elasticity (Young) Pa; colour
     linear RGB; texture a path relative to its document. None: not stated. With `repaint` (a user's own document) colour
-    and texture replace what the CAD file shows; without it they stand in where the CAD file has no colour."""
+    and texture replace what the CAD file shows; without it they stand in where the CAD file has no colour.
+    `friction_combine`: how its friction meets another's (PhysX' words `average`, `min`, `multiply`, `max`); in MuJoCo
+    and Newton a `min` or `multiply` material's own friction rules."""
 
     name: str
     density: float | None = None
@@ -87,6 +89,7 @@ class Material:
     metalness: float | None = None
     repaint: bool = False
 
+    friction_combine: str | None = None
 
 @dataclass(frozen=True)
 class Wanted:

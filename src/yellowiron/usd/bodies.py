@@ -9,7 +9,7 @@ import numpy as np
 from pxr import Gf, Sdf, Vt
 
 from yellowiron.model.geometry import Floats
-from yellowiron.model.mechanism import Body, Site
+from yellowiron.model.mechanism import Body, BodyShape, Site
 from yellowiron.usd.geometry import mirrored_path
 from yellowiron.usd.metadata import describe_body, describe_part, describe_site, set_custom
 from yellowiron.usd.plan import COLLIDERS, GEOMETRY_FILE, HULL, VISUALS, PlacedPart, Plan
@@ -19,6 +19,7 @@ from yellowiron.usd.stage import (
     Types,
     add_reference,
     define,
+    identifier,
     set_attribute,
     set_display_name,
     set_placement,
@@ -47,6 +48,7 @@ def write_bodies(layer: Sdf.Layer, plan: Plan) -> None:
         set_custom(spec, describe_body(body))
         _write_visuals(layer, path, plan.parts[body.name])
         _write_colliders(layer, path, plan.parts[body.name], primitives)
+        _write_shapes(layer, path, body)
         if len(body.hull):
             add_reference(define(layer, f"{path}/{HULL}"), f"./{GEOMETRY_FILE}", plan.hull_paths[body.name])
         for site in sites.get(body.name, ()):
@@ -84,6 +86,24 @@ def _write_colliders(
             _write_primitive(layer, path, primitive, placed.matrix, scale)
         else:
             _write_mesh_collider(layer, path, placed)
+
+
+def _write_shapes(layer: Sdf.Layer, path: str, body: Body) -> None:
+    """A body's own colliders, which no CAD part has: balls."""
+    if not body.shapes:
+        return
+    set_attribute(define(layer, f"{path}/{COLLIDERS}", "Scope"), "purpose", Types.Token, "guide", uniform=True)
+    for shape in body.shapes:
+        spec = define(layer, shape_path(path, shape), "Sphere")
+        set_attribute(spec, "radius", Types.Double, float(shape.radius))
+        half = Gf.Vec3f(float(shape.radius))
+        set_attribute(spec, "extent", Types.Float3Array, Vt.Vec3fArray([-half, half]))
+        set_placement(spec, np.asarray(shape.center) - np.asarray(body.origin))
+
+
+def shape_path(body: str, shape: BodyShape) -> str:
+    """The prim of a body's own collider."""
+    return f"{body}/{COLLIDERS}/{identifier(shape.name)}"
 
 
 def is_mirrored(matrix: Floats) -> bool:

@@ -8,7 +8,7 @@ import numpy as np
 from pxr import Gf, Sdf
 
 from yellowiron.model.errors import MechanismError
-from yellowiron.model.mechanism import Joint
+from yellowiron.model.mechanism import Joint, chained
 from yellowiron.usd.drives import INSTANCES, to_usd_unit, write_drive
 from yellowiron.usd.metadata import describe_joint, set_custom
 from yellowiron.usd.plan import BASE_JOINT, JOINTS, Plan
@@ -33,12 +33,14 @@ def usd_type(joint: Joint) -> str:
 def write_joints(layer: Sdf.Layer, plan: Plan) -> None:
     """Every joint in the joints scope, and the inactive joint to the world that variant Base=fixed switches on."""
     define(layer, f"{plan.root}/{JOINTS}", "Scope")
+    loose = chained(plan.mechanism)
     for joint in plan.mechanism.joints:
+        floating = joint.body0 in loose
         spec = define(layer, plan.joint_paths[joint.name], PRIM_TYPES[usd_type(joint)])
         set_display_name(spec, joint.name)
         _write_frames(spec, joint, plan)
         _write_limits(spec, joint)
-        if joint.cut:
+        if joint.cut or floating:
             set_attribute(spec, "physics:excludeFromArticulation", Types.Bool, True, uniform=True)
         if joint.drive is not None and not joint.cut:
             if joint.type not in INSTANCES:
@@ -48,7 +50,7 @@ def write_joints(layer: Sdf.Layer, plan: Plan) -> None:
                     hint="Drive a revolute or prismatic one.",
                 )
             write_drive(spec, joint, joint.drive)
-        set_custom(spec, describe_joint(joint))
+        set_custom(spec, describe_joint(joint, floating=floating))
     _write_base_joint(layer, plan)
 
 

@@ -23,7 +23,17 @@ KEY = "yellowiron"
 FORMAT = 1
 """The version of the form that `describe_machine` writes and `read` understands."""
 
-DOCUMENTS = ("cylinders", "actuators", "loops", "materials", "measurements", "specifications", "mobility", "findings")
+DOCUMENTS = (
+    "cylinders",
+    "actuators",
+    "loops",
+    "materials",
+    "measurements",
+    "specifications",
+    "mobility",
+    "floating",
+    "findings",
+)
 """Fields of the mechanism that travel as JSON texts on the machine's prim."""
 
 
@@ -52,6 +62,7 @@ def describe_body(body: Body) -> dict[str, Any]:
         "centerOfMass": Gf.Vec3d(*map(float, body.center_of_mass)),
         "inertia": Gf.Matrix3d(np.asarray(body.inertia, dtype=np.float64).tolist()),
         "source": body.source,
+        "shapes": to_json(body.shapes) if body.shapes else None,
     }
 
 
@@ -68,9 +79,10 @@ def describe_part(part: BodyPart) -> dict[str, Any]:
     }
 
 
-def describe_joint(joint: Joint) -> dict[str, Any]:
+def describe_joint(joint: Joint, *, floating: bool = False) -> dict[str, Any]:
     """A joint's customData: as modelled (before a cut turned it into a spherical joint), radians and metres, with its
-    evidence both readable (`source`) and exact (`evidence`, JSON)."""
+    evidence both readable (`source`) and exact (`evidence`, JSON). `floating`: it is in the tree of a chain that no
+    joint ties to the machine, which is no part of its articulation."""
     return {
         "kind": "joint",
         "name": joint.name,
@@ -83,6 +95,7 @@ def describe_joint(joint: Joint) -> dict[str, Any]:
         "upper": joint.upper if joint.upper is None else float(joint.upper),
         "cut": joint.cut or None,
         "free": joint.free or None,
+        "floating": floating or None,
         "drive": to_json(joint.drive) if joint.drive else None,
         "source": _readable(joint.source) or None,
         "evidence": to_json(joint.source) if joint.source else None,

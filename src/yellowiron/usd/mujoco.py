@@ -10,6 +10,7 @@ import math
 
 from pxr import Sdf, Vt
 
+from yellowiron.usd.bodies import shape_path
 from yellowiron.usd.drives import to_usd_unit
 from yellowiron.usd.joints import usd_type
 from yellowiron.usd.plan import COLLIDERS, Plan
@@ -19,6 +20,9 @@ SOLREF = (0.002, 1.0)
 """Time constant (s) and damping ratio of a cut: twice a step of 1 ms, the stiffest that stays stable."""
 SOLIMP = (0.9999, 0.9999, 0.001, 0.5, 2.0)
 """As hard as MuJoCo takes it from the first micrometre on: with 0.999 there, pins err by half as much again."""
+
+RULING = ("min", "multiply")
+"""Ways to combine friction that MuJoCo does not know: its colliders of such a material rule by priority."""
 
 _EQUALITIES = {"spherical": "MjcEqualityConnectAPI", "fixed": "MjcEqualityWeldAPI"}
 
@@ -42,7 +46,19 @@ def write_mujoco(layer: Sdf.Layer, base: Sdf.Layer, plan: Plan) -> None:
             set_attribute(spec, "newton:velocityLimit", Types.Float, velocity)
     for path in plan.site_paths.values():
         apply_schemas(over(layer, path), "NewtonSiteAPI")
+    ruling = {name for name, m in plan.mechanism.materials.items() if m.friction_combine in RULING}
     for body in plan.mechanism.bodies:
+        own = [(shape_path(plan.body_paths[body.name], s), s.material) for s in body.shapes]
+        drawn = [
+            (f"{plan.body_paths[body.name]}/{COLLIDERS}/{p.name}", p.data.material)
+            for p in plan.parts[body.name]
+            if p.approximation.usd
+        ]
+        for path, material in (*own, *drawn) if ruling else ():
+            if material in ruling:
+                spec = over(layer, path)
+                apply_schemas(spec, "MjcCollisionAPI")
+                set_attribute(spec, "mjc:priority", Types.Int, 1, uniform=True)
         for placed in plan.parts[body.name]:
             path = f"{plan.body_paths[body.name]}/{COLLIDERS}/{placed.name}"
             if placed.approximation.newton_schema and base.GetPrimAtPath(path).typeName == "Mesh":

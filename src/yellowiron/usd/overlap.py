@@ -26,10 +26,15 @@ def overlapping_bodies(plan: Plan, tolerance: float = TOLERANCE) -> list[tuple[s
         for placed in plan.parts[body.name]
         if placed.approximation.usd and len(placed.prototype.shape.mesh.points)
     ]
+    balls = [(index, shape) for index, body in enumerate(bodies) for shape in body.shapes]
     if not colliding:
         return []
-    owner = np.array([index for index, _, _ in colliding])
+    owner = np.array([index for index, *_ in (*colliding, *balls)])
     centers, axes, halves = _boxes([placed for _, placed, _ in colliding], np.array([o for _, _, o in colliding]))
+    if balls:
+        centers = np.concatenate([centers, [shape.center for _, shape in balls]])
+        axes = np.concatenate([axes, np.broadcast_to(np.eye(3), (len(balls), 3, 3))])
+        halves = np.concatenate([halves, [[shape.radius] * 3 for _, shape in balls]])
     first, second = np.nonzero(owner[:, None] < owner[None, :])
     hit = _boxes_overlap(centers, axes, halves, first, second, tolerance)
     pairs = sorted({(int(owner[i]), int(owner[j])) for i, j in zip(first[hit], second[hit], strict=True)})

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from pxr import Gf, Sdf
 
-from yellowiron.model.mechanism import Body
+from yellowiron.model.mechanism import Body, chained, rolling
+from yellowiron.usd.bodies import shape_path
 from yellowiron.usd.joints import write_joints
 from yellowiron.usd.materials import write_physics_material
 from yellowiron.usd.overlap import overlapping_bodies
@@ -29,6 +30,8 @@ def write_physics(layer: Sdf.Layer, base: Sdf.Layer, plan: Plan) -> None:
         for placed in plan.parts[body.name]:
             if placed.approximation.usd:
                 _write_collider(layer, base, f"{spec.path}/{COLLIDERS}/{placed.name}", placed, plan)
+        for shape in body.shapes:
+            _write_touching(over(layer, shape_path(str(spec.path), shape)), shape.material, plan)
     _write_filtered_pairs(layer, plan)
     write_joints(layer, plan)
 
@@ -50,7 +53,17 @@ def _write_collider(layer: Sdf.Layer, base: Sdf.Layer, path: str, placed: Placed
         apply_schemas(spec, "PhysicsMeshCollisionAPI")
         if placed.approximation.usd != "none":
             set_attribute(spec, "physics:approximation", Types.Token, placed.approximation.usd, uniform=True)
-    material = plan.material_paths.get(placed.data.material)
+    _bind(spec, placed.data.material, plan)
+
+
+def _write_touching(spec: Sdf.PrimSpec, material: str, plan: Plan) -> None:
+    apply_schemas(spec, "PhysicsCollisionAPI")
+    _bind(spec, material, plan)
+
+
+def _bind(spec: Sdf.PrimSpec, name: str, plan: Plan) -> None:
+    """The physics material of a collider."""
+    material = plan.material_paths.get(name)
     if material is not None:
         apply_schemas(spec, "MaterialBindingAPI")
         set_targets(spec, "material:binding:physics", material)
@@ -58,10 +71,16 @@ def _write_collider(layer: Sdf.Layer, base: Sdf.Layer, path: str, placed: Placed
 
 def filtered_pairs(plan: Plan) -> dict[str, list[str]]:
     """Body → the bodies after it that it must not collide with: those it is jointed to, and those it overlaps in the
-    drawn pose."""
+    drawn pose; but a track's shoes lie against the wheels that it runs on."""
     order = {body.name: index for index, body in enumerate(plan.mechanism.bodies)}
     pairs = {tuple(sorted((j.body0, j.body1), key=order.__getitem__)) for j in plan.mechanism.joints}
-    pairs |= set(overlapping_bodies(plan))
+    loose = chained(plan.mechanism)
+    wheels = rolling(plan.mechanism)
+    pairs |= {
+        (a, b)
+        for a, b in overlapping_bodies(plan)
+        if not ((a in loose and b in wheels) or (a in wheels and b in loose))
+    }
     filtered: dict[str, list[str]] = {}
     for first, second in sorted(pairs, key=lambda p: (order[p[0]], order[p[1]])):
         filtered.setdefault(first, []).append(second)

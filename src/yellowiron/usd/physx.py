@@ -32,6 +32,12 @@ def write_physx(layer: Sdf.Layer, base: Sdf.Layer, plan: Plan) -> None:
     for joint in plan.mechanism.joints:
         if joint.drive is not None and not joint.cut and 0.0 < joint.drive.max_velocity < math.inf:
             _write_max_velocity(over(layer, plan.joint_paths[joint.name]), joint, joint.drive)
+    for name, path in plan.material_paths.items():
+        combine = plan.mechanism.materials[name].friction_combine
+        if combine is not None:
+            spec = over(layer, path)
+            apply_schemas(spec, "PhysxMaterialAPI")
+            set_attribute(spec, "physxMaterial:frictionCombineMode", Types.Token, combine, uniform=True)
     for body in plan.mechanism.bodies:
         for placed in plan.parts[body.name]:
             path = f"{plan.body_paths[body.name]}/{COLLIDERS}/{placed.name}"

@@ -16,7 +16,7 @@ from pxr import Gf, Sdf, Tf, Usd, UsdGeom, UsdPhysics
 
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.geometry import Floats
-from yellowiron.model.mechanism import Body, BodyPart, Drive, Joint, Mechanism, Site, Vector
+from yellowiron.model.mechanism import Body, BodyPart, BodyShape, Drive, Joint, Mechanism, Site, Vector
 from yellowiron.model.template import JointType
 from yellowiron.usd.drives import INSTANCES, per_usd_unit, to_usd_unit
 from yellowiron.usd.metadata import DOCUMENTS, FORMAT, KEY, from_json
@@ -161,6 +161,7 @@ class _Reader:
             parts=tuple(self._parts(prim)),
             hull=self._hull(prim, origin),
             source=str(data.get("source", "")),
+            shapes=from_json(tuple[BodyShape, ...], data["shapes"]) if "shapes" in data else (),
         )
 
     def _parts(self, body: Usd.Prim) -> Iterator[BodyPart]:
@@ -219,7 +220,7 @@ class _Reader:
             axis=_vector(_exact(axis, np.array(data["axis"]), scale=1.0)),
             lower=lower,
             upper=upper,
-            cut=bool(joint.GetExcludeFromArticulationAttr().Get()),
+            cut=bool(joint.GetExcludeFromArticulationAttr().Get()) and (not data.get("floating") or bool(data.get("cut"))),
             free=bool(data.get("free", False)),
             drive=None if drive is None else _drive(prim, kind, from_json(Drive, drive)),
             source=from_json(dict, data["evidence"]) if "evidence" in data else {},
