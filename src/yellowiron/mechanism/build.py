@@ -121,9 +121,9 @@ def build_mechanism(
         specifications=values.carried(specifications),
         findings=tuple(dict.fromkeys(findings)),
         sensors=sensed,
+        floating=floating,
     )
 
-        floating=floating,
 
 def _weld_loose(
     frames: Mapping[str, JointFrame],
@@ -137,10 +137,10 @@ def _weld_loose(
     present = [r.name for r in template.roles if r.rigid and placement.has_body(r.name)]
     result = dict(frames)
     for loose in loose_bodies(template.root, present, links(template, frames)):
-        above = [r.name for r in ancestors(template, loose)[1:] if r.rigid and placement.has_body(r.name)]
-        holder = above[0] if above else template.root
         if loose in floating:
             continue
+        above = [r.name for r in ancestors(template, loose)[1:] if r.rigid and placement.has_body(r.name)]
+        holder = above[0] if above else template.root
         joint = JointTemplate(f"{holder}2{loose}_weld_joint", "fixed", (holder, loose))
         result[joint.name] = weld(joint, (holder, loose), placement, method="weld: no joint leads to this body")
         words = f"No joint leads to the body '{loose}': it was welded to '{holder}'."
