@@ -6,15 +6,18 @@ the example's drawing office.
 
 from __future__ import annotations
 
+import math
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 from OCP.Bnd import Bnd_Box
+from OCP.BRep import BRep_Tool
 from OCP.BRepBndLib import BRepBndLib
+from OCP.BRepMesh import BRepMesh_IncrementalMesh
 from OCP.gp import gp_Trsf
 from OCP.IFSelect import IFSelect_ReturnStatus
 from OCP.Interface import Interface_Static
@@ -26,8 +29,10 @@ from OCP.TCollection import TCollection_ExtendedString
 from OCP.TDataStd import TDataStd_Name
 from OCP.TDF import TDF_Label
 from OCP.TDocStd import TDocStd_Document
+from OCP.TopAbs import TopAbs_ShapeEnum
+from OCP.TopExp import TopExp_Explorer
 from OCP.TopLoc import TopLoc_Location
-from OCP.TopoDS import TopoDS_Shape
+from OCP.TopoDS import TopoDS, TopoDS_Shape
 from OCP.XCAFDoc import XCAFDoc_ColorType, XCAFDoc_DocumentTool, XCAFDoc_ShapeTool
 
 from .solids import moved
@@ -128,6 +133,25 @@ def extent(leaves: Iterable[Occurrence], where: gp_Trsf | None = None) -> NDArra
     return np.array([[low.X(), low.Y(), low.Z()], [high.X(), high.Y(), high.Z()]])
 
 
+def farthest(leaves: Iterable[Occurrence], moves: Mapping[str, gp_Trsf]) -> float:
+    """Greatest distance of the parts from the machine's upright axis, to a hundredth of a millimetre; `moves` carries
+    the parts of a body."""
+    most = 0.0
+    for leaf in leaves:
+        place = moves[leaf.body].Multiplied(leaf.place) if leaf.body in moves else leaf.place
+        shape = moved(leaf.part.shape, place)
+        BRepMesh_IncrementalMesh(shape, 0.01, False, 0.05)
+        faces = TopExp_Explorer(shape, TopAbs_ShapeEnum.TopAbs_FACE)
+        while faces.More():
+            where = TopLoc_Location()
+            mesh = BRep_Tool.Triangulation_s(TopoDS.Face(faces.Current()), where)
+            for i in range(1, mesh.NbNodes() + 1):
+                p = mesh.Node(i).Transformed(where.Transformation())
+                most = max(most, math.hypot(p.X(), p.Y()))
+            faces.Next()
+    return most
+
+
 def write_step(root: Assembly, path: Path, *, cad: gp_Trsf) -> None:
     """The tree as one STEP AP214 file, the same bytes every time; `cad` takes the machine frame to the file's."""
     document = TDocStd_Document(TCollection_ExtendedString("BinXCAF"))
@@ -198,7 +222,9 @@ def _sorted_colours(text: str) -> str:
         while not statements[style].startswith("COLOUR_RGB"):
             style = re.findall(r"#\d+", statements[style])[-1]
         own = next(key for key, value in statements.items() if value == statement)
-        group = next(v for v in statements.values() if v.startswith("MECHANICAL") and re.findall(r"#\d+", v)[0] == own)
+        group = next(
+            v for v in statements.values() if v.startswith("MECHANICAL") and own in re.findall(r"#\d+", v)[:-1]
+        )
         rgb = ",".join(f"{float(c):.6g}" for c in re.findall(r"[\d.]+E?-?\d*", statements[style].split("'',")[1]))
         colours.append((int(item[1:]), item, re.findall(r"#\d+", group)[-1], rgb))
     n = int(text[start + 1 : text.index(" ", start)])

@@ -104,11 +104,11 @@ TRAVEL_SPEED_MID = Value("Maximum travel speed, mid", 4.0, "km/h")
 TRAVEL_SPEED_LOW = Value("Maximum travel speed, low", 3.0, "km/h")
 DRAWBAR_PULL = Value("Maximum drawbar pull", 200.0, "kN")
 MAX_REACH = Value("Max digging reach", 9880.0, "mm")
-WALL_DEPTH = Value("Max vertical wall digging depth", 6390.0, "mm")
+WALL_DEPTH = Value("Max vertical wall digging depth", 6160.0, "mm")
 LEVEL_DEPTH = Value("Max digging depth, 2440 mm level bottom", 6440.0, "mm")
 LEVEL_LENGTH = 2440.0
 """Length of the level bottom in `LEVEL_DEPTH`, millimetres."""
-DUMPING_HEIGHT_MIN = Value("Min dumping height", 2550.0, "mm")
+DUMPING_HEIGHT_MIN = Value("Min dumping height", 2560.0, "mm")
 SWING_RADIUS_MIN = Value("Min swing radius", 3190.0, "mm")
 """Boom, arm and bucket cylinders open: distance of the work equipment's foremost point from the swing axis."""
 TAIL_RADIUS = Value("Tail swing radius", 2920.0, "mm")
@@ -129,7 +129,7 @@ ARM_FORCE = Value("Arm digging force (ISO 6015)", 103.0, "kN")
 
 # ---- ours: how things are drawn; a sheet does not print these --------
 BOOM_CLOSED = Value("Boom cylinder closed length", 1930.0, "mm")
-ARM_CLOSED = Value("Arm cylinder closed length", 2150.0, "mm")
+ARM_CLOSED = Value("Arm cylinder closed length", 2180.0, "mm")
 BUCKET_CLOSED = Value("Bucket cylinder closed length", 1690.0, "mm")
 LINK_PITCH = Value("Track link pitch", 190.0, "mm")
 

@@ -1,0 +1,320 @@
+"""The truth about the drawn machine: what each part is, where each joint is, what the linkage gives. CAD frame,
+metres."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from OCP.gp import gp_Ax3, gp_Dir, gp_Pnt, gp_Trsf
+from scipy.optimize import brentq
+
+from drawing.cylinders import Cylinder
+from drawing.hardware import placed
+from drawing.planar import Point, direction, rot, vec
+from drawing.product import Assembly, Occurrence, extent, farthest, occurrences
+
+from . import values as v
+from .bucket import floor_angle
+from .equipment import CYLINDER_Y
+from .linkage import (
+    ARM,
+    ARM_MAX,
+    BOOM_MAX,
+    BOOM_MIN,
+    BUCKET_MAX,
+    BUCKET_MIN,
+    LEVEL,
+    Linkage,
+    Pose,
+    ranges,
+    wrapped,
+)
+from .track import CARRIER_X, COUNT, HALF, ROLLER_X, Loop, solve_track
+from .undercarriage import GAUGE
+from .upper import FLOOR
+
+Array = NDArray[np.float64]
+_TO_MACHINE = np.array([[0, 0, -1.0], [-1.0, 0, 0], [0, 1.0, 0]])
+"""CAD x is right, y up, z backward, as the drawing office of this example has it."""
+Y, Z = (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
+
+
+def origin() -> tuple[float, float, float]:
+    """CAD origin in the machine frame: the sprockets' axis in the middle of the machine, millimetres."""
+    return (-HALF, 0.0, solve_track().axle)
+
+
+def to_cad() -> gp_Trsf:
+    """Machine frame to CAD frame: CAD x = -y, y = z, z = -x, about the origin."""
+    t = gp_Trsf()
+    t.SetTransformation(gp_Ax3(), gp_Ax3(gp_Pnt(*origin()), gp_Dir(-1, 0, 0), gp_Dir(0, -1, 0)))
+    return t
+
+
+def frame_matrix() -> list[list[float]]:
+    """4x4, CAD metres to machine metres."""
+    m = np.eye(4)
+    m[:3, :3] = _TO_MACHINE
+    m[:3, 3] = np.array(origin()) / 1000.0
+    return [[float(c) + 0.0 for c in row] for row in m]
+
+
+def _point(p: tuple[float, float, float]) -> list[float]:
+    return [round(float(c), 9) + 0.0 for c in _TO_MACHINE.T @ (np.array(p, dtype=float) - origin()) / 1000.0]
+
+
+def _axis(a: tuple[float, float, float]) -> list[float]:
+    n = np.array(a, dtype=float)
+    return [round(float(c), 9) + 0.0 for c in _TO_MACHINE.T @ (n / np.linalg.norm(n))]
+
+
+def _row(body: str, count: int) -> list[str]:
+    return [f"{body}_{i + 1}" for i in range(count)]
+
+
+def track_bodies() -> list[str]:
+    """Bodies of their own where every shoe is one; otherwise they move with the undercarriage."""
+    out: list[str] = []
+    for letter in "lr":
+        out += [f"sprocket_{letter}", f"idler_{letter}"]
+        out += _row(f"track_roller_{letter}", len(ROLLER_X)) + _row(f"carrier_roller_{letter}", len(CARRIER_X))
+        out += _row(f"track_shoe_{letter}", COUNT)
+    return out
+
+
+def joints(k: Linkage, pose: Pose, loop: Loop) -> dict[str, dict[str, Any]]:
+    """Every joint of the machine; `when` names the choice that a joint belongs to. Anchors and axes in the CAD frame;
+    pitch axes towards the machine's left, the swing's up, slides outward."""
+    out: dict[str, dict[str, Any]] = {}
+    shoes = {"tracks": "shoes"}
+
+    def add(
+        name: str,
+        bodies: tuple[str, str],
+        at: tuple[float, float, float],
+        *,
+        kind: str = "revolute",
+        axis: tuple[float, float, float] = Y,
+        when: dict[str, str] | None = None,
+    ) -> None:
+        out[name] = {"type": kind, "body0": bodies[0], "body1": bodies[1], "anchor": _point(at), "axis": _axis(axis)}
+        if when:
+            out[name]["when"] = when
+
+    def pivot(a: str, b: str, at: Point, y: float = 0.0) -> None:
+        add(f"{a}2{b}_joint", (a, b), (at[0], y, at[1]))
+
+    def slide(barrel: str, piston: str, start: Point, end: Point, y: float = 0.0) -> None:
+        d = end - start
+        at = (start[0], y, start[1])
+        add(f"{barrel}2{piston}_joint", (barrel, piston), at, kind="prismatic", axis=(d[0], 0.0, d[1]))
+
+    add("undercarriage2upperstructure_joint", ("undercarriage", "upperstructure"), (0, 0, FLOOR), axis=Z)
+    pivot("upperstructure", "boom", k.A)
+    for letter, y in (("l", CYLINDER_Y), ("r", -CYLINDER_Y)):
+        pivot("upperstructure", f"boom_cylinder_barrel_{letter}", k.C, y)
+        pivot("boom", f"boom_piston_rod_{letter}", pose.D, y)
+        slide(f"boom_cylinder_barrel_{letter}", f"boom_piston_rod_{letter}", k.C, pose.D, y)
+    pivot("boom", "arm", pose.B)
+    pivot("boom", "arm_cylinder_barrel", pose.M)
+    pivot("arm", "arm_piston_rod", pose.P)
+    slide("arm_cylinder_barrel", "arm_piston_rod", pose.M, pose.P)
+    pivot("arm", "bucket", pose.K)
+    pivot("arm", "bucket_cylinder_barrel", pose.E)
+    slide("bucket_cylinder_barrel", "bucket_piston_rod", pose.E, pose.H)
+    pivot("arm", "tipping_link", pose.G)
+    pivot("bucket_piston_rod", "tipping_link", pose.H)
+    pivot("bucket_piston_rod", "bucket_link", pose.H)
+    pivot("bucket_link", "bucket", pose.J)
+    for letter, y in (("l", GAUGE), ("r", -GAUGE)):
+
+        def turns(body: str, x: float, z: float, y: float = y, name: str = "", parent: str = "undercarriage") -> None:
+            add(name or f"{parent}2{body}_joint", (parent, body), (x, y, z), when=shoes)
+
+        turns(f"sprocket_{letter}", -HALF, loop.axle)
+        turns(f"idler_{letter}", HALF, loop.axle)
+        rows = (
+            ("track_roller", [(x, loop.roller) for x in reversed(ROLLER_X)]),
+            ("carrier_roller", [(x, loop.carrier(x)) for x in reversed(CARRIER_X)]),
+        )
+        for row, places in rows:
+            for i, (x, z) in enumerate(places, 1):
+                turns(f"{row}_{letter}_{i}", x, z, name=f"undercarriage2{row}_{letter}_joint_{i}")
+        shoe = f"track_shoe_{letter}"
+        for i in range(1, COUNT + 1):
+            following = i % COUNT + 1
+            x, z, _ = loop.pins[following - 1]
+            turns(f"{shoe}_{following}", x, z, name=f"{shoe}2{shoe}_joint_{i}", parent=f"{shoe}_{i}")
+    return out
+
+
+def _slides(cylinders: dict[str, Cylinder]) -> dict[str, dict[str, float]]:
+    def one(c: Cylinder) -> dict[str, float]:
+        mm = {
+            "stroke": c.stroke,
+            "bore": c.bore,
+            "rod_diameter": c.rod,
+            "closed_length": c.closed,
+            "drawn_length": c.drawn,
+        }
+        return {key: round(value / 1000.0, 9) for key, value in mm.items()}
+
+    out = {f"{n}_cylinder_barrel2{n}_piston_rod_joint": one(cylinders[n]) for n in ("arm", "bucket")}
+    for letter in "lr":
+        out[f"boom_cylinder_barrel_{letter}2boom_piston_rod_{letter}_joint"] = one(cylinders["boom"])
+    return out
+
+
+def measured(k: Linkage) -> dict[str, float]:
+    """What the solved linkage gives for the working ranges, by the value's name; millimetres and kilonewtons."""
+    e = k.ends()
+    low = k.lowest_arm_pin()
+    got = {n: x for n, x in ranges(k.A, k.tip, e).items() if n != LEVEL}
+
+    def miss(depth: float) -> float:
+        return ranges(k.A, k.tip, e, depth)[LEVEL] - v.LEVEL_LENGTH
+
+    wall = float(low[1]) - ARM - k.tip * math.cos(floor_angle(k))
+    return got | {
+        v.LEVEL_DEPTH.name: float(brentq(miss, 6000.0, v.DIGGING_DEPTH.value - 1.0, xtol=1e-9)),
+        v.WALL_DEPTH.name: -wall,
+        v.BUCKET_FORCE.name: bucket_force(k),
+        v.ARM_FORCE.name: arm_force(k),
+    }
+
+
+def bucket_force(k: Linkage) -> float:
+    """Largest force at the tooth points from the bucket cylinder alone at the relief pressure, kN: by virtual work,
+    over the stroke (ISO 6015 without its limits of stability)."""
+    push = v.MAIN_PRESSURE.value * math.pi / 4 * v.BUCKET_BORE.value**2 / 1000.0
+    step = 0.5
+    lengths = np.arange(BUCKET_MIN + step, BUCKET_MAX - step, 1.0)
+    turns = [(k.four_bar(c - step)[0] - k.four_bar(c + step)[0]) % (2 * math.pi) for c in map(float, lengths)]
+    return push / (min(turns) * k.tip)
+
+
+def arm_force(k: Linkage) -> float:
+    """Largest force at the tooth points from the arm cylinder alone at the relief pressure, kN; the bucket curled to
+    where its own force is largest."""
+    push = v.MAIN_PRESSURE.value * math.pi / 4 * v.ARM_BORE.value**2 / 1000.0
+    lengths = np.arange(BUCKET_MIN + 0.5, BUCKET_MAX - 0.5, 1.0)
+    turns = [(k.four_bar(c - 0.5)[0] - k.four_bar(c + 0.5)[0]) % (2 * math.pi) for c in map(float, lengths)]
+    best = k.four_bar(float(lengths[int(np.argmin(turns))]))[0]
+    radius = float(np.hypot(*(vec(ARM, 0.0) + rot(best, vec(k.tip, 0.0)))))
+    return push * float(np.hypot(*k.P)) / radius
+
+
+def _moves(k: Linkage, start: Pose, pose: Pose) -> dict[str, gp_Trsf]:
+    """Where each moving body goes from the drawn pose, machine frame."""
+
+    def frames(p: Pose) -> dict[str, gp_Trsf]:
+        def at(pin: Point, angle: float) -> gp_Trsf:
+            return placed((pin[0], 0.0, pin[1]), angle)
+
+        lift, crowd, curl = direction(p.D - k.C), direction(p.P - p.M), direction(p.H - p.E)
+        out = {
+            "boom": at(k.A, p.boom_angle),
+            "arm": at(p.B, p.arm_angle),
+            "bucket": at(p.K, p.bucket_angle),
+            "tipping_link": at(p.G, direction(p.H - p.G)),
+            "bucket_link": at(p.H, direction(p.J - p.H)),
+            "arm_cylinder_barrel": at(p.M, crowd),
+            "arm_piston_rod": at(p.P, crowd),
+            "bucket_cylinder_barrel": at(p.E, curl),
+            "bucket_piston_rod": at(p.H, curl),
+        }
+        for letter in "lr":
+            out[f"boom_cylinder_barrel_{letter}"] = at(k.C, lift)
+            out[f"boom_piston_rod_{letter}"] = at(p.D, lift)
+        return out
+
+    before, after = frames(start), frames(pose)
+    return {body: after[body].Multiplied(before[body].Inverted()) for body in before}
+
+
+def drawn(root: Assembly, k: Linkage, pose: Pose) -> dict[str, float]:
+    """What the drawn shapes give for the values, by the value's name; millimetres."""
+    leaves = occurrences(root)
+
+    def of(*bodies: str) -> list[Occurrence]:
+        return [leaf for leaf in leaves if leaf.body.startswith(bodies)]
+
+    def named(name: str) -> list[Occurrence]:
+        return [leaf for leaf in leaves if leaf.part.name.startswith(name)]
+
+    front = ("boom", "arm", "bucket", "tipping_link")
+    hanging = [leaf for leaf in of("arm", "bucket", "tipping_link") if not leaf.part.name.startswith("BOLT")]
+
+    def bounds(group: list[Occurrence], moves: dict[str, gp_Trsf]) -> Array:
+        parts = [extent([leaf], moves[leaf.body]) for leaf in group]
+        return np.array([np.min([b[0] for b in parts], axis=0), np.max([b[1] for b in parts], axis=0)])
+
+    def folded(boom: float) -> dict[str, gp_Trsf]:
+        return _moves(k, pose, k.pose(boom, ARM_MAX, BUCKET_MAX))
+
+    down = float(brentq(lambda c: bounds(hanging, folded(c))[0, 2], BOOM_MIN + 200, BOOM_MAX - 200, xtol=1e-3))
+    resting = bounds(of(*front), folded(down))
+    upper = of("upperstructure")
+    swung = farthest(of(*front), folded(BOOM_MAX))
+    shoes = extent(of("track_shoe_l", "track_shoe_r"))
+    left = extent(of("track_shoe_l"))
+    clear = [leaf for leaf in of("undercarriage") if "CENTRE" in leaf.path]
+    return {
+        v.OVERALL_LENGTH.name: float(resting[1, 0] - extent(upper)[0, 0]),
+        v.BOOM_HEIGHT.name: float(resting[1, 2]),
+        v.SWING_RADIUS_MIN.name: swung,
+        v.TAIL_RADIUS.name: farthest([leaf for leaf in upper if "COUNTERWEIGHT" in leaf.path], {}),
+        v.OVERALL_WIDTH.name: float(shoes[1, 1] - shoes[0, 1]),
+        v.TRACK_LENGTH.name: float(left[1, 0] - left[0, 0]),
+        v.TRACK_HEIGHT.name: float(left[1, 2]),
+        v.SHOE_WIDTH.name: float(left[1, 1] - left[0, 1]),
+        v.TRACK_GAUGE.name: float(left.mean(0)[1] - extent(of("track_shoe_r")).mean(0)[1]),
+        v.TRACK_ON_GROUND.name: float(extent(named("IDLER AXLE")).mean(0)[0] - extent(named("SPROCKET")).mean(0)[0]),
+        v.GROUND_CLEARANCE.name: float(extent(clear)[0, 2]),
+        v.COUNTERWEIGHT_CLEARANCE.name: float(extent(named("COUNTERWEIGHT"))[0, 2]),
+        v.UPPER_WIDTH.name: float(extent(named("DECK"))[1, 1] - extent(named("DECK"))[0, 1]),
+        v.CAB_HEIGHT.name: float(extent(named("CAB ROOF"))[1, 2]),
+        v.HANDRAIL_HEIGHT.name: float(extent(upper)[1, 2]),
+        v.BUCKET_WIDTH.name: float(np.ptp(extent(of("bucket_width") or named("CUTTING EDGE"))[:, 1])),
+    }
+
+
+def truth(root: Assembly, k: Linkage, pose: Pose, cylinders: dict[str, Cylinder]) -> dict[str, Any]:
+    """The document written as `truth.json`."""
+    got, shapes = measured(k), drawn(root, k, pose)
+    named = {value.name: value for value in (*v.PUBLISHED, *v.EXAMPLE)}
+    return {
+        "about": "CAD frame, metres. A part's key is its product names from the root joined by '/', in tree "
+        "order; the second of two equal keys ends in '#2', the third in '#3'. Bodies and joints are those with "
+        "every track shoe a body; where the track is not, 'undercarriage_with' move with the undercarriage and "
+        "joints whose 'when' says so are absent.",
+        "frame": frame_matrix(),
+        "undercarriage_with": track_bodies(),
+        "joints": joints(k, pose, solve_track()),
+        "parts": {leaf.path: {"body": leaf.body, "role": leaf.role} for leaf in occurrences(root)},
+        "cylinders": _slides(cylinders),
+        "sites": {
+            "bucket_tip": _point((pose.T[0], 0.0, pose.T[1])),
+            "bucket_pin": _point((pose.K[0], 0.0, pose.K[1])),
+        },
+        "drawn": {
+            "boom_angle": round(math.degrees(pose.boom_angle), 9),
+            "arm_angle": round(math.degrees(pose.arm_angle), 9),
+            "bucket_angle": round(math.degrees(pose.bucket_angle), 9),
+            "bucket_floor": round(math.degrees(wrapped(pose.bucket_angle - floor_angle(k))), 9),
+        },
+        "values": {
+            name: {
+                "target": value.value,
+                "unit": value.unit,
+                "published": value.published,
+                **({"linkage": round(got[name], 5)} if name in got else {}),
+                **({"drawn": round(shapes[name], 3)} if name in shapes else {}),
+            }
+            for name, value in named.items()
+            if name in got or name in shapes
+        },
+    }
