@@ -30,10 +30,10 @@ MOST_BYTES = 3_000_000
 
 @pytest.fixture(scope="module")
 def machine(example: Path, tmp_path_factory: pytest.TempPathFactory) -> Any:
-    """The example, built: what the page was made from."""
+    """The example, built and driven: what the page was made from."""
     return build(
         "wheel_loader", example / "wheel_loader.step", tmp_path_factory.mktemp("page") / "machine",
-        sheets=[example / "specifications.pdf"],
+        sheets=[example / "specifications.pdf"], engines=("mujoco",),
     )  # fmt: skip
 
 
@@ -203,6 +203,54 @@ def test_the_camera_answers_mouse_and_keys(page: Any) -> None:
     page.wait_for_function("(far) => yellowiron.camera.distance < far", arg=turned["distance"])
     page.keyboard.press("0")
     assert page.evaluate("yellowiron.camera.azimuth") == before["azimuth"]
+
+
+def test_sensors_show_what_they_see(page: Any, machine: Any) -> None:
+    page.get_by_role("button", name="Sensors").click()
+    sensors = machine.mechanism.sensors
+    assert page.locator(".v-sensor").count() == len(sensors)
+    looking = sum(sensor.type in ("camera", "lidar") for sensor in sensors)
+    assert page.locator(".v-sensor.v-looks").count() == looking > 0
+    page.get_by_role("button", name="Sensors").click()
+    assert page.locator(".v-sensor").count() == 0
+    # Every one has its row, and its number on the picture.
+    assert page.locator("#sensors ~ .scroll").first.locator("tr:has(td)").count() == len(sensors)
+    assert page.locator("#sensors ~ figure").first.locator(".mark").count() == len(sensors)
+
+
+def test_every_sweep_is_shown(page: Any, machine: Any) -> None:
+    """A strip for what can be seen to move, lines for all; each picture of a strip differs from the one before."""
+    names = page.locator("h3.sweep").all_inner_texts()
+    assert len(names) == len(machine.mechanism.actuators) + 1
+    assert page.locator(".plots svg.plot").count() == 2 * len(names)
+    cylinders = [a for a in machine.mechanism.actuators if a.kind == "cylinder"]
+    strips = page.locator(".strip:not(.poses)")
+    assert strips.count() == len(cylinders) + 1
+    for strip in strips.all():
+        pictures = strip.locator("img").evaluate_all("all => all.map((image) => image.src)")
+        assert len(set(pictures)) == len(pictures) == 5
+        assert strip.locator("img").evaluate_all("all => all.every((image) => image.naturalWidth > 0)")
+
+
+@pytest.mark.parametrize("width", [360, 800, 1280])
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_nothing_runs_out_of_the_page(browser: Any, machine: Any, width: int, scheme: str) -> None:
+    page = browser.new_page(viewport={"width": width, "height": 800}, color_scheme=scheme)
+    page.goto((machine.folder / "report.html").as_uri())
+    page.wait_for_selector("#viewer.v-ready")
+    page.evaluate("document.querySelectorAll('main details').forEach((each) => (each.open = true))")
+    assert page.evaluate("document.documentElement.scrollWidth") <= width
+    wide = page.evaluate(
+        """(width) => [...document.querySelectorAll("main *, header *")]
+          .filter((each) => !each.closest(".scroll, .strip, svg, figure.wide, .run"))
+          .filter((each) => each.getBoundingClientRect().right > width + 1).map((each) => each.outerHTML)""",
+        width,
+    )
+    assert wide == []
+    paper, ink = page.evaluate("['backgroundColor', 'color'].map((key) => getComputedStyle(document.body)[key])")
+    light = [sum(int(n) for n in colour[4:-1].split(",")) for colour in (paper, ink)]
+    assert (light[0] > light[1]) is (scheme == "light")
+    page.close()
 
 
 def test_without_webgl_the_picture_stays(browser: Any, machine: Any) -> None:
