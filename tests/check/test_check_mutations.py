@@ -97,7 +97,9 @@ class Victims:
     def collider(self, kind: str, body: Usd.Prim | None = None) -> Usd.Prim:
         prims = Usd.PrimRange(body) if body else self.stage.Traverse()
         found = (p for p in prims if p.HasAPI(UsdPhysics.CollisionAPI) and p.GetTypeName() == kind)
-        return next(p for p in found if body or str(p.GetPath()).startswith(str(self.root.GetPath())))
+        return next(
+            p for p in found if body or str(p.GetPath()).startswith(str(self.bodies[0].GetPath().GetParentPath()))
+        )
 
     @staticmethod
     def targets(joint: Usd.Prim, name: str) -> list[Sdf.Path]:

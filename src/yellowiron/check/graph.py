@@ -47,7 +47,8 @@ class Loop:
 @dataclass(frozen=True, eq=False)
 class Island:
     """Bodies that enabled joints hold together, in the file's order, and those joints. `roots` are the articulation
-    roots that it falls under; `trees` its bodies as the uncut joints connect them."""
+    roots that it falls under: prims at or above its bodies, and joints of its own; `trees` its bodies as the uncut
+    joints connect them."""
 
     bodies: tuple[Body, ...]
     joints: tuple[Joint, ...]
@@ -148,7 +149,9 @@ def _island(group: tuple[str, ...], bodies: Mapping[str, Body], edges: list[Join
     return Island(
         bodies=tuple(bodies[b] for b in group),
         joints=tuple(joints),
-        roots=tuple(r for r in roots if any(b == r or b.startswith(f"{r}/") for b in group)),
+        roots=tuple(
+            r for r in roots if any(b == r or b.startswith(f"{r}/") for b in group) or any(j.path == r for j in joints)
+        ),
         trees=tuple(_components(list(group), [j for j in links if not j.cut])),
         loops=tuple(_loop(joint, tree, ends) for joint in closing),
         uncut=tuple(j for j in closing if not j.cut),
@@ -238,8 +241,8 @@ def cylinders(island: Island) -> Iterator[tuple[Joint, Joint, Joint]]:
 
 
 def root_body(island: Island, tree: tuple[str, ...], recorded: str = "") -> str:
-    """The body a tree hangs from: the recorded one, the one on the world, the one with the articulation root, else
-    the one that the fewest joints contradict."""
+    """The body a tree hangs from: the recorded one, the one on the world, else the one that fewest joints contradict
+    (of equals the one with the articulation root; elsewhere that root says only which link PhysX integrates)."""
     joints = [j for j in island.joints if not j.cut and j.type in KINDS]
     if recorded in tree:
         return recorded
@@ -247,10 +250,7 @@ def root_body(island: Island, tree: tuple[str, ...], recorded: str = "") -> str:
         for near, far in (joint.bodies, joint.bodies[::-1]):
             if near == WORLD and far in tree:
                 return far
-    named = [r for r in island.roots if any(b == r or b.startswith(f"{r}/") for b in tree)]
-    if len(named) == 1 and named[0] in tree:
-        return named[0]
-    return min(tree, key=lambda body: len(reversed_joints(joints, body)))
+    return min(tree, key=lambda body: (len(reversed_joints(joints, body)), body not in island.roots))
 
 
 def reversed_joints(joints: Iterable[Joint], root: str) -> list[Joint]:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import functools
 import math
+import posixpath
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
@@ -206,9 +207,17 @@ class View:
     frame: Floats = field(default_factory=lambda: np.eye(4))
     record: Mapping[str, Any] = field(default_factory=dict)
 
+    def scope(self, root: str) -> str:
+        """The prim of an articulation: its root; of a root that is a link or a joint, the prim with all its links."""
+        island = next((i for i in self.islands if root in i.roots), None)
+        if island is None or not (root in self.bodies or any(j.path == root for j in island.joints)):
+            return root
+        common = posixpath.commonpath([b.path for b in island.bodies])
+        return root if common == "/" else common
+
     def under_root(self, path: str) -> str:
-        """The articulation root at or above a prim, or ""."""
-        return next((r for r in self.roots if path == r or path.startswith(f"{r}/")), "")
+        """The articulation (`scope`) at or above a prim, or ""."""
+        return next((s for s in map(self.scope, self.roots) if path == s or path.startswith(f"{s}/")), "")
 
 
 def direction(rotation: Floats, freedom: str) -> Floats:

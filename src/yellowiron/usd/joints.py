@@ -31,7 +31,7 @@ def usd_type(joint: Joint) -> str:
 
 
 def write_joints(layer: Sdf.Layer, plan: Plan) -> None:
-    """Every joint in the joints scope, and the inactive joint to the world that variant Base=fixed switches on."""
+    """Every joint in the joints scope, and the joint to the world that variant Base=fixed has."""
     define(layer, f"{plan.root}/{JOINTS}", "Scope")
     loose = chained(plan.mechanism)
     for joint in plan.mechanism.joints:
@@ -89,8 +89,7 @@ def _write_base_joint(layer: Sdf.Layer, plan: Plan) -> None:
     """Fixes the root body to the world where the machine stands: no body0 is the world. It holds the root at the
     machine's origin, so it is written in the machine's own frame: the machine's prim is body0."""
     mechanism = plan.mechanism
-    spec = define(layer, f"{plan.root}/{JOINTS}/{BASE_JOINT}", "PhysicsFixedJoint")
-    spec.SetInfo("active", False)
+    spec = define(layer, f"{plan.root}{{Base=fixed}}{JOINTS}/{BASE_JOINT}", "PhysicsFixedJoint")
     set_targets(spec, "physics:body0", plan.root)
     set_targets(spec, "physics:body1", plan.body_paths[mechanism.root])
     origin = Gf.Vec3f(*map(float, mechanism.body(mechanism.root).origin))

@@ -10,6 +10,7 @@ import math
 
 from pxr import Sdf, Vt
 
+from yellowiron.usd.articulation import articulation_roots
 from yellowiron.usd.bodies import shape_path
 from yellowiron.usd.drives import to_usd_unit
 from yellowiron.usd.joints import usd_type
@@ -29,9 +30,9 @@ _EQUALITIES = {"spherical": "MjcEqualityConnectAPI", "fixed": "MjcEqualityWeldAP
 
 def write_mujoco(layer: Sdf.Layer, base: Sdf.Layer, plan: Plan) -> None:
     """Equalities on the cuts, self-collision off, velocity limits, sites, signed distance fields."""
-    root = over(layer, plan.root)
-    apply_schemas(root, "NewtonArticulationRootAPI")
-    set_attribute(root, "newton:selfCollisionEnabled", Types.Bool, False)
+    for root in articulation_roots(layer, plan):
+        apply_schemas(root, "NewtonArticulationRootAPI")
+        set_attribute(root, "newton:selfCollisionEnabled", Types.Bool, False)
     for joint in plan.mechanism.joints:
         equality = _EQUALITIES.get(usd_type(joint)) if joint.cut else None
         if equality is not None:

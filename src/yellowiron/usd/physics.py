@@ -6,6 +6,7 @@ import numpy as np
 from pxr import Gf, Sdf
 
 from yellowiron.model.mechanism import Body, chained, rolling
+from yellowiron.usd.articulation import articulation_roots
 from yellowiron.usd.bodies import shape_path
 from yellowiron.usd.joints import write_joints
 from yellowiron.usd.materials import write_physics_material
@@ -18,7 +19,6 @@ from yellowiron.usd.stage import Types, apply_schemas, define, over, set_attribu
 def write_physics(layer: Sdf.Layer, base: Sdf.Layer, plan: Plan) -> None:
     """Articulation root, rigid bodies with mass, colliders, materials, joints and filtered pairs. `base` tells which
     colliders are meshes."""
-    apply_schemas(over(layer, plan.root), "PhysicsArticulationRootAPI")
     if plan.material_paths:
         define(layer, f"{plan.root}/{MATERIALS}", "Scope")
         for name, path in plan.material_paths.items():
@@ -34,6 +34,8 @@ def write_physics(layer: Sdf.Layer, base: Sdf.Layer, plan: Plan) -> None:
             _write_touching(over(layer, shape_path(str(spec.path), shape)), shape.material, plan)
     _write_filtered_pairs(layer, plan)
     write_joints(layer, plan)
+    for spec in articulation_roots(layer, plan):
+        apply_schemas(spec, "PhysicsArticulationRootAPI")
 
 
 def write_mass(spec: Sdf.PrimSpec, body: Body) -> None:

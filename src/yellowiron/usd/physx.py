@@ -11,6 +11,7 @@ import math
 from pxr import Sdf
 
 from yellowiron.model.mechanism import Drive, Joint
+from yellowiron.usd.articulation import articulation_roots
 from yellowiron.usd.drives import INSTANCES, to_usd_unit
 from yellowiron.usd.plan import COLLIDERS, Plan
 from yellowiron.usd.stage import Types, apply_schemas, over, set_attribute
@@ -25,10 +26,10 @@ _VALUE_TYPES = {bool: Types.Bool, int: Types.Int, float: Types.Float}
 
 def write_physx(layer: Sdf.Layer, base: Sdf.Layer, plan: Plan) -> None:
     """Articulation settings, joint velocities and the collision parameters UsdPhysics has no word for."""
-    root = over(layer, plan.root)
-    apply_schemas(root, "PhysxArticulationAPI")
-    set_attribute(root, "physxArticulation:enabledSelfCollisions", Types.Bool, False)
-    set_attribute(root, "physxArticulation:solverPositionIterationCount", Types.Int, POSITION_ITERATIONS)
+    for root in articulation_roots(layer, plan):
+        apply_schemas(root, "PhysxArticulationAPI")
+        set_attribute(root, "physxArticulation:enabledSelfCollisions", Types.Bool, False)
+        set_attribute(root, "physxArticulation:solverPositionIterationCount", Types.Int, POSITION_ITERATIONS)
     for joint in plan.mechanism.joints:
         if joint.drive is not None and not joint.cut and 0.0 < joint.drive.max_velocity < math.inf:
             _write_max_velocity(over(layer, plan.joint_paths[joint.name]), joint, joint.drive)

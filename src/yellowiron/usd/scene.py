@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from pxr import Gf, Sdf, Vt
 
+from yellowiron.usd.articulation import BASES, write_base_set
 from yellowiron.usd.metadata import describe_machine, set_custom
-from yellowiron.usd.plan import BASE_JOINT, JOINTS, Plan
+from yellowiron.usd.plan import Plan
 from yellowiron.usd.sensors import FILE as SENSOR_FILE
 from yellowiron.usd.stage import (
     Names,
@@ -34,8 +35,7 @@ _SURFACE_LIFT = -0.001
 def write_machine_layer(layer: Sdf.Layer, plan: Plan) -> None:
     """The machine's own file: default prim, metadata, payload and variant sets; no ground, light or scene.
 
-    `Base` comes before `Physics`: the earlier variant set is stronger, and Base=fixed switches on a joint that the
-    physics layer holds inactive.
+    `Base` is empty here: the layers of `Physics` have the same set, and follow the selection made here.
     """
     spec = define(layer, plan.root, "Xform")
     set_display_name(spec, plan.mechanism.name)
@@ -44,12 +44,8 @@ def write_machine_layer(layer: Sdf.Layer, plan: Plan) -> None:
     set_custom(spec, describe_machine(plan.mechanism))
     _add_payload(spec, *([SENSOR_FILE] if plan.mechanism.sensors else []), "base.usda")
     spec.variantSetNameList.prependedItems = ["Base", "Physics"]
-    spec.variantSelections.update({"Base": "floating", "Physics": "on"})
-    bases = Sdf.VariantSetSpec(spec, "Base")
-    fixed = Sdf.VariantSpec(bases, "fixed").primSpec
-    joint = Sdf.CreatePrimInLayer(layer, fixed.path.AppendChild(JOINTS).AppendChild(BASE_JOINT))
-    joint.SetInfo("active", True)
-    Sdf.VariantSpec(bases, "floating")
+    spec.variantSelections.update({"Base": BASES[0], "Physics": "on"})
+    write_base_set(spec)
     physics = Sdf.VariantSetSpec(spec, "Physics")
     Sdf.VariantSpec(physics, "off")
     on = Sdf.VariantSpec(physics, "on").primSpec

@@ -29,7 +29,8 @@ def several_roots(view: View) -> Remarks:
     """An articulation has several roots."""
     for island in view.islands:
         for tree in island.trees:
-            roots = [r for r in island.roots if any(b == r or b.startswith(f"{r}/") for b in tree)]
+            held = {j.path for j in island.joints if set(tree).intersection(j.bodies)}
+            roots = [r for r in island.roots if r in held or any(b == r or b.startswith(f"{r}/") for b in tree)]
             for root in roots[1:]:
                 yield root, f"{roots[0]} is a root of the same articulation."
 

@@ -81,8 +81,8 @@ def disabled(view: View) -> Remarks:
 )
 def loose(view: View) -> Remarks:
     """A body of a machine is held by no joint."""
-    for root in view.roots:
-        groups = [i for i in view.islands if root in i.roots]
+    for root in map(view.scope, view.roots):
+        groups = [i for i in view.islands if any(b.path == root or b.path.startswith(f"{root}/") for b in i.bodies)]
         if len(groups) > 1:
             largest = max(groups, key=lambda i: len(i.bodies))
             for island in groups:
