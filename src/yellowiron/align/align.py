@@ -30,6 +30,7 @@ from yellowiron.align.frame import MachineFrame, machine_frame
 from yellowiron.align.hydraulics import Ram, rams_of
 from yellowiron.align.islands import islands
 from yellowiron.align.names import name_scores
+from yellowiron.align.pierced import pierced_fits_of, solid_rams_of
 from yellowiron.align.report import reported
 from yellowiron.align.sheet import sheet_findings, sheet_weights
 from yellowiron.align.solids import Solid, solids_of
@@ -219,15 +220,18 @@ def _see(assembly: Assembly, template: Template, contact: float) -> _Seen:
         return _Seen((), [], [], (), [], None, Touch((), 0.0), 0.0)
     size = float(np.linalg.norm(np.max([s.high for s in solids], axis=0) - np.min([s.low for s in solids], axis=0)))
     tolerance = contact * size
+    touch = Touch(solids, tolerance)
+    rams = rams_of(solids, tolerance) if any(r.kind in ("barrel", "rod") for r in template.roles) else []
+    if any(r.kind == "barrel" for r in template.roles):
+        rams += solid_rams_of(solids, rams, tolerance)
     fits = fits_of(solids, tolerance)
+    fits += pierced_fits_of(solids, fits, rams, touch, size)
     bare = bare_fits_of(solids, fits, tolerance)
     lines = lines_of([*fits, *bare], tolerance)
     near = neighbours(solids, tolerance)
     flats = flats_of(solids, near, tolerance)
-    rams = rams_of(solids, tolerance) if any(r.kind in ("barrel", "rod") for r in template.roles) else []
     taken = {i for r in rams for i in r.barrel | r.rod}
     wheels = wheels_of(solids, sum(1 for r in template.roles if r.kind == "wheel" and r.rigid), taken, tolerance)
-    touch = Touch(solids, tolerance)
     evidence = evidence_of(solids, fits, bare, lines, flats, rams, wheels, near, touch.touching, tolerance)
     return _Seen(solids, flats, near, tuple(rams), wheels, evidence, touch, size)
 

@@ -13,7 +13,8 @@ from yellowiron.model.geometry import Floats
 @dataclass(frozen=True, eq=False)
 class Ram:
     """One cylinder: indices of the solids of its barrel and of its rod (those about its own axis; eyes come later), the
-    axis from the closed end towards the rod's eye, and the two radii."""
+    axis from the closed end towards the rod's eye, and the two radii. Where the barrel is not `hollow`, `bore` is its
+    outer radius. `count` twins side by side are one."""
 
     barrel: frozenset[int]
     rod: frozenset[int]
@@ -21,6 +22,8 @@ class Ram:
     direction: Floats
     bore: float
     rod_radius: float
+    hollow: bool = True
+    count: int = 1
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,7 +79,7 @@ def _pair(tube: Solid, bore: Cyl, bar: Solid, shaft: Cyl, eyes: list[Cyl], toler
     low, high = tube.span(bore.center, direction)
     far = max(bar.span(bore.center, direction)[1], b)
     reach = 6 * bore.radius
-    ends = [_across(e, bore.center, direction, bore.radius) for e in eyes]
+    ends = [crossing(e, bore.center, direction, bore.radius) for e in eyes]
     places = [p for p in ends if p is not None]
     behind = any(low - reach < p < bore.half for p in places)
     ahead = any(max(bore.half, b - reach) < p < far + reach for p in places)
@@ -85,7 +88,7 @@ def _pair(tube: Solid, bore: Cyl, bar: Solid, shaft: Cyl, eyes: list[Cyl], toler
     return _Pair(tube, bore, bar, shaft, direction, inside * bore.radius + 1e-3 * (high - low))
 
 
-def _across(eye: Cyl, origin: Floats, direction: Floats, radius: float) -> float | None:
+def crossing(eye: Cyl, origin: Floats, direction: Floats, radius: float) -> float | None:
     """Where along a line a bore crosses it at right angles, or None."""
     if abs(float(eye.direction @ direction)) > 0.05:
         return None

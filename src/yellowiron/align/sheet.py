@@ -23,7 +23,8 @@ def sheet_weights(
     weights: dict[tuple[int, str], int] = {}
     for barrel, rod, quantity, _, value in _known(template, specifications):
         for barrel_cluster, rod_cluster, number in structure.slides:
-            if abs(_drawn(rams[number], quantity) - value) <= AGREE * value:
+            drawn = _drawn(rams[number], quantity)
+            if drawn is not None and abs(drawn - value) <= AGREE * value:
                 for key in ((barrel_cluster, barrel), (rod_cluster, rod)):
                     weights[key] = weights.get(key, 0) + SHEET_WEIGHT
     return weights
@@ -43,7 +44,7 @@ def sheet_findings(
         if barrel not in slides:
             continue
         drawn = _drawn(rams[slides[barrel]], quantity)
-        if abs(drawn - value) > AGREE * value:
+        if drawn is not None and abs(drawn - value) > AGREE * value:
             text = f"{name} is {1e3 * value:.4g} mm on the sheet and {1e3 * drawn:.4g} mm in the CAD model"
             hint = "Check the sheet's value, the model's unit, and the cylinder's role."
             findings.append(Finding("ALN006", "warning", barrel, text, hint))
@@ -68,5 +69,8 @@ def _known(template: Template, specifications: Specifications) -> Iterator[tuple
                     yield barrel, rod, quantity, name, value
 
 
-def _drawn(ram: Ram, quantity: str) -> float:
-    return 2 * (ram.bore if quantity == "bore" else ram.rod_radius)
+def _drawn(ram: Ram, quantity: str) -> float | None:
+    """A diameter as it is drawn; None for the bore of a barrel that has none."""
+    if quantity == "bore":
+        return 2 * ram.bore if ram.hollow else None
+    return 2 * ram.rod_radius

@@ -202,15 +202,19 @@ def _shaft(cylinders: tuple[Cyl, ...], points: Floats, volume: float) -> Cyl | N
     if not bars:
         return None
     bar = max(bars, key=lambda c: round(c.radius * c.half, 9))
-    if 2 * bar.half < bar.radius:
+    # A left and a right pin may be one part.
+    equal = [c for c in bars if abs(c.radius - bar.radius) < 0.01 * bar.radius and coaxial(c, bar, 0.02)]
+    length = sum(2 * c.half for c in equal)
+    if length < bar.radius:
         return None
     hollow = any(
         c.inner and c.full and c.radius > 0.4 * bar.radius and c.half > 0.4 * bar.half and coaxial(c, bar, 0.05)
         for c in cylinders
     )
     reach, start, end = _extent(bar, points)
-    slender = reach <= 3.6 * bar.radius and 2 * bar.half > 0.35 * (end - start)
-    filled = volume > 0.45 * math.pi * bar.radius**2 * (end - start)
+    several = len(equal) > 1 and abs(length - volume / (math.pi * bar.radius**2)) < 0.1 * length
+    slender = reach <= 3.6 * bar.radius and (several or length > 0.35 * (end - start))
+    filled = several or volume > 0.45 * math.pi * bar.radius**2 * (end - start)
     return bar if slender and filled and not hollow else None
 
 

@@ -8,7 +8,7 @@ from typing import Any
 import fcl
 import numpy as np
 
-from yellowiron.align.solids import Solid
+from yellowiron.align.solids import Cyl, Solid
 
 
 class Touch:
@@ -35,6 +35,13 @@ class Touch:
         if fcl.collide(first, second, fcl.CollisionRequest(), fcl.CollisionResult()):
             return 0.0
         return max(0.0, float(fcl.distance(first, second, fcl.DistanceRequest(), fcl.DistanceResult())))
+
+    def pierced(self, index: int, bar: Cyl, radius: float) -> bool:
+        """True if a solid's mesh comes within a radius of the axis of a bar, between its ends."""
+        u = np.linalg.svd(bar.direction[None, :])[2][1]
+        turn = np.stack([u, np.cross(bar.direction, u), bar.direction], axis=1)
+        core = fcl.CollisionObject(fcl.Cylinder(radius, 2.0 * bar.half), fcl.Transform(turn, bar.center))
+        return bool(fcl.collide(self._object(index), core, fcl.CollisionRequest(), fcl.CollisionResult()))
 
     def touching(self, a: int, b: int) -> bool:
         """True within the tolerance (boxes first)."""

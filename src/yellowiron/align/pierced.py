@@ -1,0 +1,165 @@
+"""Machines that are drawn to be looked at: pins without holes for them, hydraulic cylinders without a bore.
+
+Such a model shows a pin as a bar that runs through solid plates, and a barrel as a solid bar with a thinner one in line
+with it. What a bar runs through, near its axis, it may turn in.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+import numpy as np
+
+from yellowiron.align.contacts import PARALLEL, Fit
+from yellowiron.align.hydraulics import Ram, crossing
+from yellowiron.align.solids import Cyl, Solid, coaxial
+from yellowiron.align.touch import Touch
+from yellowiron.model.geometry import Floats
+
+CORE = 0.6
+"""A bar runs through a part that is within this share of its radius from its axis …"""
+LEAST = 0.1
+"""A bar runs through a part over at least this share of its radius; less is a part that it ends at."""
+STOUT = 0.002
+"""… and is a pivot only from this radius on, in machine sizes."""
+TWIN = 0.02
+"""Two bars of one part are twins if their radii and lengths are equal within this share."""
+
+
+def pierced_fits_of(
+    solids: tuple[Solid, ...], fits: list[Fit], rams: Iterable[Ram], touch: Touch, size: float
+) -> list[Fit]:
+    """A fit for every part that a pin without a single hole runs through; and for two parts that have no pin between
+    them, where the bar that one of them has runs through the other. None in a model that has holes for its pins.
+
+    `inner` is the pin, or the part that has the bar.
+    """
+    taken = {i for ram in rams for i in ram.barrel | ram.rod}
+    held = {f.inner for f in fits}
+    pins = [s for s in solids if s.shaft is not None and s.index not in taken | held]
+    found = [fit for pin in pins for fit in _through(pin, _bars(pin, size), solids, touch)]
+    # A pin runs through two parts at least; what is in one only is a boss or a knob of it.
+    hosts: dict[int, set[int]] = {}
+    for fit in found:
+        hosts.setdefault(fit.inner, set()).add(fit.outer)
+    found = [fit for fit in found if len(hosts[fit.inner]) > 1]
+    if _bored(solids, fits) > sum(len(around) > 1 for around in hosts.values()):
+        return []
+    pinned = {frozenset((a, b)) for around in hosts.values() if len(around) > 1 for a in around for b in around}
+    pinned |= {frozenset((f.inner, f.outer)) for f in fits}
+    loose = {s.index for s in pins if len(hosts.get(s.index, ())) < 2}
+    axes = [ram.direction for ram in rams]
+    for solid in solids:
+        if solid.index in loose or (solid.shaft is not None and solid.index not in taken):
+            continue
+        bars = [c for c in _bars(solid, size) if not (solid.index in taken and _along(c, axes))]
+        for fit in _through(solid, bars, solids, touch):
+            if frozenset((fit.inner, fit.outer)) not in pinned and fit.outer not in hosts:
+                found.append(fit)
+    return found
+
+
+def _bored(solids: tuple[Solid, ...], fits: list[Fit]) -> int:
+    """How many pins there are that run through holes of two parts or more."""
+    hosts: dict[int, set[int]] = {}
+    for fit in fits:
+        if solids[fit.inner].shaft is not None:
+            hosts.setdefault(fit.inner, set()).add(fit.outer)
+    return sum(len(around) > 1 for around in hosts.values())
+
+
+def _bars(solid: Solid, size: float) -> list[Cyl]:
+    """The solid round bars of a part that are stout enough for a pivot."""
+    bars = [c for c in solid.cylinders if c.full and not c.inner and c.radius > STOUT * size]
+    holes = [c for c in solid.cylinders if c.inner and c.full]
+    return [c for c in bars if not any(h.radius > 0.4 * c.radius and coaxial(h, c, 0.1) for h in holes)]
+
+
+def _along(bar: Cyl, axes: list[Floats]) -> bool:
+    return any(abs(float(bar.direction @ d)) > PARALLEL for d in axes)
+
+
+def _through(solid: Solid, bars: list[Cyl], solids: tuple[Solid, ...], touch: Touch) -> list[Fit]:
+    """One fit for each part that bars of a solid run through: the longest."""
+    best: dict[int, Fit] = {}
+    for bar in bars:
+        reach = bar.half * np.abs(bar.direction) + bar.radius
+        for other in solids:
+            if other.index == solid.index or (other.low > bar.center + reach).any():
+                continue
+            if (other.high < bar.center - reach).any() or not touch.pierced(other.index, bar, CORE * bar.radius):
+                continue
+            low, high = other.span(bar.center, bar.direction)
+            low, high = max(low, -bar.half), min(high, bar.half)
+            if high - low < LEAST * bar.radius:
+                continue
+            middle = bar.center + 0.5 * (low + high) * bar.direction
+            hole = replace(bar, center=middle, half=0.5 * (high - low), inner=True)
+            fit = Fit(solid.index, other.index, bar, hole, high - low, 0.0)
+            if other.index not in best or fit.overlap > best[other.index].overlap:
+                best[other.index] = fit
+    return [best[k] for k in sorted(best)]
+
+
+def solid_rams_of(solids: tuple[Solid, ...], rams: list[Ram], tolerance: float) -> list[Ram]:
+    """Hydraulic cylinders drawn without a bore: a bar, and in line with it a thinner one that comes out of its end.
+
+    Twins that share their two parts are one cylinder, in the middle between them. `bore` is the barrel's outer radius.
+    """
+    taken = {i for ram in rams for i in ram.barrel | ram.rod}
+    bars = [
+        (s, c)
+        for s in solids
+        if s.index not in taken
+        for c in s.cylinders
+        if c.full and not c.inner and 2 * c.half > 4 * c.radius
+    ]
+    eyes = [c for s in solids for c in s.cylinders if c.arc > 2.0]
+    pairs = []
+    for tube, thick in bars:
+        for bar, thin in bars:
+            if tube.index != bar.index and (score := _pair(thick, thin, eyes, tolerance)) > 0.0:
+                pairs.append((score, tube, thick, bar, thin))
+    found: list[Ram] = []
+    for score, tube, thick, bar, thin in sorted(pairs, key=lambda p: (-round(p[0], 6), p[1].index, p[3].index)):
+        if tube.index in taken or bar.index in taken:
+            continue
+        taken |= {tube.index, bar.index}
+        twins = [
+            (t, b)
+            for value, one, t, other, b in pairs
+            if (one.index, other.index) == (tube.index, bar.index)
+            and value > 0.5 * score
+            and abs(float(t.direction @ thick.direction)) > PARALLEL
+            and abs(t.radius - thick.radius) < TWIN * thick.radius
+            and abs(b.radius - thin.radius) < TWIN * thin.radius
+        ]
+        origin = np.mean([t.center for t, _ in twins], axis=0)
+        direction = thick.direction if float((thin.center - thick.center) @ thick.direction) > 0 else -thick.direction
+        found.append(
+            Ram(
+                frozenset({tube.index}), frozenset({bar.index}), np.asarray(origin), direction, thick.radius,
+                thin.radius, hollow=False, count=len(twins),
+            )
+        )  # fmt: skip
+    return found
+
+
+def _pair(thick: Cyl, thin: Cyl, eyes: list[Cyl], tolerance: float) -> float:
+    """How much speaks for a barrel and its rod: the shorter one's length; 0 where they are none."""
+    if not 0.2 * thick.radius < thin.radius < 0.95 * thick.radius or not coaxial(thick, thin, 0.05, tolerance):
+        return 0.0
+    direction = thick.direction
+    low, high = thin.interval(thick.center, direction)
+    if low + high < 0:
+        direction, low, high = -direction, -high, -low
+    end = thick.half
+    # The rod starts in the barrel, or right before it, and comes out.
+    if low > end + 1.5 * thick.radius or high < end + thin.radius or low < -end - thick.radius:
+        return 0.0
+    reach = 6.0 * thick.radius
+    places = [p for e in eyes if (p := crossing(e, thick.center, direction, thick.radius)) is not None]
+    behind = any(-end - reach < p < 0.0 for p in places)
+    ahead = any(max(end, high - reach) < p < high + reach for p in places)
+    return 2.0 * min(thick.half, thin.half) if behind and ahead else 0.0
