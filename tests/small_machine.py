@@ -11,6 +11,7 @@ import trimesh
 
 from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.geometry import CylinderFeature, Mesh, Shape
+from yellowiron.model.machine_tests import MachineTest, PayloadTemplate, RatedLoad
 from yellowiron.model.mechanism import (
     Actuator,
     ActuatorJoint,
@@ -173,12 +174,27 @@ def make() -> tuple[Mechanism, Assembly]:
             Actuator("drive", "motor", tuple(ActuatorJoint(f"{name}_joint") for name in WHEELS)),
         ),
         loops=(Loop(("barrel_joint", "slide", "rod_joint", "boom_joint"), "boom_joint"),),
-        sites=(Site("bucket_edge", "boom", (3.35, 0.0, 1.3)),),
+        sites=(Site("bucket_edge", "boom", (3.35, 0.0, 1.3)), Site("load", "boom", (2.9, 0.0, 1.5))),
         materials={
             "steel": Material("steel", 7850.0, dynamic_friction=0.5),
             "rubber": Material("rubber", 1100.0, dynamic_friction=0.8),
         },
         specifications={"Bucket Capacity Heaped": {"value": 0.05, "unit": "m³"}},
+        payload=PayloadTemplate("load", (RatedLoad("Tipping Load", 0.5), RatedLoad("Bucket Capacity Heaped", 1800.0))),
+        tests=(
+            MachineTest("Tipping Load", "tipping", site="load"),
+            MachineTest("Breakout Force", "force", site="bucket_edge", actuator="boom", base="fixed"),
+            MachineTest(
+                "Raise Time",
+                "time",
+                specification="Raise Time",
+                steps=({"set": {"boom": "min"}},),
+                actuator="boom",
+                payload=1.0,
+                base="fixed",
+            ),
+            MachineTest("Rated Payload", "lift", steps=({"set": {"boom": "min"}},), actuator="boom", payload=1.0),
+        ),
     )
     return mechanism, Assembly("LOADER", "step", 1.0, tuple(parts), {s.key: s for s in shapes.values()})
 

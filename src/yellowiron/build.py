@@ -163,15 +163,12 @@ def build(
 
 
 def driven(machine_file: Path, engine: str, progress: Progress) -> tuple[dict[str, Any], tuple[Sweep, ...]]:
-    """A machine driven in an engine through all its strokes, on a fixed base, with its rated payload: as a document,
-    and what there is to look at."""
+    """A machine in an engine: through all its strokes, on a fixed base, with its rated payload; driving; put to its
+    template's tests. As a document, and what there is to look at."""
     from yellowiron import simulate
 
     load = simulate.rated_payload(usd.read_machine(machine_file))
-    result = simulate.simulate(
-        machine_file, engine=engine, payload_kg=load.mass, payload_source=load.source, progress=progress
-    )
-    return simulate.simulation_document(result), result.sweeps
+    return simulate.examine(machine_file, engine=engine, payload=load, progress=progress)
 
 
 class _Callable(types.ModuleType):

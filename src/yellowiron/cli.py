@@ -200,28 +200,22 @@ def simulate(
         Literal["fixed", "floating"], typer.Option("--base", help="In the air, or on the ground.")
     ] = "fixed",
     payload: Annotated[str, typer.Option("--payload", help="Load in the bucket: kg, or 'rated'.")] = "0",
+    test: Annotated[
+        Literal["strokes", "drive", "hydraulics", "all"],
+        typer.Option("--test", help="Every actuator's stroke; driving; the template's tests; or all."),
+    ] = "strokes",
     dt: Annotated[float | None, typer.Option("--dt", help="Time step in seconds (default: the engine's).")] = None,
     as_json: Json = False,
 ) -> None:
-    """Drive every actuator in an engine; compare every step with the closed-chain kinematics."""
+    """Drive every actuator in an engine, compare every step with the kinematics; drive about; test the hydraulics."""
     from yellowiron.report import simulation_table
-    from yellowiron.simulate import parse_payload, simulation_document
-    from yellowiron.simulate import simulate as run
+    from yellowiron.simulate import examine, parse_payload
 
     load = parse_payload(payload, machine)
     with _progress(as_json) as progress:
-        result = run(
-            machine,
-            engine=engine,
-            base=base,
-            payload_kg=load.mass,
-            payload_source=load.source,
-            dt=dt,
-            progress=progress,
-        )
-    document = simulation_document(result)
+        document, _ = examine(machine, engine=engine, test=test, base=base, payload=load, dt=dt, progress=progress)
     _show(document, simulation_table(document), as_json)
-    raise typer.Exit(1 if result.findings else 0)
+    raise typer.Exit(1 if document["findings"] else 0)
 
 
 @app.command()

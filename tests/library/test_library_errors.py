@@ -81,6 +81,10 @@ DEFECTS = {
     "measurements.unknown_joint": ("no joint 'base2bom_joint'", "sites.hook.joint", "base2boom_joint"),
     "measurements.unknown_kind": ("'hight'", "measurements[0].quantity.kind", "height"),
     "measurements.bad_value": ("'high'", "measurements[0]", "764 mm"),
+    "tests.bad_offset": ("'100 kg'", "tests[0]", "0.8 m"),
+    "tests.no_site": ("needs 'site'", "tests[0]", "docs/template-format.md"),
+    "tests.twice": ("two tests 'raise'", "tests[1]", "another name"),
+    "tests.unknown_step": ("'half'", "tests[0].steps[0].set.lift", ""),
     "reference.no_source": ("'source' is missing", "reference.json", ""),
 }
 

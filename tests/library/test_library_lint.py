@@ -102,7 +102,11 @@ def test_too_many_choices_are_said_to_be_unchecked(loader: Template, monkeypatch
 
 def test_a_driven_joint_without_actuator_is_found(loader: Template) -> None:
     without = replace(
-        loader, actuators=tuple(a for a in loader.actuators if a.name != "bucket"), measurements=(), sensors=()
+        loader,
+        actuators=tuple(a for a in loader.actuators if a.name != "bucket"),
+        measurements=(),
+        sensors=(),
+        tests=(),
     )
     (finding,) = library.lint(without).findings
     assert (finding.code, finding.where) == ("TPL007", "bucket_piston_rod2bucket_cylinder_barrel_joint")
@@ -120,7 +124,7 @@ def test_drives_that_hold_each_other_are_found(loader: Template) -> None:
         replace(j, drive=None) if j.name == "bucket_piston_rod2bucket_cylinder_barrel_joint" else j
         for j in template.joints
     )
-    report = library.lint(replace(template, actuators=both, joints=idle, measurements=(), sensors=()))
+    report = library.lint(replace(template, actuators=both, joints=idle, measurements=(), sensors=(), tests=()))
     (working,) = report.mobility[0].groups[1:]
     assert (working.computed, working.expected, working.undetermined) == (2, 2, 1)
     assert [f.code for f in report.findings] == ["TPL016"]

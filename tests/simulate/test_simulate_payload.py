@@ -12,15 +12,20 @@ from yellowiron.model.mechanism import Mechanism
 from yellowiron.simulate.payload import rated_payload, tool, with_payload
 
 
-def test_half_the_tipping_load_comes_first(mechanism: Mechanism) -> None:
-    values = {**mechanism.specifications, "Static Tipping Load Full Turn": {"value": 1000.0}}
+def test_the_templates_first_rule_comes_first(mechanism: Mechanism) -> None:
+    values = {**mechanism.specifications, "Tipping Load": {"value": 1000.0}}
     rated = rated_payload(dataclasses.replace(mechanism, specifications=values))
     assert rated.mass == 500.0
-    assert "ISO 14397-1" in rated.source
+    assert "Tipping Load" in rated.source
 
 
-def test_else_the_heaped_capacity(mechanism: Mechanism) -> None:
+def test_else_the_next_that_is_known(mechanism: Mechanism) -> None:
     assert rated_payload(mechanism).mass == pytest.approx(0.05 * 1800.0)
+
+
+def test_a_template_without_a_rule_rates_nothing(mechanism: Mechanism) -> None:
+    rated = rated_payload(dataclasses.replace(mechanism, payload=None))
+    assert rated.mass == 0.0 and "template" in rated.source
 
 
 def test_else_nothing_and_why(mechanism: Mechanism) -> None:
@@ -31,11 +36,19 @@ def test_else_nothing_and_why(mechanism: Mechanism) -> None:
 def test_mass_and_moments_add_up(mechanism: Mechanism) -> None:
     before, after = tool(mechanism), tool(with_payload(mechanism, 500.0))
     assert after.mass == before.mass + 500.0
-    middle = 0.5 * (np.asarray(before.hull).min(axis=0) + np.asarray(before.hull).max(axis=0))
-    weighted = before.mass * np.asarray(before.center_of_mass) + 500.0 * middle
+    (middle,) = (site.position for site in mechanism.sites if site.name == "load")
+    weighted = before.mass * np.asarray(before.center_of_mass) + 500.0 * np.asarray(middle)
     assert np.asarray(after.center_of_mass) * after.mass == pytest.approx(weighted)
     moments = np.linalg.eigvalsh(after.inertia)
     assert moments[0] > 0.0 and moments[0] + moments[1] >= moments[2]
+
+
+def test_without_a_site_it_is_in_the_middle_of_the_tool(mechanism: Mechanism) -> None:
+    bare = dataclasses.replace(mechanism, payload=None)
+    before, after = tool(bare), tool(with_payload(bare, 500.0))
+    middle = 0.5 * (np.asarray(before.hull).min(axis=0) + np.asarray(before.hull).max(axis=0))
+    weighted = before.mass * np.asarray(before.center_of_mass) + 500.0 * middle
+    assert np.asarray(after.center_of_mass) * after.mass == pytest.approx(weighted)
 
 
 def test_no_payload_changes_nothing(mechanism: Mechanism) -> None:

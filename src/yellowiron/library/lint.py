@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from yellowiron.library.joints import DIMENSION, stated_gains
+from yellowiron.library.machine_tests import lint_tests
 from yellowiron.library.mobility import Group, TemplateMobility, blocks, mobility, welded_ends
 from yellowiron.library.reading import near
 from yellowiron.model.finding import Finding
@@ -134,6 +135,7 @@ def _whole(template: Template) -> Iterator[Finding]:
             "Give joints a Drive, and actuators.json.",
         )
     yield from _measurements(template)
+    yield from lint_tests(template)
     without = [r.name for r in template.roles if template.materials and r.name not in template.materials]
     if without:
         yield Finding(

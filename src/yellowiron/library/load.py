@@ -12,6 +12,7 @@ from yellowiron.library import details
 from yellowiron.library.hierarchy import read_hierarchy, read_relations, root_of
 from yellowiron.library.infer import infer_actuators, infer_roles
 from yellowiron.library.joints import check_bodies, read_joints, resolve_parts
+from yellowiron.library.machine_tests import read_tests
 from yellowiron.library.reading import Document, near, read_document
 from yellowiron.library.sensors import read_sensors
 from yellowiron.model.errors import TemplateError
@@ -28,6 +29,7 @@ DOCUMENTS = (
     "wanted",
     "actuators",
     "measurements",
+    "tests",
     "reference",
     "sensors",
 )
@@ -189,6 +191,8 @@ def _further(documents: Mapping[str, Document], template: Template) -> dict[str,
     if "measurements" in documents:
         sites, measurements = details.read_measurements(documents["measurements"], template.roles, template.joints)
         found.update(sites=sites, measurements=measurements)
+    if "tests" in documents:
+        found["payload"], found["tests"] = read_tests(documents["tests"])
     if "reference" in documents:
         found["reference"] = documents["reference"].data
     return found

@@ -6,6 +6,7 @@ import difflib
 import functools
 import importlib.resources
 import json
+import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -62,9 +63,13 @@ def _schema_text(kind: str) -> str:
 
 def template_schema(kind: str) -> dict[str, Any]:
     """The published JSON Schema of a document: `hierarchy`, `relations`, `joints`, `joint_overrides`, `materials`,
-    `collision`, `wanted`, `variants`, `actuators`, `measurements`, `reference` or `sensors`."""
+    `collision`, `wanted`, `variants`, `actuators`, `measurements`, `tests`, `reference` or `sensors`."""
     try:
-        schema: dict[str, Any] = json.loads(_schema_text(kind))
+        text = _schema_text(kind)
+        shared = re.search(r'"(\w+)\.json#/', text)
+        schema: dict[str, Any] = json.loads(text if shared is None else text.replace(shared.group()[1:-1], "#"))
+        if shared is not None:
+            schema["$defs"] = template_schema(shared.group(1))["$defs"]
     except FileNotFoundError as error:
         raise TemplateError(f"There is no schema '{kind}'", where=kind, hint=_FORMAT_HINT) from error
     return schema

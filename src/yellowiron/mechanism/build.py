@@ -118,6 +118,8 @@ def build_mechanism(
         sites=named,
         materials=used,
         measurements=template.measurements,
+        payload=template.payload,
+        tests=template.tests,
         specifications=values.carried(specifications),
         findings=tuple(dict.fromkeys(findings)),
         sensors=sensed,

@@ -9,6 +9,7 @@ from typing import Any, Literal
 
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
+from yellowiron.model.machine_tests import MachineTest, PayloadTemplate
 from yellowiron.model.sensor import Sensor
 from yellowiron.model.template import JointType, Material, MeasurementTemplate
 
@@ -176,8 +177,9 @@ class Mobility:
 
 @dataclass(frozen=True, eq=False)
 class Mechanism:
-    """The whole machine. `root` is the articulation's root body; `measurements` are the template's, carried along so
-    that the USD file can be measured alone; `specifications` maps wanted names to SI values for the same reason.
+    """The whole machine. `root` is the articulation's root body; `measurements`, `payload` and `tests` are the
+    template's, carried along so that the USD file can be measured and tested alone; `specifications` maps wanted names
+    to SI values for the same reason.
 
     `floating` are the first bodies of chains that no joint ties to the root (rings of track shoes): with what hangs on
     them they lie on the machine, touch it and are no part of its articulation."""
@@ -198,6 +200,8 @@ class Mechanism:
     findings: tuple[Finding, ...] = ()
     sensors: tuple[Sensor, ...] = ()
     floating: tuple[str, ...] = ()
+    payload: PayloadTemplate | None = None
+    tests: tuple[MachineTest, ...] = ()
 
     def body(self, name: str) -> Body:
         """The body of that name; `KeyError` if there is none."""

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
 from yellowiron.model.geometry import Color
+from yellowiron.model.machine_tests import MachineTest, PayloadTemplate
 from yellowiron.model.sensor import SensorTemplate
 
 JointType = Literal["fixed", "distance", "spherical", "revolute", "prismatic"]
@@ -88,8 +89,8 @@ class Material:
     roughness: float | None = None
     metalness: float | None = None
     repaint: bool = False
-
     friction_combine: str | None = None
+
 
 @dataclass(frozen=True)
 class Wanted:
@@ -196,6 +197,8 @@ class Template:
     variants: tuple[Variant, ...] = ()
     reference: Mapping[str, Any] = field(default_factory=dict)
     sensors: tuple[SensorTemplate, ...] = ()
+    payload: PayloadTemplate | None = None
+    tests: tuple[MachineTest, ...] = ()
 
     def role(self, name: str) -> Role:
         """The role of that name; of a row's member (`shoe_7` of `shoe[*]`) the row's, under the member's name.

@@ -5,7 +5,8 @@ it. Engines are imported only where they are used.
 
 One concept a module: `engine` (what an engine must do, and which there are), one module an engine, `payload`,
 `commands` (what the levers do), `loads` (what their drives must bear), `comparison` (engine against kinematics),
-`result`, `run`, `driving`.
+`result`, `run`; `driving`; `hydraulics` (the template's tests), `rig` (a machine posed and pushed), `statics` (what it
+bears by calculation), `figures` (what came out); `suite` (all of it).
 
 Findings:
 
@@ -15,6 +16,10 @@ SIM002  a pin stood farther from its place than the engine's bar
 SIM003  a body was turned farther from its pose than the engine's bar
 SIM004  a loop flipped to its other branch
 SIM005  a cylinder or motor ended away from its target
+SIM006  a test's figure is farther from the published one than its bar
+SIM007  the rated payload was not lifted, or a load was that should not be
+SIM008  engine and statics differ by more than 5 %
+SIM009  driving: a distance or the turning radius is off by more than its bar, or a wheel left the ground
 ======  ========================================================================================================
 """
 
@@ -26,36 +31,47 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from yellowiron.simulate.driving import DrivingResult, drive, driving_document
     from yellowiron.simulate.engine import ENGINES, Engine, Setup, installed_engines
+    from yellowiron.simulate.figures import Figure, figures_document
+    from yellowiron.simulate.hydraulics import run_tests
     from yellowiron.simulate.payload import parse_payload, rated_payload
     from yellowiron.simulate.result import SimulationResult, simulation_document
     from yellowiron.simulate.run import simulate
+    from yellowiron.simulate.suite import examine
 
 _HOMES = {
     "DrivingResult": "driving",
     "drive": "driving",
     "driving_document": "driving",
+    "examine": "suite",
     "ENGINES": "engine",
     "Engine": "engine",
+    "Figure": "figures",
     "Setup": "engine",
     "SimulationResult": "result",
     "installed_engines": "engine",
     "parse_payload": "payload",
     "rated_payload": "payload",
+    "run_tests": "hydraulics",
     "simulate": "run",
     "simulation_document": "result",
+    "figures_document": "figures",
 }
 
 __all__ = [
     "ENGINES",
     "DrivingResult",
     "Engine",
+    "Figure",
     "Setup",
     "SimulationResult",
     "drive",
     "driving_document",
+    "examine",
+    "figures_document",
     "installed_engines",
     "parse_payload",
     "rated_payload",
+    "run_tests",
     "simulate",
     "simulation_document",
 ]

@@ -6,7 +6,7 @@ Every wheel with a motor turns at the speed of its own circle, as differentials 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -16,6 +16,7 @@ import numpy as np
 from yellowiron import usd
 from yellowiron.kinematics import ClosedChain
 from yellowiron.model.errors import YellowironError
+from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Body, Joint, Mechanism
 from yellowiron.simulate.commands import SHARE, Motion, motions, travel
@@ -27,6 +28,8 @@ DISTANCE = 5.0
 SPEED = 1.0
 """m/s at the machine's middle."""
 BLOCK_HEIGHT = 0.15
+DISTANCE_BAR, RADIUS_BAR, LIFTED = 0.03, 0.05, 0.02
+"""Shares by which a distance and the turning radius may be off, and metres that a wheel may rise."""
 _SETTLE = 2.0
 _RAMP = 1.0
 _TURN = math.radians(120.0)
@@ -66,8 +69,6 @@ def driving_document(result: DrivingResult) -> dict[str, Any]:
     if result.turning_radius is not None and result.geometry_radius:
         radius = 100.0 * (result.turning_radius / result.geometry_radius - 1.0)
     return {
-        "engine": result.engine,
-        "dt_s": result.dt,
         "payload_kg": result.payload,
         "sunk_mm": 1e3 * result.sunk,
         "creep_mm_s": 1e3 * result.creep,
@@ -86,6 +87,26 @@ def driving_document(result: DrivingResult) -> dict[str, Any]:
         "axle_geometry_deg": None if result.axle_geometry is None else math.degrees(result.axle_geometry),
         "highest_wheel_mm": None if result.highest_wheel is None else 1e3 * result.highest_wheel,
     }
+
+
+def driving_findings(result: DrivingResult) -> Iterator[Finding]:
+    """SIM009 for what is off by more than its bar."""
+    figures = [
+        ("forward", result.forward, DISTANCE, DISTANCE_BAR),
+        ("backward", result.backward, DISTANCE, DISTANCE_BAR),
+    ]
+    if result.turning_radius is not None and result.geometry_radius is not None:
+        figures.append(("turning radius", result.turning_radius, result.geometry_radius, RADIUS_BAR))
+    for what, value, wanted, bar in figures:
+        if not abs(value / wanted - 1.0) <= bar:
+            words = f"{value:.3f} m against {wanted:.3f} m, more than {100.0 * bar:g} % off"
+            yield Finding("SIM009", "warning", what, words, "Check wheels, their torque and the ground's friction.")
+    if result.highest_wheel is not None and result.highest_wheel > LIFTED:
+        words = f"a wheel rose {1e3 * result.highest_wheel:.0f} mm from what it stood on"
+        yield Finding("SIM009", "warning", "block", words, "Check the axle's range and the machine's masses.")
+    if result.axle_angle is not None and result.axle_geometry and result.axle_angle < 0.5 * result.axle_geometry:
+        words = f"the axle turned {math.degrees(result.axle_angle):.1f}°, not {math.degrees(result.axle_geometry):.1f}°"
+        yield Finding("SIM009", "warning", "axle", words, "Check that the axle's joint is free.")
 
 
 @dataclass(frozen=True, eq=False)

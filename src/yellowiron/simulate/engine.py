@@ -15,7 +15,7 @@ import numpy as np
 
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.geometry import Floats
-from yellowiron.model.mechanism import Body, Mechanism
+from yellowiron.model.mechanism import Body, Joint, Mechanism
 
 TOUCHING = 0.02
 """Metres: a body that comes this near to the ground as drawn stands on it."""
@@ -61,10 +61,10 @@ class Block:
 @dataclass(frozen=True, eq=False)
 class Setup:
     """What an engine loads. The machine file has the geometry; `mechanism` is what it says, with the payload in the
-    masses of `heavier`, the bodies that differ from the file. A fixed base stands in the air (no ground); a floating
-    one stands on a ground plane at z = 0, with `blocks` on it. Ground and blocks touch the bodies
-    `standing` on them and no others: a bucket passes through, so that strokes stay whole. `timestep` in seconds;
-    `measured` are the joints whose coordinates are read.
+    masses of `heavier`, the bodies that differ from the file, and the drives of `driven`, the joints that do. A fixed
+    base stands in the air (no ground); a floating one stands on a ground plane at z = 0, with `blocks` on it. Ground
+    and blocks touch the bodies `standing` on them and no others: a bucket passes through, so that strokes stay whole.
+    `timestep` in seconds; `measured` are the joints whose coordinates are read.
     """
 
     usd_path: Path
@@ -73,6 +73,7 @@ class Setup:
     timestep: float
     measured: tuple[str, ...]
     heavier: tuple[Body, ...] = ()
+    driven: tuple[Joint, ...] = ()
     standing: tuple[str, ...] = ()
     blocks: tuple[Block, ...] = ()
 
@@ -92,6 +93,9 @@ class Engine(Protocol):
     def set_targets(self, targets: Mapping[str, float]) -> None:
         """New targets by driven joint: metres or radians from the drawn pose for position drives, rad/s or m/s for
         velocity drives. Others keep theirs."""
+
+    def push(self, body: str, force: Floats, point: Floats) -> None:
+        """A force (3,), N, on a body at a point (3,), both world frame, during the next step. One a body and step."""
 
     def step(self) -> None:
         """One step of the setup's length."""

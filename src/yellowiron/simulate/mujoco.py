@@ -46,7 +46,9 @@ class MujocoEngine:
         mechanism = setup.mechanism
         self._rotations, self._origins = self.data.xmat.reshape(-1, 3, 3), self.data.xpos
         self._qpos, self._ctrl = self.data.qpos, self.data.ctrl
-        self._bodies = np.array([model.body(body.name).id for body in mechanism.bodies])
+        self._numbers = {body.name: int(model.body(body.name).id) for body in mechanism.bodies}
+        self._bodies = np.array(list(self._numbers.values()))
+        self._pushed = False
         self._positions = np.array([int(model.joint(name).qposadr[0]) for name in setup.measured], dtype=int)
         self._controls: dict[str, tuple[int, int]] = {}
         for actuator in mechanism.actuators:
@@ -70,10 +72,20 @@ class MujocoEngine:
             control, sign = self._controls[joint]
             self._ctrl[control] = sign * value
 
+    def push(self, body: str, force: Floats, point: Floats) -> None:
+        """See `Engine`."""
+        number = self._numbers[body]
+        arm = np.asarray(point) - self.data.xipos[number]
+        self.data.xfrc_applied[number] = np.concatenate([force, np.cross(arm, force)])
+        self._pushed = True
+
     def step(self) -> None:
         """One step, in MuJoCo's two halves the other way round: poses and coordinates then belong to the same
         instant."""
         mujoco.mj_step2(self.model, self.data)
+        if self._pushed:
+            self.data.xfrc_applied[:] = 0.0
+            self._pushed = False
         mujoco.mj_step1(self.model, self.data)
 
     def poses(self) -> tuple[Floats, Floats]:

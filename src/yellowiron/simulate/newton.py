@@ -45,7 +45,10 @@ class NewtonEngine:
             self._states = [self._model.state(), self._model.state()]
             self._control: Any = self._model.control()
             newton.eval_fk(self._model, self._model.joint_q, self._model.joint_qd, self._states[0])
-        self._bodies = np.array([_index(found["path_body_map"], world.bodies[b.name]) for b in setup.mechanism.bodies])
+        self._numbers = {b.name: _index(found["path_body_map"], world.bodies[b.name]) for b in setup.mechanism.bodies}
+        self._bodies = np.array(list(self._numbers.values()))
+        self._centers = self._model.body_com.numpy().astype(np.float64)
+        self._pushed: set[int] = set()
         starts = {"position": self._model.joint_q_start.numpy(), "velocity": self._model.joint_qd_start.numpy()}
         self._drives = {
             joint.name: (joint.drive.kind, int(starts[joint.drive.kind][_index(found["path_joint_map"], path)]))
@@ -69,10 +72,22 @@ class NewtonEngine:
             kind, place = self._drives[joint]
             self._targets[kind][1][place] = value
 
+    def push(self, body: str, force: Floats, point: Floats) -> None:
+        """See `Engine`."""
+        number = self._numbers[body]
+        row = self._states[0].body_q.numpy()[number].astype(np.float64)
+        center = row[:3] + rotation_matrices(row[None, 3:])[0] @ self._centers[number]
+        # Newton's wrench is a force, then a torque about the body's centre of mass.
+        self._states[0].body_f.numpy()[number] = np.concatenate([force, np.cross(np.asarray(point) - center, force)])
+        self._pushed.add(number)
+
     def step(self) -> None:
         """See `Engine`."""
         before, after = self._states
         self._solver.step(before, after, self._control, None, self._timestep)
+        for number in self._pushed:
+            before.body_f.numpy()[number] = 0.0
+        self._pushed.clear()
         self._states = [after, before]
 
     def poses(self) -> tuple[Floats, Floats]:

@@ -7,12 +7,13 @@ from pathlib import Path
 
 import numpy as np
 
+from yellowiron.kinematics.sheet import specified
 from yellowiron.model.errors import YellowironError
-from yellowiron.model.mechanism import Body, Mechanism
+from yellowiron.model.mechanism import Body, Mechanism, Site
 from yellowiron.model.units import parse_quantity
 
 MATERIAL_DENSITY = 1800.0
-"""kg/m³ of loose earth and gravel, for machines whose tipping load is not known."""
+"""kg/m³ of loose earth and gravel: how large a ball a payload is."""
 
 
 @dataclass(frozen=True)
@@ -24,16 +25,15 @@ class RatedPayload:
 
 
 def rated_payload(mechanism: Mechanism) -> RatedPayload:
-    """Half the static tipping load at full turn (ISO 14397-1, wheeled machines) where the sheet has it, else the heaped
-    (else struck) capacity filled with loose earth; 0 where neither is known."""
-    tipping = _value(mechanism, "Static Tipping Load Full Turn")
-    if tipping is not None:
-        return RatedPayload(0.5 * tipping, f"half the static tipping load at full turn, {tipping:g} kg (ISO 14397-1)")
-    for name in ("Bucket Capacity Heaped", "Bucket Capacity Struck"):
-        volume = _value(mechanism, name)
-        if volume is not None:
-            return RatedPayload(MATERIAL_DENSITY * volume, f"{name}, {volume:g} m³, at {MATERIAL_DENSITY:g} kg/m³")
-    return RatedPayload(0.0, "neither a tipping load nor a capacity is known")
+    """By the first of the template's rules (`tests.json`, payload) whose specification is known; 0 where none is."""
+    rules = mechanism.payload.rated if mechanism.payload is not None else ()
+    for rule in rules:
+        value, _, _ = specified(mechanism, rule.specification)
+        if value is not None:
+            words = f"{rule.specification}, {value:g}, × {rule.factor:g}"
+            return RatedPayload(rule.factor * value, f"{words}: {rule.source}" if rule.source else words)
+    names = " or ".join(rule.specification for rule in rules)
+    return RatedPayload(0.0, f"no sheet gives {names}" if names else "the template says no rated payload")
 
 
 def parse_payload(text: str, usd_path: str | Path) -> RatedPayload:
@@ -50,13 +50,14 @@ def parse_payload(text: str, usd_path: str | Path) -> RatedPayload:
     return RatedPayload(value, "given")
 
 
-def _value(mechanism: Mechanism, name: str) -> float | None:
-    value = mechanism.specifications.get(name, {}).get("value")
-    return float(value) if isinstance(value, int | float) else None
+def load_site(mechanism: Mechanism) -> Site | None:
+    """Where the template says that the load's middle is; None where it does not, or the place was not found."""
+    wanted = mechanism.payload.site if mechanism.payload is not None else ""
+    return next((site for site in mechanism.sites if site.name == wanted), None)
 
 
 def tool(mechanism: Mechanism) -> Body:
-    """The body that carries the load: the one with most of the machine's sites.
+    """The body that carries the load: that of the load's site, else the one with most of the machine's sites.
 
     `YellowironError` where there is no site.
     """
@@ -66,6 +67,9 @@ def tool(mechanism: Mechanism) -> Body:
             where=mechanism.name,
             hint="Give the tool a site in the template, or leave the payload out.",
         )
+    site = load_site(mechanism)
+    if site is not None:
+        return mechanism.body(site.body)
     carrying = [site.body for site in mechanism.sites]
     return mechanism.body(max(dict.fromkeys(carrying), key=carrying.count))
 
@@ -73,13 +77,14 @@ def tool(mechanism: Mechanism) -> Body:
 def with_payload(mechanism: Mechanism, mass: float) -> Mechanism:
     """The mechanism with a payload (kg) in its tool, as a ball of loose earth that moves with it.
 
-    Its middle is the middle of the tool's extents: inside a bucket.
+    Its middle is the load's site, else the middle of the tool's extents.
     """
     if mass == 0.0:
         return mechanism
     body = tool(mechanism)
     points = np.asarray(body.hull) if len(body.hull) else np.asarray(body.center_of_mass)[None]
-    middle = 0.5 * (points.min(axis=0) + points.max(axis=0))
+    site = load_site(mechanism)
+    middle = np.asarray(site.position) if site is not None else 0.5 * (points.min(axis=0) + points.max(axis=0))
     radius = (mass / MATERIAL_DENSITY * 0.75 / np.pi) ** (1.0 / 3.0)
     own = np.asarray(body.center_of_mass)
     center = (body.mass * own + mass * middle) / (body.mass + mass)

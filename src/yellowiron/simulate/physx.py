@@ -47,7 +47,8 @@ class PhysxEngine:
     def __init__(self, world: World, setup: Setup) -> None:
         _prepare()
         self._timestep = setup.timestep
-        self._mechanism, self._joints = setup.mechanism, world.joints
+        self._mechanism, self._joints, self._paths_of = setup.mechanism, world.joints, world.bodies
+        self._pushed: dict[str, Any] = {}
         self._stage: Any = None
         self._physx: Any = ovphysx.PhysX()
         try:
@@ -80,6 +81,19 @@ class PhysxEngine:
                     for name, tensor in zip(paths, group.tensors, strict=True):
                         tensor.fill_(scale[name] * held[name])
                     session.commit_sync(group)
+
+    def push(self, body: str, force: Floats, point: Floats) -> None:
+        """See `Engine`."""
+        if body not in self._pushed:
+            handle = ovstage.PathDictionary(self._stage).intern_path(self._paths_of[body])
+            self._pushed[body] = self._physx.query(
+                SimObjectType.ARTICULATION_LINK, prim_paths=[handle], scope=ObjectScope.ALL
+            ).wait()
+        values = np.concatenate([force, np.zeros(3), point]).astype(np.float32)
+        with self._physx.write(self._pushed[body], ["wrench"]).wait() as session:
+            while (group := session.fetch_next().wait()) is not None:
+                group.tensors[0].assign(values.reshape(1, 9))
+                session.commit_sync(group)
 
     def step(self) -> None:
         """See `Engine`."""

@@ -15,8 +15,10 @@ import numpy as np
 from pxr import Gf, Sdf, Usd, Vt
 from scipy.spatial import ConvexHull
 
+from yellowiron.model.mechanism import Joint
 from yellowiron.simulate.engine import GROUND_FRICTION, Block, Setup
 from yellowiron.simulate.loads import GRAVITY
+from yellowiron.usd.drives import INSTANCES, to_usd_unit, write_drive
 from yellowiron.usd.metadata import KEY
 from yellowiron.usd.physics import write_mass
 from yellowiron.usd.plan import COLLIDERS
@@ -62,13 +64,16 @@ def compose(setup: Setup) -> World:
     _write_scene(layer, setup)
     names = dict(_names(Usd.Stage.Open(layer)))
     bodies = {name: path for (kind, name), path in names.items() if kind == "body"}
+    joints = {name: path for (kind, name), path in names.items() if kind == "joint"}
     for body in setup.heavier:
         write_mass(over(layer, bodies[body.name]), body)
+    for joint in setup.driven:
+        _write_drive(over(layer, joints[joint.name]), joint)
     standing = setup.standing if setup.base == "floating" else ()
     for name, path in bodies.items():
         if name not in standing:
             over(layer, f"{path}/{COLLIDERS}").SetInfo("active", False)
-    return World(layer, bodies, {name: path for (kind, name), path in names.items() if kind == "joint"})
+    return World(layer, bodies, joints)
 
 
 def save(world: World, folder: Path) -> Path:
@@ -122,6 +127,17 @@ def _write_hull(mesh: Sdf.PrimSpec, block: Block) -> None:
     set_attribute(mesh, "faceVertexIndices", Types.IntArray, Vt.IntArray(faces.ravel().tolist()))
     apply_schemas(mesh, "PhysicsMeshCollisionAPI")
     set_attribute(mesh, "physics:approximation", Types.Token, "convexHull", uniform=True)
+
+
+def _write_drive(spec: Sdf.PrimSpec, joint: Joint) -> None:
+    """Another drive than the file's: gains, force and, in the engines' own words, speed."""
+    if joint.drive is None:
+        return
+    write_drive(spec, joint, joint.drive)
+    velocity, instance = joint.drive.max_velocity * to_usd_unit(joint.type), INSTANCES[joint.type]
+    for name in ("physxJoint", f"physxJointAxis:{instance}"):
+        set_attribute(spec, f"{name}:maxJointVelocity", Types.Float, velocity)
+    set_attribute(spec, "newton:velocityLimit", Types.Float, velocity)
 
 
 def _make_collider(spec: Sdf.PrimSpec) -> None:

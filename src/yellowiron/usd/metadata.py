@@ -29,6 +29,8 @@ DOCUMENTS = (
     "loops",
     "materials",
     "measurements",
+    "payload",
+    "tests",
     "specifications",
     "mobility",
     "floating",

@@ -134,7 +134,7 @@ class _Reader:
             joints=tuple(self._joint(p, origins) for p in joint_prims),
             sites=tuple(s for p in body_prims for s in self._sites(p)),
             sensors=read_sensors(self._prim, self._cache),
-            **{name: from_json(hints[name], data[name]) for name in DOCUMENTS},
+            **{name: from_json(hints[name], data[name]) for name in DOCUMENTS if name in data},
         )
 
     def _body(self, prim: Usd.Prim) -> Body:
@@ -220,7 +220,8 @@ class _Reader:
             axis=_vector(_exact(axis, np.array(data["axis"]), scale=1.0)),
             lower=lower,
             upper=upper,
-            cut=bool(joint.GetExcludeFromArticulationAttr().Get()) and (not data.get("floating") or bool(data.get("cut"))),
+            cut=bool(joint.GetExcludeFromArticulationAttr().Get())
+            and (not data.get("floating") or bool(data.get("cut"))),
             free=bool(data.get("free", False)),
             drive=None if drive is None else _drive(prim, kind, from_json(Drive, drive)),
             source=from_json(dict, data["evidence"]) if "evidence" in data else {},

@@ -1,0 +1,56 @@
+"""What a machine is put to in an engine, as a template's data: payload, tipping load, forces, times."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+TestKind = Literal["tipping", "force", "time", "lift"]
+
+
+@dataclass(frozen=True)
+class RatedLoad:
+    """Where a rated payload can come from: `factor` times the value (SI) of a wanted name is kilograms, so that of a
+    volume it is a density; `source` says by which rule."""
+
+    specification: str
+    factor: float
+    source: str = ""
+
+
+@dataclass(frozen=True)
+class PayloadTemplate:
+    """The load in the machine's tool: its middle is at `site`; what it is rated for comes from the first of `rated`
+    whose specification is known."""
+
+    site: str
+    rated: tuple[RatedLoad, ...] = ()
+
+
+@dataclass(frozen=True)
+class MachineTest:
+    """One test (docs: template format). After `steps`, as a measurement's, `tipping`: a load on `site` grows; `force`:
+    against `site`, moved by `offset` (metres along its x axis), in the `direction` up or along the site's path, while
+    `actuator` pushes in the sense of `to`; `time` and `lift`: `actuator` moves to its end `to` with `payload` (times
+    the rated one) in the tool, at the flow that the wanted name `flow` gives.
+
+    `base` floating: on the ground; `expected`: whether a `lift` arrives. `inputs`: wanted names that the figure hangs
+    on; `specification`: the one that it is compared with, "" for none.
+    """
+
+    name: str
+    kind: TestKind
+    specification: str = ""
+    steps: tuple[Mapping[str, Any], ...] = ()
+    site: str = ""
+    offset: float = 0.0
+    direction: Literal["up", "path"] = "up"
+    actuator: str = ""
+    to: Literal["max", "min"] = "max"
+    payload: float = 0.0
+    flow: str = ""
+    base: Literal["fixed", "floating"] = "floating"
+    expected: bool = True
+    inputs: tuple[str, ...] = field(default=())
+    definition: str = ""
