@@ -70,11 +70,7 @@ def _thickened(points: Floats) -> Floats:
 def convex_pieces(mesh: Mesh) -> tuple[Mesh, ...]:
     """Convex meshes that together are as good as the given one, whose triangles share their corners. The same pieces
     for the same mesh."""
-    size = float(np.linalg.norm(np.ptp(mesh.points, axis=0)))
-    whole = hull(mesh.points)
-    if size <= SMALL or len(mesh.triangles) < 8 or _volume(mesh) >= FILL * _volume(whole):
-        return (whole,)
-    points, triangles, ends = remember("convex", _key(mesh), lambda: _pack(_cut(mesh, size)))
+    points, triangles, ends = remember("convex", _key(mesh), lambda: _pack(_cut(mesh)))
     starts = np.concatenate([[(0, 0)], ends[:-1]]).tolist()
     return tuple(Mesh(points[p:q], triangles[t:u]) for (p, t), (q, u) in zip(starts, ends.tolist(), strict=True))
 
@@ -101,8 +97,12 @@ def _pack(pieces: Sequence[Mesh]) -> Arrays:
     return np.concatenate([p.points for p in pieces]), np.concatenate([p.triangles for p in pieces]), ends
 
 
-def _cut(mesh: Mesh, size: float) -> tuple[Mesh, ...]:
+def _cut(mesh: Mesh) -> tuple[Mesh, ...]:
     points, triangles = mesh.points, mesh.triangles
+    size = float(np.linalg.norm(np.ptp(points, axis=0)))
+    whole = hull(points)
+    if size <= SMALL or len(triangles) < 8 or _volume(mesh) >= FILL * _volume(whole):
+        return (whole,)
     area = 0.5 * float(np.linalg.norm(_doubled_areas(points, triangles), axis=1).sum())
     wall = abs(_volume(mesh)) / area
     depth = wall if wall > 1e-4 * size else _OPEN_WALL
@@ -203,6 +203,10 @@ def _absorbed(
 def _facet_normals(points: Floats, triangles: np.ndarray, facets: Sequence[np.ndarray]) -> Floats:
     crossed = _doubled_areas(points, triangles)
     total = np.array([crossed[facet].sum(axis=0) for facet in facets])
+    for row in np.flatnonzero(np.linalg.norm(total, axis=1) <= 1e-12):
+        # Sheets drawn from both sides, one facet since they share an edge, cancel out.
+        facet = facets[row]
+        total[row] = crossed[facet[int(np.argmax(np.linalg.norm(crossed[facet], axis=1)))]]
     return np.asarray(total / np.linalg.norm(total, axis=1, keepdims=True), dtype=np.float64)
 
 

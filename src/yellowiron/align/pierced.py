@@ -23,6 +23,10 @@ LEAST = 0.1
 """A bar runs through a part over at least this share of its radius; less is a part that it ends at."""
 STOUT = 0.002
 """… and is a pivot only from this radius on, in machine sizes."""
+TABLE = 0.02
+"""A round base is a turntable from this radius on, in machine sizes …"""
+NEAR = 0.05
+"""… if what stands on it is no further from it than this share of its radius."""
 TWIN = 0.02
 """Two bars of one part are twins if their radii and lengths are equal within this share."""
 
@@ -57,7 +61,36 @@ def pierced_fits_of(
         for fit in _through(solid, bars, solids, touch):
             if frozenset((fit.inner, fit.outer)) not in pinned and fit.outer not in hosts:
                 found.append(fit)
-    return found
+    apart = {s.index for s in solids if s.index in taken or s.shaft is not None or s.axis is not None}
+    joined = pinned | {frozenset((f.inner, f.outer)) for f in found}
+    tables = _turntables([s for s in solids if s.index not in apart], touch, size)
+    return found + [fit for fit in tables if frozenset((fit.inner, fit.outer)) not in joined]
+
+
+def _turntables(solids: list[Solid], touch: Touch, size: float) -> list[Fit]:
+    """A fit for two parts of which one has a wide round base that ends at the other: the widest for each pair."""
+    best: dict[frozenset[int], Fit] = {}
+    for solid in solids:
+        for base in solid.cylinders:
+            if not base.full or base.radius < TABLE * size:
+                continue
+            gap = NEAR * base.radius
+            reach = base.half * np.abs(base.direction) + gap
+            for other in solids:
+                if other.index == solid.index or (other.low > base.center + reach).any():
+                    continue
+                if (other.high < base.center - reach).any():
+                    continue
+                low, high = other.span(base.center, base.direction)
+                ends_above = low > base.half - LEAST * base.radius
+                ends_below = high < LEAST * base.radius - base.half
+                longer = replace(base, half=base.half + gap)
+                if not (ends_above or ends_below) or not touch.pierced(other.index, longer, CORE * base.radius):
+                    continue
+                pair = frozenset((solid.index, other.index))
+                if pair not in best or base.radius > best[pair].shaft.radius:
+                    best[pair] = Fit(solid.index, other.index, base, base, 0.0, 0.0)
+    return [best[pair] for pair in sorted(best, key=sorted)]
 
 
 def _bored(solids: tuple[Solid, ...], fits: list[Fit]) -> int:

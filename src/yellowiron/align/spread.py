@@ -374,6 +374,6 @@ class Spreader:
 def pin_role(joint: JointTemplate, template: Template) -> str | None:
     """The role of a joint's pin: the one of its two parts that is no body."""
     for name in joint.parts:
-        if not template.role(name).rigid:
+        if not template.role(name.partition("[")[0]).rigid:
             return name
     return None

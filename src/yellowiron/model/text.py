@@ -19,9 +19,11 @@ _DISPLAY = {
 
 
 def display(value: float | None, unit: str, *, digits: int = 5) -> str:
-    """An SI value in the unit people read: 0.764 m → '764 mm', 0.698 rad → '40 °'; '–' for None."""
-    if value is None:
+    """An SI value in the unit people read: 0.764 m → '764 mm', 0.698 rad → '40 °'; '–' for None, '∞' for infinity."""
+    if value is None or math.isnan(value):
         return "–"
+    if math.isinf(value):
+        return "∞" if value > 0.0 else "−∞"
     shown, factor = _DISPLAY.get(unit, (unit if unit != "1" else "", 1.0))
     number = float(f"{value * factor:.{digits}g}")
     text = f"{number:.0f}" if number == round(number) else f"{number:g}"
