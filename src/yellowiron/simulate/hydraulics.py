@@ -24,7 +24,7 @@ from yellowiron.simulate.figures import Figure, beside_sheet
 from yellowiron.simulate.loads import GRAVITY, carried, paces, weight
 from yellowiron.simulate.payload import rated_payload, with_payload
 from yellowiron.simulate.rig import Rig, locked
-from yellowiron.simulate.statics import actuator_area, actuator_force, motion, place, tipping_force
+from yellowiron.simulate.statics import actuator_area, actuator_force, motion, place, stands, tipping_force
 
 LEAN = math.radians(0.1)
 """Radians: a machine that leans by more than this since the load came on is tipping; on its tyres it gives a tenth."""
@@ -74,6 +74,8 @@ def run_tests(
 def _tested(bench: _Bench) -> Figure:
     made = {"tipping": _tipping, "force": _force, "time": _time, "lift": _lift}[bench.test.kind]
     try:
+        if bench.test.payload and not bench.payload:
+            raise Unmeasurable("the machine's rated payload is not known")
         figure = made(bench)
     except Unmeasurable as why:
         figure = Figure(bench.test, None, None, reason=str(why))
@@ -91,14 +93,11 @@ class _Bench:
     timestep: float
 
     def __post_init__(self) -> None:
-        rated = rated_payload(self.read).mass
-        self.payload = self.test.payload * rated
+        self.payload = self.test.payload * rated_payload(self.read).mass
         self.mechanism = with_payload(self.read, self.payload)
         self.heavier = tuple(b for b, old in zip(self.mechanism.bodies, self.read.bodies, strict=True) if b is not old)
         flow, _, _ = specified(self.read, self.test.flow) if self.test.flow else (None, False, "")
         self.flow = flow if flow is not None and flow > 0.0 else None
-        if self.test.payload and not rated:
-            raise Unmeasurable("the machine's rated payload is not known")
 
     def pose(self) -> tuple[Bench, State]:
         """The kinematics, and the state that the test begins in."""
@@ -273,15 +272,9 @@ def _lifted(b: _Bench, bench: Bench, state: State) -> float:
     """Share of the way along which, by statics, the actuator bears the weight and the machine stands."""
     start, end = _ends(b, bench, state)
     states = bench.chain.sweep({b.driven: np.linspace(start, end, _SAMPLES)}, start=state)
-    sites = [site for site in b.mechanism.sites if site.body == b.heavier[0].name] if b.heavier else []
     for number, each in enumerate(states):
         bears = b.sense * weight(bench.chain, each, b.driven) <= b.force
-        if bears and sites and b.test.base == "floating":
-            try:
-                tipping_force(b.mechanism, bench.chain, each, place(bench.chain, each, sites[0]), _DOWN)
-            except Unmeasurable as why:
-                bears = "does not stand" not in str(why)
-        if not bears:
+        if not bears or (b.test.base == "floating" and not stands(b.mechanism, bench.chain, each)):
             return max(0, number - 1) / (_SAMPLES - 1)
     return (len(states) - 1) / (_SAMPLES - 1)
 

@@ -85,21 +85,38 @@ def supports(mechanism: Mechanism, chain: ClosedChain, state: State) -> tuple[tu
 
 
 def tipping_force(mechanism: Mechanism, chain: ClosedChain, state: State, point: Floats, direction: Floats) -> float:
-    """The largest force (N) at a point, along a unit direction, under which the machine still stands: for which forces
-    under its wheels balance everything and none of them pulls. Axles that swing freely within limits bear no moment
-    about their pivots. `Unmeasurable` where it does not stand at all, or no force tips it.
+    """The largest force (N) at a point (3,), along a unit direction (3,), under which the machine still stands: for
+    which forces under its wheels balance everything and none of them pulls. Axles that swing freely within limits bear
+    no moment about their pivots. `Unmeasurable` where it does not stand at all, or no force tips it.
 
     A linear programme: forces under the wheels and the load, the latter largest. Forces along the ground turn nothing
     that it looks at.
     """
+    rows, sums = _balance(mechanism, chain, state)
+    load = np.concatenate([[direction[2]], np.cross(point, direction)[:2], np.zeros(len(rows) - 3)])
+    solved = _solve(np.column_stack([rows, load]), sums, largest=True)
+    if solved is None:
+        raise Unmeasurable("the machine does not stand in this pose")
+    if math.isinf(solved):
+        raise Unmeasurable("no load tips the machine in this pose")
+    return solved
+
+
+def stands(mechanism: Mechanism, chain: ClosedChain, state: State) -> bool:
+    """Whether the machine stands in a pose, on the same terms."""
+    return _solve(*_balance(mechanism, chain, state), largest=False) is not None
+
+
+def _balance(mechanism: Mechanism, chain: ClosedChain, state: State) -> tuple[Floats, Floats]:
+    """Rows (equations, supports) and sums (equations,) that forces under the supports meet: upward, the moments about
+    x and y, and those about the pivots of free axles."""
     under = supports(mechanism, chain, state)
     placed = {b.name: chain.displacement(state, b.name) for b in mechanism.bodies}
     centers = {b.name: (placed[b.name] @ np.append(b.center_of_mass, 1.0))[:3] for b in mechanism.bodies}
-    up, load = np.array([0.0, 0.0, 1.0]), direction
-    columns = [np.concatenate([[1.0], np.cross(p, up)[:2]]) for _, p in under]
-    columns.append(np.concatenate([[load[2]], np.cross(point, load)[:2]]))
+    up = np.array([0.0, 0.0, 1.0])
     weights = [GRAVITY * b.mass * np.concatenate([[1.0], np.cross(centers[b.name], up)[:2]]) for b in mechanism.bodies]
-    rows, sums = list(np.array(columns).T), list(np.sum(weights, axis=0))
+    rows = list(np.array([np.concatenate([[1.0], np.cross(p, up)[:2]]) for _, p in under]).reshape(-1, 3).T)
+    sums = list(np.sum(weights, axis=0))
     children: dict[str, list[str]] = {}
     for joint in mechanism.joints:
         if not joint.cut:
@@ -110,22 +127,25 @@ def tipping_force(mechanism: Mechanism, chain: ClosedChain, state: State, point:
         swinging = _below(joint.body1, children)
         pose = placed[joint.body0]
         axis, anchor = pose[:3, :3] @ np.asarray(joint.axis), (pose @ np.append(joint.anchor, 1.0))[:3]
-        rows.append(np.array([axis @ np.cross(p - anchor, up) if n in swinging else 0.0 for n, p in under] + [0.0]))
-        own = [GRAVITY * b.mass * (axis @ np.cross(centers[b.name] - anchor, up)) for b in mechanism.bodies
-               if b.name in swinging]  # fmt: skip
-        sums.append(float(np.sum(own)))
-    goal = np.zeros(len(under) + 1)
-    goal[-1] = -1.0
-    # Scaled to the machine's weight: the solver's tolerances are absolute.
-    scale = GRAVITY * sum(b.mass for b in mechanism.bodies)
-    solved = linprog(goal, A_eq=np.array(rows), b_eq=np.array(sums) / scale, bounds=(0.0, None), method="highs")
-    if solved.status == 2:
-        raise Unmeasurable("the machine does not stand in this pose")
+        rows.append(np.array([axis @ np.cross(p - anchor, up) if n in swinging else 0.0 for n, p in under]))
+        own = (b for b in mechanism.bodies if b.name in swinging)
+        sums.append(sum(GRAVITY * b.mass * float(axis @ np.cross(centers[b.name] - anchor, up)) for b in own))
+    return np.array(rows), np.array(sums)
+
+
+def _solve(rows: Floats, sums: Floats, *, largest: bool) -> float | None:
+    """The last column's force where it is largest (infinite: without bound; 0 where it is not asked for); None where
+    no forces of 0 or more meet the rows."""
+    goal = np.zeros(rows.shape[1])
+    goal[-1] = -1.0 if largest else 0.0
+    # Scaled by the machine's weight: the solver's tolerances are absolute.
+    scale = float(sums[0])
+    solved = linprog(goal, A_eq=rows, b_eq=sums / scale, bounds=(0.0, None), method="highs")
     if solved.status == 3:
-        raise Unmeasurable("no load tips the machine in this pose")
-    if solved.x is None:
-        raise Unmeasurable(f"statics finds no answer: {solved.message}")
-    return float(solved.x[-1]) * scale
+        return math.inf
+    if solved.status != 0 or solved.x is None:
+        return None
+    return float(solved.x[-1]) * scale if largest else 0.0
 
 
 def _below(body: str, children: dict[str, list[str]]) -> set[str]:
