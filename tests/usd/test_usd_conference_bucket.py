@@ -143,10 +143,12 @@ def test_json_1_materials_show_and_weigh(stage: Usd.Stage, assembly: Assembly, f
 
 
 def test_json_2_colliders(stage: Usd.Stage) -> None:
-    colliders = stage.GetPrimAtPath("/bucket/bucket/colliders").GetChildren()
-    tokens = {p.GetName(): UsdPhysics.MeshCollisionAPI(p).GetApproximationAttr().Get() for p in colliders}
-    assert tokens["bucket_body"] == "convexDecomposition"
-    assert not any("bolt" in name for name in tokens)
+    colliders = {p.GetName(): p for p in stage.GetPrimAtPath("/bucket/bucket/colliders").GetChildren()}
+    assert not any("bolt" in name for name in colliders)
+    pieces = colliders["bucket_body"].GetChildren()
+    tokens = {p.GetName(): UsdPhysics.MeshCollisionAPI(p).GetApproximationAttr().Get() for p in pieces}
+    assert tokens.pop("mesh") == "convexDecomposition"
+    assert len(tokens) > 1 and set(tokens.values()) == {"convexHull"}
 
 
 def test_json_4_joint_and_drive(stage: Usd.Stage) -> None:

@@ -10,7 +10,7 @@ from pxr import Gf, Sdf, Vt
 
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Body, BodyShape, Site
-from yellowiron.usd.geometry import mirrored_path
+from yellowiron.usd.geometry import mirrored_path, pieces_path
 from yellowiron.usd.metadata import describe_body, describe_part, describe_site, set_custom
 from yellowiron.usd.plan import COLLIDERS, GEOMETRY_FILE, HULL, VISUALS, PlacedPart, Plan
 from yellowiron.usd.primitives import Primitive, fit_primitive
@@ -127,13 +127,15 @@ def uniform_scale(matrix: Floats) -> float | None:
 
 
 def _write_mesh_collider(layer: Sdf.Layer, path: str, placed: PlacedPart) -> None:
-    spec = define(layer, path, "Mesh")
-    if is_mirrored(placed.matrix):
-        add_reference(spec, f"./{GEOMETRY_FILE}", mirrored_path(placed.prototype))
-        set_transform(spec, placed.matrix @ np.diag([-1.0, 1.0, 1.0, 1.0]))
+    """The part's mesh, or a group of its pieces. Of a mirrored part the mirror image, so that no transform reflects."""
+    spec = define(layer, path, "Xform" if placed.pieces else "Mesh")
+    mirrored = is_mirrored(placed.matrix)
+    if placed.pieces:
+        source = pieces_path(placed.prototype, mirrored)
     else:
-        add_reference(spec, f"./{GEOMETRY_FILE}", placed.prototype.mesh)
-        set_transform(spec, placed.matrix)
+        source = mirrored_path(placed.prototype) if mirrored else placed.prototype.mesh
+    add_reference(spec, f"./{GEOMETRY_FILE}", source)
+    set_transform(spec, placed.matrix @ np.diag([-1.0, 1.0, 1.0, 1.0]) if mirrored else placed.matrix)
 
 
 def _write_primitive(layer: Sdf.Layer, path: str, primitive: Primitive, matrix: Floats, scale: float) -> None:

@@ -11,15 +11,14 @@ from pxr import Gf, Sdf, Vt
 
 from yellowiron.model.geometry import Floats, Ints, Mesh, Shape
 from yellowiron.usd.materials import write_look
-from yellowiron.usd.plan import PlacedPart, Plan, Prototype
+from yellowiron.usd.plan import MESH, PIECE, PlacedPart, Plan, Prototype
 from yellowiron.usd.stage import Types, add_reference, define, set_attribute, set_display_name
+from yellowiron.usd.weld import Singles, distinct, weld
 
 CREASE_ANGLE = np.radians(30.0)
 """Facets that meet at less than this angle are shaded as one smooth surface, where the CAD reader gave no normals."""
 
-MIRRORED = "/Mirrored"
-
-Singles = NDArray[np.float32]
+MIRRORED, PIECES, MIRRORED_PIECES = "/Mirrored", "/Pieces", "/MirroredPieces"
 
 
 def write_prototypes(layer: Sdf.Layer, prototypes: Iterable[Prototype], textures: Mapping[str, str]) -> None:
@@ -57,7 +56,33 @@ def write_mirrored(layer: Sdf.Layer, placed: Iterable[PlacedPart]) -> None:
 
 def mirrored_path(prototype: Prototype) -> str:
     """Where the reflected mesh of a prototype's shape is."""
-    return f"{MIRRORED}/{Sdf.Path(prototype.mesh).GetParentPath().name}"
+    return f"{MIRRORED}/{_home(prototype)}"
+
+
+def _home(prototype: Prototype) -> str:
+    return str(Sdf.Path(prototype.mesh).GetParentPath().name)
+
+
+def pieces_path(prototype: Prototype, mirrored: bool) -> str:
+    """Where the convex pieces of a prototype's shape are, or those of its mirror image."""
+    return f"{MIRRORED_PIECES if mirrored else PIECES}/{_home(prototype)}"
+
+
+def write_pieces(layer: Sdf.Layer, placed: Iterable[tuple[PlacedPart, bool]]) -> None:
+    """Of parts that collide as convex pieces (and whether mirrored): the pieces, and beside them the mesh itself."""
+    for item, mirrored in placed:
+        path = pieces_path(item.prototype, mirrored)
+        if layer.GetPrimAtPath(path) is not None:
+            continue
+        scope = str(Sdf.Path(path).GetParentPath())
+        if layer.GetPrimAtPath(scope) is None:
+            define(layer, scope, "Scope")
+        define(layer, path, "Xform")
+        whole = mirrored_path(item.prototype) if mirrored else item.prototype.mesh
+        add_reference(define(layer, f"{path}/{MESH}", "Mesh"), "", whole)
+        for number, piece in enumerate(item.pieces, start=1):
+            made = Mesh(piece.points * (-1.0, 1.0, 1.0), piece.triangles[:, ::-1]) if mirrored else piece
+            write_mesh(define(layer, f"{path}/{PIECE}{number}", "Mesh"), item.prototype.shape, made)
 
 
 def write_hulls(layer: Sdf.Layer, plan: Plan) -> None:
@@ -74,7 +99,7 @@ def write_mesh(spec: Sdf.PrimSpec, shape: Shape, mesh: Mesh) -> None:
     Points that coincide in single precision become one, so that a closed shape is a closed mesh: CAD meshes repeat them
     along every edge between two faces. Triangles that thereby lose a corner are left out.
     """
-    points, triangles, kept = _weld(mesh)
+    points, triangles, kept = weld(mesh)
     set_attribute(spec, "points", Types.Point3fArray, Vt.Vec3fArray.FromNumpy(points))
     counts = np.full(len(triangles), 3, dtype=np.int32)
     set_attribute(spec, "faceVertexCounts", Types.IntArray, Vt.IntArray.FromNumpy(counts))
@@ -91,7 +116,7 @@ def write_mesh(spec: Sdf.PrimSpec, shape: Shape, mesh: Mesh) -> None:
     elif len(points) == len(mesh.points):
         set_attribute(spec, "normals", Types.Normal3fArray, _single(mesh.normals), interpolation="vertex")
     else:
-        normals, ranks = _distinct(mesh.normals)
+        normals, ranks = distinct(mesh.normals)
         indices = ranks[mesh.triangles[kept]]
         _write_indexed(spec, "normals", Types.Normal3fArray, Vt.Vec3fArray.FromNumpy(normals), indices)
     if mesh.triangle_colors is not None:
@@ -101,31 +126,6 @@ def write_mesh(spec: Sdf.PrimSpec, shape: Shape, mesh: Mesh) -> None:
 
 def _single(values: Floats) -> Vt.Vec3fArray:
     return Vt.Vec3fArray.FromNumpy(np.ascontiguousarray(values, dtype=np.float32))
-
-
-def _weld(mesh: Mesh) -> tuple[Singles, Ints, NDArray[np.bool_]]:
-    """Points without repetition (in order of first use), triangles on them, and which of the mesh's triangles stay."""
-    points, ranks = _distinct(mesh.points)
-    triangles = ranks[np.asarray(mesh.triangles, dtype=np.int64)].reshape(-1, 3)
-    kept = (triangles != np.roll(triangles, 1, axis=1)).all(axis=1)
-    return points, triangles[kept], kept
-
-
-def _distinct(rows: Floats) -> tuple[Singles, Ints]:
-    """Rows in single precision without repetition, in order of first use, and the rank of every given row in them."""
-    single = np.ascontiguousarray(rows, dtype=np.float32) + np.float32(0.0)
-    if not len(single):
-        return single, np.zeros(0, dtype=np.int32)
-    order = np.lexsort(single.T)
-    ordered = single[order]
-    new = np.ones(len(single), dtype=bool)
-    new[1:] = (ordered[1:] != ordered[:-1]).any(axis=1)
-    group = np.empty(len(single), dtype=np.int64)
-    group[order] = np.cumsum(new) - 1
-    first = np.minimum.reduceat(order, np.flatnonzero(new))
-    ranks = np.empty(len(first), dtype=np.int32)
-    ranks[np.argsort(first)] = np.arange(len(first), dtype=np.int32)
-    return single[np.sort(first)], ranks[group]
 
 
 def _write_indexed(
@@ -165,7 +165,7 @@ def creased_normals(points: Floats | Singles, triangles: Ints, angle: float = CR
 
 def _write_box_mapping(spec: Sdf.PrimSpec, mesh: Mesh) -> None:
     """Texture coordinates by projection along each facet's largest normal component; one repeat a metre."""
-    points, triangles, _ = _weld(mesh)
+    points, triangles, _ = weld(mesh)
     corners = points[triangles]
     facet = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     drop = np.abs(facet).argmax(axis=1)

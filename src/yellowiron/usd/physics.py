@@ -11,7 +11,7 @@ from yellowiron.usd.bodies import shape_path
 from yellowiron.usd.joints import write_joints
 from yellowiron.usd.materials import write_physics_material
 from yellowiron.usd.overlap import overlapping_bodies
-from yellowiron.usd.plan import COLLIDERS, MATERIALS, PlacedPart, Plan
+from yellowiron.usd.plan import COLLIDERS, MATERIALS, MESH, PIECE, PlacedPart, Plan
 from yellowiron.usd.rotation import principal_axes
 from yellowiron.usd.stage import Types, apply_schemas, define, over, set_attribute, set_targets
 
@@ -49,26 +49,30 @@ def write_mass(spec: Sdf.PrimSpec, body: Body) -> None:
 
 
 def _write_collider(layer: Sdf.Layer, base: Sdf.Layer, path: str, placed: PlacedPart, plan: Plan) -> None:
-    spec = over(layer, path)
-    apply_schemas(spec, "PhysicsCollisionAPI")
-    if base.GetPrimAtPath(path).typeName == "Mesh":
-        apply_schemas(spec, "PhysicsMeshCollisionAPI")
-        if placed.approximation.usd != "none":
-            set_attribute(spec, "physics:approximation", Types.Token, placed.approximation.usd, uniform=True)
-    _bind(spec, placed.data.material, plan)
+    """A collider with its approximation. Of one in pieces each piece collides as its hull, in every engine alike; the
+    part's own mesh says what was asked for, and collides only for who applies `PhysicsCollisionAPI` to it."""
+    if placed.pieces:
+        _write_approximation(over(layer, f"{path}/{MESH}"), placed.approximation.usd)
+    for piece in [f"{path}/{PIECE}{n}" for n in range(1, len(placed.pieces) + 1)] or [path]:
+        spec = over(layer, piece)
+        _write_touching(spec, placed.data.material, plan)
+        if placed.pieces or base.GetPrimAtPath(path).typeName == "Mesh":
+            _write_approximation(spec, "convexHull" if placed.pieces else placed.approximation.usd)
 
 
 def _write_touching(spec: Sdf.PrimSpec, material: str, plan: Plan) -> None:
+    """A collider, of a material where one is named."""
     apply_schemas(spec, "PhysicsCollisionAPI")
-    _bind(spec, material, plan)
-
-
-def _bind(spec: Sdf.PrimSpec, name: str, plan: Plan) -> None:
-    """The physics material of a collider."""
-    material = plan.material_paths.get(name)
-    if material is not None:
+    path = plan.material_paths.get(material)
+    if path is not None:
         apply_schemas(spec, "MaterialBindingAPI")
-        set_targets(spec, "material:binding:physics", material)
+        set_targets(spec, "material:binding:physics", path)
+
+
+def _write_approximation(spec: Sdf.PrimSpec, token: str) -> None:
+    apply_schemas(spec, "PhysicsMeshCollisionAPI")
+    if token != "none":
+        set_attribute(spec, "physics:approximation", Types.Token, token, uniform=True)
 
 
 def filtered_pairs(plan: Plan) -> dict[str, list[str]]:

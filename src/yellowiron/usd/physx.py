@@ -13,7 +13,7 @@ from pxr import Sdf
 from yellowiron.model.mechanism import Drive, Joint
 from yellowiron.usd.articulation import articulation_roots
 from yellowiron.usd.drives import INSTANCES, to_usd_unit
-from yellowiron.usd.plan import COLLIDERS, Plan
+from yellowiron.usd.plan import COLLIDERS, MESH, Plan
 from yellowiron.usd.stage import Types, apply_schemas, over, set_attribute
 
 POSITION_ITERATIONS = 255
@@ -43,9 +43,9 @@ def write_physx(layer: Sdf.Layer, base: Sdf.Layer, plan: Plan) -> None:
         for placed in plan.parts[body.name]:
             path = f"{plan.body_paths[body.name]}/{COLLIDERS}/{placed.name}"
             chosen = placed.approximation
-            if not chosen.physx_schema or base.GetPrimAtPath(path).typeName != "Mesh":
+            if not chosen.physx_schema or not (placed.pieces or base.GetPrimAtPath(path).typeName == "Mesh"):
                 continue
-            spec = over(layer, path)
+            spec = over(layer, f"{path}/{MESH}" if placed.pieces else path)
             apply_schemas(spec, chosen.physx_schema)
             if chosen.physx_usd:
                 set_attribute(spec, "physics:approximation", Types.Token, chosen.physx_usd, uniform=True)

@@ -7,18 +7,21 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from yellowiron.convex import convex_pieces
 from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.errors import MechanismError
-from yellowiron.model.geometry import Floats, Shape
+from yellowiron.model.geometry import Floats, Mesh, Shape
 from yellowiron.model.mechanism import Body, BodyPart, Mechanism
 from yellowiron.usd.collision import APPROXIMATIONS, Approximation, approximation
 from yellowiron.usd.materials import Look, look_of
-from yellowiron.usd.primitives import is_convex
 from yellowiron.usd.stage import Names
+from yellowiron.usd.weld import weld
 
 GEOMETRY_FILE = "geometry.usdc"
 PROTOTYPES, HULLS = "/Prototypes", "/Hulls"
 VISUALS, COLLIDERS, HULL = "visuals", "colliders", "hull"
+MESH, PIECE = "mesh", "piece_"
+"""Under a collider of several pieces: the part's own mesh, which does not collide, and the pieces, numbered from 1."""
 JOINTS, MATERIALS, BASE_JOINT = "joints", "materials", "base_joint"
 
 
@@ -36,7 +39,8 @@ class Prototype:
 @dataclass(frozen=True, eq=False)
 class PlacedPart:
     """A part in its body: `name` of its prims under `visuals` and `colliders`; `matrix` (4, 4) takes the shape's frame
-    to the body's, metres, column vectors."""
+    to the body's, metres, column vectors. `pieces`: what it collides as where that is several convex meshes, in the
+    shape's frame."""
 
     name: str
     part: Part
@@ -44,6 +48,7 @@ class PlacedPart:
     prototype: Prototype
     matrix: Floats
     approximation: Approximation
+    pieces: tuple[Mesh, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -128,7 +133,7 @@ class _Placer:
         self._assembly = assembly
         self._frame = frame
         self._parts = {part.id: part for part in assembly.parts}
-        self._convex: dict[str, bool] = {}
+        self._pieces: dict[str, tuple[Mesh, ...]] = {}
         self.prototypes = Prototypes()
 
     def place(self, body: Body) -> tuple[PlacedPart, ...]:
@@ -153,6 +158,7 @@ class _Placer:
                     hint=f"Known: {', '.join(self._mechanism.materials) or 'none'}.",
                 )
             shape = self._assembly.shape_of(part)
+            chosen, pieces = self._collision(data, shape)
             placed.append(
                 PlacedPart(
                     name=names.give(part.name or shape.name or "part"),
@@ -160,17 +166,20 @@ class _Placer:
                     data=data,
                     prototype=self.prototypes.give(shape, look_of(part.color, shape, material)),
                     matrix=to_body @ part.transform,
-                    approximation=self._approximation(data, shape),
+                    approximation=chosen,
+                    pieces=pieces,
                 )
             )
         return tuple(placed)
 
-    def _approximation(self, data: BodyPart, shape: Shape) -> Approximation:
-        """The approximation asked for; a convex solid's decomposition is its hull, without the time that it takes."""
+    def _collision(self, data: BodyPart, shape: Shape) -> tuple[Approximation, tuple[Mesh, ...]]:
+        """The approximation asked for, and its pieces; where one piece stands for a part, it is its hull."""
         asked = approximation(data.collision, where=data.part)
         if asked.token != "convexDecomposition":
-            return asked
-        convex = self._convex.get(shape.key)
-        if convex is None:
-            convex = self._convex.setdefault(shape.key, is_convex(shape))
-        return APPROXIMATIONS["convexHull"] if convex else asked
+            return asked, ()
+        if shape.key not in self._pieces:
+            points, triangles, _ = weld(shape.mesh)
+            whole = Mesh(points.astype(np.float64), triangles)
+            self._pieces[shape.key] = convex_pieces(whole) if len(triangles) else ()
+        pieces = self._pieces[shape.key]
+        return (asked, pieces) if len(pieces) > 1 else (APPROXIMATIONS["convexHull"], ())

@@ -14,9 +14,6 @@ from yellowiron.model.geometry import Floats, Shape
 MAX_EXCESS = 1.6
 """A primitive stands for a shape if its volume is at most this multiple of the shape's convex hull."""
 
-CONVEX_FILL = 0.9
-"""A solid is as good as convex if it has this share of its hull's volume: a decomposition stops there, too."""
-
 _FULL_ARC = 1.5 * math.pi
 _ENDS = 1e-9
 
@@ -61,14 +58,6 @@ def fit_primitive(shape: Shape, *, max_excess: float = MAX_EXCESS) -> Primitive 
     candidates.extend(_box(hull_points, rotation) for rotation in _frames(shape))
     best = min(candidates, key=lambda c: c.volume)
     return best if best.volume <= max_excess * hull_volume else None
-
-
-def is_convex(shape: Shape, *, fill: float = CONVEX_FILL) -> bool:
-    """Whether a solid fills so much of its convex hull that the hull stands for it. Open shapes never do."""
-    if not shape.closed or len(shape.mesh.points) < 4:
-        return False
-    _, volume = _convex_hull(shape.mesh.points)
-    return volume > 0.0 and shape.volume >= fill * volume
 
 
 def _convex_hull(points: Floats) -> tuple[Floats, float]:

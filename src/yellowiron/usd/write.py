@@ -13,7 +13,7 @@ from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import OutputError
 from yellowiron.model.mechanism import Mechanism
 from yellowiron.usd.bodies import is_mirrored, write_bodies
-from yellowiron.usd.geometry import write_hulls, write_mirrored, write_prototypes
+from yellowiron.usd.geometry import write_hulls, write_mirrored, write_pieces, write_prototypes
 from yellowiron.usd.materials import copy_textures
 from yellowiron.usd.mujoco import write_mujoco
 from yellowiron.usd.physics import write_physics
@@ -95,4 +95,5 @@ def _write_geometry(layer: Sdf.Layer, plan: Plan, textures: dict[str, str]) -> N
     write_prototypes(layer, plan.prototypes, textures)
     placed = [p for body in plan.mechanism.bodies for p in plan.parts[body.name]]
     write_mirrored(layer, (p for p in placed if p.approximation.usd and is_mirrored(p.matrix)))
+    write_pieces(layer, ((p, is_mirrored(p.matrix)) for p in placed if p.pieces))
     write_hulls(layer, plan)
