@@ -203,7 +203,7 @@ def _absorbed(
 def _facet_normals(points: Floats, triangles: np.ndarray, facets: Sequence[np.ndarray]) -> Floats:
     crossed = _doubled_areas(points, triangles)
     total = np.array([crossed[facet].sum(axis=0) for facet in facets])
-    for row in np.flatnonzero(np.linalg.norm(total, axis=1) <= 1e-12):
+    for row in np.flatnonzero(np.linalg.norm(total, axis=1) <= 1e-12).tolist():
         # Sheets drawn from both sides, one facet since they share an edge, cancel out.
         facet = facets[row]
         total[row] = crossed[facet[int(np.argmax(np.linalg.norm(crossed[facet], axis=1)))]]
