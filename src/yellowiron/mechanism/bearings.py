@@ -28,6 +28,8 @@ _OUT_OF_LINE = {True: (math.radians(0.05), 1e-4), False: (math.radians(0.2), 3e-
 """Angle (rad) and offset (m) from which features are out of line; exact ones, and fitted ones."""
 _GAP = 0.02
 """Bores of two bodies belong to one pin only if no more than this is between them along the axis, metres."""
+_SAME_JOINT = (math.sin(math.radians(1.0)), 0.02)
+"""Sine and metres up to which two lines may be one joint's axis."""
 _RIVAL = 0.5
 """A second axis whose shared area is more than this share of the best one's makes the choice doubtful."""
 _MAIN = 0.5
@@ -132,6 +134,25 @@ def shared_bearing(placement: Placement, bodies: tuple[str, str], *, near: Float
     doubt = ("MEC006", f"{len(rivals) + 1} axes fit it about as well; the largest was taken.") if rivals else None
     method = f"least squares over {len(features)} coaxial cylinder(s) of both bodies"
     return Bearing(axis_of(features), features, method, doubt)
+
+
+def lone_bearing(placement: Placement, bodies: tuple[str, str], line: Line) -> Bearing:
+    """The axis that the alignment found for two bodies of which only one has a round face there (or none that fits):
+    through the cylinders of either on that line, else the line itself."""
+    rows = [row for body in bodies for row in placement.rows_of_body(body)]
+    features = placement.features(rows)
+    features = features.take(on_line(features, line))
+    doubt = ("MEC009", "No pin and no common bore is drawn: one body is taken to turn on what is round of the other.")
+    if len(features) == 0:
+        return Bearing(line, features, "alignment: where one body ends at the other", doubt)
+    method = f"least squares over {len(features)} cylinder(s) of one body that the other ends at or is run through by"
+    return Bearing(axis_of(features), features, method, doubt)
+
+
+def agree(one: Line, other: Line) -> bool:
+    """Whether two lines may be one joint's axis: within a degree and two centimetres."""
+    lean = float(np.linalg.norm(np.cross(one.direction, other.direction)))
+    return lean < _SAME_JOINT[0] and float(one.distance(other.point[None])[0]) < _SAME_JOINT[1]
 
 
 def outline_bearing(placement: Placement, rows: Sequence[int]) -> Bearing | None:

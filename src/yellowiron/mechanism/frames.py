@@ -13,7 +13,15 @@ from typing import Any
 import numpy as np
 
 from yellowiron.mechanism.axes import Line, machine_sense
-from yellowiron.mechanism.bearings import Bearing, outline_bearing, pin_bearing, shared_bearing, slide_bearing
+from yellowiron.mechanism.bearings import (
+    Bearing,
+    agree,
+    lone_bearing,
+    outline_bearing,
+    pin_bearing,
+    shared_bearing,
+    slide_bearing,
+)
 from yellowiron.mechanism.hidden import HiddenWheel
 from yellowiron.mechanism.placement import Placement
 from yellowiron.model.finding import Finding
@@ -122,6 +130,10 @@ def _pivot(
     pins = [row for part in joint.parts if not template.role(part).rigid for row in placement.rows_of_role(part)]
     wheel = next((part for part in joint.parts if template.role(part).kind in WHEELS), None)
     bearing = pin_bearing(placement, pins, bodies) or shared_bearing(placement, bodies)
+    if not pins and joint.name in placement.axes:
+        found = Line(*placement.axes[joint.name])
+        if bearing is None or not agree(bearing.line, found):
+            bearing = lone_bearing(placement, bodies, found)
     if bearing is None and wheel is not None:
         bearing = outline_bearing(placement, placement.rows_of_body(wheel))
     if bearing is None:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
-from yellowiron.model.alignment import Alignment
+from yellowiron.model.alignment import Alignment, Vector
 from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats, Shape
@@ -69,7 +69,8 @@ class Placement:
     """The parts that move with some body, placed in the machine frame. `transforms` (n, 4, 4) take a shape's frame
     there.
 
-    `bodies` and `roles` give each part's body and role; what is computed from a part is kept for the next caller.
+    `bodies` and `roles` give each part's body and role; `axes`, of joints without a pin, the alignment's axis (a point
+    and a unit vector); what is computed from a part is kept for the next caller.
     """
 
     parts: tuple[Part, ...]
@@ -77,6 +78,7 @@ class Placement:
     transforms: Floats
     bodies: tuple[str, ...]
     roles: tuple[str | None, ...]
+    axes: Mapping[str, tuple[Floats, Floats]] = field(default_factory=dict)
     _features: dict[int, Features] = field(default_factory=dict)
     _points: dict[int, Floats] = field(default_factory=dict)
 
@@ -150,8 +152,14 @@ def place(assembly: Assembly, template: Template, alignment: Alignment) -> tuple
         transforms=np.array([alignment.frame @ p.transform for p in kept]).reshape(-1, 4, 4),
         bodies=tuple(str(assigned[p.id].body) for p in kept),
         roles=tuple(assigned[p.id].role for p in kept),
+        axes={name: _axis(alignment.frame, *axis) for name, axis in alignment.axes.items()},
     )
     return placement, findings
+
+
+def _axis(frame: Floats, point: Vector, direction: Vector) -> tuple[Floats, Floats]:
+    """An axis through a rigid transform (4, 4)."""
+    return frame[:3, :3] @ np.array(point) + frame[:3, 3], frame[:3, :3] @ np.array(direction)
 
 
 def ancestors(template: Template, role: str | None) -> tuple[Role, ...]:

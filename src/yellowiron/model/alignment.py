@@ -9,6 +9,7 @@ from typing import Literal
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
 
+Vector = tuple[float, float, float]
 AssignmentSource = Literal["solved", "name", "edited", "data"]
 
 
@@ -36,7 +37,8 @@ class Alignment:
 
     `choices` are the template's variants as found in the CAD (`{"lift_cylinders": "twin"}`); `missing` lists roles
     that the template requires and no part plays; `to_review` the part ids and roles a person should look at. `counts`:
-    row of the template → how many parts it has (`rows.expand` makes them concrete).
+    row of the template → how many parts it has (`rows.expand` makes them concrete). `axes`: joints that turn about no
+    pin of their own → the axis found for them, a point (metres) and a unit vector in the CAD file's frame.
     """
 
     equipment_type: str
@@ -47,6 +49,7 @@ class Alignment:
     to_review: tuple[str, ...] = ()
     findings: tuple[Finding, ...] = ()
     counts: Mapping[str, int] = field(default_factory=dict)
+    axes: Mapping[str, tuple[Vector, Vector]] = field(default_factory=dict)
 
     def parts_of_body(self, body: str) -> tuple[str, ...]:
         """Ids of the parts that move with a body, in CAD order."""
