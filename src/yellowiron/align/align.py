@@ -39,9 +39,10 @@ from yellowiron.align.spread import Spreader
 from yellowiron.align.touch import Touch
 from yellowiron.align.weights import Weights, name_weights, side_weights
 from yellowiron.align.wheels import Wheel, wheels_of
-from yellowiron.model.alignment import Alignment
+from yellowiron.model.alignment import Alignment, Vector
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import AlignmentError
+from yellowiron.model.geometry import Floats
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import Template, choose
 
@@ -147,6 +148,7 @@ def align(
         frame or MachineFrame(np.eye(4)),
         documents=documents,
         apart=apart,
+        axes=_axes(structure, solution),
         remarks=[
             *sheet_findings(structure, seen.rams, resolved, specifications, solution),
             *doubts(
@@ -162,6 +164,22 @@ def align(
             ),
         ],
     )
+
+
+def _axes(structure: Structure, solution: Solution) -> dict[str, tuple[Vector, Vector]]:
+    """Joint → its axis, for the joints that no pin is drawn for and that no wheel turns on."""
+    found = {}
+    for joint, number in sorted(solution.hinge_of.items()):
+        hinge = structure.hinges[number]
+        if not hinge.pins and not any(structure.clusters[c].kind == "wheel" for c in (hinge.a, hinge.b)):
+            line = structure.lines[hinge.line]
+            found[joint] = (_vector(line.origin), _vector(line.direction))
+    return found
+
+
+def _vector(values: Floats) -> Vector:
+    x, y, z = (float(v) for v in values)
+    return (x, y, z)
 
 
 def _best(

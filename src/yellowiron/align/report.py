@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from yellowiron.align.frame import MachineFrame
 from yellowiron.align.solve import Solution
 from yellowiron.align.spread import Place, pin_role
-from yellowiron.model.alignment import Alignment, PartAssignment
+from yellowiron.model.alignment import Alignment, PartAssignment, Vector
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.finding import Finding
 from yellowiron.model.template import Template
@@ -31,10 +31,11 @@ def reported(
     documents: Mapping[str, str] | None = None,
     apart: Mapping[str, float] | None = None,
     remarks: Sequence[Finding] = (),
+    axes: Mapping[str, tuple[Vector, Vector]] | None = None,
 ) -> Alignment:
     """The alignment. `places` by part id; `edited`: part id → the role a person gave it ("": none), which wins;
     `documents`: part id → why, for those of them that a document placed; `apart`: part id → metres from the rest, for
-    those left out; `remarks`: further findings."""
+    those left out; `remarks`: further findings; `axes`: the alignment's."""
     roles = {r.name for r in template.roles}
     parts = []
     for part in assembly.parts:
@@ -70,8 +71,9 @@ def reported(
     doubtful = tuple(p.part for p in sorted(parts, key=lambda p: p.confidence) if p.confidence < REVIEW)
     findings = (*_findings(template, solution, missing, frame, edited), *remarks)
     return Alignment(
-        template.equipment_type, frame.matrix, tuple(parts), dict(chosen), missing, (*missing, *doubtful), findings
-    )
+        template.equipment_type, frame.matrix, tuple(parts), dict(chosen), missing, (*missing, *doubtful), findings,
+        axes=dict(axes or {}),
+    )  # fmt: skip
 
 
 def _required(name: str, template: Template) -> bool:
