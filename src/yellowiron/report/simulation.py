@@ -162,6 +162,8 @@ def _tests(runs: Sequence[Run]) -> list[dict[str, Any]]:
         found = [next((t for t in run.get("tests") or () if t["name"] == name), None) for run in runs]
         first = next(test for test in found if test is not None)
         bar = first.get("bar_percent")
+        # Where engines differ in what they met, each says it in its own cell.
+        reasons = {test.get("reason", "") for test in found if test is not None}
         rows.append(
             {
                 "name": name,
@@ -170,17 +172,19 @@ def _tests(runs: Sequence[Run]) -> list[dict[str, Any]]:
                 "sheet": _expected(first) if first["kind"] == "lift" else _amount(first["spec"], first),
                 "statics": _amount(first.get("statics_value"), first),
                 "bar": f"within {bar:g} %" if bar is not None and first["kind"] != "lift" else "",
-                "cells": [_test(test) if test is not None else _NOTHING for test in found],
-                "reason": next((t["reason"] for t in found if t is not None and t.get("reason")), ""),
+                "cells": [_test(test, alone=len(reasons) > 1) if test is not None else _NOTHING for test in found],
+                "reason": reasons.pop() if len(reasons) == 1 else "",
             }
         )
     return rows
 
 
-def _test(test: Mapping[str, Any]) -> dict[str, Any]:
+def _test(test: Mapping[str, Any], *, alone: bool) -> dict[str, Any]:
     error = test.get("error_percent")
-    text = _amount(test.get("engine_value"), test)
-    return _cell(text, signed(error, 1, " %") if error is not None else "", held=test.get("passed"))
+    notes = [signed(error, 1, " %")] if error is not None else []
+    if alone and test.get("reason"):
+        notes.append(test["reason"])
+    return _cell(_amount(test.get("engine_value"), test), ", ".join(notes), held=test.get("passed"))
 
 
 def _expected(test: Mapping[str, Any]) -> str:
