@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from yellowiron.report.joints import joint_marks, joint_rows
@@ -33,6 +33,7 @@ def test_counted_rows_are_one() -> None:
     assert in_rows(names) == {"frame": [0], "shoe_l": [1, 2, 4, 5], "arm": [3], "wheel_1": [6], "wheel_2": [7]}
 
 
+@settings(deadline=None)
 @given(st.lists(st.from_regex(r"[a-c](_[0-9]{1,2})?", fullmatch=True), unique=True))
 def test_every_name_is_in_one_row(names: list[str]) -> None:
     places = sorted(place for places in in_rows(names).values() for place in places)
@@ -60,6 +61,7 @@ def test_words() -> None:
     assert sentence("rear_frame") == "Rear frame"
 
 
+@settings(deadline=None)
 @given(st.integers(2, 40))
 def test_labels_keep_apart(count: int) -> None:
     spots = spread(np.zeros((count, 2)))

@@ -60,6 +60,7 @@ def page(
         style=style,
         reasons=reasons[:REASONS],
         more_reasons=reasons[REASONS:],
+        ready=_ready(document),
         driven=in_a_sentence(document["simulation"]),
         figures=_figures(document),
         machine=_machine(soup),
@@ -111,11 +112,27 @@ def _sensor_svg(document: Mapping[str, Any], soup: Soup) -> Any:
     return overlay(camera, picture, sensor_marks(document), alt="Sensors on the machine", under=under)
 
 
+def _ready(document: Mapping[str, Any]) -> str:
+    """What there is to say of a machine that leaves nothing to do."""
+    parts = document["alignment"]
+    left = parts["parts"] - parts["assigned"]
+    words = ["every part has its body" if not left else f"every role has its part ({counted(left, 'part')} left out)"]
+    words.append("every joint its pin")
+    if _held(document):
+        words.append("every published value that can be measured holds")
+    return ", ".join(words[:-1]) + " and " + words[-1]
+
+
+def _held(document: Mapping[str, Any]) -> list[bool]:
+    """Of every published value that could be measured, whether it holds."""
+    checked = [within_tolerance(Measurement(**m)) for m in document["measurements"] if m["role"] == "checked"]
+    return [held for held in checked if held is not None]
+
+
 def _figures(document: Mapping[str, Any]) -> list[tuple[str, str]]:
     """Ten figures that say what was built."""
     counts, mobility, alignment = document["counts"], document["mobility"], document["alignment"]
-    checked = [within_tolerance(Measurement(**m)) for m in document["measurements"] if m["role"] == "checked"]
-    held = [h for h in checked if h is not None]
+    held = _held(document)
     pivots = counts["revolute"] + counts["spherical"]
     mass = sum(b["mass"] for b in document["bodies"])
     runs = document["simulation"].values()
@@ -123,7 +140,7 @@ def _figures(document: Mapping[str, Any]) -> list[tuple[str, str]]:
     return [
         (f"{alignment['assigned']} / {alignment['parts']}", "parts have a body"),
         (str(len(alignment["to_review"])), "parts to review"),
-        (f"{sum(held)} / {len(held)}", "published values met"),
+        (f"{sum(held)} / {len(held)}" if held else "–", "published values met"),
         (f"{mobility['computed']} / {mobility['expected']}" if mobility else "–", "mobility, found / expected"),
         ("not run" if worst is None else f"{worst:.3f} mm", "worst pin when driven"),
         (str(counts["bodies"]), "bodies"),

@@ -141,6 +141,13 @@ def _axle(run: Run) -> dict[str, Any] | None:
     return _cell(f"{run['axle_angle_deg']:.2f}°", note)
 
 
+def _spin(run: Run) -> dict[str, Any] | None:
+    if run.get("spin_deg") is None:
+        return None
+    geometry = run.get("spin_geometry_deg")
+    return _cell(f"{run['spin_deg']:.1f}°", f"geometry {geometry:.1f}°" if geometry is not None else "")
+
+
 def _wheels(run: Run) -> dict[str, Any] | None:
     return None if run.get("highest_wheel_mm") is None else _cell(f"{run['highest_wheel_mm']:.0f} mm")
 
@@ -149,6 +156,7 @@ _DRIVING = (
     ("Driven forward", _distance("forward")),
     ("Driven back", _distance("backward")),
     ("Turning radius at full lock", _radius),
+    ("Turned on the spot", _spin),
     ("Free axle, one wheel on a block", _axle),
     ("Most that a wheel rose from what it stood on", _wheels),
 )
