@@ -9,10 +9,19 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from crawler import crawler
+from tracked_template import write_tracked_template
+from yellowiron.kinematics import complete
+from yellowiron.library import load_template
+from yellowiron.mechanism import build_mechanism
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.mechanism import Mechanism
-from yellowiron.simulate.driving import circle_radius, drive, driving_document, wheels
+from yellowiron.model.rows import expand
+from yellowiron.model.specification import Specifications
+from yellowiron.model.template import choose
+from yellowiron.simulate.driving import circle_radius, drive, driving_document, driving_findings, wheels
 from yellowiron.simulate.engine import Block
+from yellowiron.usd import write_machine
 
 
 def test_a_circle_through_an_arc() -> None:
@@ -48,3 +57,26 @@ def test_the_small_machine_drives_and_climbs(usd_file: Path) -> None:
     assert result.axle_angle == pytest.approx(math.asin(0.15 / 1.4), rel=0.05)
     assert result.highest_wheel is not None and result.highest_wheel < 0.02
     assert driving_document(result)["forward_error_percent"] == pytest.approx(0.0, abs=3.0)
+    assert not list(driving_findings(result))
+    slow = dataclasses.replace(result, forward=4.8, turning_radius=6.4, geometry_radius=6.0, highest_wheel=0.05)
+    assert [(f.code, f.where) for f in driving_findings(slow)] == [
+        ("SIM009", "forward"),
+        ("SIM009", "turning radius"),
+        ("SIM009", "block"),
+    ]
+
+
+def test_a_crawler_drives_and_turns_on_the_spot(tmp_path: Path) -> None:
+    """Its hidden wheels drive it as any wheels do; nothing steers, so its sides turn against each other."""
+    drawn = crawler(24, 3, 1)
+    template = load_template(write_tracked_template(tmp_path / "template"))
+    aligned = drawn.aligned(shoes=False)
+    chosen = expand(choose(template, {"tracks": "belt"}), aligned.counts)
+    machine = build_mechanism(drawn.assembly(), chosen, aligned, Specifications(), name="crawler")
+    file, *_ = write_machine(complete(machine), drawn.assembly(), tmp_path / "out", name="crawler")
+    result = drive(file, engine="mujoco")
+    assert result.forward == pytest.approx(5.0, rel=0.03)
+    assert result.backward == pytest.approx(5.0, rel=0.03)
+    assert result.turning_radius is None and result.axle_angle is None
+    assert result.spin == pytest.approx(math.radians(90.0), rel=0.15)
+    assert not list(driving_findings(result))

@@ -33,6 +33,7 @@ DISTANCE_BAR, RADIUS_BAR, LIFTED = 0.03, 0.05, 0.02
 _SETTLE = 2.0
 _RAMP = 1.0
 _TURN = math.radians(120.0)
+_SPIN = math.radians(90.0)
 _RUN = 2.0
 """Length of the block's ramps by its height: 27°."""
 _LOCK = 0.998
@@ -44,8 +45,10 @@ _ROOM = 0.05
 class DrivingResult:
     """Metres, radians, seconds. `sunk` and `creep`: how far the root came down and its speed after settling. Travel is
     the root's; `turning_radius` is that of the outermost wheel's middle, `geometry_radius` where the axles' lines meet
-    at the measured lock. `axle_angle`: the free axle's coordinate with one wheel on a block, `axle_geometry` what block
-    and tread make of it; `highest_wheel`: the most that a wheel ever rose from what it stood on. None: not driven."""
+    at the measured lock. `spin`: the turn on the spot of a machine that steers by its two sides' speeds, against
+    `spin_geometry`, that of wheels which do not slip; tracks do. `axle_angle`: the free axle's coordinate with one
+    wheel on a block, `axle_geometry` what block and tread make of it; `highest_wheel`: the most that a wheel ever rose
+    from what it stood on. None: not driven."""
 
     engine: str
     dt: float
@@ -58,6 +61,8 @@ class DrivingResult:
     lock: float | None = None
     turning_radius: float | None = None
     geometry_radius: float | None = None
+    spin: float | None = None
+    spin_geometry: float | None = None
     axle_angle: float | None = None
     axle_geometry: float | None = None
     highest_wheel: float | None = None
@@ -82,6 +87,8 @@ def driving_document(result: DrivingResult) -> dict[str, Any]:
         "turning_radius_m": result.turning_radius,
         "geometry_radius_m": result.geometry_radius,
         "radius_error_percent": radius,
+        "spin_deg": None if result.spin is None else math.degrees(result.spin),
+        "spin_geometry_deg": None if result.spin_geometry is None else math.degrees(result.spin_geometry),
         "block_m": BLOCK_HEIGHT,
         "axle_angle_deg": None if result.axle_angle is None else math.degrees(result.axle_angle),
         "axle_geometry_deg": None if result.axle_geometry is None else math.degrees(result.axle_geometry),
@@ -121,6 +128,7 @@ class Wheel:
     radius: float
     half_width: float
     sign: int
+    actuator: str
 
 
 def wheels(mechanism: Mechanism) -> tuple[Wheel, ...]:
@@ -142,7 +150,7 @@ def wheels(mechanism: Mechanism) -> tuple[Wheel, ...]:
             radius = float(np.linalg.norm(offset - np.outer(along, axis), axis=1).max())
             half, center = 0.5 * float(np.ptp(along)), 0.5 * (float(along.min()) + float(along.max()))
             middle = np.asarray(joint.anchor) + center * axis
-            found.append(Wheel(joint, number[joint.body1], middle, axis, radius, half, entry.sign))
+            found.append(Wheel(joint, number[joint.body1], middle, axis, radius, half, entry.sign, actuator.name))
     if len(found) < 3:
         raise YellowironError(
             "The machine has no driven wheels to drive on",
@@ -255,7 +263,7 @@ class _Trip:
             ahead = engine.poses()[1][self._root]
             self._go(engine, -DISTANCE)
             back = engine.poses()[1][self._root]
-            turn = self._turn(engine)
+            turn = self._turn(engine) or self._spin(engine)
         finally:
             engine.close()
         return {
@@ -326,6 +334,30 @@ class _Trip:
             "turning_radius": circle_radius(np.array(path)[:, outer, :2]),
             "geometry_radius": float(geometry[outer]),
         }
+
+    def _spin(self, engine: Engine) -> dict[str, float | None]:
+        """Left and right against each other, where each has an actuator of its own: how far the machine turned."""
+        sides = [
+            [w for w in self.wheels if w.actuator == name] for name in dict.fromkeys(w.actuator for w in self.wheels)
+        ]
+        places = [float(np.mean([w.middle[1] for w in side])) for side in sides]
+        if len(sides) != 2 or places[0] * places[1] >= 0.0:
+            return {}
+        gauge, speed = abs(places[0] - places[1]), 0.5 * SPEED
+        turning = 2.0 * speed / gauge
+        factors = {w.joint.name: math.copysign(1.0, -y) for side, y in zip(sides, places, strict=True) for w in side}
+        time = _SPIN / turning + _RAMP
+        turned, before = 0.0, engine.poses()[0][self._root]
+        for number in range(self._steps(time + 1.0)):
+            now = (number + 1) * self.timestep
+            share = min(1.0, now / _RAMP, max(0.0, (time - now) / _RAMP))
+            engine.set_targets(self._speeds(share * speed, factors))
+            engine.step()
+            after = engine.poses()[0][self._root]
+            across = before.T @ after
+            turned += math.atan2(across[1, 0], across[0, 0])
+            before = after
+        return {"spin": turned, "spin_geometry": _SPIN}
 
     def _lock(self, coordinates: Mapping[str, float]) -> float:
         """The largest angle between two wheels' axes seen from above."""
