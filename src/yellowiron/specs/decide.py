@@ -42,7 +42,7 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
     groups = _groups(wanted, chosen)
     said = None
     if len(groups) > 1:
-        said, chosen = _as_stated(chosen, sheets)
+        said, chosen = _as_stated(wanted, chosen, sheets)
         groups = _groups(wanted, chosen)
     if len(groups) > 1:
         return _conflict(wanted, groups, sheets, config)
@@ -114,7 +114,7 @@ def _preference(found: Match) -> tuple[float, bool, bool, float]:
 
 def configuration(found: Match) -> str:
     """The column or variant that a match holds for, as the sheet words it."""
-    return ", ".join([*found.claim.statement.column, *found.rest])
+    return ", ".join([*configured_by(found.claim), *found.rest])
 
 
 def _configured(matches: Sequence[Match], sheets: Sheets, config: str) -> list[Match]:
@@ -158,14 +158,30 @@ def _words_of(phrase: str) -> set[str]:
     return set(tokens(_without_quantities(phrase))) | quantity_words(phrase)
 
 
-def _as_stated(matches: Sequence[Match], sheets: Sheets) -> tuple[Stated | None, list[Match]]:
-    """The matches whose column a sentence about the sheet's figures names in full, and that sentence."""
+def _as_stated(wanted: Wanted, matches: Sequence[Match], sheets: Sheets) -> tuple[Stated | None, list[Match]]:
+    """The matches whose column (or row, where rows are the configurations) a sentence about the sheet's figures names
+    in full, those of no configuration that say the same, and that sentence."""
     for stated in sheets.stated:
-        words = set(tokens(stated.sentence))
-        kept = [m for m in matches if (head := set(tokens(" ".join(m.claim.statement.column)))) and head <= words]
+        words = set(tokens(stated.sentence)) | quantity_words(stated.sentence)
+        kept = [m for m in matches if (names := configured_by(m.claim)) and all(_says(words, n) for n in names)]
         if kept:
-            return stated, kept
+            first = _by_value(wanted, kept)[0][0]
+            plain = [m for m in matches if not configured_by(m.claim)]
+            return stated, [*kept, *(m for m in plain if len(_by_value(wanted, [first, m])) == 1)]
     return None, list(matches)
+
+
+def configured_by(claim: Claim) -> tuple[str, ...]:
+    """What names the configuration that a claim holds for."""
+    return claim.statement.variant or claim.statement.column
+
+
+def _says(words: set[str], name: str) -> bool:
+    """Whether these words say a name: its words, and of each quantity one of the two systems."""
+    readings = [r for r in read(name, style="point") if all(q.printed for q in r.numbers)]
+    said = [{f"{q.value:g} {q.printed.name}" for q in (*r.numbers, *r.partner) if q.printed} & words for r in readings]
+    rest = set(tokens(_without_quantities(name)))
+    return bool(readings or rest) and all(said) and rest <= words
 
 
 def _explained(found: Match, words: set[str]) -> Match:
@@ -197,9 +213,9 @@ def _without_quantities(text: str) -> str:
 
 def _config_words(claim: Claim, sheets: Sheets) -> set[str]:
     statement = claim.statement
-    texts = [*statement.column, *statement.context, statement.section, claim.words]
+    texts = [*statement.column, *statement.variant, *statement.context, statement.section, claim.words]
     words = {t for text in texts for t in tokens(text)}
-    for text in statement.column:
+    for text in (*statement.column, *statement.variant):
         words |= quantity_words(text)
     return words | sheets.columns.get(id(statement), frozenset())
 
@@ -208,8 +224,10 @@ def _config_words(claim: Claim, sheets: Sheets) -> set[str]:
 
 
 def _groups(wanted: Wanted, matches: Sequence[Match]) -> list[list[Match]]:
-    best = max(m.score for m in matches)
-    return _by_value(wanted, [m for m in matches if m.score >= best - _NEAR])
+    """By value; those outside what is usual have no say where others are inside."""
+    usual = [m for m in matches if _in_range(wanted, _settled(wanted, m.claim)[0].si_value)] or matches
+    best = max(m.score for m in usual)
+    return _by_value(wanted, [m for m in usual if m.score >= best - _NEAR])
 
 
 def _by_value(wanted: Wanted, matches: Sequence[Match]) -> list[list[Match]]:

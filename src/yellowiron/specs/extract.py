@@ -13,6 +13,7 @@ from yellowiron.model.template import Template
 from yellowiron.specs.asked import asked
 from yellowiron.specs.claims import Claim, claims_of
 from yellowiron.specs.decide import Sheets, decide, missing, quantity_words, unmatched, unreadable
+from yellowiron.specs.labels import in_label
 from yellowiron.specs.match import match
 from yellowiron.specs.reader import MEMORY_MB, TIMEOUT_S, Sheet, check_file
 
@@ -57,14 +58,17 @@ def from_sheets(template: Template, sheets: Sequence[Sheet], *, config: str = ""
         claims.extend(claims_of(sheet.statements, sheet.style))
         files.update((id(s), sheet.file) for s in sheet.statements)
         columns.update(_columns(sheet))
-    matches = match(claims, wanted)
+    matches = match(claims, [w for w in wanted if w.in_label_of is None])
     silent = [s.file for s in sheets if not s.statements and s.silent]
     stated = tuple(one for sheet in sheets for one in sheet.stated)
     known = Sheets(files, columns, stated)
     values: dict[str, Specification] = {}
     for one in wanted:
-        found = matches[one.name]
-        if found:
+        found = matches.get(one.name, [])
+        if one.in_label_of is not None:
+            style = sheets[0].style if sheets else "point"
+            values[one.name] = in_label(one, matches.get(one.in_label_of, []), known, style)
+        elif found:
             values[one.name] = decide(one, found, known, config)
         else:
             values[one.name] = unreadable(one, silent) if silent else missing(one)

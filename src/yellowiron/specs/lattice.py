@@ -6,7 +6,7 @@ import functools
 import itertools
 from bisect import bisect_right
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from yellowiron.specs.cells import marked_by_legend
 from yellowiron.specs.lines import Line, lines_of
@@ -143,7 +143,8 @@ def _is_frame(grid: Grid) -> bool:
 def read_grid(page: Page, grid: Grid, first_row: int, section: str = "") -> list[Statement]:
     """The statements of a table: a value's label is the words to its left, its column the heads above."""
     found: list[Statement] = []
-    heads: list[int] = []
+    heads = _head_rows(page, grid)
+    naming = frozenset(heads)
     for row in range(grid.rows):
         cells = _row_cells(grid, row)
         filled = [c for c in cells if c.lines]
@@ -156,11 +157,50 @@ def read_grid(page: Page, grid: Grid, first_row: int, section: str = "") -> list
                 continue
             heads.append(row)
             continue
-        if not _labels(cells, values[0]) and not heads:
-            heads.append(row)
+        if not _labels(cells, values[0]) and (not heads or row in naming):
+            heads.extend([] if row in heads else [row])
             continue
-        found.extend(_read_row(page, grid, row, cells, values, heads, first_row + row, section))
+        over = [h for h in heads if h <= row] if row in naming else heads
+        found.extend(_read_row(page, grid, row, cells, values, over, first_row + row, section))
     return found
+
+
+def _head_rows(page: Page, grid: Grid) -> list[int]:
+    """The first rows of quantities that name the columns ("2925 mm arm"): set in bold or shaded, which not all that
+    follows is, or spread over columns that part below."""
+    found: list[int] = []
+    for row in range(grid.rows - 1):
+        filled = [c for c in _row_cells(grid, row) if c.lines]
+        values = [c for c in filled if looks_like_value(c.text)]
+        if not values:
+            if found or len(filled) == 1:
+                break
+            continue
+        below = [c for c in grid.cells if c.rows[0] > row and looks_like_value(c.text)]
+        wide = all(c.columns[1] - c.columns[0] > 1 and _parts(grid, row, c) for c in values)
+        bold = all(_is_bold(c) for c in filled) and not all(_is_bold(c) for c in below)
+        shaded = all(_is_shaded(page, c) for c in filled) and not all(_is_shaded(page, c) for c in below)
+        if not below or not (wide or bold or shaded):
+            break
+        found.append(row)
+    return found
+
+
+def _parts(grid: Grid, row: int, cell: Cell) -> bool:
+    """Whether values stand side by side below a cell."""
+    return any(
+        len({id(c) for k in range(*cell.columns) if (c := grid.at(below, k)) is not None and c.lines}) > 1
+        for below in range(row + 1, grid.rows)
+    )
+
+
+def _is_bold(cell: Cell) -> bool:
+    return all(p.bold for p in cell.pieces if not EXAMPLE.fullmatch(p.text.strip()))
+
+
+def _is_shaded(page: Page, cell: Cell) -> bool:
+    x, y = (cell.box[0] + cell.box[2]) / 2, (cell.box[1] + cell.box[3]) / 2
+    return any(b[0] <= x <= b[2] and b[1] <= y <= b[3] for b in page.bars)
 
 
 def _row_cells(grid: Grid, row: int) -> list[Cell]:
@@ -201,15 +241,21 @@ def _read_row(
         seen = value.columns[0]
         over = _heads_over(grid, heads, value, labels)
         found.append(_statement(page, value, labels, over, units[0] if units else "", number, section))
+    if heads and row not in heads and not any(f.label for f in found):
+        found = [replace(f, variant=(values[0].text,)) for f in found]
     return found
 
 
 def _heads_over(grid: Grid, heads: Sequence[int], value: Cell, labels: Sequence[Cell]) -> list[Cell]:
+    """The heads of a value's column; a value across several columns has those that stand over all of them."""
     over: list[Cell] = []
     for row in heads:
-        if row >= value.rows[0]:
+        if row > value.rows[0]:
             continue
-        cell = grid.at(row, value.columns[0])
+        above = [grid.at(row, column) for column in range(*value.columns)]
+        cell = above[0]
+        if any(c is not cell for c in above):
+            continue
         if cell is not None and cell.lines and not any(cell is c for c in (*over, *labels)):
             over.append(cell)
     return over

@@ -9,6 +9,7 @@ from yellowiron.specs.lattice import grids_of, read_grid
 from yellowiron.specs.lines import blocks_of, lines_of
 from yellowiron.specs.rows import Heading, read_block
 from yellowiron.specs.statement import Statement
+from yellowiron.specs.strokes import Box
 from yellowiron.specs.words import Page
 
 
@@ -34,7 +35,8 @@ def statements_of(page: Page) -> list[Statement]:
     walls = [r for r in page.rules if not r.horizontal]
     headings: list[Heading] = []
     across = [*page.leaders, *((r.x0, r.top, r.x1, r.bottom) for r in page.rules if r.horizontal)]
-    for block in blocks_of(lines_of(outside, walls), page.bars, across):
+    bars = [b for b in page.bars if not any(_within(b, g.box) for g in grids)]
+    for block in blocks_of(lines_of(outside, walls), bars, across):
         statements, more = read_block(
             page, block, row, _heading_above(headings, block.lines[0].top, block.x0, block.x1)
         )
@@ -45,6 +47,12 @@ def statements_of(page: Page) -> list[Statement]:
         found.extend(read_grid(page, grid, row, _heading_above(headings, grid.box[1], grid.box[0], grid.box[2])))
         row += grid.rows + 1
     return found
+
+
+def _within(inner: Box, outer: Box) -> bool:
+    return all(a >= b - 1 for a, b in zip(inner[:2], outer[:2], strict=True)) and all(
+        a <= b + 1 for a, b in zip(inner[2:], outer[2:], strict=True)
+    )
 
 
 def _heading_above(headings: list[Heading], top: float, x0: float, x1: float) -> str:

@@ -76,7 +76,8 @@ class Statement:
     """One value cell. `label` is its row's, `context` the sub-headings above it (nearest last), `section` the heading,
     `column` the heads over it, `text` what it says; `unit` comes from its head or label, for numbers without one.
 
-    `row` groups the cells of one row. `quote` is what the page prints, pieces that stand apart joined by " … "; `heads`
+    `variant` is what names the row where heads name the properties (a bucket's capacity beside its width). `row` groups
+    the cells of one row. `quote` is what the page prints, pieces that stand apart joined by " … "; `heads`
     are the lines over the column as printed, for a quote that needs them.
     """
 
@@ -93,6 +94,7 @@ class Statement:
     example: bool = False
     x0: float = 0.0
     heads: tuple[str, ...] = ()
+    variant: tuple[str, ...] = ()
 
 
 def join_boxes(boxes: Iterable[Box]) -> Box:
