@@ -171,6 +171,8 @@ def slide_bearing(
     the direction of the pivots, where known: they stand in for a bore that is not there, and steady one fitted to
     facets."""
     bore = shared_bearing(placement, bodies)
+    if bore is not None:
+        bore = _between_twins(placement, bodies, bore)
     if ends[0] is None or ends[1] is None:
         return replace(bore, doubt=None) if bore is not None else None
     if bore is not None:
@@ -183,6 +185,42 @@ def slide_bearing(
     return Bearing(
         Line(ends[0], between / length), placement.features(()), "line between its pivots", ("MEC003", words)
     )
+
+
+def _between_twins(placement: Placement, bodies: tuple[str, str], bore: Bearing) -> Bearing:
+    """A slide's axis where both bodies have equal pairs of coaxial cylinders side by side (twins drawn as one): midway
+    between them."""
+    one, other = (placement.features(placement.rows_of_body(b)) for b in bodies)
+    largest = [_largest(features.take(on_line(features, bore.line))) for features in (one, other)]
+    feet = [bore.line.point]
+    for group in coaxial_groups(one):
+        mine = one.take(group)
+        line = axis_of(mine)
+        lean = float(np.linalg.norm(np.cross(line.direction, bore.line.direction)))
+        if lean > _SAME_JOINT[0] or not _equal(_largest(mine), largest[0]):
+            continue
+        if not _equal(_largest(other.take(on_line(other, line))), largest[1]):
+            continue
+        foot = line.foot(bore.line.point)
+        if min(float(np.linalg.norm(foot - f)) for f in feet) > largest[0][0]:
+            feet.append(foot)
+    if len(feet) == 1:
+        return bore
+    line = Line(np.mean(feet, axis=0), bore.line.direction)
+    method = f"midway between {len(feet)} equal cylinders: {bore.method}"
+    return Bearing(line, placement.features(()), method)
+
+
+def _largest(features: Features) -> tuple[float, float]:
+    """(radius, length) of the largest of some features; zeros without any."""
+    if len(features) == 0:
+        return 0.0, 0.0
+    row = int(np.argmax(features.area))
+    return float(features.radius[row]), float(features.length[row])
+
+
+def _equal(one: tuple[float, float], other: tuple[float, float]) -> bool:
+    return all(abs(a - b) <= 0.02 * max(a, b) for a, b in zip(one, other, strict=True)) and one[0] > 0.0
 
 
 def _steadied(bore: Bearing, start: Floats, end: Floats, hinge: Floats | None) -> Bearing:

@@ -37,6 +37,8 @@ _DRAWN_OUTSIDE = 1e-6
 _PARALLEL = math.radians(0.5)
 """Pivots within this angle are parallel."""
 _BY_EYE = "geometry: rod eye against gland"
+WALL = 0.82
+"""Bore over outer diameter of a barrel that shows none: welded cylinders have walls of about a tenth of their bore."""
 UNKNOWN = "unknown"
 """How the source of a quantity begins that nothing gives."""
 
@@ -83,7 +85,7 @@ class _Work:
 
 @dataclass(frozen=True)
 class _Sizes:
-    """One cylinder before its neighbours in the actuator are known."""
+    """One cylinder before its neighbours in the actuator are known; areas are those of all that are drawn as one."""
 
     template: CylinderTemplate
     barrel: str
@@ -94,11 +96,11 @@ class _Sizes:
 
     @property
     def push_area(self) -> float:
-        return math.pi / 4.0 * self.bore.value**2
+        return self.ram.count * math.pi / 4.0 * self.bore.value**2
 
     @property
     def pull_area(self) -> float:
-        return math.pi / 4.0 * (self.bore.value**2 - self.rod_diameter.value**2)
+        return self.ram.count * math.pi / 4.0 * (self.bore.value**2 - self.rod_diameter.value**2)
 
 
 def with_leaders(template: Template, frames: Mapping[str, JointFrame], findings: list[Finding]) -> Template:
@@ -157,6 +159,13 @@ def _sizes(entry: CylinderTemplate, work: _Work) -> _Sizes:
     rod = next(b for b in slide.bodies if b != barrel)
     ram = measure_ram(work.placement, barrel, rod, extension_line(entry, work.frames))
     bore = _size("bore", ram.bore, entry.slide, work)
+    if bore.value == 0.0 and ram.outer is not None:
+        bore = Known(WALL * ram.outer, f"geometry: {WALL:g} of the barrel's outer {_mm(ram.outer)}, without a bore")
+        words = f"The barrel is drawn without its bore: {_mm(bore.value)} was taken, {WALL:g} of its outer diameter."
+        name = work.actuator.specifications.get("bore", "bore")
+        work.warn("MEC029", entry.slide, words, f'--set "{name}=… mm"')
+    if ram.count > 1:
+        bore = Known(bore.value, f"{bore.source}; {ram.count} cylinders drawn as one")
     return _Sizes(entry, barrel, rod, ram, bore, _size("rod_diameter", ram.rod_diameter, entry.slide, work))
 
 

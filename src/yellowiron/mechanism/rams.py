@@ -23,6 +23,14 @@ _FIT = 1.001
 """A piston may be this much larger than its bore (facets, tolerances)."""
 _PISTON = 0.85
 """What is this much of the bore's radius is a piston, where the rod is not known."""
+_LEAN = 0.02
+"""Sine of the angle up to which a barrel's faces are along a line."""
+_CLOSE = 0.2
+"""Faces fitted to facets are about a line if their axes are within this share of their radius from it."""
+_OVER_SOLID = 1.15
+"""As `_OVER_ROD`, where rod and barrel need not be in line."""
+_TWIN = 0.02
+"""Relative difference up to which two barrels are twins."""
 _HEAD = 1.5
 """The barrel's head is what is within this much of the bore's radius; ports and pipes are farther out."""
 
@@ -32,7 +40,8 @@ class Ram:
     """What the CAD shows; None where it does not. Diameters, and distances along the axis, metres.
 
     `to_base`: piston to the barrel's bottom, so how far the cylinder is out if it closes on the piston; `to_gland`:
-    piston to the gland; `to_eye`: gland to the rod's eye, so how far it is out at most.
+    piston to the gland; `to_eye`: gland to the rod's eye, so how far it is out at most. `outer`: the diameter of a
+    barrel that is drawn without a bore. `count`: how many equal ones side by side are drawn as one.
     """
 
     bore: float | None = None
@@ -40,6 +49,8 @@ class Ram:
     to_base: float | None = None
     to_gland: float | None = None
     to_eye: float | None = None
+    outer: float | None = None
+    count: int = 1
 
     @property
     def travel(self) -> float | None:
@@ -53,10 +64,14 @@ def measure_ram(placement: Placement, barrel: str, rod: str, line: Line) -> Ram:
     """The cylinder of the bodies `barrel` and `rod` about a line that points from barrel pivot to rod pivot."""
     barrel_rows, rod_rows = placement.rows_of_body(barrel), placement.rows_of_body(rod)
     inside, outside = placement.features(barrel_rows), placement.features(rod_rows)
+    line, count = _own_line(inside, line)
     bores = inside.take(on_line(inside, line) & inside.inner)
     shafts = outside.take(on_line(outside, line) & ~outside.inner)
     shell = placement.points_of(barrel_rows)
-    if len(bores) == 0 or len(shell) == 0:
+    if len(bores) == 0 and len(shell):
+        tubes = inside.take(on_line(inside, line) & ~inside.inner)
+        return _solid(tubes, shafts, shell, placement.points_of(rod_rows), line, count) if len(tubes) else Ram()
+    if len(shell) == 0:
         return Ram()
     start, head = _extent(shell, line, _HEAD * float(bores.radius.max()))
     bore = _bore(bores, shafts, line, start, head)
@@ -84,7 +99,49 @@ def measure_ram(placement: Placement, barrel: str, rod: str, line: Line) -> Ram:
         to_gland = max(0.0, -gland - high) if gland is not None else None
     if len(eye):
         to_eye = max(0.0, float(eye.min() - head))
-    return Ram(2.0 * bore, 2.0 * shaft if shaft is not None else None, to_base, to_gland, to_eye)
+    rod_diameter = 2.0 * shaft if shaft is not None else None
+    return Ram(2.0 * bore, rod_diameter, to_base, to_gland, to_eye, count=count)
+
+
+def _own_line(inside: Features, line: Line) -> tuple[Line, int]:
+    """The line of a cylinder in the barrel, and how many equal ones there are: the line given, or, where that is midway
+    between twins, one of theirs."""
+    parallel = inside.take(np.linalg.norm(np.cross(inside.direction, line.direction), axis=1) < _LEAN)
+    if len(parallel) == 0 or bool(parallel.exact.any() and on_line(parallel, line).any()):
+        return line, 1
+    close = parallel.take(line.distance(parallel.center) < _CLOSE * parallel.radius)
+    if len(close):
+        own = close.center[int(np.argmax(close.area))]
+        return Line(own + float((line.point - own) @ line.direction) * line.direction, line.direction), 1
+    main = int(np.argmax(parallel.area))
+    alike = np.abs(parallel.radius - parallel.radius[main]) < _TWIN * parallel.radius[main]
+    alike &= np.abs(parallel.length - parallel.length[main]) < _TWIN * parallel.length[main]
+    lines: list[Line] = []
+    for row in np.flatnonzero(alike):
+        if all(one.distance(parallel.center[row][None])[0] > parallel.radius[row] for one in lines):
+            lines.append(Line(parallel.center[row], line.direction))
+    own = Line(parallel.center[main], line.direction)
+    return Line(own.foot(line.point), own.direction), len(lines)
+
+
+def _solid(tubes: Features, shafts: Features, shell: Floats, rod: Floats, line: Line, count: int) -> Ram:
+    """What a cylinder shows whose barrel is drawn without a bore."""
+    outer = float(tubes.radius[int(np.argmax(tubes.area))])
+    head = _extent(shell, line, _FIT * outer)[1]
+    thin = shafts.take(shafts.radius < outer / _FIT)
+    out = thin.take(line.along(thin.center) + thin.length / 2 > head + _TOUCH)
+    shaft = float(out.radius[int(np.argmax(out.length))]) if len(out) else None
+    to_eye = None
+    if shaft is not None:
+        along, radial = line.along(rod), line.distance(rod)
+        # A rod part may hold its twin, too: that is no eye.
+        eye = (
+            along[(radial > shaft * _OVER_SOLID) & (radial < 3.0 * outer) & (along >= head)]
+            if count == 1
+            else along[:0]
+        )
+        to_eye = max(0.0, float(eye.min() - head)) if len(eye) else None
+    return Ram(None, 2.0 * shaft if shaft is not None else None, to_eye=to_eye, outer=2.0 * outer, count=count)
 
 
 def _bore(bores: Features, shafts: Features, line: Line, start: float, head: float) -> float | None:
