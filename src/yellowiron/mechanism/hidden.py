@@ -59,16 +59,21 @@ def hidden_wheels(placement: Placement, template: Template, findings: list[Findi
     for row, roles in rows.items():
         rule = roles[0].hidden
         parts = rows_of_row(placement, template, rule["row"])
+        points, part_of = placement.points_of(parts), 1.0
         if not parts:
-            words = f"No part of the CAD model is '{rule['row']}': there is nothing that '{row}' could stand for."
-            findings.append(Finding("MEC070", "error", row, words, "Give its parts that role in the alignment."))
-            continue
-        low, high, ground = _stretch(placement.points_of(parts))
+            parts, points, part_of = _side(placement, template, roles[0])
+            if not parts:
+                words = f"No part of the CAD model is '{rule['row']}': there is nothing that '{row}' could stand for."
+                findings.append(Finding("MEC070", "error", row, words, "Give its parts that role in the alignment."))
+                continue
+            words = f"No part is '{rule['row']}': the track is taken to be what stands on the ground on that side."
+            findings.append(Finding("MEC072", "warning", row, words, "Check the undercarriage's parts."))
+        low, high, ground = _stretch(points)
         radius = 0.5 * rule["radius"] * float(high[2] - low[2])
         middle, length = 0.5 * (ground[0] + ground[1]), ground[1] - ground[0]
         for role, at in zip(roles, rule["at"], strict=True):
             center = np.array([middle + at * length, 0.5 * (low[1] + high[1]), low[2] + radius + rule["above"]])
-            share = rule["mass"] / len(roles)
+            share = part_of * rule["mass"] / len(roles)
             found[role.name] = HiddenWheel(role.name, center, radius, parts, share, placement.bodies[parts[0]])
     return found
 
@@ -77,6 +82,29 @@ def rows_of_row(placement: Placement, template: Template, row: str) -> tuple[int
     """Rows of the parts that play a member of a row (or move with one, as pins and bolts do)."""
     members = {r.name for r in template.roles if r.row == row}
     return tuple(i for i, name in enumerate(placement.roles) if name in members or name == row)
+
+
+def _side(placement: Placement, template: Template, wheel: Role) -> tuple[tuple[int, ...], Floats, float]:
+    """Where tracks and frame are drawn in one: the parts of the body that a hidden wheel hangs on, their points on the
+    track of its side, and which share of those parts' surface it is. The track is as wide as what touches the
+    ground."""
+    carrier = template.body_of(wheel.parent) if wheel.parent is not None else None
+    rows = placement.rows_of_body(carrier) if carrier is not None and wheel.side else ()
+    points = placement.points_of(rows)
+    if not len(points):
+        return (), points, 0.0
+    sign = 1.0 if wheel.side == "l" else -1.0
+    low, high = float(points[:, 2].min()), float(points[:, 2].max())
+    ground = points[(points[:, 2] < low + ON_GROUND * (high - low)) & (sign * points[:, 1] > 0.0)]
+    if not len(ground):
+        return (), points, 0.0
+    inner, outer = ground[:, 1].min(), ground[:, 1].max()
+    kept = points[(points[:, 1] >= inner) & (points[:, 1] <= outer)]
+    facets = [placement.facets(row) for row in rows]
+    middle = np.concatenate([center[:, 1] for center, _, _ in facets])
+    area = np.concatenate([size for _, _, size in facets])
+    on = (middle >= inner) & (middle <= outer)
+    return rows, kept, float(area[on].sum() / area.sum())
 
 
 def _stretch(points: Floats) -> tuple[Floats, Floats, tuple[float, float]]:
