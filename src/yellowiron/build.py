@@ -105,7 +105,7 @@ def build(
             alignment = align.align(
                 assembly, template, specifications, edits=library.with_relations(edits, data), choices=choices
             )
-            template = choose(template, {**alignment.choices, **choices})
+            template = expand(choose(template, {**alignment.choices, **choices}), alignment.counts)
 
         with clock.stage("mechanism", "Building the mechanism"):
             machine = mechanism.build_mechanism(

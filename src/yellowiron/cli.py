@@ -48,6 +48,10 @@ def build(
     ] = None,
     settings: Settings = None,
     config: Config = "",
+    tracks: Annotated[
+        Literal["belt", "shoes", "fixed"] | None,
+        typer.Option("--tracks", help="How a crawler's tracks are modelled: hidden wheels, every shoe, or standing."),
+    ] = None,
     simulate: Annotated[bool, typer.Option("--simulate", help="Drive it in every engine that is installed.")] = False,
     as_json: Json = False,
 ) -> None:
@@ -63,7 +67,7 @@ def build(
     with _progress(as_json) as progress:
         machine = build_machine(
             equipment_type, cad, out, sheets=specs or (), alignment_file=alignment, documents=data or (),
-            settings=settings or (), config=config, engines=engines, progress=progress,
+            settings=[*(settings or ()), *([f"tracks={tracks}"] if tracks else [])], config=config, engines=engines, progress=progress,
         )  # fmt: skip
     reasons = machine.fell_short
     _show(machine.report, build_summary(machine.report, reasons, str(out)), as_json)
