@@ -193,6 +193,15 @@ def make() -> tuple[Mechanism, Assembly]:
                 payload=1.0,
                 base="fixed",
             ),
+            MachineTest(
+                "Digging Force",
+                "force",
+                site="bucket_edge",
+                actuator="boom",
+                best=("boom",),
+                direction="path",
+                base="fixed",
+            ),
             MachineTest("Rated Payload", "lift", steps=({"set": {"boom": "min"}},), actuator="boom", payload=1.0),
         ),
     )

@@ -53,6 +53,7 @@ def read_tests(document: Document) -> tuple[PayloadTemplate | None, tuple[Machin
                 offset=quantity(entry.get("offset", 0.0), "length", where=place),
                 payload=float(entry.get("payload", 0.0)),
                 expected=yes(entry.get("expected", True)),
+                best=tuple(entry.get("best", ())),
                 inputs=tuple(entry.get("inputs", ())),
                 definition=entry.get("definition", ""),
                 **given,
@@ -82,7 +83,7 @@ def lint_tests(template: Template) -> Iterator[Finding]:
             yield from unasked("payload", rated.specification)
     for test in template.tests:
         yield from missing(test.name, "site", test.site, sites)
-        named = [test.actuator, *(name for step in test.steps for name in step.get("set", {}))]
+        named = [test.actuator, *test.best, *(name for step in test.steps for name in step.get("set", {}))]
         named += [goal["actuator"] for step in test.steps for goal in step.get("solve", ())]
         named += [name for step in test.steps for name in step.get("extreme", {}).get("actuators", ())]
         for name in dict.fromkeys(named):

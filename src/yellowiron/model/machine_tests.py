@@ -32,7 +32,8 @@ class PayloadTemplate:
 class MachineTest:
     """One test (docs: template format). After `steps`, as a measurement's, `tipping`: a load on `site` grows; `force`:
     against `site`, moved by `offset` (metres along its x axis), in the `direction` up or along the site's path, while
-    `actuator` pushes in the sense of `to`; `time` and `lift`: `actuator` moves to its end `to` with `payload` (times
+    `actuator` pushes in the sense of `to`, `best` actuators first brought, one after the other, to where their own force
+    there is greatest; `time` and `lift`: `actuator` moves to its end `to` with `payload` (times
     the rated one) in the tool, at the flow that the wanted name `flow` gives.
 
     `base` floating: on the ground; `expected`: whether a `lift` arrives. `inputs`: wanted names that the figure hangs
@@ -47,6 +48,7 @@ class MachineTest:
     offset: float = 0.0
     direction: Literal["up", "path"] = "up"
     actuator: str = ""
+    best: tuple[str, ...] = ()
     to: Literal["max", "min"] = "max"
     payload: float = 0.0
     flow: str = ""

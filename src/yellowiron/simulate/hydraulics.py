@@ -178,28 +178,52 @@ def _tipping(b: _Bench) -> Figure:
 
 def _force(b: _Bench) -> Figure:
     bench, state = b.pose()
-    site, offset, driven = b.site(), b.test.offset, b.driven
-    moved = b.sense * motion(bench.chain, state, driven, site, offset)
-    speed = float(np.linalg.norm(moved))
-    along = np.array([0.0, 0.0, 1.0]) if b.test.direction == "up" or speed == 0.0 else moved / speed
-    rate = float(moved @ along)
-    if rate <= 1e-6:
-        raise Unmeasurable(f"{b.test.actuator} does not move '{site.name}' that way")
-    statics = (b.force - b.sense * weight(bench.chain, state, driven)) / rate
+    site, offset = b.site(), b.test.offset
+    for name in b.test.best:
+        state = _strongest(b, bench, state, name)
+    statics, along = _pushed(b, bench, state, b.test.actuator)
     if statics <= 0.0:
-        raise Unmeasurable(f"{b.test.actuator} does not lift its own weight there")
+        raise Unmeasurable(f"{b.test.actuator} does not push '{site.name}' that way, or bears no more than its weight")
     limit = ""
     if b.test.base == "floating":
         tips = tipping_force(b.mechanism, bench.chain, state, place(bench.chain, state, site, offset), -along)
         if tips < statics:
             limit = f"statics: the machine tips; {b.test.actuator} alone would give {statics / 1e3:.0f} kN"
             statics = tips
-    rig = b.rig(b.drives(**{driven: replace(locked(b.drive()), max_force=b.force)}))
+    rig = b.rig(b.drives(**{b.driven: replace(locked(b.drive()), max_force=b.force)}))
     try:
-        value, why = _grow(rig, state, site, offset, -along, statics, slide=(driven, b.sense))
+        value, why = _grow(rig, state, site, offset, -along, statics, slide=(b.driven, b.sense))
     finally:
         rig.close()
     return Figure(b.test, value, statics, reason="; ".join(text for text in (why, limit) if text))
+
+
+def _pushed(b: _Bench, bench: Bench, state: State, name: str) -> tuple[float, Floats]:
+    """Force (N) of an actuator at the test's site, less the weight it carries, and its unit direction (3,); 0 where the
+    site does not move that way."""
+    entry = bench.actuator(name).joints[0]
+    positive = name != b.test.actuator or b.test.to == "max"
+    sense = float(entry.sign) * (1.0 if positive else -1.0)
+    moved = sense * motion(bench.chain, state, entry.joint, b.site(), b.test.offset)
+    speed = float(np.linalg.norm(moved))
+    along = -_DOWN if b.test.direction == "up" or speed == 0.0 else moved / speed
+    rate = float(moved @ along)
+    if rate <= 1e-6:
+        return 0.0, along
+    force = actuator_force(b.mechanism, name, positive=positive)
+    return (force - sense * weight(bench.chain, state, entry.joint)) / rate, along
+
+
+def _strongest(b: _Bench, bench: Bench, state: State, name: str) -> State:
+    """The state in which an actuator stands where, over its stroke, its force at the site is greatest."""
+    joint, (low, high) = bench.actuator(name).joints[0].joint, sorted(bench.range(name))
+    start, _ = bench.chain.reach({joint: low}, start=state)
+    # Not at the very ends: there the site's motion is not defined on both sides.
+    inner = np.linspace(low, high, _SAMPLES)[1:-1]
+    states = bench.chain.sweep({joint: inner}, start=start)
+    if not states:
+        raise Unmeasurable(f"the linkage locks on the way of {name}")
+    return max(states, key=lambda each: _pushed(b, bench, each, name)[0])
 
 
 def _grow(
