@@ -15,6 +15,7 @@ from typing import Any
 from yellowiron import align, cad, check, kinematics, library, mechanism, report, specs, usd
 from yellowiron.model.alignment import Alignment
 from yellowiron.model.mechanism import Measurement, Mechanism
+from yellowiron.model.rows import expand
 from yellowiron.model.specification import Specifications
 from yellowiron.model.sweep import Sweep
 from yellowiron.model.template import choose

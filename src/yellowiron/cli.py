@@ -67,7 +67,8 @@ def build(
     with _progress(as_json) as progress:
         machine = build_machine(
             equipment_type, cad, out, sheets=specs or (), alignment_file=alignment, documents=data or (),
-            settings=[*(settings or ()), *([f"tracks={tracks}"] if tracks else [])], config=config, engines=engines, progress=progress,
+            settings=[*(settings or ()), *([f"tracks={tracks}"] if tracks else [])], config=config,
+            engines=engines, progress=progress,
         )  # fmt: skip
     reasons = machine.fell_short
     _show(machine.report, build_summary(machine.report, reasons, str(out)), as_json)
