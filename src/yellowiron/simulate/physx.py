@@ -1,16 +1,15 @@
 """PhysX (`ovphysx`, on the CPU) on our USD.
 
-Only the session API is used: the older tensor bindings take a hidden step of a nanosecond at their first access, over
-which the rounding of a closed loop is a velocity of hundreds of metres a second.
+Values go in and out through tensor bindings, 5 µs each; the session API that is to replace them takes 0.5 ms, a fifth
+of a step. Bindings want a warm-up: a step of a nanosecond, over which the rounding of a closed loop is a velocity of
+hundreds of metres a second. What it has moved is put back before the first real step.
 """
 
 from __future__ import annotations
 
-import math
 import tempfile
 import warnings
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from functools import cache
 from importlib import metadata
 from pathlib import Path
@@ -22,18 +21,27 @@ import ovphysx
 import ovstage
 import physx_usd_schemas  # noqa: F401  likewise
 import warp
-from ovphysx.types import GlobalConfigKey, LogLevel, ObjectScope, SimObjectType
+from ovphysx.types import GlobalConfigKey, LogLevel, ObjectScope, SimObjectType, TensorType
 
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.geometry import Floats
-from yellowiron.model.mechanism import Joint
 from yellowiron.simulate.coordinates import Coordinates, rotation_matrices
 from yellowiron.simulate.engine import Setup
 from yellowiron.simulate.world import World, compose, save
 
 _ORDINAL = 1
 _SCHEMAS = ("PhysxSchema", "OmniUsdPhysicsDeformableSchema")
-_TARGETS = {"position": "jointPositionTarget", "velocity": "jointVelocityTarget"}
+_TARGETS = {
+    "position": TensorType.ARTICULATION_DOF_POSITION_TARGET,
+    "velocity": TensorType.ARTICULATION_DOF_VELOCITY_TARGET,
+}
+
+_DRAWN = (
+    TensorType.ARTICULATION_DOF_POSITION,
+    TensorType.ARTICULATION_DOF_VELOCITY,
+    TensorType.ARTICULATION_ROOT_VELOCITY,
+)
+"""What is 0 in the drawn pose at rest."""
 
 
 def load(setup: Setup) -> PhysxEngine:
@@ -48,18 +56,29 @@ class PhysxEngine:
         _prepare()
         self._timestep = setup.timestep
         self._mechanism, self._joints, self._paths_of = setup.mechanism, world.joints, world.bodies
+        self._root = world.root
         self._pushed: dict[str, Any] = {}
+        self._bindings: list[Any] = []
         self._stage: Any = None
         self._physx: Any = ovphysx.PhysX()
         try:
             self._stage = _attach(self._physx, world, setup)
-            self._links = self._physx.query(SimObjectType.ARTICULATION_LINK, scope=ObjectScope.ALL).wait()
-            self._order = self._body_order(world)
-            self._drives = self._find_drives()
+            self._physx.warmup()
+            self._links = self._bind(TensorType.ARTICULATION_LINK_POSE)
+            self._rows = self._find_rows()
+            self._targets = {kind: self._read(self._bind(tensor)) for kind, tensor in _TARGETS.items()}
+            self._draw()
+            self._speeds = self._bind(TensorType.ARTICULATION_DOF_VELOCITY)
         except BaseException:
             self.close()
             raise
-        self._targets = {kind: dict.fromkeys(scale, 0.0) for kind, (_, scale, _) in self._drives.items()}
+        columns = {name: column for column, name in enumerate(self._speeds.dof_names)}
+        self._columns = {
+            name: columns[prim] for name, path in world.joints.items() if (prim := _prim_name(path)) in columns
+        }
+        self._kinds = {
+            j.name: j.drive.kind for j in setup.mechanism.joints if j.drive is not None and j.name in self._columns
+        }
         self._measured = Coordinates(setup.mechanism, setup.measured)
         self._poses: tuple[Floats, Floats] | None = None
 
@@ -70,17 +89,14 @@ class PhysxEngine:
 
     def set_targets(self, targets: Mapping[str, float]) -> None:
         """See `Engine`."""
-        for kind, (query, scale, paths) in self._drives.items():
-            held = self._targets[kind]
-            new = {name: value for name, value in targets.items() if name in scale and value != held[name]}
-            if not new:
-                continue
-            held.update(new)
-            with self._physx.write(query, [_TARGETS[kind]]).wait() as session:
-                while (group := session.fetch_next().wait()) is not None:
-                    for name, tensor in zip(paths, group.tensors, strict=True):
-                        tensor.fill_(scale[name] * held[name])
-                    session.commit_sync(group)
+        for kind, (binding, values) in self._targets.items():
+            names = [name for name in targets if self._kinds[name] == kind]
+            columns = [self._columns[name] for name in names]
+            new = np.array([targets[name] for name in names], dtype=np.float32)
+            # What does not change is not written: a write wakes a machine that has come to rest.
+            if not np.array_equal(values[0, columns], new):
+                values[0, columns] = new
+                binding.write(values)
 
     def push(self, body: str, force: Floats, point: Floats) -> None:
         """See `Engine`."""
@@ -103,7 +119,8 @@ class PhysxEngine:
     def poses(self) -> tuple[Floats, Floats]:
         """See `Engine`."""
         if self._poses is None:
-            self._poses = self._read_poses()
+            rows = self._read(self._links)[1][0, self._rows].astype(np.float64)
+            self._poses = rotation_matrices(rows[:, 3:]), rows[:, :3]
         return self._poses
 
     def coordinates(self) -> Floats:
@@ -112,19 +129,15 @@ class PhysxEngine:
 
     def velocities(self) -> dict[str, float]:
         """Velocities of the articulation's joints by name, m/s or rad/s. After the first step they must be small."""
-        with self._physx.read_sync(SimObjectType.ARTICULATION_JOINT, ["jointVelocity"], scope=ObjectScope.ALL) as read:
-            found = {
-                path: float(tensor.numpy()[0])
-                for group in read.groups
-                for path, tensor in zip(self._paths(group), group.tensors, strict=True)
-            }
-        joints = [(j, self._joints[j.name]) for j in self._mechanism.joints if self._joints[j.name] in found]
-        return {j.name: found[path] / _unit(j) for j, path in joints}
+        values = self._read(self._speeds)[1][0]
+        return {name: float(values[column]) for name, column in self._columns.items()}
 
     def close(self) -> None:
         """Ends PhysX's instance; its stage goes with it."""
         if self._physx is None:
             return
+        for binding in self._bindings:
+            binding.destroy()
         if self._stage is not None and self._physx.is_stage_attached(self._stage):
             self._physx.wait_task(self._physx.detach_ovstage())
         self._physx.destroy()
@@ -132,58 +145,42 @@ class PhysxEngine:
             self._stage.destroy()
         self._physx = self._stage = None
 
-    def _read_poses(self) -> tuple[Floats, Floats]:
-        found: dict[int, Floats] = {}
-        with self._physx.read(self._links, ["position", "orientation"]).wait() as read:
-            while (group := read.fetch_next().wait()) is not None:
-                rows = group.tensors[0].numpy()
-                found[rows.shape[1]] = np.array(rows[self._order], dtype=np.float64)
-                del rows, group
-        return rotation_matrices(found[4]), found[3]
+    def _bind(self, tensor: TensorType) -> Any:
+        """All values of a kind in the articulation, in SI and radians: one row, a column a link or joint."""
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # they are deprecated, and Warp was built for GPUs too
+            binding = self._physx.create_tensor_binding(prim_paths=[self._root], tensor_type=tensor)
+        self._bindings.append(binding)
+        return binding
 
-    def _paths(self, group: Any) -> list[str]:
-        paths = ovstage.PathDictionary(self._stage).get_path_strings(group.prim_list)
-        return list(paths[group.prim_offset : group.prim_offset + group.prim_count])
+    def _read(self, binding: Any) -> tuple[Any, Any]:
+        values = np.zeros(binding.shape, dtype=np.float32)
+        binding.read(values)
+        return binding, values
 
-    def _body_order(self, world: World) -> Any:
-        """Row of every body of the mechanism among PhysX's links, whose order never changes."""
-        with _quiet(), self._physx.read_sync(SimObjectType.ARTICULATION_LINK, ["position"], scope=ObjectScope.ALL) as r:
-            rows = {path: row for group in r.groups for row, path in enumerate(self._paths(group))}
+    def _draw(self) -> None:
+        """Puts the machine in its drawn pose, at rest."""
+        root = self._mechanism.bodies[int(np.argmin(self._rows))]
+        pose = np.array([[*root.origin, 0.0, 0.0, 0.0, 1.0]], dtype=np.float32)
+        self._bind(TensorType.ARTICULATION_ROOT_POSE).write(pose)
+        for binding in map(self._bind, _DRAWN):
+            binding.write(np.zeros(binding.shape, dtype=np.float32))
+
+    def _find_rows(self) -> Any:
+        """Row of every body of the mechanism among PhysX's links."""
+        rows = {name: row for row, name in enumerate(self._links.body_names)}
         for body in self._mechanism.bodies:
-            if world.bodies[body.name] not in rows:
+            if _prim_name(self._paths_of[body.name]) not in rows:
                 raise YellowironError(
                     f"PhysX has no link for the body '{body.name}'",
                     where=self._mechanism.name,
                     hint="A body needs a joint that is not cut to the rest of the machine.",
                 )
-        return np.array([rows[world.bodies[body.name]] for body in self._mechanism.bodies])
-
-    def _find_drives(self) -> dict[str, tuple[Any, dict[str, float], list[str]]]:
-        """For each kind of drive: a query for its joints, the factor from SI to PhysX's unit by joint (degrees for
-        pivots), and the joints in the query's order."""
-        found: dict[str, tuple[Any, dict[str, float], list[str]]] = {}
-        dictionary = ovstage.PathDictionary(self._stage)
-        for kind in _TARGETS:
-            joints = [j for j in self._mechanism.joints if j.drive is not None and not j.cut and j.drive.kind == kind]
-            if not joints:
-                continue
-            scale = {j.name: _unit(j) for j in joints}
-            names = {self._joints[j.name]: j.name for j in joints}
-            handles = [dictionary.intern_path(path) for path in names]
-            query = self._physx.query(
-                SimObjectType.ARTICULATION_JOINT, prim_paths=handles, scope=ObjectScope.ALL
-            ).wait()
-            order: list[str] = []
-            with self._physx.read(query, ["jointPosition"]).wait() as read:
-                while (group := read.fetch_next().wait()) is not None:
-                    order += [names[path] for path in self._paths(group)]
-            found[kind] = (query, scale, order)
-        return found
+        return np.array([rows[_prim_name(self._paths_of[body.name])] for body in self._mechanism.bodies])
 
 
-def _unit(joint: Joint) -> float:
-    """Factor from SI to PhysX's unit: degrees for pivots, as in USD."""
-    return 1.0 if joint.type == "prismatic" else math.degrees(1.0)
+def _prim_name(path: str) -> str:
+    return path.rpartition("/")[2]
 
 
 @cache
@@ -212,11 +209,3 @@ def _attach(physx: Any, world: World, setup: Setup) -> Any:
             "PhysX cannot load the machine", where=str(setup.usd_path), hint=f"PhysX says: {error}"
         ) from error
     return stage
-
-
-@contextmanager
-def _quiet() -> Iterator[None]:
-    """Without the warning that Warp, which moves the arrays, was built for GPUs too."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", RuntimeWarning)
-        yield

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from pxr import Gf, Sdf, Usd, Vt
+from pxr import Gf, Sdf, Usd, UsdPhysics, Vt
 from scipy.spatial import ConvexHull
 
 from yellowiron.model.mechanism import Joint
@@ -40,11 +40,13 @@ _GROUND, _SOIL = "/World/ground", "/World/soil"
 
 @dataclass(frozen=True, eq=False)
 class World:
-    """A composed `layer`, its default prim `/World`; paths of the machine's bodies and joints by name."""
+    """A composed `layer`, its default prim `/World`; paths of the machine's bodies and joints by name, and of the prim
+    that is the articulation's `root`."""
 
     layer: Sdf.Layer
     bodies: Mapping[str, str]
     joints: Mapping[str, str]
+    root: str
 
 
 def compose(setup: Setup) -> World:
@@ -62,7 +64,8 @@ def compose(setup: Setup) -> World:
     # The world is the machine's own frame, wherever the user's scene has put it.
     set_attribute(spec, "xformOpOrder", Types.TokenArray, [], uniform=True)
     _write_scene(layer, setup)
-    names = dict(_names(Usd.Stage.Open(layer)))
+    composed = Usd.Stage.Open(layer)
+    names = dict(_names(composed))
     bodies = {name: path for (kind, name), path in names.items() if kind == "body"}
     joints = {name: path for (kind, name), path in names.items() if kind == "joint"}
     for body in setup.heavier:
@@ -73,7 +76,9 @@ def compose(setup: Setup) -> World:
     for name, path in bodies.items():
         if name not in standing:
             over(layer, f"{path}/{COLLIDERS}").SetInfo("active", False)
-    return World(layer, bodies, joints)
+    rooted = (p for p in composed.Traverse() if p.HasAPI(UsdPhysics.ArticulationRootAPI))
+    root = next((str(prim.GetPath()) for prim in rooted), MACHINE)
+    return World(layer, bodies, joints, root)
 
 
 def save(world: World, folder: Path) -> Path:
