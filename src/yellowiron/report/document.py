@@ -129,9 +129,10 @@ def within_tolerance(measurement: Measurement) -> bool | None:
 
 def fell_short(document: Mapping[str, Any]) -> list[str]:
     """What a person must still look at, one phrase each; empty when the machine is ready (exit code 0)."""
+    unplayed = set(document["alignment"]["missing"])
     reasons = [f"missing: {name}" for name in document["missing"]]
     reasons += [f"no part plays {role}" for role in document["alignment"]["missing"]]
-    reasons += [f"to review: {item}" for item in document["alignment"]["to_review"]]
+    reasons += [f"to review: {item}" for item in document["alignment"]["to_review"] if item not in unplayed]
     reasons += [
         f"{s['status']}: {s['name']}"
         for s in document["specifications"]
@@ -140,7 +141,8 @@ def fell_short(document: Mapping[str, Any]) -> list[str]:
     reasons += [
         f"{f['code']} {f['where']}: {f['message']} {f['hint']}".rstrip()
         for f in document["findings"]
-        if f["severity"] != "info"
+        # Of a role that no part plays all is said above.
+        if f["severity"] != "info" and not (f["code"] == "ALN001" and f["where"] in unplayed)
     ]
     reasons += [
         f"{f['code']} {engine}, {f['where']}: {f['message']}"

@@ -29,6 +29,9 @@ Poses = Mapping[str, Mapping[str, Floats]]
 """Caption → body → (4, 4) displacement from the drawn pose, machine frame."""
 SIZE = (1120, 600)
 """Pixels of a picture of the whole machine."""
+_KINDS = ("missing: ", "no part plays ", "to review: ", "review: ", "conflict: ", "unreadable: ", "off the sheet: ")
+ALIKE = 6
+"""Reasons of one kind that are one line."""
 REASONS = 8
 """What is left to a person that stands open; the rest unfolds."""
 
@@ -53,13 +56,14 @@ def page(
     source, style = (folder.joinpath(name).read_text(encoding="utf-8") for name in ("page.html.j2", "page.css"))
     frame = np.asarray(alignment.frame, dtype=np.float64)
     soup = machine_soup(mechanism, assembly, frame)
-    reasons = fell_short(document)
+    reasons = _in_short(fell_short(document))
     joints = joint_rows(document)
     return environment.from_string(source).render(
         d=document,
         style=style,
         reasons=reasons[:REASONS],
         more_reasons=reasons[REASONS:],
+        left=len(fell_short(document)),
         ready=_ready(document),
         driven=in_a_sentence(document["simulation"]),
         figures=_figures(document),
@@ -112,6 +116,24 @@ def _sensor_svg(document: Mapping[str, Any], soup: Soup) -> Any:
     return overlay(camera, picture, sensor_marks(document), alt="Sensors on the machine", under=under)
 
 
+def _in_short(reasons: Sequence[str]) -> list[str]:
+    """Reasons of one kind as one line, where there are many: what is left is seen at a glance."""
+    kinds: dict[str, list[str]] = {}
+    for reason in reasons:
+        kind = next((words for words in _KINDS if reason.startswith(words)), "")
+        kinds.setdefault(kind or reason, []).append(reason.removeprefix(kind))
+    lines = []
+    for kind, items in kinds.items():
+        if kind not in _KINDS:
+            lines.append(kind)
+        elif len(items) < ALIKE:
+            lines += [f"{kind}{item}" for item in items]
+        else:
+            more = f" and {len(items) - ALIKE} more" if len(items) > ALIKE else ""
+            lines.append(f"{kind}{', '.join(items[:ALIKE])}{more}")
+    return [line[:1].upper() + line[1:] for line in lines]
+
+
 def _ready(document: Mapping[str, Any]) -> str:
     """What there is to say of a machine that leaves nothing to do."""
     parts = document["alignment"]
@@ -139,7 +161,7 @@ def _figures(document: Mapping[str, Any]) -> list[tuple[str, str]]:
     worst = max((run["pin_error_mm"] for run in runs), default=None)
     return [
         (f"{alignment['assigned']} / {alignment['parts']}", "parts have a body"),
-        (str(len(alignment["to_review"])), "parts to review"),
+        (str(len(alignment["to_review"])), "to review"),
         (f"{sum(held)} / {len(held)}" if held else "–", "published values met"),
         (f"{mobility['computed']} / {mobility['expected']}" if mobility else "–", "mobility, found / expected"),
         ("not run" if worst is None else f"{worst:.3f} mm", "worst pin when driven"),
@@ -215,5 +237,6 @@ def _body(
     words.append(counted(len(parts), "part"))
     if mass is not None:
         words.append(shown(mass, "kg", digits=4))
-    doubtful = sum(part.part in review for part in parts)
-    return {"name": name, "parts": parts, "words": ", ".join(words), "doubtful": doubtful}
+    doubtful = [part for part in parts if part.part in review]
+    sure = [part for part in parts if part.part not in review]
+    return {"name": name, "doubtful": doubtful, "sure": sure, "words": ", ".join(words)}
