@@ -1,5 +1,5 @@
-"""The example excavator's sheet: a matrix of booms and arms, letters that mean two things, rows that are configurations;
-every value is read back, and what the sheet does not print is missing."""
+"""The example excavator's sheet: a matrix of booms and arms, letters that mean two things, rows that are
+configurations; every value is read back, and what the sheet does not print is missing."""
 
 from __future__ import annotations
 

@@ -205,7 +205,7 @@ def _walk(
             return [strokes.measured(height)(at) - z, strokes.measured(reach)(at) - stop]
 
         inside = np.clip(shares, 1e-9, 1.0 - 1e-9)
-        shares = least_squares(miss, inside, bounds=(0.0, 1.0), diff_step=_STEP, method="dogbox").x
+        shares = least_squares(miss, inside, bounds=(0.0, 1.0), diff_step=[_STEP] * len(inside), method="dogbox").x
         if max(abs(each) for each in miss(shares)) > 1e-3:
             raise Unmeasurable(f"the level cut has a gap at {stop:.3g} m")
 
@@ -270,17 +270,20 @@ def _descend(
 ) -> Floats:
     """Sequential quadratic programming within the strokes."""
     measured = strokes.measured(quantity)
-    constraints = [
-        {"type": "eq", "fun": lambda at, q=q, value=value: float(_off(q, strokes.measured(q)(at), value))}
-        for q, value in subjects
-    ]
-    solved = minimize(
+
+    def missed(at: Floats) -> Floats:
+        return np.array([float(_off(q, strokes.measured(q)(at), value)) for q, value in subjects])
+
+    options = {"ftol": 1e-11, "eps": _STEP, "maxiter": 60}
+    constraints = [{"type": "eq", "fun": missed}] if subjects else []
+    solve: Any = minimize  # its types know no plain arrays
+    solved = solve(
         lambda at: sign * measured(at),
         shares,
         method="SLSQP",
         bounds=[(0.0, 1.0)] * len(shares),
         constraints=constraints,
-        options={"ftol": 1e-11, "eps": _STEP, "maxiter": 60},
+        options=options,
     )
     return np.clip(np.asarray(solved.x, dtype=np.float64), 0.0, 1.0)
 

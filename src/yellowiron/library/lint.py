@@ -192,6 +192,7 @@ def _measurements(template: Template) -> Iterator[Finding]:
         "joint": {j.name for j in template.joints},
         "body": {f"{r.name}_1" if r.many else r.name for r in template.roles if r.rigid},
     }
+    parts = [f"{r.name}_1" if r.many else r.name for r in template.roles]
     wanted = {fold(w.name) for w in template.wanted}
     for measurement in template.measurements:
         if fold(measurement.specification) not in wanted:
@@ -203,8 +204,10 @@ def _measurements(template: Template) -> Iterator[Finding]:
                 near(measurement.specification, (w.name for w in template.wanted)),
             )
         for kind, name in dict.fromkeys(_named((measurement.quantity, measurement.steps))):
+            # A pattern may fit bodies that are there under other choices only: once these are made, it need not.
             pattern = kind == "body" and _EVERY_BODY in name
-            if name not in known[kind] and not (pattern and fnmatch.filter(sorted(known[kind]), name)):
+            fits = pattern and (not template.variants or fnmatch.filter(parts, name))
+            if name not in known[kind] and not fits:
                 yield Finding(
                     "TPL011",
                     "error",
