@@ -5,10 +5,12 @@ The bucket's frame: origin at the bucket pin, x towards the tooth points, z towa
 
 from __future__ import annotations
 
+import functools
 import math
 from dataclasses import dataclass
 
 from OCP.TopoDS import TopoDS_Shape
+from scipy.optimize import brentq
 
 from drawing.hardware import CLEARANCE, bush, fit_pin, placed
 from drawing.planar import direction
@@ -16,10 +18,10 @@ from drawing.product import GREY, STEEL, YELLOW, Assembly, Colour, Part
 from drawing.solids import Y, bored, box, cut, moved, outline, plate, ring, rod, shift
 
 from . import values as v
-from .equipment import PIN_G, PIN_H, PIN_J, PIN_K, pair
+from .equipment import PIN_G, PIN_H, PIN_J, PIN_K, between, pair
 from .linkage import ARM, Linkage, Pose
 
-SKIN, SIDE, LIP = 14.0, 16.0, 35.0
+SKIN, SIDE, LIP = 20.0, 20.0, 40.0
 """Thickness of the wrapper, the sides and the cutting edge."""
 TOOTH = 175.0
 """How far the teeth stand before the cutting edge."""
@@ -29,11 +31,17 @@ EAR = (166.0, 206.0)
 """Lateral place of the ears that take both pins."""
 
 
+def wall_depth(k: Linkage, floor: float) -> float:
+    """Depth of the tooth points with the boom down and the floor upright, for an angle between K -> T reversed and the
+    floor's underside (radians): the arm hangs straight down, or as far out as the open bucket needs."""
+    out = max(0.0, floor - k.ends().open)
+    return ARM * math.cos(out) + k.tip * math.cos(floor) - float(k.lowest_arm_pin()[1])
+
+
+@functools.cache
 def floor_angle(k: Linkage) -> float:
-    """Angle between K -> T reversed and the floor's underside, radians: with the floor upright and the boom down, the
-    tooth points are at the vertical wall depth."""
-    low = float(k.lowest_arm_pin()[1])
-    return math.acos((v.WALL_DEPTH.value + low - ARM) / k.tip)
+    """Angle between K -> T reversed and the floor's underside, radians: what the vertical wall depth takes."""
+    return float(brentq(lambda floor: wall_depth(k, floor) - v.WALL_DEPTH.value, 0.2, 1.2, xtol=1e-14))
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,9 +76,13 @@ class Profile:
         end = (self.top[0] + 60 * d[0] + 2.2 * SKIN * -d[1], self.top[1] + 60 * d[1] + 2.2 * SKIN * d[0])
         return [(*lip_in, 0.0), (*self.heel, HEEL - SKIN), (*self.back, BACK - SKIN), (*end, 0.0)]
 
-    def chamber(self) -> list[tuple[float, float, float]]:
-        """Outline of the inside of the wrapper, its mouth closed by a straight line."""
-        return [(*self.floor(TOOTH, SKIN), 0.0), (*self.heel, HEEL - SKIN), (*self.back, BACK - SKIN), (*self.top, 0.0)]
+    def seat(self) -> list[tuple[float, float, float]]:
+        """Corners inside the wrapper's thickness, from the upper lip up the back: where the ears stand."""
+        segments = outline([(x, z, r - 7.0 if r else 0.0) for x, z, r in self.outside(TOOTH)])
+        bend, lip = segments[-3], segments[-2]
+        middle, end = bend[1], lip[0]
+        low = between(end, lip[1], 0.93)
+        return [(*low, 0.0), (*end, 0.0), (*middle, 0.0)]
 
 
 def profile(k: Linkage) -> Profile:
@@ -129,16 +141,7 @@ def draw_bucket(k: Linkage, pose: Pose, hardware: Assembly) -> Assembly:
         tree.add(part, "bucket", at=at.Multiplied(shift(0, y, 0)))
     put("TORQUE TUBE", rod((175, -inner, 200), Y, 42, 2 * inner))
     jx, jz = k.J
-    foot = [(p.back[0] + 240, p.back[1] + BACK - 60, 0.0), (p.back[0] - 20, p.back[1] + BACK - 2, 0.0)]
-    ear = [
-        (0.0, 0.0, 98.0),
-        (p.top[0] + 60, p.top[1] - 10, 0.0),
-        (p.back[0] + 60, p.back[1], 0.0),
-        *foot,
-        (jx, jz, 88.0),
-    ]
-    shape = plate(ear, "xz", *EAR)
-    shape = cut(shape, plate(p.chamber(), "xz", EAR[0] - 1, EAR[1] + 1))
+    shape = plate([(0.0, 0.0, 98.0), *p.seat(), (jx, jz, 88.0)], "xz", *EAR)
     shape = bored(shape, Y, ((0, 0, 0), PIN_K / 2 + CLEARANCE), ((jx, 0, jz), PIN_J / 2))
     pair(weld, "BUCKET EAR", shape, at, "bucket")
     turned = -math.degrees(pose.bucket_angle)

@@ -2,7 +2,7 @@
 y left) and put where the linkage has it.
 
 Lateral layout, millimetres from the middle: arm and bucket cylinder eyes within 65, their lugs to 110; arm 156, its
-nose and the bucket link 160; tipping links 172-197 and bucket ears 166-206; boom 216, its tip 236; boom cylinders 330.
+nose and the bucket link 160; tipping links 172-197 and bucket ears 166-206; boom 216, its tip 236; boom cylinders 352.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from OCP.TopoDS import TopoDS_Shape
 
 from drawing.hardware import bush, fit_pin, placed
 from drawing.product import BLACK, GREY, YELLOW, Assembly, Colour, Part
-from drawing.solids import Y, bored, box, cut, mirrored, moved, pipe, plate, ring, rod, shift
+from drawing.solids import Y, bored, box, cut, mirrored, moved, outline, pipe, plate, ring, rod, shift, turn
 
 from .linkage import ARM, BOOM, Linkage, Pose
 
@@ -35,7 +35,7 @@ BUSH = 10.0
 """Wall of every bush."""
 BOOM_Y, ARM_Y = 216.0, 156.0
 """Half widths outside."""
-CYLINDER_Y = 330.0
+CYLINDER_Y = 352.0
 """Boom cylinders from the middle."""
 WEB = 16.0
 Outline = list[tuple[float, float, float]]
@@ -60,6 +60,20 @@ def skin(outline: Outline, half: float, thick: float, *cuts: TopoDS_Shape) -> To
 
 def _polygon(points: list[tuple[float, float]], half: float) -> TopoDS_Shape:
     return plate([(x, z, 0.0) for x, z in points], "xz", -half, half)
+
+
+def between(p: tuple[float, float], q: tuple[float, float], share: float) -> tuple[float, float]:
+    """A point on the way from `p` to `q`."""
+    return p[0] + share * (q[0] - p[0]), p[1] + share * (q[1] - p[1])
+
+
+def crossing(
+    p: tuple[float, float], q: tuple[float, float], r: tuple[float, float], s: tuple[float, float]
+) -> tuple[float, float]:
+    """Where the lines p-q and r-s cross."""
+    u, w = (q[0] - p[0], q[1] - p[1]), (s[0] - r[0], s[1] - r[1])
+    share = ((r[0] - p[0]) * w[1] - (r[1] - p[1]) * w[0]) / (u[0] * w[1] - u[1] * w[0])
+    return between(p, q, share)
 
 
 # ---- boom --------
@@ -95,28 +109,35 @@ def draw_boom(k: Linkage, pose: Pose, hardware: Assembly) -> Assembly:
         weld.add(Part("BOOM DIAPHRAGM", moved(keep, at), YELLOW), body)
     foot = ring((0, -222, 0), Y, 125, 60, 444)
     weld.add(Part("BOOM FOOT BOSS", moved(foot, at), YELLOW), body)
-    pair(weld, "BOOM CYL BOSS", ring((dx, 60, dz), Y, 105, PIN_D / 2, 200), at, body)
+    pair(weld, "BOOM CYL BOSS", ring((dx, 60, dz), Y, 105, PIN_D / 2, 232), at, body)
     pair(weld, "BOOM TIP BOSS", ring((BOOM, 166, 0), Y, 112, PIN_B / 2, 70), at, body)
-    lug = plate([(mx, mz, 100), (mx - 330, mz - 200, 0), (mx + 330, mz - 220, 0)], "xz", 68, 108)
+    lug = plate([(mx, mz, 100), (mx - 330, mz - 200, 0), (mx + 98, mz - 190, 0)], "xz", 68, 108)
     pair(weld, "ARM CYL LUG", bored(lug, Y, ((mx, 0, mz), PIN_M / 2)), at, body)
     for y in (-222.0, 112.0):
         tree.add(bush(120, PIN_A, 110), body, at=at.Multiplied(shift(0, y, 0)))
-    # two steel pipes along the crown and clamps that hold them
-    high = [(900.0, 470.0), (2100.0, 920.0), (2800.0, 910.0), (4700.0, 400.0)]
-    for y in (-172.0, 172.0, 128.0):
-        run = pipe([(x, y, z) for x, z in high], 14, 140)
+    # steel pipes along the crown, and the clamps that hold them
+    above = outline(smaller(BOOM_OUTLINE, -38.0))
+    (tip, bend_out), (bend_in, foot_end) = above[5], above[7]
+    crown = crossing(tip, bend_out, bend_in, foot_end)
+    first, last = between(crown, foot_end, 0.62), between(crown, tip, 0.72)
+    for y in (-172.0, 126.0, 172.0):
+        run = pipe([(first[0], y, first[1]), (crown[0], y, crown[1]), (last[0], y, last[1])], 14, 600)
         tree.add(Part("BOOM PIPE", moved(run, at), BLACK), body)
-    for x, z in ((1900.0, 845.0), (3000.0, 856.0 - 60), (4100.0, 561.0 - 60)):
-        tree.add(Part("PIPE CLAMP", moved(box(x, x + 60, 110, 190, z - 90, z + 35), at), GREY), body)
-        tree.add(Part("PIPE CLAMP", moved(box(x, x + 60, -190, -154, z - 90, z + 35), at), GREY), body)
+    clamp = Part("PIPE CLAMP", box(-30, 30, -34, 34, -45, 26), GREY)
+    for end, shares in ((foot_end, (0.35, 0.55)), (tip, (0.3, 0.62))):
+        for share in shares:
+            x, z = between(crown, end, share)
+            slope = turn(Y, -math.degrees(math.atan((end[1] - crown[1]) / (end[0] - crown[0]))))
+            for y in (-160.0, 152.0):
+                tree.add(clamp, body, at=at.Multiplied(shift(x, y, z)).Multiplied(slope))
     lamp = cut(box(1500, 1640, 216, 330, 520, 660), box(1600, 1641, 230, 316, 535, 645))
     tree.add(Part("BOOM LAMP", moved(lamp, at), BLACK), body)
     tree.add(Part("BOOM LAMP LENS", moved(box(1600, 1630, 230, 316, 535, 645), at), (0.93, 0.93, 0.85)), body)
     for letter, sign in (("l", 1.0), ("r", -1.0)):
-        y = 60.0 if sign > 0 else -400.0
-        fit_pin(hardware, (pose.D[0], y, pose.D[1]), PIN_D, 340, body, f"boom_piston_rod_{letter}_pin")
+        y = 60.0 if sign > 0 else -420.0
+        fit_pin(hardware, (pose.D[0], y, pose.D[1]), PIN_D, 360, body, f"boom_piston_rod_{letter}_pin")
         cap = ring((0, 0, 0), Y, PIN_D / 2 + 20, 9.0, 14)
-        there = shift(pose.D[0], sign * 400 - (14 if sign < 0 else 0), pose.D[1])
+        there = shift(pose.D[0], sign * 420 - (14 if sign < 0 else 0), pose.D[1])
         hardware.add(Part("PIN CAP 90", cap, GREY), body, at=there)
     fit_pin(hardware, (pose.B[0], -250, pose.B[1]), PIN_B, 500, body, "arm_pin", keep=(1.0, -1.0), turned=turned + 90)
     fit_pin(
@@ -147,9 +168,9 @@ def draw_arm(k: Linkage, pose: Pose, hardware: Assembly) -> Assembly:
     tree.add(weld)
     body = "arm"
     (px, pz), (ex, ez), (gx, gz) = k.P, k.E, k.G
-    outline = arm_outline(k)
+    side = arm_outline(k)
     holes = (((px, 0.0, pz), 60.0), ((0.0, 0.0, 0.0), 60.0), ((gx, 0.0, gz), 50.0), ((ARM, 0.0, 0.0), 55.0))
-    web = bored(plate(outline, "xz", ARM_Y - WEB, ARM_Y), Y, *holes)
+    web = bored(plate(side, "xz", ARM_Y - WEB, ARM_Y), Y, *holes)
     pair(weld, "ARM WEB", web, at, body)
     inside = ARM_Y - WEB
     tail = _polygon(
@@ -161,7 +182,7 @@ def draw_arm(k: Linkage, pose: Pose, hardware: Assembly) -> Assembly:
     below = [(px - 400, -900.0), (ARM + 400, -900.0), (ARM + 400, 0.0), (400.0, 60.0), (px, pz), (px - 400, pz)]
     above = [(px - 400, pz), (px, pz), (400.0, 60.0), (ARM + 400, 0.0), (ARM + 400, 900.0), (px - 400, 900.0)]
     for name, away in (("ARM TOP FLANGE", below), ("ARM BOTTOM FLANGE", above)):
-        flange = skin(outline, inside, 14.0, tail, nose, hinge, _polygon(away, 400.0))
+        flange = skin(side, inside, 14.0, tail, nose, hinge, _polygon(away, 400.0))
         weld.add(Part(name, moved(flange, at), YELLOW), body)
     for x, z, r, bore, half, name in (
         (0.0, 0.0, 140.0, 60.0, 160.0, "ARM HINGE BOSS"),
@@ -170,7 +191,7 @@ def draw_arm(k: Linkage, pose: Pose, hardware: Assembly) -> Assembly:
     ):
         weld.add(Part(name, moved(ring((x, -half, z), Y, r, bore, 2 * half), at), YELLOW), body)
     pair(weld, "ARM TAIL BOSS", ring((px, 72, pz), Y, 98, PIN_P / 2, 98), at, body)
-    lug = plate([(ex, ez, 88), (ex - 260, ez - 250, 0), (ex + 330, ez - 260, 0)], "xz", 62, 97)
+    lug = plate([(ex, ez, 88), (ex - 260, ez - 250, 0), (ex + 86, ez - 220, 0)], "xz", 62, 97)
     pair(weld, "BUCKET CYL LUG", bored(lug, Y, ((ex, 0, ez), PIN_E / 2)), at, body)
     stop = plate([(-330, 150, 0), (-120, 150, 0), (-120, 164, 0), (-330, 164, 0)], "xz", -inside, inside)
     weld.add(Part("ARM DIAPHRAGM", moved(stop, at), YELLOW), body)

@@ -57,7 +57,7 @@ class Pose:
     J: Point
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Linkage:
     """Pin positions. A and C are world; D and M are in the boom's frame (origin A, x towards B); P, E and G in the
     arm's (origin B, x towards K); J in the bucket's (origin K, x towards T); `tip` is K-T, `tipping` G-H, `link` H-J.
@@ -174,17 +174,18 @@ class Ends:
 
 
 def ranges(a: Point, tip: float, e: Ends, depth: float = v.LEVEL_DEPTH.value) -> dict[str, float]:
-    """The working ranges by the values' names, millimetres, from the boom pin, the distance K - T and the end
-    angles. Every range is reached with the tooth points in line with the arm or straight below K, but for the
-    digging height, which the open bucket limits. `depth`: where the level bottom is measured."""
+    """The working ranges by the values' names, millimetres, from the boom pin, the distance K - T and the end angles;
+    `depth`: where the length of level bottom is measured.
+
+    The lowest point: boom down, arm and bucket in one line straight down. The farthest: arm out, K and T in line with
+    A. The highest: boom up, arm out, bucket open. The dumping heights: the tooth points straight below K.
+    """
     boom, arm, reach = vec(BOOM, 0.0), vec(ARM, 0.0), ARM + tip
     low = a + rot(e.low, boom)
-    far = float(np.hypot(*(boom + rot(e.out, vec(reach, 0.0)))))
+    far = float(np.hypot(*(boom + rot(e.out, arm)))) + tip
     out = a + rot(e.high, boom + rot(e.out, arm))
     crowd = a + rot(e.high, boom + rot(e.crowd, arm))
-    half = math.sqrt(max(0.0, reach**2 - float(low[1] + depth) ** 2))
-    # out to where the lowered boom no longer reaches or the arm is fully out, in to the lowered boom's reach
-    ahead = min(float(low[0]) + half, float(a[0]) + math.sqrt(max(0.0, far**2 - float(a[1] + depth) ** 2)))
+    ahead, half = _ahead(a, tip, e, depth)
     return {
         v.DIGGING_DEPTH.name: reach - float(low[1]),
         v.GROUND_REACH.name: float(a[0]) + math.sqrt(max(0.0, far**2 - float(a[1]) ** 2)),
@@ -194,6 +195,30 @@ def ranges(a: Point, tip: float, e: Ends, depth: float = v.LEVEL_DEPTH.value) ->
         v.DUMPING_HEIGHT_MIN.name: float(crowd[1]) - tip,
         LEVEL: ahead - (float(low[0]) - half),
     }
+
+
+def _ahead(a: Point, tip: float, e: Ends, depth: float) -> tuple[float, float]:
+    """x of the farthest tooth point at a depth below the ground, and half the chord of the lowered boom's circle there.
+
+    The edge of the work space is made of three arcs: with the boom down, first arm and bucket in one line about B,
+    then, the arm out, the bucket about K until it is in line with A; from there all about A as the boom rises.
+    """
+    low = a + rot(e.low, vec(BOOM, 0.0))
+    pin = low + rot(e.low + e.out, vec(ARM, 0.0))
+
+    def right(centre: Point, radius: float) -> tuple[float, float]:
+        """Half chord of a circle at the depth, and the direction of its right end."""
+        down = float(centre[1]) + depth
+        half = math.sqrt(max(0.0, radius**2 - down**2))
+        return half, math.atan2(-down, half)
+
+    half, angle = right(low, ARM + tip)
+    if angle <= e.low + e.out:
+        return float(low[0]) + half, half
+    chord, angle = right(pin, tip)
+    if angle <= direction(pin - a):
+        return float(pin[0]) + chord, half
+    return float(a[0]) + right(a, float(np.hypot(*(pin - a))) + tip)[0], half
 
 
 LEVEL = "length of level bottom"
@@ -206,10 +231,10 @@ def wrapped(angle: float) -> float:
 
 # Where the search starts and what it stays near, and how near: proportions of the class.
 _SKETCH: dict[str, tuple[float, float]] = {
-    "A.x": (110, 40),
+    "A.x": (80, 8),
     "A.z": (1890, 40),
-    "C.x": (590, 60),
-    "C.z": (1250, 40),
+    "C.x": (620, 80),
+    "C.z": (1235, 60),
     "D.x": (2500, 120),
     "D.z": (620, 20),
     "M.x": (2850, 100),
@@ -224,10 +249,10 @@ _SKETCH: dict[str, tuple[float, float]] = {
     "link": (570, 40),
     "J.r": (440, 25),
     "J.a": (math.radians(95), 0.12),
-    "tip": (1490, 8),
-    "low": (math.radians(-45.5), 0.05),
-    "high": (math.radians(63), 0.05),
-    "out": (math.radians(-28.5), 0.05),
+    "tip": (1495, 4),
+    "low": (math.radians(-45.5), 0.1),
+    "high": (math.radians(66), 0.03),
+    "out": (math.radians(-33), 0.03),
     "crowd": (math.radians(-148), 0.03),
     "open": (math.radians(33), 0.04),
     "curl": (math.radians(-140), 0.06),
@@ -259,7 +284,6 @@ _TARGETS = {
             v.DUMPING_HEIGHT_MIN,
         )
     },
-    LEVEL: v.LEVEL_LENGTH,
 }
 
 

@@ -8,6 +8,7 @@ published track length takes. Millimetres, machine frame; x forward, z up.
 from __future__ import annotations
 
 import functools
+import itertools
 import math
 from dataclasses import dataclass
 
@@ -71,7 +72,7 @@ class Loop:
 
 def _carrier_above(idler: float, x: float) -> float:
     """Carrier rollers hold the top run a little above the line from sprocket to idler."""
-    return idler + (SPROCKET_R - idler) * (HALF - x) / (2 * HALF) + 12.0 - RAIL - CARRIER_TREAD
+    return idler + (SPROCKET_R - idler) * (HALF - x) / (2 * HALF) + 12.4 - RAIL - CARRIER_TREAD
 
 
 def _pins(idler: float) -> tuple[list[tuple[float, float]], float]:
@@ -122,10 +123,11 @@ class _Path:
 
     def at(self, s: float) -> tuple[float, float]:
         s %= self.length
-        for length, p in self.pieces:
-            if s <= length:
-                break
-            s -= length
+        i = 0
+        while s > self.pieces[i][0] and i < len(self.pieces) - 1:
+            s -= self.pieces[i][0]
+            i += 1
+        length, p = self.pieces[i]
         part = min(1.0, s / length) if length else 0.0
         if len(p) == 4:
             return p[0] + part * (p[2] - p[0]), p[1] + part * (p[3] - p[1])
@@ -139,7 +141,7 @@ def solve_track() -> Loop:
     idler = float(brentq(lambda r: _pins(r)[1], 270.0, 350.0, xtol=1e-10))
     flat, _ = _pins(idler)
     ring = [*flat, flat[0]]
-    placed = [(p[0], p[1], math.atan2(q[1] - p[1], q[0] - p[0])) for p, q in zip(ring, ring[1:], strict=False)]
+    placed = [(p[0], p[1], math.atan2(q[1] - p[1], q[0] - p[0])) for p, q in itertools.pairwise(ring)]
 
     def length(grouser: float) -> float:
         """Overall length of the shoes, from the corners of their side view."""
@@ -172,12 +174,13 @@ def _link(side: float) -> Part:
     def between(pair: tuple[float, float]) -> tuple[float, float]:
         return pair if side > 0 else (-pair[1], -pair[0])
 
-    def half(x0: float, x1: float, eye: float, pair: tuple[float, float]) -> TopoDS_Shape:
+    def half(corners: list[tuple[float, float]], eye: float, pair: tuple[float, float]) -> TopoDS_Shape:
         a, b = between(pair)
-        flat = plate([(x0, -SEAT, 0), (x1, -SEAT, 0), (x1, RAIL, 0), (x0, RAIL, 0)], "xz", a, b)
-        return fuse(flat, rod((eye, a, 0), Y, 34.0, b - a))
+        return fuse(plate([(x, z, 0.0) for x, z in corners], "xz", a, b), rod((eye, a, 0), Y, 33.0, b - a))
 
-    rear, front = half(0.0, 110.0, 0.0, LINK_OUT), half(80.0, PITCH, PITCH, LINK_IN)
+    low, clear = -SEAT, 7.0 - SEAT  # the front eye passes over the next shoe
+    rear = half([(0, low), (110, low), (110, RAIL), (0, RAIL)], 0.0, LINK_OUT)
+    front = half([(80, low), (146, low), (150, clear), (PITCH, clear), (PITCH, RAIL), (80, RAIL)], PITCH, LINK_IN)
     waist = box(80, 110, *between((LINK_IN[0], LINK_OUT[1])), -SEAT, RAIL)
     shape = fuse(rear, waist, front)
     holes = [rod((x, side * BOLT_Y, -SEAT - 1), Z, BOLT / 2, 32.0) for x in BOLT_X]
@@ -274,4 +277,4 @@ def draw_sprocket() -> tuple[Part, Part, Part]:
     return Part("SPROCKET", ring, GREY), Part("FINAL DRIVE CASE", hub, GREY), bolt(20.0, 80.0)
 
 
-SPROCKET_BOLTS = 10
+SPROCKET_BOLTS = 9

@@ -17,7 +17,7 @@ from drawing.planar import Point, direction, rot, vec
 from drawing.product import Assembly, Occurrence, extent, farthest, occurrences
 
 from . import values as v
-from .bucket import floor_angle
+from .bucket import floor_angle, wall_depth
 from .equipment import CYLINDER_Y
 from .linkage import (
     ARM,
@@ -171,16 +171,14 @@ def _slides(cylinders: dict[str, Cylinder]) -> dict[str, dict[str, float]]:
 def measured(k: Linkage) -> dict[str, float]:
     """What the solved linkage gives for the working ranges, by the value's name; millimetres and kilonewtons."""
     e = k.ends()
-    low = k.lowest_arm_pin()
     got = {n: x for n, x in ranges(k.A, k.tip, e).items() if n != LEVEL}
 
     def miss(depth: float) -> float:
         return ranges(k.A, k.tip, e, depth)[LEVEL] - v.LEVEL_LENGTH
 
-    wall = float(low[1]) - ARM - k.tip * math.cos(floor_angle(k))
     return got | {
         v.LEVEL_DEPTH.name: float(brentq(miss, 6000.0, v.DIGGING_DEPTH.value - 1.0, xtol=1e-9)),
-        v.WALL_DEPTH.name: -wall,
+        v.WALL_DEPTH.name: wall_depth(k, floor_angle(k)),
         v.BUCKET_FORCE.name: bucket_force(k),
         v.ARM_FORCE.name: arm_force(k),
     }
@@ -272,13 +270,15 @@ def drawn(root: Assembly, k: Linkage, pose: Pose) -> dict[str, float]:
         v.TRACK_HEIGHT.name: float(left[1, 2]),
         v.SHOE_WIDTH.name: float(left[1, 1] - left[0, 1]),
         v.TRACK_GAUGE.name: float(left.mean(0)[1] - extent(of("track_shoe_r")).mean(0)[1]),
-        v.TRACK_ON_GROUND.name: float(extent(named("IDLER AXLE")).mean(0)[0] - extent(named("SPROCKET")).mean(0)[0]),
+        v.TRACK_ON_GROUND.name: float(
+            extent(named("IDLER AXLE")).mean(0)[0] - extent(named("FINAL DRIVE CASE")).mean(0)[0]
+        ),
         v.GROUND_CLEARANCE.name: float(extent(clear)[0, 2]),
         v.COUNTERWEIGHT_CLEARANCE.name: float(extent(named("COUNTERWEIGHT"))[0, 2]),
         v.UPPER_WIDTH.name: float(extent(named("DECK"))[1, 1] - extent(named("DECK"))[0, 1]),
         v.CAB_HEIGHT.name: float(extent(named("CAB ROOF"))[1, 2]),
         v.HANDRAIL_HEIGHT.name: float(extent(upper)[1, 2]),
-        v.BUCKET_WIDTH.name: float(np.ptp(extent(of("bucket_width") or named("CUTTING EDGE"))[:, 1])),
+        v.BUCKET_WIDTH.name: float(np.ptp(extent(named("CUTTING EDGE"))[:, 1])),
     }
 
 

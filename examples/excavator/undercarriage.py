@@ -75,15 +75,14 @@ def draw_centre_frame(hardware: Assembly) -> Assembly:
         tree.add(Part(f"{name} RH", mirrored(shape), DARK), BODY)
     inner, outer, _, _ = BEARING
     low, high, _, _ = BEARING_Z
-    tree.add(
-        Part("SWING BEARING INNER RACE", ring((0, 0, low), Z, outer, inner, high - low), STEEL), BODY, "swing_bearing"
-    )
+    race = ring((0, 0, low), Z, outer, inner, high - low)
+    tree.add(Part("SWING BEARING INNER RACE", race, STEEL), BODY, "swing_bearing")
     centre_joint = fuse(rod((0, 0, 620), Z, 110, 360), rod((0, 0, 620), Z, 150, 60))
     tree.add(Part("CENTRE SWIVEL BODY", centre_joint, GREY), BODY)
     tree.add(Part("SWIVEL SEAT", box(-160, 160, -545, 545, 600, 622), DARK), BODY)
     big = bolt(24, 60)
-    for i in range(12):
-        a = math.radians(30 * i + 15)
+    for i in range(8):
+        a = math.radians(45 * i + 15)
         r = (inner + outer) / 2
         at = shift(r * math.cos(a), r * math.sin(a), high).Multiplied(turn(X, 90.0))
         hardware.add(big, BODY, at=at)
@@ -105,8 +104,8 @@ def _side(letter: str, sign: float, loop: Loop, hardware: Assembly) -> Assembly:
 
     frame = Assembly(f"TRACK FRAME WELDMENT {letter.upper()}H")
     tree.add(frame)
-    beam = [(-1460.0, 332.0, 0.0), (1500.0, 332.0, 0.0), (1500.0, 540.0, 0.0), (1180.0, 610.0, 0.0)]
-    beam += [(-1250.0, 610.0, 0.0), (-1460.0, 560.0, 0.0)]
+    beam = [(-1460.0, 332.0, 0.0), (1500.0, 332.0, 0.0), (1500.0, 540.0, 0.0), (1180.0, 590.0, 0.0)]
+    beam += [(-1250.0, 590.0, 0.0), (-1460.0, 560.0, 0.0)]
     put("TRACK FRAME BEAM", hollow(beam, "xz", -112.0, 112.0, 16.0))
     put("SOLE PL", box(-1470, 1500, -152, 152, 316, 332))
     skirt = plate([(-1490, 170, 0), (1490, 170, 0), (1490, 318, 0), (-1490, 318, 0)], "xz", 132, 152)
@@ -118,15 +117,13 @@ def _side(letter: str, sign: float, loop: Loop, hardware: Assembly) -> Assembly:
     put("IDLER YOKE", bored(fuse(yoke, arm, mirrored(arm)), Y, ((HALF, 0, z_axle), 45.0)))
     bracket = plate([(-HALF, z_axle, 185), (-1380, 340, 0), (-1380, 600, 0)], "xz", -112, -72)
     put("TRAVEL MOTOR BRKT", bored(bracket, Y, ((-HALF, 0, z_axle), 125.0)))
-    motor = fuse(
-        rod((0, -72, 0), Y, 130 - CLEARANCE, 215), rod((0, -270, 0), Y, 125, 200), rod((0, -300, 0), Y, 80, 40)
-    )
+    motor = fuse(rod((0, -72, 0), Y, 130 - CLEARANCE, 215), rod((0, -270, 0), Y, 125, 200))
     tree.add(Part("TRAVEL MOTOR", motor, GREY), BODY, at=at(-HALF, z_axle))
     for x in CARRIER_X:
         z = loop.carrier(x)
-        shape = plate([(x, z, 45), (x - 70, 606, 0), (x + 70, 606, 0)], "xz", -160, -125)
-        base = box(x - 70, x + 70, -160, 0, 606, 618)
-        put("CARRIER BRKT", bored(fuse(shape, cut(base, rod((x, -110, z), Y, 66.0, 110))), Y, ((x, 0, z), 24.6)))
+        shape = plate([(x, z, 45), (x - 70, 588, 0), (x + 70, 588, 0)], "xz", -160, -125)
+        base = box(x - 70, x + 70, -160, 0, 588, 599)
+        put("CARRIER BRKT", bored(fuse(shape, base), Y, ((x, 0, z), 24.6)))
 
     sprocket, case, nut = draw_sprocket()
     here = min(loop.pins, key=lambda p: p[0])

@@ -3,6 +3,7 @@ millimetres."""
 
 from __future__ import annotations
 
+import itertools
 import math
 
 from OCP.BRepGProp import BRepGProp
@@ -12,10 +13,10 @@ from scipy.optimize import brentq
 
 from drawing.hardware import bolt, fit_pin
 from drawing.product import BLACK, GREY, RED, STEEL, YELLOW, Assembly, Colour, Part
-from drawing.solids import X, Y, Z, bored, box, cut, fuse, mirrored, pipe, plate, prism, rod, shift, turn
+from drawing.solids import X, Y, Z, bored, box, cut, fuse, mirrored, pipe, plate, prism, ring, rod, shift, turn, turned
 
 from . import values as v
-from .equipment import CYLINDER_Y, PIN_A, PIN_C
+from .equipment import PIN_A, PIN_C
 from .linkage import Linkage
 from .undercarriage import BEARING, BEARING_Z
 
@@ -36,7 +37,7 @@ def _pair(tree: Assembly, name: str, shape: TopoDS_Shape, colour: Colour = YELLO
     tree.add(Part(f"{name} RH", mirrored(shape), colour), BODY)
 
 
-def shell(x0: float, x1: float, y0: float, y1: float, z0: float, z1: float, wall: float) -> TopoDS_Shape:
+def sheet_box(x0: float, x1: float, y0: float, y1: float, z0: float, z1: float, wall: float) -> TopoDS_Shape:
     """A closed sheet box."""
     inner = box(x0 + wall, x1 - wall, y0 + wall, y1 - wall, z0 + wall, z1 - wall)
     return cut(box(x0, x1, y0, y1, z0, z1), inner)
@@ -50,7 +51,7 @@ def draw_frame(k: Linkage, hardware: Assembly) -> Assembly:
     _, _, low, high = BEARING_Z
     race = cut(rod((0, 0, low), Z, outer, high - low), rod((0, 0, low - 1), Z, inner, high - low + 2))
     tree.add(Part("SWING BEARING OUTER RACE", race, STEEL), BODY)
-    base = plate([(-1700, -560, 0), (300, -560, 0), (730, -445, 0), (730, 445, 0), (300, 560, 0), (-1700, 560, 0)],
+    base = plate([(-1700, -560, 0), (300, -560, 0), (730, -438, 0), (730, 438, 0), (300, 560, 0), (-1700, 560, 0)],
                  "xy", FLOOR, FLOOR + 40)  # fmt: skip
     tree.add(Part("BASE PL", bored(base, Z, ((0, 0, 0), 240.0)), YELLOW), BODY)
     deck = FLOOR + 40
@@ -58,34 +59,36 @@ def draw_frame(k: Linkage, hardware: Assembly) -> Assembly:
     tower += [(-2355.0, deck, 0.0), (700.0, deck, 0.0)]
     side = bored(plate(tower, "xz", 228, 268), Y, ((ax, 0, az), PIN_A / 2), ((cx, 0, cz), PIN_C / 2))
     _pair(tree, "TOWER PL", side)
-    lug = plate([(cx, cz, 108), (cx - 230, deck, 0), (cx + 105, deck, 0)], "xz", 392, 428)
+    lug = plate([(cx, cz, 108), (cx - 230, deck, 0), (cx + 105, deck, 0)], "xz", 411, 437)
+    _pair(tree, "BOOM CYL BOSS", ring((cx, 268, cz), Y, 78, PIN_C / 2, 25))
     _pair(tree, "BOOM CYL LUG", bored(lug, Y, ((cx, 0, cz), PIN_C / 2)))
     _pair(tree, "TOWER RIB", box(-290, -262, 268, 560, deck, 1400))
     tree.add(Part("TOWER BULKHEAD", box(-290, -262, -228, 228, deck, 1500), YELLOW), BODY)
     tree.add(Part("NOSE X-MEMBER", box(330, 360, -228, 228, deck, 1180), YELLOW), BODY)
-    deck_l = shell(-2355, 1500, 440, HALF, SKIRT, DECK, 7.0)
+    deck_l = sheet_box(-2355, 1500, 440, HALF, SKIRT, DECK, 7.0)
     tree.add(Part("DECK LH", deck_l, GREY), BODY)
-    tree.add(Part("DECK RH", shell(-2355, 1330, -HALF, -440, SKIRT, DECK, 7.0), GREY), BODY)
+    tree.add(Part("DECK RH", sheet_box(-2355, 1330, -HALF, -440, SKIRT, DECK, 7.0), GREY), BODY)
     for x0 in (-2100.0, -1200.0, -200.0):
         _pair(tree, "OUTRIGGER", box(x0, x0 + 24, 268, 440, SKIRT, DECK))
-    _pair(tree, "OUTRIGGER FRT", box(300, 324, 428, 440, SKIRT, DECK))
+    _pair(tree, "OUTRIGGER FRT", box(300, 324, 437, 440, SKIRT, DECK))
+    cap = Part(f"PIN CAP {PIN_C:g}", rod((0, 0, 0), Y, PIN_C / 2 + 10, 6), GREY)
     for letter, sign in (("l", 1.0), ("r", -1.0)):
-        start = CYLINDER_Y - 114 if sign > 0 else -CYLINDER_Y - 110
-        fit_pin(
-            hardware, (cx, start, cz), PIN_C, 224, BODY, f"boom_cylinder_barrel_{letter}_pin", keep=(sign,), turned=0
-        )
+        start, role = (228.0, -440.0)[sign < 0], f"boom_cylinder_barrel_{letter}_pin"
+        fit_pin(hardware, (cx, start, cz), PIN_C, 212, BODY, role)
+        hardware.add(cap, BODY, at=shift(cx, 440.0 if sign > 0 else -446.0, cz))
     fit_pin(hardware, (ax, -280, az), PIN_A, 560, BODY, "boom_pin", keep=(1.0, -1.0), turned=30)
     big = bolt(24, 60)
     r = (inner + outer) / 2
-    for i in range(12):
-        a = math.radians(30 * i + 15)
+    for i in range(8):
+        a = math.radians(45 * i + 15)
         at = shift(r * math.cos(a), r * math.sin(a), deck).Multiplied(turn(X, 90.0))
         hardware.add(big, BODY, at=at)
     tree.add(
         Part("SWING MOTOR", fuse(rod((-420, 150, deck), Z, 120, 330), rod((-420, 150, deck + 330), Z, 80, 170)), GREY),
         BODY,
     )
-    tree.add(Part("CONTROL VALVE", box(-1000, -620, -200, 200, deck, 1400), GREY), BODY)
+    valve = cut(box(-1000, -620, -200, 200, deck, 1400), box(-970, -650, -150, 150, deck + 30, 1370))
+    tree.add(Part("CONTROL VALVE", valve, GREY), BODY)
     return tree
 
 
@@ -96,11 +99,16 @@ def draw_counterweight(hardware: Assembly) -> Assembly:
     def casting(r: float, half: float, front: float, low: float, high: float) -> TopoDS_Shape:
         back = -math.sqrt(r * r - half * half)
         arc = ((back, half), (-r, 0.0), (back, -half))
-        return prism([arc, ((back, -half), (front, -half)), ((front, -half), (front, half)), ((front, half), (back, half))],
-                     "xy", low, high)  # fmt: skip
+        corners = [(back, -half), (front, -half), (front, half), (back, half)]
+        return prism([arc, *itertools.pairwise(corners)], "xy", low, high)
 
     radius, half = v.TAIL_RADIUS.value, HALF - 15
     block = casting(radius, half, FRONT_OF_CWT, SKIRT, HOOD)
+    for edge, up, high, deep in ((SKIRT, -1.0, 160.0, 70.0), (HOOD, 1.0, 60.0, 60.0)):
+        # bevelled along the rear: less a ring about the swing axis
+        bevel = [(edge - up * high, radius), (edge, radius - deep), (edge + 20 * up, radius - deep)]
+        bevel += [(edge + 20 * up, radius + 200), (edge - up * high, radius + 200)]
+        block = cut(block, turned(bevel, axis=Z))
     notch = box(FRONT_OF_CWT - 10, FRONT_OF_CWT + 10, -290, 290, SKIRT - 10, 1340)
 
     def hollowed(wall: float) -> TopoDS_Shape:
@@ -139,8 +147,7 @@ def draw_hood() -> Assembly:
     ]
     inner = [(-HALF + 26, DECK - 10, 0.0), (HALF - 26, DECK - 10, 0.0), *((y, z, r - 6) for y, z, r in outline[2:])]
     hood = cut(plate(outline, "yz", back, front), plate(inner, "yz", back - 10, front - 6))
-    intake = [box(front - 20, front + 10, y, y + 220, 1300, 1900) for y in (600.0, -880.0)]
-    tree.add(Part("ENGINE HOOD", cut(hood, *intake), YELLOW), BODY)
+    tree.add(Part("ENGINE HOOD", hood, YELLOW), BODY)
     door = box(-2280, -1720, HALF - 22, HALF - 8, 1230, 1880)
     grille = box(-1680, -1160, HALF - 22, HALF - 8, 1230, 1880)
     slots = [box(-1640, -1200, HALF - 40, HALF, z, z + 28) for z in range(1280, 1850, 70)]
@@ -152,11 +159,11 @@ def draw_hood() -> Assembly:
     bonnet = plate(
         [(-1150, HOOD - 4, 0), (-1150, HOOD + 60, 40), (-2230, HOOD + 40, 40), (-2280, HOOD - 4, 0)], "xz", -480, 480
     )
-    tree.add(Part("BONNET", cut(bonnet, box(-2210, -1190, -466, 466, HOOD - 20, HOOD + 50)), YELLOW), BODY)
+    tree.add(Part("BONNET", cut(bonnet, box(-2240, -1156, -474, 474, HOOD - 20, HOOD + 74)), YELLOW), BODY)
     block = fuse(box(-2080, -1560, -420, 330, 1250, 1700), box(-2040, -1620, -300, 240, 1700, 1860))
-    hollow = box(-2040, -1600, -380, 290, 1290, 1660)
+    hollow = box(-2055, -1585, -395, 305, 1275, 1675)
     tree.add(Part("ENGINE", cut(block, hollow), GREY), BODY)
-    tree.add(Part("ENGINE SUBFRAME", box(-2200, -1500, -438, 438, 1200, 1250), GREY), BODY)
+    tree.add(Part("ENGINE SUBFRAME", sheet_box(-2200, -1500, -438, 438, 1200, 1250, 10.0), GREY), BODY)
     _pair(tree, "SUBFRAME FOOT", box(-2200, -2140, 268, 438, 1150, 1200), GREY)
     _pair(tree, "SUBFRAME FOOT FRT", box(-1560, -1500, 268, 438, 1150, 1200), GREY)
     tree.add(Part("MAIN PUMP", rod((-1820, -780, 1450), Y, 125, 362), GREY), BODY)
@@ -178,7 +185,7 @@ def draw_hood() -> Assembly:
 def draw_tanks() -> Assembly:
     """Hydraulic tank, fuel tank and a step box on the right, before the hood."""
     tree = Assembly("TANKS")
-    y0, y1 = -HALF + 20, -452.0
+    y0, y1 = -HALF + 20, -456.0
 
     def tank(name: str, x0: float, x1: float, high: float, colour: Colour) -> None:
         outline = [(y0, DECK, 0.0), (y1, DECK, 0.0), (y1, high, 0.0), (y0 + 90, high - 90, 90.0)]
@@ -187,9 +194,14 @@ def draw_tanks() -> Assembly:
         tree.add(Part(name, cut(outer, plate(inner, "yz", x0 + 6, x1 - 6)), colour), BODY)
 
     tank("HYDRAULIC TANK", -1090, -330, 2000, YELLOW)
+    left = [(440.0, DECK, 0.0), (HALF - 20, DECK, 0.0), (HALF - 110, 1910.0, 90.0), (440.0, 2000.0, 0.0)]
+    inner = [(446.0, DECK + 6, 0.0), (HALF - 26, DECK + 6, 0.0), (HALF - 110, 1910.0, 84.0), (446.0, 1994.0, 0.0)]
+    locker = cut(plate(left, "yz", -1090, -370), plate(inner, "yz", -1084, -376))
+    tree.add(Part("AIR CLEANER LOCKER", locker, YELLOW), BODY)
+    tree.add(Part("LOCKER DOOR", box(-1060, -400, HALF - 22, HALF - 10, 1230, 1840), YELLOW), BODY)
     tank("FUEL TANK", -320, 620, 1880, YELLOW)
     tank("TOOL BOX", 630, 1040, 1560, YELLOW)
-    tree.add(Part("STEP BOX", shell(1046, 1322, y0, y1, DECK, 1380, 6.0), GREY), BODY)
+    tree.add(Part("STEP BOX", sheet_box(1046, 1322, y0, y1, DECK, 1380, 6.0), GREY), BODY)
     for x, z in ((-700.0, 2000.0), (150.0, 1880.0)):
         tree.add(Part("FILLER CAP", rod((x, -850, z), Z, 70, 45), BLACK), BODY)
     for x0, x1, z in ((640.0, 1030.0, 1560.0), (1056.0, 1312.0, 1380.0)):

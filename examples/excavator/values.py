@@ -83,7 +83,7 @@ COUNTERWEIGHT = _published("Counterweight", 4370, "kg", "p20")
 # ---- ours: what the sheet prints as "example value" --------
 OPERATING_WEIGHT = Value("Operating weight, this configuration", 23650.0, "kg")
 """5700 mm boom, 2925 mm arm, 0.85 m3 bucket, 700 mm shoes; within the published range."""
-BUCKET_WEIGHT = Value("Bucket weight", 755.0, "kg")
+BUCKET_WEIGHT = Value("Bucket weight", 700.0, "kg")
 BOOM_COUNT = Value("Boom cylinder count", 2, "count")
 ARM_COUNT = Value("Arm cylinder count", 1, "count")
 BUCKET_COUNT = Value("Bucket cylinder count", 1, "count")
@@ -104,19 +104,19 @@ TRAVEL_SPEED_MID = Value("Maximum travel speed, mid", 4.0, "km/h")
 TRAVEL_SPEED_LOW = Value("Maximum travel speed, low", 3.0, "km/h")
 DRAWBAR_PULL = Value("Maximum drawbar pull", 200.0, "kN")
 MAX_REACH = Value("Max digging reach", 9880.0, "mm")
-WALL_DEPTH = Value("Max vertical wall digging depth", 6160.0, "mm")
-LEVEL_DEPTH = Value("Max digging depth, 2440 mm level bottom", 6440.0, "mm")
+WALL_DEPTH = Value("Max vertical wall digging depth", 6080.0, "mm")
+LEVEL_DEPTH = Value("Max digging depth, 2440 mm level bottom", 6447.0, "mm")
 LEVEL_LENGTH = 2440.0
 """Length of the level bottom in `LEVEL_DEPTH`, millimetres."""
 DUMPING_HEIGHT_MIN = Value("Min dumping height", 2560.0, "mm")
-SWING_RADIUS_MIN = Value("Min swing radius", 3190.0, "mm")
+SWING_RADIUS_MIN = Value("Min swing radius", 3270.0, "mm")
 """Boom, arm and bucket cylinders open: distance of the work equipment's foremost point from the swing axis."""
-TAIL_RADIUS = Value("Tail swing radius", 2920.0, "mm")
-BOOM_HEIGHT = Value("Overall height, top of boom", 3040.0, "mm")
+TAIL_RADIUS = Value("Tail swing radius", 2981.0, "mm")
+BOOM_HEIGHT = Value("Overall height, top of boom", 2799.0, "mm")
 """In the transport pose."""
 TRACK_ON_GROUND = Value("Track length on ground", 3650.0, "mm")
 """Sprocket axis to idler axis, as makers measure it."""
-TRACK_HEIGHT = Value("Track height", 900.0, "mm")
+TRACK_HEIGHT = Value("Track height", 849.0, "mm")
 GROUND_CLEARANCE = Value("Ground clearance (minimum)", 440.0, "mm")
 COUNTERWEIGHT_CLEARANCE = Value("Counterweight clearance", 1090.0, "mm")
 UPPER_WIDTH = Value("Width of upper structure", 2720.0, "mm")
@@ -124,8 +124,8 @@ TRACK_ROLLERS = Value("Track rollers, each side", 9, "count")
 CARRIER_ROLLERS = Value("Carrier rollers, each side", 2, "count")
 SHOES = Value("Track shoes, each side", 49, "count")
 GRADEABILITY = Value("Gradeability", 35.0, "deg")
-BUCKET_FORCE = Value("Bucket digging force (ISO 6015)", 138.0, "kN")
-ARM_FORCE = Value("Arm digging force (ISO 6015)", 103.0, "kN")
+BUCKET_FORCE = Value("Bucket digging force (ISO 6015)", 140.6, "kN")
+ARM_FORCE = Value("Arm digging force (ISO 6015)", 113.3, "kN")
 
 # ---- ours: how things are drawn; a sheet does not print these --------
 BOOM_CLOSED = Value("Boom cylinder closed length", 1930.0, "mm")

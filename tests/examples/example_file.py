@@ -1,4 +1,4 @@
-"""Reads the wheel loader example's files for its tests, with nothing of the package under test."""
+"""Reads an example's files for its tests, with nothing of the package under test."""
 
 from __future__ import annotations
 
@@ -12,9 +12,11 @@ from types import ModuleType
 import fcl
 import numpy as np
 from OCP.BRep import BRep_Tool
+from OCP.BRepAdaptor import BRepAdaptor_Surface
 from OCP.BRepMesh import BRepMesh_IncrementalMesh
 from OCP.collections import Sequence_TDF_Label
-from OCP.gp import gp_Trsf
+from OCP.GeomAbs import GeomAbs_SurfaceType
+from OCP.gp import gp_Cylinder, gp_Trsf
 from OCP.STEPCAFControl import STEPCAFControl_Reader
 from OCP.TCollection import TCollection_ExtendedString
 from OCP.TDataStd import TDataStd_Name
@@ -26,14 +28,14 @@ from OCP.TopLoc import TopLoc_Location
 from OCP.TopoDS import TopoDS, TopoDS_Face, TopoDS_Shape
 from OCP.XCAFDoc import XCAFDoc_DocumentTool, XCAFDoc_ShapeTool
 
-FOLDER = Path(__file__).resolve().parents[2] / "examples" / "wheel_loader"
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 
 
-def module(name: str) -> ModuleType:
-    """A module of the example's package, which is imported from the examples' folder."""
-    if str(FOLDER.parent) not in sys.path:
-        sys.path.insert(0, str(FOLDER.parent))
-    return importlib.import_module(f"{FOLDER.name}.{name}")
+def module(machine: str, name: str) -> ModuleType:
+    """A module of an example's package, which is imported from the examples' folder."""
+    if str(EXAMPLES) not in sys.path:
+        sys.path.insert(0, str(EXAMPLES))
+    return importlib.import_module(f"{machine}.{name}")
 
 
 @dataclass(frozen=True)
@@ -50,12 +52,12 @@ def name_of(label: TDF_Label) -> str:
     return str(attribute.Get().ToExtString())
 
 
-def read_step() -> list[Leaf]:
-    """Every part of the committed file in tree order, in millimetres."""
+def read_step(path: Path) -> list[Leaf]:
+    """Every part of a file in tree order, in millimetres."""
     document = TDocStd_Document(TCollection_ExtendedString("BinXCAF"))
     reader = STEPCAFControl_Reader()
     reader.SetNameMode(True)
-    reader.ReadFile(str(FOLDER / "wheel_loader.step"))
+    reader.ReadFile(str(path))
     assert reader.Transfer(document)
     tool = XCAFDoc_DocumentTool.ShapeTool_s(document.Main())
     roots = Sequence_TDF_Label()
@@ -89,6 +91,45 @@ def faces_of(shape: TopoDS_Shape) -> list[TopoDS_Face]:
         faces.append(TopoDS.Face(explorer.Current()))
         explorer.Next()
     return faces
+
+
+@dataclass(frozen=True)
+class Bore:
+    """A cylindrical face: metres, CAD frame."""
+
+    point: np.ndarray
+    axis: np.ndarray
+    radius: float
+
+
+def bores_of(leaves: list[Leaf]) -> dict[str, list[Bore]]:
+    """Cylindrical faces by part; each shape is looked at once."""
+    faces: dict[int, list[gp_Cylinder]] = {}
+    out: dict[str, list[Bore]] = {}
+    for leaf in leaves:
+        if leaf.product not in faces:
+            surfaces = [BRepAdaptor_Surface(face) for face in faces_of(leaf.shape)]
+            round_ones = [s for s in surfaces if s.GetType() == GeomAbs_SurfaceType.GeomAbs_Cylinder]
+            faces[leaf.product] = [s.Cylinder() for s in round_ones]
+        for face in faces[leaf.product]:
+            cylinder = face.Transformed(leaf.place)
+            p, d = cylinder.Axis().Location(), cylinder.Axis().Direction()
+            point, axis = np.array([p.X(), p.Y(), p.Z()]) / 1e3, np.array([d.X(), d.Y(), d.Z()])
+            out.setdefault(leaf.path, []).append(Bore(point, axis, cylinder.Radius() / 1e3))
+    return out
+
+
+def planes_along(leaf: Leaf, axis: np.ndarray, anchor: np.ndarray) -> list[float]:
+    """Where a part's plane faces across an axis lie along it from the anchor, metres, in order."""
+    found = []
+    for face in faces_of(leaf.shape):
+        surface = BRepAdaptor_Surface(face)
+        if surface.GetType() == GeomAbs_SurfaceType.GeomAbs_Plane:
+            plane = surface.Plane().Transformed(leaf.place)
+            n, p = plane.Axis().Direction(), plane.Location()
+            if abs(abs(np.dot([n.X(), n.Y(), n.Z()], axis)) - 1) < 1e-9:
+                found.append(float(np.dot(np.array([p.X(), p.Y(), p.Z()]) / 1e3 - anchor, axis)))
+    return sorted(found)
 
 
 def mesh_of(shape: TopoDS_Shape) -> tuple[np.ndarray, np.ndarray]:

@@ -8,30 +8,28 @@ import math
 import subprocess
 import sys
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
 from typing import Any
 
 import numpy as np
 import pytest
-from OCP.BRepAdaptor import BRepAdaptor_Surface
+from example_file import EXAMPLES, Bore, Leaf, bores_of, gaps, module, planes_along, read_step, solids_of
 from OCP.BRepGProp import BRepGProp
-from OCP.GeomAbs import GeomAbs_SurfaceType
 from OCP.GProp import GProp_GProps
-from wheel_loader_file import FOLDER, Leaf, faces_of, gaps, module, read_step, solids_of
 
+FOLDER = EXAMPLES / "wheel_loader"
 PERCENT = 0.02
 
 
 @pytest.fixture(scope="module")
 def values() -> ModuleType:
-    return module("values")
+    return module("wheel_loader", "values")
 
 
 @pytest.fixture(scope="module")
 def linkage() -> ModuleType:
-    return module("linkage")
+    return module("wheel_loader", "linkage")
 
 
 @pytest.fixture(scope="module")
@@ -43,33 +41,13 @@ def truth() -> dict[str, Any]:
 @pytest.fixture(scope="module")
 def leaves() -> list[Leaf]:
     """Every part of the committed file in tree order."""
-    return read_step()
-
-
-@dataclass(frozen=True)
-class Bore:
-    point: np.ndarray
-    axis: np.ndarray
-    radius: float
+    return read_step(FOLDER / "wheel_loader.step")
 
 
 @pytest.fixture(scope="module")
 def bores(leaves: list[Leaf]) -> dict[str, list[Bore]]:
     """Cylindrical faces by part, metres, CAD frame."""
-    out: dict[str, list[Bore]] = {}
-    for leaf in leaves:
-        for face in faces_of(leaf.shape):
-            surface = BRepAdaptor_Surface(face)
-            if surface.GetType() == GeomAbs_SurfaceType.GeomAbs_Cylinder:
-                cylinder = surface.Cylinder().Transformed(leaf.place)
-                p, d = cylinder.Axis().Location(), cylinder.Axis().Direction()
-                bore = Bore(
-                    np.array([p.X(), p.Y(), p.Z()]) / 1e3,
-                    np.array([d.X(), d.Y(), d.Z()]),
-                    cylinder.Radius() / 1e3,
-                )
-                out.setdefault(leaf.path, []).append(bore)
-    return out
+    return bores_of(leaves)
 
 
 def _coaxial(bore: Bore, joint: dict[str, Any]) -> bool:
@@ -214,27 +192,15 @@ def test_piston_travel_is_the_stroke(leaves: list[Leaf], truth: dict[str, Any]) 
         axis, anchor = np.array(joint["axis"]), np.array(joint["anchor"])
         barrel, piston_rod = joint["body0"], joint["body1"]
 
-        def along(leaf: Leaf, axis: np.ndarray = axis, anchor: np.ndarray = anchor) -> list[float]:
-            found = []
-            for face in faces_of(leaf.shape):
-                surface = BRepAdaptor_Surface(face)
-                if surface.GetType() == GeomAbs_SurfaceType.GeomAbs_Plane:
-                    plane = surface.Plane().Transformed(leaf.place)
-                    n, p = plane.Axis().Direction(), plane.Location()
-                    if abs(abs(np.dot([n.X(), n.Y(), n.Z()], axis)) - 1) < 1e-9:
-                        found.append(float(np.dot(np.array([p.X(), p.Y(), p.Z()]) / 1e3 - anchor, axis)))
-            return sorted(found)
-
         def part(body: str, word: str) -> Leaf:
             return next(x for x in leaves if word in x.path and truth["parts"][x.path]["body"] == body)
 
-        cap = along(part(barrel, " TUBE"))[1]
-        gland = along(part(barrel, " GLAND"))[0]
-        piston = along(part(piston_rod, " PISTON"))
-        assert gland - cap - (piston[-1] - piston[0]) == pytest.approx(row["stroke"], abs=1e-7)
+        cap = planes_along(part(barrel, " TUBE"), axis, anchor)[1]
+        gland = planes_along(part(barrel, " GLAND"), axis, anchor)
+        piston = planes_along(part(piston_rod, " PISTON"), axis, anchor)
+        assert gland[0] - cap - (piston[-1] - piston[0]) == pytest.approx(row["stroke"], abs=1e-7)
         assert piston[0] - cap == pytest.approx(row["drawn_length"] - row["closed_length"], abs=1e-7)
-        eye = along(part(barrel, " GLAND"))[-1]
-        assert row["closed_length"] - eye > 0.075, "the rod eye stays clear of the gland"
+        assert row["closed_length"] - gland[-1] > 0.075, "the rod eye stays clear of the gland"
 
 
 def test_masses_are_plausible(leaves: list[Leaf], truth: dict[str, Any], values: ModuleType) -> None:
@@ -253,7 +219,7 @@ def test_masses_are_plausible(leaves: list[Leaf], truth: dict[str, Any], values:
 @pytest.fixture(scope="module")
 def moves_of(linkage: ModuleType) -> Callable[..., dict[str, np.ndarray]]:
     """Where each body goes, machine frame in millimetres, from the drawn pose to another."""
-    k, start, steering = module("draw").drawn_pose()
+    k, start, steering = module("wheel_loader", "draw").drawn_pose()
     direction = linkage.direction
 
     def frame(origin: np.ndarray, angle: float, plane: tuple[int, int]) -> np.ndarray:
@@ -342,7 +308,7 @@ def test_nothing_meets_over_the_strokes(
         matrices = [back @ moves[b] @ to_machine for b in body]
         return {pair for pair in gaps(solids, matrices, within) if body[pair[0]] != body[pair[1]]}
 
-    _, start, _ = module("draw").drawn_pose()
+    _, start, _ = module("wheel_loader", "draw").drawn_pose()
     drawn = {"lift": start.lift, "tilt": start.tilt}
     hinges = near(3.0, **drawn)
     ends = ("PISTON", "GLAND", "TUBE", " ROD")
