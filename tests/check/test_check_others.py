@@ -11,6 +11,7 @@ from __future__ import annotations
 import importlib.util
 import json
 import math
+import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 from typing import Any
 
@@ -249,6 +250,83 @@ def test_zx120_as_its_urdf_gives_no_error(shared_data: Path, tmp_path: Path) -> 
     UsdPhysics.Scene.Define(stage, "/scene")
     stage.GetRootLayer().Save()
     assert {f.code for f in check(path) if f.severity != "info"} == set()
+
+
+def layered(urdf: Path, folder: Path) -> Path:
+    """A URDF as the URDF converter of NVIDIA writes it: an interface with a payload, a layer each for geometry and
+    physics, links nested as the tree in a scope, joints in another, mimics as applied schemas, the base welded to the
+    default prim, colliders as invisible guides."""
+    root = ElementTree.parse(urdf).getroot()
+    joints = root.findall("joint")
+    contents = folder / "Payload" / "Contents.usda"
+    contents.parent.mkdir(parents=True)
+    below = [start(contents.with_name(f"{name}.usda"), meters=1.0, up="Z") for name in ("Physics", "Geometry")]
+    physics, geometry = (each.GetRootLayer() for each in below)
+    for layer in (physics, geometry):
+        layer.Save()
+    stage = start(contents, meters=1.0, up="Z")
+    stage.GetRootLayer().subLayerPaths[:] = ["./Physics.usda", "./Geometry.usda"]
+    parents = {j.find("child").get("link"): j for j in joints}  # type: ignore[union-attr]
+
+    def numbers(element: ElementTree.Element | None, key: str, default: str) -> list[float]:
+        return [float(x) for x in (element.get(key, default) if element is not None else default).split()]
+
+    def path_of(link: str) -> str:
+        joint = parents.get(link)
+        above = path_of(joint.find("parent").get("link")) if joint is not None else "/crane/Geometry"  # type: ignore
+        return f"{above}/{link}"
+
+    for link in (each.get("name", "") for each in root.findall("link")):
+        joint = parents.get(link)
+        stage.SetEditTarget(geometry)
+        prim = UsdGeom.Xform.Define(stage, path_of(link)).GetPrim()
+        if joint is None:
+            continue
+        x, y, z = numbers(joint.find("origin"), "xyz", "0 0 0")
+        place(prim, Gf.Vec3d(x, y, z), Gf.Quatf(1.0), Gf.Vec3d(1.0))
+        shape = cube(stage, f"{path_of(link)}/guide", Gf.Vec3d(0.0), Gf.Vec3d(0.8))
+        UsdGeom.Imageable(shape).CreatePurposeAttr("guide")
+        stage.SetEditTarget(physics)
+        weigh(prim, 500.0, (50.0, 50.0, 50.0), Gf.Vec3f(0.0))
+        UsdPhysics.CollisionAPI.Apply(shape)
+    stage.SetEditTarget(physics)
+    for joint in joints:
+        parent, child = joint.find("parent").get("link"), joint.find("child").get("link")  # type: ignore[union-attr]
+        kind = {"revolute": UsdPhysics.RevoluteJoint, "continuous": UsdPhysics.RevoluteJoint,
+                "prismatic": UsdPhysics.PrismaticJoint}.get(joint.get("type", ""), UsdPhysics.FixedJoint)  # fmt: skip
+        made = kind.Define(stage, f"/crane/Physics/{joint.get('name')}")
+        axis = numbers(joint.find("axis"), "xyz", "1 0 0")
+        turned = Gf.Quatf(Gf.Rotation(Gf.Vec3d(1, 0, 0), Gf.Vec3d(*axis)).GetQuat())
+        base = parent not in parents
+        at = Gf.Vec3f(*numbers(joint.find("origin"), "xyz", "0 0 0"))
+        prim = connect(made, "/crane" if base else path_of(str(parent)), path_of(str(child)), at, Gf.Vec3f(0.0), turned)
+        bounds = joint.find("limit")
+        if bounds is not None and joint.get("type") in ("revolute", "prismatic"):
+            ends = [float(bounds.get(key, "0")) for key in ("lower", "upper")]
+            limit(prim, *(ends if joint.get("type") == "prismatic" else map(math.degrees, ends)))
+        mimic = joint.find("mimic")
+        if mimic is not None:
+            prim.AddAppliedSchema("NewtonMimicAPI")
+            leader = prim.CreateRelationship("newton:mimicJoint", False)
+            leader.SetTargets([Sdf.Path(f"/crane/Physics/{mimic.get('joint')}")])
+        if base:
+            UsdPhysics.ArticulationRootAPI.Apply(stage.GetPrimAtPath("/crane"))
+    UsdPhysics.Scene.Define(stage, "/PhysicsScene")
+    for layer in (stage.GetRootLayer(), physics, geometry):
+        layer.Save()
+    interface = start(folder / "zx120.usda", meters=1.0, up="Z")
+    interface.GetDefaultPrim().GetPayloads().AddPayload("./Payload/Contents.usda")
+    interface.DefinePrim("/PhysicsScene").GetPayloads().AddPayload("./Payload/Contents.usda", "/PhysicsScene")
+    interface.GetRootLayer().Save()
+    return folder / "zx120.usda"
+
+
+def test_zx120_in_layers_and_nested_gives_no_error(shared_data: Path, tmp_path: Path) -> None:
+    """The same excavator from its own URDF, in the layers and the nesting of a converter of today."""
+    path = layered(shared_data / "zx120" / "original" / "zx120.urdf", tmp_path)
+    stage = Usd.Stage.Open(str(path))
+    assert sum(prim.IsA(UsdPhysics.Joint) for prim in stage.Traverse()) >= 12
+    assert {f.code for f in check(path) if f.severity != "info"} == {"CHK020"}
 
 
 @pytest.mark.slow
