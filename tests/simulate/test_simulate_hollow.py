@@ -7,10 +7,12 @@ from pathlib import Path
 import mujoco
 import numpy as np
 import pytest
+from in_engines import need
 from plain_engines import drop_ball, play, world_with
 
 from yellowiron.export import export_mjcf
 from yellowiron.kinematics import ClosedChain
+from yellowiron.simulate.engine import ENGINES
 from yellowiron.simulate.payload import tool
 from yellowiron.usd import read_machine
 
@@ -20,8 +22,8 @@ RADIUS, MASS = 0.15, 30.0
 
 
 def _fall(engine: str, file: Path, place: np.ndarray, gravity: np.ndarray, seconds: float, folder: Path) -> np.ndarray:
+    need(engine)
     if engine != "mujoco":
-        pytest.importorskip({"physx": "ovphysx", "newton": "newton"}[engine])
         stage = world_with(file, gravity)
         ball = drop_ball(stage, place, RADIUS, MASS)
         return play(engine, stage, [ball], seconds)[ball]
@@ -53,7 +55,7 @@ def drop(engine: str, file: Path, folder: Path) -> tuple[np.ndarray, np.ndarray]
     return start - low, _fall(engine, file, start, gravity, 3.0, folder) - low
 
 
-@pytest.mark.parametrize("engine", ["mujoco", "newton", "physx"])
+@pytest.mark.parametrize("engine", list(ENGINES))
 def test_the_bucket_is_hollow(engine: str, wheel_loader: Path, tmp_path: Path) -> None:
     size = np.ptp(np.asarray(tool(read_machine(wheel_loader)).hull), axis=0)
     start, rest = drop(engine, wheel_loader, tmp_path)

@@ -22,9 +22,16 @@ from yellowiron.simulate.coordinates import Coordinates, rotation_matrices
 from yellowiron.simulate.engine import Setup
 from yellowiron.simulate.world import World, compose
 
+_FIELD = "NewtonSDFCollisionAPI"
+
 
 def load(setup: Setup) -> NewtonEngine:
     """The machine in Newton. `YellowironError` where Newton takes it, but not all of it."""
+    for joint in setup.mechanism.joints:
+        if joint.type == "distance":
+            raise YellowironError(
+                "Newton's solver has no distance joints", where=joint.name, hint="Use mujoco or physx for this machine."
+            )
     return NewtonEngine(compose(setup), setup)
 
 
@@ -37,7 +44,7 @@ class NewtonEngine:
         with warp.ScopedDevice("cpu"), _quiet():
             builder = newton.ModelBuilder(up_axis=newton.Axis.Z)
             newton.solvers.SolverMuJoCo.register_custom_attributes(builder)
-            found = builder.add_usd(Usd.Stage.Open(world.layer), load_visual_shapes=False)
+            found = builder.add_usd(_without_fields(Usd.Stage.Open(world.layer)), load_visual_shapes=False)
             self._model: Any = builder.finalize(device="cpu")
             self._solver: Any = newton.solvers.SolverMuJoCo(
                 self._model, use_mujoco_cpu=True, integrator="euler", cone="elliptic"
@@ -111,6 +118,15 @@ def _index(found: Mapping[str, int], path: str) -> int:
     if path not in found:
         raise YellowironError("Newton has left out a body or joint of the machine", where=path)
     return found[path]
+
+
+def _without_fields(stage: Usd.Stage) -> Usd.Stage:
+    """The stage with no signed distance fields asked for: Newton builds them on a GPU alone, and contacts here are
+    MuJoCo's, which has no use for them."""
+    for prim in list(stage.Traverse()):
+        if _FIELD in prim.GetAppliedSchemas():
+            prim.RemoveAppliedSchema(_FIELD)
+    return stage
 
 
 @contextlib.contextmanager
