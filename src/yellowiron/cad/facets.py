@@ -12,12 +12,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from yellowiron.cad.roundness import LEAST, ROUGH, Round, fit, grown, widths
+from yellowiron.cad.roundness import LEAST, ROUGH, Round, fit, grown, trimmed, widths
 from yellowiron.cad.soup import Flags, Indices, Soup, soup_of
 from yellowiron.cad.strips import by_folds, by_normals, flat_facets
 from yellowiron.model.geometry import CylinderFeature, Floats, Mesh, PlaneFeature
 
-ENOUGH = ((5, 1.2), (4, 2.2))
+ENOUGH = ((5, 1.4), (4, 2.2))
 """(strips, radians around): a patch with as many of both as one of these is round, and not merely bent."""
 ABUT = 0.05
 """Patches on one cylinder are one feature if the gap between them along the axis is no more than this share of the
@@ -30,6 +30,10 @@ _LITTLE = 3e-4
 """A plane below this share of the mesh's area is not worth its place."""
 _BAND = 1.6
 """A ring that is no longer than this many of its strips are wide, and goes on smoothly, is a band of a ball."""
+_PATCH = 6.0
+"""As `_BAND`, for patches that go less than half-way around and go on smoothly at both ends."""
+_SLENDER = 4.0
+"""What is left of a patch that was no cylinder is one only if it is this many radii long."""
 _TURN = 2.0 * math.pi
 
 
@@ -55,7 +59,10 @@ def find(mesh: Mesh) -> Found:
             if len(seeds) < 4:
                 continue
             cylinder = grown(soup, guess, seeds, free)
-            if cylinder is not None and _is_round(soup, cylinder, free):
+            if cylinder is not None and not _is_round(soup, cylinder):
+                cylinder = trimmed(soup, cylinder)
+                cylinder = cylinder if cylinder is not None and _is_straight(soup, cylinder) else None
+            if cylinder is not None:
                 rounds.append(cylinder)
                 free[cylinder.triangles] = False
     rounds = _united(soup, rounds)
@@ -64,7 +71,7 @@ def find(mesh: Mesh) -> Found:
 
 
 # ---- what is round ----
-def _is_round(soup: Soup, cylinder: Round, free: Flags) -> bool:
+def _is_round(soup: Soup, cylinder: Round) -> bool:
     triangles = cylinder.triangles
     count, arc = _strips(soup, cylinder)
     if not any(count >= least and arc >= around for least, around in ENOUGH):
@@ -76,12 +83,30 @@ def _is_round(soup: Soup, cylinder: Round, free: Flags) -> bool:
     length = float(np.ptp(cylinder.along(corners)))
     width = float(np.median(widths(soup, cylinder, triangles))) * cylinder.radius
     ends = _smooth_ends(soup, cylinder)
+    if ends and length < _BAND * width:
+        return False
     if ends < 2:
         return True
-    if length < _BAND * width:
+    if length < _PATCH * width and arc < ENOUGH[1][1]:
         return False
-    # A bent pipe is cut into rings that are a little oval.
-    return float(np.abs(off).max()) <= max(0.25 * ROUGH * cylinder.radius, 0.5 * LEAST, 4.0 * soup.rounding)
+    close = max(0.25 * ROUGH * cylinder.radius, 0.5 * LEAST, 4.0 * soup.rounding)
+    return float(np.abs(off).max()) <= close and not _is_oval(soup, cylinder, corners, off)
+
+
+def _is_straight(soup: Soup, cylinder: Round) -> bool:
+    """Whether a patch is round and much longer than it is wide."""
+    length = float(np.ptp(cylinder.along(soup.points[soup.corners[cylinder.triangles]].reshape(-1, 3))))
+    return length > _SLENDER * cylinder.radius and _is_round(soup, cylinder)
+
+
+def _is_oval(soup: Soup, cylinder: Round, corners: Floats, off: Floats) -> bool:
+    """Whether corners stray from a cylinder as an ellipse does: a bent pipe is cut into rings that are a little
+    oval."""
+    twice = 2.0 * cylinder.angles(corners)
+    waves = np.stack([np.cos(twice), np.sin(twice), np.ones(len(off))], axis=1)
+    found = np.linalg.lstsq(waves, off, rcond=None)[0]
+    rest = float(np.sqrt(np.mean((off - waves @ found) ** 2)))
+    return math.hypot(found[0], found[1]) > max(3.0 * rest, 2.0 * soup.rounding)
 
 
 def _strips(soup: Soup, cylinder: Round) -> tuple[int, float]:

@@ -105,11 +105,11 @@ def fit(start: Round, points: Floats) -> Round | None:
     return current
 
 
-def lying_on(soup: Soup, cylinder: Round, among: Indices) -> Indices:
-    """Of the triangles `among`, those on a cylinder: all corners at its radius, facing along it, no wider than a
-    strip may be."""
+def lying_on(soup: Soup, cylinder: Round, among: Indices, slack: float) -> Indices:
+    """Of the triangles `among`, those on a cylinder: all corners at its radius, within `slack` metres, facing along it,
+    no wider than a strip may be."""
     radial = cylinder.distances(soup.points[soup.corners[among]])
-    close = (np.abs(radial - cylinder.radius) <= cylinder.slack).all(axis=1)
+    close = (np.abs(radial - cylinder.radius) <= slack).all(axis=1)
     left = among[close]
     normals, middles = soup.normals[left], soup.middles[left]
     offset = middles - cylinder.point
@@ -132,6 +132,8 @@ def widths(soup: Soup, cylinder: Round, triangles: Indices) -> Floats:
 def grown(soup: Soup, start: Round, seeds: Indices, free: Flags) -> Round | None:
     """The cylinder of the `seeds`, fitted to them, then to all free triangles near them that lie on it; None where
     they do not lie on one."""
+    surest = lying_on(soup, start, seeds, start.slack)
+    seeds = surest if len(surest) > max(4, len(seeds) // 4) else seeds
     first = soup.points[np.unique(soup.corners[seeds])]
     current = fit(start, first)
     if current is None or float(np.median(np.abs(current.distances(first) - current.radius))) > 3.0 * current.slack:
@@ -142,7 +144,7 @@ def grown(soup: Soup, start: Round, seeds: Indices, free: Flags) -> Round | None
         around = middles.mean(axis=0)
         reach = float(np.linalg.norm(middles - around, axis=1).max()) + current.radius
         near = np.array(sorted(soup.tree.query_ball_point(around, 1.5 * reach)), dtype=np.int64)
-        now = lying_on(soup, current, near[free[near]])
+        now = lying_on(soup, current, near[free[near]], current.slack)
         if len(now) < 4:
             return None
         if np.array_equal(now, found):
@@ -153,3 +155,23 @@ def grown(soup: Soup, start: Round, seeds: Indices, free: Flags) -> Round | None
             return None
         current = better
     return replace(current, triangles=found)
+
+
+def trimmed(soup: Soup, cylinder: Round) -> Round | None:
+    """The part of a cylinder's triangles that lies on one far better than all of them do (a pipe without the first
+    rings of its bends); None where there is none."""
+    longest = _long(soup, cylinder)
+    current = fit(replace(cylinder, triangles=longest), soup.points[np.unique(soup.corners[longest])])
+    if current is None:
+        return None
+    rows = lying_on(soup, current, cylinder.triangles, max(4.0 * soup.rounding, 1e-3 * cylinder.slack))
+    if len(rows) < 4 or len(rows) == len(cylinder.triangles):
+        return None
+    better = fit(current, soup.points[np.unique(soup.corners[rows])])
+    return replace(better, triangles=rows) if better is not None else None
+
+
+def _long(soup: Soup, cylinder: Round) -> Indices:
+    """The triangles of a cylinder that reach farthest along it."""
+    reach = np.ptp(cylinder.along(soup.points[soup.corners[cylinder.triangles]]), axis=1)
+    return cylinder.triangles[reach > 0.9 * float(reach.max())]

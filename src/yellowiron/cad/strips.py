@@ -58,12 +58,19 @@ def by_folds(soup: Soup) -> Iterator[tuple[Round, Indices]]:
     starts = np.concatenate([[0], np.cumsum(members)])
     for k in sorted(np.flatnonzero(members >= 2).tolist(), key=lambda k: (-members[k], k)):
         rows = order[starts[k] : starts[k + 1]]
-        weight = np.linalg.norm(
-            soup.points[soup.edges[chosen[rows], 1]] - soup.points[soup.edges[chosen[rows], 0]], axis=1
-        )
-        best = rows[int(np.argmax(weight * np.minimum(soup.angle[chosen[rows]], 0.3)))]
-        guess = Round(point[best], direction[best], float(radius[best]), bool(inner[best]), _NONE)
-        yield guess, np.unique(soup.pair[chosen[rows]])
+        ends = soup.points[soup.edges[chosen[rows]]]
+        weight = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1) * np.minimum(soup.angle[chosen[rows]], 0.3)
+        # From fold to fold a chain may turn, as a bent pipe does: what is in line with the surest fold goes first.
+        while len(rows) >= 2:
+            best = int(rows[int(np.argmax(weight))])
+            apart = point[rows] - point[best]
+            apart = np.linalg.norm(apart - np.outer(apart @ direction[best], direction[best]), axis=1)
+            mine = (np.abs(direction[rows] @ direction[best]) > _ALIGNED) & (apart < 2.0 * _ALIKE * radius[best])
+            guess = Round(point[best], direction[best], float(radius[best]), bool(inner[best]), _NONE)
+            if int(mine.sum()) >= 2:
+                yield guess, np.unique(soup.pair[chosen[rows[mine]]])
+            mine[rows == best] = True
+            rows, weight = rows[~mine], weight[~mine]
 
 
 def _circles(soup: Soup, chosen: Indices) -> tuple[Floats, Floats, Floats, Flags]:
