@@ -244,7 +244,7 @@ def _grow(
     own, more = rig.bearing(state, site, offset, direction)
     upright, heights = rig.upright(), rig.heights()
     start = rig.coordinate(slide[0]) if slide else 0.0
-    look, point, force = rig.steps(_LOOK), rig.place(site, offset), 0.0
+    look, point, force = max(1, round(_LOOK / rig.timestep)), rig.place(site, offset), 0.0
     for number in range(rig.steps(_QUICK + (_MOST - _QUICK_SHARE) / _SLOW)):
         now = (number + 1) * rig.timestep
         share = _QUICK_SHARE * now / _QUICK if now < _QUICK else _QUICK_SHARE + _SLOW * (now - _QUICK)
@@ -323,8 +323,11 @@ def _run(
         targets = {m.joint: np.full(len(path), rig.chain.coordinate(state, m.joint)) for m in rig.moves}
         told = carried(rig.chain, rig.moves, {**targets, b.driven: path}, rig.timestep)
         upright, share, best, since = rig.upright(), 0.0, 0.0, 0.0
+        look = max(1, round(_LOOK / rig.timestep))
         for number in range(len(path)):
             rig.step({joint: float(values[number]) for joint, values in told.items()})
+            if number % look:
+                continue
             now = (number + 1) * rig.timestep
             share = (rig.coordinate(b.driven) - start) / (end - start)
             if not math.isfinite(share):
