@@ -12,7 +12,7 @@ from yellowiron.model.geometry import Floats
 from yellowiron.simulate.commands import Motion, Pace
 
 GRAVITY = 9.81
-SPARE = 0.5
+SPARE = 0.8
 """Share of a drive's force, less the weight it holds, that the targets' acceleration may ask for."""
 _POINTS = 13
 _SAMPLE = 0.05

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -14,14 +15,17 @@ from yellowiron import usd
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
+from yellowiron.model.mechanism import Mechanism
 from yellowiron.model.sweep import Sweep
 from yellowiron.simulate.commands import CRAWL, Motion, Phase, motions, phases
 from yellowiron.simulate.comparison import Agreement, Comparison, Worst
+from yellowiron.simulate.driving import Wheel, wheels
 from yellowiron.simulate.engine import Base, Engine, Setup, find_engine, import_engine, load_engine, standing_bodies
 from yellowiron.simulate.loads import carried, paces
 from yellowiron.simulate.payload import with_payload
 from yellowiron.simulate.recording import record
 from yellowiron.simulate.result import ActuatorResult, BranchResult, PhaseResult, SimulationResult
+from yellowiron.simulate.rolling import rolling
 
 FINAL_BAR = 0.01
 """A cylinder ends within this share of its stroke from its target; a motor within ten times that of its speed."""
@@ -74,7 +78,7 @@ def simulate(
         standing=standing_bodies(mechanism),
     )
     loaded = load_engine(engine, setup)
-    run = _Run(loaded, comparison, moves, step)
+    run = _Run(loaded, comparison, moves, step, _wheels(mechanism) if base == "floating" else ())
     commands = phases(moves, step, on_ground=base == "floating", paces=paces(comparison.chain, moves))
     try:
         for phase in commands:
@@ -87,6 +91,12 @@ def simulate(
     return run.result(
         engine, version, base, payload_kg, payload_source, entry.pin_bars.get(base, math.inf), entry.angle_bar
     )
+
+
+def _wheels(mechanism: Mechanism) -> tuple[Wheel, ...]:
+    with contextlib.suppress(YellowironError):  # tracks, feet
+        return wheels(mechanism)
+    return ()
 
 
 @dataclass
@@ -107,6 +117,7 @@ class _Run:
     comparison: Comparison
     moves: tuple[Motion, ...]
     timestep: float
+    wheels: tuple[Wheel, ...] = ()
     seen: dict[str, _Seen] = field(default_factory=dict)
     done: list[tuple[Phase, Agreement]] = field(default_factory=list)
     sweeps: list[Sweep] = field(default_factory=list)
@@ -119,6 +130,9 @@ class _Run:
         measured = np.empty((count, len(self.comparison.measured)))
         rotations, origins = np.empty((count, bodies, 3, 3)), np.empty((count, bodies, 3))
         told = carried(self.comparison.chain, self.moves, phase.targets, self.timestep)
+        chain = self.comparison.chain
+        for joint, speeds in rolling(chain, self.wheels, self.moves, phase.targets, self.timestep).items():
+            told[joint] = told.get(joint, 0.0) + speeds
         for number in range(count):
             self.engine.set_targets({joint: float(values[number]) for joint, values in told.items()})
             start = time.perf_counter()
