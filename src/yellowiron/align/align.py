@@ -1,16 +1,17 @@
 """Alignment: which part plays which role. Reads as a method section; each step is a module of its own.
 
 1. solids and their features
-2. contacts: shafts in bores, flat faces on each other
-3. hydraulic cylinders
-4. wheels
-5. what each contact means
-6. rigid clusters and the hinges between them
-7. names, and the sheet's diameters, as weights
-8. clusters to bodies by CP-SAT, one variant against the other
-9. the machine's frame, then left and right
-10. pins, hardware and all the rest
-11. what a person said before
+2. tracks: closed rows of equal parts, with what belongs to them; the rest goes on
+3. contacts: shafts in bores, flat faces on each other
+4. hydraulic cylinders
+5. wheels
+6. what each contact means
+7. rigid clusters and the hinges between them
+8. names, and the sheet's diameters, as weights
+9. clusters to bodies by CP-SAT, one variant against the other
+10. the machine's frame, then left and right
+11. pins, hardware and all the rest
+12. what a person said before
 """
 
 from __future__ import annotations
@@ -37,6 +38,7 @@ from yellowiron.align.solids import Solid, solids_of
 from yellowiron.align.solve import MISSING_WEIGHT, Solution, solve
 from yellowiron.align.spread import Spreader
 from yellowiron.align.touch import Touch
+from yellowiron.align.tracks import Track, track_places, tracks_of, without_tracks
 from yellowiron.align.weights import Weights, name_weights, side_weights
 from yellowiron.align.wheels import Wheel, wheels_of
 from yellowiron.model.alignment import Alignment, Vector
@@ -107,21 +109,25 @@ def align(
     edited = _edited(assembly, template, edits)
     apart = islands(assembly, [part for part, role in edited.items() if role])
     machine = replace(assembly, parts=tuple(p for p in assembly.parts if p.id not in apart))
+    tracked, tracks = _tracked(machine, template)
+    of_tracks = set(tracked.values())
+    machine = replace(machine, parts=tuple(p for p in machine.parts if p.id not in of_tracks))
+    plain = without_tracks(template)
     rungs = []
     for contact in CONTACT:
-        seen = _see(machine, template, contact)
-        scores = name_scores(tuple(s.part for s in seen.solids), template)
-        rungs.append((_best(seen, template, specifications, choices or {}, scores, edited), seen, scores))
+        seen = _see(machine, plain, contact)
+        scores = name_scores(tuple(s.part for s in seen.solids), plain)
+        rungs.append((_best(seen, plain, specifications, choices or {}, scores, edited), seen, scores))
         if _whole(rungs[-1][0]):
             break
-    answer, seen, scores = max(rungs, key=lambda rung: rung[0].score)
+    answer, seen, scores = max(rungs, key=lambda rung: (_whole(rung[0]), rung[0].score))
     structure, resolved, solution = answer.structure, answer.template, answer.solution
-    frame = machine_frame(seen.solids, structure, solution, seen.wheels, resolved) if seen.solids else None
+    frame = machine_frame(seen.solids, structure, solution, seen.wheels, resolved, tracks) if seen.solids else None
     if frame is not None and solution.body_of:
         sided = side_weights(seen.solids, structure, resolved, solution, frame, answer.unary)
         if sided != answer.unary:
             solution = solve(structure, resolved, unary=sided)
-            frame = machine_frame(seen.solids, structure, solution, seen.wheels, resolved)
+            frame = machine_frame(seen.solids, structure, solution, seen.wheels, resolved, tracks)
     spreader = Spreader(
         seen.solids,
         structure,
@@ -137,10 +143,12 @@ def align(
     places = spreader.run(seen.wheels)
     apart |= {seen.solids[i].part.id: metres for i, metres in spreader.apart.items()}
     by_id = {seen.solids[i].part.id: place for i, place in places.items()}
+    whole = choose(template, answer.choices)
+    by_id |= track_places(tracks, tracked, frame.matrix, whole) if frame is not None else {}
     documents = {item.part: item.reason for item in edits.parts if item.source == "data"} if edits is not None else {}
     return reported(
         assembly,
-        resolved,
+        whole,
         solution,
         by_id,
         edited,
@@ -201,7 +209,7 @@ def _best(
             solution = solve(structure, resolved, unary=unary)
             sided = one_sided(seen.solids, structure, solution, seen.rams, template, resolved)
             answer = _Answer(structure, chosen, resolved, solution, unary, sided)
-            if best is None or answer.score > best.score:
+            if best is None or (_whole(answer), answer.score) > (_whole(best), best.score):
                 best = answer
         if best is not None and _whole(best):
             break
@@ -217,7 +225,7 @@ def _structures(seen: _Seen, template: Template) -> Iterator[Structure]:
         return
     leaves = _has_leaves(template)
     read = functools.cache(functools.partial(structure_of, seen.evidence, leaves=leaves))
-    bodies = sum(1 for r in template.roles if r.rigid)
+    bodies = sum(1 for r in choose(template, {}).roles if r.rigid)
     broken = loose_ends(read(weak=False, careful=True)) > 1.3 * bodies + 4
     for careful in (True, False):
         for weak in (broken, not broken):
@@ -230,6 +238,16 @@ def _whole(answer: _Answer) -> bool:
     joints = {j.name for j in answer.template.joints if j.type in ("revolute", "prismatic")}
     bodies = {r.name for r in answer.template.roles if r.rigid and not r.optional}
     return not answer.sided and joints <= found and bodies <= set(answer.solution.body_of.values())
+
+
+def _tracked(assembly: Assembly, template: Template) -> tuple[dict[int, str], list[Track]]:
+    """The parts of tracks, solid → id, and the tracks, where the template has any."""
+    if not any(r.kind == "shoe" for r in template.roles):
+        return {}, []
+    solids = solids_of(assembly)
+    tracks = tracks_of(solids)
+    inside = {i for t in tracks for group in (*t.shoes, *(w.members for w in t.wheels)) for i in group}
+    return {i: solids[i].part.id for i in sorted(inside)}, tracks
 
 
 def _see(assembly: Assembly, template: Template, contact: float) -> _Seen:
@@ -289,7 +307,6 @@ def _edited(assembly: Assembly, template: Template, edits: Alignment | None) -> 
     if edits is None:
         return {}
     parts = {p.id for p in assembly.parts}
-    roles = {r.name for r in template.roles}
     found = {}
     for item in edits.parts:
         if item.source not in ("edited", "data"):
@@ -300,7 +317,7 @@ def _edited(assembly: Assembly, template: Template, edits: Alignment | None) -> 
                 where=item.part,
                 hint="Remove that entry, or align the CAD model it was made for.",
             )
-        if item.role is not None and item.role not in roles:
+        if item.role is not None and not template.knows(item.role):
             raise AlignmentError(
                 f"'{item.role}' is no role of the template {template.equipment_type}",
                 where=item.part,

@@ -51,7 +51,7 @@ class Structure:
     """What geometry alone says: clusters, hinges between them, slides (barrel, rod, number of the hydraulic cylinder),
     lines (the wheels' axes behind those of the evidence), for each pin and bolt its hosts, and the pairs of solids that
     touch but were not welded, since a pin would have nothing to turn on, with the strength of their contact;
-    and the hoses and such that hold nothing."""
+    and the hoses and such that hold nothing; and line → the races of a slewing bearing on it."""
 
     clusters: tuple[Cluster, ...] = ()
     hinges: tuple[Hinge, ...] = ()
@@ -60,6 +60,7 @@ class Structure:
     hosts: dict[int, tuple[Fit, ...]] = field(default_factory=dict)
     refused: tuple[tuple[int, int, float], ...] = ()
     slight: frozenset[int] = frozenset()
+    races: dict[int, tuple[int, ...]] = field(default_factory=dict)
 
 
 def structure_of(evidence: Evidence, *, leaves: bool, weak: bool, careful: bool) -> Structure:
@@ -82,6 +83,8 @@ def structure_of(evidence: Evidence, *, leaves: bool, weak: bool, careful: bool)
             break
         apart |= found
     _absorb_leaves(groups, evidence, leaves=leaves)
+    if weak:
+        _absorb_bosses(groups, evidence)
     return _collected(groups, evidence, [*refused, *sorted(apart)])
 
 
@@ -112,7 +115,7 @@ def _touching(groups: Groups, evidence: Evidence) -> list[tuple[int, int]]:
         if groups.find(a) != groups.find(b)
         and groups.may_join(a, b)
         and not evidence.about[a] & evidence.about[b]
-        and not {a, b} & (evidence.fasteners | evidence.slight)
+        and not {a, b} & (evidence.fasteners | (evidence.slight - evidence.sheets))
         and evidence.touching(a, b)
     ]
 
@@ -175,6 +178,24 @@ def _absorb_leaves(groups: Groups, evidence: Evidence, *, leaves: bool) -> None:
             groups.join(group, found.pop())
 
 
+def _absorb_bosses(groups: Groups, evidence: Evidence) -> None:
+    """A ring on a single pin line that is drawn into another part, and touches one group only, goes with it."""
+    on = lines_by_group(groups, evidence)
+    beside: dict[int, set[int]] = {}
+    for a, b in evidence.near:
+        if groups.find(a) != groups.find(b) and not {a, b} & (evidence.fasteners | evidence.slight):
+            beside.setdefault(a, set()).add(b)
+            beside.setdefault(b, set()).add(a)
+    for s in evidence.solids:
+        group = groups.find(s.index)
+        alone = s.axis is not None and not groups.kind(group) and len(on.get(group, ())) == 1
+        if not alone or any(groups.find(o.index) == group for o in evidence.solids if o is not s):
+            continue
+        found = {groups.find(j) for j in sorted(beside.get(s.index, ())) if evidence.touching(s.index, j)} - {group}
+        if len(found) == 1:
+            groups.join(group, found.pop())
+
+
 def hangs(solids: tuple[Solid, ...], members: Iterable[int], line: Line) -> bool:
     """True for solids that reach far out from a pin's line: no rings and spacers on it, but something that turns."""
     points = np.concatenate([solids[i].points for i in sorted(members)]) - line.origin
@@ -216,4 +237,7 @@ def _collected(groups: Groups, evidence: Evidence, refused: Pairs) -> Structure:
     hinges = tuple(Hinge(a, b, k, tuple(sorted(p))) for (a, b, k), p in sorted(pins.items()))
     slides = tuple((cluster(min(r.barrel)), cluster(min(r.rod)), k) for k, r in enumerate(evidence.rams))
     apart = tuple((a, b, strength(evidence, a, b)) for a, b in refused if groups.find(a) != groups.find(b))
-    return Structure(clusters, hinges, slides, tuple(lines), dict(evidence.hosts), apart, evidence.slight)
+    races: dict[int, tuple[int, ...]] = {}
+    for k, fit in evidence.races:
+        races[k] = (*races.get(k, ()), fit.inner, fit.outer)
+    return Structure(clusters, hinges, slides, tuple(lines), dict(evidence.hosts), apart, evidence.slight, races)

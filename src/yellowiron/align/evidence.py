@@ -12,6 +12,12 @@ from yellowiron.align.hydraulics import Ram
 from yellowiron.align.solids import Solid
 from yellowiron.align.wheels import Wheel
 
+WIDE = 6.0
+"""A sheet is this many times wider than thick; a hose is about three."""
+SLEWING = 0.02
+"""The least radius of a slewing bearing, in sizes of the whole …"""
+THIN = 0.6
+"""… and of the hole in each of its races, as a share of its outer radius."""
 SLIGHT = 5e-4
 """Volume over the cube of the diagonal: a hose has less, a plate or a bar more."""
 
@@ -24,10 +30,11 @@ class Evidence:
     - `hosts`: fastener → the fits of the solids around it; `line_of`: fastener → its lines;
     - `pinned`: solid → the lines it shares with a fastener (through a bush, too) or with another solid's shaft;
     - `about`: `pinned`, and for rings the lines that run through them;
-    - `slight`: hoses, rails and sheets on no pin line, which go with others but hold nothing together;
+    - `slight`: hoses, rails and sheets on no pin line, which go with others but hold nothing together; `sheets` of them
+      are wide and flat, and may hold what only touches;
     - `bolted`: lines too thin to be a pivot, next to those through the cylinders' eyes;
     - `pressed`: rings in bores, (ring, host), which stay where they are;
-    - `direct`: shafts of structural parts in bores, and empty bores side by side, (line, fit);
+    - `direct`: shafts of structural parts in bores, `races` of slewing bearings, empty bores side by side, (line, fit);
     - `welds`, `turning`: flat contacts that hold, and those that allow turning about a shared line;
     - `area`: m² of flat contact of a pair;
     - `near`: pairs whose boxes touch; `touching(a, b)` asks the meshes.
@@ -45,9 +52,11 @@ class Evidence:
     pinned: dict[int, frozenset[int]]
     about: dict[int, frozenset[int]]
     slight: frozenset[int]
+    sheets: frozenset[int]
     bolted: frozenset[int]
     pressed: tuple[tuple[int, int], ...]
     direct: tuple[tuple[int, Fit], ...]
+    races: tuple[tuple[int, Fit], ...]
     welds: tuple[Flat, ...]
     turning: tuple[Flat, ...]
     area: dict[tuple[int, int], float]
@@ -78,8 +87,11 @@ def evidence_of(
     hosts: dict[int, list[Fit]] = {}
     line_of: dict[int, set[int]] = {}
     pinned: dict[int, set[int]] = {s.index: set() for s in solids}
+    size = float(np.linalg.norm(np.max([s.high for s in solids], axis=0) - np.min([s.low for s in solids], axis=0)))
+    slewing = SLEWING * size
     pressed: list[Fit] = []
     direct: list[tuple[int, Fit]] = []
+    races: list[tuple[int, Fit]] = []
     for k, fit in enumerate(fits):
         mine, theirs = owner.get(fit.inner), owner.get(fit.outer)
         if fit.inner in fasteners:
@@ -89,12 +101,18 @@ def evidence_of(
                 pinned[fit.outer].add(number[k])
         elif fit.outer in fasteners or (mine is not None and theirs is not None) or _of_wheel(mine, theirs):
             continue
+        elif fit.shaft.radius > slewing and _race(fit, solids):
+            races.append((number[k], fit))
         elif solids[fit.inner].axis is not None:
             pressed.append(fit)
         else:
             direct.append((number[k], fit))
             pinned[fit.inner].add(number[k])
             pinned[fit.outer].add(number[k])
+    for k, fit in races:
+        direct.append((k, fit))
+        pinned[fit.inner].add(k)
+        pinned[fit.outer].add(k)
     for k, fit in enumerate(bare, len(fits)):
         if not {fit.inner, fit.outer} & (fasteners | set(owner)):
             direct.append((number[k], fit))
@@ -127,13 +145,27 @@ def evidence_of(
         {i: frozenset(k) for i, k in pinned.items()},
         about,
         slight,
+        frozenset(i for i in slight if _wide(solids[i])),
         _bolted(lines, rams, solids),
         tuple((f.inner, f.outer) for f in pressed),
         tuple(direct),
+        tuple(races),
         tuple(welds),
         tuple(turning),
         area,
     )
+
+
+def _wide(s: Solid) -> bool:
+    """True for a thin part much wider than thick, and no pipe: area²/(4·volume·length) is width over thickness."""
+    area = s.shape.area * abs(float(np.linalg.det(s.part.transform[:3, :3]))) ** (2 / 3)
+    round_ = sum(c.radius * c.arc * 2 * c.half for c in s.cylinders if c.full)
+    return bool(s.volume > 0 and area**2 > WIDE * 4 * s.volume * s.size and round_ < 0.2 * area)
+
+
+def _race(fit: Fit, solids: tuple[Solid, ...]) -> bool:
+    """True for two wide thin rings one in the other: the races of a slewing bearing, which turn."""
+    return all(s.axis is not None and s.hole > THIN * s.reach for s in (solids[fit.inner], solids[fit.outer]))
 
 
 def _of_wheel(mine: tuple[str, int] | None, theirs: tuple[str, int] | None) -> bool:

@@ -13,6 +13,7 @@ import numpy as np
 from yellowiron.model.alignment import Alignment, PartAssignment
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import AlignmentError, OutputError
+from yellowiron.model.rows import count_members
 from yellowiron.model.template import Template
 
 FORMAT = 1
@@ -31,6 +32,7 @@ def write_alignment(alignment: Alignment, assembly: Assembly, path: str | Path) 
         "equipment_type": alignment.equipment_type,
         "frame": _FRAME,
         "choices": dict(sorted(alignment.choices.items())),
+        **({"counts": dict(sorted(alignment.counts.items()))} if alignment.counts else {}),
         "to_review": list(alignment.to_review),
         "missing": list(alignment.missing),
         "parts": [_entry(p) for p in alignment.parts],
@@ -86,7 +88,7 @@ def read_alignment(path: str | Path, assembly: Assembly, template: Template) -> 
         if not isinstance(entry, Mapping) or not isinstance(entry.get("part"), str):
             raise AlignmentError("An entry has no part", where=where, hint='Each needs "part" and "role".')
         part, role, edited = entry["part"], entry.get("role"), _is_edit(entry)
-        if not edited and (part not in parts or (role is not None and role not in roles)):
+        if not edited and (part not in parts or (role is not None and not template.knows(role))):
             continue
         if part not in parts:
             raise AlignmentError(
@@ -96,7 +98,7 @@ def read_alignment(path: str | Path, assembly: Assembly, template: Template) -> 
         if part in seen:
             raise AlignmentError(f"The part '{part}' is there twice", where=where, hint="Keep one entry.")
         seen.add(part)
-        if role is not None and role not in roles:
+        if role is not None and not template.knows(role):
             raise AlignmentError(
                 f"'{role}' is no role of the template {template.equipment_type}", where=where,
                 hint=_near(str(role), roles) or "`yellowiron templates show TYPE` lists the roles.",
@@ -110,6 +112,7 @@ def read_alignment(path: str | Path, assembly: Assembly, template: Template) -> 
         choices={str(k): str(v) for k, v in choices.items()} if isinstance(choices, Mapping) else {},
         missing=_names(document.get("missing")),
         to_review=_names(document.get("to_review")),
+        counts=count_members((p.role for p in read), template),
     )
 
 

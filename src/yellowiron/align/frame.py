@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,6 +11,7 @@ from yellowiron.align.clusters import Structure
 from yellowiron.align.contacts import Line
 from yellowiron.align.solids import Solid
 from yellowiron.align.solve import Solution
+from yellowiron.align.tracks import Track
 from yellowiron.align.wheels import Wheel
 from yellowiron.model.geometry import Floats
 from yellowiron.model.template import JointTemplate, Template
@@ -27,10 +29,11 @@ class MachineFrame:
 
 
 def machine_frame(
-    solids: tuple[Solid, ...], structure: Structure, solution: Solution, wheels: list[Wheel], template: Template
-) -> MachineFrame:
-    """The frame: up along the axis about which the machine turns or bends, left along the root's wheels, forward
-    towards the working arms. What is not there is guessed and said so."""
+    solids: tuple[Solid, ...], structure: Structure, solution: Solution, wheels: list[Wheel], template: Template,
+    tracks: Sequence[Track] = (),
+) -> MachineFrame:  # fmt: skip
+    """The frame: up along the axis about which the machine turns or bends, left along the root's wheels or across its
+    tracks, forward towards the working arms. What is not there is guessed and said so."""
     doubts: list[str] = []
     lines = {j: structure.lines[structure.hinges[h].line] for j, h in solution.hinge_of.items()}
     cluster_of = {b: c for c, b in solution.body_of.items()}
@@ -40,7 +43,7 @@ def machine_frame(
         for b, c in sorted(cluster_of.items())
         if structure.clusters[c].kind == "wheel"
     ]
-    flat = _ground_normal(rolling)
+    flat = _ground_normal(rolling) if not tracks else np.cross(tracks[0].axis, tracks[0].along)
     swing = _swing(template, lines, kinds, flat)
     if swing is not None:
         up = lines[swing].direction
@@ -52,14 +55,14 @@ def machine_frame(
         up = _up_guess(pitch)
         if lines:
             doubts.append("up is guessed: no wheels and no swing axis were found")
-    if rolling:
-        below = np.mean([w.center for w in rolling], axis=0)
+    if rolling or tracks:
+        below = np.mean([w.center for w in (*rolling, *tracks)], axis=0)
         above = _middle([s for s in solids if all(s.index not in w.members for w in wheels)])
         if float((above - below) @ up) < 0:
             up = -up
     elif lines and "wheel" in kinds.values():
         doubts.append("no wheels were found, so the ground is taken under the lowest part")
-    left = _left(template, structure, cluster_of, wheels, lines, swing, up)
+    left = tracks[0].axis if tracks else _left(template, structure, cluster_of, wheels, lines, swing, up)
     if left is None:
         if not lines and not rolling:
             return MachineFrame(np.eye(4), ("no joints and no wheels were found: the CAD file's own axes are taken",))
@@ -73,7 +76,7 @@ def machine_frame(
     elif sense < 0:
         forward, left = -forward, -left
     rotation = _snapped(np.array([forward, left, up]))
-    origin = _origin(solids, structure, cluster_of, template, lines[swing] if swing else None, rolling, up)
+    origin = _origin(solids, structure, cluster_of, template, lines[swing] if swing else None, rolling, up, tracks)
     matrix = np.eye(4)
     matrix[:3, :3] = rotation
     matrix[:3, 3] = np.round(-rotation @ origin, 12) + 0.0
@@ -192,7 +195,7 @@ def _snapped(rotation: Floats) -> Floats:
 
 def _origin(
     solids: tuple[Solid, ...], structure: Structure, cluster_of: dict[str, int], template: Template,
-    axis: Line | None, wheels: list[Wheel], up: Floats,
+    axis: Line | None, wheels: list[Wheel], up: Floats, tracks: Sequence[Track],
 ) -> Floats:  # fmt: skip
     """The ground under the swing axis, else under the root's centre."""
     if axis is not None:
@@ -204,7 +207,9 @@ def _origin(
         low = np.min([solids[i].low for i in root], axis=0)
         high = np.max([solids[i].high for i in root], axis=0)
         point = 0.5 * (low + high)
-    heights = [_lowest(w, up) for w in wheels] or [float((s.points @ up).min()) for s in solids]
+    heights = [_lowest(w, up) for w in wheels] + [float((t.points @ up).min()) for t in tracks] or [
+        float((s.points @ up).min()) for s in solids
+    ]
     ground = min(heights)
     return np.asarray(point + (ground - float(point @ up)) * up, dtype=np.float64)
 

@@ -10,6 +10,7 @@ from yellowiron.align.spread import Place, pin_role
 from yellowiron.model.alignment import Alignment, PartAssignment, Vector
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.finding import Finding
+from yellowiron.model.rows import count_members
 from yellowiron.model.template import Template
 
 REVIEW = 0.5
@@ -36,13 +37,12 @@ def reported(
     """The alignment. `places` by part id; `edited`: part id → the role a person gave it ("": none), which wins;
     `documents`: part id → why, for those of them that a document placed; `apart`: part id → metres from the rest, for
     those left out; `remarks`: further findings; `axes`: the alignment's."""
-    roles = {r.name for r in template.roles}
     parts = []
     for part in assembly.parts:
         place = places.get(part.id)
         if part.id in edited:
             said = edited[part.id] or None
-            body = template.body_of(said) if said in roles and said is not None else None
+            body = template.body_of(said) if said is not None and template.knows(said) else None
             before = place.role if place is not None and place.role != said else None
             if documents is not None and part.id in documents:
                 parts.append(PartAssignment(part.id, said, body, 1.0, documents[part.id], "data", before))
@@ -71,9 +71,16 @@ def reported(
     doubtful = tuple(p.part for p in sorted(parts, key=lambda p: p.confidence) if p.confidence < REVIEW)
     findings = (*_findings(template, solution, missing, frame, edited), *remarks)
     return Alignment(
-        template.equipment_type, frame.matrix, tuple(parts), dict(chosen), missing, (*missing, *doubtful), findings,
-        axes=dict(axes or {}),
-    )  # fmt: skip
+        template.equipment_type,
+        frame.matrix,
+        tuple(parts),
+        dict(chosen),
+        missing,
+        (*missing, *doubtful),
+        findings,
+        count_members((p.role for p in parts), template),
+        dict(axes or {}),
+    )
 
 
 def _required(name: str, template: Template) -> bool:
@@ -91,7 +98,6 @@ def _findings(
     edited: Mapping[str, str],
 ) -> tuple[Finding, ...]:
     pins = {pin_role(j, template): j.name for j in template.joints}
-    known = {r.name for r in template.roles}
     findings = []
     for name in missing:
         if pins.get(name) in solution.hinge_of:
@@ -109,7 +115,7 @@ def _findings(
         text = "The search for the best assignment was cut short"
         findings.append(Finding("ALN004", "warning", where, text, "Review the roles."))
     for part, role in sorted(edited.items()):
-        if role and role not in known:
+        if role and not template.knows(role):
             text = f"The role {role}, set by a person, exists only under another choice of the template's variants"
             findings.append(Finding("ALN005", "warning", part, text, "Fix the choice, or change the role."))
     return tuple(findings)

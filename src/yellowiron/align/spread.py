@@ -128,6 +128,7 @@ class Spreader:
                 continue
             body = self.template.body_of(role) or role
             a, b = self.template.bodies_of(joint)
+            self._race(self.structure.hinges[hinge].line, role, body)
             for pin in self.structure.hinges[hinge].pins:
                 if pin in self.places:
                     continue
@@ -137,6 +138,13 @@ class Spreader:
                 words = f"pin Ø{2e3 * radius:.4g} through bores of {a} and {b}, coaxial within {1e3 * gap:.2g} mm"
                 share = min(self._sure(a), self._sure(b))
                 self.places[pin] = Place(role, body, min(0.99, share + 0.01), words)
+
+    def _race(self, line: int, role: str, body: str) -> None:
+        """Of a slewing bearing the race of the body that carries it is the joint's pin."""
+        for i in self.structure.races.get(line, ()):
+            place = self.places.get(i)
+            if place is not None and place.body == body:
+                self.places[i] = replace(place, role=role, reason=f"{place.reason}; a race of the bearing it turns in")
 
     def _sure(self, body: str | None) -> float:
         members = self.structure.clusters[self.cluster_of[body]].members if body in self.cluster_of else ()

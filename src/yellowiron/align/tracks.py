@@ -1,5 +1,5 @@
-"""Tracks by shape: many equal parts in a closed row are its shoes, what sits at the same place of each goes with them, and
-the round things inside the row are its wheels.
+"""Tracks by shape: many equal parts in a closed row are its shoes, what sits at the same place of each goes with them,
+and the round things inside the row are its wheels.
 
 A row is closed where each part has two neighbours at about the same distance and all lie in one plane. Its pins are
 between two shoes: they go with the shoe that holds them tightest. The wheel with teeth is the sprocket, the one at the
@@ -8,14 +8,17 @@ other end the idler; rollers lie on the ground's side, carrier rollers on the ot
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.spatial import cKDTree
 
-from yellowiron.align.solids import Solid
+from yellowiron.align.solids import Solid, coaxial
+from yellowiron.align.spread import Place
 from yellowiron.model.geometry import Floats
+from yellowiron.model.rows import member, split_index
+from yellowiron.model.template import Role, Template
 
 LEAST = 20
 """Fewer equal parts in a row are no track."""
@@ -27,19 +30,23 @@ FLAT = 0.03
 """How far a row may be from a plane, as a share of its length."""
 PLACE = 0.3
 """Two parts sit at the same place of their shoes if their places differ by less than this many pitches."""
-TEETH = 0.015
-"""A rim whose outline varies by more than this share of its radius has teeth."""
+PLAIN = 0.02
+"""The rims of two wheels differ if one reaches this share of its radius further out than the other's."""
 PARALLEL = 0.9995
+SURE = 0.95
+"""Confidence of a part of a track."""
+KINDS = ("shoe", "sprocket", "idler", "roller", "carrier")
 
 
 @dataclass(frozen=True, eq=False)
 class TrackWheel:
-    """A wheel inside a track: its solids, a point of its axis, its radius in metres, and whether it has teeth."""
+    """A wheel inside a track: its solids, a point of its axis, its radius in metres, and the radius of its rim as a
+    share of it: 1 for a smooth one, less for teeth."""
 
     members: tuple[int, ...]
     center: Floats
     radius: float
-    toothed: bool
+    rim: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,8 +136,8 @@ def _rows(members: list[int], solids: Sequence[Solid]) -> list[list[int]]:
         return []
     points = np.array([_middle(solids[i]) for i in members])
     tree = cKDTree(points)
-    distance, _ = tree.query(points, k=3)
-    reach = NEXT * float(np.median(distance[:, 2]))
+    apart = np.asarray(tree.query(points, k=3)[0])
+    reach = NEXT * float(np.median(apart[:, 2]))
     neighbours = [[j for j in near if j != i] for i, near in enumerate(tree.query_ball_point(points, reach))]
     left = {i for i, near in enumerate(neighbours) if len(near) == 2}
     rows = []
@@ -195,7 +202,7 @@ def _companions(
 def _beside(solid: Solid, tree: cKDTree, axes: Floats, high: Floats, pitch: float) -> bool:
     """Whether a solid is within the shoes' width and about a pitch of their middle."""
     middle = _middle(solid)
-    distance, k = tree.query(middle)
+    _, k = tree.query(middle)
     local = axes[k] @ (middle - tree.data[k])
     small = solid.size < 1.5 * float(np.linalg.norm(high)) + pitch
     return bool(small and abs(local[2]) <= 0.55 * high[2] and abs(local[0]) < 0.8 * pitch and abs(local[1]) < pitch)
@@ -225,7 +232,7 @@ def _slots(
             places.append((local, [(i, k)]))
     whole = []
     for local, members in places:
-        by_shoe = dict((k, i) for i, k in reversed(members))
+        by_shoe = {k: i for i, k in reversed(members)}
         if len(by_shoe) == count and len(set(by_shoe.values())) == count:
             loose = _looseness(next(iter(by_shoe.items())), solids, shoes)
             whole.append((round(loose, 6), round(float(np.linalg.norm(local)) / pitch, 2), float(local[0]), by_shoe))
@@ -288,7 +295,9 @@ def _wheels(row: list[int], axis: Floats, solids: Sequence[Solid], taken: set[in
         if gap < 1.2 * pitch and radius > 0.15 * pitch:
             bolts = _bolted(place, radius, middle, plane, axis, width, solids, taken | set(members))
             center = middle + place @ plane
-            wheels.append(TrackWheel((main, *(i for i in members if i != main), *bolts), center, radius, _toothed(solids[main])))
+            wheels.append(
+                TrackWheel((main, *(i for i in members if i != main), *bolts), center, radius, _rim(solids[main]))
+            )
     return wheels
 
 
@@ -317,15 +326,75 @@ def _bolted(
     return [i for members in circles.values() if len(members) >= 3 for i in members]
 
 
-def _toothed(solid: Solid) -> bool:
-    """Whether the outline about its axis goes in and out."""
+def _rim(solid: Solid) -> float:
+    """Radius of the outermost whole cylinder about its axis, as a share of its reach."""
     assert solid.axis is not None
-    u, v = np.linalg.svd(solid.axis.direction[None, :])[2][1:]
-    delta = solid.points - solid.axis.center
-    x, y = delta @ u, delta @ v
-    away, turn = np.hypot(x, y), np.arctan2(y, x)
-    bins = ((turn + np.pi) / (2 * np.pi) * 180).astype(int) % 180
-    rim = np.zeros(180)
-    np.maximum.at(rim, bins, away)
-    rim = rim[rim > 0.6 * solid.reach]
-    return bool(len(rim) > 8 and np.percentile(rim, 90) - np.percentile(rim, 10) > TEETH * solid.reach)
+    outer = [c.radius for c in solid.cylinders if not c.inner and c.full and coaxial(c, solid.axis, 0.05)]
+    return max(outer, default=0.0) / solid.reach
+
+
+# ---- roles ----
+def without_tracks(template: Template) -> Template:
+    """The template without the parts of tracks, which are found by themselves, and without hidden bodies."""
+    gone = {r.name for r in template.roles if r.many or r.kind in KINDS}
+    return replace(
+        template,
+        roles=tuple(r for r in template.roles if r.name not in gone),
+        joints=tuple(j for j in template.joints if not gone & {split_index(p)[0] for p in j.parts}),
+    )
+
+
+def track_places(
+    tracks: Sequence[Track], ids: Mapping[int, str], frame: Floats, template: Template
+) -> dict[str, Place]:
+    """Part id → place, for all parts of tracks. `ids`: solid → part id; `frame` (4, 4): CAD → machine; `template` has
+    its variants decided."""
+    places: dict[str, Place] = {}
+    level = [float(frame[1, :3] @ t.center + frame[1, 3]) for t in tracks]
+    for track, y in zip(tracks, level, strict=True):
+        left = y > 0 if len(tracks) == 1 else y > np.mean(level)
+        rows = {r.kind: r for r in template.roles if r.kind in KINDS and (_side(r) in ("", "l" if left else "r"))}
+        for kind, words, groups in _parts(track, frame):
+            role = rows.get(kind)
+            if role is None:
+                continue
+            for number, group in enumerate(groups, 1):
+                name = member(role.name, number) if role.many else role.name
+                body = template.body_of(name)
+                if body is not None:
+                    said = f"{words} of {len(groups)}" if role.many else words
+                    places |= {ids[i]: Place(name, body, SURE, said) for i in group}
+    return places
+
+
+def _side(role: Role) -> str:
+    ends = role.name.rpartition("_")[2]
+    return role.side or (ends if ends in ("l", "r") else "")
+
+
+def _parts(track: Track, frame: Floats) -> list[tuple[str, str, list[tuple[int, ...]]]]:
+    """(kind, words, solids of each) of a track's parts in order: wheels front to rear, shoes around the loop, forward
+    on the ground, the first being the first ahead of the track's middle."""
+    centers = track.centers @ frame[:3, :3].T + frame[:3, 3]
+    middle = 0.5 * (centers.min(axis=0) + centers.max(axis=0))
+    order = list(range(len(centers)))
+    low = [k for k in order if centers[k, 2] < middle[2]]
+    forward = sum(float(centers[(k + 1) % len(order)][0] - centers[k][0]) for k in low)
+    if forward < 0:
+        order.reverse()
+    first = min((k for k in low if centers[k, 0] >= middle[0]), key=lambda k: float(centers[k, 0]), default=order[0])
+    at = order.index(first)
+    shoes = [track.shoes[k] for k in (*order[at:], *order[:at])]
+    placed = sorted(((frame[:3, :3] @ w.center + frame[:3, 3], w) for w in track.wheels), key=lambda p: -float(p[0][0]))
+    found = [("shoe", "one of a closed row", shoes)]
+    if len(placed) >= 2:
+        (_, front), *inner, (_, rear) = placed
+        sprocket, idler = (front, rear) if front.rim < rear.rim - PLAIN else (rear, front)
+        teeth = "the toothed wheel" if abs(front.rim - rear.rim) > PLAIN else "the rear wheel"
+        found += [
+            ("sprocket", f"{teeth} at an end of the track", [sprocket.members]),
+            ("idler", "the other wheel at an end of the track", [idler.members]),
+            ("roller", "one on the lower run, front to rear,", [w.members for p, w in inner if p[2] < middle[2]]),
+            ("carrier", "one under the upper run, front to rear,", [w.members for p, w in inner if p[2] >= middle[2]]),
+        ]
+    return found
