@@ -106,7 +106,8 @@ def build(
             alignment = align.align(
                 assembly, template, specifications, edits=library.with_relations(edits, data), choices=choices
             )
-            template = expand(choose(template, {**alignment.choices, **choices}), alignment.counts)
+            chosen = choose(template, {**alignment.choices, **choices})
+            template = expand(chosen, alignment.counts)
 
         with clock.stage("mechanism", "Building the mechanism"):
             machine = mechanism.build_mechanism(
@@ -135,7 +136,7 @@ def build(
         with clock.stage("report", "Writing the report"):
             document = report.report_document(
                 machine, template, alignment, specifications, measurements,
-                findings=(*library.lint(template).findings, *assembly.findings, *data.findings, *checked),
+                findings=(*library.lint(chosen).findings, *assembly.findings, *data.findings, *checked),
                 usd_counts=usd.count_joints(folder / f"{machine.name}.usda"),
                 levers={a.name: kinematics.lever_table(machine, a.name) for a in machine.actuators},
                 simulation=simulation,
@@ -143,7 +144,7 @@ def build(
             report.write_document(document, folder / "report.json")
             report.write_document({"specifications": document["specifications"]}, folder / "specifications.json")
             report.write_document(
-                library.filled_joints(template, machine, specifications), folder / "joints.filled.json"
+                library.filled_joints(chosen, machine, specifications), folder / "joints.filled.json"
             )
             align.write_alignment(alignment, assembly, folder / "alignment.json")
             page = report.page(
