@@ -123,7 +123,7 @@ def draw_bucket(k: Linkage, pose: Pose, hardware: Assembly) -> Assembly:
         into.add(Part(name, moved(shape, at), colour), "bucket")
 
     shell = cut(
-        plate(p.outside(TOOTH + 110), "xz", -inner, inner), plate(p.inside(TOOTH + 110), "xz", -inner - 1, inner + 1)
+        plate(p.outside(TOOTH + 245), "xz", -inner, inner), plate(p.inside(TOOTH + 245), "xz", -inner - 1, inner + 1)
     )
     put("BUCKET WRAPPER", shell)
     side = plate(p.outside(TOOTH + 20), "xz", inner, half)

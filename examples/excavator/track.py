@@ -239,7 +239,9 @@ def draw_carrier() -> tuple[Part, Part]:
     """A carrier roller and its shaft, which the bracket inside holds; axis through the origin along y."""
     r = CARRIER_TREAD - 1.0
     profile = [(-98.0, 25.0), (-98.0, r), (-34.0, r), (-34.0, 46.0), (34.0, 46.0), (34.0, r), (98.0, r), (98.0, 25.0)]
-    return Part("CARRIER ROLLER", turned(profile), GREY), Part("CARRIER ROLLER SHAFT", rod((0, -100, 0), Y, 24.6, 330))
+    return Part("CARRIER ROLLER", turned(profile), GREY), Part(
+        "CARRIER ROLLER SHAFT", rod((0, -100, 0), Y, 24.6, 330), STEEL
+    )
 
 
 def draw_idler(loop: Loop) -> tuple[Part, Part]:

@@ -51,15 +51,17 @@ def draw_frame(k: Linkage, hardware: Assembly) -> Assembly:
     _, _, low, high = BEARING_Z
     race = cut(rod((0, 0, low), Z, outer, high - low), rod((0, 0, low - 1), Z, inner, high - low + 2))
     tree.add(Part("SWING BEARING OUTER RACE", race, STEEL), BODY)
-    base = plate([(-1700, -560, 0), (300, -560, 0), (730, -438, 0), (730, 438, 0), (300, 560, 0), (-1700, 560, 0)],
-                 "xy", FLOOR, FLOOR + 40)  # fmt: skip
+    # narrow in front, where the lowered boom cylinders pass beside it
+    half = [(-1700, 560), (300, 560), (620, 438), (620, 270), (730, 270)]
+    corners = [(float(x), -float(y), 0.0) for x, y in half] + [(float(x), float(y), 0.0) for x, y in reversed(half)]
+    base = plate(corners, "xy", FLOOR, FLOOR + 40)
     tree.add(Part("BASE PL", bored(base, Z, ((0, 0, 0), 240.0)), YELLOW), BODY)
     deck = FLOOR + 40
     tower = [(cx, cz, 112.0), (ax, az, 150.0), (-260.0, 1560.0, 0.0), (-900.0, 1400.0, 0.0), (-2355.0, 1330.0, 0.0)]
     tower += [(-2355.0, deck, 0.0), (700.0, deck, 0.0)]
     side = bored(plate(tower, "xz", 228, 268), Y, ((ax, 0, az), PIN_A / 2), ((cx, 0, cz), PIN_C / 2))
     _pair(tree, "TOWER PL", side)
-    lug = plate([(cx, cz, 108), (cx - 230, deck, 0), (cx + 105, deck, 0)], "xz", 411, 437)
+    lug = plate([(cx, cz, 100), (cx - 230, deck, 0), (cx + 25, deck, 0)], "xz", 411, 437)
     _pair(tree, "BOOM CYL BOSS", ring((cx, 268, cz), Y, 78, PIN_C / 2, 25))
     _pair(tree, "BOOM CYL LUG", bored(lug, Y, ((cx, 0, cz), PIN_C / 2)))
     _pair(tree, "TOWER RIB", box(-290, -262, 268, 560, deck, 1400))

@@ -83,7 +83,7 @@ COUNTERWEIGHT = _published("Counterweight", 4370, "kg", "p20")
 # ---- ours: what the sheet prints as "example value" --------
 OPERATING_WEIGHT = Value("Operating weight, this configuration", 23650.0, "kg")
 """5700 mm boom, 2925 mm arm, 0.85 m3 bucket, 700 mm shoes; within the published range."""
-BUCKET_WEIGHT = Value("Bucket weight", 700.0, "kg")
+BUCKET_WEIGHT = Value("Bucket weight", 680.0, "kg")
 BOOM_COUNT = Value("Boom cylinder count", 2, "count")
 ARM_COUNT = Value("Arm cylinder count", 1, "count")
 BUCKET_COUNT = Value("Bucket cylinder count", 1, "count")
