@@ -139,7 +139,7 @@ def fell_short(document: Mapping[str, Any]) -> list[str]:
         if s["status"] in ("conflict", "review", "unreadable")
     ]
     reasons += [
-        f"{f['code']} {f['where']}: {f['message']} {f['hint']}".rstrip()
+        f"{f['code']} {f['where']}: {_with_hint(f['message'], f['hint'])}"
         for f in document["findings"]
         # Of a role that no part plays all is said above.
         if f["severity"] != "info" and not (f["code"] == "ALN001" and f["where"] in unplayed)
@@ -156,6 +156,12 @@ def fell_short(document: Mapping[str, Any]) -> list[str]:
         if entry["role"] == "checked" and within_tolerance(Measurement(**entry)) is False:
             reasons.append(f"off the sheet: {entry['name']} by {entry['error_percent']:+.2f} %")
     return reasons
+
+
+def _with_hint(message: str, hint: str) -> str:
+    if not hint:
+        return message
+    return f"{message} {hint}" if message.endswith((".", ":", "!", "?")) else f"{message}. {hint}"
 
 
 def write_document(document: Mapping[str, Any], path: Path) -> None:

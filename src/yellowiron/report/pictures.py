@@ -207,8 +207,9 @@ def render(soup: Soup, camera: Camera, *, supersample: int = 2) -> Image.Image:
         to_ground = -eye[2] / directions[ground, 2]
         shade(ground, to_ground, _GROUND.astype(np.float32))
         # The ground fades into the sky, so that it has no edge.
-        spread = np.linalg.norm((eye + directions[ground] * to_ground[:, None])[:, :2], axis=1)
-        fade = np.clip(spread / 14.0, 0.0, 1.0)[:, None] ** 2
+        middle, reach = _extent(soup)
+        spread = np.linalg.norm((eye + directions[ground] * to_ground[:, None])[:, :2] - middle, axis=1)
+        fade = np.clip(spread / reach, 0.0, 1.0)[:, None] ** 2
         color[ground] = color[ground] * (1 - fade) + _SKY.astype(np.float32) * fade
 
     label = np.where(seen, soup.parts[np.maximum(face, 0)] if len(soup.parts) else -1, -1)
@@ -252,6 +253,15 @@ def body_color(index: int) -> tuple[float, float, float]:
     value = (0.95, 0.72, 0.52)[index % 3]
     red, green, blue = colorsys.hsv_to_rgb(hue, 0.62, value)
     return (red**2.2, green**2.2, blue**2.2)
+
+
+def _extent(soup: Soup) -> tuple[NDArray[np.float32], np.float32]:
+    """The middle on the ground, and how far from it the ground is seen: a little more than the machine's size."""
+    if not len(soup.corners):
+        return np.zeros(2, dtype=np.float32), np.float32(1.0)
+    corners = soup.corners.reshape(-1, 3)
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    return (0.5 * (low + high))[:2].astype(np.float32), np.float32(1.4 * np.linalg.norm(high - low))
 
 
 def _display(linear: Floats) -> Floats:
