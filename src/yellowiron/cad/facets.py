@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from yellowiron.cad.ovals import ovals
 from yellowiron.cad.roundness import LEAST, ROUGH, Round, fit, grown, trimmed, widths
 from yellowiron.cad.soup import Flags, Indices, Soup, soup_of
 from yellowiron.cad.strips import by_folds, by_normals, flat_facets
@@ -66,8 +67,13 @@ def find(mesh: Mesh) -> Found:
                 rounds.append(cylinder)
                 free[cylinder.triangles] = False
     rounds = _united(soup, rounds)
-    rounds.sort(key=lambda r: int(r.triangles.min()))
-    return Found(tuple(_feature(soup, r) for r in rounds), _planes(soup, free))
+    found = [(r, _arc(soup, r)) for r in rounds]
+    for oval in ovals(soup, free):
+        if _smooth_ends(soup, oval.round) == 0 and free[oval.round.triangles].all():
+            found.append((oval.round, oval.arc))
+            free[oval.round.triangles] = False
+    found.sort(key=lambda pair: int(pair[0].triangles.min()))
+    return Found(tuple(_feature(soup, r, arc) for r, arc in found), _planes(soup, free))
 
 
 # ---- what is round ----
@@ -198,7 +204,7 @@ def _runs(soup: Soup, cylinder: Round, rows: Indices) -> list[Indices]:
     return [np.sort(rows[part]) for part in np.split(order, cut)]
 
 
-def _feature(soup: Soup, cylinder: Round) -> CylinderFeature:
+def _feature(soup: Soup, cylinder: Round, arc: float) -> CylinderFeature:
     along = cylinder.along(soup.points[soup.corners[cylinder.triangles]].reshape(-1, 3))
     low, high = float(along.min()), float(along.max())
     direction = _canonical(cylinder.direction)
@@ -210,7 +216,7 @@ def _feature(soup: Soup, cylinder: Round) -> CylinderFeature:
         radius=cylinder.radius,
         lower=-half,
         upper=half,
-        arc=_arc(soup, cylinder),
+        arc=arc,
         inner=cylinder.inner,
         exact=False,
         area=float(soup.areas[cylinder.triangles].sum()),

@@ -45,7 +45,8 @@ class Soup:
 
 
 def soup_of(mesh: Mesh) -> Soup:
-    """The triangles of a mesh, its coincident points made one; those that lose their area by it are left out."""
+    """The triangles of a mesh, its coincident points made one; those that lose their area by it, and those that are
+    there twice, are left out."""
     number = meshed.welded(mesh)
     points = np.zeros((int(number.max()) + 1, 3))
     points[number[::-1]] = mesh.points[::-1]
@@ -55,6 +56,11 @@ def soup_of(mesh: Mesh) -> Soup:
     low, high = meshed.bounds(mesh)
     size = float(np.linalg.norm(high - low))
     good = twice > 1e-14 * size**2
+    # Sheets that are drawn from both sides count once.
+    first = np.unique(np.sort(corners, axis=1), axis=0, return_index=True)[1]
+    once = np.zeros(len(corners), dtype=bool)
+    once[first] = True
+    good &= once
     corners, cross, twice = corners[good], cross[good], twice[good]
     normals = cross / twice[:, None]
     edges, pair, opposite = _edges(corners)

@@ -38,7 +38,7 @@ def by_folds(soup: Soup) -> Iterator[tuple[Round, Indices]]:
     point, direction, radius, good = _circles(soup, chosen)
     chosen, point, direction, radius = chosen[good], point[good], direction[good], radius[good]
     inner = soup.concave[chosen]
-    pairs = _beside(soup, chosen)
+    pairs = beside(soup, chosen)
     if not len(pairs):
         return
     a, b = pairs[:, 0], pairs[:, 1]
@@ -98,7 +98,7 @@ def _circles(soup: Soup, chosen: Indices) -> tuple[Floats, Floats, Floats, Flags
     return start + center, direction, radius, good
 
 
-def _beside(soup: Soup, chosen: Indices) -> Indices:
+def beside(soup: Soup, chosen: Indices) -> Indices:
     """(k, 2) pairs of rows of `chosen` whose folds bound one triangle, one flat facet or two adjacent triangles."""
     row = np.full(len(soup.edges), -1, dtype=np.int64)
     row[chosen] = np.arange(len(chosen))

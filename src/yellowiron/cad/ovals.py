@@ -1,0 +1,118 @@
+"""Cylinders that a model's scale has made oval: other factors along its axes, as where a machine of one size was
+stretched into one of another. Their axis is still where they turn."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+
+from yellowiron.cad.roundness import ROUGH, WIDEST, Round, across
+from yellowiron.cad.soup import Flags, Indices, Soup
+from yellowiron.cad.strips import beside
+from yellowiron.model.geometry import Floats
+
+_SLIGHTEST = math.radians(0.7)
+_IN_LINE = math.cos(math.radians(0.5))
+"""Folds of one oval run in one direction within this."""
+_FEWEST = 10
+"""An oval has at least this many folds: five numbers are fitted to them."""
+_NARROWEST = 0.5
+"""The least ratio of an oval's axes."""
+_AROUND = 0.9 * math.pi
+"""Radians around it that its folds cover at least."""
+_NONE = np.zeros(0, dtype=np.int64)
+
+
+@dataclass(frozen=True, eq=False)
+class Oval:
+    """A round whose radius is the mean of the two of an ellipse, and how far around it goes, radians."""
+
+    round: Round
+    arc: float
+
+
+def ovals(soup: Soup, free: Flags) -> Iterator[Oval]:
+    """The ovals among the free triangles, those with most folds first."""
+    bent = (soup.angle > _SLIGHTEST) & (soup.angle < WIDEST) & free[soup.pair].all(axis=1)
+    chosen = np.flatnonzero(bent)
+    if len(chosen) < _FEWEST:
+        return
+    ends = soup.points[soup.edges[chosen]]
+    direction = ends[:, 1] - ends[:, 0]
+    direction /= np.linalg.norm(direction, axis=1)[:, None]
+    pairs = beside(soup, chosen)
+    if not len(pairs):
+        return
+    a, b = pairs[:, 0], pairs[:, 1]
+    alike = np.abs(np.einsum("ij,ij->i", direction[a], direction[b])) > _IN_LINE
+    alike &= soup.concave[chosen[a]] == soup.concave[chosen[b]]
+    count = len(chosen)
+    graph = coo_array((np.ones(int(alike.sum()), dtype=np.int8), (a[alike], b[alike])), shape=(count, count))
+    label = connected_components(graph, directed=False)[1]
+    members = np.bincount(label)
+    for k in sorted(np.flatnonzero(members >= _FEWEST).tolist(), key=lambda k: (-members[k], k)):
+        rows = chosen[label == k]
+        found = _oval(soup, rows, direction[label == k])
+        if found is not None and free[found.round.triangles].all():
+            yield found
+
+
+def _oval(soup: Soup, folds: Indices, directions: Floats) -> Oval | None:
+    """The oval that most of some folds lie on, in line with each other."""
+    signed = directions * np.where(directions @ directions[0] < 0.0, -1.0, 1.0)[:, None]
+    axis = signed.mean(axis=0)
+    axis /= float(np.linalg.norm(axis))
+    basis = np.stack(across(axis))
+    flat = soup.points[soup.edges[folds]].mean(axis=1) @ basis.T
+    kept = np.arange(len(folds))
+    while len(kept) >= _FEWEST:
+        ellipse = _ellipse(flat[kept])
+        if ellipse is None:
+            return None
+        center, shape, radius = ellipse
+        off = np.abs(np.sqrt(np.einsum("ni,ij,nj->n", flat[kept] - center, shape, flat[kept] - center)) - 1.0)
+        if float(off.max()) <= ROUGH:
+            break
+        kept = kept[off < max(0.6 * float(off.max()), ROUGH)]
+    else:
+        return None
+    values, vectors = np.linalg.eigh(shape)
+    if math.sqrt(values[0] / values[1]) < _NARROWEST:
+        return None
+    # In the frame in which the ellipse is a circle.
+    unit = (flat[kept] - center) @ vectors * np.sqrt(values)
+    angles = np.sort(np.unique(np.round(np.arctan2(unit[:, 1], unit[:, 0]), 4)))
+    gaps = np.append(np.diff(angles), angles[0] + 2.0 * math.pi - angles[-1])
+    arc = 2.0 * math.pi - (float(gaps.max()) if float(gaps.max()) > WIDEST else 0.0)
+    if len(angles) < _FEWEST or arc < _AROUND or float(np.sort(gaps)[-2]) > WIDEST:
+        return None
+    triangles = np.unique(soup.pair[folds[kept]])
+    point = center @ basis + float((soup.middles[triangles] @ axis).mean()) * axis
+    return Oval(Round(point, axis, radius, bool(soup.concave[folds[0]]), triangles), arc)
+
+
+def _ellipse(points: Floats) -> tuple[Floats, Floats, float] | None:
+    """(centre, M, mean radius) of the ellipse (x − c)ᵀ M (x − c) = 1 through points (n, 2) by least squares."""
+    middle, size = points.mean(axis=0), float(np.ptp(points, axis=0).max())
+    if size <= 0.0:
+        return None
+    x, y = ((points - middle) / size).T
+    matrix = np.stack([x * x, x * y, y * y, x, y], axis=1)
+    p, _, rank, _ = np.linalg.lstsq(matrix, np.ones(len(points)), rcond=1e-12)
+    if rank < 5:
+        return None
+    quadratic = np.array([[p[0], 0.5 * p[1]], [0.5 * p[1], p[2]]])
+    if float(np.linalg.det(quadratic)) <= 0.0:
+        return None
+    center = np.linalg.solve(quadratic, -0.5 * p[3:])
+    level = 1.0 + float(center @ quadratic @ center)
+    shape = quadratic / level
+    if float(shape[0, 0]) <= 0.0 or float(np.linalg.det(shape)) <= 0.0:
+        return None
+    radius = size * float(np.linalg.det(shape)) ** -0.25
+    return middle + size * center, shape / size**2, radius
