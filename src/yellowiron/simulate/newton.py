@@ -67,6 +67,8 @@ class NewtonEngine:
             "velocity": (self._control.joint_target_qd, self._control.joint_target_qd.numpy()),
         }
         self._measured = Coordinates(setup.mechanism, setup.measured)
+        self._rows = [state.body_q.numpy() for state in self._states]  # views: the CPU's arrays are numpy's
+        self._poses: tuple[Floats, Floats] | None = None
 
     @property
     def version(self) -> str:
@@ -82,7 +84,7 @@ class NewtonEngine:
     def push(self, body: str, force: Floats, point: Floats) -> None:
         """See `Engine`."""
         number = self._numbers[body]
-        row = self._states[0].body_q.numpy()[number].astype(np.float64)
+        row = self._rows[0][number].astype(np.float64)
         center = row[:3] + rotation_matrices(row[None, 3:])[0] @ self._centers[number]
         # Newton's wrench is a force, then a torque about the body's centre of mass.
         self._states[0].body_f.numpy()[number] = np.concatenate([force, np.cross(np.asarray(point) - center, force)])
@@ -96,11 +98,15 @@ class NewtonEngine:
             before.body_f.numpy()[number] = 0.0
         self._pushed.clear()
         self._states = [after, before]
+        self._rows.reverse()
+        self._poses = None
 
     def poses(self) -> tuple[Floats, Floats]:
         """See `Engine`."""
-        rows = self._states[0].body_q.numpy()[self._bodies].astype(np.float64)
-        return rotation_matrices(rows[:, 3:]), rows[:, :3]
+        if self._poses is None:
+            rows = self._rows[0][self._bodies].astype(np.float64)
+            self._poses = rotation_matrices(rows[:, 3:]), rows[:, :3]
+        return self._poses
 
     def coordinates(self) -> Floats:
         """See `Engine`."""
