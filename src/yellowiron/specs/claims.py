@@ -15,6 +15,7 @@ _COUNTED = re.compile(
     r"\bnúmero de \w+\b)\s*(?:[-–—,:/x×]\s*)?",
     re.IGNORECASE,
 )
+_TIMES = re.compile(r"(?<![\d.,])([2-9])\s*[x×](?![\w])|[x×]\s*([2-9])(?![\d.,])", re.IGNORECASE)
 
 
 @dataclass(frozen=True)
@@ -94,10 +95,20 @@ def _claims_of_reading(statement: Statement, label: str, reading: Reading) -> It
         yield from _factors(statement, label, reading)
         return
     words = _COUNTED.sub(" ", words) if reading.count is not None else words
+    several = _several(label, reading)
     partner = reading.partner[0] if reading.partner else None
     for index, quantity in enumerate(reading.numbers):
         other = reading.partner[index] if index < len(reading.partner) else partner
-        yield _checked(Claim(statement, words, head, quantity, other, ranged=reading.kind == "range"))
+        doubt = f"the sheet counts {several} of them, which together give more" if several > 1 else ""
+        yield _checked(Claim(statement, words, head, quantity, other, ranged=reading.kind == "range", doubt=doubt))
+
+
+def _several(label: str, reading: Reading) -> int:
+    """How many pumps a flow is that of one of: "Maximum flow (2x)", "2 x 235 L/min"; 1 if that is not said."""
+    if reading.numbers[0].dimension != "flow":
+        return 1
+    counted = _TIMES.search(label)
+    return int(counted.group(1) or counted.group(2)) if counted else reading.count or 1
 
 
 def _factors(statement: Statement, label: str, reading: Reading) -> Iterator[Claim]:

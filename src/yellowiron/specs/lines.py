@@ -123,9 +123,11 @@ def blocks_of(lines: Sequence[Line], bars: Sequence[Box] = (), across: Sequence[
 def _gutter(lines: Sequence[Line], bars: Sequence[Box], across: Sequence[Box]) -> tuple[float, int, int] | None:
     """The best gutter: its x and the range of lines that it parts."""
     starts: dict[int, list[tuple[float, bool]]] = {}
+    left_edge = min(line.x0 for line in lines)
     for line in lines:
-        for index, piece in enumerate(line.pieces[1:], start=1):
-            if kind_of(piece) != "text":
+        for index, piece in enumerate(line.pieces):
+            # The rows of two columns need not be level with each other: a label may stand alone on its line.
+            if kind_of(piece) != "text" or (index == 0 and piece.x0 < left_edge + _HANGING):
                 continue
             paired = any(kind_of(p) == "value" for p in line.pieces[index + 1 : index + 4])
             starts.setdefault(round(piece.x0 / 3), []).append((piece.x0, paired))

@@ -26,6 +26,8 @@ _LONGEST_LABEL = 12
 """Words; more are prose."""
 
 
+_LARGER = 1.12
+"""A heading is set larger than its rows by this at least, or in capitals."""
 _INDENT = 4.0
 """Points by which a row stands in under its sub-heading."""
 
@@ -188,7 +190,7 @@ def _is_prose(piece: Piece) -> bool:
 
 def _is_heading(piece: Piece, size: float) -> bool:
     return len(EXAMPLE.sub("", piece.text).split()) <= 9 and (
-        piece.size > 1.12 * size or (_in_capitals(piece) and (piece.bold or len(piece.text) > 5))
+        piece.size > _LARGER * size or (_in_capitals(piece) and (piece.bold or len(piece.text) > 5))
     )
 
 
@@ -236,7 +238,15 @@ def _body_size(block: Block) -> float:
 
 
 def _split_if_separate(row: Sequence[Line]) -> Iterator[Sequence[Line]]:
-    """A band that holds several labelled values of its own is several rows."""
+    """A band that holds several labelled values of its own is several rows; a heading over a row is none of it."""
+    ordered = sorted(row, key=lambda line: line.top)
+    first, rest = ordered[0], ordered[1:]
+    if rest and len(first.pieces) == 1 and kind_of(first.pieces[0]) == "text":
+        largest = max(p.size for line in rest for p in line.pieces)
+        if first.pieces[0].size > _LARGER * largest and first.bottom <= min(line.top for line in rest) + 1:
+            yield (first,)
+            yield from _split_if_separate(rest)
+            return
     labelled = 0
     for line in row:
         kinds = [kind_of(p) for p in line.pieces]
