@@ -16,6 +16,8 @@ from yellowiron.align.wheels import Wheel
 from yellowiron.model.geometry import Floats
 from yellowiron.model.template import JointTemplate, Template
 
+RUN = 0.05
+"""Shoes this near to the lowest, as a share of the track's height, are on the ground."""
 SNAP = 1e-6
 """A rotation this near to a signed permutation of the axes is that permutation."""
 
@@ -56,7 +58,7 @@ def machine_frame(
         if lines:
             doubts.append("up is guessed: no wheels and no swing axis were found")
     if rolling or tracks:
-        below = np.mean([w.center for w in (*rolling, *tracks)], axis=0)
+        below = np.mean([*(w.center for w in rolling), *(t.center for t in tracks)], axis=0)
         above = _middle([s for s in solids if all(s.index not in w.members for w in wheels)])
         if float((above - below) @ up) < 0:
             up = -up
@@ -207,7 +209,7 @@ def _origin(
         low = np.min([solids[i].low for i in root], axis=0)
         high = np.max([solids[i].high for i in root], axis=0)
         point = 0.5 * (low + high)
-    heights = [_lowest(w, up) for w in wheels] + [float((t.points @ up).min()) for t in tracks] or [
+    heights = [_lowest(w, up) for w in wheels] + [_level(t, up) for t in tracks] or [
         float((s.points @ up).min()) for s in solids
     ]
     ground = min(heights)
@@ -219,3 +221,10 @@ def _lowest(wheel: Wheel, up: Floats) -> float:
     return (
         float(wheel.center @ up) - wheel.radius * float(np.sqrt(max(0.0, 1 - tilt * tilt))) - 0.5 * wheel.width * tilt
     )
+
+
+def _level(track: Track, up: Floats) -> float:
+    """Where a track lies on the ground: the height of its lower run's shoes, of which one at an end may dip deeper."""
+    lowest = np.array([float((points @ up).min()) for points in track.points])
+    height = float(lowest.max() - lowest.min())
+    return float(np.median(lowest[lowest < lowest.min() + RUN * height]))

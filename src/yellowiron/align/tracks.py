@@ -52,13 +52,13 @@ class TrackWheel:
 @dataclass(frozen=True, eq=False)
 class Track:
     """One track: the solids of each shoe in order around the loop, `centers` (n, 3) of the shoes' main parts, the unit
-    `axis` across it, its `wheels`, and `points` (m, 3) of the shoes. CAD frame, metres."""
+    `axis` across it, its `wheels`, and `points` (m, 3) of each shoe. CAD frame, metres."""
 
     shoes: tuple[tuple[int, ...], ...]
     centers: Floats
     axis: Floats
     wheels: tuple[TrackWheel, ...]
-    points: Floats
+    points: tuple[Floats, ...]
 
     @property
     def center(self) -> Floats:
@@ -97,7 +97,7 @@ def tracks_of(solids: Sequence[Solid]) -> list[Track]:
         centers = np.array([_middle(solids[i]) for i in row])
         axis = np.linalg.svd(centers - centers.mean(axis=0))[2][2]
         wheels = _wheels(row, axis, solids, taken)
-        points = np.concatenate([solids[i].points for shoe in shoes for i in shoe])
+        points = tuple(np.concatenate([solids[i].points for i in shoe]) for shoe in shoes)
         tracks.append(Track(tuple(shoes), centers, axis, tuple(wheels), points))
     return tracks
 

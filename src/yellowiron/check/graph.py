@@ -62,6 +62,11 @@ class Island:
         """The prim to name for it: its root, else its first body."""
         return self.roots[0] if self.roots else self.bodies[0].path
 
+    @property
+    def floating(self) -> bool:
+        """Whether the build meant it to be held by nothing: a ring of track shoes, which lies on the machine."""
+        return any(j.record.get("floating") for j in self.joints)
+
     @functools.cached_property
     def size(self) -> float:
         """The diagonal of the box around its geometry and its pins, metres."""

@@ -108,9 +108,12 @@ def _side(placement: Placement, template: Template, wheel: Role) -> tuple[tuple[
 
 
 def _stretch(points: Floats) -> tuple[Floats, Floats, tuple[float, float]]:
-    """Corners of the box around a track's points, and from where to where along x it lies on the ground."""
+    """Corners of the box around a track's points, and from where to where along x it lies on the ground, which is z = 0
+    unless it is nowhere near: at the ends of its run a shoe may dip deeper than those that it lies on."""
     low, high = points.min(axis=0), points.max(axis=0)
-    down = points[points[:, 2] < low[2] + ON_GROUND * (high[2] - low[2])]
+    near = ON_GROUND * float(high[2] - low[2])
+    down = points[points[:, 2] < low[2] + near]
+    low[2] = 0.0 if abs(low[2]) < near else low[2]
     return low, high, (float(down[:, 0].min()), float(down[:, 0].max()))
 
 

@@ -82,7 +82,8 @@ def disabled(view: View) -> Remarks:
 def loose(view: View) -> Remarks:
     """A body of a machine is held by no joint."""
     for root in map(view.scope, view.roots):
-        groups = [i for i in view.islands if any(b.path == root or b.path.startswith(f"{root}/") for b in i.bodies)]
+        inside = [i for i in view.islands if any(b.path == root or b.path.startswith(f"{root}/") for b in i.bodies)]
+        groups = [i for i in inside if not i.floating]
         if len(groups) > 1:
             largest = max(groups, key=lambda i: len(i.bodies))
             for island in groups:

@@ -92,7 +92,8 @@ def changed(view: View) -> Remarks:
         closing = record.get("cut") and kind == "revolute"
         if joint.type != kind and not (closing and joint.type == "spherical"):
             yield joint.path, f"It is {joint.type}, and was built as {kind}."
-        if bool(record.get("cut")) != joint.cut:
+        # The joints of a ring of shoes are excluded from the articulation too, and no cuts.
+        if bool(record.get("cut") or record.get("floating")) != joint.cut:
             yield joint.path, f"It is {'cut' if joint.cut else 'not cut'}, and was built the other way."
         built = (str(record.get("body0")), str(record.get("body1")))
         found = tuple(names.get(b, "") for b in joint.bodies)
@@ -200,7 +201,11 @@ def mobility(view: View) -> Remarks:
         return
     freedoms = 0
     for island in view.islands:
-        if island.motion is None or not any(b.path.startswith(f"{view.machine}/") for b in island.bodies):
+        if (
+            island.floating
+            or island.motion is None
+            or not any(b.path.startswith(f"{view.machine}/") for b in island.bodies)
+        ):
             continue
         tree = [j for j in island.joints if j.path not in island.in_loops and j.type in KINDS]
         loose = [j for j in tree if WORLD not in j.bodies]
