@@ -130,7 +130,7 @@ def draw_bucket(k: Linkage, pose: Pose, hardware: Assembly) -> Assembly:
     pair(weld, "BUCKET SIDE PL", side, at, "bucket")
     edge = [(*p.floor(TOOTH), 0.0), (*p.floor(TOOTH + 250), 0.0), (*p.floor(TOOTH + 250, LIP), 0.0)]
     edge += [(*p.floor(TOOTH + 40, LIP), 0.0), (*p.floor(TOOTH, 16.0), 0.0)]
-    put("CUTTING EDGE", plate(edge, "xz", -half, half), GREY)
+    weld.add(Part("CUTTING EDGE", moved(plate(edge, "xz", -half, half), at), GREY), "bucket", "cutting_edge")
     pair(tree, "SIDE CUTTER", _cutter(p, half), at, "bucket", GREY)
     tooth = _tooth(p)
     part = Part("BUCKET TOOTH", tooth, STEEL)

@@ -24,7 +24,7 @@ from . import values as v
 PITCH = v.LINK_PITCH.value
 COUNT = int(v.SHOES.value)
 HALF = v.TRACK_ON_GROUND.value / 2
-TEETH = 21
+TEETH = 22
 """Every second gap between the sprocket's teeth takes a pin."""
 SPROCKET_R = PITCH / (2 * math.sin(2 * math.pi / TEETH))
 """Pitch circle: pins two teeth apart are a link pitch apart."""
@@ -156,7 +156,8 @@ def _shoe_outline(grouser: float) -> list[tuple[float, float]]:
     """A triple-grouser shoe from the side in its link's frame: rear pin at the origin, front pin on +x, the ground
     towards -z. It begins behind the rear pin and ends before the front one."""
     back, front, seat, under = -32.0, 150.0, -SEAT, -SEAT - PLATE
-    points = [(back, seat), (back, -grouser), (back + 12, -grouser), (back + 20, under)]
+    # no grouser behind the pin: it would dig in where the chain rises from the ground
+    points = [(back, seat), (back, under), (-6.0, under), (2.0, -grouser), (12.0, -grouser), (18.0, under)]
     for middle in (66.0, 134.0):
         points += [(middle - 13, under), (middle - 5, -grouser), (middle + 5, -grouser), (middle + 13, under)]
     return [*points, (front, under), (front, seat)]

@@ -116,7 +116,7 @@ BOOM_HEIGHT = Value("Overall height, top of boom", 2799.0, "mm")
 """In the transport pose."""
 TRACK_ON_GROUND = Value("Track length on ground", 3650.0, "mm")
 """Sprocket axis to idler axis, as makers measure it."""
-TRACK_HEIGHT = Value("Track height", 849.0, "mm")
+TRACK_HEIGHT = Value("Track height", 887.0, "mm")
 GROUND_CLEARANCE = Value("Ground clearance (minimum)", 440.0, "mm")
 COUNTERWEIGHT_CLEARANCE = Value("Counterweight clearance", 1090.0, "mm")
 UPPER_WIDTH = Value("Width of upper structure", 2720.0, "mm")

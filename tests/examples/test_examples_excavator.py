@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from example_file import EXAMPLES, Bore, Leaf, bores_of, gaps, module, planes_along, read_step, solids_of
+from example_file import EXAMPLES, Bore, Leaf, bores_of, gaps, mesh_of, module, planes_along, read_step, solids_of
 from OCP.BRepGProp import BRepGProp
 from OCP.GProp import GProp_GProps
 
@@ -229,10 +229,15 @@ def test_frame_is_a_turn_and_the_grousers_stand_on_the_ground(leaves: list[Leaf]
     swing = truth["joints"]["undercarriage2upperstructure_joint"]
     assert np.allclose(m[:3, :3] @ swing["axis"], [0, 0, 1])
     assert np.allclose((m[:3, :3] @ swing["anchor"] + m[:3, 3])[:2], 0.0)
-    lowest = [
-        planes_along(leaf, m[:3, :3].T @ [0, 0, 1.0], -m[:3, :3].T @ m[:3, 3]) for leaf in leaves if "SHOE" in leaf.path
-    ]
-    assert min(min(heights) for heights in lowest if heights) == pytest.approx(0.0, abs=1e-9)
+    shoes = [leaf for leaf in leaves if "TRIPLE GROUSER" in leaf.path]
+    points, _ = mesh_of(shoes[0].shape)
+    lowest = []
+    for leaf in shoes:
+        place = np.array([[leaf.place.Value(i, j) for j in range(1, 5)] for i in range(1, 4)])
+        at = (points @ place[:, :3].T + place[:, 3]) / 1e3
+        lowest.append((at @ m[:3, :3].T + m[:3, 3])[:, 2].min())
+    assert len(shoes) == 98 and min(lowest) == pytest.approx(0.0, abs=1e-9), "none digs in where the chain bends"
+    assert sum(z < 1e-6 for z in lowest) >= 2 * 15, "those on the ground"
 
 
 def _coaxial(bore: Bore, joint: dict[str, Any]) -> bool:
