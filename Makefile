@@ -10,7 +10,7 @@ EXAMPLE := examples/wheel_loader
 
 demo: $(STAMP)
 	$(VENV)/bin/yellowiron build wheel_loader \
-	  --cad $(EXAMPLE)/wheel_loader.step --specs $(EXAMPLE)/specifications.pdf --out out/wheel_loader
+	  --cad $(EXAMPLE)/wheel_loader.step --specs $(EXAMPLE)/specifications.pdf --out out/wheel_loader --simulate
 
 # Fast tests first: a mistake shows before the slow ones start. A file's tests share their fixtures: one worker each.
 PYTEST := $(VENV)/bin/python -m pytest -n 2 --dist loadfile
