@@ -16,9 +16,9 @@ SIZE = 8.0
 
 
 # ---- numbers -------------------------------------------------------------------------------------------------------
-def grouped(value: float, decimals: int = 0) -> str:
-    """1234.5 → "1,235"."""
-    return f"{value:,.{decimals}f}"
+def grouped(value: float) -> str:
+    """1234.5 → "1,234.5", 1234.0 → "1,234"."""
+    return f"{value:,.1f}".removesuffix(".0")
 
 
 def feet(mm: float) -> str:
@@ -39,7 +39,7 @@ def short(mm: float) -> tuple[str, str]:
 
 def mass(kg: float) -> tuple[str, str]:
     """A mass as two cells."""
-    return f"{grouped(kg)} kg", f"{grouped(5 * round(kg / 0.45359237 / 5))} lb"
+    return f"{grouped(kg)} kg", f"{grouped(5.0 * round(kg / 0.45359237 / 5))} lb"
 
 
 def force(kn: float) -> tuple[str, str]:
@@ -49,7 +49,7 @@ def force(kn: float) -> tuple[str, str]:
 
 def pressure(mpa: float) -> tuple[str, str]:
     """A pressure as two cells."""
-    return f"{mpa:.1f} MPa", f"{grouped(mpa * 145.0377)} psi"
+    return f"{mpa:.1f} MPa", f"{mpa * 145.0377:,.0f} psi"
 
 
 def flow(litres: float) -> tuple[str, str]:
@@ -69,7 +69,7 @@ def torque(knm: float) -> tuple[str, str]:
 
 def litres(n: float) -> tuple[str, str]:
     """A capacity as two cells."""
-    return f"{grouped(n, 1 if n % 1 else 0)} L", f"{n / 3.785411784:.1f} U.S. gal"
+    return f"{grouped(n)} L", f"{n / 3.785411784:.1f} U.S. gal"
 
 
 # ---- words ---------------------------------------------------------------------------------------------------------
