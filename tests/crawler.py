@@ -108,10 +108,12 @@ def shoe_shape() -> Shape:
     stand between the rear eyes of the next link."""
     half = PITCH / 2
     eye = around((0.0, 0.0, LUG), (0.0, PLATE_OUT - SHOE[2] / 2, 0.0), (half, PLATE_OUT - SHOE[2] / 2, 0.0))
-    rear = plate("eye", eye, 0.03, [(0.0, 0.0, 0.0201)])
+    # The pin is fast in the rear eyes, and turns in the front ones.
+    rear, front = (plate("eye", eye, 0.03, [(0.0, 0.0, radius)]) for radius in (0.02, 0.0204))
     eyes = []
-    for y, x, sense in ((0.075, half, -1), (-0.075, half, -1), (0.107, -half, 1), (-0.107, -half, 1)):
-        eyes.append((rear, place((x, y, 0.0), (0.0, -sense, 0.0), (sense, 0.0, 0.0))))
+    for shape, y, x, sense in ((front, 0.075, half, -1), (rear, 0.107, -half, 1)):
+        for side in (y, -y):
+            eyes.append((shape, place((x, side, 0.0), (0.0, -sense, 0.0), (sense, 0.0, 0.0))))
     return merged("shoe", (box("plate", *SHOE), place((0, 0, PLATE_OUT), Z, X)), *eyes)
 
 

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from pxr import Usd, UsdPhysics
 
+from yellowiron.usd.metadata import KEY
 from yellowiron.usd.read import open_stage
 
 _TYPES = {
@@ -18,8 +19,9 @@ _TYPES = {
 
 
 def count_joints(path: str | Path) -> dict[str, int]:
-    """Rigid bodies, joints by type, drives and loops (joints excluded from the articulation) of a file as it opens:
-    cut pivots count as the spherical joints they are written as. `YellowironError` where the file does not open."""
+    """Rigid bodies, joints by type, drives and loops (joints excluded from the articulation; of a ring that is no part
+    of it, the one that closes it) of a file as it opens: cut pivots count as the spherical joints they are written as.
+    `YellowironError` where the file does not open."""
     stage = open_stage(path)
     prims = list(stage.Traverse(Usd.TraverseInstanceProxies()))
     joints = [UsdPhysics.Joint(p) for p in prims if p.IsA(UsdPhysics.Joint)]
@@ -28,5 +30,11 @@ def count_joints(path: str | Path) -> dict[str, int]:
         **{name: sum(p.IsA(kind) for p in prims) for name, kind in _TYPES.items()},
         "linear_drives": sum(p.HasAPI(UsdPhysics.DriveAPI, "linear") for p in prims),
         "angular_drives": sum(p.HasAPI(UsdPhysics.DriveAPI, "angular") for p in prims),
-        "loops": sum(bool(j.GetExcludeFromArticulationAttr().Get()) for j in joints),
+        "loops": sum(bool(j.GetExcludeFromArticulationAttr().Get()) and not _in_ring(j) for j in joints),
     }
+
+
+def _in_ring(joint: UsdPhysics.Joint) -> bool:
+    """Whether a joint is in the tree of a chain that no joint ties to the machine."""
+    record = joint.GetPrim().GetCustomDataByKey(KEY) or {}
+    return bool(record.get("floating")) and not record.get("cut")
