@@ -18,21 +18,10 @@ from drawing.solids import Y, bored, box, cut, mirrored, moved, outline, pipe, p
 
 from .linkage import ARM, BOOM, Linkage, Pose
 
-PIN_A, PIN_B, PIN_C, PIN_D, PIN_E, PIN_G, PIN_H, PIN_J, PIN_K, PIN_M, PIN_P = (
-    100.0,
-    100.0,
-    90.0,
-    90.0,
-    80.0,
-    80.0,
-    80.0,
-    80.0,
-    90.0,
-    90.0,
-    90.0,
-)
-BUSH = 10.0
-"""Wall of every bush."""
+PIN_A = PIN_B = 100.0
+PIN_C = PIN_D = PIN_K = PIN_M = PIN_P = 90.0
+PIN_E = PIN_G = PIN_H = PIN_J = 80.0
+"""Diameters of the pins, by the linkage's letters."""
 BOOM_Y, ARM_Y = 216.0, 156.0
 """Half widths outside."""
 CYLINDER_Y = 352.0
