@@ -143,9 +143,7 @@ def build(
             )  # fmt: skip
             report.write_document(document, folder / "report.json")
             report.write_document({"specifications": document["specifications"]}, folder / "specifications.json")
-            report.write_document(
-                library.filled_joints(chosen, machine, specifications), folder / "joints.filled.json"
-            )
+            report.write_document(library.filled_joints(chosen, machine, specifications), folder / "joints.filled.json")
             align.write_alignment(alignment, assembly, folder / "alignment.json")
             page = report.page(
                 document, machine, assembly, alignment,
