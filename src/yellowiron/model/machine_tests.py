@@ -32,9 +32,9 @@ class PayloadTemplate:
 class MachineTest:
     """One test (docs: template format). After `steps`, as a measurement's, `tipping`: a load on `site` grows; `force`:
     against `site`, moved by `offset` (metres along its x axis), in the `direction` up or along the site's path, while
-    `actuator` pushes in the sense of `to`, `best` actuators first brought, one after the other, to where their own force
-    there is greatest; `time` and `lift`: `actuator` moves to its end `to` with `payload` (times
-    the rated one) in the tool, at the flow that the wanted name `flow` gives.
+    `actuator` pushes in the sense of `to`, `best` actuators first brought, one after the other, to where their own
+    force there is greatest; `time` and `lift`: `actuator` moves to its end `to` with `payload` (times the rated one)
+    in the tool, at the flow that the wanted name `flow` gives.
 
     `base` floating: on the ground; `expected`: whether a `lift` arrives. `inputs`: wanted names that the figure hangs
     on; `specification`: the one that it is compared with, "" for none.

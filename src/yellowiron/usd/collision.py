@@ -6,7 +6,7 @@
 | `analytic` | a Cylinder, Capsule, Cube or Sphere prim; `convexHull` where the part is none of them | |
 | `triangleMesh` | `none` (UsdPhysics' word for the exact mesh) | PhysX allows it on static bodies only |
 | `convexHull`, `boundingCube`, `boundingSphere` | the same | |
-| `convexDecomposition` | pieces with `convexHull` | PhysX, on the mesh beside them: `PhysxConvexDecompositionCollisionAPI` |
+| `convexDecomposition` | pieces with `convexHull` | PhysX, beside them: `PhysxConvexDecompositionCollisionAPI` |
 | `meshSimplification` | the same | PhysX: `PhysxTriangleMeshSimplificationCollisionAPI` |
 | `sdf` | `convexDecomposition` | PhysX: `sdf`, `PhysxSDFMeshCollisionAPI`; Newton: `NewtonSDFCollisionAPI` |
 | `sphereFill` | `convexDecomposition` | PhysX: `sphereFill`, `PhysxSphereFillCollisionAPI` |
