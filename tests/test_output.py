@@ -70,3 +70,19 @@ def test_a_place_that_cannot_be_written_is_an_error(tmp_path: Path) -> None:
 def test_another_suffix_is_refused_before_any_work(tmp_path: Path) -> None:
     with pytest.raises(OutputError, match=r"\.stl"), output_file(tmp_path / "a.stl", suffixes=(".usd",)):
         raise AssertionError("the block must not run")
+
+
+def test_a_file_in_a_folder_s_place_is_an_error_before_anything_is_moved(tmp_path: Path) -> None:
+    for taken in ("scene.xml", "assets"):
+        out = tmp_path / taken
+        out.mkdir()
+        (out / "machine.xml").write_text("old")
+        (out / "scene.xml").mkdir() if taken == "scene.xml" else (out / "assets").write_text("mine")
+        with pytest.raises(OutputError, match="has to be written") as caught, output_folder(out) as folder:
+            (folder / "assets").mkdir()
+            (folder / "assets" / "a.stl").write_text("")
+            (folder / "machine.xml").write_text("new")
+            (folder / "scene.xml").write_text("")
+        assert caught.value.where == str(out / taken)
+        assert (out / "machine.xml").read_text() == "old"
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["assets", "scene.xml"]

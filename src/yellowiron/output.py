@@ -36,6 +36,7 @@ def output_folder(target: Path) -> Iterator[Path]:
     try:
         temporary.chmod(0o755)
         yield temporary
+        _refuse_clashes(temporary, target)
         _install(temporary, target)
     finally:
         shutil.rmtree(temporary, ignore_errors=True)
@@ -62,6 +63,19 @@ def output_file(target: Path, *, suffixes: Collection[str] = ()) -> Iterator[Pat
         (folder / target.name).replace(target)
     finally:
         shutil.rmtree(folder, ignore_errors=True)
+
+
+def _refuse_clashes(temporary: Path, target: Path) -> None:
+    """`OutputError` before anything is moved, where a file would have to take a folder's place or the reverse."""
+    for entry in sorted(temporary.rglob("*")):
+        place = target / entry.relative_to(temporary)
+        if place.exists() and entry.is_dir() != place.is_dir():
+            there, wanted = ("folder", "file") if place.is_dir() else ("file", "folder")
+            raise OutputError(
+                f"There is a {there} where a {wanted} has to be written",
+                where=str(place),
+                hint="Move it away, or name another output folder.",
+            )
 
 
 def _install(temporary: Path, target: Path) -> None:

@@ -78,6 +78,7 @@ def test_a_file_that_changed_is_read_again(tmp_path: Path) -> None:
     ("name", "content", "words"),
     [
         ("absent.usda", None, "no such file"),
+        (".", None, "is a folder"),
         ("machine.step", b"ISO-10303-21;", "not a USD file"),
         ("machine.usda", b"#usda 1.0\n(\n", "cannot be read"),
         ("machine.usdc", b"\x00\x01\x02", "cannot be read"),

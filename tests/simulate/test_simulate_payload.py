@@ -9,7 +9,7 @@ import pytest
 
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.mechanism import Mechanism
-from yellowiron.simulate.payload import rated_payload, tool, with_payload
+from yellowiron.simulate.payload import parse_payload, rated_payload, tool, with_payload
 
 
 def test_the_templates_first_rule_comes_first(mechanism: Mechanism) -> None:
@@ -58,3 +58,15 @@ def test_no_payload_changes_nothing(mechanism: Mechanism) -> None:
 def test_a_machine_without_a_tool_is_said(mechanism: Mechanism) -> None:
     with pytest.raises(YellowironError, match="which body carries"):
         with_payload(dataclasses.replace(mechanism, sites=()), 1.0)
+
+
+@pytest.mark.parametrize(("text", "mass"), [("5000", 5000.0), ("5.5 t", 5500.0), ("0", 0.0), ("2000 lb", 907.18474)])
+def test_a_mass_as_a_person_gives_it(text: str, mass: float) -> None:
+    assert parse_payload(text, "no.usda").mass == pytest.approx(mass)
+
+
+@pytest.mark.parametrize("text", ["lots", "-5", "nan", "inf", "1e999", "5 m", "5 things", ""])
+def test_what_is_no_mass_is_told_how_to_write_one(text: str) -> None:
+    with pytest.raises(YellowironError, match="mass of 0 kg or more") as caught:
+        parse_payload(text, "no.usda")
+    assert "rated" in caught.value.hint

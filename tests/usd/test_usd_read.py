@@ -102,6 +102,7 @@ def fails(path: Path, message: str) -> YellowironError:
 
 def test_no_such_file(tmp_path: Path) -> None:
     fails(tmp_path / "none.usda", "no such file")
+    fails(tmp_path, "is a folder")
 
 
 def test_no_usd(tmp_path: Path) -> None:
@@ -121,10 +122,11 @@ def test_usd_that_is_no_machine(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("file", ["geometry.usdc", "base.usda", "physics.usda"])
-def test_missing_payload(copy: Path, file: str) -> None:
+def test_missing_payload(copy: Path, file: str, capfd: pytest.CaptureFixture[str]) -> None:
     (copy / "payloads" / file).unlink()
     error = fails(copy / "test_machine.usda", "refers to something that is not there")
     assert file in error.hint
+    assert not capfd.readouterr().err, "USD's own lines, one a reference, drown the sentence"
 
 
 def test_truncated_payload(copy: Path) -> None:

@@ -24,7 +24,8 @@ def open_stage(path: Path) -> Any:
     """The composed stage. References that lead nowhere are findings, not errors; `YellowironError` where there is no
     such file or it is no USD."""
     if not path.is_file():
-        raise YellowironError("There is no such file", where=str(path), hint="Give a USD file.")
+        words = "This is a folder, not a file" if path.is_dir() else "There is no such file"
+        raise YellowironError(words, where=str(path), hint="Give a USD file.")
     if path.suffix.lower() not in _SUFFIXES:
         raise YellowironError(
             "This is not a USD file", where=str(path), hint=f"USD files end in {', '.join(_SUFFIXES)}."

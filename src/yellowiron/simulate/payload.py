@@ -42,10 +42,13 @@ def parse_payload(text: str, usd_path: str | Path) -> RatedPayload:
         from yellowiron.usd import read_machine
 
         return rated_payload(read_machine(usd_path))
-    value, unit = parse_quantity(text, where="--payload")
-    if unit not in ("", "kg") or not value >= 0.0:
+    try:
+        value, unit = parse_quantity(text, where="--payload")
+    except YellowironError:
+        value, unit = -1.0, ""
+    if unit not in ("", "kg") or not 0.0 <= value < float("inf"):
         raise YellowironError(
-            "A payload is a mass of 0 kg or more", where=f"--payload {text}", hint="Write 5000, or rated."
+            "A payload is a mass of 0 kg or more", where=f"--payload {text}", hint="Write 5000, 5.5 t, or rated."
         )
     return RatedPayload(value, "given")
 

@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import typing
 from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from pxr import Gf, Sdf, Tf, Usd, UsdGeom, UsdPhysics
+from pxr import Gf, Sdf, Tf, Usd, UsdGeom, UsdPhysics, UsdUtils
 
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.geometry import Floats
@@ -37,7 +38,7 @@ def read_machine(path: str | Path) -> Mechanism:
     """
     stage = open_stage(path)
     prim = find_machine(stage, str(path))
-    with Usd.EditContext(stage, stage.GetSessionLayer()):
+    with _quiet(), Usd.EditContext(stage, stage.GetSessionLayer()):
         for name, choice in (("Physics", "on"), ("Base", "floating")):
             if prim.GetVariantSets().HasVariantSet(name):
                 prim.GetVariantSet(name).SetVariantSelection(choice)
@@ -55,19 +56,31 @@ def open_stage(path: str | Path) -> Usd.Stage:
     """The composed stage of a USD file; `YellowironError` where it is none or does not compose."""
     file = Path(path)
     if not file.is_file():
-        raise YellowironError("There is no such file", where=str(path), hint=_BUILD_HINT)
+        words = "This is a folder, not a file" if file.is_dir() else "There is no such file"
+        raise YellowironError(words, where=str(path), hint=_BUILD_HINT)
     if file.suffix.lower() not in _SUFFIXES:
         raise YellowironError(
             "This is not a USD file", where=str(path), hint="USD files end in .usd, .usda, .usdc, .usdz."
         )
     try:
-        stage = Usd.Stage.Open(str(file))
+        with _quiet():
+            stage = Usd.Stage.Open(str(file))
     except Tf.ErrorException as error:
         raise YellowironError(
             "The file cannot be read as USD", where=str(path), hint="It is damaged or is not USD; write it again."
         ) from error
     _check_composition(stage, str(path))
     return stage
+
+
+@contextmanager
+def _quiet() -> Iterator[None]:
+    """Keeps USD from printing a line for each reference that leads nowhere: the error that is raised names one."""
+    delegate = UsdUtils.CoalescingDiagnosticDelegate()
+    try:
+        yield
+    finally:
+        del delegate
 
 
 def _check_composition(stage: Usd.Stage, where: str) -> None:
