@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from pxr import Usd, UsdGeom, UsdPhysics, UsdShade
 
+from align_solids import box, lathe
 from crawler import crawler
 from tracked_template import write_tracked_template
 from yellowiron import kinematics, usd
@@ -20,6 +21,7 @@ from yellowiron.model.mechanism import Mechanism
 from yellowiron.model.rows import expand
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import choose
+from yellowiron.usd.turned import turned_pieces
 
 
 @pytest.fixture(scope="module")
@@ -119,3 +121,13 @@ def test_mujoco_holds_the_ring(machines: dict[str, tuple[Mechanism, Path]], tmp_
     assert np.linalg.norm(ends[0] - ends[1]) < 1e-3
     # It has not fallen off the wheels that it hangs on.
     assert data.body("track_shoe_l_1").xpos[2] > -0.2
+
+
+def test_turned_parts_keep_their_flanges() -> None:
+    flanged = lathe("flanged", [(0.03, -0.1), (0.09, -0.1), (0.09, -0.08), (0.07, -0.08), (0.07, 0.1), (0.03, 0.1)])
+    flange, tread = turned_pieces(flanged)
+    for piece, radius, low, high in ((flange, 0.09, -0.1, -0.08), (tread, 0.07, -0.08, 0.1)):
+        assert np.hypot(*piece.points[:, :2].T).max() == pytest.approx(radius, abs=1e-5)
+        assert piece.points[:, 2].min() == pytest.approx(low, abs=1e-5)
+        assert piece.points[:, 2].max() == pytest.approx(high, abs=1e-5)
+    assert turned_pieces(box("block", 0.1, 0.1, 0.1)) == ()

@@ -6,6 +6,7 @@
 | `analytic` | a Cylinder, Capsule, Cube or Sphere prim; `convexHull` where the part is none of them | |
 | `triangleMesh` | `none` (UsdPhysics' word for the exact mesh) | PhysX allows it on static bodies only |
 | `convexHull`, `boundingCube`, `boundingSphere` | the same | |
+| `turned` | discs with `convexHull`, between the steps of the outer profile; one hull where it is not turned | |
 | `convexDecomposition` | pieces with `convexHull` | PhysX, beside them: `PhysxConvexDecompositionCollisionAPI` |
 | `meshSimplification` | the same | PhysX: `PhysxTriangleMeshSimplificationCollisionAPI` |
 | `sdf` | `convexDecomposition` | PhysX: `sdf`, `PhysxSDFMeshCollisionAPI`; Newton: `NewtonSDFCollisionAPI` |
@@ -46,6 +47,7 @@ APPROXIMATIONS = {
     for a in (
         Approximation("none"),
         Approximation("analytic", "convexHull"),
+        Approximation("turned", "convexHull"),
         Approximation("triangleMesh", "none"),
         Approximation("convexHull", "convexHull"),
         Approximation("boundingCube", "boundingCube"),

@@ -15,6 +15,7 @@ from yellowiron.model.mechanism import Body, BodyPart, Mechanism
 from yellowiron.usd.collision import APPROXIMATIONS, Approximation, approximation
 from yellowiron.usd.materials import Look, look_of
 from yellowiron.usd.stage import Names
+from yellowiron.usd.turned import turned_pieces
 from yellowiron.usd.weld import weld
 
 GEOMETRY_FILE = "geometry.usdc"
@@ -175,11 +176,14 @@ class _Placer:
     def _collision(self, data: BodyPart, shape: Shape) -> tuple[Approximation, tuple[Mesh, ...]]:
         """The approximation asked for, and its pieces; where one piece stands for a part, it is its hull."""
         asked = approximation(data.collision, where=data.part)
-        if asked.token != "convexDecomposition":
+        if asked.token not in ("convexDecomposition", "turned"):
             return asked, ()
-        if shape.key not in self._pieces:
-            points, triangles, _ = weld(shape.mesh)
-            whole = Mesh(points.astype(np.float64), triangles)
-            self._pieces[shape.key] = convex_pieces(whole) if len(triangles) else ()
-        pieces = self._pieces[shape.key]
+        key = f"{asked.token} {shape.key}"
+        if key not in self._pieces:
+            self._pieces[key] = turned_pieces(shape) if asked.token == "turned" else self._decomposed(shape)
+        pieces = self._pieces[key]
         return (asked, pieces) if len(pieces) > 1 else (APPROXIMATIONS["convexHull"], ())
+
+    def _decomposed(self, shape: Shape) -> tuple[Mesh, ...]:
+        points, triangles, _ = weld(shape.mesh)
+        return convex_pieces(Mesh(points.astype(np.float64), triangles)) if len(triangles) else ()
