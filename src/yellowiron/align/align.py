@@ -39,7 +39,7 @@ from yellowiron.align.solve import MISSING_WEIGHT, Solution, solve
 from yellowiron.align.spread import Spreader
 from yellowiron.align.touch import Touch
 from yellowiron.align.tracks import Track, track_places, tracks_of, without_tracks
-from yellowiron.align.weights import Weights, name_weights, side_weights
+from yellowiron.align.weights import Weights, name_weights, side_weights, size_weights
 from yellowiron.align.wheels import Wheel, wheels_of
 from yellowiron.model.alignment import Alignment, Vector
 from yellowiron.model.assembly import Assembly
@@ -51,6 +51,10 @@ from yellowiron.model.template import Template, choose
 CONTACT = (4e-5, 3e-4)
 """Two faces touch within this share of the machine's diagonal (0.4 mm on 10 m); the wider one is for machines that the
 first does not find whole (moved or shrunk parts)."""
+FORBIDDEN = 10_000
+"""What an assignment loses that is tried without."""
+MARGIN = 20
+"""An assignment is doubtful if the best without it scores this little less: less than a name is worth."""
 SIDED_WEIGHT = 4 * MISSING_WEIGHT
 """What a variant loses for a cylinder that stands to one side where it should be in the middle."""
 
@@ -128,6 +132,7 @@ def align(
         if sided != answer.unary:
             solution = solve(structure, resolved, unary=sided)
             frame = machine_frame(seen.solids, structure, solution, seen.wheels, resolved, tracks)
+    rivals = {} if _whole(replace(answer, solution=solution)) else _rivals(structure, resolved, solution, answer.unary)
     spreader = Spreader(
         seen.solids,
         structure,
@@ -139,6 +144,7 @@ def align(
         scores,
         seen.size,
         frame.matrix[2, :3] if frame is not None else np.array([0.0, 0.0, 1.0]),
+        rivals,
     )
     places = spreader.run(seen.wheels)
     apart |= {seen.solids[i].part.id: metres for i, metres in spreader.apart.items()}
@@ -174,6 +180,17 @@ def align(
     )
 
 
+def _rivals(structure: Structure, template: Template, solution: Solution, unary: Weights) -> dict[int, str | None]:
+    """Clusters that could as well be another body (or none), and which: where a machine is not whole, its joints alone
+    may not tell."""
+    found = {}
+    for cluster, body in sorted(solution.body_of.items()):
+        other = solve(structure, template, unary={**unary, (cluster, body): -FORBIDDEN})
+        if solution.score - other.score < MARGIN and other.body_of.get(cluster) != body:
+            found[cluster] = other.body_of.get(cluster)
+    return found
+
+
 def _axes(structure: Structure, solution: Solution) -> dict[str, tuple[Vector, Vector]]:
     """Joint → its axis, for the joints that no pin is drawn for and that no wheel turns on."""
     found = {}
@@ -204,8 +221,12 @@ def _best(
         for chosen in _variants(template, choices):
             resolved = choose(template, chosen)
             unary = name_weights(seen.solids, structure, resolved, scores, edited)
-            for key, weight in sheet_weights(structure, seen.rams, resolved, specifications).items():
-                unary[key] = unary.get(key, 0) + weight
+            for more in (
+                sheet_weights(structure, seen.rams, resolved, specifications),
+                size_weights(seen.solids, structure, resolved),
+            ):
+                for key, weight in more.items():
+                    unary[key] = unary.get(key, 0) + weight
             solution = solve(structure, resolved, unary=unary)
             sided = one_sided(seen.solids, structure, solution, seen.rams, template, resolved)
             answer = _Answer(structure, chosen, resolved, solution, unary, sided)

@@ -63,8 +63,30 @@ def pierced_fits_of(
                 found.append(fit)
     apart = {s.index for s in solids if s.index in taken or s.shaft is not None or s.axis is not None}
     joined = pinned | {frozenset((f.inner, f.outer)) for f in found}
-    tables = _turntables([s for s in solids if s.index not in apart], touch, size)
-    return found + [fit for fit in tables if frozenset((fit.inner, fit.outer)) not in joined]
+    bodies = [s for s in solids if s.index not in apart]
+    tables = _turntables(bodies, touch, size)
+    found += [fit for fit in tables if frozenset((fit.inner, fit.outer)) not in joined]
+    joined |= {frozenset((f.inner, f.outer)) for f in tables}
+    eyes = [fit for s in bodies for fit in _through(s, _between_knuckles(s, size), solids, touch)]
+    return found + [f for f in eyes if f.outer not in apart and frozenset((f.inner, f.outer)) not in joined]
+
+
+def _between_knuckles(solid: Solid, size: float) -> list[Cyl]:
+    """Bars between two like knuckles of a part that are in line, as of a fork: from one's outer end to the other's."""
+    stout = [k for k in solid.knuckles if STOUT * size < k.radius < TABLE * size]
+    bars = []
+    for i, one in enumerate(stout):
+        for other in stout[i + 1 :]:
+            delta = other.center - one.center
+            apart = float(np.linalg.norm(delta))
+            alike = abs(one.radius - other.radius) < 0.1 * one.radius and apart > one.half + other.half
+            if not alike or abs(float(one.direction @ other.direction)) < 1 - 100 * (1 - PARALLEL):
+                continue
+            if one.off(other.center) > 0.3 * one.radius:
+                continue
+            middle = one.center + 0.5 * delta
+            bars.append(replace(one, center=middle, direction=delta / apart, half=0.5 * apart + one.half))
+    return bars
 
 
 def _turntables(solids: list[Solid], touch: Touch, size: float) -> list[Fit]:

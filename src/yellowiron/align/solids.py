@@ -45,7 +45,8 @@ class Cyl:
 class Solid:
     """One part, ready to be reasoned about. `axis` is the cylinder whose axis the part is symmetric about, or None;
     `shaft` the solid bar it mainly is (a pin, a bolt, a rod), or None; `reach` its greatest radius about `axis` or
-    `shaft`, and [`start`, `end`] its span along it, measured from that cylinder's centre."""
+    `shaft`, and [`start`, `end`] its span along it, measured from that cylinder's centre; `knuckles` are bosses rounded
+    by eye."""
 
     index: int
     part: Part
@@ -63,6 +64,7 @@ class Solid:
     reach: float = 0.0
     start: float = 0.0
     end: float = 0.0
+    knuckles: tuple[Cyl, ...] = ()
 
     @property
     def size(self) -> float:
@@ -145,6 +147,7 @@ def _solid(index: int, part: Part, shape: Shape, points: Floats, planes: tuple[P
     return Solid(
         index, part, shape, points, low, high, centre, volume, cylinders,
         flat @ matrix.T + part.transform[:3, 3], normals @ turn.T, axis, shaft, reach, start, end,
+        tuple(_cyl(c, part.transform, turn, scale) for c in shape.knuckles),
     )  # fmt: skip
 
 

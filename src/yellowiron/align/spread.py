@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -55,6 +55,7 @@ class Spreader:
     scores: list[dict[str, float]]
     size: float
     up: Floats
+    rivals: Mapping[int, str | None] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self.places: dict[int, Place] = {}
@@ -88,10 +89,13 @@ class Spreader:
             words += f": {', '.join(solved)}" if solved else ""
             if not self.solution.proven:
                 confidence, words = min(confidence, 0.7), words + " (the search was cut short)"
+            doubt = self.rivals.get(c) if c in self.rivals else None
+            if c in self.rivals:
+                confidence, words = min(confidence, 0.45), f"{words}; but it could as well be {doubt or 'none'}"
             for i in self.structure.clusters[c].members:
                 rival = self._named_other(i, body)
                 drop = 0.1 if rival else 0.0
-                self.places[i] = Place(body, body, confidence - drop, words, rival)
+                self.places[i] = Place(body, body, confidence - drop, words, doubt or rival)
 
     def _torn(self) -> None:
         """Parts that hold to two bodies about as firmly: the one chosen is a guess."""

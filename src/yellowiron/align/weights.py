@@ -22,6 +22,7 @@ NAME_WEIGHT = 40
 EXACT_WEIGHT = 70
 EDIT_WEIGHT = 250
 SIDE_WEIGHT = 80
+SIZE_WEIGHT = 12
 _SIDE = re.compile(r"(?<=_)([lr])(?=_|$)")
 
 
@@ -53,6 +54,25 @@ def name_weights(
             if body_said is not None:
                 unary[c, body_said] = unary.get((c, body_said), 0) + EDIT_WEIGHT
     return unary
+
+
+def size_weights(solids: tuple[Solid, ...], structure: Structure, template: Template) -> Weights:
+    """Weights for the machine's frames, which are its largest things, and for the tool, which is larger than links."""
+    sizes = [sum(float(solids[i].shape.area) for i in sorted(c.members)) for c in structure.clusters]
+    ranked = sorted(sizes)
+    frames = [r.name for r in template.roles if r.rigid and r.kind == "frame"]
+    tools = {template.body_of(r.name) for r in template.roles if r.kind == "edge"} - {None, *frames}
+    largest = ranked[-1] if ranked else 0.0
+    others = ranked[-1 - len(frames)] if len(ranked) > len(frames) else 0.0
+    found: Weights = {}
+    for c, size in enumerate(sizes):
+        if structure.clusters[c].kind or largest <= 0.0:
+            continue
+        for name in frames:
+            found[c, name] = round(SIZE_WEIGHT * size / largest)
+        for tool in sorted(str(t) for t in tools):
+            found[c, tool] = round(0.5 * SIZE_WEIGHT * min(1.0, size / others)) if others > 0.0 else 0
+    return found
 
 
 def twin_role(name: str) -> str | None:

@@ -271,5 +271,6 @@ def finish(body: Body) -> tuple[Shape, int]:
         cylinders=features.cylinders(body.survey) if found is None else found.cylinders,
         planes=features.planes(body.survey) if found is None else found.planes,
         bounds=body.box * MILLIMETRE,
+        knuckles=() if found is None else found.knuckles,
     )
     return shape, missing

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from yellowiron.cad.ovals import ovals
+from yellowiron.cad.ovals import knuckles, ovals
 from yellowiron.cad.roundness import LEAST, ROUGH, Round, fit, grown, trimmed, widths
 from yellowiron.cad.soup import Flags, Indices, Soup, soup_of
 from yellowiron.cad.strips import by_folds, by_normals, flat_facets
@@ -44,6 +44,7 @@ class Found:
 
     cylinders: tuple[CylinderFeature, ...]
     planes: tuple[PlaneFeature, ...]
+    knuckles: tuple[CylinderFeature, ...] = ()
 
 
 def find(mesh: Mesh) -> Found:
@@ -73,7 +74,11 @@ def find(mesh: Mesh) -> Found:
             found.append((oval.round, oval.arc))
             free[oval.round.triangles] = False
     found.sort(key=lambda pair: int(pair[0].triangles.min()))
-    return Found(tuple(_feature(soup, r, arc) for r, arc in found), _planes(soup, free))
+    return Found(
+        tuple(_feature(soup, r, arc) for r, arc in found),
+        _planes(soup, free),
+        tuple(_feature(soup, k.round, k.arc) for k in knuckles(soup, free)),
+    )
 
 
 # ---- what is round ----

@@ -1,5 +1,6 @@
-"""Cylinders that a model's scale has made oval: other factors along its axes, as where a machine of one size was
-stretched into one of another. Their axis is still where they turn."""
+"""What is round, but no cylinder: ovals, which a model's scale has made of cylinders (other factors along its axes, as
+where a machine of one size was stretched into one of another), and knuckles, bosses that are rounded by eye. Their axis
+is still where they turn."""
 
 from __future__ import annotations
 
@@ -25,6 +26,8 @@ _NARROWEST = 0.5
 """The least ratio of an oval's axes."""
 _AROUND = 0.9 * math.pi
 """Radians around it that its folds cover at least."""
+_BY_EYE = 0.15
+"""A knuckle's outline strays from a circle by no more than this share of its radius, root mean square."""
 _NONE = np.zeros(0, dtype=np.int64)
 
 
@@ -116,3 +119,50 @@ def _ellipse(points: Floats) -> tuple[Floats, Floats, float] | None:
         return None
     radius = size * float(np.linalg.det(shape)) ** -0.25
     return middle + size * center, shape / size**2, radius
+
+
+def knuckles(soup: Soup, free: Flags) -> Iterator[Oval]:
+    """The rounded bosses among the pieces of connected triangles of which none is known to be round, in their order:
+    the circle that is nearest to the folds along a piece's main direction."""
+    bent = (soup.angle > _SLIGHTEST) & (soup.angle < WIDEST) & ~soup.concave & free[soup.pair].all(axis=1)
+    count = len(soup.points)
+    rows = np.concatenate([soup.corners[:, 0], soup.corners[:, 0]])
+    columns = np.concatenate([soup.corners[:, 1], soup.corners[:, 2]])
+    graph = coo_array((np.ones(len(rows), dtype=np.int8), (rows, columns)), shape=(count, count))
+    piece = connected_components(graph, directed=False)[1][soup.corners[:, 0]]
+    known = set(piece[~free].tolist())
+    folds = np.flatnonzero(bent)
+    label = piece[soup.pair[folds, 0]]
+    order = np.argsort(label, kind="stable")
+    starts = np.flatnonzero(np.append(True, np.diff(label[order]) != 0)) if len(order) else _NONE
+    for one in np.split(folds[order], starts[1:]):
+        if len(one) >= _FEWEST and int(piece[soup.pair[one[0], 0]]) not in known:
+            found = _knuckle(soup, one)
+            if found is not None:
+                yield found
+
+
+def _knuckle(soup: Soup, folds: Indices) -> Oval | None:
+    ends = soup.points[soup.edges[folds]]
+    direction = ends[:, 1] - ends[:, 0]
+    length = np.linalg.norm(direction, axis=1)
+    direction /= length[:, None]
+    main = direction[int(np.argmax((np.abs(direction @ direction.T) > _IN_LINE) @ length))]
+    kept = np.abs(direction @ main) > _IN_LINE
+    if int(kept.sum()) < _FEWEST:
+        return None
+    basis = np.stack(across(main))
+    flat = ends[kept].mean(axis=1) @ basis.T
+    # The circle nearest to points by the algebraic fit: x² + y² = 2 c·(x, y) + const.
+    solved = np.linalg.lstsq(np.column_stack([2.0 * flat, np.ones(len(flat))]), (flat**2).sum(axis=1), rcond=None)[0]
+    center = solved[:2]
+    distance = np.linalg.norm(flat - center, axis=1)
+    radius = float(distance.mean())
+    angles = np.sort(np.arctan2(flat[:, 1] - center[1], flat[:, 0] - center[0]))
+    gap = float(np.append(np.diff(angles), angles[0] + 2.0 * math.pi - angles[-1]).max())
+    if float(distance.std()) > _BY_EYE * radius or gap > math.pi:
+        return None
+    triangles = np.unique(soup.pair[folds[kept]])
+    along = float((ends[kept].reshape(-1, 3) @ main).mean())
+    point = center @ basis + along * main
+    return Oval(Round(point, main, radius, False, triangles), 2.0 * math.pi - (gap if gap > WIDEST else 0.0))

@@ -109,6 +109,7 @@ def shape_of(mesh: Mesh, name: str, color: Color | None = None) -> Shape:
         cylinders=found.cylinders,
         planes=found.planes,
         bounds=meshed.bounds(mesh),
+        knuckles=found.knuckles,
     )
 
 

@@ -21,9 +21,11 @@ MEC005  nothing says where a joint is; it is left out
 MEC006  more than one axis fits a joint
 MEC007  a part is aligned to a body that the template does not have; it is left out
 MEC008  a part has no surface; it is left out
+MEC009  a joint's axis is that of a round face of one body only: no pin and no common bore is drawn
 MEC010  parallel axes of one loop differ by more than drawing accuracy; they were made parallel
 MEC011  a body has no joint that leads to it; it was welded to its ancestor
 MEC012  a loop has no pin that could be cut
+MEC013  an actuator has no cylinder in the CAD model; its hinge is driven directly
 MEC020  a bore or rod diameter differs between sheet and CAD
 MEC021  the piston's travel in CAD is not the stroke
 MEC022  a cylinder's closed length is not known; mid-stroke was assumed
@@ -33,6 +35,7 @@ MEC025  the template's default stands for a value that no sheet gives
 MEC026  an actuator has no cylinder or motor left
 MEC027  nothing gives a value that a cylinder or motor needs; it has no force limit
 MEC028  a twin is driven in the place of the cylinder it follows, which was not found
+MEC029  a barrel is drawn without its bore, which was taken from its outer diameter
 MEC030  a part's material has no density; steel's was taken
 MEC031  an open or empty solid: its mass is that of a thin shell
 MEC032  masses were scaled to published weights (a warning where the factor is not plausible)
@@ -43,6 +46,7 @@ MEC041  no plane meets the edge of an edge site; its x axis points from the hing
 MEC050  a limit names a specification that is not known; the joint is not limited there
 MEC070  hidden wheels stand for a row of which no part is there; they are left out
 MEC071  hidden wheels would weigh more than the body that carries the track; it keeps its mass besides
+MEC072  tracks and frame are drawn in one: the track is what stands on the ground on its side
 ======  ========================================================================================================
 """
 

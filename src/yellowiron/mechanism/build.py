@@ -4,6 +4,7 @@ what everything weighs."""
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any, Protocol
 
 import numpy as np
@@ -11,10 +12,11 @@ import numpy as np
 from yellowiron.mechanism import body, chains, cylinders, drives, mass, sensors, sites, values
 from yellowiron.mechanism.body import vector
 from yellowiron.mechanism.cylinders import FittedCylinder
+from yellowiron.mechanism.direct import direct_drives, with_direct_hinges
 from yellowiron.mechanism.frames import JointFrame, joint_frames, weld
 from yellowiron.mechanism.hidden import hidden_wheels, with_wheels
 from yellowiron.mechanism.placement import Placement, ancestors, place
-from yellowiron.mechanism.planarity import make_parallel
+from yellowiron.mechanism.planarity import follow_first, make_parallel
 from yellowiron.mechanism.tree import Tree, links, loop_groups, loose_bodies
 from yellowiron.model.alignment import Alignment
 from yellowiron.model.assembly import Assembly
@@ -70,6 +72,7 @@ def build_mechanism(
     frames, remarks = joint_frames(placement, template, wheels)
     findings += remarks
     template = cylinders.with_leaders(template, frames, findings)
+    template, direct = with_direct_hinges(template, frames, findings)
 
     # Which joints make the tree, which close its loops; axes of a loop exactly parallel.
     floating = chains.heads(placement, template, frames)
@@ -78,13 +81,17 @@ def build_mechanism(
     findings += _uncuttable(tree, frames)
     frames, remarks = make_parallel(frames, loop_groups(tree.loops))
     findings += remarks
+    frames, remarks = follow_first(frames, sorted(direct, key=lambda name: tree.bodies.index(tree.sides[name][1])))
+    findings += remarks
 
     # What moves them, how far and how hard.
     fitted, remarks = cylinders.fit_cylinders(placement, template, frames, specifications)
     findings += remarks
     powered = drives.slide_drives(template, fitted, findings)
     radii = chains.pitch_radii(placement, template, frames) | {name: wheel.radius for name, wheel in wheels.items()}
-    powered |= drives.motor_drives(template, frames, tree.sides, placement, specifications, findings, radii)
+    motors = replace(template, actuators=tuple(a for a in template.actuators if not direct & {*a.joints}))
+    powered |= drives.motor_drives(motors, frames, tree.sides, placement, specifications, findings, radii)
+    powered |= direct_drives(direct, frames)
     stated = drives.stated_drives(template, frames, findings)
     powered |= stated
     actuators = drives.actuators(template, frames, fitted, stated, findings)

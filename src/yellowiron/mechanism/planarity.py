@@ -18,6 +18,9 @@ _ACCURACY = {True: math.radians(0.01), False: math.radians(0.05)}
 _MEANT_PARALLEL = math.radians(0.5)
 """Up to here they are made parallel with a finding; beyond it the loop is taken to be spatial."""
 
+_IN_A_PLANE = math.radians(2.0)
+"""Up to here the pivots of an open arm are made parallel to its first."""
+
 
 def make_parallel(
     frames: Mapping[str, JointFrame], groups: Sequence[frozenset[str]]
@@ -43,6 +46,18 @@ def make_parallel(
         for name in names:
             if frames[name].joint.type == "prismatic":
                 _flatten(result, frames[name], normals, findings)
+    return result, findings
+
+
+def follow_first(frames: Mapping[str, JointFrame], names: Sequence[str]) -> tuple[dict[str, JointFrame], list[Finding]]:
+    """Frames in which the pivots of an open arm, named from the root outwards, are parallel to the first of them as far
+    as they nearly are: no loop says that they must be, but an arm is drawn in a plane."""
+    result = dict(frames)
+    findings: list[Finding] = []
+    for name in names[1:]:
+        first, own = result[names[0]].axis, result[name].axis
+        if float(np.linalg.norm(np.cross(first, own))) < math.sin(_IN_A_PLANE):
+            _turn(result, frames[name], first if float(first @ own) > 0.0 else -first, findings)
     return result, findings
 
 
@@ -79,5 +94,7 @@ def _turn(result: dict[str, JointFrame], frame: JointFrame, axis: Floats, findin
     source = {**frame.source, "planarity_deg": round(math.degrees(moved), 9)}
     result[frame.joint.name] = replace(frame, axis=axis, source=source)
     if moved > _ACCURACY[frame.exact]:
-        words = f"Its axis is {math.degrees(moved):.3f}° off the others of its loop, and was made parallel to them."
+        words = (
+            f"Its axis is {math.degrees(moved):.3f}° off the others that move with it, and was made parallel to them."
+        )
         findings.append(Finding("MEC010", "warning", frame.joint.name, words, "Check its pin in the CAD model."))

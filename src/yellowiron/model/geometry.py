@@ -75,7 +75,8 @@ class Shape:
 
     `key` is a hash of the content: equal shapes of two files have equal keys. `volume` (m³), `centroid` (3,)
     and `inertia` (3, 3) (m⁵: for density 1, about the centroid) are exact where `exact` is true (B-rep), else
-    those of the mesh. `closed` is false for sheets and open meshes, whose volume means little.
+    those of the mesh. `closed` is false for sheets and open meshes, whose volume means little. `knuckles` are rounded
+    bosses and eyes of a mesh that are no cylinders, each with the cylinder that is nearest to it.
     """
 
     key: str
@@ -91,3 +92,4 @@ class Shape:
     cylinders: tuple[CylinderFeature, ...] = ()
     planes: tuple[PlaneFeature, ...] = ()
     bounds: Floats = field(default_factory=lambda: np.zeros((2, 3)))
+    knuckles: tuple[CylinderFeature, ...] = ()
