@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from yellowiron.simulate import rated_payload, simulate
-from yellowiron.simulate.engine import ENGINES, Base, Setup
+from yellowiron.simulate.engine import ENGINES, Base, Setup, coordinates, tell
 from yellowiron.usd import read_machine
 
 pytest.importorskip("ovphysx", reason="needs pip install 'yellowiron[physx]'")
@@ -37,13 +37,13 @@ def test_targets_reach_every_drive(wheel_loader: Path) -> None:
     told = {j.name: 0.01 if j.drive is not None and j.drive.kind == "position" else 1.0 for j in driven}
     try:
         for share in np.linspace(0.0, 1.0, 120):
-            engine.set_targets({name: float(share) * value for name, value in told.items()})
+            tell(engine, {name: float(share) * value for name, value in told.items()})
             engine.step()
         for _ in range(120):
             engine.step()
-        before = engine.coordinates()
+        before = coordinates(engine)
         engine.step()
-        reached = engine.coordinates()
+        reached = coordinates(engine)
     finally:
         engine.close()
     for joint, place, speed in zip(driven, reached, (reached - before) / setup.timestep, strict=True):

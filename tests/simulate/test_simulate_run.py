@@ -5,19 +5,19 @@ from __future__ import annotations
 import math
 import sys
 import types
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from yellowiron.kinematics import ClosedChain
+from yellowiron.kinematics import ClosedChain, State
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Mechanism
 from yellowiron.simulate import engine as engines
 from yellowiron.simulate import rated_payload, simulate, simulation_document
-from yellowiron.simulate.engine import EngineEntry, Setup
+from yellowiron.simulate.engine import EngineEntry, Readings, Setup
 
 
 class Puppet:
@@ -28,29 +28,30 @@ class Puppet:
     def __init__(self, setup: Setup, lie: Callable[[int, Floats, Floats, Floats], None]) -> None:
         self.setup, self.lie, self.count = setup, lie, 0
         self.chain = ClosedChain(setup.mechanism)
-        self.state = self.chain.drawn
-        self.targets = dict.fromkeys(setup.measured, 0.0)
+        self.now = self.chain.drawn
+        self.told = dict.fromkeys(setup.measured, 0.0)
 
-    def set_targets(self, targets: Mapping[str, float]) -> None:
-        self.targets.update({k: v for k, v in targets.items() if k == "slide"})
+    def targets(self, joints: Sequence[str]) -> Callable[[Floats], None]:
+        def write(values: Floats) -> None:
+            self.told.update({k: float(v) for k, v in zip(joints, values, strict=True) if k == "slide"})
+
+        return write
 
     def step(self) -> None:
         self.count += 1
-        self.state = self.chain.solve(self.targets, start=self.state)
+        self.now = self.chain.solve(self.told, start=self.now)
 
-    def _all(self) -> tuple[Floats, Floats, Floats]:
-        rotations, origins = self.chain.placements((self.state,))
+    def state(self) -> tuple[int, State]:
+        return self.count, self.now
+
+    def read(self, states: Sequence[tuple[int, State]]) -> Readings:
+        rotations, origins = self.chain.placements([state for _, state in states])
         index = [self.chain.body_index(body.name) for body in self.setup.mechanism.bodies]
-        coordinates = np.array([self.chain.coordinate(self.state, name) for name in self.setup.measured])
-        made = coordinates, rotations[0, index], origins[0, index]
-        self.lie(self.count, *made)
+        coordinates = np.array([[self.chain.coordinate(s, name) for name in self.setup.measured] for _, s in states])
+        made = Readings(coordinates, rotations[:, index], origins[:, index])
+        for (count, _), *rows in zip(states, *made, strict=True):
+            self.lie(count, *rows)
         return made
-
-    def poses(self) -> tuple[Floats, Floats]:
-        return self._all()[1:]
-
-    def coordinates(self) -> Floats:
-        return self._all()[0]
 
     def close(self) -> None:
         pass

@@ -12,7 +12,7 @@ from in_engines import EVERY, load, need
 import simple_machines as simple
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.mechanism import Mechanism
-from yellowiron.simulate.engine import ENGINES, Base, Block, Setup
+from yellowiron.simulate.engine import ENGINES, Base, Block, Setup, poses
 from yellowiron.usd.collision import APPROXIMATIONS
 
 BLOCK = Block((0.0, 0.0), length=0.3, width=1.0, height=0.2, run=0.05)
@@ -33,10 +33,10 @@ def play(engine: str, mechanism: Mechanism, file: Path, base: Base, seconds: flo
     loaded = load(engine, Setup(file, mechanism, base, step, (), standing=(body,), blocks=blocks))
     number = [b.name for b in mechanism.bodies].index(body)
     try:
-        places = [loaded.poses()[1][number]]
+        places = [poses(loaded)[1][number]]
         for _ in range(round(seconds / step)):
             loaded.step()
-            places.append(loaded.poses()[1][number])
+            places.append(poses(loaded)[1][number])
     finally:
         loaded.close()
     return np.array(places)

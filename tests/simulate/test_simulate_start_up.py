@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from in_engines import load
 
-from yellowiron.simulate.engine import ENGINES, Setup
+from yellowiron.simulate.engine import ENGINES, Setup, poses
 from yellowiron.usd import read_machine
 
 pytestmark = pytest.mark.slow
@@ -25,12 +25,12 @@ def test_start_up_is_at_rest_and_twice_the_same(name: str, wheel_loader: Path) -
     for _ in range(2):
         engine = load(name, setup)
         try:
-            assert np.abs(engine.poses()[1] - [body.origin for body in machine.bodies]).max() < 1e-5
+            assert np.abs(poses(engine)[1] - [body.origin for body in machine.bodies]).max() < 1e-5
             engine.step()
             speeds = engine.velocities()  # type: ignore[attr-defined]  # by joint in PhysX
             assert max(map(abs, speeds.values() if isinstance(speeds, dict) else speeds)) < START_UP
             engine.step()
-            ends.append(engine.poses()[1])
+            ends.append(poses(engine)[1])
         finally:
             engine.close()
     assert np.array_equal(*ends)

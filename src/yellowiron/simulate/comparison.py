@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from yellowiron import guard
 from yellowiron.kinematics import ClosedChain, State, branch_pivots
 from yellowiron.kinematics.branches import branch_sines
 from yellowiron.model.geometry import Floats
@@ -81,6 +82,7 @@ class Comparison:
         parts: list[Agreement] = []
         for start in range(0, good, _CHUNK):
             chunk = slice(start, min(good, start + _CHUNK))
+            guard.beat()
             parts.append(self._chunk(coordinates[chunk], rotations[chunk], origins[chunk], start))
             if not parts[-1].followed:
                 break

@@ -13,7 +13,7 @@ from yellowiron.model.mechanism import Mechanism
 class Coordinates:
     """Follows the named joints: slides in metres, pivots in radians without a jump at a full turn, 0 as drawn.
 
-    Between two calls a pivot must turn by less than half a turn.
+    Between two instants a pivot must turn by less than half a turn.
     """
 
     def __init__(self, mechanism: Mechanism, names: Sequence[str]) -> None:
@@ -30,30 +30,36 @@ class Coordinates:
         across = np.cross(self._axes, helper)
         self._across = across / np.linalg.norm(across, axis=1, keepdims=True)
         self._third = np.cross(self._axes, self._across)
-        self._last = np.zeros(len(joints))
+        self._last, self._turns = np.zeros(len(joints)), np.zeros(len(joints))  # angle within a turn, whole turns
 
     def read(self, rotations: Floats, origins: Floats) -> Floats:
-        """Coordinates (joints,) at rotations (bodies, 3, 3) and origins (bodies, 3), world frame."""
-        first, second = rotations[self._first], rotations[self._second]
+        """Coordinates (n, joints) at rotations (n, bodies, 3, 3) and origins (n, bodies, 3), world frame, in the order
+        in which they came."""
+        first, second = rotations[:, self._first], rotations[:, self._second]
         ends = [
-            origins[bodies] + np.einsum("nij,nj->ni", turned, arms)
+            origins[:, bodies] + np.einsum("tnij,nj->tni", turned, arms)
             for bodies, turned, arms in zip((self._first, self._second), (first, second), self._arms, strict=True)
         ]
-        axes = np.einsum("nij,nj->ni", first, self._axes)
-        slid = np.einsum("ni,ni->n", ends[1] - ends[0], axes)
-        turned = np.einsum("nji,njk,nk->ni", first, second, self._across)
-        angle = np.arctan2(np.einsum("ni,ni->n", turned, self._third), np.einsum("ni,ni->n", turned, self._across))
-        angle = self._last + np.remainder(angle - self._last + np.pi, 2.0 * np.pi) - np.pi
-        self._last = np.where(self._slides, slid, angle)
-        return self._last.copy()
+        axes = np.einsum("tnij,nj->tni", first, self._axes)
+        slid = np.einsum("tni,tni->tn", ends[1] - ends[0], axes)
+        across = np.einsum("tnij,nj->tni", second, self._across)
+        angle = np.arctan2(
+            np.einsum("tni,tni->tn", across, np.einsum("tnij,nj->tni", first, self._third)),
+            np.einsum("tni,tni->tn", across, np.einsum("tnij,nj->tni", first, self._across)),
+        )
+        steps = np.diff(angle, axis=0, prepend=self._last[None])
+        self._turns = self._turns - np.cumsum(np.round(steps / (2.0 * np.pi)), axis=0)
+        made = np.where(self._slides, slid, angle + 2.0 * np.pi * self._turns)
+        self._last, self._turns = angle[-1], self._turns[-1]
+        return made
 
 
 def rotation_matrices(quaternions: Floats) -> Floats:
-    """Rotations (n, 3, 3) of quaternions (n, 4) as x, y, z, w; they need not be of unit length."""
-    x, y, z, w = (quaternions / np.linalg.norm(quaternions, axis=1, keepdims=True)).T
+    """Rotations (..., 3, 3) of quaternions (..., 4) as x, y, z, w; they need not be of unit length."""
+    x, y, z, w = np.moveaxis(quaternions / np.linalg.norm(quaternions, axis=-1, keepdims=True), -1, 0)
     rows = [
         [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - z * w), 2.0 * (x * z + y * w)],
         [2.0 * (x * y + z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - x * w)],
         [2.0 * (x * z - y * w), 2.0 * (y * z + x * w), 1.0 - 2.0 * (x * x + y * y)],
     ]
-    return np.moveaxis(np.array(rows), 2, 0)
+    return np.moveaxis(np.array(rows), (0, 1), (-2, -1))

@@ -20,7 +20,17 @@ from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Body, Joint, Mechanism
 from yellowiron.simulate.commands import SHARE, Motion, motions, travel
-from yellowiron.simulate.engine import Block, Engine, Setup, find_engine, load_engine, standing_bodies
+from yellowiron.simulate.engine import (
+    Block,
+    Engine,
+    Setup,
+    coordinates,
+    find_engine,
+    load_engine,
+    poses,
+    standing_bodies,
+    tell,
+)
 from yellowiron.simulate.loads import paces
 from yellowiron.simulate.payload import with_payload
 
@@ -239,30 +249,30 @@ class _Trip:
         for number in range(self._steps(time + 1.0)):
             now = (number + 1) * self.timestep
             share = min(1.0, now / _RAMP, max(0.0, (time - now) / _RAMP))
-            engine.set_targets(self._speeds(math.copysign(speed * share, distance)))
+            tell(engine, self._speeds(math.copysign(speed * share, distance)))
             engine.step()
             if record is not None:
-                record.append(self._places(engine.poses()))
+                record.append(self._places(poses(engine)))
 
     def _rest(self, engine: Engine, seconds: float) -> float:
         """Waits; returns the root's speed at the end."""
-        engine.set_targets(self._speeds(0.0))
+        tell(engine, self._speeds(0.0))
         before = np.zeros(3)
         for _ in range(self._steps(seconds)):
-            before = engine.poses()[1][self._root]
+            before = poses(engine)[1][self._root]
             engine.step()
-        return float(np.linalg.norm(engine.poses()[1][self._root] - before)) / self.timestep
+        return float(np.linalg.norm(poses(engine)[1][self._root] - before)) / self.timestep
 
     def straight(self) -> dict[str, float | None]:
         """Settling, forward, back, and the turn."""
         engine = self._load()
         try:
             creep = self._rest(engine, _SETTLE)
-            rest = engine.poses()[1][self._root]
+            rest = poses(engine)[1][self._root]
             self._go(engine, DISTANCE)
-            ahead = engine.poses()[1][self._root]
+            ahead = poses(engine)[1][self._root]
             self._go(engine, -DISTANCE)
-            back = engine.poses()[1][self._root]
+            back = poses(engine)[1][self._root]
             turn = self._turn(engine) or self._spin(engine)
         finally:
             engine.close()
@@ -314,18 +324,18 @@ class _Trip:
         lock = motion.high + (_LOCK - 1.0 + SHARE) * motion.stroke
         for target in travel(0.0, lock, motion.speed, self.timestep, pace).tolist():
             circles = self._circles({motion.joint: target}) if abs(target) > 0.1 * lock else None
-            engine.set_targets({motion.joint: target, **self._speeds(0.5 * SPEED, self._factors(circles))})
+            tell(engine, {motion.joint: target, **self._speeds(0.5 * SPEED, self._factors(circles))})
             engine.step()
         circles = self._circles({motion.joint: lock})
         factors, mean = self._factors(circles), float(circles.mean())
         path, locks = [], []
         for number in range(self._steps(_TURN * mean / SPEED + _RAMP)):
             share = 0.5 + 0.5 * min(1.0, (number + 1) * self.timestep / _RAMP)
-            engine.set_targets(self._speeds(share * SPEED, factors))
+            tell(engine, self._speeds(share * SPEED, factors))
             engine.step()
             if number * self.timestep > _RAMP:
-                path.append(self._middles(engine.poses()))
-                locks.append(engine.coordinates())
+                path.append(self._middles(poses(engine)))
+                locks.append(coordinates(engine))
         outer = int(np.argmax(circles))
         geometry = self._circles(dict(zip(measured, np.mean(locks, axis=0).tolist(), strict=True)))
         self._rest(engine, 1.0)
@@ -347,13 +357,13 @@ class _Trip:
         turning = 2.0 * speed / gauge
         factors = {w.joint.name: math.copysign(1.0, -y) for side, y in zip(sides, places, strict=True) for w in side}
         time = _SPIN / turning + _RAMP
-        turned, before = 0.0, engine.poses()[0][self._root]
+        turned, before = 0.0, poses(engine)[0][self._root]
         for number in range(self._steps(time + 1.0)):
             now = (number + 1) * self.timestep
             share = min(1.0, now / _RAMP, max(0.0, (time - now) / _RAMP))
-            engine.set_targets(self._speeds(share * speed, factors))
+            tell(engine, self._speeds(share * speed, factors))
             engine.step()
-            after = engine.poses()[0][self._root]
+            after = poses(engine)[0][self._root]
             across = before.T @ after
             turned += math.atan2(across[1, 0], across[0, 0])
             before = after
@@ -402,7 +412,7 @@ class _Trip:
         try:
             self._rest(engine, _SETTLE)
             self._go(engine, middle - float(climbing.middle[0]), speed=0.5 * SPEED, record=record)
-            axle = float(engine.coordinates()[self.chain.independent.index(joint.name)])
+            axle = float(coordinates(engine)[self.chain.independent.index(joint.name)])
         finally:
             engine.close()
         one, other = (self.wheels[i].middle for i in pair)

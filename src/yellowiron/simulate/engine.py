@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import contextlib
 import importlib
+import importlib.util
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import MappingProxyType, ModuleType
-from typing import Literal, Protocol, cast
+from typing import Any, Literal, NamedTuple, Protocol, cast
 
 import numpy as np
 
@@ -83,56 +83,92 @@ def standing_bodies(mechanism: Mechanism) -> tuple[str, ...]:
     return tuple(b.name for b in mechanism.bodies if len(b.hull) and float(np.asarray(b.hull)[:, 2].min()) < TOUCHING)
 
 
+class Readings(NamedTuple):
+    """Machines at n instants: coordinates (n, measured) of the setup's `measured` joints, metres, or radians without a
+    jump at a full turn; rotations (n, bodies, 3, 3) and origins (n, bodies, 3) of the mechanism's bodies in their
+    order, world frame (the machine's in the drawn pose)."""
+
+    coordinates: Floats
+    rotations: Floats
+    origins: Floats
+
+
 class Engine(Protocol):
-    """One machine in one engine. After loading it is in its drawn pose at rest, all targets 0, no time gone by."""
+    """One machine in one engine. After loading it is in its drawn pose at rest, all targets 0, no time gone by.
+
+    What is done at every step is done with the engine's own numbers: a step of MuJoCo's takes 60 µs.
+    """
 
     @property
     def version(self) -> str:
         """The engine's version."""
 
-    def set_targets(self, targets: Mapping[str, float]) -> None:
-        """New targets by driven joint: metres or radians from the drawn pose for position drives, rad/s or m/s for
-        velocity drives. Others keep theirs."""
+    def targets(self, joints: Sequence[str]) -> Callable[[Floats], None]:
+        """What sets the targets of driven joints, in this order: metres or radians from the drawn pose for position
+        drives, rad/s or m/s for velocity drives. Others keep theirs."""
 
     def push(self, body: str, force: Floats, point: Floats) -> None:
         """A force (3,), N, on a body at a point (3,), both world frame, during the next step. One a body and step."""
 
     def step(self) -> None:
-        """One step of the setup's length."""
+        """One step of the setup's length. Calls `guard.beat`, which tells a step that takes long from a hang."""
 
-    def poses(self) -> tuple[Floats, Floats]:
-        """Rotations (bodies, 3, 3) and origins (bodies, 3), world frame (the machine's in the drawn pose), in the order
-        of the mechanism's bodies. New arrays."""
+    def state(self) -> Any:
+        """The machine now, in the engine's own terms: a new array."""
 
-    def coordinates(self) -> Floats:
-        """Coordinates of the setup's `measured` joints: metres, or radians without a jump at a full turn."""
+    def read(self, states: Sequence[Any]) -> Readings:
+        """What states are, read in the order in which they came: between two of them, and between two calls, a joint
+        must turn by less than half a turn."""
 
     def close(self) -> None:
         """Frees what the engine holds."""
 
 
+def tell(engine: Engine, targets: Mapping[str, float]) -> None:
+    """New targets by joint, once."""
+    engine.targets(tuple(targets))(np.array(list(targets.values()), dtype=np.float64))
+
+
+def poses(engine: Engine) -> tuple[Floats, Floats]:
+    """Rotations (bodies, 3, 3) and origins (bodies, 3) now."""
+    now = engine.read([engine.state()])
+    return now.rotations[0], now.origins[0]
+
+
+def coordinates(engine: Engine) -> Floats:
+    """Coordinates (measured,) now."""
+    return engine.read([engine.state()]).coordinates[0]
+
+
 @dataclass(frozen=True)
 class EngineEntry:
     """An engine there is: its `module` has `load(setup) -> Engine`. `timestep` is the default, seconds; bars are metres
-    (fixed and floating base) and radians; `install` says what to install where the module's imports fail."""
+    (fixed and floating base) and radians; `install` says what to install where the module's imports fail; `needs` are
+    the modules of other projects that it imports."""
 
     module: str
     timestep: float
     pin_bars: Mapping[Base, float] = field(default_factory=dict)
     angle_bar: float = 1.7453292519943296e-4
     install: str = ""
+    needs: tuple[str, ...] = ()
 
 
 ENGINES: Mapping[str, EngineEntry] = MappingProxyType(
     {
         "mujoco": EngineEntry(
-            "yellowiron.simulate.mujoco", 0.001, {"fixed": 5e-5, "floating": 1e-4}, install="pip install mujoco"
+            "yellowiron.simulate.mujoco",
+            0.001,
+            {"fixed": 5e-5, "floating": 1e-4},
+            install="pip install mujoco",
+            needs=("mujoco",),
         ),
         "newton": EngineEntry(
             "yellowiron.simulate.newton",
             0.001,
             {"fixed": 5e-5, "floating": 1e-4},
             install="pip install 'yellowiron[newton]'",
+            needs=("newton", "newton_usd_schemas", "physx_usd_schemas", "warp"),
         ),
         "physx": EngineEntry(
             "yellowiron.simulate.physx",
@@ -140,6 +176,7 @@ ENGINES: Mapping[str, EngineEntry] = MappingProxyType(
             {"fixed": 2.5e-4, "floating": 2.5e-4},
             angle_bar=math.radians(0.06),
             install="pip install 'yellowiron[physx]'",
+            needs=("ovphysx", "ovstage", "newton_usd_schemas", "physx_usd_schemas", "warp"),
         ),
     }
 )
@@ -167,13 +204,8 @@ def import_engine(name: str) -> ModuleType:
 
 
 def installed_engines() -> tuple[str, ...]:
-    """The engines whose modules are there, in the order of `ENGINES`."""
-    found = []
-    for name, entry in ENGINES.items():
-        with contextlib.suppress(ModuleNotFoundError):
-            importlib.import_module(entry.module)
-            found.append(name)
-    return tuple(found)
+    """The engines that are there, in the order of `ENGINES`. Nothing of them is imported."""
+    return tuple(name for name, entry in ENGINES.items() if all(map(importlib.util.find_spec, entry.needs)))
 
 
 def load_engine(name: str, setup: Setup) -> Engine:

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
 import mujoco
 import numpy as np
 
+from yellowiron import guard
 from yellowiron.export import BodyGeometry, Geometry, actuator_names, export_mjcf, read_geometry
 from yellowiron.model.geometry import Floats
-from yellowiron.simulate.engine import GROUND_FRICTION, Setup
+from yellowiron.simulate.engine import GROUND_FRICTION, Readings, Setup
 
 
 def load(setup: Setup) -> MujocoEngine:
@@ -44,8 +45,8 @@ class MujocoEngine:
         self.model = model
         self.data = mujoco.MjData(model)
         mechanism = setup.mechanism
-        self._rotations, self._origins = self.data.xmat.reshape(-1, 3, 3), self.data.xpos
-        self._qpos, self._ctrl = self.data.qpos, self.data.ctrl
+        self._state = (self.data.qpos, self.data.xpos.ravel(), self.data.xmat.ravel())
+        self._ctrl = self.data.ctrl
         self._numbers = {body.name: int(model.body(body.name).id) for body in mechanism.bodies}
         self._bodies = np.array(list(self._numbers.values()))
         self._pushed = False
@@ -66,11 +67,15 @@ class MujocoEngine:
         """MuJoCo's version."""
         return str(mujoco.__version__)
 
-    def set_targets(self, targets: Mapping[str, float]) -> None:
+    def targets(self, joints: Sequence[str]) -> Callable[[Floats], None]:
         """See `Engine`."""
-        for joint, value in targets.items():
-            control, sign = self._controls[joint]
-            self._ctrl[control] = sign * value
+        controls = np.array([self._controls[joint][0] for joint in joints], dtype=int)
+        signs = np.array([self._controls[joint][1] for joint in joints], dtype=np.float64)
+
+        def write(values: Floats) -> None:
+            self._ctrl[controls] = signs * values
+
+        return write
 
     def push(self, body: str, force: Floats, point: Floats) -> None:
         """See `Engine`."""
@@ -87,14 +92,21 @@ class MujocoEngine:
             self.data.xfrc_applied[:] = 0.0
             self._pushed = False
         mujoco.mj_step1(self.model, self.data)
+        guard.beat()
 
-    def poses(self) -> tuple[Floats, Floats]:
+    def state(self) -> Floats:
         """See `Engine`."""
-        return self._rotations.take(self._bodies, axis=0), self._origins.take(self._bodies, axis=0)
+        return np.concatenate(self._state)
 
-    def coordinates(self) -> Floats:
+    def read(self, states: Sequence[Floats]) -> Readings:
         """See `Engine`."""
-        return np.asarray(self._qpos.take(self._positions), dtype=np.float64)
+        count, rows = len(states), np.stack(states)
+        places, origins, rotations = np.split(rows, np.cumsum([len(part) for part in self._state[:-1]]), axis=1)
+        return Readings(
+            places[:, self._positions],
+            rotations.reshape(count, -1, 3, 3)[:, self._bodies],
+            origins.reshape(count, -1, 3)[:, self._bodies],
+        )
 
     def close(self) -> None:
         """Gives MuJoCo's warnings back to whom they went before."""

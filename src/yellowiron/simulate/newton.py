@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import os
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -16,10 +16,11 @@ import physx_usd_schemas  # noqa: F401  likewise
 import warp
 from pxr import Usd
 
+from yellowiron import guard
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.geometry import Floats
 from yellowiron.simulate.coordinates import Coordinates, rotation_matrices
-from yellowiron.simulate.engine import Setup
+from yellowiron.simulate.engine import Readings, Setup
 from yellowiron.simulate.world import World, compose
 
 _FIELD = "NewtonSDFCollisionAPI"
@@ -63,23 +64,30 @@ class NewtonEngine:
             if joint.drive is not None and not joint.cut and (path := world.joints[joint.name])
         }
         self._targets = {
-            "position": (self._control.joint_target_q, self._control.joint_target_q.numpy()),
-            "velocity": (self._control.joint_target_qd, self._control.joint_target_qd.numpy()),
+            "position": self._control.joint_target_q.numpy(),
+            "velocity": self._control.joint_target_qd.numpy(),
         }
         self._measured = Coordinates(setup.mechanism, setup.measured)
         self._rows = [state.body_q.numpy() for state in self._states]  # views: the CPU's arrays are numpy's
-        self._poses: tuple[Floats, Floats] | None = None
 
     @property
     def version(self) -> str:
         """Newton's version."""
         return str(newton.__version__)
 
-    def set_targets(self, targets: Mapping[str, float]) -> None:
+    def targets(self, joints: Sequence[str]) -> Callable[[Floats], None]:
         """See `Engine`."""
-        for joint, value in targets.items():
-            kind, place = self._drives[joint]
-            self._targets[kind][1][place] = value
+        parts = []
+        for kind, targets in self._targets.items():
+            given = [number for number, joint in enumerate(joints) if self._drives[joint][0] == kind]
+            parts.append((targets, [self._drives[joints[number]][1] for number in given], given))
+        chosen = [(targets, np.array(places), np.array(given)) for targets, places, given in parts if given]
+
+        def write(values: Floats) -> None:
+            for targets, places, given in chosen:
+                targets[places] = values[given]
+
+        return write
 
     def push(self, body: str, force: Floats, point: Floats) -> None:
         """See `Engine`."""
@@ -99,18 +107,17 @@ class NewtonEngine:
         self._pushed.clear()
         self._states = [after, before]
         self._rows.reverse()
-        self._poses = None
+        guard.beat()
 
-    def poses(self) -> tuple[Floats, Floats]:
+    def state(self) -> Any:
         """See `Engine`."""
-        if self._poses is None:
-            rows = self._rows[0][self._bodies].astype(np.float64)
-            self._poses = rotation_matrices(rows[:, 3:]), rows[:, :3]
-        return self._poses
+        return self._rows[0].copy()
 
-    def coordinates(self) -> Floats:
+    def read(self, states: Sequence[Any]) -> Readings:
         """See `Engine`."""
-        return self._measured.read(*self.poses())
+        rows = np.stack(states)[:, self._bodies].astype(np.float64)
+        rotations, origins = rotation_matrices(rows[..., 3:]), rows[..., :3]
+        return Readings(self._measured.read(rotations, origins), rotations, origins)
 
     def velocities(self) -> Floats:
         """Velocities of all joints, m/s or rad/s. After the first step they must be small."""

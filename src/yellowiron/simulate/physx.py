@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import tempfile
 import warnings
-from collections.abc import Mapping
+from collections.abc import Callable, Sequence
 from functools import cache
 from importlib import metadata
 from pathlib import Path
@@ -23,10 +23,11 @@ import physx_usd_schemas  # noqa: F401  likewise
 import warp
 from ovphysx.types import GlobalConfigKey, LogLevel, ObjectScope, SimObjectType, TensorType
 
+from yellowiron import guard
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.geometry import Floats
 from yellowiron.simulate.coordinates import Coordinates, rotation_matrices
-from yellowiron.simulate.engine import Setup
+from yellowiron.simulate.engine import Readings, Setup
 from yellowiron.simulate.world import World, compose, save
 
 _ORDINAL = 1
@@ -80,23 +81,29 @@ class PhysxEngine:
             j.name: j.drive.kind for j in setup.mechanism.joints if j.drive is not None and j.name in self._columns
         }
         self._measured = Coordinates(setup.mechanism, setup.measured)
-        self._poses: tuple[Floats, Floats] | None = None
 
     @property
     def version(self) -> str:
         """The version of ovphysx."""
         return metadata.version("ovphysx")
 
-    def set_targets(self, targets: Mapping[str, float]) -> None:
+    def targets(self, joints: Sequence[str]) -> Callable[[Floats], None]:
         """See `Engine`."""
-        for kind, (binding, values) in self._targets.items():
-            names = [name for name in targets if self._kinds[name] == kind]
-            columns = [self._columns[name] for name in names]
-            new = np.array([targets[name] for name in names], dtype=np.float32)
-            # What does not change is not written: a write wakes a machine that has come to rest.
-            if not np.array_equal(values[0, columns], new):
-                values[0, columns] = new
-                binding.write(values)
+        parts = []
+        for kind, (binding, row) in self._targets.items():
+            given = [number for number, joint in enumerate(joints) if self._kinds[joint] == kind]
+            parts.append((binding, row, [self._columns[joints[number]] for number in given], given))
+        chosen = [(binding, row, np.array(columns), np.array(given)) for binding, row, columns, given in parts if given]
+
+        def write(values: Floats) -> None:
+            for binding, row, columns, given in chosen:
+                new = values[given].astype(np.float32)
+                # What does not change is not written: a write wakes a machine that has come to rest.
+                if not np.array_equal(row[0, columns], new):
+                    row[0, columns] = new
+                    binding.write(row)
+
+        return write
 
     def push(self, body: str, force: Floats, point: Floats) -> None:
         """See `Engine`."""
@@ -114,18 +121,17 @@ class PhysxEngine:
     def step(self) -> None:
         """See `Engine`."""
         self._physx.step_sync(self._timestep)
-        self._poses = None
+        guard.beat()
 
-    def poses(self) -> tuple[Floats, Floats]:
+    def state(self) -> Any:
         """See `Engine`."""
-        if self._poses is None:
-            rows = self._read(self._links)[1][0, self._rows].astype(np.float64)
-            self._poses = rotation_matrices(rows[:, 3:]), rows[:, :3]
-        return self._poses
+        return self._read(self._links)[1][0]
 
-    def coordinates(self) -> Floats:
+    def read(self, states: Sequence[Any]) -> Readings:
         """See `Engine`."""
-        return self._measured.read(*self.poses())
+        rows = np.stack(states)[:, self._rows].astype(np.float64)
+        rotations, origins = rotation_matrices(rows[..., 3:]), rows[..., :3]
+        return Readings(self._measured.read(rotations, origins), rotations, origins)
 
     def velocities(self) -> dict[str, float]:
         """Velocities of the articulation's joints by name, m/s or rad/s. After the first step they must be small."""

@@ -13,7 +13,7 @@ from yellowiron.kinematics import ClosedChain, State
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Body, Drive, Joint, Mechanism, Site
 from yellowiron.simulate.commands import Motion, motions, travel
-from yellowiron.simulate.engine import Base, Setup, load_engine, standing_bodies
+from yellowiron.simulate.engine import Base, Setup, coordinates, load_engine, poses, standing_bodies, tell
 from yellowiron.simulate.loads import carried, paces, weight
 from yellowiron.simulate.statics import motion
 
@@ -96,7 +96,7 @@ class Rig:
 
     def step(self, targets: Mapping[str, float]) -> None:
         """New targets, within their joints' limits, and one step."""
-        self.engine.set_targets(targets)
+        tell(self.engine, targets)
         self.engine.step()
 
     def bearing(self, state: State, site: Site, offset: float, direction: Floats) -> tuple[dict[str, float], Floats]:
@@ -124,11 +124,11 @@ class Rig:
     # ---- watching ---------------------------------------------------------------------------------------------------
     def coordinate(self, joint: str) -> float:
         """A cylinder's coordinate as the engine has it."""
-        return float(self.engine.coordinates()[self.chain.independent.index(joint)])
+        return float(coordinates(self.engine)[self.chain.independent.index(joint)])
 
     def place(self, site: Site, offset: float = 0.0) -> Floats:
         """Where a site is now (3,), world frame, moved along its x axis."""
-        rotations, origins = self.engine.poses()
+        rotations, origins = poses(self.engine)
         number = self._bodies[site.body]
         point = np.asarray(site.position) + offset * np.asarray(site.x_axis)
         arm = point - np.asarray(self.mechanism.body(site.body).origin)
@@ -136,9 +136,9 @@ class Rig:
 
     def upright(self) -> Floats:
         """The root's up (3,) in the world."""
-        return np.array(self.engine.poses()[0][self._bodies[self.mechanism.root]][:, 2])
+        return np.array(poses(self.engine)[0][self._bodies[self.mechanism.root]][:, 2])
 
     def heights(self) -> dict[str, float]:
         """How high each body that stands on the ground is, by its frame's origin."""
-        origins = self.engine.poses()[1]
+        origins = poses(self.engine)[1]
         return {name: float(origins[self._bodies[name]][2]) for name in self._standing}

@@ -20,7 +20,16 @@ from yellowiron.model.sweep import Sweep
 from yellowiron.simulate.commands import CRAWL, Motion, Phase, motions, phases
 from yellowiron.simulate.comparison import Agreement, Comparison, Worst
 from yellowiron.simulate.driving import Wheel, wheels
-from yellowiron.simulate.engine import Base, Engine, Setup, find_engine, import_engine, load_engine, standing_bodies
+from yellowiron.simulate.engine import (
+    Base,
+    Engine,
+    Readings,
+    Setup,
+    find_engine,
+    import_engine,
+    load_engine,
+    standing_bodies,
+)
 from yellowiron.simulate.loads import carried, paces
 from yellowiron.simulate.payload import with_payload
 from yellowiron.simulate.recording import record
@@ -29,6 +38,8 @@ from yellowiron.simulate.rolling import rolling
 
 FINAL_BAR = 0.01
 """A cylinder ends within this share of its stroke from its target; a motor within ten times that of its speed."""
+_CHUNK = 500
+"""Steps that are read at once: enough to make it quick, few enough for the memory that their raw states take."""
 
 
 def simulate(
@@ -93,6 +104,19 @@ def simulate(
     )
 
 
+def play(engine: Engine, write: Callable[[Floats], None], rows: Floats) -> tuple[Readings, float]:
+    """A step for each row of targets, `write` from the engine's `targets`: what is read after every step, and the
+    seconds that the steps themselves took."""
+    states, seconds = [], 0.0
+    for row in rows:
+        write(row)
+        start = time.perf_counter()
+        engine.step()
+        seconds += time.perf_counter() - start
+        states.append(engine.state())
+    return engine.read(states), seconds
+
+
 def _wheels(mechanism: Mechanism) -> tuple[Wheel, ...]:
     with contextlib.suppress(YellowironError):  # tracks, feet
         return wheels(mechanism)
@@ -133,13 +157,11 @@ class _Run:
         chain = self.comparison.chain
         for joint, speeds in rolling(chain, self.wheels, self.moves, phase.targets, self.timestep).items():
             told[joint] = told.get(joint, 0.0) + speeds
-        for number in range(count):
-            self.engine.set_targets({joint: float(values[number]) for joint, values in told.items()})
-            start = time.perf_counter()
-            self.engine.step()
-            self.seconds += time.perf_counter() - start
-            measured[number] = self.engine.coordinates()
-            rotations[number], origins[number] = self.engine.poses()
+        write, rows = self.engine.targets(tuple(told)), np.column_stack(list(told.values()))
+        for start in range(0, count, _CHUNK):
+            chunk = slice(start, start + _CHUNK)
+            (measured[chunk], rotations[chunk], origins[chunk]), seconds = play(self.engine, write, rows[chunk])
+            self.seconds += seconds
         self.steps += count
         self._track(phase, measured, told)
         agreement = self.comparison.compare(measured, rotations, origins)

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import math
+import os
 from collections.abc import Callable, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any, Literal
 
 from yellowiron import usd
+from yellowiron.guard import beat, run_guarded
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.finding import Finding
 from yellowiron.model.sweep import Sweep
@@ -18,6 +21,10 @@ from yellowiron.simulate.hydraulics import run_tests
 from yellowiron.simulate.payload import RatedPayload
 from yellowiron.simulate.result import simulation_document
 from yellowiron.simulate.run import simulate
+
+PATIENCE = "YELLOWIRON_PATIENCE"
+_PATIENCE = 300.0
+"""Seconds. Not for the whole run: how long that takes hangs on steps, machine and computer."""
 
 Suite = Literal["strokes", "drive", "hydraulics", "all"]
 
@@ -34,9 +41,41 @@ def examine(
 ) -> tuple[dict[str, Any], tuple[Sweep, ...]]:
     """What `test` names, as a document (docs: simulate), and what the strokes leave to be looked at.
 
-    `base` and `payload` are for the strokes; driving is empty, the template's tests say their own. Errors as in
-    `simulate`, `drive` and `run_tests`; a machine that has nothing to drive on is no error but a reason.
+    In a child process, so that an engine which crashes, or takes no step for `patience` seconds, is a
+    `YellowironError`. `base` and `payload` are for the strokes; driving is empty, the template's tests say their own.
+    Errors as in `simulate`, `drive` and `run_tests`; a machine that has nothing to drive on is no error but a reason.
     """
+    made: tuple[dict[str, Any], tuple[Sweep, ...]] = run_guarded(
+        "yellowiron.simulate.suite:examined",
+        usd_path, engine, test, base, payload, dt,
+        where=str(usd_path),
+        timeout_s=patience(),
+        memory_mb=None,  # engines reserve address space by the terabyte where there is a GPU
+        who=f"The engine '{engine}'",
+        late=f"The engine '{engine}' took no step for",
+        hint=f"Try another engine or a smaller time step; {PATIENCE} allows more seconds without a step.",
+        progress=progress,
+    )  # fmt: skip
+    return made
+
+
+def patience() -> float:
+    """Seconds that an engine may go without a step, from the environment; `YellowironError` where that is no time."""
+    given = os.environ.get(PATIENCE, "")
+    try:
+        seconds = float(given) if given else _PATIENCE
+    except ValueError:
+        seconds = 0.0
+    if not 0.0 < seconds < math.inf:
+        raise YellowironError(f"'{given}' is no number of seconds", where=PATIENCE, hint=f"Default: {_PATIENCE:g}.")
+    return seconds
+
+
+def examined(
+    usd_path: str | Path, engine: str, test: Suite, base: Base, payload: RatedPayload | None, dt: float | None
+) -> tuple[dict[str, Any], tuple[Sweep, ...]]:
+    """`examine` in this process."""
+    progress = beat
     step = find_engine(engine).timestep if dt is None else dt
     import_engine(engine)
     load = payload or RatedPayload(0.0, "none")
