@@ -134,11 +134,22 @@ def test_a_pin_without_cylinders_is_a_guess_with_a_warning() -> None:
     assert "MEC003" in codes(built)
 
 
-def test_a_missing_body_takes_its_joints_and_actuator_along() -> None:
+def test_a_missing_body_takes_its_joints_along_and_the_hinge_is_driven_directly() -> None:
     assembly, alignment = machine()
     built = build((assembly, without(alignment, "ROD")))
     assert {j.name for j in built.joints} == {"base2arm", "base2barrel"}
-    assert {"MEC002", "MEC026"} <= codes(built)
+    assert {"MEC002", "MEC013"} <= codes(built)
+    (actuator,) = built.actuators
+    assert (actuator.kind, [j.joint for j in actuator.joints]) == ("motor", ["base2arm"])
+    drive = built.joint("base2arm").drive
+    assert drive is not None
+    assert drive.kind == "position"
+
+
+def test_an_actuator_without_cylinder_and_hinge_is_left_out() -> None:
+    assembly, alignment = machine()
+    built = build((assembly, without(alignment, "ROD", "PIN L", "PIN R")))
+    assert "MEC026" in codes(built)
     assert not built.actuators
 
 

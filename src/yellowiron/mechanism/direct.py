@@ -62,10 +62,12 @@ def direct_drives(direct: frozenset[str], frames: Mapping[str, JointFrame]) -> d
 def _hinge(
     template: Template, actuator: ActuatorTemplate, frames: Mapping[str, JointFrame], claimed: set[str]
 ) -> str | None:
+    # What a barrel or a rod hangs on moves nothing but that.
+    own = {name for c in actuator.cylinders for name in (c.barrel_joint, c.rod_joint)}
     for cylinder in actuator.cylinders:
         for way in sorted(_ways(template, cylinder), key=len):
             for joint in way:
-                if joint.type == "revolute" and joint.name in frames and joint.name not in claimed:
+                if joint.type == "revolute" and joint.name in frames and joint.name not in claimed | own:
                     return joint.name
     return None
 
