@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from yellowiron.kinematics.calibration import calibrate
     from yellowiron.kinematics.chain import ClosedChain, KinematicsError, State
     from yellowiron.kinematics.completion import complete
+    from yellowiron.kinematics.floating import attached
     from yellowiron.kinematics.levers import lever_table
     from yellowiron.kinematics.measurement import key_poses, measure
     from yellowiron.kinematics.poses import pose_tables
@@ -39,6 +40,7 @@ _HOME = {
     "ClosedChain": "chain",
     "KinematicsError": "chain",
     "State": "chain",
+    "attached": "floating",
     "branch_pivots": "branches",
     "branch_sine": "branches",
     "calibrate": "calibration",
@@ -53,6 +55,7 @@ __all__ = [
     "ClosedChain",
     "KinematicsError",
     "State",
+    "attached",
     "branch_pivots",
     "branch_sine",
     "calibrate",

@@ -13,7 +13,6 @@ from typing import Any
 
 import numpy as np
 
-from yellowiron import usd
 from yellowiron.kinematics import ClosedChain
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.finding import Finding
@@ -31,6 +30,7 @@ from yellowiron.simulate.engine import (
     standing_bodies,
     tell,
 )
+from yellowiron.simulate.held import held_machine
 from yellowiron.simulate.loads import paces
 from yellowiron.simulate.payload import with_payload
 
@@ -177,7 +177,7 @@ def drive(usd_path: str | Path, *, engine: str, payload_kg: float = 0.0, dt: flo
     Raises `YellowironError` for an unknown engine, one that is not installed, and a machine without driven wheels.
     """
     entry = find_engine(engine)
-    read = usd.read_machine(usd_path)
+    read = held_machine(usd_path, "floating")
     mechanism = with_payload(read, payload_kg)
     heavier = tuple(b for b, old in zip(mechanism.bodies, read.bodies, strict=True) if b is not old)
     trip = _Trip(engine, Path(usd_path), mechanism, heavier, entry.timestep if dt is None else dt)

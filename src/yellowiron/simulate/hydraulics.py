@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from yellowiron import usd
-from yellowiron.kinematics import State
+from yellowiron.kinematics import State, attached
 from yellowiron.kinematics.bench import Bench
 from yellowiron.kinematics.quantities import Unmeasurable
 from yellowiron.kinematics.sheet import specified
@@ -56,7 +56,7 @@ def run_tests(
     """
     step = find_engine(engine).timestep if dt is None else dt
     import_engine(engine)
-    mechanism = usd.read_machine(usd_path)
+    mechanism = attached(usd.read_machine(usd_path))
     known = [test.name for test in mechanism.tests]
     for name in names or ():
         if name not in known:

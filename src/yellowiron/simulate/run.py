@@ -11,7 +11,6 @@ from pathlib import Path
 
 import numpy as np
 
-from yellowiron import usd
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
@@ -30,6 +29,7 @@ from yellowiron.simulate.engine import (
     load_engine,
     standing_bodies,
 )
+from yellowiron.simulate.held import held_machine
 from yellowiron.simulate.loads import carried, paces
 from yellowiron.simulate.payload import with_payload
 from yellowiron.simulate.recording import record
@@ -69,7 +69,7 @@ def simulate(
     if not 0.0 <= payload_kg < math.inf:
         raise YellowironError("The payload must be 0 kg or more", where=f"{payload_kg:g} kg")
     import_engine(engine)
-    read = usd.read_machine(usd_path)
+    read = held_machine(usd_path, base)
     mechanism = with_payload(read, payload_kg)
     moves = motions(mechanism, actuators)
     if not moves:

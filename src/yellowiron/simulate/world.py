@@ -68,6 +68,10 @@ def compose(setup: Setup) -> World:
     names = dict(_names(composed))
     bodies = {name: path for (kind, name), path in names.items() if kind == "body"}
     joints = {name: path for (kind, name), path in names.items() if kind == "joint"}
+    # What the mechanism leaves out of the file (rings of track shoes) is not simulated.
+    for found, kept in ((joints, setup.mechanism.joints), (bodies, setup.mechanism.bodies)):
+        for name in sorted(set(found) - {each.name for each in kept}):
+            over(layer, found.pop(name)).SetInfo("active", False)
     for body in setup.heavier:
         write_mass(over(layer, bodies[body.name]), body)
     for joint in setup.driven:
