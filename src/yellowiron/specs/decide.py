@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -135,7 +136,8 @@ def _configured(matches: Sequence[Match], sheets: Sheets, config: str) -> list[M
 
 def phrases_of(config: str) -> dict[str, set[str]]:
     """The phrases of a configuration that say anything, with their words."""
-    phrases = {phrase.strip(): _words_of(phrase) for phrase in config.replace(";", ",").split(",")}
+    # A comma between digits is a decimal one: "Stiel 5,5 m".
+    phrases = {phrase.strip(): _words_of(phrase) for phrase in re.split(r";|,(?!\d)|(?<!\d),", config)}
     return {phrase: words for phrase, words in phrases.items() if words}
 
 

@@ -145,6 +145,7 @@ def read_grid(page: Page, grid: Grid, first_row: int, section: str = "") -> list
     found: list[Statement] = []
     heads = _head_rows(page, grid)
     naming = frozenset(heads)
+    titles = _titles(grid)
     for row in range(grid.rows):
         cells = _row_cells(grid, row)
         filled = [c for c in cells if c.lines]
@@ -161,7 +162,25 @@ def read_grid(page: Page, grid: Grid, first_row: int, section: str = "") -> list
             heads.extend([] if row in heads else [row])
             continue
         over = [h for h in heads if h <= row] if row in naming else heads
-        found.extend(_read_row(page, grid, row, cells, values, over, first_row + row, section))
+        read = _read_row(page, grid, row, cells, values, over, first_row + row, section)
+        if row in titles:
+            read = [replace(f, label=f.label.removeprefix(titles[row]).strip(" :"),
+                            context=(*f.context, titles[row])) for f in read]  # fmt: skip
+        found.extend(read)
+    return found
+
+
+def _titles(grid: Grid) -> dict[int, str]:
+    """Row → the line that ends in a colon over the label of the first row beside one drawing's key, which holds for all
+    of that key's rows: "1 | Machine height: / top of cab", "  | with boom installed"."""
+    found: dict[int, str] = {}
+    for key in grid.cells:
+        if key.rows[1] - key.rows[0] < 2 or not _is_key(key.text):
+            continue
+        label = grid.at(key.rows[0], key.columns[1])
+        first = " ".join(p.bare for p in label.lines[0].pieces) if label is not None and len(label.lines) > 1 else ""
+        if first.endswith(":"):
+            found.update(dict.fromkeys(range(*key.rows), first.rstrip(" :")))
     return found
 
 

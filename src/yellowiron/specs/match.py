@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from yellowiron.model.template import Wanted
 from yellowiron.specs.claims import Claim
+from yellowiron.specs.numbers import read
 from yellowiron.specs.vocabulary import NEUTRAL, OPPOSITES, REVERSING, has_cjk, squeezed, tokens
 
 LEAST = 0.55
@@ -60,7 +61,8 @@ def match_one(wanted: Wanted, claim: Claim) -> Match | None:
     context = {t for c in statement.context for t in tokens(c)}
     section = set(tokens(statement.section))
     supported = any(set(tokens(s)) <= section for s in wanted.sections if tokens(s)) if section else False
-    if _forbidden(wanted, claim, label | head | context | (set() if supported else section)):
+    naming = {t for h in statement.column if not _names_configuration(h) for t in tokens(h)}
+    if _forbidden(wanted, claim, label | naming | context | (set() if supported else section)):
         return None
     if any(has_cjk(p) for p in phrases(wanted)) and (cjk := _cjk_match(wanted, claim)) is not None:
         return cjk
@@ -84,7 +86,8 @@ def match_one(wanted: Wanted, claim: Claim) -> Match | None:
     if not explained:
         return None
     primary = (label if explained & label else set()) | (head if from_head else set()) or context | section
-    rest = {t for t in primary - explained - NEUTRAL if not _is_number(t)}
+    # A word of the value's own name makes the label mean nothing else.
+    rest = {t for t in primary - explained - NEUTRAL - set(tokens(wanted.name)) if not _is_number(t)}
     if (everything - explained) & REVERSING:
         return None
     asked = {t for p in (wanted.name, best) for t in tokens(p)}
@@ -126,8 +129,15 @@ def _is_number(token: str) -> bool:
     return token[0].isdigit()
 
 
+@functools.lru_cache(maxsize=4096)
+def _names_configuration(head: str) -> bool:
+    """Whether a head says which machine a column is for, and not which property: "Reach boom 5.7 m"."""
+    return any(q.printed is not None for r in read(head) for q in r.numbers)
+
+
 def _forbidden(wanted: Wanted, claim: Claim, words: set[str]) -> bool:
-    text = f"{claim.words} {claim.head}".casefold()
+    heads = (h for h in claim.statement.column if not _names_configuration(h))
+    text = " ".join([claim.words, *heads]).casefold()
     for phrase in wanted.forbidden:
         parts = set(tokens(phrase))
         if has_cjk(phrase):

@@ -103,6 +103,9 @@ def _read_row(
         return
     if "value" not in kinds:
         inline = [s for p in pieces if (s := split_inline(p.bare))[0]]
+        if len(inline) == len(pieces) > 1 and len({label for label, _ in inline}) == 1 and not state.pending:
+            state.add_heads(tuple(pieces))  # "Arm 2.4 m   Arm 2.9 m" names columns
+            return
         if not inline:
             for line in sorted(row, key=lambda one: one.top):
                 if not _label_orphans(line, state, found):

@@ -129,7 +129,7 @@ def unit_in_label(text: str) -> tuple[str, str]:
     match = re.search(r"^(.*?)\s*[(\[]\s*([^()\[\]]+?)\s*[)\]]\s*:?$", text) or re.search(
         r"^(.*?)\s*,\s*([^,]+?)\s*:?$", text
     )
-    match = match or re.search(r"^(.*\w)\s+(mm|cm|kg|kPa|MPa|kN|l/min|L/min|m³|m3|km/h)$", text)
+    match = match or re.search(r"^(.*[^\W\d])\s+(mm|cm|kg|kPa|MPa|kN|l/min|L/min|m³|m3|km/h)$", text)
     if match and (unit := is_unit(match.group(2))):
         return match.group(1), unit
     return text, ""
