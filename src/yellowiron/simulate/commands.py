@@ -11,7 +11,8 @@ import numpy as np
 
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.geometry import Floats
-from yellowiron.model.mechanism import Actuator, Mechanism
+from yellowiron.model.mechanism import Actuator, Mechanism, rolling
+from yellowiron.simulate.engine import standing_bodies
 
 SHARE = 0.02
 """Of the stroke, left at both ends."""
@@ -22,7 +23,7 @@ HOLD = 1.0
 SETTLE = 1.5
 """Seconds at the start, for a machine to come to rest on its drives and tyres."""
 CRAWL = 0.1
-"""Share of its full speed at which a motor turns while the machine stands on the ground."""
+"""Share of its full speed at which a motor turns a wheel while the machine stands on the ground."""
 
 
 _GRID = 1001
@@ -30,7 +31,8 @@ _GRID = 1001
 
 @dataclass(frozen=True, eq=False)
 class Pace:
-    """The largest acceleration `limits` (n,) of a target at `places` (n,) along its way, m/s² or rad/s²."""
+    """The largest acceleration `limits` (n,) of a target at `places` (n,) along its way, m/s² or rad/s². A motor's is
+    the same wherever it stands."""
 
     places: Floats
     limits: Floats
@@ -39,7 +41,7 @@ class Pace:
 @dataclass(frozen=True)
 class Motion:
     """What one actuator does: `joint` is the driven one. Cylinders move between `low` and `high` (metres or radians
-    from the drawn pose) at `speed`; motors turn at `speed` (rad/s)."""
+    from the drawn pose) at `speed`; motors turn at `speed` (rad/s). `drives`: it turns what the machine drives on."""
 
     actuator: str
     joint: str
@@ -49,6 +51,11 @@ class Motion:
     low: float = 0.0
     high: float = 0.0
     stroke: float = 0.0
+    drives: bool = False
+
+    def top_speed(self, *, on_ground: bool) -> float:
+        """The speed that is asked of it."""
+        return self.speed * (CRAWL if on_ground and self.drives else 1.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,13 +90,14 @@ def motions(mechanism: Mechanism, actuators: Sequence[str] | None = None) -> tup
 def _motions(mechanism: Mechanism, actuator: Actuator) -> Iterator[Motion]:
     cylinders = {cylinder.slide: cylinder for cylinder in mechanism.cylinders}
     entries = actuator.joints[:1] if actuator.kind == "cylinder" else actuator.joints
+    wheels = {*standing_bodies(mechanism), *(rolling(mechanism) - {j.body0 for j in mechanism.joints})}
     for entry in entries:
         joint = mechanism.joint(entry.joint)
         if joint.drive is None or joint.cut:
             continue
         speed = joint.drive.max_velocity if math.isfinite(joint.drive.max_velocity) else 1.0
         if joint.drive.kind == "velocity":
-            yield Motion(actuator.name, joint.name, entry.sign, False, speed)
+            yield Motion(actuator.name, joint.name, entry.sign, False, speed, drives=joint.body1 in wheels)
         elif joint.lower is not None and joint.upper is not None:
             if joint.name in cylinders and cylinders[joint.name].speed > 0.0:
                 speed = cylinders[joint.name].speed
@@ -127,8 +135,9 @@ def _phase(name: str, group: Sequence[Motion], timestep: float, on_ground: bool,
                 )
                 place[motion.joint] = target
             else:
-                speed = motion.speed * (CRAWL if on_ground else 1.0) * motion.sign
-                rows[motion.joint] = _spin({"low": -speed, "high": speed, "drawn": 0.0}[leg], timestep)
+                speed = motion.sign * motion.top_speed(on_ground=on_ground)
+                target = {"low": -speed, "high": speed, "drawn": 0.0}[leg]
+                rows[motion.joint] = _spin(target, timestep, paces.get(motion.joint))
         length = max(len(row) for row in rows.values()) + round(HOLD / timestep)
         parts.append({joint: _held(row, length) for joint, row in rows.items()})
     targets = {motion.joint: np.concatenate([part[motion.joint] for part in parts]) for motion in group}
@@ -140,9 +149,10 @@ def _held(row: Floats, length: int) -> Floats:
     return np.concatenate([row, np.full(length - len(row), row[-1])])
 
 
-def _spin(speed: float, timestep: float) -> Floats:
-    """A motor's targets: up to speed, held, back to rest."""
-    up = np.linspace(0.0, 1.0, max(2, round(2.0 * RAMP / timestep)))
+def _spin(speed: float, timestep: float, pace: Pace | None = None) -> Floats:
+    """A motor's targets: up to speed as fast as `RAMP` and pace allow, held, back to rest."""
+    time = 2.0 * RAMP if pace is None else max(2.0 * RAMP, abs(speed) / float(pace.limits.min()))
+    up = np.linspace(0.0, 1.0, max(2, round(time / timestep)))
     return speed * np.concatenate([up, np.ones(round(HOLD / timestep)), up[::-1]])
 
 

@@ -18,6 +18,7 @@ from yellowiron.model.errors import YellowironError
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Body, Joint, Mechanism
+from yellowiron.simulate import crawling
 from yellowiron.simulate.commands import SHARE, Motion, motions, travel
 from yellowiron.simulate.engine import (
     Block,
@@ -43,7 +44,6 @@ DISTANCE_BAR, RADIUS_BAR, LIFTED = 0.03, 0.05, 0.02
 _SETTLE = 2.0
 _RAMP = 1.0
 _TURN = math.radians(120.0)
-_SPIN = math.radians(90.0)
 _RUN = 2.0
 """Length of the block's ramps by its height: 27°."""
 _LOCK = 0.998
@@ -56,7 +56,8 @@ class DrivingResult:
     """Metres, radians, seconds. `sunk` and `creep`: how far the root came down and its speed after settling. Travel is
     the root's; `turning_radius` is that of the outermost wheel's middle, `geometry_radius` where the axles' lines meet
     at the measured lock. `spin`: the turn on the spot of a machine that steers by its two sides' speeds, against
-    `spin_geometry`, that of wheels which do not slip; tracks do. `axle_angle`: the free axle's coordinate with one
+    `spin_geometry`, that of wheels which do not slip; tracks do. `swing`: by how much the slewing body's heading, seen
+    from the ground, changed, against what its motor was told. `axle_angle`: the free axle's coordinate with one
     wheel on a block, `axle_geometry` what block and tread make of it; `highest_wheel`: the most that a wheel ever rose
     from what it stood on. None: not driven."""
 
@@ -68,11 +69,14 @@ class DrivingResult:
     forward: float
     backward: float
     sideways: float
+    distance: float = DISTANCE
     lock: float | None = None
     turning_radius: float | None = None
     geometry_radius: float | None = None
     spin: float | None = None
     spin_geometry: float | None = None
+    swing: float | None = None
+    swing_geometry: float | None = None
     axle_angle: float | None = None
     axle_geometry: float | None = None
     highest_wheel: float | None = None
@@ -87,11 +91,11 @@ def driving_document(result: DrivingResult) -> dict[str, Any]:
         "payload_kg": result.payload,
         "sunk_mm": 1e3 * result.sunk,
         "creep_mm_s": 1e3 * result.creep,
-        "distance_m": DISTANCE,
+        "distance_m": result.distance,
         "forward_m": result.forward,
-        "forward_error_percent": 100.0 * (result.forward / DISTANCE - 1.0),
+        "forward_error_percent": 100.0 * (result.forward / result.distance - 1.0),
         "backward_m": result.backward,
-        "backward_error_percent": 100.0 * (result.backward / DISTANCE - 1.0),
+        "backward_error_percent": 100.0 * (result.backward / result.distance - 1.0),
         "sideways_m": result.sideways,
         "lock_deg": None if result.lock is None else math.degrees(result.lock),
         "turning_radius_m": result.turning_radius,
@@ -99,6 +103,8 @@ def driving_document(result: DrivingResult) -> dict[str, Any]:
         "radius_error_percent": radius,
         "spin_deg": None if result.spin is None else math.degrees(result.spin),
         "spin_geometry_deg": None if result.spin_geometry is None else math.degrees(result.spin_geometry),
+        "swing_deg": None if result.swing is None else math.degrees(result.swing),
+        "swing_geometry_deg": None if result.swing_geometry is None else math.degrees(result.swing_geometry),
         "block_m": BLOCK_HEIGHT,
         "axle_angle_deg": None if result.axle_angle is None else math.degrees(result.axle_angle),
         "axle_geometry_deg": None if result.axle_geometry is None else math.degrees(result.axle_geometry),
@@ -109,8 +115,8 @@ def driving_document(result: DrivingResult) -> dict[str, Any]:
 def driving_findings(result: DrivingResult) -> Iterator[Finding]:
     """SIM009 for what is off by more than its bar."""
     figures = [
-        ("forward", result.forward, DISTANCE, DISTANCE_BAR),
-        ("backward", result.backward, DISTANCE, DISTANCE_BAR),
+        ("forward", result.forward, result.distance, DISTANCE_BAR),
+        ("backward", result.backward, result.distance, DISTANCE_BAR),
     ]
     if result.turning_radius is not None and result.geometry_radius is not None:
         figures.append(("turning radius", result.turning_radius, result.geometry_radius, RADIUS_BAR))
@@ -118,6 +124,15 @@ def driving_findings(result: DrivingResult) -> Iterator[Finding]:
         if not abs(value / wanted - 1.0) <= bar:
             words = f"{value:.3f} m against {wanted:.3f} m, more than {100.0 * bar:g} % off"
             yield Finding("SIM009", "warning", what, words, "Check wheels, their torque and the ground's friction.")
+    for what, turned, meant, bar in (
+        ("turn on the spot", result.spin, result.spin_geometry, crawling.SPIN_BAR),
+        ("swing", result.swing, result.swing_geometry, crawling.SWING_BAR),
+    ):
+        if turned is not None and meant is not None and not abs(turned - meant) <= bar:
+            words = (
+                f"{math.degrees(turned):.1f}° against {math.degrees(meant):.1f}°, more than {math.degrees(bar):g}° off"
+            )
+            yield Finding("SIM009", "warning", what, words, "Check torques and the ground's friction.")
     if result.highest_wheel is not None and result.highest_wheel > LIFTED:
         words = f"a wheel rose {1e3 * result.highest_wheel:.0f} mm from what it stood on"
         yield Finding("SIM009", "warning", "block", words, "Check the axle's range and the machine's masses.")
@@ -144,7 +159,8 @@ class Wheel:
 def wheels(mechanism: Mechanism) -> tuple[Wheel, ...]:
     """The wheels that motors drive, on the ground in the drawn pose.
 
-    `YellowironError` where there are fewer than three: what has none (tracks, a crane) does not drive this way.
+    `YellowironError` where there are fewer than three, but for one on either side with a motor of its own: what has
+    none (a crane) does not drive.
     """
     number = {body.name: index for index, body in enumerate(mechanism.bodies)}
     standing = standing_bodies(mechanism)
@@ -161,7 +177,7 @@ def wheels(mechanism: Mechanism) -> tuple[Wheel, ...]:
             half, center = 0.5 * float(np.ptp(along)), 0.5 * (float(along.min()) + float(along.max()))
             middle = np.asarray(joint.anchor) + center * axis
             found.append(Wheel(joint, number[joint.body1], middle, axis, radius, half, entry.sign, actuator.name))
-    if len(found) < 3:
+    if len(found) < 3 and not crawling.sides(found):
         raise YellowironError(
             "The machine has no driven wheels to drive on",
             where=mechanism.name,
@@ -172,7 +188,8 @@ def wheels(mechanism: Mechanism) -> tuple[Wheel, ...]:
 
 def drive(usd_path: str | Path, *, engine: str, payload_kg: float = 0.0, dt: float | None = None) -> DrivingResult:
     """Lets a wheeled machine settle, drive 5 m forward and back, turn at full lock, and climb a 150 mm block with one
-    wheel of its free axle, where it has one.
+    wheel of its free axle, where it has one. One that steers by its two sides' speeds drives 2 m, turns on the spot by
+    45° and swings by 90°.
 
     Raises `YellowironError` for an unknown engine, one that is not installed, and a machine without driven wheels.
     """
@@ -202,6 +219,8 @@ class _Trip:
         self.chain = ClosedChain(self.mechanism)
         names = [body.name for body in self.mechanism.bodies]
         self._root = names.index(self.mechanism.root)
+        self._steer = self._steering()
+        self._sides = () if self._steer is not None else crawling.sides(self.wheels)
         self._origin = np.asarray(self.mechanism.body(self.mechanism.root).origin)
 
     def _load(self, *blocks: Block) -> Engine:
@@ -266,14 +285,20 @@ class _Trip:
     def straight(self) -> dict[str, float | None]:
         """Settling, forward, back, and the turn."""
         engine = self._load()
+        distance, speed = DISTANCE, SPEED
+        if self._sides:
+            distance, speed = crawling.DISTANCE, crawling.top_speed(self.wheels, SPEED)
         try:
             creep = self._rest(engine, _SETTLE)
             rest = poses(engine)[1][self._root]
-            self._go(engine, DISTANCE)
+            self._go(engine, distance, speed=speed)
             ahead = poses(engine)[1][self._root]
-            self._go(engine, -DISTANCE)
+            self._go(engine, -distance, speed=speed)
             back = poses(engine)[1][self._root]
-            turn = self._turn(engine) or self._spin(engine)
+            turn = self._turn(engine)
+            if self._sides:
+                turn |= crawling.spin(engine, self.mechanism, self._sides, speed, self.timestep)
+                turn |= crawling.swing(engine, self.chain, self.mechanism, self.wheels, self.timestep)
         finally:
             engine.close()
         return {
@@ -282,6 +307,7 @@ class _Trip:
             "forward": float(np.linalg.norm((ahead - rest)[:2])),
             "backward": float(np.linalg.norm((back - ahead)[:2])),
             "sideways": float(max(abs(ahead[1] - rest[1]), abs(back[1] - rest[1]))),
+            "distance": distance,
             **turn,
         }
 
@@ -316,7 +342,7 @@ class _Trip:
         return np.asarray(np.linalg.norm(places - center, axis=1))
 
     def _turn(self, engine: Engine) -> dict[str, float | None]:
-        motion = self._steering()
+        motion = self._steer
         if motion is None:
             return {}
         measured = self.chain.independent
@@ -344,30 +370,6 @@ class _Trip:
             "turning_radius": circle_radius(np.array(path)[:, outer, :2]),
             "geometry_radius": float(geometry[outer]),
         }
-
-    def _spin(self, engine: Engine) -> dict[str, float | None]:
-        """Left and right against each other, where each has an actuator of its own: how far the machine turned."""
-        sides = [
-            [w for w in self.wheels if w.actuator == name] for name in dict.fromkeys(w.actuator for w in self.wheels)
-        ]
-        places = [float(np.mean([w.middle[1] for w in side])) for side in sides]
-        if len(sides) != 2 or places[0] * places[1] >= 0.0:
-            return {}
-        gauge, speed = abs(places[0] - places[1]), 0.5 * SPEED
-        turning = 2.0 * speed / gauge
-        factors = {w.joint.name: math.copysign(1.0, -y) for side, y in zip(sides, places, strict=True) for w in side}
-        time = _SPIN / turning + _RAMP
-        turned, before = 0.0, poses(engine)[0][self._root]
-        for number in range(self._steps(time + 1.0)):
-            now = (number + 1) * self.timestep
-            share = min(1.0, now / _RAMP, max(0.0, (time - now) / _RAMP))
-            tell(engine, self._speeds(share * speed, factors))
-            engine.step()
-            after = poses(engine)[0][self._root]
-            across = before.T @ after
-            turned += math.atan2(across[1, 0], across[0, 0])
-            before = after
-        return {"spin": turned, "spin_geometry": _SPIN}
 
     def _lock(self, coordinates: Mapping[str, float]) -> float:
         """The largest angle between two wheels' axes seen from above."""

@@ -64,8 +64,16 @@ def carried(
 
 
 def paces(chain: ClosedChain, moves: tuple[Motion, ...]) -> Mapping[str, Pace]:
-    """How fast each cylinder's target may gain speed along its stroke, the other actuators as drawn."""
-    return {motion.joint: _pace(chain, motion) for motion in moves if motion.position}
+    """How fast each cylinder's target may gain speed along its stroke, and each motor's, the other actuators as drawn
+    and the root held."""
+    return {motion.joint: _pace(chain, motion) if motion.position else _motor(chain, motion) for motion in moves}
+
+
+def _motor(chain: ClosedChain, motion: Motion) -> Pace:
+    drive = chain.mechanism.joint(motion.joint).drive
+    force = drive.max_force if drive is not None else math.inf
+    limit = SPARE * force / chain.effective_mass(chain.drawn, motion.joint) if math.isfinite(force) else math.inf
+    return Pace(np.zeros(1), np.array([limit]))
 
 
 def _pace(chain: ClosedChain, motion: Motion) -> Pace:

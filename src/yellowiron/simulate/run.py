@@ -16,7 +16,7 @@ from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Mechanism
 from yellowiron.model.sweep import Sweep
-from yellowiron.simulate.commands import CRAWL, Motion, Phase, motions, phases
+from yellowiron.simulate.commands import Motion, Phase, motions, phases
 from yellowiron.simulate.comparison import Agreement, Comparison, Worst
 from yellowiron.simulate.driving import Wheel, wheels
 from yellowiron.simulate.engine import (
@@ -104,17 +104,14 @@ def simulate(
     )
 
 
-def play(engine: Engine, write: Callable[[Floats], None], rows: Floats) -> tuple[Readings, float]:
-    """A step for each row of targets, `write` from the engine's `targets`: what is read after every step, and the
-    seconds that the steps themselves took."""
-    states, seconds = [], 0.0
+def play(engine: Engine, write: Callable[[Floats], None], rows: Floats) -> Readings:
+    """A step for each row of targets, `write` from the engine's `targets`: what is read after every step."""
+    states = []
     for row in rows:
         write(row)
-        start = time.perf_counter()
         engine.step()
-        seconds += time.perf_counter() - start
         states.append(engine.state())
-    return engine.read(states), seconds
+    return engine.read(states)
 
 
 def _wheels(mechanism: Mechanism) -> tuple[Wheel, ...]:
@@ -160,8 +157,9 @@ class _Run:
         write, rows = self.engine.targets(tuple(told)), np.column_stack(list(told.values()))
         for start in range(0, count, _CHUNK):
             chunk = slice(start, start + _CHUNK)
-            (measured[chunk], rotations[chunk], origins[chunk]), seconds = play(self.engine, write, rows[chunk])
-            self.seconds += seconds
+            begun = time.perf_counter()
+            measured[chunk], rotations[chunk], origins[chunk] = play(self.engine, write, rows[chunk])
+            self.seconds += time.perf_counter() - begun
         self.steps += count
         self._track(phase, measured, told)
         agreement = self.comparison.compare(measured, rotations, origins)
@@ -248,7 +246,7 @@ class _Run:
 
 
 def _actuator(motion: Motion, seen: _Seen, base: Base) -> ActuatorResult:
-    speed = motion.speed if motion.position or base == "fixed" else motion.speed * CRAWL
+    speed = motion.top_speed(on_ground=base == "floating")
     return ActuatorResult(
         actuator=motion.actuator,
         joint=motion.joint,

@@ -21,6 +21,10 @@ POSITION_ITERATIONS = 255
 elsewhere, and a pin of a loader that holds its payload errs at 120 Hz by 1.5 mm with 32, by 0.53 with 64, by 0.20 with
 128 and by 0.08 with 255."""
 
+LOOPS_LAST = "physxScene:solveArticulationContactLast"
+"""A scene's attribute: contacts and cut joints of articulations are solved after everything else. An excavator's worst
+pin then errs by 0.16 instead of 0.40 mm at 120 Hz, its boom lowered with a full bucket."""
+
 _VALUE_TYPES = {bool: Types.Bool, int: Types.Int, float: Types.Float}
 
 
