@@ -163,7 +163,8 @@ def _read_side(prim: Usd.Prim, index: int, poses: Poses) -> Side:
     stage = prim.GetStage()
     relation = prim.GetRelationship(f"physics:body{index}")
     targets = tuple(str(t) for t in relation.GetTargets()) if relation else ()
-    missing = tuple(t for t in targets if not stage.GetPrimAtPath(t))
+    # A prim that is deactivated is still found by its path.
+    missing = tuple(t for t in targets if not (stage.GetPrimAtPath(t) and stage.GetPrimAtPath(t).IsActive()))
     target = stage.GetPrimAtPath(targets[0]) if targets and not missing else None
     matrix = poses.matrix(target) if target else Gf.Matrix4d(1.0)
     position = vector(prim, f"physics:localPos{index}") or Gf.Vec3d(0.0)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
+from typing import Any
 
 import numpy as np
 from pxr import Gf, Tf, Usd, UsdGeom, UsdPhysics, Vt
@@ -20,6 +21,23 @@ from yellowiron.model.geometry import Floats
 _SELF_COLLISION = ("physxArticulation:enabledSelfCollisions", "newton:selfCollisionEnabled")
 _PHYSICS = ("physics:", "drive:", "limit:", "physx", "newton:", "mjc:")
 _ARRAYS = ("points", "normals", "extent")
+_FINITE = (
+    "points",
+    "physics:mass",
+    "physics:density",
+    "physics:diagonalInertia",
+    "physics:localPos0",
+    "physics:localPos1",
+    "stiffness",
+    "damping",
+    "targetPosition",
+    "targetVelocity",
+)
+"""Ends of attributes that cannot be infinite either; limits and largest forces can, and −∞ is some defaults."""
+
+_NUMBERS = (
+    float, Gf.Vec3f, Gf.Vec3d, Gf.Vec4d, Vt.FloatArray, Vt.DoubleArray, Vt.Vec3fArray, Vt.Vec3dArray
+)  # fmt: skip
 
 
 def read_view(stage: Usd.Stage, name: str) -> View:
@@ -79,7 +97,8 @@ def _scenes(prims: Iterable[Usd.Prim], units: Units) -> Iterator[tuple[str, floa
 
 
 def _not_numbers(prims: Iterable[Usd.Prim]) -> Iterator[tuple[str, str]]:
-    """(prim, attribute) wherever a transform, a shape or a physics attribute holds NaN, and infinite transforms."""
+    """(prim, attribute) wherever a transform, a shape or a physics attribute holds NaN, or an infinity that means
+    nothing."""
     seen = set()
     for prim in prims:
         original = prim.GetPrimInPrototype() if prim.IsInstanceProxy() else prim
@@ -91,8 +110,10 @@ def _not_numbers(prims: Iterable[Usd.Prim]) -> Iterator[tuple[str, str]]:
             yield path, "its transform"
         for attribute in prim.GetAuthoredAttributes():
             name = attribute.GetName()
-            if (name in _ARRAYS or name.startswith(_PHYSICS)) and _has_nan(attribute.Get()):
-                yield path, name
+            if name in _ARRAYS or name.startswith(_PHYSICS):
+                value = attribute.Get()
+                if _holds(np.isnan, value) or (name.endswith(_FINITE) and _holds(np.isinf, value)):
+                    yield path, name
 
 
 def _is_placed(prim: Usd.Prim) -> bool:
@@ -103,11 +124,10 @@ def _is_placed(prim: Usd.Prim) -> bool:
         return False
 
 
-def _has_nan(value: object) -> bool:
-    if isinstance(value, float):
-        return math.isnan(value)
+def _holds(kind: Callable[[Floats], Any], value: object) -> bool:
+    """Whether any number of a value is of a kind: `np.isnan`, `np.isinf`."""
     if isinstance(value, Gf.Quatf | Gf.Quatd):
-        return any(math.isnan(v) for v in (value.GetReal(), *value.GetImaginary()))
-    if isinstance(value, Gf.Vec3f | Gf.Vec3d | Vt.FloatArray | Vt.DoubleArray | Vt.Vec3fArray | Vt.Vec3dArray):
-        return bool(np.isnan(np.array(value)).any())
+        value = Gf.Vec4d(value.GetReal(), *value.GetImaginary())
+    if isinstance(value, _NUMBERS):
+        return bool(kind(np.array(value, dtype=np.float64)).any())
     return False

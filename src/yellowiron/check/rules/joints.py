@@ -30,7 +30,7 @@ def no_such_body(view: View) -> Remarks:
     for joint in view.joints:
         for end, side in zip(_ENDS, joint.sides, strict=True):
             for path in side.missing:
-                yield joint.path, f"Its {end} is {path}, which is not there."
+                yield joint.path, f"Its {end} is {path}, which is not there, or is deactivated."
 
 
 @rule(
