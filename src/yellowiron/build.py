@@ -8,7 +8,7 @@ import time
 import types
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -114,6 +114,14 @@ def build(
                 assembly, template, alignment, specifications, name=template.equipment_type, documents=data
             )
             machine = kinematics.complete(kinematics.calibrate(machine))
+            start = kinematics.legal_start(machine)
+            if start is not None:
+                assembly, template, alignment = kinematics.started(assembly, template, alignment, start)
+                machine = mechanism.build_mechanism(
+                    assembly, template, alignment, specifications, name=template.equipment_type, documents=data
+                )
+                machine = kinematics.complete(kinematics.calibrate(machine))
+                machine = replace(machine, findings=(*machine.findings, *start.findings))
 
         with clock.stage("measure", "Measuring the machine against its sheet"):
             measurements = kinematics.measure(machine)

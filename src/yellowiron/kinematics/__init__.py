@@ -18,6 +18,7 @@ KIN008  the pins of a loop are not parallel: it does not close exactly
 KIN009  a driven slide has no ends of stroke, so what follows from it has no limits
 KIN010  a cylinder's closed length was calibrated: on what, and how well (a warning where it fits badly)
 KIN011  a closed length is unknown, and no measured specification depends on it
+KIN012  a driven joint is drawn outside its limits; the machine starts in the nearest legal pose
 ======  ========================================================================================================
 """
 
@@ -35,6 +36,7 @@ if TYPE_CHECKING:
     from yellowiron.kinematics.levers import lever_table
     from yellowiron.kinematics.measurement import key_poses, measure
     from yellowiron.kinematics.poses import pose_tables
+    from yellowiron.kinematics.start import legal_start, started
 
 _HOME = {
     "ClosedChain": "chain",
@@ -46,9 +48,11 @@ _HOME = {
     "calibrate": "calibration",
     "complete": "completion",
     "key_poses": "measurement",
+    "legal_start": "start",
     "lever_table": "levers",
     "measure": "measurement",
     "pose_tables": "poses",
+    "started": "start",
 }
 
 __all__ = [
@@ -61,9 +65,11 @@ __all__ = [
     "calibrate",
     "complete",
     "key_poses",
+    "legal_start",
     "lever_table",
     "measure",
     "pose_tables",
+    "started",
 ]
 
 

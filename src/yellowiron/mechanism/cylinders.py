@@ -279,6 +279,11 @@ def _closed_length(one: _Sizes, drawn: float, stroke: float, work: _Work) -> Kno
         work.warn("MEC022", slide, words, hint)
         return Known(drawn - 0.5 * stroke, f"{UNKNOWN}: mid-stroke assumed")
     best, *others = ways
+    if best.source == _BY_EYE and 0.0 < stroke < drawn - best.value:
+        # The eye never reaches the gland: as it is drawn, the cylinder is at the end of its stroke at most.
+        best = Known(drawn - stroke, f"{UNKNOWN}: drawn at the end of its stroke, at most")
+        words = "Its closed length is such that it is drawn at the end of its stroke: it cannot be out any further."
+        work.warn("MEC022", slide, words, hint)
     if best.source == _BY_EYE:
         words = "Its closed length is where the rod's eye would touch the gland: too short by the clearance there."
         work.warn("MEC022", slide, words, hint)

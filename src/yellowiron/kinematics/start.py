@@ -1,0 +1,115 @@
+"""A legal start pose for a machine that is drawn outside its limits: the CAD model's parts are moved there, and what is
+built from them starts in it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from yellowiron.kinematics.chain import ClosedChain
+from yellowiron.model.alignment import Alignment, Vector
+from yellowiron.model.assembly import Assembly
+from yellowiron.model.finding import Finding
+from yellowiron.model.geometry import Floats
+from yellowiron.model.mechanism import Joint, Mechanism
+from yellowiron.model.template import Template
+
+OUTSIDE = 1e-6
+"""Metres or radians by which a joint may be drawn outside its limits."""
+INSIDE = 0.01
+"""The start is this share of the joint's range inside its nearer limit."""
+
+
+@dataclass(frozen=True, eq=False)
+class Start:
+    """Where an illegally drawn machine starts: `coordinates` of the joints that had to move (m, rad from the drawn
+    pose), the (4, 4) `displacements` of the bodies in the machine frame, and what there is to say."""
+
+    coordinates: Mapping[str, float]
+    displacements: Mapping[str, Floats]
+    findings: tuple[Finding, ...]
+
+
+def legal_start(mechanism: Mechanism) -> Start | None:
+    """The nearest pose in which no driven joint is outside its limits; None where the drawn pose is one.
+
+    A joint whose limit cannot be reached on this branch of its loop stays where the linkage locks, with a finding.
+    """
+    wanted = {j.name: target for j in mechanism.joints if (target := _target(j)) is not None}
+    if not wanted:
+        return None
+    chain = ClosedChain(mechanism)
+    wanted = {name: target for name, target in wanted.items() if name in chain.independent}
+    if not wanted:
+        return None
+    state, share = chain.reach(wanted)
+    coordinates = {name: chain.coordinate(state, name) for name in wanted}
+    findings = []
+    for name, value in coordinates.items():
+        joint = mechanism.joint(name)
+        words = f"It is drawn outside its limits {_range(joint)}: the machine starts {_shown(joint, value)} from there."
+        hint = "Check the limits, stroke and closed length, or draw a legal pose."
+        findings.append(Finding("KIN012", "warning", name, words, hint))
+    if share < 1.0:
+        words = f"The linkage locks after {share:.0%} of the way to a legal start pose."
+        findings.append(Finding("KIN012", "error", next(iter(wanted)), words, "Check stroke and closed length."))
+    return Start(coordinates, chain.pose(state), tuple(findings))
+
+
+def started(
+    assembly: Assembly, template: Template, alignment: Alignment, start: Start
+) -> tuple[Assembly, Template, Alignment]:
+    """The CAD model with its parts moved to the start pose, the template with limits that count from there, and the
+    alignment with its axes moved along."""
+    frame = alignment.frame
+    back = np.linalg.inv(frame)
+    moves = {body: back @ move @ frame for body, move in start.displacements.items()}
+    body_of = {a.part: a.body for a in alignment.parts}
+    parts = tuple(
+        replace(p, transform=moves[str(body_of[p.id])] @ p.transform) if body_of.get(p.id) in moves else p
+        for p in assembly.parts
+    )
+    joints = []
+    for joint in template.joints:
+        by = start.coordinates.get(joint.name, 0.0) if joint.type == "revolute" else 0.0
+        lower = joint.lower - by if isinstance(joint.lower, float) else joint.lower
+        upper = joint.upper - by if isinstance(joint.upper, float) else joint.upper
+        joints.append(replace(joint, lower=lower, upper=upper) if by else joint)
+    axes = {}
+    for joint in template.joints:
+        if joint.name in alignment.axes:
+            body = next((b for b in template.bodies_of(joint) if b in moves), None)
+            point, direction = alignment.axes[joint.name]
+            axes[joint.name] = _moved(moves[body], point, direction) if body is not None else (point, direction)
+    return (
+        replace(assembly, parts=parts),
+        replace(template, joints=tuple(joints)),
+        replace(alignment, axes=axes),
+    )
+
+
+def _target(joint: Joint) -> float | None:
+    """Where a driven joint that is drawn outside its limits should start; None for any other."""
+    if joint.drive is None or joint.lower is None or joint.upper is None or joint.lower > joint.upper:
+        return None
+    if joint.lower - OUTSIDE <= 0.0 <= joint.upper + OUTSIDE:
+        return None
+    margin = INSIDE * (joint.upper - joint.lower)
+    return joint.lower + margin if joint.lower > 0.0 else joint.upper - margin
+
+
+def _moved(matrix: Floats, point: Vector, direction: Vector) -> tuple[Vector, Vector]:
+    x, y, z = (float(v) for v in matrix[:3, :3] @ np.array(point) + matrix[:3, 3])
+    a, b, c = (float(v) for v in matrix[:3, :3] @ np.array(direction))
+    return (x, y, z), (a, b, c)
+
+
+def _range(joint: Joint) -> str:
+    return f"{_shown(joint, joint.lower or 0.0)} … {_shown(joint, joint.upper or 0.0)}"
+
+
+def _shown(joint: Joint, value: float) -> str:
+    return f"{1e3 * value:+.1f} mm" if joint.type == "prismatic" else f"{math.degrees(value):+.2f}°"
