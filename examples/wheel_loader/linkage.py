@@ -111,6 +111,19 @@ class Linkage:
         lo, hi = v.TILT_CLOSED.value, v.TILT_CLOSED.value + v.TILT_STROKE.value
         return float(brentq(lambda t: self.pose(lift, t).bucket_angle - angle, lo, hi, xtol=1e-10))
 
+    def breakout(self) -> float:
+        """Upward force, kN, 100 mm behind the edge of the level bucket on the ground, tilt cylinder at relief pressure
+        (ISO 14397-2), by virtual work; weights left out."""
+        lift = self.lift_for_hinge(EDGE_DEPTH)
+        level, step = self.tilt_for_angle(lift, 0.0), 1e-3
+
+        def height(tilt: float) -> float:
+            pose = self.pose(lift, tilt)
+            return float((pose.B + rot(pose.bucket_angle, self.T - vec(100.0, 0.0)))[1])
+
+        rise = (height(level + step) - height(level - step)) / (2 * step)
+        return v.WORK_PRESSURE.value * math.pi / 4 * v.TILT_BORE.value**2 / 1000 / rise
+
     def margins(self, pose: Pose) -> tuple[float, float, float, float]:
         """Sines at F (rod on rocker), H, J (link on bucket) and D (lift rod on boom): none may come near
         0."""

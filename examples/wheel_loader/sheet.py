@@ -199,7 +199,7 @@ def specifications(c: Canvas) -> None:
             Row("Steering cylinder, rod diameter", dual_mm(v.STEER_ROD), ours=True),
             Row("Steering pump flow", dual_flow(v.STEER_PUMP_FLOW), ours=True),
             Row("Steering relief pressure", dual_pressure(v.STEER_PRESSURE), ours=True),
-            Row("Minimum turning radius, centre of outside tyre", "6,170 mm (20'3\")", ours=True),
+            Row(v.TURNING_RADIUS.name, dual_mm(v.TURNING_RADIUS), ours=True),
         ),
     )  # fmt: skip
     y = bar(c, RIGHT, y, "HYDRAULIC SYSTEM")

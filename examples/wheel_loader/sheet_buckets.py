@@ -27,7 +27,6 @@ class Bucket:
     operating_weight: float
 
 
-BREAKOUT = 198.0
 STOCK_PILE = Bucket(
     ("Stock pile", "Bolt-on edge"),
     v.BUCKET_CAPACITY_HEAPED.value,
@@ -36,7 +35,7 @@ STOCK_PILE = Bucket(
     v.BUCKET_WEIGHT.value,
     v.TIPPING_LOAD_STRAIGHT.value,
     v.TIPPING_LOAD_FULL_TURN.value,
-    BREAKOUT,
+    v.BREAKOUT_FORCE.value,
     v.DUMP_CLEARANCE.value,
     v.DUMP_REACH.value,
     v.DIG_DEPTH.value,
@@ -46,7 +45,7 @@ STOCK_PILE = Bucket(
 )
 BUCKETS = (
     STOCK_PILE,
-    Bucket(("Stock pile", "Teeth"), 4.0, 3.4, 3190, 2138, 20640, 17860, 207, 2970, 1440, 90, 6090, 9320, 25450),
+    Bucket(("Stock pile", "Teeth"), 4.0, 3.4, 3190, 2138, 20640, 17860, 245, 2970, 1440, 90, 6090, 9320, 25450),
     Bucket(
         ("Excavating", "Teeth and segments"),
         3.8,
@@ -55,7 +54,7 @@ BUCKETS = (
         2270,
         20430,
         17680,
-        214,
+        252,
         2995,
         1415,
         105,
@@ -64,6 +63,6 @@ BUCKETS = (
         25585,
     ),
     Bucket(
-        ("Light material", "Bolt-on edge"), 5.8, 5.0, 3400, 2545, 19890, 17190, 168, 2890, 1520, 95, 6310, 9425, 25860
+        ("Light material", "Bolt-on edge"), 5.8, 5.0, 3400, 2545, 19890, 17190, 199, 2890, 1520, 95, 6310, 9425, 25860
     ),
 )

@@ -94,6 +94,11 @@ STEER_PUMP_FLOW = Value("Steering pump flow", 180.0, "L/min")
 TIME_RAISE = Value("Hydraulic cycle time, raise", 5.8, "s")
 TIME_DUMP = Value("Hydraulic cycle time, dump", 1.7, "s")
 TIME_LOWER = Value("Hydraulic cycle time, lower", 3.6, "s")
+BREAKOUT_FORCE = Value("Breakout force", 234.0, "kN")
+"""Upward, 100 mm behind the edge of the level bucket on the ground, bucket cylinder at relief pressure (ISO 14397-2),
+weights left out: what the drawn linkage gives."""
+TURNING_RADIUS = Value("Minimum turning radius, centre of outside tyre", 5930.0, "mm")
+"""At the end stop of the steering: what wheelbase and tread give, articulated in the middle."""
 TRAVEL_SPEED_MAX = Value("Maximum travel speed", 38.0, "km/h")
 TYRE_DIAMETER = Value("Tyre outside diameter", 1750.0, "mm")
 TYRE_WIDTH = Value("Tyre section width", 675.0, "mm")

@@ -56,6 +56,13 @@ def _coaxial(bore: Bore, joint: dict[str, Any]) -> bool:
 
 
 # ---- the linkage --------
+def test_example_values_are_what_the_drawing_gives(values: ModuleType, linkage: ModuleType) -> None:
+    assert linkage.solve().breakout() == pytest.approx(values.BREAKOUT_FORCE.value, abs=0.5)  # as printed, whole kN
+    half = math.radians(values.STEER_ANGLE.value) / 2
+    radius = values.WHEELBASE.value / 2 / math.tan(half) + values.TREAD.value / 2
+    assert radius == pytest.approx(values.TURNING_RADIUS.value, abs=5.0)  # as printed, centimetres
+
+
 def test_published_values_are_the_makers(values: ModuleType, shared_data: Path) -> None:
     facts = json.loads((shared_data / "facts" / "komatsu-wa475-10.json").read_text(encoding="utf-8"))["facts"]
     makers = {fact["name"]: (fact["value"], fact["unit"], fact["location"]) for fact in facts}
