@@ -31,10 +31,10 @@ def excavator() -> Template:
 def test_moves_as_expected_in_every_set_of_choices(excavator: Template) -> None:
     report = library.lint(excavator)
     assert [f.code for f in report.findings] == ["TPL014"]
-    assert len(report.mobility) == 24
+    assert len(report.mobility) == 36
     for mobility in report.mobility:
         assert mobility.computed == mobility.expected, mobility.choices
-        arms = 2 + (mobility.choices["boom_type"] == "two_piece") + (mobility.choices["blade"] == "fitted")
+        arms = 2 + (mobility.choices["boom_type"] == "two_piece") + (mobility.choices["blade"] != "none")
         loops = [g for g in mobility.groups if g.expected]
         assert len(loops) == arms + 1
         assert all((g.grubler, g.computed, g.undetermined) == (1, 1, 0) for g in loops), mobility.choices
@@ -75,6 +75,7 @@ def test_one_mesh_for_both_boom_cylinders_a_two_piece_boom_and_a_blade(excavator
     with_blade = choose(excavator, {"blade": "fitted"})
     assert with_blade.body_of("blade_pin") == "undercarriage"
     assert {a.name for a in with_blade.actuators} - {a.name for a in choose(excavator, {}).actuators} == {"blade"}
+    assert choose(excavator, {"blade": "twin"}).body_of("blade_piston_rod_r_pin") == "blade"
 
 
 def test_everything_measured_and_driven_is_asked_for(excavator: Template) -> None:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, Protocol
 
 import numpy as np
@@ -31,6 +31,8 @@ _FINEST = 1e-8
 """Share of a stroke at which the search without slopes ends."""
 _KEPT = 64
 """States that are kept, as slopes and subjects ask for the same again."""
+_WALKED = 1e-3
+"""Metres by which a stop of a level cut may be missed."""
 _STOPS = 12
 """Poses between the ends of a level cut at which the tooth is looked for."""
 
@@ -198,16 +200,27 @@ def level_cut(
 def _walk(
     strokes: Strokes, height: Mapping[str, Any], reach: Mapping[str, Any], z: float, shares: Floats, stops: Floats
 ) -> None:
-    """`Unmeasurable` unless every stop of the cut is reached from the one before."""
+    """`Unmeasurable` unless every stop of the cut can be reached, from the one before or from a pose of the lattice."""
+    high, out = strokes.on_lattice(height), strokes.on_lattice(reach)
     for stop in stops:
 
         def miss(at: Floats, stop: float = stop) -> list[float]:
             return [strokes.measured(height)(at) - z, strokes.measured(reach)(at) - stop]
 
-        inside = np.clip(shares, 1e-9, 1.0 - 1e-9)
-        shares = least_squares(miss, inside, bounds=(0.0, 1.0), diff_step=[_STEP] * len(inside), method="dogbox").x
-        if max(abs(each) for each in miss(shares)) > 1e-3:
+        for start in _tries(strokes, np.hypot(high - z, out - stop), shares):
+            inside = np.clip(start, 1e-6, 1.0 - 1e-6)
+            shares = least_squares(miss, inside, bounds=(0.0, 1.0), diff_step=[_STEP] * len(inside)).x
+            if max(abs(each) for each in miss(shares)) <= _WALKED:
+                break
+        else:
             raise Unmeasurable(f"the level cut has a gap at {stop:.3g} m")
+
+
+def _tries(strokes: Strokes, away: Floats, shares: Floats) -> Iterator[Floats]:
+    """These shares, then those of the lattice's nearest points."""
+    yield shares
+    for index in _best(np.isfinite(away), away):
+        yield strokes.begin(index)
 
 
 def _starts(strokes: Strokes, values: Floats, subjects: Sequence[Subject]) -> list[tuple[int, ...]]:
