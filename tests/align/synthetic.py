@@ -10,8 +10,8 @@ import math
 from dataclasses import dataclass, field
 
 import numpy as np
-from align_solids import Array, around, bolt, box, lathe, place, plate, tube
 
+from align_solids import Array, around, bolt, box, lathe, place, plate, tube
 from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.geometry import Shape
 
@@ -25,6 +25,7 @@ class Machine:
     """Parts as they are drawn, and what they are: id → (role, body)."""
 
     twin: bool
+    title: str = "LOADER"
     parts: list[Part] = field(default_factory=list)
     shapes: dict[str, Shape] = field(default_factory=dict)
     truth: dict[str, tuple[str, str]] = field(default_factory=dict)
@@ -37,12 +38,12 @@ class Machine:
         if key in self.shapes and self.shapes[key] is not shape:
             key = f"{key}~{len(self.shapes)}"
         self.shapes[key] = shape
-        part_id = f"LOADER/{body}/{name}#{len(self.parts)}"
-        self.parts.append(Part(part_id, name, ("LOADER", body), key, self.pose @ transform))
+        part_id = f"{self.title}/{body}/{name}#{len(self.parts)}"
+        self.parts.append(Part(part_id, name, (self.title, body), key, self.pose @ transform))
         self.truth[part_id] = (role, body)
 
     def assembly(self) -> Assembly:
-        return Assembly("loader", "synthetic", 0.001, tuple(self.parts), dict(self.shapes))
+        return Assembly(self.title.lower(), "synthetic", 0.001, tuple(self.parts), dict(self.shapes))
 
 
 def turn_z(angle: float) -> Array:
