@@ -228,6 +228,36 @@ def test_sites_at_joints_points_and_edges() -> None:
     assert found["tip"].z_axis == pytest.approx((0.0, 0.0, 1.0))
 
 
+def test_sites_at_the_first_joint_there_in_a_roles_middle_and_at_a_tip() -> None:
+    plan = template()
+    rules = (
+        SiteTemplate("hinge", "arm", {"joint": ("moon", "arm2rod")}),
+        SiteTemplate("lost", "arm", {"joint": ("moon", "sun")}),
+        SiteTemplate("middle", "base", {"middle_of": "arm_pin"}),
+        SiteTemplate("nowhere", "base", {"middle_of": "crane"}),
+        SiteTemplate("tooth", "arm", {"edge_from": "base2arm", "spanning": 0.8, "tip": True}),
+        *plan.sites,
+    )
+    assembly, alignment = machine()
+    # One narrow tooth before the arm's edge: the edge stays the wide one, the tip is the tooth's.
+    at = np.eye(4)
+    at[:3, 3] = (2.1, 0.1, 0.96)
+    assembly = replace(
+        assembly,
+        shapes={**assembly.shapes, "tooth": box("tooth", (0.3, 0.06, 0.02))},
+        parts=(*assembly.parts, Part("CRANE/TOOTH", "TOOTH", ("CRANE",), "tooth", at)),
+    )
+    alignment = replace(alignment, parts=(*alignment.parts, PartAssignment("CRANE/TOOTH", None, "arm", 1.0, "test")))
+    built = build((assembly, alignment), plan=replace(plan, sites=rules))
+    found = {s.name: s for s in built.sites}
+    assert found["hinge"].position == built.joint("arm2rod").anchor
+    assert found["middle"].position == pytest.approx(built.joint("base2arm").anchor, abs=1e-9)
+    assert not {"lost", "nowhere"} & set(found)
+    assert found["tip"].position == pytest.approx((2.0, 0.0, 0.95))
+    assert found["tooth"].position == pytest.approx((2.25, 0.1, 0.95))
+    assert found["tooth"].x_axis == found["tip"].x_axis
+
+
 @pytest.mark.parametrize("shared", [True, False])
 def test_a_row_of_teeth_is_one_edge_however_the_cad_model_shares_their_shape(shared: bool) -> None:
     """Four teeth before the arm's edge: occurrences of one shape, or each drawn on its own, in place and mirrored."""
