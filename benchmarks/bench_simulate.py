@@ -2,8 +2,9 @@
 
 Run from the repository's root: `python benchmarks/bench_simulate.py MACHINE.usda [ENGINE …]` (default: all installed).
 Every cylinder swings by 10 mm, so that nothing falls asleep. "alone" is the time that the engine's own step function
-takes; "loop" is the whole of a step: targets set, stepped, every coordinate and every body's pose read. The two are
-taken in turns, and the best of each, because the machine that runs this is shared.
+takes; "loop" is the whole of a run: targets set, stepped, every coordinate and every body's pose read. The two take
+turns of a few steps each, so that other work on the machine slows both alike. Of wall time the median turn counts,
+since other work stretches some. Processor time is that of all turns.
 """
 
 from __future__ import annotations
@@ -22,11 +23,14 @@ import numpy as np  # noqa: E402
 from yellowiron.kinematics import ClosedChain  # noqa: E402
 from yellowiron.simulate import rated_payload, simulate  # noqa: E402
 from yellowiron.simulate.engine import ENGINES, Setup, installed_engines, load_engine, standing_bodies  # noqa: E402
+from yellowiron.simulate.run import play  # noqa: E402
 from yellowiron.usd import read_machine  # noqa: E402
 
-ROUNDS = 6
+SWINGS = 12
 SECONDS = 0.5
-"""Of machine time in each round."""
+"""Of machine time, a swing."""
+TURNS = {"mujoco": 250, "newton": 50, "physx": 5}
+"""Steps at a turn."""
 
 
 def own_step(name: str, engine: Any) -> Callable[[], object]:
@@ -42,42 +46,55 @@ def own_step(name: str, engine: Any) -> Callable[[], object]:
         before, after = engine._states
         engine._solver.step(before, after, engine._control, None, engine._timestep)
         engine._states = [after, before]
+        engine._rows.reverse()
 
     return newton
 
 
-def rates(name: str, file: Path, base: Any) -> tuple[float, float]:
-    """Steps a second: the engine alone, and the loop."""
+def timed(work: Callable[[], object]) -> np.ndarray:
+    """Wall and processor time (2,) that it takes, seconds, with some of the clocks' own."""
+    start, begun = time.perf_counter(), time.process_time()
+    work()
+    spent, passed = time.process_time() - begun, time.perf_counter() - start
+    return np.array([passed, spent])
+
+
+def times(name: str, file: Path, base: Any) -> tuple[np.ndarray, np.ndarray]:
+    """Seconds a step, wall and processor time (2,), of the engine alone and of the loop."""
     mechanism, entry = read_machine(file), ENGINES[name]
     measured, standing = ClosedChain(mechanism).independent, standing_bodies(mechanism)
     engine = load_engine(name, Setup(file, mechanism, base, entry.timestep, measured, standing=standing))
-    alone, count = own_step(name, engine), round(SECONDS / entry.timestep)
+    alone = own_step(name, engine)
     slides = [j.name for j in mechanism.joints if j.drive is not None and j.drive.kind == "position" and not j.cut]
-    swing = 0.01 * np.sin(np.linspace(0.0, 2.0 * np.pi, count))
-    best = [0.0, 0.0]
-    for _ in range(ROUNDS):
-        spent = 0.0
-        for value in swing.tolist():
-            engine.set_targets(dict.fromkeys(slides, value))
-            start = time.perf_counter()
-            alone()
-            spent += time.perf_counter() - start
-        begun = time.perf_counter()
-        for value in swing.tolist():
-            engine.set_targets(dict.fromkeys(slides, value))
-            engine.step()
-            engine.coordinates()
-            engine.poses()
-        best = [max(best[0], count / spent), max(best[1], count / (time.perf_counter() - begun))]
+    driven = [j.name for j in mechanism.joints if j.drive is not None and not j.cut]
+    swing = 0.01 * np.sin(np.linspace(0.0, 2.0 * np.pi, round(SECONDS / entry.timestep)))
+    rows = np.outer(np.tile(swing, SWINGS), [name in slides for name in driven])
+    turns = [rows[start : start + TURNS[name]] for start in range(0, len(rows), TURNS[name])]
+    clocks = np.median([timed(lambda: None) for _ in range(1000)], axis=0)
+    alones, loops = [], []
+    for turn, other in zip(turns[2::2], turns[3::2], strict=False):
+        spent = np.zeros(2)
+        for _ in engine.targets(driven, turn):
+            spent += timed(alone) - clocks
+        alones.append(spent / len(turn))
+        loops.append(timed(lambda: play(engine, driven, other)) / len(other))  # noqa: B023
     engine.close()
-    return best[0], best[1]
+    return _typical(np.array(alones)), _typical(np.array(loops))
+
+
+def _typical(turns: np.ndarray) -> np.ndarray:
+    return np.array([np.median(turns[:, 0]), np.mean(turns[:, 1])])
 
 
 def main(file: Path, names: list[str]) -> None:
     for name in names or installed_engines():
         for base in ("fixed", "floating"):
-            alone, loop = rates(name, file, base)
-            print(f"{name:7s} {base:9s} alone {alone:8.0f} steps/s   loop {loop:8.0f} steps/s   {loop / alone:.2f}")
+            alone, loop = times(name, file, base)
+            ratio = alone / loop
+            print(
+                f"{name:7s} {base:9s} alone {1.0 / alone[0]:8.0f} steps/s   loop {1.0 / loop[0]:8.0f} steps/s   "
+                f"ratio {ratio[0]:.2f}, by processor time {ratio[1]:.2f}"
+            )
     payload = rated_payload(read_machine(file)).mass
     start = time.perf_counter()
     result = simulate(file, engine="mujoco", base="fixed", payload_kg=payload)

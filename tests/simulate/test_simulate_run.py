@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import sys
 import types
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -31,11 +31,10 @@ class Puppet:
         self.now = self.chain.drawn
         self.told = dict.fromkeys(setup.measured, 0.0)
 
-    def targets(self, joints: Sequence[str]) -> Callable[[Floats], None]:
-        def write(values: Floats) -> None:
-            self.told.update({k: float(v) for k, v in zip(joints, values, strict=True) if k == "slide"})
-
-        return write
+    def targets(self, joints: Sequence[str], rows: Floats) -> Iterator[None]:
+        for row in rows:
+            self.told.update({k: float(v) for k, v in zip(joints, row, strict=True) if k == "slide"})
+            yield
 
     def step(self) -> None:
         self.count += 1

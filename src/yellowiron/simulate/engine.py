@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib
 import importlib.util
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import MappingProxyType, ModuleType
@@ -96,16 +96,16 @@ class Readings(NamedTuple):
 class Engine(Protocol):
     """One machine in one engine. After loading it is in its drawn pose at rest, all targets 0, no time gone by.
 
-    What is done at every step is done with the engine's own numbers: a step of MuJoCo's takes 60 µs.
+    What is done at every step is done in the engine's own terms, and quick: a step of MuJoCo's takes 10 µs.
     """
 
     @property
     def version(self) -> str:
         """The engine's version."""
 
-    def targets(self, joints: Sequence[str]) -> Callable[[Floats], None]:
-        """What sets the targets of driven joints, in this order: metres or radians from the drawn pose for position
-        drives, rad/s or m/s for velocity drives. Others keep theirs."""
+    def targets(self, joints: Sequence[str], rows: Floats) -> Iterator[None]:
+        """Each `next` sets the targets of driven joints to the next of rows (n, joints): metres or radians from the
+        drawn pose for position drives, rad/s or m/s for velocity drives. Others keep theirs."""
 
     def push(self, body: str, force: Floats, point: Floats) -> None:
         """A force (3,), N, on a body at a point (3,), both world frame, during the next step. One a body and step."""
@@ -114,7 +114,7 @@ class Engine(Protocol):
         """One step of the setup's length. Calls `guard.beat`, which tells a step that takes long from a hang."""
 
     def state(self) -> Any:
-        """The machine now, in the engine's own terms: a new array."""
+        """The machine now, in the engine's own terms; it stays as it is."""
 
     def read(self, states: Sequence[Any]) -> Readings:
         """What states are, read in the order in which they came: between two of them, and between two calls, a joint
@@ -126,7 +126,7 @@ class Engine(Protocol):
 
 def tell(engine: Engine, targets: Mapping[str, float]) -> None:
     """New targets by joint, once."""
-    engine.targets(tuple(targets))(np.array(list(targets.values()), dtype=np.float64))
+    next(engine.targets(tuple(targets), np.array([list(targets.values())], dtype=np.float64)))
 
 
 def poses(engine: Engine) -> tuple[Floats, Floats]:

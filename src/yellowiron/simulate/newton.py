@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import os
 import warnings
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -75,19 +75,16 @@ class NewtonEngine:
         """Newton's version."""
         return str(newton.__version__)
 
-    def targets(self, joints: Sequence[str]) -> Callable[[Floats], None]:
+    def targets(self, joints: Sequence[str], rows: Floats) -> Iterator[None]:
         """See `Engine`."""
         parts = []
         for kind, targets in self._targets.items():
-            given = [number for number, joint in enumerate(joints) if self._drives[joint][0] == kind]
-            parts.append((targets, [self._drives[joints[number]][1] for number in given], given))
-        chosen = [(targets, np.array(places), np.array(given)) for targets, places, given in parts if given]
-
-        def write(values: Floats) -> None:
-            for targets, places, given in chosen:
-                targets[places] = values[given]
-
-        return write
+            if own := [number for number, joint in enumerate(joints) if self._drives[joint][0] == kind]:
+                parts.append((targets, np.array([self._drives[joints[number]][1] for number in own]), np.array(own)))
+        for row in rows:
+            for targets, places, given in parts:
+                targets[places] = row[given]
+            yield
 
     def push(self, body: str, force: Floats, point: Floats) -> None:
         """See `Engine`."""
@@ -115,7 +112,7 @@ class NewtonEngine:
 
     def read(self, states: Sequence[Any]) -> Readings:
         """See `Engine`."""
-        rows = np.stack(states)[:, self._bodies].astype(np.float64)
+        rows = np.concatenate(states).reshape(len(states), -1, 7)[:, self._bodies].astype(np.float64)
         rotations, origins = rotation_matrices(rows[..., 3:]), rows[..., :3]
         return Readings(self._measured.read(rotations, origins), rotations, origins)
 

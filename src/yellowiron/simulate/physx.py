@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import tempfile
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Iterator, Sequence
 from functools import cache
 from importlib import metadata
 from pathlib import Path
@@ -87,23 +87,19 @@ class PhysxEngine:
         """The version of ovphysx."""
         return metadata.version("ovphysx")
 
-    def targets(self, joints: Sequence[str]) -> Callable[[Floats], None]:
+    def targets(self, joints: Sequence[str], rows: Floats) -> Iterator[None]:
         """See `Engine`."""
         parts = []
-        for kind, (binding, row) in self._targets.items():
-            given = [number for number, joint in enumerate(joints) if self._kinds[joint] == kind]
-            parts.append((binding, row, [self._columns[joints[number]] for number in given], given))
-        chosen = [(binding, row, np.array(columns), np.array(given)) for binding, row, columns, given in parts if given]
-
-        def write(values: Floats) -> None:
-            for binding, row, columns, given in chosen:
-                new = values[given].astype(np.float32)
+        for kind, (binding, now) in self._targets.items():
+            if own := [number for number, joint in enumerate(joints) if self._kinds[joint] == kind]:
+                parts.append((binding, now, np.array([self._columns[joints[number]] for number in own]), np.array(own)))
+        for row in rows.astype(np.float32):
+            for binding, now, columns, given in parts:
                 # What does not change is not written: a write wakes a machine that has come to rest.
-                if not np.array_equal(row[0, columns], new):
-                    row[0, columns] = new
-                    binding.write(row)
-
-        return write
+                if not np.array_equal(now[0, columns], row[given]):
+                    now[0, columns] = row[given]
+                    binding.write(now)
+            yield
 
     def push(self, body: str, force: Floats, point: Floats) -> None:
         """See `Engine`."""
@@ -129,7 +125,7 @@ class PhysxEngine:
 
     def read(self, states: Sequence[Any]) -> Readings:
         """See `Engine`."""
-        rows = np.stack(states)[:, self._rows].astype(np.float64)
+        rows = np.concatenate(states).reshape(len(states), -1, 7)[:, self._rows].astype(np.float64)
         rotations, origins = rotation_matrices(rows[..., 3:]), rows[..., :3]
         return Readings(self._measured.read(rotations, origins), rotations, origins)
 

@@ -68,9 +68,9 @@ class PhaseResult:
 class SimulationResult:
     """A whole run. Seconds, kilograms, metres, radians. `pin_error` is a pin's worst distance from where the
     closed-chain kinematics has it at the measured strokes, `gap` that between a cut pin's two halves, `angle_error` a
-    body's worst turn from its pose; `*_at` says where and in which phase. `steps_per_second` counts the engine's own
-    time. `sweeps`: a few poses and the errors over time of each phase, for pictures. `pin_bar`, `angle_bar`: the
-    engine's bars."""
+    body's worst turn from its pose; `*_at` says where and in which phase. `steps_per_second` counts the time in
+    which the engine steps and is read. `sweeps`: a few poses and the errors over time of each phase, for pictures.
+    `pin_bar`, `angle_bar`: the engine's bars."""
 
     engine: str
     version: str

@@ -104,11 +104,10 @@ def simulate(
     )
 
 
-def play(engine: Engine, write: Callable[[Floats], None], rows: Floats) -> Readings:
-    """A step for each row of targets, `write` from the engine's `targets`: what is read after every step."""
+def play(engine: Engine, joints: Sequence[str], rows: Floats) -> Readings:
+    """A step for each row of the joints' targets: what is read after every step."""
     states = []
-    for row in rows:
-        write(row)
+    for _ in engine.targets(joints, rows):
         engine.step()
         states.append(engine.state())
     return engine.read(states)
@@ -154,11 +153,11 @@ class _Run:
         chain = self.comparison.chain
         for joint, speeds in rolling(chain, self.wheels, self.moves, phase.targets, self.timestep).items():
             told[joint] = told.get(joint, 0.0) + speeds
-        write, rows = self.engine.targets(tuple(told)), np.column_stack(list(told.values()))
+        joints, rows = tuple(told), np.column_stack(list(told.values()))
         for start in range(0, count, _CHUNK):
             chunk = slice(start, start + _CHUNK)
             begun = time.perf_counter()
-            measured[chunk], rotations[chunk], origins[chunk] = play(self.engine, write, rows[chunk])
+            measured[chunk], rotations[chunk], origins[chunk] = play(self.engine, joints, rows[chunk])
             self.seconds += time.perf_counter() - begun
         self.steps += count
         self._track(phase, measured, told)
