@@ -6,10 +6,10 @@ import math
 
 import numpy as np
 import pytest
-from align_solids import bolt, box, lathe, place, plate, tube
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from align_solids import bolt, box, lathe, place, plate, tube
 from yellowiron.align.contacts import covered, fits_of, flats_of, lines_of, neighbours
 from yellowiron.align.solids import Solid, flat_faces, solids_of
 from yellowiron.model.assembly import Assembly, Part

@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from align_solids import Array, box, place
 from synthetic import Machine, disguise, loader
 
+from align_solids import Array, box, place
 from yellowiron.align import align
 from yellowiron.library import load_template
 from yellowiron.model.alignment import Alignment, PartAssignment
