@@ -29,6 +29,8 @@ _OFF = 2e-4
 """… and no corner further from it than this share of the mesh."""
 _LITTLE = 3e-4
 """A plane below this share of the mesh's area is not worth its place."""
+_TINY = 1e-3
+"""What is below this share of a mesh's size is not looked at: the screw holes of a machine in one piece."""
 _BAND = 1.6
 """A ring that is no longer than this many of its strips are wide, and goes on smoothly, is a band of a ball."""
 _PATCH = 6.0
@@ -58,7 +60,7 @@ def find(mesh: Mesh) -> Found:
     for guesses in (by_folds(soup), by_normals(soup, free)):
         for guess, seeds in guesses:
             seeds = seeds[free[seeds]]
-            if len(seeds) < 4:
+            if len(seeds) < 4 or guess.radius < _TINY * soup.size:
                 continue
             cylinder = grown(soup, guess, seeds, free)
             if cylinder is not None and not _is_round(soup, cylinder):

@@ -58,9 +58,9 @@ class Round:
 
     def distances(self, points: Floats) -> Floats:
         """Distances of points (…, 3) from the axis."""
+        u, v = across(self.direction)
         offset = points - self.point
-        along = offset @ self.direction
-        return np.asarray(np.linalg.norm(offset - along[..., None] * self.direction, axis=-1))
+        return np.asarray(np.hypot(offset @ u, offset @ v))
 
     def along(self, points: Floats) -> Floats:
         """Coordinates of points (…, 3) along the axis, from `point`."""
@@ -138,12 +138,14 @@ def grown(soup: Soup, start: Round, seeds: Indices, free: Flags) -> Round | None
     current = fit(start, first)
     if current is None or float(np.median(np.abs(current.distances(first) - current.radius))) > 3.0 * current.slack:
         return None
+    if len(lying_on(soup, current, seeds, current.slack)) < 4:
+        return None
     found = np.zeros(0, dtype=np.int64)
     for _ in range(4):
         middles = soup.middles[seeds]
         around = middles.mean(axis=0)
         reach = float(np.linalg.norm(middles - around, axis=1).max()) + current.radius
-        near = np.array(sorted(soup.tree.query_ball_point(around, 1.5 * reach)), dtype=np.int64)
+        near = np.array(soup.tree.query_ball_point(around, 1.5 * reach, return_sorted=True), dtype=np.int64)
         now = lying_on(soup, current, near[free[near]], current.slack)
         if len(now) < 4:
             return None
