@@ -154,7 +154,11 @@ def test_a_damaged_entry_is_made_anew(cache: Path) -> None:
     good = entry.read_bytes()
     flipped = bytearray(good)
     flipped[len(good) // 3] ^= 0xFF
-    for damage in (b"", b"not an archive", good[: len(good) // 2], bytes(flipped)):
+    sealed = bytearray(good)
+    sealed[6] |= 1  # the archive's flag for an encrypted member
+    unknown = bytearray(good)
+    unknown[good.index(b"PK\x01\x02") + 10] = 99  # a compression that there is not
+    for damage in (b"", b"not an archive", good[: len(good) // 2], bytes(flipped), bytes(sealed), bytes(unknown)):
         entry.write_bytes(damage)
         assert content(convex_pieces(box)) == made
         assert entry.read_bytes() == good

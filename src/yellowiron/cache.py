@@ -8,9 +8,10 @@ folder that cannot be written is done without.
 from __future__ import annotations
 
 import contextlib
+import hashlib
+import io
 import os
 import tempfile
-import zipfile
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -20,6 +21,7 @@ from numpy.typing import NDArray
 
 VARIABLE = "YELLOWIRON_CACHE"
 OFF = ("off", "0", "none")
+_DIGEST = hashlib.sha256().digest_size
 
 Arrays = tuple[NDArray[Any], ...]
 
@@ -55,22 +57,28 @@ def remember(kind: str, key: str, make: Callable[[], Arrays]) -> Arrays:
 
 
 def _read(path: Path) -> Arrays | None:
-    """None where there is no whole entry: zip archives carry a checksum of every array."""
+    """None where there is no whole entry: its last bytes are the digest of the others."""
     try:
-        with np.load(path, allow_pickle=False) as entry:
-            return tuple(entry[f"arr_{number}"] for number in range(len(entry.files)))
-    except (OSError, ValueError, KeyError, EOFError, AttributeError, zipfile.BadZipFile):
+        data = path.read_bytes()
+    except OSError:
         return None
+    if hashlib.sha256(data[:-_DIGEST]).digest() != data[-_DIGEST:]:
+        return None
+    with np.load(io.BytesIO(data[:-_DIGEST]), allow_pickle=False) as entry:
+        return tuple(entry[f"arr_{number}"] for number in range(len(entry.files)))
 
 
 def _write(path: Path, arrays: Arrays) -> None:
     """Beside its place, then renamed into it: nobody reads half an entry."""
+    entry = io.BytesIO()
+    np.savez(entry, *arrays)
+    data = entry.getvalue()
     with contextlib.suppress(OSError):
         path.parent.mkdir(parents=True, exist_ok=True)
         handle, name = tempfile.mkstemp(prefix=".new-", dir=path.parent)
         try:
             with os.fdopen(handle, "wb") as file:
-                np.savez(file, *arrays)
+                file.write(data + hashlib.sha256(data).digest())
             Path(name).replace(path)
         except OSError:
             Path(name).unlink()

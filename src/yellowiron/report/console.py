@@ -110,11 +110,12 @@ def _strokes(document: Mapping[str, Any]) -> list[RenderableType]:
         f"pins within {document['pin_error_mm']:.3f} mm, bodies within {document['angle_error_deg']:.4f}°, "
         f"branches {'kept' if document['branches_kept'] else 'flipped'}"
     )
-    table = _table("Actuator", "Reached", "Of", "Final error", right=("Reached", "Of", "Final error"))
+    table = _table("Actuator", "Moved, 2–98 %", "Of", "Final error", right=("Moved, 2–98 %", "Of", "Final error"))
+    names = [entry["actuator"] for entry in document["actuators"]]
     for entry in document["actuators"]:
         moved = entry["reached_high"] - entry["reached_low"]
         table.add_row(
-            entry["actuator"],
+            f"{entry['actuator']}, {entry['joint']}" if names.count(entry["actuator"]) > 1 else entry["actuator"],
             display(moved, "m") if entry["stroke"] else "",
             display(entry["stroke"], "m") if entry["stroke"] else f"{entry['speed']:.3g} rad/s",
             f"{entry['final_error_percent']:.2f} %",
@@ -208,9 +209,10 @@ def _error(entry: Mapping[str, Any]) -> str:
     if entry["spec"] is None or entry["model"] is None:
         return ""
     gap = entry["model"] - entry["spec"]
-    if entry["unit"] == "rad":
-        return f"{gap * 57.29577951308232:+.3f} °"
-    return f"{entry['error_percent']:+.3f} %" if entry["error_percent"] is not None else display(gap, entry["unit"])
+    if entry["unit"] != "rad" and entry["error_percent"] is None:
+        return display(gap, entry["unit"])
+    value, unit = (gap * 57.29577951308232, "°") if entry["unit"] == "rad" else (entry["error_percent"], "%")
+    return f"{round(value, 3) + 0.0:+.3f} {unit}"  # + 0.0: a zero has no minus
 
 
 def _table(*columns: str, right: Sequence[str]) -> Table:
