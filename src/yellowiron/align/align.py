@@ -24,9 +24,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from yellowiron.align.clusters import Structure, loose_ends, structure_of
-from yellowiron.align.contacts import Flat, bare_fits_of, fits_of, flats_of, lines_of, neighbours
+from yellowiron.align.contacts import Fit, Flat, bare_fits_of, fits_of, flats_of, lines_of, neighbours
 from yellowiron.align.doubts import doubts, one_sided
-from yellowiron.align.evidence import Evidence, evidence_of
+from yellowiron.align.evidence import Evidence, evidence_of, tables_of
 from yellowiron.align.frame import MachineFrame, machine_frame
 from yellowiron.align.hydraulics import Ram, rams_of
 from yellowiron.align.islands import islands
@@ -55,6 +55,8 @@ FORBIDDEN = 10_000
 """What an assignment loses that is tried without."""
 MARGIN = 20
 """An assignment is doubtful if the best without it scores this little less: less than a name is worth."""
+UPRIGHT = 0.98
+"""A line whose cosine to the upright is less is not upright."""
 SIDED_WEIGHT = 4 * MISSING_WEIGHT
 """What a variant loses for a cylinder that stands to one side where it should be in the middle."""
 
@@ -68,9 +70,10 @@ class _Seen:
     near: list[tuple[int, int]]
     rams: tuple[Ram, ...]
     wheels: list[Wheel]
-    evidence: Evidence | None
+    evidence: tuple[Evidence, ...]
     touch: Touch
     size: float
+    up: Floats | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,6 +86,7 @@ class _Answer:
     solution: Solution
     unary: Weights
     sided: tuple[str, ...]
+    barred: frozenset[tuple[str, int]]
 
     @property
     def score(self) -> int:
@@ -119,7 +123,7 @@ def align(
     plain = without_tracks(template)
     rungs = []
     for contact in CONTACT:
-        seen = _see(machine, plain, contact)
+        seen = replace(_see(machine, plain, contact), up=_upright(tracks))
         scores = name_scores(tuple(s.part for s in seen.solids), plain)
         rungs.append((_best(seen, plain, specifications, choices or {}, scores, edited), seen, scores))
         if _whole(rungs[-1][0]):
@@ -130,9 +134,10 @@ def align(
     if frame is not None and solution.body_of:
         sided = side_weights(seen.solids, structure, resolved, solution, frame, answer.unary)
         if sided != answer.unary:
-            solution = solve(structure, resolved, unary=sided)
+            solution = solve(structure, resolved, unary=sided, barred=answer.barred)
             frame = machine_frame(seen.solids, structure, solution, seen.wheels, resolved, tracks)
-    rivals = {} if _whole(replace(answer, solution=solution)) else _rivals(structure, resolved, solution, answer.unary)
+    answer = replace(answer, solution=solution)
+    rivals = {} if _whole(answer) else _rivals(answer)
     spreader = Spreader(
         seen.solids,
         structure,
@@ -180,12 +185,14 @@ def align(
     )
 
 
-def _rivals(structure: Structure, template: Template, solution: Solution, unary: Weights) -> dict[int, str | None]:
+def _rivals(answer: _Answer) -> dict[int, str | None]:
     """Clusters that could as well be another body (or none), and which: where a machine is not whole, its joints alone
     may not tell."""
     found = {}
+    solution = answer.solution
     for cluster, body in sorted(solution.body_of.items()):
-        other = solve(structure, template, unary={**unary, (cluster, body): -FORBIDDEN})
+        without = {**answer.unary, (cluster, body): -FORBIDDEN}
+        other = solve(answer.structure, answer.template, unary=without, barred=answer.barred)
         if solution.score - other.score < MARGIN and other.body_of.get(cluster) != body:
             found[cluster] = other.body_of.get(cluster)
     return found
@@ -218,47 +225,87 @@ def _best(
     """The reading of the welds, and the variant, that the template fits best; the first that fits wholly is taken."""
     best: _Answer | None = None
     for structure in _structures(seen, template):
-        for chosen in _variants(template, choices):
-            resolved = choose(template, chosen)
-            unary = name_weights(seen.solids, structure, resolved, scores, edited)
-            for more in (
-                sheet_weights(structure, seen.rams, resolved, specifications),
-                size_weights(seen.solids, structure, resolved),
-            ):
-                for key, weight in more.items():
-                    unary[key] = unary.get(key, 0) + weight
-            solution = solve(structure, resolved, unary=unary)
-            sided = one_sided(seen.solids, structure, solution, seen.rams, template, resolved)
-            answer = _Answer(structure, chosen, resolved, solution, unary, sided)
-            if best is None or (_whole(answer), answer.score) > (_whole(best), best.score):
-                best = answer
+        for group in _by_cylinders(_variants(template, choices), template, len(structure.slides)):
+            for chosen in group:
+                resolved = choose(template, chosen)
+                unary = name_weights(seen.solids, structure, resolved, scores, edited)
+                for more in (
+                    sheet_weights(structure, seen.rams, resolved, specifications),
+                    size_weights(seen.solids, structure, resolved),
+                ):
+                    for key, weight in more.items():
+                        unary[key] = unary.get(key, 0) + weight
+                barred = _barred(structure, resolved, seen.up)
+                solution = solve(structure, resolved, unary=unary, barred=barred)
+                sided = one_sided(seen.solids, structure, solution, seen.rams, template, resolved)
+                answer = _Answer(structure, chosen, resolved, solution, unary, sided, barred)
+                if best is None or (_whole(answer), answer.score) > (_whole(best), best.score):
+                    best = answer
+            if best is not None and _whole(best) and not edited:
+                break
         if best is not None and _whole(best):
             break
     assert best is not None
     return best
 
 
+def _by_cylinders(variants: list[dict[str, str]], template: Template, drawn: int) -> list[list[dict[str, str]]]:
+    """The variants in groups: first those with as many hydraulic cylinders as are drawn. If one of these fits wholly,
+    no variant with fewer or more can score as high."""
+    groups: dict[int, list[dict[str, str]]] = {}
+    for chosen in variants:
+        count = sum(1 for r in choose(template, chosen).roles if r.rigid and r.kind == "barrel")
+        groups.setdefault(abs(count - drawn), []).append(chosen)
+    return [groups[apart] for apart in sorted(groups)]
+
+
 def _structures(seen: _Seen, template: Template) -> Iterator[Structure]:
     """Readings of the welds, likeliest first: flat contact alone, unless that leaves far more pieces than bodies; then
-    also what touches; both first without, then with the welds that lock a pin."""
-    if seen.evidence is None:
+    also what touches; both first without, then with the welds that lock a pin; each first with wide round things fast
+    in their bores, then turning in them. None twice."""
+    if not seen.evidence:
         yield Structure()
         return
     leaves = _has_leaves(template)
-    read = functools.cache(functools.partial(structure_of, seen.evidence, leaves=leaves))
+    read = functools.cache(functools.partial(structure_of, leaves=leaves))
     bodies = sum(1 for r in choose(template, {}).roles if r.rigid)
-    broken = loose_ends(read(weak=False, careful=True)) > 1.3 * bodies + 4
+    broken = loose_ends(read(seen.evidence[0], weak=False, careful=True)) > 1.3 * bodies + 4
+    known = set()
     for careful in (True, False):
         for weak in (broken, not broken):
-            yield read(weak=weak, careful=careful)
+            for evidence in seen.evidence:
+                structure = read(evidence, weak=weak, careful=careful)
+                if (key := (structure.clusters, structure.hinges, structure.slides)) not in known:
+                    known.add(key)
+                    yield structure
 
 
 def _whole(answer: _Answer) -> bool:
-    """True where every body is played and every joint found, each at a place it may have."""
+    """True where every body is played and every joint found, each at a place it may have, and no hydraulic cylinder is
+    left over."""
     found = {*answer.solution.hinge_of, *answer.solution.slide_of}
     joints = {j.name for j in answer.template.joints if j.type in ("revolute", "prismatic")}
     bodies = {r.name for r in answer.template.roles if r.rigid and not r.optional}
-    return not answer.sided and joints <= found and bodies <= set(answer.solution.body_of.values())
+    rams = {c for slide in answer.structure.slides for c in slide[:2]}
+    played = answer.solution.body_of
+    return not answer.sided and joints <= found and bodies <= set(played.values()) and rams <= set(played)
+
+
+def _upright(tracks: list[Track]) -> Floats | None:
+    """The direction across the tracks and their length."""
+    return np.asarray(np.cross(tracks[0].axis, tracks[0].along), dtype=np.float64) if tracks else None
+
+
+def _barred(structure: Structure, template: Template, up: Floats | None) -> frozenset[tuple[str, int]]:
+    """A machine slews about the upright: the hinges that lie otherwise are none of its slewing joints."""
+    if up is None:
+        return frozenset()
+    lying = [
+        k
+        for k, hinge in enumerate(structure.hinges)
+        if abs(float(structure.lines[hinge.line].direction @ up)) < UPRIGHT
+    ]
+    return frozenset((name, k) for name in _slewing(template) for k in lying)
 
 
 def _tracked(assembly: Assembly, template: Template) -> tuple[dict[int, str], list[Track]]:
@@ -274,7 +321,7 @@ def _tracked(assembly: Assembly, template: Template) -> tuple[dict[int, str], li
 def _see(assembly: Assembly, template: Template, contact: float) -> _Seen:
     solids = solids_of(assembly)
     if not solids:
-        return _Seen((), [], [], (), [], None, Touch((), 0.0), 0.0)
+        return _Seen((), [], [], (), [], (), Touch((), 0.0), 0.0)
     size = float(np.linalg.norm(np.max([s.high for s in solids], axis=0) - np.min([s.low for s in solids], axis=0)))
     tolerance = contact * size
     touch = Touch(solids, tolerance)
@@ -284,13 +331,29 @@ def _see(assembly: Assembly, template: Template, contact: float) -> _Seen:
     fits = fits_of(solids, tolerance)
     fits += pierced_fits_of(solids, fits, rams, touch, size)
     bare = bare_fits_of(solids, fits, tolerance)
-    lines = lines_of([*fits, *bare], tolerance)
     near = neighbours(solids, tolerance)
     flats = flats_of(solids, near, tolerance)
     taken = {i for r in rams for i in r.barrel | r.rod}
     wheels = wheels_of(solids, sum(1 for r in template.roles if r.kind == "wheel" and r.rigid), taken, tolerance)
-    evidence = evidence_of(solids, fits, bare, lines, flats, rams, wheels, near, touch.touching, tolerance)
-    return _Seen(solids, flats, near, tuple(rams), wheels, evidence, touch, size)
+
+    def sorted_out(fits: list[Fit], *, slewing: bool) -> Evidence:
+        lines = lines_of([*fits, *bare], tolerance)
+        return evidence_of(
+            solids, fits, bare, lines, flats, rams, wheels, near, touch.touching, tolerance, slewing=slewing
+        )
+
+    evidence = [sorted_out(fits, slewing=False)]
+    tables = tables_of(solids, flats) if _slewing(template) else []
+    other = sorted_out([*fits, *tables], slewing=True) if _slewing(template) else evidence[0]
+    evidence += [other] if len(other.races) > len(evidence[0].races) else []
+    return _Seen(solids, flats, near, tuple(rams), wheels, tuple(evidence), touch, size)
+
+
+def _slewing(template: Template) -> list[str]:
+    """Joints between two frames that have a motor: the machine turns about them on a bearing."""
+    frames = {r.name for r in template.roles if r.kind == "frame" and r.rigid}
+    driven = [j for j in template.joints if j.type == "revolute" and j.drive is not None]
+    return [j.name for j in driven if set(template.bodies_of(j)) <= frames]
 
 
 def _has_leaves(template: Template) -> bool:

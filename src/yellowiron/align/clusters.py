@@ -165,11 +165,14 @@ def _absorb_leaves(groups: Groups, evidence: Evidence, *, leaves: bool) -> None:
         if a != b and "wheel" not in (groups.kind(a), groups.kind(b)):
             partners.setdefault(a, set()).add(b)
             partners.setdefault(b, set()).add(a)
+    slewing = {k for k, _ in evidence.races}
     for group in sorted(partners):
         if groups.kind(group) or groups.find(group) != group:
             continue
         axes = wheel_axes.get(group, set())
         rings = all(evidence.solids[i].axis is not None for i in members[group])
+        if on.get(group, set()) & slewing and not rings:
+            continue  # what stands on a slewing bearing reaches no further than it, and turns
         found = {groups.find(p) for p in partners[group]} - {group}
         lines = [evidence.lines[k] for k in on.get(group, set())]
         if any(hangs(evidence.solids, members[group], line) for line in lines):

@@ -9,7 +9,7 @@ import numpy as np
 
 from yellowiron.align.contacts import PARALLEL, Fit, Flat, Line
 from yellowiron.align.hydraulics import Ram
-from yellowiron.align.solids import Solid
+from yellowiron.align.solids import Solid, coaxial
 from yellowiron.align.wheels import Wheel
 
 WIDE = 6.0
@@ -73,9 +73,12 @@ def evidence_of(
     near: list[tuple[int, int]],
     touching: Callable[[int, int], bool],
     tolerance: float,
+    *,
+    slewing: bool = False,
 ) -> Evidence:
     """Sorts fits and flat contacts. Fits between a barrel and its rod, and between a wheel and its axle, slide. `bare`:
-    empty bores side by side; `lines` number the fits first, then these."""
+    empty bores side by side; `lines` number the fits first, then these. `slewing`: whatever round thing is as wide as a
+    slewing bearing turns in its bore, though it is no thin ring."""
     owner: dict[int, tuple[str, int]] = {}
     for k, ram in enumerate(rams):
         owner.update(dict.fromkeys(ram.barrel, ("barrel", k)) | dict.fromkeys(ram.rod, ("rod", k)))
@@ -88,7 +91,7 @@ def evidence_of(
     line_of: dict[int, set[int]] = {}
     pinned: dict[int, set[int]] = {s.index: set() for s in solids}
     size = float(np.linalg.norm(np.max([s.high for s in solids], axis=0) - np.min([s.low for s in solids], axis=0)))
-    slewing = SLEWING * size
+    wide = SLEWING * size
     pressed: list[Fit] = []
     direct: list[tuple[int, Fit]] = []
     races: list[tuple[int, Fit]] = []
@@ -101,7 +104,7 @@ def evidence_of(
                 pinned[fit.outer].add(number[k])
         elif fit.outer in fasteners or (mine is not None and theirs is not None) or _of_wheel(mine, theirs):
             continue
-        elif fit.shaft.radius > slewing and _race(fit, solids):
+        elif fit.shaft.radius > wide and (_race(fit, solids) or (slewing and solids[fit.inner].axis is not None)):
             races.append((number[k], fit))
         elif solids[fit.inner].axis is not None:
             pressed.append(fit)
@@ -166,6 +169,22 @@ def _wide(s: Solid) -> bool:
 def _race(fit: Fit, solids: tuple[Solid, ...]) -> bool:
     """True for two wide thin rings one in the other: the races of a slewing bearing, which turn."""
     return all(s.axis is not None and s.hole > THIN * s.reach for s in (solids[fit.inner], solids[fit.outer]))
+
+
+def tables_of(solids: tuple[Solid, ...], flats: list[Flat]) -> list[Fit]:
+    """A fit for every two round parts about one axis that lie flat on each other and are as wide as a slewing bearing:
+    a turntable that is only drawn as faces."""
+    if not solids:
+        return []
+    size = float(np.linalg.norm(np.max([s.high for s in solids], axis=0) - np.min([s.low for s in solids], axis=0)))
+    found = []
+    for flat in flats:
+        a, b = solids[flat.a].axis, solids[flat.b].axis
+        if a is None or b is None or not coaxial(a, b, 0.02) or min(a.radius, b.radius) < SLEWING * size:
+            continue
+        if abs(float(flat.normal @ a.direction)) > PARALLEL:
+            found.append(Fit(flat.a, flat.b, a, b, 0.0, b.off(a.center)))
+    return found
 
 
 def _of_wheel(mine: tuple[str, int] | None, theirs: tuple[str, int] | None) -> bool:

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from yellowiron.align.solids import Cyl, Solid, coaxial
 from yellowiron.model.geometry import Floats
+
+PARALLEL = 0.9995
+TWIN = 0.02
+"""Two cylinders of one part are twins if their radii, and how far their rods are out, are equal within this share."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,7 +41,8 @@ class _Pair:
 
 
 def rams_of(solids: tuple[Solid, ...], tolerance: float) -> list[Ram]:
-    """Every hydraulic cylinder, longest first; no solid belongs to two."""
+    """Every hydraulic cylinder, longest first; no solid belongs to two. Twins that share their two parts are one, in
+    the middle between them."""
     bores = [
         (s, c)
         for s in solids
@@ -57,10 +62,27 @@ def rams_of(solids: tuple[Solid, ...], tolerance: float) -> list[Ram]:
     for pair in sorted(pairs, key=lambda p: (-round(p.score, 6), p.tube.index, p.bar.index)):
         if pair.tube.index in used or pair.bar.index in used:
             continue
-        ram = _grown(pair, solids, used, tolerance)
+        twins = [p for p in pairs if p.tube is pair.tube and p.bar is pair.bar and _alike(p, pair)]
+        grown = [_grown(p, solids, used, tolerance) for p in twins]
+        rod = frozenset().union(*(r.rod for r in grown))
+        ram = replace(
+            grown[0], barrel=frozenset().union(*(r.barrel for r in grown)) - rod, rod=rod,
+            origin=np.asarray(np.mean([r.origin for r in grown], axis=0)), count=len(grown),
+        )  # fmt: skip
         used |= ram.barrel | ram.rod
         rams.append(ram)
     return rams
+
+
+def _alike(one: _Pair, other: _Pair) -> bool:
+    """True for a cylinder and itself, or its twin beside it: as wide, as far out, and parallel."""
+    same = abs(one.bore.radius - other.bore.radius) < TWIN * other.bore.radius
+    same = same and abs(one.shaft.radius - other.shaft.radius) < TWIN * other.shaft.radius
+    apart = one.bore is not other.bore and one.bore.off(other.bore.center) > other.bore.radius
+    delta = float((one.shaft.center - one.bore.center) @ other.direction)
+    delta -= float((other.shaft.center - other.bore.center) @ other.direction)
+    as_far = abs(delta) < TWIN * other.tube.size and float(one.direction @ other.direction) > PARALLEL
+    return one is other or (same and apart and as_far and one.shaft is not other.shaft)
 
 
 def _pair(tube: Solid, bore: Cyl, bar: Solid, shaft: Cyl, eyes: list[Cyl], tolerance: float) -> _Pair | None:

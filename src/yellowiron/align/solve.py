@@ -6,7 +6,7 @@ local-polytope form (the z that share an x sum to at most that x) the relaxation
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -32,10 +32,17 @@ class Solution:
     proven: bool
 
 
-def solve(structure: Structure, template: Template, *, unary: Mapping[tuple[int, str], int] | None = None) -> Solution:
+def solve(
+    structure: Structure,
+    template: Template,
+    *,
+    unary: Mapping[tuple[int, str], int] | None = None,
+    barred: Collection[tuple[str, int]] = (),
+) -> Solution:
     """The best assignment of clusters to the template's rigid roles (a resolved template, see `choose`).
 
     `unary[(cluster, body)]` adds weight (a joint counts `JOINT_WEIGHT`); names, sizes and sides come in by it.
+    `barred`: (joint, hinge) that cannot be the same.
     """
     from ortools.sat.python import cp_model
 
@@ -64,7 +71,7 @@ def solve(structure: Structure, template: Template, *, unary: Mapping[tuple[int,
         first, second = template.bodies_of(joint)
         if first is None or second is None or first == second:
             continue
-        edges = _edges(joint, structure)
+        edges = [e for e in _edges(joint, structure) if joint.type == "prismatic" or (joint.name, e[0]) not in barred]
         by_end: dict[tuple[int, str], list[Any]] = {}
         every = []
         for number, (a, b) in edges:
