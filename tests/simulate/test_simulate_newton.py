@@ -15,11 +15,10 @@ pytest.importorskip("newton", reason="needs pip install 'yellowiron[newton]'")
 pytestmark = pytest.mark.slow
 
 
-@pytest.mark.parametrize(("base", "actuators"), [("fixed", ["bucket"]), ("floating", None)])
-def test_full_strokes_with_the_rated_payload(wheel_loader: Path, base: Base, actuators: list[str] | None) -> None:
-    """`None`: every actuator alone, and all together."""
+@pytest.mark.parametrize(("base", "actuator"), [("fixed", "steering"), ("floating", "bucket")])
+def test_full_strokes_with_the_rated_payload(wheel_loader: Path, base: Base, actuator: str) -> None:
     payload = rated_payload(read_machine(wheel_loader))
-    result = simulate(wheel_loader, engine="newton", base=base, payload_kg=payload.mass, actuators=actuators)
+    result = simulate(wheel_loader, engine="newton", base=base, payload_kg=payload.mass, actuators=[actuator])
     assert result.completed and result.branches_kept
     assert not result.findings, result.findings
 

@@ -50,7 +50,7 @@ def examine(
         usd_path, engine, test, base, payload, dt,
         where=str(usd_path),
         timeout_s=patience(),
-        memory_mb=None,  # engines reserve address space by the terabyte where there is a GPU
+        memory_mb=None,  # engines reserve address space that they never use: PhysX 3.8 GB for 0.4
         who=f"The engine '{engine}'",
         late=f"The engine '{engine}' took no step for",
         hint=f"Try another engine or a smaller time step; {PATIENCE} allows more seconds without a step.",
