@@ -153,10 +153,10 @@ class _Reader:
             proper[:3, 0] *= -1.0
         if prim.IsA(UsdGeom.Cube):
             edge = float(UsdGeom.Cube(prim).GetSizeAttr().Get())
-            return Collider(name, "box", proper, tuple((edge * scale).tolist()), friction=friction)
+            return Collider(name, "box", proper, tuple((edge * scale).tolist()), friction=friction, rules=rules)
         if prim.IsA(UsdGeom.Sphere):
             radius = float(UsdGeom.Sphere(prim).GetRadiusAttr().Get()) * float(scale.max())
-            return Collider(name, "sphere", proper, (radius,), friction=friction)
+            return Collider(name, "sphere", proper, (radius,), friction=friction, rules=rules)
         for kind, schema in (("cylinder", UsdGeom.Cylinder), ("capsule", UsdGeom.Capsule)):
             if prim.IsA(schema):
                 shape = schema(prim)
@@ -165,7 +165,8 @@ class _Reader:
                 turned[:3, :3] = np.roll(proper[:3, :3], 2 - axis, axis=1)
                 radius = float(shape.GetRadiusAttr().Get()) * float(np.delete(scale, axis).max())
                 height = float(shape.GetHeightAttr().Get()) * float(scale[axis])
-                return Collider(name, kind, turned, (radius, height), friction=friction)  # type: ignore[arg-type]
+                size = (radius, height)
+                return Collider(name, kind, turned, size, friction=friction, rules=rules)  # type: ignore[arg-type]
         return None
 
 

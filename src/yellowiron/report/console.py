@@ -128,6 +128,7 @@ _DRIVING = (
     ("Back", "backward_m", "distance_m", "m", 3),
     ("Turning radius at full lock", "turning_radius_m", "geometry_radius_m", "m", 3),
     ("Turn on the spot", "spin_deg", "spin_geometry_deg", "°", 1),
+    ("Swing", "swing_deg", "swing_geometry_deg", "°", 1),
     ("Axle on the block", "axle_angle_deg", "axle_geometry_deg", "°", 2),
 )
 """Row, keys of the figure and of what it should be, unit, digits after the point."""

@@ -148,6 +148,13 @@ def _spin(run: Run) -> dict[str, Any] | None:
     return _cell(f"{run['spin_deg']:.1f}°", f"geometry {geometry:.1f}°" if geometry is not None else "")
 
 
+def _swung(run: Run) -> dict[str, Any] | None:
+    if run.get("swing_deg") is None:
+        return None
+    geometry = run.get("swing_geometry_deg")
+    return _cell(f"{run['swing_deg']:.1f}°", f"told {geometry:.1f}°" if geometry is not None else "")
+
+
 def _wheels(run: Run) -> dict[str, Any] | None:
     return None if run.get("highest_wheel_mm") is None else _cell(f"{run['highest_wheel_mm']:.0f} mm")
 
@@ -157,6 +164,7 @@ _DRIVING = (
     ("Driven back", _distance("backward")),
     ("Turning radius at full lock", _radius),
     ("Turned on the spot", _spin),
+    ("Swung", _swung),
     ("Free axle, one wheel on a block", _axle),
     ("Most that a wheel rose from what it stood on", _wheels),
 )

@@ -1,0 +1,117 @@
+"""The example excavator in the engines: strokes with a filled bucket, driving, and every track shoe a body."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from pathlib import Path
+
+import in_engines
+import numpy as np
+import pytest
+
+from yellowiron.export import BodyGeometry, Geometry, actuator_names, export_mjcf, read_geometry
+from yellowiron.simulate import drive, rated_payload, simulate
+from yellowiron.simulate.driving import driving_findings
+from yellowiron.simulate.engine import Base, import_engine
+from yellowiron.usd import read_machine
+
+pytestmark = pytest.mark.slow
+
+
+@pytest.fixture(scope="module")
+def built(root: Path, tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
+    """The machine's file by what its tracks are, each built once."""
+    from yellowiron.build import build
+
+    example = root / "examples" / "excavator"
+    cad, sheet = example / "excavator.step", example / "specifications.pdf"
+    if not cad.is_file() or not sheet.is_file():
+        pytest.skip("the excavator example is not drawn")
+    folder = tmp_path_factory.mktemp("excavator")
+
+    def file(tracks: str) -> Path:
+        out = folder / tracks
+        if not out.is_dir():
+            known = next(iter(folder.glob("*/alignment.json")), None)
+            build("excavator", cad, out, sheets=(sheet,), settings=(f"tracks={tracks}",), alignment_file=known)
+        return out / "excavator.usda"
+
+    return file
+
+
+@pytest.mark.parametrize(
+    ("engine", "base", "actuators"),
+    [
+        ("mujoco", "fixed", ["swing", "boom", "arm", "bucket"]),
+        ("mujoco", "floating", ["boom", "bucket", "travel_left"]),
+        ("physx", "fixed", ["boom", "bucket"]),
+        ("physx", "floating", ["arm"]),
+        ("newton", "fixed", ["bucket"]),
+    ],
+)
+def test_full_strokes_with_a_filled_bucket(
+    built: Callable[[str], Path], engine: str, base: Base, actuators: list[str]
+) -> None:
+    in_engines.need(engine)
+    import_engine(engine)  # before a stage opens: its schemas
+    file = built("belt")
+    payload = rated_payload(read_machine(file))
+    assert payload.mass == pytest.approx(1530.0, rel=0.01)
+    result = simulate(file, engine=engine, base=base, payload_kg=payload.mass, actuators=actuators)
+    assert result.completed and result.branches_kept and len(result.branches) >= 4
+    assert not result.findings, result.findings
+    assert all(a.fastest == pytest.approx(a.speed, rel=0.01) for a in result.actuators)
+
+
+@pytest.mark.parametrize("engine", ["mujoco", "physx"])
+def test_it_drives_turns_and_swings(built: Callable[[str], Path], engine: str) -> None:
+    in_engines.need(engine)
+    import_engine(engine)
+    result = drive(built("belt"), engine=engine)
+    assert result.creep < 1e-3 and abs(result.sunk) < 0.005
+    assert result.forward == pytest.approx(2.0, rel=0.05)
+    assert result.backward == pytest.approx(2.0, rel=0.05)
+    assert result.spin == pytest.approx(math.radians(45.0), rel=0.05)
+    assert result.swing == pytest.approx(math.radians(90.0), abs=math.radians(1.0))
+    assert not list(driving_findings(result))
+
+
+def test_shoes_carry_the_machine_and_move_around_the_loop(built: Callable[[str], Path], tmp_path: Path) -> None:
+    """The sprockets' teeth take the tracks with them: the machine goes on, the shoes under it stay, those above it go
+    twice as far."""
+    import mujoco
+
+    file = built("shoes")
+    mechanism, geometry = read_machine(file), read_geometry(file)
+    bare = Geometry({n: BodyGeometry((), b.colliders) for n, b in geometry.bodies.items()}, geometry.filtered)
+    export_mjcf(mechanism, bare, tmp_path)
+    model = mujoco.MjModel.from_xml_path(str(tmp_path / "scene.xml"))
+    data = mujoco.MjData(model)
+    mujoco.mj_resetDataKeyframe(model, data, 0)
+    names = actuator_names(mechanism)
+    motors = [model.actuator(c).id for side in ("travel_left", "travel_right") for c in names[side]]
+    mujoco.mj_kinematics(model, data)
+    before = data.xpos.copy()
+    while data.time < 0.8:
+        data.ctrl[motors] = 2.0 * min(1.0, data.time / 0.5)
+        mujoco.mj_step(model, data)
+    went = {b.name: (data.xpos - before)[model.body(b.name).id] for b in mechanism.bodies}
+    machine = went[mechanism.root]
+    assert machine[0] > 0.2 and np.abs(machine[1:]).max() < 0.03
+    for side in ("l", "r"):
+        row = [b for b in mechanism.bodies if b.name.startswith(f"track_shoe_{side}_")]
+        assert len(row) == 49
+        lowest = min(row, key=lambda b: abs(b.origin[0]) + 10.0 * b.origin[2])
+        highest = min(row, key=lambda b: abs(b.origin[0]) - 10.0 * b.origin[2])
+        assert abs(went[lowest.name][0]) < 0.1 * machine[0]
+        assert went[highest.name][0] == pytest.approx(2.0 * machine[0], rel=0.15)
+    rings = [j for j in mechanism.joints if j.cut and j.body0.startswith("track_shoe")]
+    assert len(rings) == 2
+    for ring in rings:
+        ends = []
+        for name in (ring.body0, ring.body1):
+            number = model.body(name).id
+            arm = np.asarray(ring.anchor) - np.asarray(mechanism.body(name).origin)
+            ends.append(data.xpos[number] + data.xmat[number].reshape(3, 3) @ arm)
+        assert np.linalg.norm(ends[0] - ends[1]) < 1e-3
