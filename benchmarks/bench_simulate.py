@@ -29,7 +29,7 @@ from yellowiron.usd import read_machine  # noqa: E402
 SWINGS = 12
 SECONDS = 0.5
 """Of machine time, a swing."""
-TURNS = {"mujoco": 250, "newton": 50, "physx": 5}
+TURNS = {"mujoco": 50, "newton": 50, "physx": 5}
 """Steps at a turn."""
 
 

@@ -38,8 +38,9 @@ from yellowiron.simulate.rolling import rolling
 
 FINAL_BAR = 0.01
 """A cylinder ends within this share of its stroke from its target; a motor within ten times that of its speed."""
-_CHUNK = 500
-"""Steps that are read at once: enough to make it quick, few enough for the memory that their raw states take."""
+_CHUNK = 50
+"""Steps that are read at once: enough to make it quick, few enough for their states to stay in the processor's cache
+(MuJoCo, fixed base: 12.0 µs a step, with 250 at once 13.0)."""
 
 
 def simulate(
