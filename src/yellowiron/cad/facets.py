@@ -35,6 +35,8 @@ _BAND = 1.6
 """A ring that is no longer than this many of its strips are wide, and goes on smoothly, is a band of a ball."""
 _PATCH = 6.0
 """As `_BAND`, for patches that go less than half-way around and go on smoothly at both ends."""
+_ROUND = 0.996
+"""What has less than this between its two radii is oval."""
 _SLENDER = 4.0
 """What is left of a patch that was no cylinder is one only if it is this many radii long."""
 _TURN = 2.0 * math.pi
@@ -57,6 +59,8 @@ def find(mesh: Mesh) -> Found:
     soup = soup_of(mesh)
     free = np.ones(len(soup.corners), dtype=bool)
     rounds: list[Round] = []
+    # Whole ovals first: a piece of one is nearly a piece of a circle.
+    found = _ovals(soup, free, whole=True)
     for guesses in (by_folds(soup), by_normals(soup, free)):
         for guess, seeds in guesses:
             seeds = seeds[free[seeds]]
@@ -70,11 +74,7 @@ def find(mesh: Mesh) -> Found:
                 rounds.append(cylinder)
                 free[cylinder.triangles] = False
     rounds = _united(soup, rounds)
-    found = [(r, _arc(soup, r)) for r in rounds]
-    for oval in ovals(soup, free):
-        if _smooth_ends(soup, oval.round) == 0 and free[oval.round.triangles].all():
-            found.append((oval.round, oval.arc))
-            free[oval.round.triangles] = False
+    found += [(r, _arc(soup, r)) for r in rounds] + _ovals(soup, free, whole=False)
     found.sort(key=lambda pair: int(pair[0].triangles.min()))
     return Found(
         tuple(_feature(soup, r, arc) for r, arc in found),
@@ -84,6 +84,17 @@ def find(mesh: Mesh) -> Found:
 
 
 # ---- what is round ----
+def _ovals(soup: Soup, free: Flags, *, whole: bool) -> list[tuple[Round, float]]:
+    """Ovals with their arcs, no longer free; only those that go all the way round, or any."""
+    found = []
+    for oval in ovals(soup, free):
+        wanted = not whole or (oval.arc > 0.99 * _TURN and oval.ratio < _ROUND)
+        if wanted and _smooth_ends(soup, oval.round) == 0 and free[oval.round.triangles].all():
+            found.append((oval.round, oval.arc))
+            free[oval.round.triangles] = False
+    return found
+
+
 def _is_round(soup: Soup, cylinder: Round) -> bool:
     triangles = cylinder.triangles
     count, arc = _strips(soup, cylinder)

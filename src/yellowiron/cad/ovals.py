@@ -33,10 +33,12 @@ _NONE = np.zeros(0, dtype=np.int64)
 
 @dataclass(frozen=True, eq=False)
 class Oval:
-    """A round whose radius is the mean of the two of an ellipse, and how far around it goes, radians."""
+    """A round whose radius is the mean of the two of an ellipse, how far around it goes, radians, and the ratio of the
+    smaller to the larger radius."""
 
     round: Round
     arc: float
+    ratio: float = 1.0
 
 
 def ovals(soup: Soup, free: Flags) -> Iterator[Oval]:
@@ -85,7 +87,8 @@ def _oval(soup: Soup, folds: Indices, directions: Floats) -> Oval | None:
     else:
         return None
     values, vectors = np.linalg.eigh(shape)
-    if math.sqrt(values[0] / values[1]) < _NARROWEST:
+    ratio = math.sqrt(values[0] / values[1])
+    if ratio < _NARROWEST:
         return None
     # In the frame in which the ellipse is a circle.
     unit = (flat[kept] - center) @ vectors * np.sqrt(values)
@@ -96,7 +99,7 @@ def _oval(soup: Soup, folds: Indices, directions: Floats) -> Oval | None:
         return None
     triangles = np.unique(soup.pair[folds[kept]])
     point = center @ basis + float((soup.middles[triangles] @ axis).mean()) * axis
-    return Oval(Round(point, axis, radius, bool(soup.concave[folds[0]]), triangles), arc)
+    return Oval(Round(point, axis, radius, bool(soup.concave[folds[0]]), triangles), arc, ratio)
 
 
 def _ellipse(points: Floats) -> tuple[Floats, Floats, float] | None:

@@ -136,7 +136,7 @@ def flat_facets(soup: Soup, angle: float) -> Indices:
 
 def by_normals(soup: Soup, free: Flags) -> Iterator[tuple[Round, Indices]]:
     """Guesses for the smooth patches of free triangles, the largest patch first; one guess a patch and side."""
-    smooth = (soup.angle < math.radians(40.0)) & free[soup.pair].all(axis=1)
+    smooth = (soup.angle < WIDEST) & free[soup.pair].all(axis=1)
     count = len(soup.corners)
     pair = soup.pair[smooth]
     graph = coo_array((np.ones(len(pair), dtype=np.int8), (pair[:, 0], pair[:, 1])), shape=(count, count))
