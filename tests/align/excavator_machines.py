@@ -528,14 +528,14 @@ class Digger(Drawer):
         m, s, t, e = self.m, self.s, self.t, self.e
         front = 0.65 * s
         z = self.axle_z
-        self.P["U"] = np.array([front + 0.18 * s, z - 0.05 * s])
-        self.P["V"] = np.array([front + 0.2 * s, z + 0.3 * s])
+        self.P["U"] = np.array([front + 0.18 * s, z - 0.12 * s])
+        self.P["V"] = np.array([front + 0.2 * s, z + 0.18 * s])
         ahead = self.half + self.pitch_r + 0.35 * s
         turned = float(self.rng.uniform(-0.1, 0.12))
         self.P["W"] = np.array([ahead - 0.15 * s, z + 0.05 * s]) + turned * np.array([0.0, ahead - front])
         wide = self.level(0) if self.f.blade == 1 else 0.42 * s
         apart = [0.0] if self.f.blade == 1 else [wide, -wide]
-        face = [(front - e, z - 0.12 * s, 0.0), (front - e, z + 0.22 * s, 0.0)]
+        face = [(front - e, z - 0.12 * s, 0.0), (front - e, z + 0.2 * s, 0.0)]
         down = float(self.P["W"][1]) - z
         end = [(ahead + e, z - 0.2 * s + down, 0.0), (ahead + e, z + 0.1 * s + down, 0.0)]
         inner, outer = self.eye_w / 2 + self.gap + t / 2, self.eye_w / 2 + self.gap + 1.5 * t + self.gap
