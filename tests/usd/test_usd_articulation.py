@@ -10,6 +10,7 @@ from pxr import Usd, UsdPhysics
 
 import small_machine
 from yellowiron.usd.articulation import root_link
+from yellowiron.usd.physx import loops_last
 
 
 @pytest.fixture(scope="module")
@@ -45,3 +46,10 @@ def test_where_every_body_is_touched_it_is_the_root() -> None:
     cut = next(j for j in mechanism.joints if j.cut)
     more = [replace(cut, name=f"cut_{b.name}", body0=mechanism.root, body1=b.name) for b in mechanism.bodies[1:]]
     assert root_link(replace(mechanism, joints=(*mechanism.joints, *more))) == mechanism.root
+
+
+def test_loops_are_solved_last_where_a_motor_slews_them() -> None:
+    mechanism, _ = small_machine.make()
+    assert not loops_last(mechanism)
+    slewed = tuple(replace(j, body0="front_wheel_l") if j.cut else j for j in mechanism.joints)
+    assert loops_last(replace(mechanism, joints=slewed))

@@ -21,7 +21,7 @@ from yellowiron.simulate.loads import GRAVITY
 from yellowiron.usd.drives import INSTANCES, to_usd_unit, write_drive
 from yellowiron.usd.metadata import KEY
 from yellowiron.usd.physics import write_mass
-from yellowiron.usd.physx import LOOPS_LAST
+from yellowiron.usd.physx import LOOPS_LAST, loops_last
 from yellowiron.usd.plan import COLLIDERS
 from yellowiron.usd.read import find_machine, open_stage
 from yellowiron.usd.stage import (
@@ -108,7 +108,8 @@ def _write_scene(layer: Sdf.Layer, setup: Setup) -> None:
     set_attribute(scene, "physics:gravityMagnitude", Types.Float, GRAVITY)
     set_attribute(scene, "physxScene:solverType", Types.Token, "TGS", uniform=True)
     set_attribute(scene, "physxScene:timeStepsPerSecond", Types.UInt, max(1, round(1.0 / setup.timestep)))
-    set_attribute(scene, LOOPS_LAST, Types.Bool, True)
+    if loops_last(setup.mechanism):
+        set_attribute(scene, LOOPS_LAST, Types.Bool, True)
     if setup.base == "fixed":
         return
     soil = define(layer, _SOIL, "Material")

@@ -6,7 +6,7 @@ from pxr import Gf, Sdf, Vt
 
 from yellowiron.usd.articulation import BASES, write_base_set
 from yellowiron.usd.metadata import describe_machine, set_custom
-from yellowiron.usd.physx import LOOPS_LAST
+from yellowiron.usd.physx import LOOPS_LAST, loops_last
 from yellowiron.usd.plan import Plan
 from yellowiron.usd.sensors import FILE as SENSOR_FILE
 from yellowiron.usd.stage import (
@@ -66,7 +66,8 @@ def write_scene_layer(layer: Sdf.Layer, plan: Plan, machine_file: str) -> None:
     apply_schemas(scene, "PhysxSceneAPI", "NewtonSceneAPI")
     set_attribute(scene, "physxScene:solverType", Types.Token, "TGS", uniform=True)
     set_attribute(scene, "physxScene:timeStepsPerSecond", Types.UInt, STEPS_PER_SECOND)
-    set_attribute(scene, LOOPS_LAST, Types.Bool, True)
+    if loops_last(plan.mechanism):
+        set_attribute(scene, LOOPS_LAST, Types.Bool, True)
     _write_ground(layer, "/World/ground")
     dome = define(layer, "/World/light", "DomeLight")
     set_attribute(dome, "inputs:intensity", Types.Float, 300.0)
