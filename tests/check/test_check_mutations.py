@@ -537,6 +537,7 @@ def test_what_the_build_recorded_is_compared(built: Path) -> None:
         (lambda v: v.cut.SetActive(False), "CHK120"),
         (lambda v: v.cut.SetActive(False), "CHK126"),
         (lambda v: v.pin.SetTypeName("PhysicsSphericalJoint"), "CHK121"),
+        (lambda v: v.link.RemoveAPI(UsdPhysics.RigidBodyAPI), "CHK121"),
         (lambda v: scale(v.pin, "physics:upperLimit", 0.9), "CHK123"),
         (lambda v: scale(v.slide, "drive:linear:physics:maxForce", 2.0), "CHK124"),
         (lambda v: scale(v.link, "physics:mass", 1.1), "CHK125"),

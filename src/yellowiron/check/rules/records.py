@@ -97,7 +97,10 @@ def changed(view: View) -> Remarks:
             yield joint.path, f"It is {'cut' if joint.cut else 'not cut'}, and was built the other way."
         built = (str(record.get("body0")), str(record.get("body1")))
         found = tuple(names.get(b, "") for b in joint.bodies)
-        if "body0" in record and all(found) and found != built:
+        lost = [name for name, there in zip(built, found, strict=True) if not there]
+        if "body0" in record and lost:
+            yield joint.path, f"It joins {built[0]} and {built[1]}, and {lost[0]} is no rigid body any more."
+        elif "body0" in record and found != built:
             yield joint.path, f"It joins {found[0]} and {found[1]}, and was built to join {built[0]} and {built[1]}."
 
 
