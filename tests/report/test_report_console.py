@@ -32,14 +32,16 @@ def test_a_zero_has_no_minus() -> None:
 def test_joints_of_one_actuator_are_told_apart() -> None:
     wheel = {
         "actuator": "drive", "reached_low": 0.0, "reached_high": 0.0, "stroke": 0.0, "speed": 12.0,
-        "final_error_percent": 0.0,
+        "final_error_percent": 0.0, "unit": "rad",
     }  # fmt: skip
-    lift = {**wheel, "actuator": "boom", "joint": "lift_joint", "reached_high": 0.5, "stroke": 0.52}
+    lift = {**wheel, "actuator": "boom", "joint": "lift_joint", "reached_high": 0.5, "stroke": 0.52, "unit": "m"}
+    hinge = {**lift, "actuator": "arm", "unit": "rad"}
     document = {
         "engine": "mujoco", "version": "4", "base": "fixed", "dt_s": 0.001, "payload_kg": 0.0, "steps_per_second": 1,
         "pin_error_mm": 0.0, "angle_error_deg": 0.0, "branches_kept": True, "findings": [],
-        "actuators": [lift, {**wheel, "joint": "left_joint"}, {**wheel, "joint": "right_joint"}],
+        "actuators": [lift, hinge, {**wheel, "joint": "left_joint"}, {**wheel, "joint": "right_joint"}],
     }  # fmt: skip
     shown = drawn(simulation_table(document))
     assert "drive, left_joint" in shown and "drive, right_joint" in shown
     assert "lift_joint" not in shown
+    assert "500 mm" in shown and "28.648 °" in shown  # a hinge driven without its cylinder moves by an angle

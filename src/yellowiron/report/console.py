@@ -116,8 +116,8 @@ def _strokes(document: Mapping[str, Any]) -> list[RenderableType]:
         moved = entry["reached_high"] - entry["reached_low"]
         table.add_row(
             f"{entry['actuator']}, {entry['joint']}" if names.count(entry["actuator"]) > 1 else entry["actuator"],
-            display(moved, "m") if entry["stroke"] else "",
-            display(entry["stroke"], "m") if entry["stroke"] else f"{entry['speed']:.3g} rad/s",
+            display(moved, entry["unit"]) if entry["stroke"] else "",
+            display(entry["stroke"], entry["unit"]) if entry["stroke"] else f"{entry['speed']:.3g} rad/s",
             f"{entry['final_error_percent']:.2f} %",
         )
     return [head, worst, "", table]

@@ -18,6 +18,7 @@ class ActuatorResult:
 
     `final_error`: the worst distance from a target that has come to rest (m, rad; of a motor alone: rad/s); `lag`: the
     worst while moving; `sag`: the most that the weight on the drive's spring takes, by which it is told to go further.
+    `unit`: m of slides, rad of pivots.
     """
 
     actuator: str
@@ -33,6 +34,7 @@ class ActuatorResult:
     final_error: float
     sag: float
     lag: float
+    unit: str = "m"
 
     @property
     def final_error_percent(self) -> float:
@@ -127,6 +129,7 @@ def simulation_document(result: SimulationResult) -> dict[str, Any]:
                 "actuator": a.actuator,
                 "joint": a.joint,
                 "kind": a.kind,
+                "unit": a.unit,
                 "stroke": a.stroke,
                 "speed": a.speed,
                 "fastest": a.fastest,

@@ -229,7 +229,9 @@ class _Run:
                 BranchResult(cut, min(a.sines[cut] for _, a in self.done if cut in a.sines)) for cut in cuts
             ),
             actuators=tuple(
-                _actuator(motion, self.seen[motion.joint], base) for motion in self.moves if motion.joint in self.seen
+                _actuator(motion, self.seen[motion.joint], base, self._unit(motion))
+                for motion in self.moves
+                if motion.joint in self.seen
             ),
             phases=tuple(PhaseResult(p.name, p.steps, a.pin.value, a.angle.value) for p, a in self.done),
             sweeps=tuple(self.sweeps),
@@ -238,6 +240,9 @@ class _Run:
         )
         return replace(made, findings=tuple(_findings(made)))
 
+    def _unit(self, motion: Motion) -> str:
+        return "m" if self.comparison.chain.mechanism.joint(motion.joint).type == "prismatic" else "rad"
+
     def _worst(self, kind: str) -> tuple[Worst, Phase]:
         return max(((getattr(a, kind), p) for p, a in self.done), key=lambda pair: pair[0].value)
 
@@ -245,7 +250,7 @@ class _Run:
         return f"{worst.where}, {phase.name}, {worst.step * self.timestep:.2f} s" if worst.where else ""
 
 
-def _actuator(motion: Motion, seen: _Seen, base: Base) -> ActuatorResult:
+def _actuator(motion: Motion, seen: _Seen, base: Base, unit: str) -> ActuatorResult:
     speed = motion.top_speed(on_ground=base == "floating")
     return ActuatorResult(
         actuator=motion.actuator,
@@ -261,6 +266,7 @@ def _actuator(motion: Motion, seen: _Seen, base: Base) -> ActuatorResult:
         final_error=seen.final_error,
         sag=seen.sag,
         lag=seen.lag,
+        unit=unit,
     )
 
 
