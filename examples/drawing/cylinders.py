@@ -48,6 +48,17 @@ class Cylinder:
         """Gland face to rod pin at the closed length."""
         return self.closed - self.gland_face
 
+    def slide(self) -> dict[str, float]:
+        """What the truth about a machine says of its slide, metres."""
+        mm = {
+            "stroke": self.stroke,
+            "bore": self.bore,
+            "rod_diameter": self.rod,
+            "closed_length": self.closed,
+            "drawn_length": self.drawn,
+        }
+        return {key: round(value / 1000.0, 9) for key, value in mm.items()}
+
 
 PISTON_CLEARANCE = 0.25
 ROD_CLEARANCE = 0.25

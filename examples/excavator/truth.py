@@ -152,19 +152,9 @@ def joints(k: Linkage, pose: Pose, loop: Loop) -> dict[str, dict[str, Any]]:
 
 
 def _slides(cylinders: dict[str, Cylinder]) -> dict[str, dict[str, float]]:
-    def one(c: Cylinder) -> dict[str, float]:
-        mm = {
-            "stroke": c.stroke,
-            "bore": c.bore,
-            "rod_diameter": c.rod,
-            "closed_length": c.closed,
-            "drawn_length": c.drawn,
-        }
-        return {key: round(value / 1000.0, 9) for key, value in mm.items()}
-
-    out = {f"{n}_cylinder_barrel2{n}_piston_rod_joint": one(cylinders[n]) for n in ("arm", "bucket")}
+    out = {f"{n}_cylinder_barrel2{n}_piston_rod_joint": cylinders[n].slide() for n in ("arm", "bucket")}
     for letter in "lr":
-        out[f"boom_cylinder_barrel_{letter}2boom_piston_rod_{letter}_joint"] = one(cylinders["boom"])
+        out[f"boom_cylinder_barrel_{letter}2boom_piston_rod_{letter}_joint"] = cylinders["boom"].slide()
     return out
 
 

@@ -121,20 +121,10 @@ def joints(k: Linkage, pose: Pose, s: Steering, steer_z: float, lift_y: float) -
 
 
 def _slides(cylinders: dict[str, Cylinder]) -> dict[str, dict[str, float]]:
-    def one(c: Cylinder) -> dict[str, float]:
-        mm = {
-            "stroke": c.stroke,
-            "bore": c.bore,
-            "rod_diameter": c.rod,
-            "closed_length": c.closed,
-            "drawn_length": c.drawn,
-        }
-        return {key: round(value / 1000.0, 9) for key, value in mm.items()}
-
-    out = {"bucket_piston_rod2bucket_cylinder_barrel_joint": one(cylinders["tilt"])}
+    out = {"bucket_piston_rod2bucket_cylinder_barrel_joint": cylinders["tilt"].slide()}
     for letter in "lr":
-        out[f"boom_cylinder_barrel_{letter}2boom_piston_rod_{letter}_joint"] = one(cylinders["lift"])
-        out[f"steering_cylinder_barrel_{letter}2steering_piston_rod_{letter}_joint"] = one(cylinders["steer"])
+        out[f"boom_cylinder_barrel_{letter}2boom_piston_rod_{letter}_joint"] = cylinders["lift"].slide()
+        out[f"steering_cylinder_barrel_{letter}2steering_piston_rod_{letter}_joint"] = cylinders["steer"].slide()
     return out
 
 
