@@ -14,11 +14,12 @@ from typing import Any
 
 from yellowiron import align, cad, check, kinematics, library, mechanism, report, specs, usd
 from yellowiron.model.alignment import Alignment
+from yellowiron.model.assembly import Assembly
 from yellowiron.model.mechanism import Measurement, Mechanism
 from yellowiron.model.rows import expand
 from yellowiron.model.specification import Specifications
 from yellowiron.model.sweep import Sweep
-from yellowiron.model.template import choose
+from yellowiron.model.template import Template, choose
 from yellowiron.output import output_folder
 
 _LIBRARIES = (
@@ -110,17 +111,11 @@ def build(
             template = expand(chosen, alignment.counts)
 
         with clock.stage("mechanism", "Building the mechanism"):
-            machine = mechanism.build_mechanism(
-                assembly, template, alignment, specifications, name=template.equipment_type, documents=data
-            )
-            machine = kinematics.complete(kinematics.calibrate(machine))
+            machine = _mechanism(assembly, template, alignment, specifications, data)
             start = kinematics.legal_start(machine)
             if start is not None:
                 assembly, template, alignment = kinematics.started(assembly, template, alignment, start)
-                machine = mechanism.build_mechanism(
-                    assembly, template, alignment, specifications, name=template.equipment_type, documents=data
-                )
-                machine = kinematics.complete(kinematics.calibrate(machine))
+                machine = _mechanism(assembly, template, alignment, specifications, data)
                 machine = replace(machine, findings=(*machine.findings, *start.findings))
 
         with clock.stage("measure", "Measuring the machine against its sheet"):
@@ -168,6 +163,20 @@ def build(
         folder=out,
         fell_short=tuple(report.fell_short(document)),
     )
+
+
+def _mechanism(
+    assembly: Assembly,
+    template: Template,
+    alignment: Alignment,
+    specifications: Specifications,
+    data: library.Documents,
+) -> Mechanism:
+    """The mechanism with its cylinders calibrated, limits, mobility and gains found."""
+    machine = mechanism.build_mechanism(
+        assembly, template, alignment, specifications, name=template.equipment_type, documents=data
+    )
+    return kinematics.complete(kinematics.calibrate(machine))
 
 
 def driven(machine_file: Path, engine: str, progress: Progress) -> tuple[dict[str, Any], tuple[Sweep, ...]]:

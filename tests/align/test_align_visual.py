@@ -10,9 +10,9 @@ import trimesh
 
 from yellowiron.align.contacts import Fit, fits_of
 from yellowiron.align.hydraulics import Ram
-from yellowiron.align.pierced import pierced_fits_of, solid_rams_of
 from yellowiron.align.solids import Solid, solids_of
 from yellowiron.align.touch import Touch
+from yellowiron.align.visual import pierced_fits_of, solid_rams_of
 from yellowiron.cad.placed import shape_of
 from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.geometry import Floats, Mesh

@@ -31,7 +31,6 @@ from yellowiron.align.frame import MachineFrame, machine_frame
 from yellowiron.align.hydraulics import Ram, rams_of
 from yellowiron.align.islands import islands
 from yellowiron.align.names import name_scores
-from yellowiron.align.pierced import pierced_fits_of, solid_rams_of
 from yellowiron.align.report import reported
 from yellowiron.align.sheet import sheet_findings, sheet_weights
 from yellowiron.align.solids import Solid, solids_of
@@ -39,6 +38,7 @@ from yellowiron.align.solve import MISSING_WEIGHT, Solution, solve
 from yellowiron.align.spread import Spreader
 from yellowiron.align.touch import Touch
 from yellowiron.align.tracks import Track, track_places, tracks_of, without_tracks
+from yellowiron.align.visual import pierced_fits_of, solid_rams_of
 from yellowiron.align.weights import Weights, name_weights, side_weights, size_weights
 from yellowiron.align.wheels import Wheel, wheels_of
 from yellowiron.model.alignment import Alignment, Vector

@@ -58,7 +58,7 @@ def hidden_wheels(placement: Placement, template: Template, findings: list[Findi
             rows.setdefault(role.row, []).append(role)
     for row, roles in rows.items():
         rule = roles[0].hidden
-        parts = rows_of_row(placement, template, rule["row"])
+        parts = parts_of_row(placement, template, rule["row"])
         points, part_of = placement.points_of(parts), 1.0
         if not parts:
             parts, points, part_of = _side(placement, template, roles[0])
@@ -78,7 +78,7 @@ def hidden_wheels(placement: Placement, template: Template, findings: list[Findi
     return found
 
 
-def rows_of_row(placement: Placement, template: Template, row: str) -> tuple[int, ...]:
+def parts_of_row(placement: Placement, template: Template, row: str) -> tuple[int, ...]:
     """Rows of the parts that play a member of a row (or move with one, as pins and bolts do)."""
     members = {r.name for r in template.roles if r.row == row}
     return tuple(i for i, name in enumerate(placement.roles) if name in members or name == row)

@@ -19,10 +19,10 @@ from yellowiron.model.geometry import Floats
 
 CORE = 0.6
 """A bar runs through a part that is within this share of its radius from its axis …"""
-LEAST = 0.1
-"""A bar runs through a part over at least this share of its radius; less is a part that it ends at."""
 STOUT = 0.002
 """… and is a pivot only from this radius on, in machine sizes."""
+LEAST = 0.1
+"""A bar runs through a part over at least this share of its radius; less is a part that it ends at."""
 TABLE = 0.02
 """A round base is a turntable from this radius on, in machine sizes …"""
 NEAR = 0.05
