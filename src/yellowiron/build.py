@@ -67,6 +67,8 @@ def build(
     documents: Sequence[Path | str] = (),
     settings: Sequence[str] = (),
     config: str = "",
+    extractor: specs.Extractor = "rules",
+    model: specs.ModelOptions | None = None,
     engines: Sequence[str] = (),
     progress: Progress = lambda words: None,
 ) -> Machine:
@@ -74,8 +76,8 @@ def build(
 
     `equipment_type` is a library type or a template folder; `alignment_file` an edited alignment (default: the one
     that an earlier run left in `out`); `documents` are JSON-1 … JSON-4 or a filled joint template; `settings` are
-    texts such as `Lift Cylinder Stroke=764 mm`; `config` picks a column of the sheet; the machine is driven in each of
-    `engines` with its rated payload. Raises `YellowironError` for unusable input, having written nothing.
+    texts such as `Lift Cylinder Stroke=764 mm`; `config` picks a column of the sheet; `extractor` and `model` say who
+    reads it; the machine is driven in each of `engines` with its rated payload. Raises `YellowironError` for unusable input, having written nothing.
     """
     clock = _Clock(progress)
     cad_file, out = Path(cad_file), Path(out)
@@ -96,10 +98,10 @@ def build(
         data = library.load_documents([Path(d) for d in documents], template, assembly)
         template = library.apply_sensors(library.apply_joints(template, data), data)
         with clock.stage("extract", "Reading the specification sheets"):
-            specifications = specs.merge(
-                specs.extract(template, [Path(s) for s in sheets], config=config),
-                specs.parse_settings(values, template),
+            read = specs.extract(
+                template, [Path(s) for s in sheets], config=config, extractor=extractor, model=model, progress=progress
             )
+            specifications = specs.merge(read, specs.parse_settings(values, template))
 
         with clock.stage("align", "Finding the part that plays each role"):
             earlier = Path(alignment_file or out / "alignment.json")

@@ -34,6 +34,23 @@ Settings = Annotated[
     list[str] | None, typer.Option("--set", help='A value by hand: "Lift Cylinder Stroke=764 mm"; may be repeated.')
 ]
 Config = Annotated[str, typer.Option("--config", help="The column of the sheet to take, by its heading.")]
+Extractors = Annotated[
+    Literal["rules", "llm", "both"],
+    typer.Option("--extractor", help="How sheets are read: by rules (no network), by a language model, or by both."),
+]
+ModelUrl = Annotated[
+    str,
+    typer.Option("--llm-url", envvar="YELLOWIRON_LLM_URL", help="An OpenAI-compatible endpoint, http://…/v1."),
+]
+ModelName = Annotated[str, typer.Option("--llm-model", envvar="YELLOWIRON_LLM_MODEL", help="The model's name there.")]
+ModelKey = Annotated[
+    str,
+    typer.Option(
+        "--llm-key", envvar="YELLOWIRON_LLM_KEY", show_envvar=True, help="Its key; better in the environment."
+    ),
+]
+Record = Annotated[Path | None, typer.Option("--llm-record", help="Write the conversation with the model here.")]
+Replay = Annotated[Path | None, typer.Option("--llm-replay", help="Answer from a recorded conversation, no network.")]
 
 
 @app.command()
@@ -53,6 +70,12 @@ def build(
         typer.Option("--tracks", help="How a crawler's tracks are modelled: hidden wheels, every shoe, or standing."),
     ] = None,
     simulate: Annotated[bool, typer.Option("--simulate", help="Drive it in every engine that is installed.")] = False,
+    extractor: Extractors = "rules",
+    llm_url: ModelUrl = "",
+    llm_model: ModelName = "",
+    llm_key: ModelKey = "",
+    llm_record: Record = None,
+    llm_replay: Replay = None,
     as_json: Json = False,
 ) -> None:
     """Build a machine: the whole way."""
@@ -68,6 +91,7 @@ def build(
         machine = build_machine(
             equipment_type, cad, out, sheets=specs or (), alignment_file=alignment, documents=data or (),
             settings=[*(settings or ()), *([f"tracks={tracks}"] if tracks else [])], config=config,
+            extractor=extractor, model=_model(llm_model, llm_url, llm_key, llm_record, llm_replay),
             engines=engines, progress=progress,
         )  # fmt: skip
     reasons = machine.fell_short
@@ -81,6 +105,12 @@ def extract(
     pdfs: Annotated[list[Path], typer.Argument(metavar="PDF...", help="Specification sheets.")],
     config: Config = "",
     show: Annotated[Path | None, typer.Option("--show", help="Write the pages as pictures, values boxed.")] = None,
+    extractor: Extractors = "rules",
+    llm_url: ModelUrl = "",
+    llm_model: ModelName = "",
+    llm_key: ModelKey = "",
+    llm_record: Record = None,
+    llm_replay: Replay = None,
     as_json: Json = False,
 ) -> None:
     """Read the specifications a template asks for, each with its evidence."""
@@ -91,7 +121,8 @@ def extract(
     with _progress(as_json) as progress:
         progress("Reading the specification sheets")
         template = library.load_template(equipment_type)
-        found = specs.extract(template, pdfs, config=config)
+        model = _model(llm_model, llm_url, llm_key, llm_record, llm_replay)
+        found = specs.extract(template, pdfs, config=config, extractor=extractor, model=model, progress=progress)
         if show is not None:
             with output_folder(show) as folder:
                 specs.draw_evidence(pdfs, found, folder)
@@ -320,6 +351,13 @@ def main() -> None:
         if error.hint:
             console.print(Text.assemble(("hint:  ", "bold"), error.hint), soft_wrap=True)
         sys.exit(2)
+
+
+def _model(name: str, url: str, key: str, record: Path | None, replay: Path | None) -> Any:
+    """The language model that the options name; it is asked only where the extractor is one that asks."""
+    from yellowiron.specs import ModelOptions
+
+    return ModelOptions(name, url, key, record=record, replay=replay)
 
 
 @contextmanager

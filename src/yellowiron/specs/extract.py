@@ -2,34 +2,52 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import Literal
 
 from yellowiron.guard import run_guarded
 from yellowiron.model.errors import SheetError
 from yellowiron.model.finding import Finding
 from yellowiron.model.specification import Specification, Specifications
-from yellowiron.model.template import Template
+from yellowiron.model.template import Template, Wanted
+from yellowiron.specs.agreement import agreed
 from yellowiron.specs.asked import asked
+from yellowiron.specs.by_model import find
 from yellowiron.specs.claims import Claim, claims_of
-from yellowiron.specs.decide import Sheets, decide, missing, quantity_words, unmatched, unreadable
+from yellowiron.specs.decide import Sheets, decide, quantity_words, unmatched, unreadable
+from yellowiron.specs.endpoint import Endpoint, EndpointError, ModelOptions
 from yellowiron.specs.labels import in_label
 from yellowiron.specs.match import match
+from yellowiron.specs.numbers import DecimalStyle
 from yellowiron.specs.reader import MEMORY_MB, TIMEOUT_S, Sheet, check_file
 
+Extractor = Literal["rules", "llm", "both"]
 _MOST_COLUMNS = 20
 """Columns that a hint names."""
 
 
-def extract(template: Template, pdfs: Sequence[Path], *, config: str = "") -> Specifications:
+def extract(
+    template: Template,
+    pdfs: Sequence[Path],
+    *,
+    config: str = "",
+    extractor: Extractor = "rules",
+    model: ModelOptions | None = None,
+    progress: Callable[[str], None] = lambda words: None,
+) -> Specifications:
     """What the sheets say of every value the template asks for, in SI, each with its evidence and status.
 
     `config` names the machine's configuration where a sheet has columns ("standard boom, stock-pile bucket").
     Where a sheet says itself which configuration its figures are for, that settles what `config` leaves open; values
-    that still differ between columns or pages are a `conflict`. Each PDF is read in
-    a guarded child process. `SheetError` for a file that is missing, empty, no PDF, truncated, damaged or encrypted.
+    that still differ between columns or pages are a `conflict`. `extractor`: rules, the language `model` ("llm"), or
+    both, where agreement raises confidence and disagreement is a `conflict`; then an endpoint that fails is a finding.
+    Each PDF is read in a guarded child process. `SheetError` for a file that is missing, empty, no PDF, truncated,
+    damaged or encrypted; `EndpointError` for a model that is not configured or, where nothing else reads, fails.
     """
-    return from_sheets(template, [read(path) for path in pdfs], config=config)
+    return from_sheets(
+        template, [read(path) for path in pdfs], config=config, extractor=extractor, model=model, progress=progress
+    )
 
 
 def read(path: Path) -> Sheet:
@@ -48,7 +66,15 @@ def read(path: Path) -> Sheet:
     return sheet
 
 
-def from_sheets(template: Template, sheets: Sequence[Sheet], *, config: str = "") -> Specifications:
+def from_sheets(
+    template: Template,
+    sheets: Sequence[Sheet],
+    *,
+    config: str = "",
+    extractor: Extractor = "rules",
+    model: ModelOptions | None = None,
+    progress: Callable[[str], None] = lambda words: None,
+) -> Specifications:
     """`extract` on sheets that are already read."""
     wanted = asked(template)
     claims: list[Claim] = []
@@ -58,22 +84,42 @@ def from_sheets(template: Template, sheets: Sequence[Sheet], *, config: str = ""
         claims.extend(claims_of(sheet.statements, sheet.style))
         files.update((id(s), sheet.file) for s in sheet.statements)
         columns.update(_columns(sheet))
-    matches = match(claims, [w for w in wanted if w.in_label_of is None])
-    silent = [s.file for s in sheets if not s.statements and s.silent]
     stated = tuple(one for sheet in sheets for one in sheet.stated)
     known = Sheets(files, columns, stated)
+    style = sheets[0].style if sheets else "point"
+    values = _by_rules(wanted, claims, known, config, style)
+    findings = [*_findings(sheets), *_ignored(config, claims, known, sheets)]
+    if extractor != "rules":
+        with Endpoint(model or ModelOptions("")) as endpoint:
+            try:
+                pointed = find(wanted, claims, known, endpoint, config=config, style=style, progress=progress)
+            except EndpointError as error:
+                if extractor == "llm":
+                    raise
+                findings.append(_unanswered(error))
+                pointed = {}
+            findings.append(_cost(endpoint))
+        both = {w.name: agreed(w, values[w.name], pointed[w.name]) for w in wanted if w.name in pointed}
+        values |= pointed if extractor == "llm" else both
+    silent = [s.file for s in sheets if not s.statements and s.silent]
+    for one in wanted:
+        if silent and values[one.name].status == "missing":
+            values[one.name] = unreadable(one, silent)
+    return Specifications(values, tuple(findings))
+
+
+def _by_rules(
+    wanted: Sequence[Wanted], claims: Sequence[Claim], known: Sheets, config: str, style: DecimalStyle
+) -> dict[str, Specification]:
+    """Every wanted value by its words."""
+    matches = match(claims, [w for w in wanted if w.in_label_of is None])
     values: dict[str, Specification] = {}
     for one in wanted:
-        found = matches.get(one.name, [])
         if one.in_label_of is not None:
-            style = sheets[0].style if sheets else "point"
             values[one.name] = in_label(one, matches.get(one.in_label_of, []), known, style)
-        elif found:
-            values[one.name] = decide(one, found, known, config)
         else:
-            values[one.name] = unreadable(one, silent) if silent else missing(one)
-    findings = [*_findings(sheets), *_ignored(config, claims, known, sheets)]
-    return Specifications(values, tuple(findings))
+            values[one.name] = decide(one, matches.get(one.name, []), known, config)
+    return values
 
 
 def _ignored(config: str, claims: Sequence[Claim], known: Sheets, sheets: Sequence[Sheet]) -> list[Finding]:
@@ -93,6 +139,26 @@ def _ignored(config: str, claims: Sequence[Claim], known: Sheets, sheets: Sequen
         )
         for phrase in unmatched(config, claims, known)
     ]
+
+
+def _cost(endpoint: Endpoint) -> Finding:
+    options = endpoint.options
+    return Finding(
+        code="SPC004",
+        severity="info",
+        where=options.url or str(options.replay),
+        message=f"The language model {options.model} was asked: {endpoint.usage}",
+    )
+
+
+def _unanswered(error: EndpointError) -> Finding:
+    return Finding(
+        code="SPC003",
+        severity="warning",
+        where=error.where,
+        message=f"{error.message}: the rules alone read the sheets",
+        hint=error.hint,
+    )
 
 
 def _columns(sheet: Sheet) -> dict[int, frozenset[str]]:

@@ -166,3 +166,20 @@ def _cjk_match(wanted: Wanted, claim: Claim) -> Match | None:
         if best is None or score > best[0]:
             best = (score, phrase)
     return Match(wanted, claim, *best) if best else None
+
+
+def weakly(wanted: Wanted, claim: Claim) -> Match | None:
+    """A match too weak to stand alone, for a claim that something else points to: the same dimension, some of the
+    words that make the property what it is, none that forbids or contradicts it."""
+    statement = claim.statement
+    words = {t for text in (claim.words, claim.head, *statement.context, statement.section) for t in tokens(text)}
+    named = [set(tokens(p)) - NEUTRAL for p in phrases(wanted)]
+    asked = {t for own in named for t in own}
+    label = set(tokens(claim.words))
+    shared = max((len(own & words) / len(own) for own in named if own), default=0.0)
+    if claim.quantity.dimension != wanted.dimension or shared < 0.5 or not (label & asked):
+        return None
+    if _forbidden(wanted, claim, words) or words & REVERSING or _contradicts(words, asked - words):
+        return None
+    rest = tuple(sorted(t for t in label - asked - NEUTRAL if not _is_number(t)))
+    return Match(wanted, claim, 0.5 * shared, "", rest, 1.0 - 0.5 * shared)
