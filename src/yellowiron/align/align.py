@@ -24,23 +24,18 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from yellowiron.align.clusters import Structure, loose_ends, structure_of
-from yellowiron.align.contacts import Fit, Flat, bare_fits_of, fits_of, flats_of, lines_of, neighbours
 from yellowiron.align.doubts import doubts, one_sided
-from yellowiron.align.evidence import Evidence, evidence_of, tables_of
 from yellowiron.align.frame import MachineFrame, machine_frame
-from yellowiron.align.hydraulics import Ram, rams_of
 from yellowiron.align.islands import islands
 from yellowiron.align.names import name_scores
 from yellowiron.align.report import reported
+from yellowiron.align.seen import CONTACT, Seen, see, slewing_joints
 from yellowiron.align.sheet import sheet_findings, sheet_weights
-from yellowiron.align.solids import Solid, solids_of
+from yellowiron.align.solids import solids_of
 from yellowiron.align.solve import MISSING_WEIGHT, Solution, solve
 from yellowiron.align.spread import Spreader
-from yellowiron.align.touch import Touch
 from yellowiron.align.tracks import Track, track_places, tracks_of, without_tracks
-from yellowiron.align.visual import pierced_fits_of, solid_rams_of
 from yellowiron.align.weights import Weights, name_weights, side_weights, size_weights
-from yellowiron.align.wheels import Wheel, wheels_of
 from yellowiron.model.alignment import Alignment, Vector
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import AlignmentError
@@ -48,9 +43,6 @@ from yellowiron.model.geometry import Floats
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import Template, choose
 
-CONTACT = (4e-5, 3e-4)
-"""Two faces touch within this share of the machine's diagonal (0.4 mm on 10 m); the wider one is for machines that the
-first does not find whole (moved or shrunk parts)."""
 FORBIDDEN = 10_000
 """What an assignment loses that is tried without."""
 MARGIN = 20
@@ -59,21 +51,6 @@ UPRIGHT = 0.98
 """A line whose cosine to the upright is less is not upright."""
 SIDED_WEIGHT = 4 * MISSING_WEIGHT
 """What a variant loses for a cylinder that stands to one side where it should be in the middle."""
-
-
-@dataclass(frozen=True, eq=False)
-class _Seen:
-    """What geometry shows, before any role."""
-
-    solids: tuple[Solid, ...]
-    flats: list[Flat]
-    near: list[tuple[int, int]]
-    rams: tuple[Ram, ...]
-    wheels: list[Wheel]
-    evidence: tuple[Evidence, ...]
-    touch: Touch
-    size: float
-    up: Floats | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,7 +100,7 @@ def align(
     plain = without_tracks(template)
     rungs = []
     for contact in CONTACT:
-        seen = replace(_see(machine, plain, contact), up=_upright(tracks))
+        seen = replace(see(machine, plain, contact), up=_upright(tracks))
         scores = name_scores(tuple(s.part for s in seen.solids), plain)
         rungs.append((_best(seen, plain, specifications, choices or {}, scores, edited), seen, scores))
         if _whole(rungs[-1][0]):
@@ -215,7 +192,7 @@ def _vector(values: Floats) -> Vector:
 
 
 def _best(
-    seen: _Seen,
+    seen: Seen,
     template: Template,
     specifications: Specifications,
     choices: Mapping[str, str],
@@ -259,7 +236,7 @@ def _by_cylinders(variants: list[dict[str, str]], template: Template, drawn: int
     return [groups[apart] for apart in sorted(groups)]
 
 
-def _structures(seen: _Seen, template: Template) -> Iterator[Structure]:
+def _structures(seen: Seen, template: Template) -> Iterator[Structure]:
     """Readings of the welds, likeliest first: flat contact alone, unless that leaves far more pieces than bodies; then
     also what touches; both first without, then with the welds that lock a pin; each first with wide round things fast
     in their bores, then turning in them. None twice."""
@@ -305,7 +282,7 @@ def _barred(structure: Structure, template: Template, up: Floats | None) -> froz
         for k, hinge in enumerate(structure.hinges)
         if abs(float(structure.lines[hinge.line].direction @ up)) < UPRIGHT
     ]
-    return frozenset((name, k) for name in _slewing(template) for k in lying)
+    return frozenset((name, k) for name in slewing_joints(template) for k in lying)
 
 
 def _tracked(assembly: Assembly, template: Template) -> tuple[dict[int, str], list[Track]]:
@@ -316,44 +293,6 @@ def _tracked(assembly: Assembly, template: Template) -> tuple[dict[int, str], li
     tracks = tracks_of(solids)
     inside = {i for t in tracks for group in (*t.shoes, *(w.members for w in t.wheels)) for i in group}
     return {i: solids[i].part.id for i in sorted(inside)}, tracks
-
-
-def _see(assembly: Assembly, template: Template, contact: float) -> _Seen:
-    solids = solids_of(assembly)
-    if not solids:
-        return _Seen((), [], [], (), [], (), Touch((), 0.0), 0.0)
-    size = float(np.linalg.norm(np.max([s.high for s in solids], axis=0) - np.min([s.low for s in solids], axis=0)))
-    tolerance = contact * size
-    touch = Touch(solids, tolerance)
-    rams = rams_of(solids, tolerance) if any(r.kind in ("barrel", "rod") for r in template.roles) else []
-    if any(r.kind == "barrel" for r in template.roles):
-        rams += solid_rams_of(solids, rams, tolerance)
-    fits = fits_of(solids, tolerance)
-    fits += pierced_fits_of(solids, fits, rams, touch, size)
-    bare = bare_fits_of(solids, fits, tolerance)
-    near = neighbours(solids, tolerance)
-    flats = flats_of(solids, near, tolerance)
-    taken = {i for r in rams for i in r.barrel | r.rod}
-    wheels = wheels_of(solids, sum(1 for r in template.roles if r.kind == "wheel" and r.rigid), taken, tolerance)
-
-    def sorted_out(fits: list[Fit], *, slewing: bool) -> Evidence:
-        lines = lines_of([*fits, *bare], tolerance)
-        return evidence_of(
-            solids, fits, bare, lines, flats, rams, wheels, near, touch.touching, tolerance, slewing=slewing
-        )
-
-    evidence = [sorted_out(fits, slewing=False)]
-    tables = tables_of(solids, flats) if _slewing(template) else []
-    other = sorted_out([*fits, *tables], slewing=True) if _slewing(template) else evidence[0]
-    evidence += [other] if len(other.races) > len(evidence[0].races) else []
-    return _Seen(solids, flats, near, tuple(rams), wheels, tuple(evidence), touch, size)
-
-
-def _slewing(template: Template) -> list[str]:
-    """Joints between two frames that have a motor: the machine turns about them on a bearing."""
-    frames = {r.name for r in template.roles if r.kind == "frame" and r.rigid}
-    driven = [j for j in template.joints if j.type == "revolute" and j.drive is not None]
-    return [j.name for j in driven if set(template.bodies_of(j)) <= frames]
 
 
 def _has_leaves(template: Template) -> bool:
