@@ -77,7 +77,8 @@ def build(
     `equipment_type` is a library type or a template folder; `alignment_file` an edited alignment (default: the one
     that an earlier run left in `out`); `documents` are JSON-1 … JSON-4 or a filled joint template; `settings` are
     texts such as `Lift Cylinder Stroke=764 mm`; `config` picks a column of the sheet; `extractor` and `model` say who
-    reads it; the machine is driven in each of `engines` with its rated payload. Raises `YellowironError` for unusable input, having written nothing.
+    reads it; the machine is driven in each of `engines` with its rated payload. Raises `YellowironError` for unusable
+    input, having written nothing.
     """
     clock = _Clock(progress)
     cad_file, out = Path(cad_file), Path(out)
