@@ -1,0 +1,295 @@
+"""Machines for generated sheets: those of the facts beside the checkout, and others drawn in plausible proportions.
+
+A machine is a value for every name of `sheets_words.txt`, in the unit printed there (lengths mm, masses kg, angles deg,
+pressures MPa, flows L/min, volumes m3, forces kN, torques kNm, speeds km/h, times s). Published values are the truth
+where the facts have one; the others scale from one machine of the type with the operating weight, with noise.
+"""
+
+from __future__ import annotations
+
+import json
+import random
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cache
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+FACTS = HERE.parents[2].parent / "shared" / "data" / "facts"
+LANGUAGES = ("en", "de", "fr", "es", "zh", "ja")
+Words = Mapping[str, tuple[str, ...]]
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A line of the word list: its first three fields and the wordings by language."""
+
+    name: str
+    second: str
+    third: str
+    words: Words
+
+
+@cache
+def entries(section: str) -> tuple[Entry, ...]:
+    """The lines of a part of the word list."""
+    found, here = [], ""
+    for line in (HERE / "sheets_words.txt").read_text(encoding="utf-8").splitlines():
+        if line.startswith("["):
+            here = line.strip("[]")
+        elif here == section and line.strip() and not line.startswith("#"):
+            name, second, third, *words = (part.strip() for part in line.split("|"))
+            by_language = {
+                language: tuple(w.strip() for w in text.split(";"))
+                for language, text in zip(LANGUAGES, words, strict=True)
+            }
+            found.append(Entry(name, second, third, by_language))
+    return tuple(found)
+
+
+@dataclass(frozen=True)
+class Variant:
+    """A configuration: the words of its column by language, and the values that differ."""
+
+    heads: Mapping[str, str]
+    values: Mapping[str, float]
+
+
+@dataclass(frozen=True)
+class Machine:
+    """`values` by name; `variants` are the configurations, of which the first has the machine's own values."""
+
+    name: str
+    kind: str
+    values: Mapping[str, float]
+    variants: tuple[Variant, ...] = ()
+    published: frozenset[str] = field(default_factory=frozenset)
+
+
+# One machine of each type, rounded, and the power of its size with which a value grows
+_LOADER = {
+    "Operating Weight": (25510, 3), "Static Tipping Load Straight": (20540, 3),
+    "Static Tipping Load Full Turn": (17770, 3), "Breakout Force": (212, 2.6), "Bucket Capacity Heaped": (4.2, 3),
+    "Bucket Capacity Struck": (3.6, 3), "Bucket Width": (3170, 1), "Bucket Weight": (2196, 3),
+    "Dumping Clearance": (3075, 0.8), "Dumping Reach": (1350, 0.8), "Digging Depth": (115, 0.5),
+    "Overall Length": (9185, 1), "Overall Height": (3500, 0.5), "Overall Operating Height": (6090, 0.9),
+    "Overall Width": (3060, 1), "Wheelbase": (3450, 1), "Tread": (2300, 1),
+    "Hinge Pin Height at Maximum Lift": (4370, 0.9), "Hinge Pin Height at Carry": (580, 0.9),
+    "Ground Clearance": (520, 0.7), "Hitch Height": (1200, 0.8), "Height to Top of Stack": (3420, 0.7),
+    "Rear Overhang": (2280, 1), "Rack Back at Ground": (43, 0), "Rack Back at Carry": (49, 0),
+    "Dump Angle at Maximum Lift": (50, 0), "Turning Radius": (6630, 0.8), "Maximum Steering Angle": (38, 0),
+    "Rear Axle Oscillation": (26, 0), "Steering Relief Pressure": (20.6, 0), "Main Relief Pressure": (31.4, 0),
+    "Main Pump Flow": (303, 1.8), "Raise Time": (5.9, 0.4), "Dump Time": (1.8, 0.4), "Lower Time": (3.3, 0.4),
+    "Maximum Travel Speed": (38.6, 0), "Lift Cylinder Bore": (150, 1), "Lift Cylinder Stroke": (764, 1),
+    "Lift Cylinder Rod Diameter": (95, 1), "Tilt Cylinder Bore": (180, 1), "Tilt Cylinder Stroke": (540, 1),
+    "Tilt Cylinder Rod Diameter": (100, 1), "Steering Cylinder Bore": (95, 1), "Steering Cylinder Stroke": (441, 1),
+    "Steering Cylinder Rod Diameter": (55, 1),
+}  # fmt: skip
+_EXCAVATOR = {
+    "Operating Weight": (23313, 3), "Counterweight": (4370, 3), "Bucket Capacity": (1.05, 3), "Bucket Width": (1114, 1),
+    "Bucket Digging Force": (149, 2.4), "Arm Digging Force": (108, 2.4), "Boom Length": (5700, 1),
+    "Arm Length": (2925, 1), "Maximum Digging Depth": (6620, 1), "Maximum Vertical Wall Digging Depth": (5980, 1),
+    "Maximum Digging Height": (9970, 1), "Maximum Dumping Height": (7110, 1), "Maximum Reach": (9875, 1),
+    "Maximum Reach at Ground Line": (9700, 1), "Minimum Swing Radius": (3040, 1), "Overall Length": (9705, 1),
+    "Overall Width": (3080, 0.8), "Overall Height": (3190, 0.8), "Cab Height": (3045, 0.4),
+    "Upperstructure Width": (2710, 0.9), "Tail Swing Radius": (2940, 0.9), "Counterweight Clearance": (1085, 0.8),
+    "Ground Clearance": (440, 0.9), "Track Length": (4450, 1), "Track Length on Ground": (3655, 1),
+    "Track Gauge": (2380, 0.8), "Shoe Width": (700, 0.4), "Track Shoes Each Side": (49, 0),
+    "Track Rollers Each Side": (9, 0), "Main Relief Pressure": (37.3, 0), "Main Pump Flow": (475, 2),
+    "Swing Speed": (12.4, -0.6), "Swing Torque": (69.0, 3.2), "Maximum Travel Speed": (5.5, -0.3),
+    "Travel Speed Low": (3.0, -0.3), "Drawbar Pull": (202, 2.6), "Boom Cylinder Bore": (130, 1),
+    "Boom Cylinder Stroke": (1334, 1), "Boom Cylinder Rod Diameter": (90, 1), "Arm Cylinder Bore": (135, 1),
+    "Arm Cylinder Stroke": (1490, 1), "Arm Cylinder Rod Diameter": (95, 1), "Bucket Cylinder Bore": (115, 1),
+    "Bucket Cylinder Stroke": (1105, 1), "Bucket Cylinder Rod Diameter": (80, 1),
+}  # fmt: skip
+_BASES = {"wheel_loader": _LOADER, "excavator": _EXCAVATOR}
+
+# name of a fact → wanted name
+_KNOWN = {
+    "wheel_loader": {
+        "Lift cylinder bore": "Lift Cylinder Bore", "Lift cylinder stroke": "Lift Cylinder Stroke",
+        "Bucket cylinder bore": "Tilt Cylinder Bore", "Bucket cylinder stroke": "Tilt Cylinder Stroke",
+        "Steering cylinder bore": "Steering Cylinder Bore", "Steering cylinder stroke": "Steering Cylinder Stroke",
+        "Steering angle max end stop": "Maximum Steering Angle", "Maximum steering angle": "Maximum Steering Angle",
+        "Rear axle total oscillation": "Rear Axle Oscillation", "Wheelbase": "Wheelbase",
+        "Hinge pin height, max. height": "Hinge Pin Height at Maximum Lift",
+        "Hinge pin height at maximum lift": "Hinge Pin Height at Maximum Lift",
+        "Hinge pin height, carry": "Hinge Pin Height at Carry",
+        "Hinge pin height at carry": "Hinge Pin Height at Carry",
+        "Ground clearance": "Ground Clearance", "Hitch height": "Hitch Height", "Tread width": "Tread",
+        "Height top of stack": "Height to Top of Stack", "Height ROPS cab": "Overall Height",
+        "Height to top of ROPS": "Overall Height", "Overall length (bucket on ground)": "Overall Length",
+        "Bucket width": "Bucket Width", "Width over tires": "Overall Width", "Width over tires loaded": "Overall Width",
+        "Bucket capacity heaped": "Bucket Capacity Heaped", "Bucket rated capacity": "Bucket Capacity Heaped",
+        "Bucket capacity struck": "Bucket Capacity Struck", "Bucket weight": "Bucket Weight",
+        "Dumping clearance, 45 deg": "Dumping Clearance", "Dump clearance at max lift, 45 deg": "Dumping Clearance",
+        "Reach, 45 deg": "Dumping Reach", "Reach at max lift, 45 deg": "Dumping Reach",
+        "Operating height fully raised": "Overall Operating Height",
+        "Overall height at max lift": "Overall Operating Height", "Operating weight": "Operating Weight",
+        "Static tipping load straight": "Static Tipping Load Straight",
+        "Static tipping load full turn 40 deg": "Static Tipping Load Full Turn",
+        "Raise from carry position, rated payload": "Raise Time", "Dump at maximum raise": "Dump Time",
+        "Lower, empty, float down": "Lower Time", "Dump angle at maximum lift": "Dump Angle at Maximum Lift",
+        "Rack back at carry": "Rack Back at Carry", "Rack back at ground": "Rack Back at Ground",
+        "Breakout force": "Breakout Force",
+        "Rear axle centerline to edge of counterweight": "Rear Overhang",
+    },
+    "excavator": {
+        "Reach boom length": "Boom Length", "Boom length": "Boom Length", "Stick length R2.9B1": "Arm Length",
+        "Arm length": "Arm Length", "Boom Cylinder - Stroke": "Boom Cylinder Stroke",
+        "Stick Cylinder - Stroke": "Arm Cylinder Stroke", "Bucket Cylinder - Stroke": "Bucket Cylinder Stroke",
+        "Boom cylinder stroke (x2)": "Boom Cylinder Stroke", "Arm cylinder stroke": "Arm Cylinder Stroke",
+        "Bucket cylinder stroke": "Bucket Cylinder Stroke", "Boom cylinder stroke": "Boom Cylinder Stroke",
+        "Boom cylinder bore": "Boom Cylinder Bore", "Arm cylinder bore": "Arm Cylinder Bore",
+        "Bucket cylinder bore": "Bucket Cylinder Bore", "Boom cylinder rod": "Boom Cylinder Rod Diameter",
+        "Arm cylinder rod": "Arm Cylinder Rod Diameter", "Bucket cylinder rod": "Bucket Cylinder Rod Diameter",
+        "Boom Cylinder – Bore": "Boom Cylinder Bore", "Boom Cylinder – Stroke": "Boom Cylinder Stroke",
+        "Stick Cylinder – Bore": "Arm Cylinder Bore", "Stick Cylinder – Stroke": "Arm Cylinder Stroke",
+        "Maximum Digging Depth": "Maximum Digging Depth", "Maximum digging depth": "Maximum Digging Depth",
+        "Max digging depth C": "Maximum Digging Depth", "Maximum reach": "Maximum Reach",
+        "Maximum Reach at Ground Line": "Maximum Reach at Ground Line",
+        "Maximum reach at ground line": "Maximum Reach at Ground Line",
+        "Maximum reach at ground level": "Maximum Reach at Ground Line",
+        "Max reach at ground G": "Maximum Reach at Ground Line", "Max digging height A": "Maximum Digging Height",
+        "Maximum cutting height": "Maximum Digging Height", "Max dumping height B": "Maximum Dumping Height",
+        "Maximum loading height": "Maximum Dumping Height", "Overall length": "Overall Length",
+        "Overall length A": "Overall Length", "Overall height": "Overall Height", "Overall width D": "Overall Width",
+        "Overall width operating": "Overall Width", "Cab height": "Cab Height", "Cab height E": "Cab Height",
+        "Top of Cab Height": "Cab Height", "Upperframe Width": "Upperstructure Width",
+        "Upperstructure width": "Upperstructure Width", "Tail Swing Radius": "Tail Swing Radius",
+        "Tail swing radius": "Tail Swing Radius", "Counterweight Clearance": "Counterweight Clearance",
+        "Counterweight clearance": "Counterweight Clearance", "Ground Clearance": "Ground Clearance",
+        "Ground clearance": "Ground Clearance", "Track Length": "Track Length", "Track length L": "Track Length",
+        "Undercarriage length": "Track Length", "Idler-sprocket centers": "Track Length on Ground",
+        "Length to Center of Rollers": "Track Length on Ground", "Track Gauge": "Track Gauge",
+        "Track gauge M": "Track Gauge", "Track gauge operating": "Track Gauge", "Shoe width": "Shoe Width",
+        "Shoe width O": "Shoe Width", "Number of Shoes (each side)": "Track Shoes Each Side",
+        "Number of Track Rollers (each side)": "Track Rollers Each Side", "Counterweight": "Counterweight",
+        "Operating weight": "Operating Weight", "Operating Weight": "Operating Weight",
+        "Bucket capacity": "Bucket Capacity", "Bucket width": "Bucket Width", "Main pump flow": "Main Pump Flow",
+        "Maximum Drawbar Pull": "Drawbar Pull", "Maximum Travel Speed": "Maximum Travel Speed",
+        "Max. pressure – Equipment": "Main Relief Pressure",
+    },
+}  # fmt: skip
+_PRINTED = {"m": 1000.0, "mm": 1.0, "kg": 1.0, "kPa": 1e-3}
+_FILES = {
+    "wheel_loader": ("cat-950", "komatsu-wa475-10", "cat-982m"),
+    "excavator": ("cat-320", "cat-328d-lcr", "cat-390fl", "komatsu-pc210lc-11", "john-deere-470-p"),
+}
+_WEIGHTS = {"cat-982m": 35600, "cat-320": 22500, "cat-390fl": 90000}
+
+
+def machines(kind: str, count: int = 20) -> list[Machine]:
+    """The machines of the facts, where they are beside the checkout, and drawn ones, `count` in all."""
+    published = [_of_facts(kind, name) for name in _FILES[kind] if (FACTS / f"{name}.json").is_file()]
+    found = [_drawn(kind, f"Y{137 + 37 * number}", number + 1) for number in range(count)]
+    for place, machine in zip((0, 4, 5, 1, 2), published, strict=False):  # some in every split
+        found[place] = machine
+    return found
+
+
+def _drawn(kind: str, name: str, seed: int, weight: float = 0.0) -> Machine:
+    dice = random.Random(f"{kind} {seed}")
+    base = _BASES[kind]
+    size = (weight or dice.uniform(0.35, 2.2) * base["Operating Weight"][0]) / base["Operating Weight"][0]
+    size **= 1 / 3
+    values = {}
+    for key, (value, power) in base.items():
+        spread = 0.0 if key == "Operating Weight" and weight else 0.07 if power else 0.09
+        values[key] = rounded(kind, key, value * size**power * dice.uniform(1 - spread, 1 + spread))
+    values = _consistent(kind, values)
+    return Machine(name, kind, values, _variants(kind, values, dice))
+
+
+def _of_facts(kind: str, name: str) -> Machine:
+    facts = json.loads((FACTS / f"{name}.json").read_text(encoding="utf-8"))["facts"]
+    known: dict[str, float] = {}
+    for fact in facts:
+        wanted = _KNOWN[kind].get(fact["name"])
+        if wanted and not isinstance(fact["value"], list) and "unconfirmed" not in fact["name"]:
+            known[wanted] = float(fact["value"]) * _PRINTED.get(fact["unit"], 1.0)
+    drawn = _drawn(kind, name, len(name), known.get("Operating Weight") or _WEIGHTS.get(name, 23313.0))
+    values = {key: round(known.get(key, value), 6) for key, value in drawn.values.items()}
+    return Machine(name, kind, values, _variants(kind, values, random.Random(name)), frozenset(known))
+
+
+def _consistent(kind: str, values: dict[str, float]) -> dict[str, float]:
+    """What must be larger than another is."""
+    order = {
+        "wheel_loader": [("Static Tipping Load Full Turn", "Static Tipping Load Straight"),
+                         ("Bucket Capacity Struck", "Bucket Capacity Heaped"), ("Overall Width", "Bucket Width")],
+        "excavator": [("Maximum Reach at Ground Line", "Maximum Reach"), ("Track Length on Ground", "Track Length"),
+                      ("Maximum Vertical Wall Digging Depth", "Maximum Digging Depth"),
+                      ("Upperstructure Width", "Overall Width"), ("Cab Height", "Overall Height")],
+    }[kind]  # fmt: skip
+    for small, large in order:
+        if values[small] > 0.985 * values[large]:
+            values[small] = rounded(kind, small, 0.96 * values[large])
+    return values
+
+
+def unit_of(kind: str, name: str) -> str:
+    """The metric unit in which a name's values are kept."""
+    for entry in entries(kind):
+        if entry.name == name:
+            return entry.third
+    return "mm"
+
+
+_STEPS = {"mm": 5.0, "kg": 10.0, "m3": 0.05, "kN": 1.0, "deg": 1.0, "MPa": 0.1, "L/min": 1.0, "s": 0.1, "km/h": 0.1,
+          "rpm": 0.1, "kNm": 0.1, "-": 1.0}  # fmt: skip
+
+
+def rounded(kind: str, name: str, value: float) -> float:
+    """A value as a maker would round it."""
+    step = _STEPS[unit_of(kind, name)]
+    if " Cylinder " in name and "Stroke" in name:
+        step = 1.0
+    return round(round(value / step) * step, 6)
+
+
+_BUCKETS = {
+    "en": ("General purpose", "Rock", "Light material"),
+    "de": ("Erdschaufel", "Felsschaufel", "Leichtgutschaufel"),
+    "fr": ("Godet normal", "Godet à roches", "Godet matériaux légers"),
+    "es": ("Uso general", "Roca", "Material ligero"),
+    "zh": ("标准铲斗", "岩石铲斗", "轻料铲斗"),
+    "ja": ("標準バケット", "ロックバケット", "軽作業バケット"),
+}
+_ARMS = {"en": "{} m arm", "de": "Stiel {} m", "fr": "Balancier {} m", "es": "Brazo {} m", "zh": "斗杆 {} m",
+         "ja": "アーム {} m"}  # fmt: skip
+BY_VARIANT = {
+    "wheel_loader": ("Bucket Capacity Heaped", "Bucket Capacity Struck", "Bucket Width", "Bucket Weight",
+                     "Dumping Clearance", "Dumping Reach", "Overall Length", "Overall Operating Height",
+                     "Static Tipping Load Straight", "Static Tipping Load Full Turn", "Breakout Force",
+                     "Operating Weight"),
+    "excavator": ("Maximum Digging Depth", "Maximum Vertical Wall Digging Depth", "Maximum Digging Height",
+                  "Maximum Dumping Height", "Maximum Reach", "Maximum Reach at Ground Line", "Minimum Swing Radius",
+                  "Arm Digging Force", "Overall Length", "Overall Height"),
+}  # fmt: skip
+
+
+def _variants(kind: str, values: Mapping[str, float], dice: random.Random) -> tuple[Variant, ...]:
+    """Three configurations; in each the values that depend on it differ by a few per cent."""
+    found = []
+    arm = values.get("Arm Length", 0.0) / 1000
+    for index in range(3):
+        shift = (0.0, -0.06, 0.08)[index]
+        other = {
+            name: values[name]
+            if index == 0
+            else rounded(kind, name, values[name] * (1 + shift + dice.uniform(-0.012, 0.012)))
+            for name in BY_VARIANT[kind]
+        }
+        if kind == "wheel_loader":
+            heads = {language: names[index] for language, names in _BUCKETS.items()}
+        else:
+            length = arm + (0.0, -0.5, 0.7)[index]
+            other["Arm Length"] = round(1000 * round(length, 2)) if index else values["Arm Length"]
+            text = f"{length:.2f}"
+            heads = {
+                language: form.format(text.replace(".", ",") if language in ("de", "fr", "es") else text)
+                for language, form in _ARMS.items()
+            }
+        found.append(Variant(heads, other))
+    return tuple(found)
