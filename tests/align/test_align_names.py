@@ -1,11 +1,21 @@
-"""What names say: languages, typos, abbreviations, truncation; and what they do not."""
+"""What names say: six languages, typos, abbreviations, truncation, wrong codes; and what they do not."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
 
-from yellowiron.align.names import concepts, exact_role, exact_roles, likeness, name_scores, role_concepts, tokens
+from yellowiron.align.names import (
+    concepts,
+    exact_role,
+    exact_roles,
+    likeness,
+    name_scores,
+    role_concepts,
+    spoken,
+    tokens,
+    vocabulary,
+)
 from yellowiron.library import load_template
 from yellowiron.model.assembly import Part
 from yellowiron.model.template import Template
@@ -16,12 +26,17 @@ def template() -> Template:
     return load_template("wheel_loader")
 
 
+@pytest.fixture(scope="module")
+def digger() -> Template:
+    return load_template("excavator")
+
+
 def part(name: str, *above: str) -> Part:
     return Part(name, name, ("TOP", *above), "", np.eye(4))
 
 
 def test_tokens() -> None:
-    assert tokens("BUCKET_LinkPin-04 Ø90 gr\u00fcn") == ["bucket", "link", "pin", "gr\u00fcn".replace("\u00fc", "u")]
+    assert tokens("BUCKET_LinkPin-04 Ø90 gr\u00fcn de la") == ["bucket", "link", "pin", "grun"]
 
 
 @pytest.mark.parametrize(
@@ -29,34 +44,88 @@ def test_tokens() -> None:
     [
         ("BUKCET_LINK", {"bucket", "link"}),
         ("HYDRUALIC_CYL", {"cylinder"}),
-        ("sprocet", {"sprocket"}),
         ("LIFT CYL ROD EYE", {"boom", "cylinder", "rod"}),
+        ("liftCylinderTube2", {"boom", "cylinder", "barrel"}),
         ("FRT FRAME LH", {"front", "frame", "left"}),
-        ("Hubzylinder Kolbenstange li", {"boom", "cylinder", "piston", "rod", "left"}),
+        ("WHEELS", {"wheel"}),
+        ("Hubzylinder Kolbenstange li", {"boom", "cylinder", "rod", "left"}),
+        ("Hubzylinderkolbenstange", {"boom", "cylinder", "rod"}),
+        ("Hubgeruest", {"boom"}),
         ("v\u00e9rin de levage", {"boom", "cylinder"}),
         ("cuchar\u00f3n", {"bucket"}),
-        ("左动臂油缸活塞杆", {"left", "boom", "cylinder", "piston", "rod"}),
+        ("cilindro de direcci\u00f3n izq.", {"cylinder", "steering", "left"}),
+        ("左动臂油缸活塞杆", {"left", "boom", "cylinder", "rod"}),
         ("バケットシリンダロッド", {"bucket", "cylinder", "rod"}),
+        ("ﾊﾞｹｯﾄ", {"bucket"}),
+        ("¶¯±Û", {"boom"}),  # 动臂 in GBK, read as Latin-1
+        ("cuchar\u00c3\u00b3n", {"bucket"}),  # UTF-8, read as Latin-1
+        ("cab", {"rear", "frame"}),
+        ("blade", {"cutting", "edge"}),
         ("Solid17", set()),
         ("Part_003", set()),
+        ("Boss-Extrude2", set()),
+        ("light", set()),
+        ("cover plate", set()),
+        ("Lager", set()),
+        ("\u00c5\u00c4", set()),
         ("", set()),
     ],
 )
-def test_concepts(name: str, said: set[str]) -> None:
-    assert concepts(name) == said
+def test_concepts(template: Template, name: str, said: set[str]) -> None:
+    assert concepts(name, vocabulary(template)) == said
 
 
-def test_sides_and_ends_exclude_each_other() -> None:
-    left = role_concepts("boom_piston_rod_l")
-    assert likeness(part("boom piston rod left"), left) > 0.9
-    assert likeness(part("boom piston rod right"), left) == 0.0
-    assert likeness(part("rear wheel"), role_concepts("front_wheel_l")) == 0.0
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("CAB", {"upperstructure"}),
+        ("Gegengewicht", {"upperstructure"}),
+        ("发动机", {"upperstructure"}),
+        ("blade", {"blade"}),
+        ("sprocet", {"sprocket"}),
+        ("L\u00f6ffelstiel", {"arm"}),
+        ("Stielzylinder", {"arm", "cylinder"}),
+        ("balancier", {"arm"}),
+        ("斗杆油缸缸筒", {"arm", "cylinder", "barrel"}),
+        ("アームシリンダ", {"arm", "cylinder"}),
+    ],
+)
+def test_a_template_says_what_its_bodies_are_called(digger: Template, name: str, said: set[str]) -> None:
+    assert concepts(name, vocabulary(digger)) == said
 
 
-def test_the_assembly_above_counts_less() -> None:
-    boom = role_concepts("boom")
-    assert likeness(part("boom"), boom) > likeness(part("cover boom plate hub"), boom) > 0
-    assert 0 < likeness(part("Solid3", "BOOM ASSY"), boom) <= likeness(part("boom"), boom)
+def test_role_names_are_words(template: Template) -> None:
+    """A template without words.json: its own role names, and the words of any machine."""
+    bare = vocabulary(template.__class__("crane", "", "mast", template.roles[1:3], ()))
+    assert concepts("REAR FRAME", bare) == {"rear", "frame"}
+    assert concepts("Zylinder", bare) == {"cylinder"}
+
+
+def test_sides_and_ends_exclude_each_other(template: Template) -> None:
+    words = vocabulary(template)
+
+    def score(name: str, role: str) -> float:
+        return likeness(spoken([name], words), role_concepts(template.role(role)))
+
+    assert score("boom piston rod left", "boom_piston_rod_l") > 0.9
+    assert score("boom piston rod right", "boom_piston_rod_l") == 0.0
+    assert score("boom cylinder rod", "boom_cylinder_barrel_l") == 0.0
+    assert score("rear wheel", "front_wheel_l") == 0.0
+    assert score("rear left", "rear_wheel_l") == 0.0  # a place is no name
+
+
+def test_the_assembly_above_counts_less(template: Template) -> None:
+    scores = name_scores((part("boom"), part("cover", "boom"), part("bucket", "boom"), part("x")), template)
+    assert scores[0]["boom"] == 1.5
+    assert 0.5 < scores[1]["boom"] < 1.0
+    assert scores[2]["bucket"] == 1.5
+    assert 0.3 < scores[2]["boom"] < 0.8
+    assert scores[3] == {}
+
+
+def test_what_holds_everything_says_nothing(template: Template) -> None:
+    parts = (part("x1", "BUCKET TRUCK"), part("x2", "BUCKET TRUCK"))
+    assert name_scores(parts, template) == [{}, {}]
 
 
 def test_exact_names(template: Template) -> None:

@@ -85,6 +85,8 @@ DEFECTS = {
     "tests.no_site": ("needs 'site'", "tests[0]", "docs/template-format.md"),
     "tests.twice": ("two tests 'raise'", "tests[1]", "another name"),
     "tests.unknown_step": ("'half'", "tests[0].steps[0].set.lift", ""),
+    "words.unknown_role": ("'bom' is in no role's name", "bom cylinder", "boom"),
+    "words.unknown_language": ("'dutch'", "boom", ""),
     "reference.no_source": ("'source' is missing", "reference.json", ""),
 }
 

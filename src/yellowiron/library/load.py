@@ -15,6 +15,7 @@ from yellowiron.library.joints import check_bodies, read_joints, resolve_parts
 from yellowiron.library.machine_tests import read_tests
 from yellowiron.library.reading import Document, near, read_document
 from yellowiron.library.sensors import read_sensors
+from yellowiron.library.words import read_words
 from yellowiron.model.errors import TemplateError
 from yellowiron.model.specification import fold
 from yellowiron.model.template import JointTemplate, Role, Template
@@ -32,6 +33,7 @@ DOCUMENTS = (
     "tests",
     "reference",
     "sensors",
+    "words",
 )
 """The documents a template folder can have, each `<name>.json`; only `joints` is needed."""
 _MACHINE = "machine"
@@ -193,6 +195,8 @@ def _further(documents: Mapping[str, Document], template: Template) -> dict[str,
         found.update(sites=sites, measurements=measurements)
     if "tests" in documents:
         found["payload"], found["tests"] = read_tests(documents["tests"])
+    if "words" in documents:
+        found["words"] = read_words(documents["words"], template.roles)
     if "reference" in documents:
         found["reference"] = documents["reference"].data
     return found

@@ -181,7 +181,8 @@ class Variant:
 
 @dataclass(frozen=True)
 class Template:
-    """A template with all its documents. `root` is the body that stands for the machine's base."""
+    """A template with all its documents. `root` is the body that stands for the machine's base; `words`: words of role
+    names (`rear frame`) → language → what parts of it are called."""
 
     equipment_type: str
     folder: str
@@ -199,6 +200,7 @@ class Template:
     sensors: tuple[SensorTemplate, ...] = ()
     payload: PayloadTemplate | None = None
     tests: tuple[MachineTest, ...] = ()
+    words: Mapping[str, Mapping[str, tuple[str, ...]]] = field(default_factory=dict)
 
     def role(self, name: str) -> Role:
         """The role of that name; of a row's member (`shoe_7` of `shoe[*]`) the row's, under the member's name.
