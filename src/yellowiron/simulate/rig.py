@@ -20,7 +20,8 @@ from yellowiron.simulate.statics import motion
 SETTLE = 1.0
 """Seconds of rest before the machine is posed, and after."""
 _LOCKED = 4.0
-"""Stiffness of a locked cylinder by its drive's: twice the frequency, at the same damping ratio."""
+"""Stiffness of a locked cylinder by its drive's. Its damping stays: times the step it must not come near the mass that
+the cylinder moves, and an empty bucket is a tenth of what the drive was sized for."""
 _HELD = 1e9
 """N or N·m: what a locked cylinder bears. Oil shut in by its valves is not let out at the pump's relief pressure."""
 
@@ -30,7 +31,6 @@ def locked(drive: Drive) -> Drive:
     return replace(
         drive,
         stiffness=_LOCKED * drive.stiffness,
-        damping=math.sqrt(_LOCKED) * drive.damping,
         max_force=_HELD,
     )
 
