@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Mapping
 from difflib import get_close_matches
 from pathlib import Path
@@ -10,36 +11,44 @@ from typing import Any
 
 import numpy as np
 
+from yellowiron.align.revisions import Print, prints_of, revised
 from yellowiron.model.alignment import Alignment, PartAssignment
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import AlignmentError, OutputError
+from yellowiron.model.finding import Finding
 from yellowiron.model.rows import count_members
 from yellowiron.model.template import Template
 
 FORMAT = 1
-_FRAME = "the frame, a row a line"
+_NUMBERS = re.compile(r"\[\n\s*([-+\d.e,\s]+?)\s*\]")
 
 
 def write_alignment(alignment: Alignment, assembly: Assembly, path: str | Path) -> None:
-    """Writes alignment.json: parts in CAD order, the doubtful ones listed first under `to_review`.
+    """Writes alignment.json: the doubtful parts first, most doubtful on top, then the rest by body, role and id; the
+    order of the parts in the CAD model does not matter.
 
-    A person changes `role` and nothing else; `solved` keeps what the program had found. `OutputError` if it cannot be
-    written.
+    A person changes `role` and nothing else; `solved` keeps what the program had found; `shape` and `place` are what a
+    part is known by in a later revision of the CAD model (`revisions.Print`). `OutputError` if it cannot be written.
     """
-    del assembly  # the parts of an alignment are already in CAD order
+    doubtful = set(alignment.to_review)
+
+    def rank(p: PartAssignment) -> tuple[bool, float, str, str, str]:
+        doubt = p.part in doubtful
+        return (not doubt, p.confidence if doubt else 0.0, p.body or "~", p.role or "", p.part)
+
+    prints = prints_of(assembly)
     document = {
         "format": FORMAT,
         "equipment_type": alignment.equipment_type,
-        "frame": _FRAME,
+        "frame": [[float(v) for v in row] for row in alignment.frame],
         "choices": dict(sorted(alignment.choices.items())),
         **({"counts": dict(sorted(alignment.counts.items()))} if alignment.counts else {}),
         "to_review": list(alignment.to_review),
         "missing": list(alignment.missing),
-        "parts": [_entry(p) for p in alignment.parts],
+        "parts": [_entry(p, prints.get(p.part)) for p in sorted(alignment.parts, key=rank)],
     }
-    rows = ",\n".join("  " + json.dumps([float(v) for v in row]) for row in alignment.frame)
     text = json.dumps(document, ensure_ascii=False, indent=1) + "\n"
-    text = text.replace(f'"{_FRAME}"', f"[\n{rows}\n ]", 1)
+    text = _NUMBERS.sub(lambda m: f"[{' '.join(m.group(1).split())}]", text)  # numbers of a list on one line
     target = Path(path)
     try:
         target.write_text(text, encoding="utf-8")
@@ -49,7 +58,7 @@ def write_alignment(alignment: Alignment, assembly: Assembly, path: str | Path) 
         ) from error
 
 
-def _entry(p: PartAssignment) -> dict[str, Any]:
+def _entry(p: PartAssignment, known_by: Print | None) -> dict[str, Any]:
     solved = p.runner_up if p.source == "edited" and p.runner_up is not None else p.role
     return {
         "part": p.part,
@@ -60,16 +69,19 @@ def _entry(p: PartAssignment) -> dict[str, Any]:
         "reason": p.reason,
         "runner_up": p.runner_up,
         "source": p.source,
+        **({"shape": list(known_by.shape), "place": list(known_by.place)} if known_by is not None else {}),
     }
 
 
 def read_alignment(path: str | Path, assembly: Assembly, template: Template) -> Alignment:
-    """An alignment file, as `align` takes it for `edits`.
+    """An alignment file, as `align` takes it for `edits`; its parts in CAD order.
 
     A role that differs from `solved` is a person's, and so is one whose source is `edited`, or that has neither (an
-    entry written by hand). Other entries say nothing that is not found again: those of parts that a revision of the CAD
-    model took away are passed over. `AlignmentError` for a file that is not one or is another equipment type's, and for
-    a person's role of a part that is not in the CAD model, or that is not in the template.
+    entry written by hand). Parts are known by shape and place where the entry has them (`revisions`), so that an edit
+    survives a revision of the CAD model; where a person's part is gone or has another id, `findings` says so. Other
+    entries of parts that are gone say nothing that is not found again, and are passed over. `AlignmentError` for a file
+    that is not one or is another equipment type's, for a person's role that is not in the template, and for that of a
+    part without shape and place that is not in the CAD model.
     """
     source = Path(path)
     document = _load(source)
@@ -79,41 +91,84 @@ def read_alignment(path: str | Path, assembly: Assembly, template: Template) -> 
             f"The alignment is of equipment type '{made_for}', not '{template.equipment_type}'", where=str(source),
             hint="Build that type, or delete the file: it is written anew.",
         )  # fmt: skip
-    parts = {p.id for p in assembly.parts}
+    parts = {p.id: k for k, p in enumerate(assembly.parts)}
     roles = {r.name for r in template.roles}
+    again = _again(document["parts"], assembly)
     seen: set[str] = set()
-    read = []
+    read: list[PartAssignment] = []
+    findings: list[Finding] = []
     for number, entry in enumerate(document["parts"]):
         where = f"{source}: parts[{number}]"
         if not isinstance(entry, Mapping) or not isinstance(entry.get("part"), str):
             raise AlignmentError("An entry has no part", where=where, hint='Each needs "part" and "role".')
         part, role, edited = entry["part"], entry.get("role"), _is_edit(entry)
-        if not edited and (part not in parts or (role is not None and not template.knows(role))):
+        known = template.knows(role) if isinstance(role, str) else role is None
+        if not edited and not known:
             continue
-        if part not in parts:
-            raise AlignmentError(
-                f"The alignment names a part that is not in the CAD model: '{part}'", where=where,
-                hint=f"{_near(part, parts)} Delete that entry if the part is gone, or the file to start anew.".strip(),
-            )  # fmt: skip
-        if part in seen:
-            raise AlignmentError(f"The part '{part}' is there twice", where=where, hint="Keep one entry.")
-        seen.add(part)
-        if role is not None and not template.knows(role):
+        if not known:
             raise AlignmentError(
                 f"'{role}' is no role of the template {template.equipment_type}", where=where,
                 hint=_near(str(role), roles) or "`yellowiron templates show TYPE` lists the roles.",
             )  # fmt: skip
-        read.append(_assignment(entry, role, template, edited=edited))
+        if part in seen:
+            raise AlignmentError(f"The part '{part}' is there twice", where=where, hint="Keep one entry.")
+        seen.add(part)
+        now = again.get(part) if _print(entry) is not None else part if part in parts else None
+        if now is None and edited and _print(entry) is None:
+            raise AlignmentError(
+                f"The alignment names a part that is not in the CAD model: '{part}'", where=where,
+                hint=f"{_near(part, set(parts))} Delete that entry if the part is gone, or the file to start anew."
+                .strip(),
+            )  # fmt: skip
+        if edited and now != part:
+            findings.append(_moved(part, role, now))
+        if now is not None:
+            read.append(_assignment({**entry, "part": now}, role, template, edited=edited))
     choices = document.get("choices", {})
     return Alignment(
         equipment_type=str(document.get("equipment_type", template.equipment_type)),
         frame=_frame(document.get("frame"), source),
-        parts=tuple(read),
+        parts=tuple(sorted(_alone(read), key=lambda p: parts[p.part])),
         choices={str(k): str(v) for k, v in choices.items()} if isinstance(choices, Mapping) else {},
         missing=_names(document.get("missing")),
         to_review=_names(document.get("to_review")),
+        findings=tuple(findings),
         counts=count_members((p.role for p in read), template),
     )
+
+
+def _again(entries: list[Any], assembly: Assembly) -> dict[str, str]:
+    """Part id of the file → part id of the CAD model, for the entries with shape and place."""
+    earlier = {str(e.get("part")): known for e in entries if isinstance(e, Mapping) and (known := _print(e))}
+    return revised(earlier, prints_of(assembly)) if earlier else {}
+
+
+def _print(entry: Mapping[str, Any]) -> Print | None:
+    shape, place = entry.get("shape"), entry.get("place")
+    if not isinstance(shape, list) or not isinstance(place, list) or (len(shape), len(place)) != (5, 3):
+        return None
+    if not all(isinstance(v, int | float) and np.isfinite(v) for v in (*shape, *place)):
+        return None
+    x, y, z = place
+    return Print(tuple(shape), (x, y, z))
+
+
+def _moved(part: str, role: str | None, now: str | None) -> Finding:
+    said = f"The part '{part}', which a person set to {role or 'no role'},"
+    if now is None:
+        hint = "The CAD model was revised: set the role of the part that replaces it, if any."
+        return Finding("ALN012", "warning", part, f"{said} is not in the CAD model any more", hint)
+    hint = "It has the same shape or place; if it is another part, change its role in alignment.json."
+    return Finding("ALN013", "info", now, f"{said} is taken to be '{now}' in this CAD model", hint)
+
+
+def _alone(read: list[PartAssignment]) -> list[PartAssignment]:
+    """One assignment a part; a person's wins (two entries may lead to one part: one known by its id alone)."""
+    found: dict[str, PartAssignment] = {}
+    for p in read:
+        if p.part not in found or p.source == "edited":
+            found[p.part] = p
+    return list(found.values())
 
 
 def _is_edit(entry: Mapping[str, Any]) -> bool:
