@@ -71,7 +71,7 @@ NAMES = {
     "Tyre Width": "TYRE_WIDTH",
 }
 """What the template asks for → the example's value. `FREE`: asked for too, and printed by the sheet alone."""
-FREE = {"Total Cycle Time", "Breakout Force", "Turning Radius"}
+FREE = {"Total Cycle Time", "Breakout Force", "Turning Radius", "Net Power", "Gross Power"}
 SI = {
     "mm": 1e-3,
     "deg": math.pi / 180,
