@@ -129,7 +129,7 @@ def _once(shapes: Sequence[Floats]) -> list[tuple[int, int]]:
     """Pairs of the same shape that each model has once."""
     trees = [cKDTree(s) for s in shapes]
     alone = [
-        {i for i, n in enumerate(t.query_ball_point(s, SAME, p=np.inf, return_length=True)) if n == 1}
+        {i for i, n in enumerate(np.atleast_1d(t.query_ball_point(s, SAME, p=np.inf, return_length=True))) if n == 1}
         for t, s in zip(trees, shapes, strict=True)
     ]
     away, at = (np.asarray(r) for r in trees[1].query(shapes[0], p=np.inf))
