@@ -833,9 +833,16 @@ def loader(
 
 
 def disguise(
-    machine: Machine, seed: int, *, names: bool = False, rotate: bool = True, shuffle: bool = True
+    machine: Machine,
+    seed: int,
+    *,
+    names: bool = False,
+    rotate: bool = True,
+    shuffle: bool = True,
+    scale: bool = False,
 ) -> tuple[Assembly, dict[str, tuple[str, str]], Array]:
-    """The machine as a stranger sends it, Part_001…, turned and shuffled: (assembly, truth by id, CAD → machine)."""
+    """The machine as a stranger sends it, Part_001…, turned and shuffled, in a unit of its own (`scale`): (assembly,
+    truth by id, CAD → machine)."""
     rng = np.random.default_rng([seed, 7])
     world = np.eye(4)
     if rotate:
@@ -845,6 +852,8 @@ def disguise(
             q[:, 0] = -q[:, 0]
         world[:3, :3], world[:3, 3] = q, rng.normal(size=3) * 5
     order = rng.permutation(len(machine.parts)) if shuffle else np.arange(len(machine.parts))
+    if scale:
+        world[:3] *= 10 ** rng.uniform(-1.5, 1.5)
     parts, truth = [], {}
     for position, index in enumerate(order):
         part = machine.parts[index]

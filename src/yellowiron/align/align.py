@@ -16,59 +16,31 @@
 
 from __future__ import annotations
 
-import functools
-import itertools
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 
-from yellowiron.align.clusters import Structure, loose_ends, structure_of
-from yellowiron.align.doubts import doubts, one_sided
+from yellowiron.align.clusters import Structure
+from yellowiron.align.doubts import doubts
 from yellowiron.align.frame import MachineFrame, machine_frame
 from yellowiron.align.islands import islands
-from yellowiron.align.names import name_scores
 from yellowiron.align.report import reported
-from yellowiron.align.seen import CONTACT, Seen, see, slewing_joints
-from yellowiron.align.sheet import sheet_findings, sheet_weights
+from yellowiron.align.search import Search, is_whole, rivals_of
+from yellowiron.align.seen import see
+from yellowiron.align.shaken import shaken
+from yellowiron.align.sheet import sheet_findings
 from yellowiron.align.solids import solids_of
-from yellowiron.align.solve import MISSING_WEIGHT, Solution, solve
+from yellowiron.align.solve import Solution, solve
 from yellowiron.align.spread import Spreader
 from yellowiron.align.tracks import Track, track_places, tracks_of, without_tracks
-from yellowiron.align.weights import Weights, name_weights, side_weights, size_weights
+from yellowiron.align.weights import side_weights
 from yellowiron.model.alignment import Alignment, Vector
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import AlignmentError
 from yellowiron.model.geometry import Floats
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import Template, choose
-
-FORBIDDEN = 10_000
-"""What an assignment loses that is tried without."""
-MARGIN = 20
-"""An assignment is doubtful if the best without it scores this little less: less than a name is worth."""
-UPRIGHT = 0.98
-"""A line whose cosine to the upright is less is not upright."""
-SIDED_WEIGHT = 4 * MISSING_WEIGHT
-"""What a variant loses for a cylinder that stands to one side where it should be in the middle."""
-
-
-@dataclass(frozen=True, eq=False)
-class _Answer:
-    """One reading of the welds and one variant of the template, solved."""
-
-    structure: Structure
-    choices: dict[str, str]
-    template: Template
-    solution: Solution
-    unary: Weights
-    sided: tuple[str, ...]
-    barred: frozenset[tuple[str, int]]
-
-    @property
-    def score(self) -> int:
-        """What variants and readings are compared by: a cylinder at the wrong place is worse than a missing one."""
-        return self.solution.score - SIDED_WEIGHT * len(self.sided)
 
 
 def align(
@@ -98,23 +70,19 @@ def align(
     of_tracks = set(tracked.values())
     machine = replace(machine, parts=tuple(p for p in machine.parts if p.id not in of_tracks))
     plain = without_tracks(template)
-    rungs = []
-    for contact in CONTACT:
-        seen = replace(see(machine, plain, contact), up=_upright(tracks))
-        scores = name_scores(tuple(s.part for s in seen.solids), plain)
-        rungs.append((_best(seen, plain, specifications, choices or {}, scores, edited), seen, scores))
-        if _whole(rungs[-1][0]):
-            break
-    answer, seen, scores = max(rungs, key=lambda rung: (_whole(rung[0]), rung[0].score))
+    up = _upright(tracks)
+    answer, seen, scores = Search(
+        lambda contact: replace(see(machine, plain, contact), up=up), plain, specifications, choices or {}, edited
+    ).run()
     structure, resolved, solution = answer.structure, answer.template, answer.solution
     frame = machine_frame(seen.solids, structure, solution, seen.wheels, resolved, tracks) if seen.solids else None
     if frame is not None and solution.body_of:
         sided = side_weights(seen.solids, structure, resolved, solution, frame, answer.unary)
         if sided != answer.unary:
-            solution = solve(structure, resolved, unary=sided, barred=answer.barred)
+            solution = solve(structure, resolved, unary=sided, barred=answer.barred) or solution
             frame = machine_frame(seen.solids, structure, solution, seen.wheels, resolved, tracks)
     answer = replace(answer, solution=solution)
-    rivals = {} if _whole(answer) else _rivals(answer)
+    rivals = {} if is_whole(answer) else rivals_of(answer)
     spreader = Spreader(
         seen.solids,
         structure,
@@ -127,6 +95,7 @@ def align(
         seen.size,
         frame.matrix[2, :3] if frame is not None else np.array([0.0, 0.0, 1.0]),
         rivals,
+        shaken(solution, resolved),
     )
     places = spreader.run(seen.wheels)
     apart |= {seen.solids[i].part.id: metres for i, metres in spreader.apart.items()}
@@ -162,19 +131,6 @@ def align(
     )
 
 
-def _rivals(answer: _Answer) -> dict[int, str | None]:
-    """Clusters that could as well be another body (or none), and which: where a machine is not whole, its joints alone
-    may not tell."""
-    found = {}
-    solution = answer.solution
-    for cluster, body in sorted(solution.body_of.items()):
-        without = {**answer.unary, (cluster, body): -FORBIDDEN}
-        other = solve(answer.structure, answer.template, unary=without, barred=answer.barred)
-        if solution.score - other.score < MARGIN and other.body_of.get(cluster) != body:
-            found[cluster] = other.body_of.get(cluster)
-    return found
-
-
 def _axes(structure: Structure, solution: Solution) -> dict[str, tuple[Vector, Vector]]:
     """Joint → its axis, for the joints that no pin is drawn for and that no wheel turns on."""
     found = {}
@@ -191,98 +147,9 @@ def _vector(values: Floats) -> Vector:
     return (x, y, z)
 
 
-def _best(
-    seen: Seen,
-    template: Template,
-    specifications: Specifications,
-    choices: Mapping[str, str],
-    scores: list[dict[str, float]],
-    edited: Mapping[str, str],
-) -> _Answer:
-    """The reading of the welds, and the variant, that the template fits best; the first that fits wholly is taken."""
-    best: _Answer | None = None
-    for structure in _structures(seen, template):
-        for group in _by_cylinders(_variants(template, choices), template, len(structure.slides)):
-            for chosen in group:
-                resolved = choose(template, chosen)
-                unary = name_weights(seen.solids, structure, resolved, scores, edited)
-                for more in (
-                    sheet_weights(structure, seen.rams, resolved, specifications),
-                    size_weights(seen.solids, structure, resolved),
-                ):
-                    for key, weight in more.items():
-                        unary[key] = unary.get(key, 0) + weight
-                barred = _barred(structure, resolved, seen.up)
-                solution = solve(structure, resolved, unary=unary, barred=barred)
-                sided = one_sided(seen.solids, structure, solution, seen.rams, template, resolved)
-                answer = _Answer(structure, chosen, resolved, solution, unary, sided, barred)
-                if best is None or (_whole(answer), answer.score) > (_whole(best), best.score):
-                    best = answer
-            if best is not None and _whole(best) and not edited:
-                break
-        if best is not None and _whole(best):
-            break
-    assert best is not None
-    return best
-
-
-def _by_cylinders(variants: list[dict[str, str]], template: Template, drawn: int) -> list[list[dict[str, str]]]:
-    """The variants in groups: first those with as many hydraulic cylinders as are drawn. If one of these fits wholly,
-    no variant with fewer or more can score as high."""
-    groups: dict[int, list[dict[str, str]]] = {}
-    for chosen in variants:
-        count = sum(1 for r in choose(template, chosen).roles if r.rigid and r.kind == "barrel")
-        groups.setdefault(abs(count - drawn), []).append(chosen)
-    return [groups[apart] for apart in sorted(groups)]
-
-
-def _structures(seen: Seen, template: Template) -> Iterator[Structure]:
-    """Readings of the welds, likeliest first: flat contact alone, unless that leaves far more pieces than bodies; then
-    also what touches; both first without, then with the welds that lock a pin; each first with wide round things fast
-    in their bores, then turning in them. None twice."""
-    if not seen.evidence:
-        yield Structure()
-        return
-    leaves = _has_leaves(template)
-    read = functools.cache(functools.partial(structure_of, leaves=leaves))
-    bodies = sum(1 for r in choose(template, {}).roles if r.rigid)
-    broken = loose_ends(read(seen.evidence[0], weak=False, careful=True)) > 1.3 * bodies + 4
-    known = set()
-    for careful in (True, False):
-        for weak in (broken, not broken):
-            for evidence in seen.evidence:
-                structure = read(evidence, weak=weak, careful=careful)
-                if (key := (structure.clusters, structure.hinges, structure.slides)) not in known:
-                    known.add(key)
-                    yield structure
-
-
-def _whole(answer: _Answer) -> bool:
-    """True where every body is played and every joint found, each at a place it may have, and no hydraulic cylinder is
-    left over."""
-    found = {*answer.solution.hinge_of, *answer.solution.slide_of}
-    joints = {j.name for j in answer.template.joints if j.type in ("revolute", "prismatic")}
-    bodies = {r.name for r in answer.template.roles if r.rigid and not r.optional}
-    rams = {c for slide in answer.structure.slides for c in slide[:2]}
-    played = answer.solution.body_of
-    return not answer.sided and joints <= found and bodies <= set(played.values()) and rams <= set(played)
-
-
 def _upright(tracks: list[Track]) -> Floats | None:
     """The direction across the tracks and their length."""
     return np.asarray(np.cross(tracks[0].axis, tracks[0].along), dtype=np.float64) if tracks else None
-
-
-def _barred(structure: Structure, template: Template, up: Floats | None) -> frozenset[tuple[str, int]]:
-    """A machine slews about the upright: the hinges that lie otherwise are none of its slewing joints."""
-    if up is None:
-        return frozenset()
-    lying = [
-        k
-        for k, hinge in enumerate(structure.hinges)
-        if abs(float(structure.lines[hinge.line].direction @ up)) < UPRIGHT
-    ]
-    return frozenset((name, k) for name in slewing_joints(template) for k in lying)
 
 
 def _tracked(assembly: Assembly, template: Template) -> tuple[dict[int, str], list[Track]]:
@@ -293,36 +160,6 @@ def _tracked(assembly: Assembly, template: Template) -> tuple[dict[int, str], li
     tracks = tracks_of(solids)
     inside = {i for t in tracks for group in (*t.shoes, *(w.members for w in t.wheels)) for i in group}
     return {i: solids[i].part.id for i in sorted(inside)}, tracks
-
-
-def _has_leaves(template: Template) -> bool:
-    """True if a body other than a wheel hangs on a single joint."""
-    degree: dict[str, int] = {r.name: 0 for r in template.roles if r.rigid}
-    for joint in template.joints:
-        for body in template.bodies_of(joint):
-            if body is not None:
-                degree[body] += 1
-    kinds = {r.name: r.kind for r in template.roles}
-    return any(n == 1 and kinds[b] != "wheel" and b != template.root for b, n in degree.items())
-
-
-def _variants(template: Template, choices: Mapping[str, str]) -> list[dict[str, str]]:
-    """Every combination of the choices that geometry decides; what `choices` fixes is fixed."""
-    known = {v.name: v for v in template.variants}
-    for name, value in choices.items():
-        if name in known and value not in known[name].choices:
-            raise AlignmentError(
-                f"'{value}' is no choice of {name}",
-                where=template.equipment_type,
-                hint=f"Choose one of: {', '.join(known[name].choices)}.",
-            )
-    fixed = {n: v for n, v in choices.items() if n in known}
-    open_ones = [v for v in template.variants if v.decided_by == "geometry" and v.name not in fixed]
-    ordered = [[v.default, *(c for c in v.choices if c != v.default)] for v in open_ones]
-    return [
-        {**fixed, **dict(zip((v.name for v in open_ones), combination, strict=True))}
-        for combination in itertools.product(*ordered)
-    ]
 
 
 def _edited(assembly: Assembly, template: Template, edits: Alignment | None) -> dict[str, str]:

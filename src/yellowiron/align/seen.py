@@ -18,9 +18,9 @@ from yellowiron.model.assembly import Assembly
 from yellowiron.model.geometry import Floats
 from yellowiron.model.template import Template
 
-CONTACT = (4e-5, 3e-4)
-"""Two faces touch within this share of the machine's diagonal (0.4 mm on 10 m); the wider one is for machines that the
-first does not find whole (moved or shrunk parts)."""
+CONTACT = (4e-5, 3e-4, 1e-3)
+"""Two faces touch within this share of the machine's diagonal (0.4 mm on 10 m); the wider ones are for machines that
+the first does not find whole (moved or shrunk parts)."""
 
 
 @dataclass(frozen=True, eq=False)

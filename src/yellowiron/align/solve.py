@@ -23,12 +23,14 @@ EFFORT = 30.0
 @dataclass(frozen=True)
 class Solution:
     """Cluster → body, joint → hinge (index into `Structure.hinges`; slides: into `Structure.slides`), the score that
-    variants are compared by, and whether the search proved it the best."""
+    variants are compared by, what was maximised for it (before what is missing is counted), and whether the search
+    proved it the best."""
 
     body_of: dict[int, str]
     hinge_of: dict[str, int]
     slide_of: dict[str, int]
     score: int
+    objective: int
     proven: bool
 
 
@@ -38,11 +40,14 @@ def solve(
     *,
     unary: Mapping[tuple[int, str], int] | None = None,
     barred: Collection[tuple[str, int]] = (),
-) -> Solution:
+    without: tuple[int, str] | None = None,
+    at_least: int | None = None,
+) -> Solution | None:
     """The best assignment of clusters to the template's rigid roles (a resolved template, see `choose`).
 
     `unary[(cluster, body)]` adds weight (a joint counts `JOINT_WEIGHT`); names, sizes and sides come in by it.
-    `barred`: (joint, hinge) that cannot be the same.
+    `barred`: (joint, hinge) that cannot be the same; `without`: (cluster, body) that is not to be. None where no
+    assignment's objective is `at_least` so much: to be told so is quicker than the best.
     """
     from ortools.sat.python import cp_model
 
@@ -96,7 +101,12 @@ def solve(
             model.add_at_most_one(group)
     terms += [(weight, x[key]) for key, weight in sorted(unary.items()) if key in x and weight]
     terms += [(1, v) for (c, _), v in sorted(x.items()) if c in linked]
-    model.maximize(sum(weight * v for weight, v in terms))
+    if without in x:
+        model.add(x[without] == 0)
+    total = sum(weight * v for weight, v in terms)
+    if at_least is not None:
+        model.add(total >= at_least)
+    model.maximize(total)
 
     solver = cp_model.CpSolver()
     solver.parameters.num_workers = 1
@@ -104,7 +114,9 @@ def solve(
     solver.parameters.max_deterministic_time = EFFORT
     status = solver.solve(model)
     if status not in (cp_model.OPTIMAL, cp_model.FEASIBLE):
-        return Solution({}, {}, {}, -MISSING_WEIGHT * len(bodies), False)
+        if at_least is not None:
+            return None
+        return Solution({}, {}, {}, -MISSING_WEIGHT * len(bodies), 0, False)
     body_of = {c: b for (c, b), v in x.items() if solver.boolean_value(v)}
     missing = sum(1 for name, role in bodies.items() if not role.optional and name not in body_of.values())
     idle = sum(1 for c, k in enumerate(structure.clusters) if k.kind in ("barrel", "rod", "wheel") and c not in body_of)
@@ -113,6 +125,7 @@ def solve(
         {j: n for (j, n), group in pivots.items() if any(solver.boolean_value(z) for z in group)},
         {j: n for (j, n), group in slides.items() if any(solver.boolean_value(z) for z in group)},
         round(solver.objective_value) - MISSING_WEIGHT * (missing + idle),
+        round(solver.objective_value),
         status == cp_model.OPTIMAL,
     )
 

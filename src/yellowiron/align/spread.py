@@ -9,7 +9,7 @@ import numpy as np
 
 from yellowiron.align.clusters import Structure
 from yellowiron.align.contacts import Flat
-from yellowiron.align.doubts import has_tyre, unheld
+from yellowiron.align.doubts import STURDY, has_tyre, unheld
 from yellowiron.align.islands import FAR
 from yellowiron.align.names import exact_role, exact_roles
 from yellowiron.align.solids import Solid
@@ -25,6 +25,8 @@ CLOSE = 0.01
 """How far, in machine sizes, a floating part may be from its neighbour without a person's look."""
 DOUBTFUL = 0.4
 """Confidence of what a person should look at."""
+ALOOF = 0.4
+"""How much less than with others a floating part goes with a hydraulic cylinder or a wheel."""
 NAMED = 0.9
 """Confidence of a role whose very name the part bears, where geometry does not speak against it."""
 
@@ -56,6 +58,7 @@ class Spreader:
     size: float
     up: Floats
     rivals: Mapping[int, str | None] = field(default_factory=dict)
+    shaken: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self.places: dict[int, Place] = {}
@@ -92,6 +95,8 @@ class Spreader:
             doubt = self.rivals.get(c) if c in self.rivals else None
             if c in self.rivals:
                 confidence, words = min(confidence, 0.45), f"{words}; but it could as well be {doubt or 'none'}"
+            if body in self.shaken:
+                confidence, words = min(confidence, 0.45), f"{words}; but {self.shaken[body]}"
             for i in self.structure.clusters[c].members:
                 rival = self._named_other(i, body)
                 drop = 0.1 if rival else 0.0
@@ -168,6 +173,26 @@ class Spreader:
                     sure = min(sure, place.confidence)
             if votes:
                 self._vote(pin, votes, sure * 0.98, "sits in bores of {body}")
+                self._unplayed(pin, set(votes))
+
+    def _unplayed(self, pin: int, hosts: set[str]) -> None:
+        """A pin as stout as the machine's, in a body that has a pin's role of its own left, may be that pin."""
+        least = STURDY * min(
+            (self.structure.lines[self.structure.hinges[h].line].radius for h in self.solution.hinge_of.values()),
+            default=0.0,
+        )
+        radius = max(f.shaft.radius for f in self.structure.hosts[pin])
+        for joint in self.template.joints:
+            role = pin_role(joint, self.template)
+            if role is None or joint.name in self.solution.hinge_of or radius < least:
+                continue
+            if hosts & set(self.template.bodies_of(joint)):
+                place = self.places[pin]
+                words = f"{place.reason}; but it may be {role}, whose joint is not found"
+                self.places[pin] = replace(
+                    place, confidence=min(place.confidence, DOUBTFUL), reason=words, runner_up=role
+                )
+                return
 
     # ---- contact ----
     def _vote(self, i: int, votes: dict[str, float], best: float, words: str) -> None:
@@ -324,6 +349,8 @@ class Spreader:
             return
         kin = self._kin(group[0])
         weight = {b: 1.0 / (d + 0.02 * reach) * (1 + 3 * kin.get(b, 0.0)) for b, d in far.items()}
+        # What goes with a hydraulic cylinder or a wheel touches it.
+        weight = {b: w * (ALOOF if self._turned(b) else 1.0) for b, w in weight.items()}
         names = {b: max(self.scores[i].get(b, 0.0) for i in group) for b in weight}
         weight = {b: w * (1 + 3 * names[b]) for b, w in weight.items()}
         ranked = sorted(weight, key=lambda b: (-round(weight[b], 9), b))
@@ -334,6 +361,10 @@ class Spreader:
         words = f"floats; {ranked[0]} is nearest, {1e3 * far[ranked[0]]:.3g} mm away"
         for i in group:
             self._give(i, Place(ranked[0], ranked[0], confidence, words, ranked[1] if len(ranked) > 1 else None))
+
+    def _turned(self, body: str) -> bool:
+        cluster = self.cluster_of.get(body)
+        return cluster is not None and self.structure.clusters[cluster].kind != ""
 
     # ---- the most specific role ----
     def _specific(self, wheels: list[Wheel]) -> None:

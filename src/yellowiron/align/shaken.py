@@ -1,0 +1,51 @@
+"""Whom to mistrust in an answer that is not whole: a body that was not found has left its parts to others, a joint that
+was not found may be a false weld, and what nothing found joins to the root may be another part of the machine."""
+
+from __future__ import annotations
+
+from yellowiron.align.solve import Solution
+from yellowiron.model.template import Template
+
+AROUND = 2
+"""Parts of a body that was not found may be taken for bodies that are this many joints away."""
+_TYPED = ("barrel", "rod", "wheel")
+
+
+def shaken(solution: Solution, template: Template) -> dict[str, str]:
+    """Body → why it is doubtful. Barrels, rods and wheels are told by their shape: one that is missing casts no doubt
+    on others."""
+    found = {*solution.hinge_of, *solution.slide_of}
+    kinds = {r.name: r.kind for r in template.roles if r.rigid}
+    optional = {r.name for r in template.roles if r.optional}
+    jointed: set[str] = set()
+    beside: dict[str, set[str]] = {b: set() for b in kinds}
+    linked: dict[str, set[str]] = {b: set() for b in kinds}
+    apart: dict[str, str] = {}
+    for joint in template.joints:
+        bodies = [b for b in template.bodies_of(joint) if b is not None]
+        if len(bodies) != 2 or not set(bodies) <= set(kinds):
+            continue
+        plain = not any(kinds[b] in _TYPED or b in optional for b in bodies)
+        for own, other in (bodies, bodies[::-1]):
+            if plain:
+                beside[own].add(other)
+            if joint.name in found:
+                linked[own].add(other)
+                jointed.add(own)
+            elif plain and joint.type == "revolute":
+                apart[own] = f"{joint.name} is not found: parts of {other} may be among its parts"
+    reached, front = {template.root}, [template.root]
+    while front:
+        front = [b for own in front for b in sorted(linked[own]) if b not in reached]
+        reached.update(front)
+    words = {b: "nothing that was found joins it to the rest of the machine" for b in kinds if b not in reached}
+    words |= apart
+    for body, kind in kinds.items():
+        if kind in _TYPED or body in optional or body in jointed:
+            continue
+        ring, front = {body}, [body]
+        for _ in range(AROUND):
+            front = [b for own in front for b in sorted(beside[own]) if b not in ring]
+            ring.update(front)
+        words |= dict.fromkeys(sorted(ring - {body}), f"{body} is not found: its parts may be among these")
+    return words
