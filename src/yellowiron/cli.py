@@ -320,6 +320,27 @@ def copy_template(
     _show({"folder": str(folder)}, Text(f"{folder}: yours to change; build with it by naming the folder."), as_json)
 
 
+@templates.command("new")
+def new_template(
+    cad: Annotated[Path, typer.Option("--from", help="The CAD model of a machine that the library does not have.")],
+    like: Annotated[
+        str | None, typer.Option("--like", help="A type to take roles, names and limits from where bodies match.")
+    ] = None,
+    out: Annotated[
+        Path | None, typer.Option("--out", help="The folder to write (default: the CAD file's name).")
+    ] = None,
+    as_json: Json = False,
+) -> None:
+    """Propose a template from the joints and bodies that geometry finds in a CAD model."""
+    from yellowiron.new import new_template as propose
+    from yellowiron.report import proposal_table
+
+    with _progress(as_json) as progress:
+        document = propose(cad, out, like=like, progress=progress)
+    _show(document, proposal_table(document), as_json)
+    raise typer.Exit(1 if any(f["severity"] == "error" for f in document["findings"]) else 0)
+
+
 def _version(asked: bool) -> None:
     if asked:
         from importlib.metadata import version

@@ -8,7 +8,8 @@ are left out · `ALN010` there seems to be more than one machine · `ALN011` the
 """
 
 from yellowiron.align.align import align
+from yellowiron.align.discover import discover
 from yellowiron.align.files import explain, read_alignment, write_alignment
 from yellowiron.align.report import REVIEW
 
-__all__ = ["REVIEW", "align", "explain", "read_alignment", "write_alignment"]
+__all__ = ["REVIEW", "align", "discover", "explain", "read_alignment", "write_alignment"]

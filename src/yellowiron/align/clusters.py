@@ -123,7 +123,7 @@ def _touching(groups: Groups, evidence: Evidence) -> list[tuple[int, int]]:
 def _attach_eyes(groups: Groups, evidence: Evidence) -> None:
     """A barrel or rod without a pin line across it takes the touching group that has one."""
     for ram in evidence.rams:
-        for part in (ram.barrel, ram.rod):
+        for part in (ram.barrel,) if ram.apart else (ram.barrel, ram.rod):
             root = groups.find(min(part))
             mine = {s.index for s in evidence.solids if groups.find(s.index) == root}
             if any(crosses(evidence.lines[k], ram) for i in mine for k in evidence.pinned[i]):

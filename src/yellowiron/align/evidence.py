@@ -95,7 +95,10 @@ def evidence_of(
     pressed: list[Fit] = []
     direct: list[tuple[int, Fit]] = []
     races: list[tuple[int, Fit]] = []
+    astray = {i for ram in rams if ram.apart for i in ram.rod}
     for k, fit in enumerate(fits):
+        if {fit.inner, fit.outer} & astray:
+            continue
         mine, theirs = owner.get(fit.inner), owner.get(fit.outer)
         if fit.inner in fasteners:
             hosts.setdefault(fit.inner, []).append(fit)
@@ -124,7 +127,7 @@ def evidence_of(
     _through_rings(pinned, pressed, lines, tolerance)
     about = _about(solids, lines, pinned, tolerance)
     held = {i for f in pressed for i in (f.inner, f.outer)} | set(owner)
-    slight = frozenset(
+    slight = frozenset(astray) | frozenset(
         s.index for s in solids if not pinned[s.index] and s.index not in held and s.volume < SLIGHT * s.size**3
     )
     welds: list[Flat] = []

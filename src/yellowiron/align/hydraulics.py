@@ -18,7 +18,8 @@ TWIN = 0.02
 class Ram:
     """One cylinder: indices of the solids of its barrel and of its rod (those about its own axis; eyes come later), the
     axis from the closed end towards the rod's eye, and the two radii. Where the barrel is not `hollow`, `bore` is its
-    outer radius. `count` twins side by side are one."""
+    outer radius. `count` twins side by side are one. A rod that is drawn `apart`, in line with its barrel but not in
+    its place, holds nothing and hangs on nothing."""
 
     barrel: frozenset[int]
     rod: frozenset[int]
@@ -28,6 +29,7 @@ class Ram:
     rod_radius: float
     hollow: bool = True
     count: int = 1
+    apart: bool = False
 
 
 @dataclass(frozen=True, eq=False)

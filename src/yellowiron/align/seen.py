@@ -12,7 +12,7 @@ from yellowiron.align.evidence import Evidence, evidence_of, tables_of
 from yellowiron.align.hydraulics import Ram, rams_of
 from yellowiron.align.solids import Solid, solids_of
 from yellowiron.align.touch import Touch
-from yellowiron.align.visual import pierced_fits_of, solid_rams_of
+from yellowiron.align.visual import apart_rams_of, interrupted_fits_of, pierced_fits_of, solid_rams_of
 from yellowiron.align.wheels import Wheel, wheels_of
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.geometry import Floats
@@ -50,7 +50,9 @@ def see(assembly: Assembly, template: Template, contact: float) -> Seen:
     rams = rams_of(solids, tolerance) if any(r.kind in ("barrel", "rod") for r in template.roles) else []
     if any(r.kind == "barrel" for r in template.roles):
         rams += solid_rams_of(solids, rams, tolerance)
+        rams += apart_rams_of(solids, rams, tolerance)
     fits = fits_of(solids, tolerance)
+    fits += interrupted_fits_of(solids, fits, tolerance)
     fits += pierced_fits_of(solids, fits, rams, touch, size)
     bare = bare_fits_of(solids, fits, tolerance)
     near = neighbours(solids, tolerance)

@@ -27,6 +27,10 @@ TABLE = 0.02
 """A round base is a turntable from this radius on, in machine sizes …"""
 NEAR = 0.05
 """… if what stands on it is no further from it than this share of its radius."""
+FILLING = 0.85
+"""A rod that is not in its barrel fills the bore that it belongs to: it has at least this share of its radius."""
+WHOLE = 0.5
+"""The pieces of a bar make up at least this share of it."""
 TWIN = 0.02
 """Two bars of one part are twins if their radii and lengths are equal within this share."""
 
@@ -69,6 +73,48 @@ def pierced_fits_of(
     joined |= {frozenset((f.inner, f.outer)) for f in tables}
     eyes = [fit for s in bodies for fit in _through(s, _between_knuckles(s, size), solids, touch)]
     return found + [f for f in eyes if f.outer not in apart and frozenset((f.inner, f.outer)) not in joined]
+
+
+def interrupted_fits_of(solids: tuple[Solid, ...], fits: list[Fit], tolerance: float) -> list[Fit]:
+    """A fit for every empty bore on a bar of which only pieces are drawn: equal ones in line of one part, what is
+    between them being inside of that part's other shapes. For pairs of parts without a fit."""
+    joined = {frozenset((f.inner, f.outer)) for f in fits}
+    filled = {id(f.bore) for f in fits}
+    empty = [(s.index, c) for s in solids for c in s.cylinders if c.inner and c.full and id(c) not in filled]
+    found: dict[tuple[int, int], Fit] = {}
+    for solid in solids:
+        pieces = [c for c in solid.cylinders if c.full and not c.inner]
+        for k, one in enumerate(pieces):
+            bar = _whole_bar(one, pieces[k + 1 :], tolerance)
+            if bar is None:
+                continue
+            for outer, bore in empty:
+                pair = frozenset((solid.index, outer))
+                if (
+                    outer == solid.index
+                    or pair in joined
+                    or abs(bore.radius - bar.radius) > max(tolerance, 0.03 * bar.radius)
+                ):
+                    continue
+                low, high = bore.interval(bar.center, bar.direction)
+                inside = low > -bar.half - tolerance and high < bar.half + tolerance
+                if not inside or not coaxial(bar, bore, 0.03, tolerance):
+                    continue
+                best = found.get((solid.index, outer))
+                if best is None or 2 * bore.half > best.overlap:
+                    found[solid.index, outer] = Fit(solid.index, outer, bar, bore, 2 * bore.half, bore.off(bar.center))
+    return [found[key] for key in sorted(found)]
+
+
+def _whole_bar(one: Cyl, others: list[Cyl], tolerance: float) -> Cyl | None:
+    """The bar that a piece and the equal pieces in line with it are of; None for a piece alone."""
+    equal = [c for c in others if abs(c.radius - one.radius) < 0.01 * one.radius and coaxial(c, one, 0.02, tolerance)]
+    spans = [c.interval(one.center, one.direction) for c in (one, *equal)]
+    low, high = min(a for a, _ in spans), max(b for _, b in spans)
+    drawn = sum(b - a for a, b in spans)
+    if not equal or drawn < WHOLE * (high - low):
+        return None
+    return replace(one, center=one.center + 0.5 * (low + high) * one.direction, half=0.5 * (high - low))
 
 
 def _between_knuckles(solid: Solid, size: float) -> list[Cyl]:
@@ -199,6 +245,61 @@ def solid_rams_of(solids: tuple[Solid, ...], rams: list[Ram], tolerance: float) 
             )
         )  # fmt: skip
     return found
+
+
+def apart_rams_of(solids: tuple[Solid, ...], rams: list[Ram], tolerance: float) -> list[Ram]:
+    """Hydraulic cylinders whose rod is not drawn in its place: a long bore, and in line with it a long bar of another
+    part that fills it, beside it or in it, each part with an eye across.
+
+    The barrel's eye says which end is closed: the direction is from it through the bore.
+    """
+    taken = {i for ram in rams for i in ram.barrel | ram.rod}
+    free = [s for s in solids if s.index not in taken]
+    tubes = [(s, c) for s in free for c in s.cylinders if c.inner and c.full and 2 * c.half > 3.5 * c.radius]
+    shafts = [
+        (s, c)
+        for s in free
+        if s.shaft is not None
+        for c in [s.shaft]
+        if 2 * c.half > 4 * c.radius and 2 * c.half > 0.4 * s.size
+    ]
+    pairs = []
+    for tube, bore in tubes:
+        for bar, shaft in shafts:
+            if (
+                bar.index == tube.index
+                or not FILLING * bore.radius < shaft.radius < 1.004 * bore.radius + 0.2 * tolerance
+            ):
+                continue
+            if not coaxial(bore, shaft, 0.02, tolerance):
+                continue
+            low, high = bar.span(bore.center, bore.direction)
+            near, far = tube.span(bore.center, bore.direction)
+            own = _eye(tube, bore)
+            if own is None or _eye(bar, bore) is None or max(low - far, near - high) > far - near:
+                continue
+            direction = bore.direction if own < 0 else -bore.direction
+            pairs.append((min(bore.half, shaft.half) * bore.radius, tube, bore, bar, shaft, direction))
+    found: list[Ram] = []
+    for _, tube, bore, bar, shaft, direction in sorted(pairs, key=lambda p: (-round(p[0], 9), p[1].index, p[3].index)):
+        if {tube.index, bar.index} & taken:
+            continue
+        taken |= {tube.index, bar.index}
+        ends = frozenset({tube.index}), frozenset({bar.index})
+        reach = shaft.interval(bore.center, direction)
+        inside = min(reach[1], bore.half) - max(reach[0], -bore.half) > bore.radius and reach[1] > bore.half
+        found.append(Ram(*ends, bore.center, direction, bore.radius, shaft.radius, apart=not inside))
+    return found
+
+
+def _eye(solid: Solid, line: Cyl) -> float | None:
+    """Where along a cylinder's axis a part has a round eye across it: the outermost, from the cylinder's middle."""
+    places = [
+        place
+        for c in solid.cylinders
+        if c.full and (place := crossing(c, line.center, line.direction, line.radius)) is not None
+    ]
+    return max(places, key=abs, default=None)
 
 
 def _pair(thick: Cyl, thin: Cyl, eyes: list[Cyl], tolerance: float) -> float:

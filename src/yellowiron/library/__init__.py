@@ -3,22 +3,27 @@
 from yellowiron.library.copying import copy_template
 from yellowiron.library.documents import Documents, apply_joints, apply_sensors, load_documents, with_relations
 from yellowiron.library.filled import filled_joints
+from yellowiron.library.likeness import Likeness, likeness
 from yellowiron.library.lint import LintReport, lint
 from yellowiron.library.load import list_templates, load_template
+from yellowiron.library.propose import propose
 from yellowiron.library.reading import template_schema
 from yellowiron.library.show import tree
 
 __all__ = [
     "Documents",
+    "Likeness",
     "LintReport",
     "apply_joints",
     "apply_sensors",
     "copy_template",
     "filled_joints",
+    "likeness",
     "lint",
     "list_templates",
     "load_documents",
     "load_template",
+    "propose",
     "template_schema",
     "tree",
     "with_relations",

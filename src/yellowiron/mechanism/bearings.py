@@ -149,6 +149,17 @@ def lone_bearing(placement: Placement, bodies: tuple[str, str], line: Line) -> B
     return Bearing(axis_of(features), features, method, doubt)
 
 
+def lone_slide(placement: Placement, bodies: tuple[str, str], line: Line) -> Bearing:
+    """The axis that the alignment found for a slide whose rod is not drawn in its barrel: through the cylinders of both
+    on that line, else the line itself."""
+    features = placement.features(row for body in bodies for row in placement.rows_of_body(body))
+    features = features.take(on_line(features, line))
+    doubt = ("MEC014", "Its rod is not drawn in its barrel: the slide is along the line that both are on.")
+    if len(features) == 0:
+        return Bearing(line, features, "alignment: the rod in line with the barrel", doubt)
+    return Bearing(axis_of(features), features, f"least squares over {len(features)} cylinder(s) in line", doubt)
+
+
 def agree(one: Line, other: Line) -> bool:
     """Whether two lines may be one joint's axis: within a degree and two centimetres."""
     lean = float(np.linalg.norm(np.cross(one.direction, other.direction)))

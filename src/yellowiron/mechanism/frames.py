@@ -17,6 +17,7 @@ from yellowiron.mechanism.bearings import (
     Bearing,
     agree,
     lone_bearing,
+    lone_slide,
     outline_bearing,
     pin_bearing,
     shared_bearing,
@@ -160,6 +161,12 @@ def _slide(
     tips = [end.anchor if end is not None else None for end in ends]
     hinge = ends[0].axis if ends[0] is not None and ends[0].joint.type == "revolute" else None
     bearing = slide_bearing(placement, bodies, (tips[0], tips[1]), hinge)
+    sense = None
+    if joint.name in placement.axes:
+        found = Line(*placement.axes[joint.name])
+        sense = found.direction
+        if bearing is None or not agree(bearing.line, found):
+            bearing = lone_slide(placement, bodies, found)
     if bearing is None:
         words = f"'{bodies[0]}' and '{bodies[1]}' share no bore: the slide is left out."
         hint = "Check which parts are barrel and rod in the alignment."
@@ -171,7 +178,8 @@ def _slide(
         for tip, body in zip(tips, bodies, strict=True)
     ]
     line = bearing.line
-    outwards = line.direction if (places[1] - places[0]) @ line.direction >= 0.0 else -line.direction
+    ahead = (sense if sense is not None else places[1] - places[0]) @ line.direction >= 0.0
+    outwards = line.direction if ahead else -line.direction
     rod = next((i for i, body in enumerate(bodies) if template.role(body).kind == "rod"), 1)
     return _frame(joint, bodies, placement, bearing, line.foot(places[rod]), outwards)
 

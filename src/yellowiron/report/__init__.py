@@ -6,6 +6,7 @@ from yellowiron.report.console import (
     finding_table,
     lint_table,
     measurement_table,
+    proposal_table,
     simulation_table,
     specification_table,
 )
@@ -30,6 +31,7 @@ __all__ = [
     "measurement_table",
     "missing_limits",
     "page",
+    "proposal_table",
     "report_document",
     "simulation_table",
     "specification_entry",

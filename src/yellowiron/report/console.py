@@ -182,6 +182,18 @@ def lint_table(document: Mapping[str, Any]) -> RenderableType:
     return Group(*blocks)
 
 
+def proposal_table(document: Mapping[str, Any]) -> RenderableType:
+    """What a proposed template has: its joints with what they were found by, and what to look at."""
+    table = _table("joint", "type", "found by", right=())
+    for joint in document["joints"]:
+        table.add_row(joint["name"], joint["type"], joint["reason"])
+    folder = document["folder"]
+    blocks: list[RenderableType] = [table, ""]
+    blocks += [finding_table(document["findings"]), ""] if document["findings"] else []
+    words = f"{folder}: {len(document['bodies'])} bodies; proposal.md says why. Build with it by naming the folder."
+    return Group(*blocks, Text(words, "dim"))
+
+
 def build_summary(document: Mapping[str, Any], reasons: Sequence[str], folder: str) -> RenderableType:
     """What a build ends with: the machine in a line, the measurements, what is left to a person."""
     counts, mobility, alignment = document["counts"], document["mobility"], document["alignment"]
