@@ -129,6 +129,12 @@ def score(sheet: Sheet, found: Specifications, pages: dict[int, str]) -> Score:
                 result.wrong += 1
                 result.faults.append(f"WRONG (picked) {where} {name}: {value.value} {value.reason}")
             continue
+        if name in sheet.allowed:
+            right = is_right(sheet.allowed[name], value.value)
+            result.wrong += value.status == "ok" and not right
+            if value.status == "ok" and not right:
+                result.faults.append(f"WRONG {where} {name}: {value.value} {value.reason} {_quote(value)}")
+            continue
         if truth is None:
             result.off += 1
             result.missing += value.status == "missing"

@@ -29,6 +29,7 @@ SECTIONS = {
 }  # fmt: skip
 _SI = {"mm": 1e-3, "m": 1.0, "kg": 1.0, "t": 1e3, "deg": 0.017453292519943295, "MPa": 1e6, "bar": 1e5, "kPa": 1e3,
        "L/min": 1e-3 / 60, "m3": 1.0, "kN": 1e3, "kNm": 1e3, "km/h": 1 / 3.6, "s": 1.0, "rpm": 0.10471975511965977,
+       "kW": 1e3, "L": 1e-3,
        "-": 1.0}  # fmt: skip
 _SHOWN = {"deg": "°", "kNm": "kN·m", "m3": "m³", "-": ""}
 
@@ -94,6 +95,7 @@ class Sheet:
     seed: int = 0
     config: str = ""
     truth: dict[str, Truth] = field(default_factory=dict)
+    allowed: dict[str, Truth] = field(default_factory=dict)
     unsettled: set[str] = field(default_factory=set)
     left_out: frozenset[str] = frozenset()
 
@@ -135,7 +137,7 @@ class Sheet:
         unit = unit_of(self.machine.kind, name)
         decimals = {"mm": 0, "kg": 0, "deg": 0, "L/min": 0, "kN": 0, "-": 0, "m3": 2}.get(unit, 1)
         decimals = max(decimals, 1 if unit in ("mm", "deg", "L/min", "kN") and value % 1 else 0)
-        if unit == "mm" and self.style.metres and value >= 1000:
+        if unit == "mm" and self.style.metres and value >= 1000 and " Cylinder " not in name:
             unit, value, decimals = "m", value / 1000, 2 if value % 10 == 0 else 3
         elif unit == "kg" and self.style.tonnes and value >= 10000:
             unit, value, decimals = "t", value / 1000, 2
@@ -191,8 +193,17 @@ class Sheet:
         return [
             Row(self.word(e), Said(self.spelled(e.second), ""))
             for e in entries("distractors")
-            if e.name == section and e.third in ("both", self.machine.kind)
+            if e.name == section and e.third.partition(":")[0] in ("both", self.machine.kind) and self._may_be_asked(e)
         ]
+
+    def _may_be_asked(self, entry: Entry) -> bool:
+        """Notes a distractor that some template asks for: it may be found, and then rightly, but does not count."""
+        names = entry.third.partition(":")[2]
+        if names:
+            number, unit = entry.second.split()
+            value = _SI[unit] * float(number)
+            self.allowed.update(dict.fromkeys(names.split(","), Truth(value, 1e-6 * value)))
+        return True
 
     def spelled(self, text: str) -> str:
         """A distractor's text with the sheet's decimal sign."""

@@ -322,4 +322,7 @@ def test_another_types_template_gets_nothing_wrong(tmp_path: Path) -> None:
     for draw, truth in truths.items():
         draw(tmp_path / "sheet.pdf")
         found = extract(loader, [tmp_path / "sheet.pdf"])
-        assert {s.name: s.value for s in found if s.status == "ok"} == pytest.approx(truth, rel=2e-3)
+        also = {"Gross Power": 337e3} if draw is cat_740gc else {"Hinge Pin Height at Maximum Lift": 3.2588}
+        came = {s.name: s.value for s in found if s.status == "ok"}
+        assert truth.keys() <= came.keys() <= truth.keys() | also.keys()
+        assert came == pytest.approx({name: {**truth, **also}[name] for name in came}, rel=2e-3)

@@ -14,6 +14,7 @@ from yellowiron.specs.statement import (
     Statement,
     is_unit,
     join_boxes,
+    joined,
     kind_of,
     split_inline,
     unit_in_label,
@@ -44,7 +45,7 @@ def statement_of(
     number: int,
 ) -> Statement:
     """The statement of a cell: `heads` stand over it, `context` are its sub-headings, `above` those the quote needs."""
-    label, text = " ".join(p.bare for p in cell.label), " ".join(p.text for p in cell.values)
+    label, text = joined(p.bare for p in cell.label), " ".join(p.text for p in cell.values)
     if not cell.label:
         inline = split_inline(" ".join(p.bare for p in cell.values))
         if inline[0]:

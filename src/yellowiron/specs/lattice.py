@@ -16,6 +16,7 @@ from yellowiron.specs.statement import (
     Statement,
     is_unit,
     join_boxes,
+    joined,
     looks_like_value,
     split_inline,
     unit_in_label,
@@ -46,7 +47,7 @@ class Cell:
     @functools.cached_property
     def text(self) -> str:
         """All its words without footnote signs and example marks."""
-        return EXAMPLE.sub("", " ".join(" ".join(p.bare for p in line.pieces) for line in self.lines)).strip()
+        return EXAMPLE.sub("", joined(" ".join(p.bare for p in line.pieces) for line in self.lines)).strip()
 
 
 @dataclass(frozen=True)
@@ -259,7 +260,7 @@ def _read_row(
         units = [is_unit(c.text) for c in [*fresh, *cells] if is_unit(c.text) and c.columns[0] > after]
         seen = value.columns[0]
         over = _heads_over(grid, heads, value, labels)
-        found.append(_statement(page, value, labels, over, units[0] if units else "", number, section))
+        found.append(_statement(page, grid, value, labels, over, units[0] if units else "", number, section))
     if heads and row not in heads and not any(f.label for f in found):
         found = [replace(f, variant=(values[0].text,)) for f in found]
     return found
@@ -281,11 +282,18 @@ def _heads_over(grid: Grid, heads: Sequence[int], value: Cell, labels: Sequence[
 
 
 def _statement(
-    page: Page, value: Cell, labels: Sequence[Cell], over: Sequence[Cell], unit: str, number: int, section: str
+    page: Page,
+    grid: Grid,
+    value: Cell,
+    labels: Sequence[Cell],
+    over: Sequence[Cell],
+    unit: str,
+    number: int,
+    section: str,
 ) -> Statement:
     names = [c for c in labels if not _is_key(c.text)]
     # cells that span more rows than the value are the sub-headings of theirs
-    groups = [c for c in names[:-1] if c.rows[1] - c.rows[0] > value.rows[1] - value.rows[0]]
+    groups = [c for c in names[:-1] if c.rows[1] - c.rows[0] > value.rows[1] - value.rows[0] or _is_group(grid, c)]
     label = " ".join(c.text for c in names if not any(c is g for g in groups))
     label, label_unit = unit_in_label(without_key(label))
     text = value.text
@@ -314,6 +322,12 @@ def _statement(
         x0=value.box[0],
         heads=tuple(line.text for c in column for line in c.lines) if labels else (),
     )
+
+
+def _is_group(grid: Grid, cell: Cell) -> bool:
+    """Whether a cell stands in a column whose cells span several rows each: a group that has one row only."""
+    column = [c for c in grid.cells if c.columns == cell.columns and c.lines]
+    return any(c.rows[1] - c.rows[0] > 1 for c in column) and not any(looks_like_value(c.text) for c in column)
 
 
 def _is_key(text: str) -> bool:

@@ -9,10 +9,12 @@ from dataclasses import dataclass
 from yellowiron.model.template import Wanted
 from yellowiron.specs.claims import Claim
 from yellowiron.specs.numbers import read
-from yellowiron.specs.vocabulary import NEUTRAL, OPPOSITES, REVERSING, has_cjk, squeezed, tokens
+from yellowiron.specs.vocabulary import CIRCUITS, NEUTRAL, OPPOSITES, REVERSING, has_cjk, squeezed, tokens
 
 LEAST = 0.55
 """Score below which a claim does not speak of a wanted value at all."""
+_BY_CIRCUIT = {"pressure", "flow"}
+"""Dimensions of which every hydraulic circuit has its own value."""
 
 
 @dataclass(frozen=True)
@@ -60,12 +62,14 @@ def match_one(wanted: Wanted, claim: Claim) -> Match | None:
     label, head = set(tokens(claim.words)), set(tokens(claim.head))
     context = {t for c in statement.context for t in tokens(c)}
     section = set(tokens(statement.section))
-    supported = any(set(tokens(s)) <= section for s in wanted.sections if tokens(s)) if section else False
-    naming = {t for h in statement.column if not _names_configuration(h) for t in tokens(h)}
-    if _forbidden(wanted, claim, label | naming | context | (set() if supported else section)):
+    supported = _supports(wanted, section)
+    naming = [set(tokens(h)) for h in statement.column if not _names_configuration(h)]
+    above = [words for c in statement.context if not _supports(wanted, words := set(tokens(c)))]
+    if _forbidden(wanted, claim, [label, *naming, *above, set() if supported else section]):
         return None
-    if any(has_cjk(p) for p in phrases(wanted)) and (cjk := _cjk_match(wanted, claim)) is not None:
-        return cjk
+    circuits = label.union(*naming) | context | section
+    if wanted.dimension in _BY_CIRCUIT and (circuits & CIRCUITS) - _all_words(wanted):
+        return None
     everything = label | head | context | section
     explained: set[str] = set()
     from_head: set[str] = set()
@@ -98,6 +102,10 @@ def match_one(wanted: Wanted, claim: Claim) -> Match | None:
     return Match(
         wanted, claim, max(score, 0.0), best, tuple(sorted(rest)), lost, bool(explained & label), bool(from_head)
     )
+
+
+def _all_words(wanted: Wanted) -> frozenset[str]:
+    return frozenset(t for p in phrases(wanted) for t in tokens(p))
 
 
 @functools.lru_cache(maxsize=1024)
@@ -135,37 +143,22 @@ def _names_configuration(head: str) -> bool:
     return any(q.printed is not None for r in read(head) for q in r.numbers)
 
 
-def _forbidden(wanted: Wanted, claim: Claim, words: set[str]) -> bool:
+def _supports(wanted: Wanted, heading: set[str]) -> bool:
+    """Whether a heading is one under which makers print the value."""
+    return any(set(tokens(s)) <= heading for s in wanted.sections if tokens(s)) if heading else False
+
+
+def _forbidden(wanted: Wanted, claim: Claim, texts: Sequence[set[str]]) -> bool:
+    """Whether the label, a head or a heading says a forbidden phrase; its words must stand in one of them."""
     heads = (h for h in claim.statement.column if not _names_configuration(h))
     text = " ".join([claim.words, *heads]).casefold()
     for phrase in wanted.forbidden:
         parts = set(tokens(phrase))
-        if has_cjk(phrase):
-            if squeezed(phrase) in squeezed(text + claim.statement.section):
-                return True
-        elif (parts and parts <= words) or (not parts and phrase.casefold() in text):
+        if has_cjk(phrase) and squeezed(phrase) in squeezed(text + claim.statement.section):
+            return True
+        if (parts and any(parts <= words for words in texts)) or (not parts and phrase.casefold() in text):
             return True
     return False
-
-
-def _cjk_match(wanted: Wanted, claim: Claim) -> Match | None:
-    """Scripts without spaces: a phrase that the label contains, or the label and its sub-heading together."""
-    label = squeezed(claim.words)
-    whole = squeezed("".join([*claim.statement.context, claim.words]))
-    best: tuple[float, str] | None = None
-    for phrase in phrases(wanted):
-        if not has_cjk(phrase):
-            continue
-        bare = squeezed(phrase)
-        if bare in label:
-            score = len(bare) / len(label)
-        elif label and bare in whole:
-            score = 0.95 * len(bare) / len(whole)
-        else:
-            continue
-        if best is None or score > best[0]:
-            best = (score, phrase)
-    return Match(wanted, claim, *best) if best else None
 
 
 def weakly(wanted: Wanted, claim: Claim) -> Match | None:
@@ -179,7 +172,7 @@ def weakly(wanted: Wanted, claim: Claim) -> Match | None:
     shared = max((len(own & words) / len(own) for own in named if own), default=0.0)
     if claim.quantity.dimension != wanted.dimension or shared < 0.5 or not (label & asked):
         return None
-    if _forbidden(wanted, claim, words) or words & REVERSING or _contradicts(words, asked - words):
+    if _forbidden(wanted, claim, [words]) or words & REVERSING or _contradicts(words, asked - words):
         return None
     rest = tuple(sorted(t for t in label - asked - NEUTRAL if not _is_number(t)))
     return Match(wanted, claim, 0.5 * shared, "", rest, 1.0 - 0.5 * shared)

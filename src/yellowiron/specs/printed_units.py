@@ -93,8 +93,10 @@ def _units() -> tuple[tuple[PrintedUnit, str], ...]:
 
 @functools.cache
 def unit_pattern() -> str:
-    """A regular expression for any unit's spelling, not followed by a letter (a digit may be glued to it)."""
+    """A regular expression for any unit's spelling, not followed by a letter. A digit may be glued to it; then it is no
+    exponent: "1.007 m39.6 in" is metres and inches."""
     spellings = [s for _, pattern in _units() for s in _alternatives(pattern)]
+    spellings = [re.sub(r"\(\?:([23])\|", r"(?:\1(?![.,]?\\d)|", s) for s in spellings]
     return "(?:" + "|".join(sorted(spellings, key=len, reverse=True)) + r")(?![A-Za-zµ])(?! ?[CF]\b)"
 
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from yellowiron.specs.cells import ValueCell, add_continuation, cells_of, continues, heads_over, statement_of
 from yellowiron.specs.lines import Block, Line, bands
 from yellowiron.specs.numbers import read
+from yellowiron.specs.sentences import paragraphs_of, read_paragraph
 from yellowiron.specs.statement import (
     EXAMPLE,
     Piece,
@@ -20,6 +21,7 @@ from yellowiron.specs.statement import (
     words_beside_numbers,
 )
 from yellowiron.specs.strokes import Box
+from yellowiron.specs.vocabulary import has_cjk
 from yellowiron.specs.words import Page
 
 _LONGEST_LABEL = 12
@@ -87,9 +89,16 @@ def read_block(page: Page, block: Block, first_row: int, section: str = "") -> t
     state = _State(section=section)
     found: list[Statement] = []
     size = _body_size(block)
-    for index, row in enumerate(bands(block.lines, page.rules, _bars_of(page, block), block.x0, block.x1)):
+    paragraphs = paragraphs_of(block.lines)
+    running = {id(line) for paragraph in paragraphs for line in paragraph}
+    rows = [line for line in block.lines if id(line) not in running]
+    for index, row in enumerate(bands(rows, page.rules, _bars_of(page, block), block.x0, block.x1)):
         for line in _split_if_separate(row):
             _read_row(page, block, line, state, size, first_row + len(found) + index, found)
+    for paragraph in paragraphs:
+        above = [h for h in state.headings if h.bottom <= paragraph[0].top + 2]
+        heading = above[-1].text if above else section
+        found.extend(read_paragraph(page.number, paragraph, first_row + len(found) + len(block.lines), heading))
     return found, state.headings
 
 
@@ -267,6 +276,9 @@ def _read_values(page: Page, row: Sequence[Line], state: _State, number: int, fo
     if not cells:
         return
     pending, state.pending = state.pending, []
+    if pending and cells[0].label and _broken(pending[-1], cells[0].label[0]):
+        cells = [replace(c, label=[pending[-1], *c.label]) if c.label is cells[0].label else c for c in cells]
+        pending = pending[:-1]
     has_label = any(c.label for c in cells)
     if not has_label and not pending and found and continues(found, cells):
         add_continuation(found, cells)
@@ -293,6 +305,11 @@ def _read_values(page: Page, row: Sequence[Line], state: _State, number: int, fo
         state.pending = pending
         if not pending and not state.heads:
             state.orphans = list(range(len(found) - len(cells), len(found)))
+
+
+def _broken(above: Piece, label: Piece) -> bool:
+    """Whether a label of a script without spaces is broken over two lines, perhaps within a word."""
+    return _stacked(above, label) and abs(above.x0 - label.x0) < 1 and has_cjk(above.text)
 
 
 def _keep_sub_heading(cells: Sequence[ValueCell], pending: Sequence[Piece], state: _State) -> None:

@@ -97,6 +97,18 @@ class Statement:
     variant: tuple[str, ...] = ()
 
 
+def joined(texts: Iterable[str]) -> str:
+    """Texts one after the other: a space between them, but none between two of a script without spaces."""
+    result = ""
+    for text in texts:
+        glued = not result or not text or (_SPACELESS.match(result[-1]) and _SPACELESS.match(text[0]))
+        result += text if glued else f" {text}"
+    return result
+
+
+_SPACELESS = re.compile(r"[\u3000-\u30ff\u3400-\u9fff\uff00-\uff60]")
+
+
 def join_boxes(boxes: Iterable[Box]) -> Box:
     """The box around all."""
     every = list(boxes)
@@ -200,5 +212,7 @@ def split_inline(text: str) -> tuple[str, str]:
 
 def without_key(label: str) -> str:
     """A label without its drawing's letter key: "B Hinge pin height" → "Hinge pin height"."""
-    match = re.match(r"^\(?(?:[A-Z]{1,2}[′'\"]?|\d{1,2})[.):]*\s+(?=[A-ZÀ-Ý(][^\W\d_]+)(.+)$", label)
+    match = re.match(
+        r"^\(?(?:[A-Z]{1,2}[′'\"]?|\d{1,2})[.):]*\s+(?=[A-ZÀ-Ý(][^\W\d_]+|[\u3040-\u30ff\u3400-\u9fff])(.+)$", label
+    )
     return match.group(1) if match else label
