@@ -10,9 +10,9 @@ import numpy as np
 
 from yellowiron.kinematics import ClosedChain
 from yellowiron.model.geometry import Floats
-from yellowiron.model.mechanism import Mechanism
+from yellowiron.model.mechanism import Joint, Mechanism, chained
 from yellowiron.simulate.commands import motions
-from yellowiron.simulate.engine import GROUND_FRICTION, Engine, poses, tell
+from yellowiron.simulate.engine import GROUND_FRICTION, UPRIGHT, Engine, poses, tell
 from yellowiron.simulate.loads import GRAVITY, SPARE, paces
 
 if TYPE_CHECKING:
@@ -23,8 +23,6 @@ DISTANCE, SPIN, SWING = 2.0, math.radians(45.0), math.radians(90.0)
 SPIN_BAR, SWING_BAR = 0.1 * SPIN, math.radians(1.0)
 _RAMP = 1.0
 _REST = 1.0
-_UPRIGHT = 0.9
-"""Least vertical part of a unit axis about which a body slews."""
 
 
 def sides(found: Sequence[Wheel]) -> tuple[tuple[Wheel, ...], ...]:
@@ -34,6 +32,17 @@ def sides(found: Sequence[Wheel]) -> tuple[tuple[Wheel, ...], ...]:
     if len(each) != 2 or places[0] * places[1] >= 0.0:
         return ()
     return tuple(each) if places[0] > 0.0 else (each[1], each[0])
+
+
+def pitch_radius(mechanism: Mechanism, sprocket: Joint) -> float | None:
+    """Radius on which the pins of a ring of track shoes run around a sprocket's axis; None where there is no ring on
+    its side."""
+    loose = chained(mechanism)
+    anchor, axis = np.asarray(sprocket.anchor), np.asarray(sprocket.axis)
+    pins = np.array([j.anchor for j in mechanism.joints if j.body1 in loose and j.anchor[1] * anchor[1] > 0.0])
+    if not len(pins):
+        return None
+    return float(np.linalg.norm(np.cross(pins - anchor, axis), axis=1).min())
 
 
 def top_speed(found: Sequence[Wheel], otherwise: float) -> float:
@@ -67,7 +76,7 @@ def swing(
     driving = {w.joint.name for w in found}
     for motion in motions(mechanism):
         joint = mechanism.joint(motion.joint)
-        if motion.position or motion.joint in driving or abs(joint.axis[2]) < _UPRIGHT:
+        if motion.position or motion.joint in driving or abs(joint.axis[2]) < UPRIGHT:
             continue
         limit = float(paces(chain, (motion,))[motion.joint].limits.min())
         body, left = [b.name for b in mechanism.bodies].index(joint.body1), math.copysign(1.0, joint.axis[2])

@@ -31,9 +31,9 @@ from yellowiron.simulate.engine import (
     standing_bodies,
     tell,
 )
-from yellowiron.simulate.held import held_machine
 from yellowiron.simulate.loads import paces
 from yellowiron.simulate.payload import with_payload
+from yellowiron.usd import read_machine
 
 DISTANCE = 5.0
 SPEED = 1.0
@@ -173,7 +173,8 @@ def wheels(mechanism: Mechanism) -> tuple[Wheel, ...]:
             axis = np.asarray(joint.axis, dtype=np.float64)
             offset = np.asarray(mechanism.body(joint.body1).hull) - np.asarray(joint.anchor)
             along = offset @ axis
-            radius = float(np.linalg.norm(offset - np.outer(along, axis), axis=1).max())
+            reach = float(np.linalg.norm(offset - np.outer(along, axis), axis=1).max())
+            radius = crawling.pitch_radius(mechanism, joint) or reach
             half, center = 0.5 * float(np.ptp(along)), 0.5 * (float(along.min()) + float(along.max()))
             middle = np.asarray(joint.anchor) + center * axis
             found.append(Wheel(joint, number[joint.body1], middle, axis, radius, half, entry.sign, actuator.name))
@@ -194,7 +195,7 @@ def drive(usd_path: str | Path, *, engine: str, payload_kg: float = 0.0, dt: flo
     Raises `YellowironError` for an unknown engine, one that is not installed, and a machine without driven wheels.
     """
     entry = find_engine(engine)
-    read = held_machine(usd_path, "floating")
+    read = read_machine(usd_path)
     mechanism = with_payload(read, payload_kg)
     heavier = tuple(b for b, old in zip(mechanism.bodies, read.bodies, strict=True) if b is not old)
     trip = _Trip(engine, Path(usd_path), mechanism, heavier, entry.timestep if dt is None else dt)

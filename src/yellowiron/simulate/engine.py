@@ -15,10 +15,12 @@ import numpy as np
 
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.geometry import Floats
-from yellowiron.model.mechanism import Body, Joint, Mechanism
+from yellowiron.model.mechanism import Body, Joint, Mechanism, chained, rolling
 
 TOUCHING = 0.02
 """Metres: a body that comes this near to the ground as drawn stands on it."""
+UPRIGHT = 0.9
+"""Least vertical part of a unit axis about which a body slews."""
 
 GROUND_FRICTION = 0.7
 """Of ground and blocks."""
@@ -79,8 +81,13 @@ class Setup:
 
 
 def standing_bodies(mechanism: Mechanism) -> tuple[str, ...]:
-    """The bodies whose lowest point is on the ground (z = 0) in the drawn pose: wheels, tracks, feet."""
-    return tuple(b.name for b in mechanism.bodies if len(b.hull) and float(np.asarray(b.hull)[:, 2].min()) < TOUCHING)
+    """The bodies whose lowest point is on the ground (z = 0) in the drawn pose: wheels, tracks, feet. Of a machine that
+    lies in rings of track shoes every shoe, and the wheels that they run on."""
+    down = {b.name for b in mechanism.bodies if len(b.hull) and float(np.asarray(b.hull)[:, 2].min()) < TOUCHING}
+    if mechanism.floating:
+        slewing = {j.body1 for j in mechanism.joints if abs(j.axis[2]) > UPRIGHT}
+        down |= chained(mechanism) | (rolling(mechanism) - slewing)
+    return tuple(b.name for b in mechanism.bodies if b.name in down)
 
 
 class Readings(NamedTuple):

@@ -9,6 +9,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import mujoco
 import newton
 import newton_usd_schemas  # noqa: F401  registers its schemas before a stage opens
 import numpy as np
@@ -19,25 +20,43 @@ from pxr import Usd
 from yellowiron import guard
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.geometry import Floats
+from yellowiron.model.mechanism import chained
 from yellowiron.simulate.coordinates import Coordinates, rotation_matrices
 from yellowiron.simulate.engine import Readings, Setup
 from yellowiron.simulate.world import World, compose
+from yellowiron.usd.stage import Types, apply_schemas, over, set_attribute
 
 _FIELD = "NewtonSDFCollisionAPI"
 
 
 def load(setup: Setup) -> NewtonEngine:
-    """The machine in Newton. `YellowironError` where Newton takes it, but not all of it."""
+    """The machine in Newton. `YellowironError` where Newton takes it, but not all of it.
+
+    Its solver wants every body in an articulation: rings of track shoes become articulations of their own here. In the
+    file they are none, since PhysX tears such rings apart within a step.
+    """
     for joint in setup.mechanism.joints:
         if joint.type == "distance":
             raise YellowironError(
                 "Newton's solver has no distance joints", where=joint.name, hint="Use mujoco or physx for this machine."
             )
-    return NewtonEngine(compose(setup), setup)
+    world = compose(setup)
+    loose = chained(setup.mechanism)
+    for joint in setup.mechanism.joints:
+        if joint.body0 in loose and not joint.cut:
+            spec = over(world.layer, world.joints[joint.name])
+            set_attribute(spec, "physics:excludeFromArticulation", Types.Bool, False, uniform=True)
+    for head in setup.mechanism.floating:
+        apply_schemas(over(world.layer, world.bodies[head]), "PhysicsArticulationRootAPI")
+    return NewtonEngine(world, setup)
 
 
 class NewtonEngine:
-    """An `Engine`. Newton's state is single precision; MuJoCo steps in double."""
+    """An `Engine`. MuJoCo steps in double precision, Newton's state is single.
+
+    Poses are read from MuJoCo: Newton's, carried from joint to joint in single precision, are 5 µm off at the end of an
+    excavator's arm, and a linkage shows that ten times larger.
+    """
 
     def __init__(self, world: World, setup: Setup) -> None:
         warp.config.quiet = True
@@ -54,7 +73,8 @@ class NewtonEngine:
             self._control: Any = self._model.control()
             newton.eval_fk(self._model, self._model.joint_q, self._model.joint_qd, self._states[0])
         self._numbers = {b.name: _index(found["path_body_map"], world.bodies[b.name]) for b in setup.mechanism.bodies}
-        self._bodies = np.array(list(self._numbers.values()))
+        places = self._solver.mjc_body_to_newton.numpy()[0].tolist()
+        self._bodies = np.array([places.index(number) for number in self._numbers.values()])
         self._centers = self._model.body_com.numpy().astype(np.float64)
         self._pushed: set[int] = set()
         starts = {"position": self._model.joint_q_start.numpy(), "velocity": self._model.joint_qd_start.numpy()}
@@ -69,6 +89,7 @@ class NewtonEngine:
         }
         self._measured = Coordinates(setup.mechanism, setup.measured)
         self._rows = [state.body_q.numpy() for state in self._states]  # views: the CPU's arrays are numpy's
+        mujoco.mj_kinematics(self._solver.mj_model, self._solver.mj_data)
 
     @property
     def version(self) -> str:
@@ -99,6 +120,7 @@ class NewtonEngine:
         """See `Engine`."""
         before, after = self._states
         self._solver.step(before, after, self._control, None, self._timestep)
+        mujoco.mj_kinematics(self._solver.mj_model, self._solver.mj_data)
         for number in self._pushed:
             before.body_f.numpy()[number] = 0.0
         self._pushed.clear()
@@ -108,12 +130,13 @@ class NewtonEngine:
 
     def state(self) -> Any:
         """See `Engine`."""
-        return self._rows[0].copy()
+        data = self._solver.mj_data
+        return np.concatenate([data.xpos, data.xquat], axis=1)
 
     def read(self, states: Sequence[Any]) -> Readings:
         """See `Engine`."""
-        rows = np.concatenate(states).reshape(len(states), -1, 7)[:, self._bodies].astype(np.float64)
-        rotations, origins = rotation_matrices(rows[..., 3:]), rows[..., :3]
+        rows = np.concatenate(states).reshape(len(states), -1, 7)[:, self._bodies]
+        rotations, origins = rotation_matrices(np.roll(rows[..., 3:], -1, axis=-1)), rows[..., :3]
         return Readings(self._measured.read(rotations, origins), rotations, origins)
 
     def velocities(self) -> Floats:

@@ -26,6 +26,7 @@ from ovphysx.types import GlobalConfigKey, LogLevel, ObjectScope, SimObjectType,
 from yellowiron import guard
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.geometry import Floats
+from yellowiron.model.mechanism import chained
 from yellowiron.simulate.coordinates import Coordinates, rotation_matrices
 from yellowiron.simulate.engine import Readings, Setup
 from yellowiron.simulate.world import World, compose, save
@@ -66,6 +67,8 @@ class PhysxEngine:
             self._stage = _attach(self._physx, world, setup)
             self._physx.warmup()
             self._links = self._bind(TensorType.ARTICULATION_LINK_POSE)
+            free = [world.bodies[name] for name in sorted(chained(setup.mechanism))]
+            self._free = self._bind(TensorType.RIGID_BODY_POSE, free) if free else None
             self._rows = self._find_rows()
             self._targets = {kind: self._read(self._bind(tensor)) for kind, tensor in _TARGETS.items()}
             self._draw()
@@ -121,7 +124,8 @@ class PhysxEngine:
 
     def state(self) -> Any:
         """See `Engine`."""
-        return self._read(self._links)[1][0]
+        links = self._read(self._links)[1][0]
+        return links if self._free is None else np.concatenate([links, self._read(self._free)[1]])
 
     def read(self, states: Sequence[Any]) -> Readings:
         """See `Engine`."""
@@ -147,11 +151,12 @@ class PhysxEngine:
             self._stage.destroy()
         self._physx = self._stage = None
 
-    def _bind(self, tensor: TensorType) -> Any:
-        """All values of a kind in the articulation, in SI and radians: one row, a column a link or joint."""
+    def _bind(self, tensor: TensorType, paths: Sequence[str] = ()) -> Any:
+        """All values of a kind in the articulation, in SI and radians: one row, a column a link or joint. Of bodies
+        that are in none, by their paths, a row each."""
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # they are deprecated, and Warp was built for GPUs too
-            binding = self._physx.create_tensor_binding(prim_paths=[self._root], tensor_type=tensor)
+            binding = self._physx.create_tensor_binding(prim_paths=list(paths) or [self._root], tensor_type=tensor)
         self._bindings.append(binding)
         return binding
 
@@ -167,10 +172,18 @@ class PhysxEngine:
         self._bind(TensorType.ARTICULATION_ROOT_POSE).write(pose)
         for binding in map(self._bind, _DRAWN):
             binding.write(np.zeros(binding.shape, dtype=np.float32))
+        if self._free is None:
+            return
+        by_row = {int(row): body for row, body in zip(self._rows, self._mechanism.bodies, strict=True)}
+        drawn = [[*by_row[self._links.shape[1] + k].origin, 0.0, 0.0, 0.0, 1.0] for k in range(self._free.shape[0])]
+        self._free.write(np.array(drawn, dtype=np.float32))
+        speeds = self._bind(TensorType.RIGID_BODY_VELOCITY, self._free.prim_paths)
+        speeds.write(np.zeros(speeds.shape, dtype=np.float32))
 
     def _find_rows(self) -> Any:
-        """Row of every body of the mechanism among PhysX's links."""
-        rows = {name: row for row, name in enumerate(self._links.body_names)}
+        """Row of every body of the mechanism among PhysX's links, and after them the bodies that are none."""
+        paths = [] if self._free is None else self._free.prim_paths
+        rows = {name: row for row, name in enumerate([*self._links.body_names, *map(_prim_name, paths)])}
         for body in self._mechanism.bodies:
             if _prim_name(self._paths_of[body.name]) not in rows:
                 raise YellowironError(

@@ -21,7 +21,7 @@ from yellowiron.simulate.loads import GRAVITY
 from yellowiron.usd.drives import INSTANCES, to_usd_unit, write_drive
 from yellowiron.usd.metadata import KEY
 from yellowiron.usd.physics import write_mass
-from yellowiron.usd.physx import LOOPS_LAST, loops_last
+from yellowiron.usd.physx import ITERATIONS, LOOPS_LAST, iterations, loops_last
 from yellowiron.usd.plan import COLLIDERS
 from yellowiron.usd.read import find_machine, open_stage
 from yellowiron.usd.stage import (
@@ -70,9 +70,11 @@ def compose(setup: Setup) -> World:
     bodies = {name: path for (kind, name), path in names.items() if kind == "body"}
     joints = {name: path for (kind, name), path in names.items() if kind == "joint"}
     # What the mechanism leaves out of the file (rings of track shoes) is not simulated.
+    left_out = False
     for found, kept in ((joints, setup.mechanism.joints), (bodies, setup.mechanism.bodies)):
         for name in sorted(set(found) - {each.name for each in kept}):
             over(layer, found.pop(name)).SetInfo("active", False)
+            left_out = True
     for body in setup.heavier:
         write_mass(over(layer, bodies[body.name]), body)
     for joint in setup.driven:
@@ -83,6 +85,8 @@ def compose(setup: Setup) -> World:
             over(layer, f"{path}/{COLLIDERS}").SetInfo("active", False)
     rooted = (p for p in composed.Traverse() if p.HasAPI(UsdPhysics.ArticulationRootAPI))
     root = next((str(prim.GetPath()) for prim in rooted), MACHINE)
+    if left_out:
+        set_attribute(over(layer, root), ITERATIONS, Types.Int, iterations(setup.mechanism))
     return World(layer, bodies, joints, root)
 
 
