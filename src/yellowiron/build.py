@@ -105,6 +105,7 @@ def build(
             specifications = specs.merge(read, specs.parse_settings(values, template))
 
         with clock.stage("align", "Finding the part that plays each role"):
+            assembly = align.to_scale(assembly, template, specifications)
             earlier = Path(alignment_file or out / "alignment.json")
             edits = align.read_alignment(earlier, assembly, template) if alignment_file or earlier.exists() else None
             alignment = align.align(

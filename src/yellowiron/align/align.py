@@ -24,6 +24,7 @@ import numpy as np
 from yellowiron.align.clusters import Structure
 from yellowiron.align.doubts import doubts
 from yellowiron.align.frame import MachineFrame, machine_frame
+from yellowiron.align.hydraulics import Ram
 from yellowiron.align.islands import islands
 from yellowiron.align.report import reported
 from yellowiron.align.search import Search, is_whole, rivals_of
@@ -113,7 +114,7 @@ def align(
         frame or MachineFrame(np.eye(4)),
         documents=documents,
         apart=apart,
-        axes=_axes(structure, solution),
+        axes=_axes(structure, solution, seen.rams),
         remarks=[
             *sheet_findings(structure, seen.rams, resolved, specifications, solution),
             *doubts(
@@ -131,9 +132,14 @@ def align(
     )
 
 
-def _axes(structure: Structure, solution: Solution) -> dict[str, tuple[Vector, Vector]]:
-    """Joint → its axis, for the joints that no pin is drawn for and that no wheel turns on."""
+def _axes(structure: Structure, solution: Solution, rams: tuple[Ram, ...]) -> dict[str, tuple[Vector, Vector]]:
+    """Joint → its axis, for the joints that no pin is drawn for and that no wheel turns on, and for the slides whose
+    rod is not drawn in its barrel."""
     found = {}
+    for joint, number in sorted(solution.slide_of.items()):
+        ram = rams[structure.slides[number][2]]
+        if ram.apart:
+            found[joint] = (_vector(ram.origin), _vector(ram.direction))
     for joint, number in sorted(solution.hinge_of.items()):
         hinge = structure.hinges[number]
         if not hinge.pins and not any(structure.clusters[c].kind == "wheel" for c in (hinge.a, hinge.b)):

@@ -321,11 +321,13 @@ class Spreader:
         """What floats goes with what is nearest, and with its assembly; what is far from everything is left out."""
         grown = bool(self.places)
         while grown:
-            placed = sorted(self.places)
+            known = len(self.places)
+            # Hoses run anywhere: what floats beside one need not be of the same body.
+            placed = sorted(set(self.places) - self.structure.slight) or sorted(self.places)
             self.apart = {}
             for group in self._groups():
                 self._float(group, placed)
-            grown = bool(self.apart) and len(self.places) > len(placed)
+            grown = bool(self.apart) and len(self.places) > known
 
     def _float(self, group: list[int], placed: list[int]) -> None:
         low = np.array([self.solids[j].low for j in placed])
