@@ -15,21 +15,24 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from yellowiron.align.chains import Edge, components, freedoms
+from yellowiron.align.chains import Edge, bridges, components, freedoms
 from yellowiron.align.clusters import LONG, Structure, hangs, structure_of
 from yellowiron.align.islands import islands
 from yellowiron.align.seen import CONTACT, Seen, see
 from yellowiron.align.solids import solids_of
-from yellowiron.align.tell import across, surface, told
-from yellowiron.align.tracks import tracks_of
+from yellowiron.align.tell import UPRIGHT, across, surface, told
+from yellowiron.align.tracks import Track, tracks_of
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import AlignmentError
 from yellowiron.model.found import FoundMachine
+from yellowiron.model.geometry import Floats
 from yellowiron.model.template import JointTemplate, Role, Template
 
 MOST_WHEELS = 24
 NOTHING = 1000
 """The rank of a reading without a single joint."""
+HALF = 0.05
+"""A slewing bearing has at least this share of the machine's surface on either side."""
 STURDY = 0.5
 """A pivot is at least this share of the machine's usual pin radius: thinner ones are of doors and levers."""
 
@@ -41,13 +44,15 @@ class _Reading:
     structure: Structure
     bodies: tuple[int, ...]
     edges: tuple[Edge, ...]
+    slewing: int
 
     @property
-    def rank(self) -> tuple[int, int, int]:
-        """Smaller is better: freedoms that nothing drives and pieces that nothing joins, doubled slides, bodies."""
+    def rank(self) -> tuple[int, int, int, int]:
+        """Smaller is better: freedoms that nothing drives and pieces that nothing joins; doubled slides; slewing
+        bearings, of which more are better; bodies."""
         wrong, doubled = freedoms(self.edges)
         pieces = len(components(self.edges))
-        return (wrong + pieces - 1 if pieces else NOTHING), doubled, len(self.bodies)
+        return (wrong + pieces - 1 if pieces else NOTHING), doubled, -self.slewing, len(self.bodies)
 
 
 def discover(assembly: Assembly) -> FoundMachine:
@@ -71,7 +76,7 @@ def discover(assembly: Assembly) -> FoundMachine:
     best: tuple[Seen, _Reading] | None = None
     for contact in CONTACT:
         seen = _looked(machine, contact)
-        for reading in _readings(seen):
+        for reading in _readings(seen, _upright(seen, tracks)):
             if best is None or reading.rank < best[1].rank:
                 best = (seen, reading)
         if best is not None and best[1].rank[0] == 0:
@@ -123,7 +128,7 @@ def _rolling(seen: Seen) -> bool:
     return max(depth, height) > -radius
 
 
-def _readings(seen: Seen) -> Iterator[_Reading]:
+def _readings(seen: Seen, up: Floats | None) -> Iterator[_Reading]:
     read = functools.cache(functools.partial(structure_of, leaves=True))
     known = set()
     for careful in (True, False):
@@ -132,10 +137,10 @@ def _readings(seen: Seen) -> Iterator[_Reading]:
                 structure = read(evidence, weak=weak, careful=careful)
                 if (key := (structure.clusters, structure.hinges, structure.slides)) not in known:
                     known.add(key)
-                    yield _reading(seen, structure)
+                    yield _reading(seen, structure, up)
 
 
-def _reading(seen: Seen, structure: Structure) -> _Reading:
+def _reading(seen: Seen, structure: Structure, up: Floats | None) -> _Reading:
     """The joints of a structure: hinges of bodies, and slides."""
     slides = [Edge(a, b, -1, ram, True) for a, b, ram in structure.slides if a != b]
     pivots = _pivots(seen, structure)
@@ -144,7 +149,31 @@ def _reading(seen: Seen, structure: Structure) -> _Reading:
     sliding = {frozenset((e.a, e.b)) for e in slides}
     hinges = [e for e in hinges if frozenset((e.a, e.b)) not in sliding]
     edges = (*slides, *_independent(seen, structure, hinges))
-    return _Reading(structure, tuple(sorted(bodies)), edges)
+    return _Reading(structure, tuple(sorted(bodies)), edges, _slewing(seen, structure, edges, up))
+
+
+def _slewing(seen: Seen, structure: Structure, edges: tuple[Edge, ...], up: Floats | None) -> int:
+    """How many slewing bearings there are: upright races, in no chain, between two large halves of the machine."""
+    total = sum(surface(seen, structure, c) for c in range(len(structure.clusters)))
+    found = 0
+    for edge in bridges(edges):
+        if edge.slide or edge.line not in structure.races:
+            continue
+        turning = up is None or abs(float(structure.lines[edge.line].direction @ up)) > UPRIGHT
+        rest = components([e for e in edges if e is not edge]) if turning else []
+        halves = [{c for piece in rest if end in piece for c in piece} | {end} for end in (edge.a, edge.b)]
+        found += turning and min(sum(surface(seen, structure, c) for c in half) for half in halves) > HALF * total
+    return found
+
+
+def _upright(seen: Seen, tracks: list[Track]) -> Floats | None:
+    """The direction across the tracks, or the plane of three wheels or more; None where there are none."""
+    if tracks:
+        return np.asarray(np.cross(tracks[0].axis, tracks[0].along), dtype=np.float64)
+    if len(seen.wheels) < 3:
+        return None
+    centers = np.array([w.center for w in seen.wheels])
+    return np.asarray(np.linalg.svd(centers - centers.mean(axis=0))[2][2], dtype=np.float64)
 
 
 def _pivots(seen: Seen, structure: Structure) -> list[Edge]:

@@ -77,10 +77,11 @@ class Likeness:
         """Its actuator with exactly these slides: (name, entry)."""
         for name, entry in self.actuators.items():
             cylinders = [
-                {k: v for k, v in c.items() if k != "when"} for c in entry.get("cylinders", ()) if c["slide"] in slides
+                {k: v for k, v in c.items() if k != "when"}
+                for c in entry.get("cylinders", ())
+                if c["slide"] in slides and {c["barrel_joint"], c["rod_joint"]} <= self.ends.keys()
             ]
-            known = all(c[end] in self.ends for c in cylinders for end in ("barrel_joint", "rod_joint"))
-            if known and len(cylinders) == len(slides):
+            if cylinders and sorted(c["slide"] for c in cylinders) == sorted(slides):
                 return name, {**entry, "cylinders": cylinders}
         return None
 

@@ -13,7 +13,7 @@ _ENDING = re.compile(
 )
 _NOISE_WORDS = """object obj part mesh solid body component comp shape node group grp item default import imported step
 stl product unnamed untitled instance geometry geom assy assembly asm ga weldment copy of the and with new model root
-link no name none null id nauo open cascade translator unknown compound shell surface face polygon primitive"""
+no name none null id nauo open cascade translator unknown compound shell surface face polygon primitive"""
 _NOISE = frozenset(_NOISE_WORDS.split())
 _LEAST = 3
 """A Latin word of fewer letters means nothing by itself."""
@@ -47,10 +47,10 @@ def _own(name: str, place: int, k: int, machine: FoundMachine, words: Sequence[S
     """Whether a name tells a body from those of other kinds: it is the first of its labels and of none of theirs, or
     they have it nowhere."""
     kind = machine.bodies[k].kind
-    others = [w for j, w in enumerate(words) if j != k and machine.bodies[j].kind != kind]
+    others = [(machine.bodies[j].kind, w) for j, w in enumerate(words) if j != k]
     if place == 0:
-        return all(not w or w[0] != name for w in others)
-    return all(name not in w for w in others)
+        return all(other == kind or not w or w[0] != name for other, w in others)
+    return all((other == kind and kind in ("barrel", "rod", "wheel")) or name not in w for other, w in others)
 
 
 def _words(label: str) -> list[str]:
@@ -68,7 +68,7 @@ def _name(label: str, common: frozenset[str]) -> str:
     for word in _words(label):
         letters = re.sub(r"\d", "", word)
         short = letters.isascii() and len(letters) < (_LEAST if not kept else 2)
-        if letters in _NOISE or word in common or short or word in kept:
+        if letters in _NOISE or re.fullmatch(r"link\d+", word) or word in common or short or word in kept:
             continue
         kept.append(word)
     while kept and len("_".join(kept)) > _MOST:

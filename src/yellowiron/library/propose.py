@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from yellowiron.library.details import matches
 from yellowiron.library.likeness import Likeness
 from yellowiron.library.naming import proposed_names, title
 from yellowiron.model.found import FoundJoint, FoundMachine
@@ -93,11 +94,16 @@ def propose(machine: FoundMachine, *, name: str, like: Likeness | None = None) -
     for k, joint in enumerate(machine.joints):
         draft.joints[draft.joint_names[k]] = _entry(draft, k, joint)
     _motors(draft)
+    roles = [*draft.names, *draft.pins]
+
+    def of_roles(entries: Json) -> Json:
+        return {key: entry for key, entry in entries.items() if any(matches(role, key) for role in roles)}
+
     documents: dict[str, Json] = {
         "hierarchy": {name: {"rigid body": "N", "kind": "group", "child": _hierarchy(draft, machine.root)}},
         "joints": draft.joints,
-        "materials": like.materials or {"*": STEEL},
-        "collision": like.collision or _collision(draft),
+        "materials": of_roles(like.materials) or {"*": STEEL},
+        "collision": of_roles(like.collision) or _collision(draft),
     }
     documents |= {"wanted": draft.wanted} if draft.wanted else {}
     documents |= {"actuators": draft.actuators} if draft.actuators else {}
@@ -147,6 +153,10 @@ def _hierarchy(draft: _Draft, root: int) -> Json:
     return {draft.names[root]: entry(root)}
 
 
+_HALVES = frozenset(
+    ("cyl", "cylinder", "ram", "jack", "zylinder", "zyl", "barrel", "tube", "rod", "piston", "hydraulic")
+)
+"""Words of a hydraulic cylinder's parts that do not say which cylinder."""
 _ROWS = (
     ("sprocket", "sprocket", ""), ("idler", "idler", ""), ("track_roller", "roller", "[*]"),
     ("carrier_roller", "carrier", "[*]"), ("track_shoe", "shoe", "[*]"),
@@ -260,7 +270,7 @@ def _cylinders(draft: _Draft) -> None:
             for wanted in known[1].get("specifications", {}).values():
                 draft.want(wanted, "", "") if wanted in draft.like.wanted else None
             continue
-        name = draft.names[max(host, moved)]
+        name = _said(draft, [k for k, _, _ in members]) or draft.names[max(host, moved)]
         name = name if name not in draft.actuators else f"{name}_{len(draft.actuators)}"
         signs = _signs(draft.machine, host, moved, [k for k, _, _ in members])
         cylinders = []
@@ -273,6 +283,13 @@ def _cylinders(draft: _Draft) -> None:
         said = {q: draft.want(f"{title(name)} Cylinder {w}", d, use) for q, (w, d, use) in QUANTITIES.items()}
         said |= {q: draft.want(f"{w}", d, use) for q, (w, d, use) in OILS.items()}
         draft.actuators[name] = {"kind": "cylinder", "cylinders": cylinders, "specifications": said}
+
+
+def _said(draft: _Draft, slides: list[int]) -> str:
+    """What some cylinders are called by the names of all their halves: `bucket` of `bucket_cyl1` and `bucket_cyl2`."""
+    ends = [end for k in slides for end in (draft.machine.joints[k].a, draft.machine.joints[k].b)]
+    words = [[re.sub(r"\d", "", w) for w in draft.names[end].split("_")] for end in ends]
+    return "_".join(dict.fromkeys(w for w in words[0] if w and w not in _HALVES and all(w in o for o in words)))
 
 
 def _pivots(machine: FoundMachine, slide: int) -> tuple[int, int] | None:
