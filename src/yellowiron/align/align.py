@@ -72,9 +72,10 @@ def align(
     machine = replace(machine, parts=tuple(p for p in machine.parts if p.id not in of_tracks))
     plain = without_tracks(template)
     up = _upright(tracks)
-    answer, seen, scores = Search(
+    search = Search(
         lambda contact: replace(see(machine, plain, contact), up=up), plain, specifications, choices or {}, edited
-    ).run()
+    )
+    answer, seen, scores = search.run()
     structure, resolved, solution = answer.structure, answer.template, answer.solution
     frame = machine_frame(seen.solids, structure, solution, seen.wheels, resolved, tracks) if seen.solids else None
     if frame is not None and solution.body_of:
@@ -116,6 +117,7 @@ def align(
         apart=apart,
         axes=_axes(structure, solution, seen.rams),
         remarks=[
+            *(edits.findings if edits is not None else ()),
             *sheet_findings(structure, seen.rams, resolved, specifications, solution),
             *doubts(
                 seen.solids,

@@ -18,7 +18,7 @@ from yellowiron.align.names import name_scores
 from yellowiron.align.seen import CONTACT, Seen, slewing_joints
 from yellowiron.align.sheet import sheet_weights
 from yellowiron.align.solve import MISSING_WEIGHT, Solution, solve
-from yellowiron.align.weights import Weights, name_weights, size_weights
+from yellowiron.align.weights import Weights, heed, name_weights, size_weights
 from yellowiron.model.errors import AlignmentError
 from yellowiron.model.geometry import Floats
 from yellowiron.model.specification import Specifications
@@ -32,6 +32,10 @@ SIDED_WEIGHT = 4 * MISSING_WEIGHT
 """What a variant loses for a cylinder that stands to one side where it should be in the middle."""
 HOPELESS = 200
 """A reading that cannot come nearer than this to the best one's score is not looked at any further."""
+
+
+BELIEVED = 0.6
+"""Names that agree less with the joints than this have no say in the search."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,7 +74,8 @@ def rivals_of(answer: Answer) -> dict[int, str | None]:
 
 @dataclass
 class Search:
-    """One search: `look` gives what geometry shows with a contact tolerance; the rest as for `align`."""
+    """One search: `look` gives what geometry shows with a contact tolerance; the rest as for `align`. `heed`: how far
+    the names agreed with what was found, 0 to 1."""
 
     look: Callable[[float], Seen]
     template: Template
@@ -78,10 +83,26 @@ class Search:
     choices: Mapping[str, str]
     edited: Mapping[str, str]
     best: Answer | None = None
+    heed: float = 1.0
+    _named: bool = True
     _looked: dict[float, tuple[Seen, list[dict[str, float]], list[Structure]]] = field(default_factory=dict)
 
     def run(self) -> tuple[Answer, Seen, list[dict[str, float]]]:
-        """The best answer, what was seen with its tolerance, and what the names say of each solid there."""
+        """The best answer, what was seen with its tolerance, and what the names say of each solid there, as far as
+        they are to be believed: where they contradict the joints, the search is made again without them."""
+        answer, seen, scores = self._run()
+        self.heed = heed(answer.structure, answer.solution, scores)
+        believed = [{body: self.heed * score for body, score in of.items()} for of in scores]
+        if self.heed < BELIEVED:
+            self.best = None
+            self._looked = {c: (s, [{} for _ in s.solids], known) for c, (s, _, known) in self._looked.items()}
+            self._named = False
+            answer, seen, _ = self._run()
+            if len(believed) != len(seen.solids):
+                believed = [{} for _ in seen.solids]
+        return answer, seen, believed
+
+    def _run(self) -> tuple[Answer, Seen, list[dict[str, float]]]:
         variants = _variants(self.template, self.choices)
         for others, careful in ((False, True), (False, False), (True, True)):
             # The other variants only under the tolerance that did best.
@@ -103,7 +124,9 @@ class Search:
         """The readings of the welds that were not looked at before (of the careful ones: all)."""
         if contact not in self._looked:
             seen = self.look(contact)
-            self._looked[contact] = (seen, name_scores(tuple(s.part for s in seen.solids), self.template), [])
+            parts = tuple(s.part for s in seen.solids)
+            scores = name_scores(parts, self.template) if self._named else [{} for _ in parts]
+            self._looked[contact] = (seen, scores, [])
         seen, _, known = self._looked[contact]
         if careful and known:
             yield from list(known)

@@ -311,7 +311,7 @@ class Spreader:
         roles = exact_roles(self.template)
         for group in self._groups():
             for i in group:
-                role = exact_role(self.solids[i].part, roles)
+                role = self._bears(i, roles)
                 body = self.template.body_of(role) if role is not None else None
                 if role is not None and body is not None and body not in self.cluster_of:
                     words = f"bears the name of the role {role}"
@@ -368,18 +368,26 @@ class Spreader:
         cluster = self.cluster_of.get(body)
         return cluster is not None and self.structure.clusters[cluster].kind != ""
 
+    def _bears(self, i: int, roles: Mapping[str, str]) -> str | None:
+        """The role whose very name a part bears, where the machine's names are to be believed."""
+        role = exact_role(self.solids[i].part, roles)
+        body = self.template.body_of(role) if role is not None else None
+        return role if body is not None and self.scores[i].get(body, 0.0) > 1.0 else None
+
     # ---- the most specific role ----
     def _specific(self, wheels: list[Wheel]) -> None:
         """Tyres, edges, and exact names of roles that move with the body found."""
         roles = exact_roles(self.template)
         for i, place in sorted(self.places.items()):
-            named = exact_role(self.solids[i].part, roles)
+            named = self._bears(i, roles)
             if place.role != place.body:
                 continue  # a pin, by the bores it runs through
             if named is not None and self.template.body_of(named) == place.body:
                 words = f"{place.reason}; bears the role's name"
-                sure = max(place.confidence, NAMED)
-                decided = place.confidence < NAMED
+                # A name settles between bodies, not whether the part is a pin besides.
+                torn = place.runner_up is not None and self.template.body_of(place.runner_up) == place.body
+                sure = place.confidence if torn else max(place.confidence, NAMED)
+                decided = place.confidence < sure
                 self.places[i] = replace(place, role=named, confidence=sure, reason=words, by_name=decided)
         for role in self.template.roles:
             body = self.template.body_of(role.name)

@@ -23,6 +23,10 @@ EXACT_WEIGHT = 70
 EDIT_WEIGHT = 250
 SIDE_WEIGHT = 80
 SIZE_WEIGHT = 12
+AS_GOOD = 0.1
+"""Bodies that a name speaks of this nearly as much as of the one it speaks of most are meant as well."""
+TRUSTING = 6
+"""So many parts must contradict their names as clearly as if so many more agreed: names are mostly right."""
 _SIDE = re.compile(r"(?<=_)([lr])(?=_|$)")
 
 
@@ -54,6 +58,24 @@ def name_weights(
             if body_said is not None:
                 unary[c, body_said] = unary.get((c, body_said), 0) + EDIT_WEIGHT
     return unary
+
+
+def heed(structure: Structure, solution: Solution, scores: list[dict[str, float]]) -> float:
+    """How far the names of a machine are to be believed, 0 to 1: Cohen's kappa of what the parts are called and what
+    the joints make of them, their agreement beyond that of names dealt out at random (Cohen 1960)."""
+    pairs: list[tuple[frozenset[str], str]] = []
+    for c, body in sorted(solution.body_of.items()):
+        for i in sorted(structure.clusters[c].members):
+            if scores[i]:
+                best = max(scores[i].values())
+                pairs.append((frozenset(b for b, s in scores[i].items() if s >= best - AS_GOOD), body))
+    if not pairs:
+        return 1.0
+    share = {body: 1 / len(pairs) * sum(1 for _, b in pairs if b == body) for _, body in pairs}
+    agreed = sum(body in said for said, body in pairs) / len(pairs)
+    chance = sum(share.get(b, 0.0) for said, _ in pairs for b in said) / len(pairs)
+    kappa = (agreed - chance) / (1 - chance) if chance < 1 else 1.0
+    return max(0.0, (len(pairs) * kappa + TRUSTING) / (len(pairs) + TRUSTING))
 
 
 def size_weights(solids: tuple[Solid, ...], structure: Structure, template: Template) -> Weights:
