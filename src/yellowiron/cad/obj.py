@@ -34,24 +34,36 @@ class _Group:
 def read_obj(path: str) -> Assembly:
     """The assembly in an OBJ file, in metres, its polygons cut into fans of triangles. `CadError` if a line is broken,
     if faces name points that are not there, or without a face."""
-    points, groups, libraries = _parsed(path)
     findings: list[Finding] = []
-    colors = _colors(libraries, path, findings)
-    unit, remarks = placed.guessed_unit([points], path)
+    groups = _groups(path, findings)
+    unit, remarks = placed.guessed_unit([mesh.points for _, mesh, _ in groups], path)
     findings += remarks
     occurrences = []
-    for group in groups:
-        triangles = np.array(group.triangles, dtype=np.int64)
-        used, triangles = np.unique(triangles, return_inverse=True)
-        paint = [colors.get(name) for name in group.materials]
-        several = len(set(paint)) > 1
-        painted = np.array([c or (0.5, 0.5, 0.5) for c in paint]) if several else None
-        mesh = Mesh(points[used] * unit, triangles.reshape(-1, 3).astype(np.int32), None, painted)
-        name = group.name if group.name and not is_generic(group.name) else "Part"
-        occurrences.append(Occurrence(name, (), mesh, np.eye(4), None if several else paint[0]))
+    for name, mesh, color in groups:
+        scaled = Mesh(mesh.points * unit, mesh.triangles, None, mesh.triangle_colors)
+        occurrences.append(Occurrence(name if name and not is_generic(name) else "Part", (), scaled, np.eye(4), color))
     return placed.assemble(
         occurrences, name=Path(path).stem, format="OBJ", unit=unit, path=path, findings=findings,
     )  # fmt: skip
+
+
+def meshes_of(file: Path) -> list[tuple[str, Mesh, Color | None]]:
+    """Name, triangles (in the file's unit) and colour of every object or group. `CadError` as for `read_obj`."""
+    return _groups(str(file), [])
+
+
+def _groups(path: str, findings: list[Finding]) -> list[tuple[str, Mesh, Color | None]]:
+    points, groups, libraries = _parsed(path)
+    colors = _colors(libraries, path, findings)
+    found = []
+    for group in groups:
+        used, triangles = np.unique(np.array(group.triangles, dtype=np.int64), return_inverse=True)
+        paint = [colors.get(name) for name in group.materials]
+        several = len(set(paint)) > 1
+        painted = np.array([c or (0.5, 0.5, 0.5) for c in paint]) if several else None
+        mesh = Mesh(points[used], triangles.reshape(-1, 3).astype(np.int32), None, painted)
+        found.append((group.name, mesh, None if several else paint[0]))
+    return found
 
 
 def _parsed(path: str) -> tuple[np.ndarray[tuple[int, int], np.dtype[np.float64]], list[_Group], list[str]]:

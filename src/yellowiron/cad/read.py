@@ -31,10 +31,23 @@ from yellowiron.model.errors import CadError
 
 _READERS = {
     "STEP": "yellowiron.cad.step:read_step",
+    "IGES": "yellowiron.cad.iges:read_iges",
+    "BREP": "yellowiron.cad.occt:read_brep",
+    "FreeCAD": "yellowiron.cad.occt:read_freecad",
     "GLB": "yellowiron.cad.gltf:read_gltf",
     "glTF": "yellowiron.cad.gltf:read_gltf",
     "STL": "yellowiron.cad.stl:read_stl",
     "OBJ": "yellowiron.cad.obj:read_obj",
+    "PLY": "yellowiron.cad.ply:read_ply",
+    "3MF": "yellowiron.cad.threemf:read_3mf",
+    "COLLADA": "yellowiron.cad.assimp:read_collada",
+    "FBX": "yellowiron.cad.assimp:read_fbx",
+    "USD": "yellowiron.cad.usd:read_usd",
+    "URDF": "yellowiron.cad.urdf:read_urdf",
+    "MJCF": "yellowiron.cad.mjcf:read_mjcf",
+    "IFC": "yellowiron.cad.ifc:read_ifc",
+    "DXF": "yellowiron.cad.dxf:read_dxf",
+    "Blender": "yellowiron.cad.blend:read_blend",
 }
 """Format → the function that reads it, in the child process."""
 
@@ -42,7 +55,7 @@ _READERS = {
 def read_cad(path: str | Path, *, timeout_s: float = 600.0, memory_mb: int = 8192) -> Assembly:
     """The assembly in a CAD file, in metres, in the file's own frame.
 
-    STEP (AP203, AP214, AP242), GLB, glTF, STL and OBJ are read; cylinders and planes of triangles are fitted to them.
+    Which formats are read is `sniff.READABLE`; cylinders and planes of triangles are fitted to them.
     The reader may take `timeout_s` seconds and `memory_mb` MB. `CadError` for a file that is missing, empty, damaged,
     of no or of an unreadable CAD format, or without a part in it.
     """

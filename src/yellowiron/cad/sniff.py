@@ -56,12 +56,22 @@ _OPEN = {
     ".usda": "USD",
     ".usdc": "USD",
     ".usdz": "USD",
+    ".urdf": "URDF",
+    ".mjcf": "MJCF",
     ".blend": "Blender",
     ".brep": "BREP",
+    ".brp": "BREP",
 }
-"""Open formats by extension, read here or by other versions."""
-READABLE = ("STEP", "GLB", "glTF", "STL", "OBJ")
+"""Open formats by extension."""
+READABLE = (
+    "STEP", "IGES", "BREP", "FreeCAD", "GLB", "glTF", "STL", "OBJ", "PLY", "3MF", "COLLADA", "FBX", "USD", "URDF",
+    "MJCF", "IFC", "DXF", "Blender",
+)  # fmt: skip
 """The formats that are read here, by the names that `format_of` gives."""
+_IFC = re.compile(rb"FILE_SCHEMA\s*\(\s*\(\s*'IFC")
+_ROOTS = {b"COLLADA": "COLLADA", b"robot": "URDF", b"mujoco": "MJCF"}
+"""XML documents by their root."""
+_ROOT = re.compile(rb"\A(?:\s|<\?.*?\?>|<!--.*?-->|<!DOCTYPE[^>]*>)*<(?:\w+:)?(\w+)", re.DOTALL)
 
 _OBJ_LINE = re.compile(rb"^[ \t]*(?:v|vn|vt|f|o|g|mtllib|usemtl)[ \t]", re.MULTILINE)
 _STEP_XML = re.compile(rb"urn:oid:1\.0\.10303|<\s*(?:\w+:)?Uos\b|iso_10303_28")
@@ -71,7 +81,7 @@ def format_of(path: Path) -> str:
     """Which of the `READABLE` formats a file has; for any other `CadError` says what it is and what to do."""
     head = _head(path)
     if _is_step(head):
-        return "STEP"
+        return "IFC" if _IFC.search(head) else "STEP"
     if head.startswith(_BOM) and _is_step(head.removeprefix(_BOM)):
         raise CadError(
             "The STEP file starts with a byte-order mark, which STEP does not have",
@@ -81,12 +91,6 @@ def format_of(path: Path) -> str:
     name, hint = recognise(head, path)
     if name in READABLE:
         return name
-    if name in _OPEN.values():
-        raise CadError(
-            f"This is a {name} file, and this version reads {', '.join(READABLE[:-1])} and {READABLE[-1]} only",
-            where=str(path),
-            hint="Export the model as STEP AP214 or AP242 from the program that made it.",
-        )
     if name:
         raise CadError(
             f"No open reader exists for {name}: export to STEP (AP214 or AP242)",
@@ -102,7 +106,8 @@ def format_of(path: Path) -> str:
     raise CadError(
         "This is no CAD file that is known here",
         where=str(path),
-        hint="Give a STEP file (AP203, AP214 or AP242: .step, .stp), or triangles (.glb, .gltf, .stl, .obj).",
+        hint="Give a STEP file (AP203, AP214 or AP242: .step, .stp); or IGES, a mesh (.glb, .stl, .obj, …), USD, URDF "
+        "or MJCF: docs/cad-files.md lists them all.",
     )
 
 
@@ -184,12 +189,23 @@ def _by_content(head: bytes, path: Path) -> tuple[str, str] | None:
         return "USD", ""
     if head.startswith(b"BLENDER"):
         return "Blender", ""
+    if re.match(rb"ply[ \t]*\r?\n", head):
+        return "PLY", ""
+    if head.lstrip().startswith((b"DBRep_DrawableShape", b"CASCADE Topology V", b"Open CASCADE Topology V")):
+        return "BREP", ""
+    if re.match(rb"\s*; FBX \d", head):
+        return "FBX", ""
+    if head.startswith(b"AutoCAD Binary DXF") or re.match(rb"\s*(?:999\r?\n.*\r?\n)*\s*0\r?\n\s*SECTION\r?\n", head):
+        return "DXF", ""
     if head[:2] == b"\x1f\x8b":
         return "a compressed file", "unpack it (gunzip) and give the STEP file inside"
     if head.startswith(b"PK\x03\x04"):
         return _zip(path)
     if _STEP_XML.search(head[:4096]):
         return "STEP-XML", "export as STEP Part 21 (.step), AP242 without XML"
+    root = _ROOT.match(head.removeprefix(_BOM))
+    if root and root.group(1) in _ROOTS:
+        return _ROOTS[root.group(1)], ""
     if len(head) >= 80 and re.match(rb".{72}S {6}1[ \r\n]", head, re.DOTALL):
         return "IGES", ""
     return None

@@ -26,9 +26,7 @@ _DAMAGED = "Copy or export it again; the file is damaged."
 def read_stl(path: str) -> Assembly:
     """The assembly in an STL file, binary or text, in metres. `CadError` if it is cut short, if it holds another number
     of triangles than it says, or none."""
-    data = Path(path).read_bytes()
-    _check(data, path)
-    solids = _solids(data, path)
+    solids = solids_of(Path(path))
     unit, findings = placed.guessed_unit([mesh.points for _, mesh in solids], path)
     occurrences = []
     for name, mesh in solids:
@@ -40,6 +38,13 @@ def read_stl(path: str) -> Assembly:
     return placed.assemble(
         occurrences, name=Path(path).stem, format="STL", unit=unit, path=path, findings=findings,
     )  # fmt: skip
+
+
+def solids_of(file: Path) -> list[tuple[str, Mesh]]:
+    """Name and triangles of every solid, in the file's unit. `CadError` as for `read_stl`."""
+    data = file.read_bytes()
+    _check(data, str(file))
+    return _solids(data, str(file))
 
 
 def _check(data: bytes, path: str) -> None:

@@ -11,7 +11,7 @@ from OCP.collections import IndexedMap_TopoDS_Shape_TopTools_ShapeMapHasher, Seq
 from OCP.collections import Sequence_TDF_Label as LabelSequence
 from OCP.IFSelect import IFSelect_ReturnStatus
 from OCP.Interface import Interface_Static
-from OCP.Quantity import Quantity_Color
+from OCP.Quantity import Quantity_Color, Quantity_TOC_RGB
 from OCP.STEPCAFControl import STEPCAFControl_Controller, STEPCAFControl_Reader
 from OCP.TCollection import TCollection_AsciiString, TCollection_ExtendedString
 from OCP.TDataStd import TDataStd_Name
@@ -67,8 +67,7 @@ def open_step(path: str, encoding: str) -> tuple[Tree, list[str]]:
     # A relative path would silently lose every external reference.
     if reader.ReadFile(str(Path(path).absolute())) != IFSelect_ReturnStatus.IFSelect_RetDone:
         raise CadError("The STEP file cannot be read: its syntax is broken", where=path, hint=EXPORT_AGAIN)
-    document = TDocStd_Document(TCollection_ExtendedString("yellowiron"))
-    XCAFApp_Application.GetApplication_s().NewDocument(TCollection_ExtendedString("BinXCAF"), document)
+    document = new_document()
     if not reader.Transfer(document):
         raise CadError("The STEP file holds nothing that can be read as a part", where=path, hint=EXPORT_AGAIN)
     lengths, angles, solid_angles = (Sequence_TCollection_AsciiString() for _ in range(3))
@@ -82,6 +81,22 @@ def open_step(path: str, encoding: str) -> tuple[Tree, list[str]]:
             f"The reader delivered units of {unit.GetUnitValue():g} m, not mm", where=path, hint=EXPORT_AGAIN
         )
     return Tree(document, encoding), names
+
+
+def new_document() -> Any:
+    """An empty XCAF document."""
+    document = TDocStd_Document(TCollection_ExtendedString("yellowiron"))
+    XCAFApp_Application.GetApplication_s().NewDocument(TCollection_ExtendedString("BinXCAF"), document)
+    return document
+
+
+def add_product(document: Any, name: str, shape: Any, color: Color | None = None) -> None:
+    """Adds a shape (millimetres) to a document as a product of its own."""
+    label = XCAFDoc_DocumentTool.ShapeTool_s(document.Main()).AddShape(shape, False)
+    TDataStd_Name.Set_s(label, TCollection_ExtendedString(name, True))
+    if color is not None:
+        tool = XCAFDoc_DocumentTool.ColorTool_s(document.Main())
+        tool.SetColor(label, Quantity_Color(*color, Quantity_TOC_RGB), XCAFDoc_ColorSurf)
 
 
 class Tree:

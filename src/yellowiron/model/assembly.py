@@ -29,9 +29,25 @@ class Part:
     color: Color | None = None
 
 
+@dataclass(frozen=True)
+class DeclaredJoint:
+    """A joint that a robot description declares, in its zero configuration: `type` as in a template (or `free`,
+    `planar`), the names of the bodies it joins (parent, child), anchor (metres) and unit axis in the file's frame,
+    limits in metres or radians."""
+
+    name: str
+    type: str
+    bodies: tuple[str, str]
+    anchor: tuple[float, float, float]
+    axis: tuple[float, float, float]
+    lower: float | None = None
+    upper: float | None = None
+
+
 @dataclass(frozen=True, eq=False)
 class Assembly:
-    """A CAD model in metres, in the CAD file's own frame. `unit` is the file's own unit in metres (0.001: mm)."""
+    """A CAD model in metres, in the CAD file's own frame. `unit` is the file's own unit in metres (0.001: mm); `joints`
+    are those that the file declares, where it is a robot description."""
 
     name: str
     format: str
@@ -40,6 +56,7 @@ class Assembly:
     shapes: Mapping[str, Shape]
     findings: tuple[Finding, ...] = ()
     declared_occurrences: int | None = None
+    joints: tuple[DeclaredJoint, ...] = ()
 
     def part(self, part_id: str) -> Part:
         """The part with that id; `KeyError` if there is none."""

@@ -1,0 +1,148 @@
+"""A DXF file's 3D content to an `Assembly`: a part for every block that is placed, else for every layer. Runs in the
+guard's child process.
+
+Read are meshes, polyfaces and 3D faces. Solids in ACIS's own form (3DSOLID, BODY, REGION) cannot be: that is said.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from yellowiron.cad import placed, polygons
+from yellowiron.cad.naming import decode_name
+from yellowiron.cad.placed import Occurrence
+from yellowiron.model.assembly import Assembly
+from yellowiron.model.errors import CadError
+from yellowiron.model.finding import Finding
+from yellowiron.model.geometry import Color, Floats, Mesh
+
+_DAMAGED = "Copy or export it again; the file is damaged."
+_ACIS = ("3DSOLID", "BODY", "REGION", "SURFACE", "EXTRUDEDSURFACE", "LOFTEDSURFACE", "REVOLVEDSURFACE", "SWEPTSURFACE")
+_STEP = "Export the solids as STEP from the program that made the drawing; DXF keeps them in a form that is not open."
+_DEEPEST = 20
+_MOST = 200_000
+
+
+def read_dxf(path: str) -> Assembly:
+    """The assembly in a DXF file, in metres. `CadError` if it is damaged, or holds no 3D content that is readable."""
+    import ezdxf
+    from ezdxf import recover, units
+
+    try:
+        document, _ = recover.readfile(path)
+    except (OSError, ezdxf.DXFError, ValueError) as error:
+        raise CadError(f"The DXF file cannot be read: {error}", where=path, hint=_DAMAGED) from error
+    blocks: dict[str, list[tuple[str, Mesh, Color | None]]] = {}
+    acis = 0
+    placements = list(_inserted(document.modelspace(), (), np.eye(4), 0))
+    if len(placements) > _MOST:
+        raise CadError(f"The DXF file places more than {_MOST} blocks", where=path, hint=_DAMAGED)
+    raw: list[tuple[tuple[str, ...], str, Mesh, Floats, Color | None]] = []
+    for names, layout, transform in placements:
+        key = layout.block_record_handle if hasattr(layout, "block_record_handle") else layout.layout_key
+        acis += sum(1 for e in layout if e.dxftype() in _ACIS)
+        if key not in blocks:
+            blocks[key] = list(_meshes(layout, document))
+        # A block is a part; loose geometry is one a layer.
+        for layer, mesh, color in blocks[key]:
+            raw.append((names[:-1], names[-1] if names else layer, mesh, transform, color))
+    if not raw:
+        words = f"The DXF file holds {acis} ACIS solids and no mesh" if acis else "The DXF file holds no 3D faces"
+        raise CadError(words, where=path, hint=_STEP)
+    code = document.units
+    findings: list[Finding] = []
+    if code:
+        unit = float(units.conversion_factor(code, units.M))
+    else:
+        unit, findings = placed.guessed_unit([_at(m.points, t) for _, _, m, t, _ in raw], path)
+    scaled = {id(m): Mesh(m.points * unit, m.triangles) for _, _, m, _, _ in raw}
+    occurrences = []
+    for above, name, mesh, transform, color in raw:
+        place = transform.copy()
+        place[:3, 3] *= unit
+        occurrences.append(Occurrence(name, above, scaled[id(mesh)], place, color))
+    if acis:
+        words = f"{acis} ACIS solids of the drawing cannot be read"
+        findings.append(Finding("CAD001", "warning", path, words, _STEP))
+    return placed.assemble(
+        occurrences, name=Path(path).stem, format="DXF", unit=unit, path=path, findings=findings,
+    )  # fmt: skip
+
+
+def _at(points: Floats, transform: Floats) -> Floats:
+    return np.asarray(points @ transform[:3, :3].T + transform[:3, 3])
+
+
+def _inserted(
+    layout: Any, names: tuple[str, ...], transform: Floats, depth: int
+) -> Iterator[tuple[tuple[str, ...], Any, Floats]]:
+    """A layout and every block placed in it, with names from outermost, and (4, 4) transforms."""
+    yield names, layout, transform
+    if depth >= _DEEPEST:
+        return
+    for insert in layout.query("INSERT"):
+        block = insert.block()
+        if block is None:
+            continue
+        title = decode_name(insert.dxf.name, "utf-8")
+        copies = insert.multi_insert() if insert.mcount > 1 else [insert]
+        for one in copies:
+            # ezdxf's matrices take row vectors.
+            own = np.array(list(one.matrix44()), dtype=np.float64).reshape(4, 4).T
+            yield from _inserted(block, (*names, title), transform @ own, depth + 1)
+
+
+def _meshes(layout: Any, document: Any) -> Iterator[tuple[str, Mesh, Color | None]]:
+    """A layout's own geometry, one mesh a layer: its name, triangles in the file's unit, colour."""
+    points: dict[str, list[Floats]] = {}
+    triangles: dict[str, list[Any]] = {}
+    colors: dict[str, Color | None] = {}
+    for entity in layout:
+        for vertices, faces in _faces(entity):
+            layer = entity.dxf.layer
+            start = sum(len(p) for p in points.get(layer, []))
+            counts = [len(f) for f in faces]
+            cut, _ = polygons.fans(counts, [i for f in faces for i in f])
+            points.setdefault(layer, []).append(np.array(vertices, dtype=np.float64).reshape(-1, 3))
+            triangles.setdefault(layer, []).append(cut + start)
+            colors.setdefault(layer, _color(entity, document))
+    for layer in points:
+        mesh = Mesh(np.concatenate(points[layer]), np.concatenate(triangles[layer]).astype(np.int32))
+        yield decode_name(layer, "utf-8"), mesh, colors[layer]
+
+
+def _faces(entity: Any) -> Iterator[tuple[Any, Any]]:
+    """Vertices and faces of what an entity draws in space."""
+    from ezdxf.render import MeshBuilder
+
+    kind = entity.dxftype()
+    if kind == "3DFACE":
+        corners = entity.wcs_vertices()
+        yield [tuple(c) for c in corners], [list(range(len(corners)))]
+    elif kind == "MESH":
+        found = MeshBuilder.from_mesh(entity)
+        yield [tuple(v) for v in found.vertices], found.faces
+    elif kind == "POLYLINE" and (entity.is_poly_face_mesh or entity.is_polygon_mesh):
+        found = MeshBuilder.from_polyface(entity)
+        yield [tuple(v) for v in found.vertices], found.faces
+
+
+def _color(entity: Any, document: Any) -> Color | None:
+    """An entity's colour, or its layer's (sRGB), in linear RGB; None where a block decides."""
+    from ezdxf import colors
+
+    if entity.dxf.hasattr("true_color"):
+        rgb = colors.int2rgb(entity.dxf.true_color)
+    else:
+        index = entity.dxf.color
+        if index == 256 and entity.dxf.layer in document.layers:
+            index = abs(document.layers.get(entity.dxf.layer).dxf.color)
+        if not 0 < index < 256:
+            return None
+        rgb = colors.aci2rgb(index)
+    r, g, b = (v / 255.0 / 12.92 if v <= 10 else ((v / 255.0 + 0.055) / 1.055) ** 2.4 for v in rgb)
+    return r, g, b

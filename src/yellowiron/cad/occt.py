@@ -1,0 +1,204 @@
+"""A BREP or FreeCAD file to an `Assembly`. Runs in the guard's child process.
+
+Both hold the shapes of Open CASCADE, in millimetres. A BREP file is one shape without names. A FreeCAD file is an
+archive: `Document.xml` lists objects with labels and placements, `GuiDocument.xml` those that are shown and their
+colours; the shapes are files beside it. Objects that others are made from are hidden, or used by them.
+"""
+
+from __future__ import annotations
+
+import zipfile
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+from xml.etree import ElementTree
+
+from OCP.BinTools import BinTools
+from OCP.BRep import BRep_Builder
+from OCP.BRepTools import BRepTools
+from OCP.gp import gp_Pnt, gp_Quaternion, gp_Trsf, gp_Vec
+from OCP.TopLoc import TopLoc_Location
+from OCP.TopoDS import TopoDS_Shape
+
+from yellowiron.cad import products
+from yellowiron.cad.naming import decode_name
+from yellowiron.cad.xcaf import Tree, add_product, new_document
+from yellowiron.model.assembly import Assembly
+from yellowiron.model.errors import CadError
+from yellowiron.model.finding import Finding
+from yellowiron.model.geometry import Color
+
+_DAMAGED = "Copy or save it again; the file is damaged."
+_GROUPS = ("App::Part", "App::DocumentObjectGroup", "Assembly::AssemblyObject", "App::LinkGroup")
+_LINKS = ("App::Link", "App::LinkElement")
+_LARGEST = 1024**3
+"""Bytes of one file of an archive when unpacked."""
+_DEEPEST = 50
+
+
+def read_brep(path: str) -> Assembly:
+    """The assembly in a BREP file, text or binary, taken to be in millimetres. `CadError` if it is damaged."""
+    document = new_document()
+    add_product(document, Path(path).stem, _shape(path, path))
+    words = "The format has no unit of length: millimetres assumed, as Open CASCADE's programs have it"
+    unit = Finding("CAD009", "info", path, words)
+    return products.assemble(Tree(document, "utf-8"), path=path, format="BREP", unit=1e-3, findings=[unit])
+
+
+def _shape(file: str, path: str) -> Any:
+    """The shape in a text or binary file of Open CASCADE."""
+    shape = TopoDS_Shape()
+    if Path(file).read_bytes()[:64].lstrip(b"\n").startswith(b"Open CASCADE Topology V"):
+        read = BinTools.Read_s(shape, file)
+    else:
+        read = BRepTools.Read_s(shape, file, BRep_Builder())
+    if not read or shape.IsNull():
+        raise CadError("The shape cannot be read: it is damaged or cut short", where=path, hint=_DAMAGED)
+    return shape
+
+
+@dataclass
+class _Object:
+    """An object of a FreeCAD document: what it is called, where it is, and what it is made of."""
+
+    name: str
+    kind: str
+    label: str
+    file: str = ""
+    place: Any = None
+    uses: list[str] = field(default_factory=list)
+    members: list[str] = field(default_factory=list)
+    linked: str = ""
+    shown: bool = True
+    color: Color | None = None
+
+
+def read_freecad(path: str) -> Assembly:
+    """The assembly in a FreeCAD file, in metres. `CadError` if it is damaged or shows no shape."""
+    try:
+        with zipfile.ZipFile(path) as archive:
+            objects = _objects(ElementTree.fromstring(archive.read("Document.xml")))
+            if "GuiDocument.xml" in archive.namelist():
+                _looks(ElementTree.fromstring(archive.read("GuiDocument.xml")), objects)
+            shapes = _shapes(archive, objects, path)
+    except (zipfile.BadZipFile, ElementTree.ParseError, KeyError, ValueError, EOFError, NotImplementedError) as error:
+        raise CadError(f"The FreeCAD file is broken: {error}", where=path, hint=_DAMAGED) from error
+    document = new_document()
+    owned = {m for o in objects.values() for m in o.members}
+    for name in objects:
+        if name not in owned:
+            _add(document, name, TopLoc_Location(), objects, shapes, path, 0)
+    return products.assemble(Tree(document, "utf-8"), path=path, format="FreeCAD", unit=1e-3)
+
+
+def _add(
+    document: Any,
+    name: str,
+    outer: Any,
+    objects: Mapping[str, _Object],
+    shapes: Mapping[str, Any],
+    path: str,
+    depth: int,
+    label: str = "",
+) -> None:
+    """Adds an object, and what it groups or links to, at its place."""
+    one = objects.get(name)
+    if one is None or (not one.shown and not label):
+        return
+    if depth > _DEEPEST:
+        raise CadError("The FreeCAD file is broken: an object holds itself", where=path, hint=_DAMAGED)
+    place = outer if one.place is None else outer * one.place
+    if one.kind in _GROUPS:
+        for member in one.members:
+            _add(document, member, place, objects, shapes, path, depth + 1)
+    elif one.kind in _LINKS:
+        target = objects.get(one.linked)
+        if target is not None:
+            # A link has a place of its own instead of its target's.
+            undo = target.place.Inverted() if target.place is not None else TopLoc_Location()
+            _add(document, one.linked, place * undo, objects, shapes, path, depth + 1, one.label)
+    elif name in shapes and (label or not _is_used(one, objects)):
+        # The shape's file has its object's own place in it.
+        add_product(document, label or one.label, shapes[name].Moved(outer), one.color)
+
+
+def _is_used(one: _Object, objects: Mapping[str, _Object]) -> bool:
+    """Whether another object was made from this one: a body from its features, a cut from two bodies."""
+    return any(one.name in other.uses and other.file for other in objects.values())
+
+
+def _objects(root: ElementTree.Element) -> dict[str, _Object]:
+    kinds = {e.get("name", ""): e.get("type", "") for e in root.iterfind("./Objects/Object")}
+    found: dict[str, _Object] = {}
+    for entry in root.iterfind("./ObjectData/Object"):
+        name = entry.get("name", "")
+        one = _Object(name, kinds.get(name, ""), name)
+        for item in entry.iterfind("./Properties/Property"):
+            key = item.get("name", "")
+            links = [v for e in item.iter() if e.tag in ("Link", "LinkSub") and (v := e.get("value"))]
+            if key == "Label":
+                one.label = decode_name(next((e.get("value", "") for e in item.iter("String")), name), "utf-8")
+            elif key == "Shape":
+                one.file = next((e.get("file", "") for e in item.iter("Part")), "")
+            elif key in ("Placement", "LinkPlacement") and one.place is None:
+                one.place = next((_location(e) for e in item.iter("PropertyPlacement")), None)
+            elif key == "Group":
+                one.members = links
+            elif key == "LinkedObject":
+                one.linked = next((e.get("name") or e.get("value") or "" for e in item.iter("XLink")), "") or (
+                    links[0] if links else ""
+                )
+            elif key not in ("Origin", "_GroupTouched"):
+                one.uses += links
+        if one.kind == "PartDesign::Body":
+            one.uses += one.members
+            one.members = []
+        found[name] = one
+    return found
+
+
+def _location(entry: ElementTree.Element) -> Any:
+    px, py, pz, *quaternion = (float(entry.get(key, "0")) for key in ("Px", "Py", "Pz", "Q0", "Q1", "Q2", "Q3"))
+    turn = gp_Trsf()
+    if any(quaternion):
+        turn.SetRotation(gp_Quaternion(*quaternion))
+    turn.SetTranslationPart(gp_Vec(gp_Pnt(), gp_Pnt(px, py, pz)))
+    return TopLoc_Location(turn)
+
+
+def _looks(root: ElementTree.Element, objects: Mapping[str, _Object]) -> None:
+    """Which objects are shown, and in which colour (packed RGBA, sRGB)."""
+    for entry in root.iterfind("./ViewProviderData/ViewProvider"):
+        one = objects.get(entry.get("name", ""))
+        if one is None:
+            continue
+        for item in entry.iterfind("./Properties/Property"):
+            if item.get("name") == "Visibility":
+                one.shown = any(e.get("value") == "true" for e in item.iter("Bool"))
+            elif item.get("name") == "ShapeColor":
+                packed = next((int(e.get("value", "0")) for e in item.iter("PropertyColor")), None)
+                one.color = None if packed is None else _linear(packed)
+
+
+def _linear(packed: int) -> Color:
+    srgb = [((packed >> shift) & 255) / 255.0 for shift in (24, 16, 8)]
+    r, g, b = (v / 12.92 if v <= 0.04045 else ((v + 0.055) / 1.055) ** 2.4 for v in srgb)
+    return r, g, b
+
+
+def _shapes(archive: zipfile.ZipFile, objects: Mapping[str, _Object], path: str) -> dict[str, Any]:
+    """The shape of every object that has one."""
+    shapes: dict[str, Any] = {}
+    with TemporaryDirectory(prefix="yellowiron-") as folder:
+        for name, one in objects.items():
+            if not one.file or archive.getinfo(one.file).file_size == 0:
+                continue
+            if archive.getinfo(one.file).file_size > _LARGEST:
+                raise CadError(f"{one.file} unpacks to more than 1 GB", where=path, hint="Save it in parts.")
+            # Under a name of ours: the archive's may lead anywhere.
+            copy = Path(folder, f"shape{len(shapes)}")
+            copy.write_bytes(archive.read(one.file))
+            shapes[name] = _shape(str(copy), path)
+    return shapes

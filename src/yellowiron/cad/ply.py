@@ -1,0 +1,58 @@
+"""A PLY file to an `Assembly`: a part for every piece of connected triangles. Runs in the guard's child process.
+
+PLY has no names, no tree and no unit; colours may stand at faces or points.
+"""
+
+from __future__ import annotations
+
+import struct
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from yellowiron.cad import placed
+from yellowiron.cad.placed import Occurrence
+from yellowiron.model.assembly import Assembly
+from yellowiron.model.errors import CadError
+from yellowiron.model.geometry import Floats, Mesh
+
+_DAMAGED = "Copy or export it again; the file is damaged."
+
+
+def read_ply(path: str) -> Assembly:
+    """The assembly in a PLY file, text or binary, in metres. `CadError` if it is damaged or holds no triangle."""
+    from trimesh.exchange.ply import load_ply
+
+    data = Path(path).read_bytes()
+    if b"end_header" not in data[:65536]:
+        raise CadError("The PLY file is truncated: its header has no end", where=path, hint=_DAMAGED)
+    try:
+        loaded: dict[str, Any] = load_ply(BytesIO(data))
+    except (ValueError, IndexError, KeyError, TypeError, struct.error) as error:
+        raise CadError(f"The PLY file is broken: {error}", where=path, hint=_DAMAGED) from error
+    points = np.asarray(loaded.get("vertices", []), dtype=np.float64).reshape(-1, 3)
+    triangles = np.asarray(loaded.get("faces", []), dtype=np.int64).reshape(-1, 3)
+    if not len(triangles):
+        raise CadError("The PLY file holds no triangle", where=path, hint="Export surfaces, not a cloud of points.")
+    if not 0 <= triangles.min() <= triangles.max() < len(points):
+        raise CadError("The PLY file is broken: its faces name points that are not there", where=path, hint=_DAMAGED)
+    unit, findings = placed.guessed_unit([points], path)
+    mesh = Mesh(points * unit, triangles.astype(np.int32), None, _colors(loaded, triangles))
+    pieces = placed.pieces(mesh) if np.isfinite(mesh.points).all() else [mesh]
+    name = Path(path).stem
+    return placed.assemble(
+        [Occurrence(name, (), piece, np.eye(4)) for piece in pieces],
+        name=name, format="PLY", unit=unit, path=path, findings=findings,
+    )  # fmt: skip
+
+
+def _colors(loaded: dict[str, Any], triangles: np.ndarray[Any, Any]) -> Floats | None:
+    """(m, 3) colours of the triangles: the faces' own, else the mean of their corners'."""
+    faces, corners = loaded.get("face_colors"), loaded.get("vertex_colors")
+    if faces is not None and len(faces) == len(triangles):
+        return np.asarray(faces, dtype=np.float64)[:, :3] / 255.0
+    if corners is not None and len(corners) > triangles.max():
+        return np.asarray(np.asarray(corners, dtype=np.float64)[:, :3][triangles].mean(axis=1) / 255.0)
+    return None
