@@ -122,7 +122,11 @@ def _configured(matches: Sequence[Match], sheets: Sheets, config: str) -> list[M
     """The matches that fit the configuration asked for: each of its phrases keeps those whose column says it best. A
     head that says the phrase and no more ("Teeth") beats one that says more ("Teeth and segments")."""
     kept = list(matches)
-    for words in phrases_of(config).values():
+    for phrase, words in phrases_of(config).items():
+        named = [m for m in kept if any(_bare(phrase) == _bare(h) for h in configured_by(m.claim))]
+        if named:  # a head that is the phrase, to the letter: "M12-L" is not "M12"
+            kept = named
+            continue
         shares = [_share(words, m.claim, sheets) for m in kept]
         if max(shares) >= _SAID and max(shares) > min(shares):
             kept = [m for m, share in zip(kept, shares, strict=True) if share == max(shares)]
@@ -132,6 +136,10 @@ def _configured(matches: Sequence[Match], sheets: Sheets, config: str) -> list[M
                 m for m, own in zip(kept, heads, strict=True) if words in own or not any(words < head for head in own)
             ]
     return [_explained(m, set(tokens(config))) for m in kept]
+
+
+def _bare(text: str) -> str:
+    return "".join(text.casefold().split())
 
 
 def phrases_of(config: str) -> dict[str, set[str]]:

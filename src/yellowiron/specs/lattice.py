@@ -20,6 +20,7 @@ from yellowiron.specs.statement import (
     looks_like_value,
     split_inline,
     unit_in_label,
+    unit_of_heading,
     without_key,
 )
 from yellowiron.specs.strokes import Box, Rule
@@ -253,7 +254,7 @@ def _read_row(
         fresh = [
             c for c in cells if c.lines and not looks_like_value(c.text) and seen < c.columns[0] < value.columns[0]
         ]
-        words = [c for c in fresh if not is_unit(c.text) and not _is_key(c.text)]
+        words = [c for c in fresh if not is_unit(c.text) and not _is_key(c.text) and any(t.isalnum() for t in c.text)]
         if words:
             labels = words
         after = labels[-1].columns[0] if labels else -1
@@ -315,9 +316,9 @@ def _statement(
         box=value.box,
         quote=" … ".join(quote),
         context=tuple(c.text for c in groups),
-        section=EXAMPLE.sub("", section).strip(),
+        section=unit_of_heading(EXAMPLE.sub("", section).strip())[0],
         column=tuple(unit_in_label(c.text)[0] for c in column if c.text),
-        unit=unit or label_unit or head_unit,
+        unit=unit or label_unit or head_unit or unit_of_heading(section)[1],
         example=marked or bool(EXAMPLE.search(section)) or marked_by_legend(page, pieces),
         x0=value.box[0],
         heads=tuple(line.text for c in column for line in c.lines) if labels else (),

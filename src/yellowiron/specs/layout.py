@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from yellowiron.specs.cells import legend_of
 from yellowiron.specs.lattice import grids_of, read_grid
-from yellowiron.specs.lines import blocks_of, lines_of
+from yellowiron.specs.lines import Line, blocks_of, lines_of
 from yellowiron.specs.rows import Heading, read_block
-from yellowiron.specs.statement import Statement
+from yellowiron.specs.statement import Statement, kind_of
 from yellowiron.specs.strokes import Box
 from yellowiron.specs.words import Page
 
@@ -44,7 +45,8 @@ def statements_of(page: Page) -> list[Statement]:
         row += len(statements) + len(block.lines) + 1
         found.extend(statements)
     for grid in grids:
-        found.extend(read_grid(page, grid, row, _heading_above(headings, grid.box[1], grid.box[0], grid.box[2])))
+        title = _title(lines_of(outside), grid.box) or _heading_above(headings, grid.box[1], grid.box[0], grid.box[2])
+        found.extend(read_grid(page, grid, row, title))
         row += grid.rows + 1
     return found
 
@@ -53,6 +55,21 @@ def _within(inner: Box, outer: Box) -> bool:
     return all(a >= b - 1 for a, b in zip(inner[:2], outer[:2], strict=True)) and all(
         a <= b + 1 for a, b in zip(inner[2:], outer[2:], strict=True)
     )
+
+
+def _title(lines: Sequence[Line], box: Box) -> str:
+    """The words right above a table: one bold piece over its left part."""
+    over = [line for line in lines if 0 <= box[1] - line.bottom < 1.2 * line.pieces[0].size]
+    for line in over:
+        piece = line.pieces[0]
+        if (
+            len(line.pieces) == 1
+            and piece.bold
+            and box[0] - 4 <= piece.x0 < (box[0] + box[2]) / 2
+            and kind_of(piece) == "text"
+        ):
+            return piece.text
+    return ""
 
 
 def _heading_above(headings: list[Heading], top: float, x0: float, x1: float) -> str:

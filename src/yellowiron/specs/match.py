@@ -13,6 +13,8 @@ from yellowiron.specs.vocabulary import CIRCUITS, NEUTRAL, OPPOSITES, REVERSING,
 
 LEAST = 0.55
 """Score below which a claim does not speak of a wanted value at all."""
+_EXTREME = {"maximum"}
+"""Says of a label no more than makers mean without it; a value of which both are asked forbids it."""
 _BY_CIRCUIT = {"pressure", "flow"}
 """Dimensions of which every hydraulic circuit has its own value."""
 
@@ -83,15 +85,15 @@ def match_one(wanted: Wanted, claim: Claim) -> Match | None:
             continue
         explained |= words
         from_head |= words - label - context - section
-        above = words - label - head
-        borrowed = min(borrowed, 0.05 * bool(above) + 0.05 * bool(above - context))
+        lent = words - label - head
+        borrowed = min(borrowed, 0.05 * bool(lent) + 0.05 * bool(lent - context))
         if len(words) > len(set(tokens(best))):
             best = phrase
     if not explained:
         return None
     primary = (label if explained & label else set()) | (head if from_head else set()) or context | section
     # A word of the value's own name makes the label mean nothing else.
-    rest = {t for t in primary - explained - NEUTRAL - set(tokens(wanted.name)) if not _is_number(t)}
+    rest = {t for t in primary - explained - NEUTRAL - _EXTREME - set(tokens(wanted.name)) if not _is_number(t)}
     if (everything - explained) & REVERSING:
         return None
     asked = {t for p in (wanted.name, best) for t in tokens(p)}

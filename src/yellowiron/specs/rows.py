@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 
@@ -15,9 +16,11 @@ from yellowiron.specs.statement import (
     Statement,
     is_unit,
     join_boxes,
+    joined,
     kind_of,
     split_inline,
     unit_in_label,
+    unit_of_heading,
     words_beside_numbers,
 )
 from yellowiron.specs.strokes import Box
@@ -57,6 +60,7 @@ class _State:
     values_in_row: int = 0
     headings: list[Heading] = field(default_factory=list)
     orphans: list[int] = field(default_factory=list)
+    last: tuple[Sequence[Line], range, str] | None = None
 
     def open_section(self, heading: Heading, heads: tuple[Piece, ...]) -> None:
         """A heading ends what held above it; `heads` stand on its line."""
@@ -91,10 +95,15 @@ def read_block(page: Page, block: Block, first_row: int, section: str = "") -> t
     size = _body_size(block)
     paragraphs = paragraphs_of(block.lines)
     running = {id(line) for paragraph in paragraphs for line in paragraph}
-    rows = [line for line in block.lines if id(line) not in running]
-    for index, row in enumerate(bands(rows, page.rules, _bars_of(page, block), block.x0, block.x1)):
-        for line in _split_if_separate(row):
-            _read_row(page, block, line, state, size, first_row + len(found) + index, found)
+    lines = [line for line in block.lines if id(line) not in running]
+    rows = [r for band in bands(lines, page.rules, _bars_of(page, block), block.x0, block.x1)
+            for r in _split_if_separate(band)]  # fmt: skip
+    for index, row in enumerate(rows):
+        if _continue_label(row, rows[index + 1] if index + 1 < len(rows) else None, state, found):
+            continue
+        before = len(found)
+        _read_row(page, block, row, state, size, first_row + len(found) + index, found)
+        state.last = (row, range(before, len(found)), row[0].pieces[0].text) if len(found) > before else None
     for paragraph in paragraphs:
         above = [h for h in state.headings if h.bottom <= paragraph[0].top + 2]
         heading = above[-1].text if above else section
@@ -123,6 +132,38 @@ def _read_row(
     state.orphans = []
     _read_values(page, row, state, number, found)
     state.data_since_heads = True
+
+
+def _continue_label(
+    row: Sequence[Line], following: Sequence[Line] | None, state: _State, found: list[Statement]
+) -> bool:
+    """Gives a label whose value stands beside its first line the words under it: they are nearer to it than to the row
+    below."""
+    if state.last is None or len(row) != 1 or len(row[0].pieces) != 1:
+        return False
+    above, indices, first = state.last
+    more, label = row[0].pieces[0], above[0].pieces[0]
+    worded = kind_of(more) == "text" or bool(kind_of(more) == "value" and re.search(r"[^\W\d_]{3,}", more.text))
+    plain = worded and kind_of(label) == "text" and not (more.bold and not label.bold)
+    up = row[0].bottom - above[-1].bottom
+    down = min(line.bottom for line in following) - row[0].bottom if following else float("inf")
+    same = (
+        abs(more.x0 - label.x0) < 1.5
+        and abs(more.size - label.size) < 0.1
+        and more.x1 < min(found[i].x0 for i in indices)
+    )
+    if not (plain and same and 0 < up < 1.6 * more.size and up < 0.88 * down and len(above) == 1):
+        return False
+    own = [i for i in indices if found[i].label and found[i].quote.startswith(first)]
+    for index in own:
+        statement = found[index]
+        words, unit = unit_in_label(joined([statement.label, more.bare]))
+        found[index] = replace(
+            statement, label=words, unit=statement.unit or unit, quote=f"{statement.quote} … {more.text}"
+        )
+    if own:
+        state.last = (row, indices, first)
+    return bool(own)
 
 
 def _label_orphans(line: Line, state: _State, found: list[Statement]) -> bool:
@@ -259,6 +300,13 @@ def _split_if_separate(row: Sequence[Line]) -> Iterator[Sequence[Line]]:
             yield (first,)
             yield from _split_if_separate(rest)
             return
+    last, before = ordered[-1], ordered[:-1]
+    if before and len(last.pieces) == 1 and kind_of(last.pieces[0]) == "text":
+        largest = max(p.size for line in before for p in line.pieces)
+        if last.pieces[0].size > _LARGER * largest and last.top >= max(line.bottom for line in before) - 1:
+            yield from _split_if_separate(before)
+            yield (last,)
+            return
     labelled = 0
     for line in row:
         kinds = [kind_of(p) for p in line.pieces]
@@ -293,12 +341,9 @@ def _read_values(page: Page, row: Sequence[Line], state: _State, number: int, fo
         heads = heads_over(state.heads, join_boxes(p.box for p in cell.values))
         above = context if not cell.label or pending else []
         statement = statement_of(page, row, cell, heads, context, above, number)
+        section, unit = unit_of_heading(EXAMPLE.sub("", state.section).strip())
         found.append(
-            replace(
-                statement,
-                section=EXAMPLE.sub("", state.section).strip(),
-                example=marked or statement.example,
-            )
+            replace(statement, section=section, unit=statement.unit or unit, example=marked or statement.example)
         )
     if not has_label:
         # A value under a label on a line of its own, its partner beneath: "25,510 kg" / "56,240 lb".

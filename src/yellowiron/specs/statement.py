@@ -147,13 +147,29 @@ def unit_in_label(text: str) -> tuple[str, str]:
     return text, ""
 
 
+_HEADED_BY_UNIT = re.compile(
+    r"^(.*?)[\s:：,–-]*(?:\b(?:in|en|unit|units|einheit|unité|unidad)\b|单位|単位)\s*[:：]?\s*(\S+)$", re.IGNORECASE
+)
+
+
+def unit_of_heading(text: str) -> tuple[str, str]:
+    """A heading without the unit that holds for the bare numbers under it, and that unit: "Dimensions (mm)"."""
+    label, unit = unit_in_label(text)
+    if unit:
+        return label, unit
+    match = _HEADED_BY_UNIT.search(text)
+    return (match.group(1), unit) if match and (unit := is_unit(match.group(2))) else (text, "")
+
+
 def kind_of(piece: Piece) -> str:
-    """`value`, `unit`, `mark` (an example mark alone) or `text`."""
+    """`value`, `unit`, `mark` (an example mark, or a dash for "none", alone) or `text`."""
     bare = piece.bare
     if not bare:
         return "mark"
     if is_unit(bare):
         return "unit"
+    if not any(c.isalnum() for c in bare):
+        return "mark"
     return "value" if looks_like_value(bare) else "text"
 
 
