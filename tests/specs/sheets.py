@@ -1,7 +1,8 @@
-"""Generated sheets with their truths, in three sets that share neither machine nor layout, and how they are scored.
+"""Generated sheets with their truths, in four sets that share neither machine nor layout, and how they are scored.
 
-`tuned`: what the rules are made on. `held`: read when that was done, then mended for. `final`: read once, at the end.
-Labels differ too: the tuned sheets print each name's first wording, the others the later ones.
+`tuned`: what the rules were made on. `held`: read when that was done, then mended for; `final` after it the same way.
+`last`: read once, when all that was done. Labels differ too: the tuned sheets print each name's first wording, `held`
+and `final` the second and (in English) the third, `last` others again.
 """
 
 from __future__ import annotations
@@ -15,17 +16,18 @@ from pathlib import Path
 from typing import Literal
 
 from sheets_held import FINAL, HELD
+from sheets_last import LAST
 from sheets_machines import Machine, machines
 from sheets_make import Sheet, Truth, styles
 from sheets_tuned import TUNED
 
 from yellowiron.model.specification import Specification, Specifications
 
-Split = Literal["tuned", "held", "final"]
+Split = Literal["tuned", "held", "final", "last"]
 KINDS = ("wheel_loader", "excavator")
-LAYOUTS = {"tuned": TUNED, "held": HELD, "final": FINAL}
-_WORDING = {"tuned": 0, "held": 1, "final": 2}
-_SIXTH = {"tuned": (0, 1, 2, 3), "held": (4,), "final": (5,)}
+LAYOUTS = {"tuned": TUNED, "held": HELD, "final": FINAL, "last": LAST}
+_WORDING = {"tuned": 0, "held": 1, "final": 2, "last": 3}
+_SIXTH = {"tuned": (0, 1, 2), "held": (4,), "final": (5,), "last": (3,)}
 """Of every six machines of a type, in the order of `machines`, those of a split."""
 
 

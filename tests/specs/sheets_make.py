@@ -111,6 +111,8 @@ class Sheet:
     def word(self, entry: Entry) -> str:
         """The wording of an entry that this sheet uses."""
         words = entry.words[self.style.language]
+        if self.style.wording == 3:
+            words = next((e.words[self.style.language] for e in entries("later") if e.name == entry.name), words)
         return words[min(self.style.wording, len(words) - 1)]
 
     def section(self, key: str) -> str:
