@@ -33,10 +33,11 @@ def main() -> None:
     state, _ = chain.reach(targets)
     raised = {body.name: chain.displacement(state, body.name) for body in mechanism.bodies}
     pictures: list[Image.Image] = []
-    for soup in (machine_soup(mechanism, assembly, frame),
-                 machine_soup(mechanism, assembly, frame, poses=raised, by_body=True)):  # fmt: skip
+    for poses in ({}, raised):
+        soup = machine_soup(mechanism, assembly, frame, poses=poses)
         camera = look_at(soup.corners.reshape(-1, 3), azimuth=-0.8, elevation=0.28, width=760, height=560)
-        pictures.append(render(soup, camera, supersample=3))
+        colors = soup.by_body(mechanism) if poses else None
+        pictures.append(render(soup, camera, colors=colors, supersample=3))
     (ROOT / "docs" / "wheel_loader.webp").write_bytes(encode(contact_sheet(pictures), quality=88))
 
 

@@ -14,12 +14,11 @@ from yellowiron.report.pictures import Soup, encode, look_at, render
 
 
 def soup_of(*meshes: trimesh.Trimesh, colors: list[tuple[float, float, float]]) -> Soup:
-    corners = np.concatenate([m.vertices[m.faces] for m in meshes]).astype(np.float64)
-    normals = np.concatenate([np.repeat(m.face_normals[:, None], 3, axis=1) for m in meshes]).astype(np.float64)
+    corners = np.concatenate([m.vertices[m.faces] for m in meshes]).astype(np.float32)
+    normals = np.concatenate([np.repeat(m.face_normals[:, None], 3, axis=1) for m in meshes]).astype(np.float32)
     counts = [len(m.faces) for m in meshes]
-    return Soup(
-        corners, normals, np.repeat(np.array(colors), counts, axis=0), np.repeat(np.arange(len(meshes)), counts)
-    )
+    painted = np.repeat(np.array(colors, dtype=np.float32), counts, axis=0)
+    return Soup(corners, normals, painted, np.repeat(np.arange(len(meshes), dtype=np.int32), counts))
 
 
 @pytest.fixture(scope="module")

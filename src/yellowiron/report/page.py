@@ -17,7 +17,7 @@ from yellowiron.model.poses import PoseTables
 from yellowiron.report.document import fell_short, within_tolerance
 from yellowiron.report.joints import joint_marks, joint_rows
 from yellowiron.report.marks import overlay
-from yellowiron.report.pictures import Soup, data_uri, look_at, machine_soup, posed, render
+from yellowiron.report.pictures import Soup, data_uri, look_at, machine_soup, outline, posed, render
 from yellowiron.report.rows import in_rows
 from yellowiron.report.sensors import sensor_marks, sensor_rows, view_svg, views
 from yellowiron.report.simulation import engine_name, in_a_sentence, simulation_tables
@@ -67,16 +67,16 @@ def page(
         ready=_ready(document),
         driven=in_a_sentence(document["simulation"]),
         figures=_figures(document),
-        machine=_machine(soup),
-        poses=[(caption, _pose(posed(soup, displacement))) for caption, displacement in (poses or {}).items()],
+        machine=_machine(mechanism, soup),
+        poses=[(caption, _pose(mechanism, soup, moved)) for caption, moved in (poses or {}).items()],
         viewer=viewer(mechanism, assembly, alignment, tables, poses=poses) if tables is not None else None,
         measurements=[_measurement(m) for m in document["measurements"]],
         simulation=simulation_tables(document["simulation"]),
         sweeps=sweep_entries(sweeps or {}, document, mechanism, soup),
         sensors=sensor_rows(document),
-        sensor_svg=_sensor_svg(document, soup) if document["sensors"] else "",
+        sensor_svg=_sensor_svg(document, mechanism, soup) if document["sensors"] else "",
         joints=joints,
-        joint_svg=_joint_svg(joints, machine_soup(mechanism, assembly, frame, by_body=True)),
+        joint_svg=_joint_svg(joints, mechanism, soup),
         cylinders=[_cylinder(c) for c in document["cylinders"]],
         specifications=[s for s in map(_specification, document["specifications"]) if s["status"] != "missing"],
         not_given=[s for s in map(_specification, document["specifications"]) if s["status"] == "missing"],
@@ -84,24 +84,24 @@ def page(
     )
 
 
-def _machine(soup: Soup) -> str:
-    camera = look_at(soup.corners.reshape(-1, 3), azimuth=-0.75, elevation=0.3, width=SIZE[0], height=SIZE[1])
+def _machine(mechanism: Mechanism, soup: Soup) -> str:
+    camera = look_at(outline(mechanism), azimuth=-0.75, elevation=0.3, width=SIZE[0], height=SIZE[1])
     return data_uri(render(soup, camera))
 
 
-def _pose(soup: Soup) -> str:
-    camera = look_at(soup.corners.reshape(-1, 3), azimuth=-1.1, elevation=0.2, width=480, height=360)
-    return data_uri(render(soup, camera))
+def _pose(mechanism: Mechanism, soup: Soup, moved: Mapping[str, Floats]) -> str:
+    camera = look_at(outline(mechanism, moved), azimuth=-1.1, elevation=0.2, width=480, height=360)
+    return data_uri(render(posed(soup, moved), camera))
 
 
-def _joint_svg(rows: Sequence[Mapping[str, Any]], soup: Soup) -> Any:
-    corners = soup.corners.reshape(-1, 3)
-    camera = look_at(corners, azimuth=-math.pi / 2 + 0.12, elevation=0.18, width=SIZE[0], height=SIZE[1])
-    return overlay(camera, data_uri(render(soup, camera)), joint_marks(rows), alt="Joints on the machine")
+def _joint_svg(rows: Sequence[Mapping[str, Any]], mechanism: Mechanism, soup: Soup) -> Any:
+    camera = look_at(outline(mechanism), azimuth=-math.pi / 2 + 0.12, elevation=0.18, width=SIZE[0], height=SIZE[1])
+    picture = data_uri(render(soup, camera, colors=soup.by_body(mechanism)))
+    return overlay(camera, picture, joint_marks(rows), alt="Joints on the machine")
 
 
-def _sensor_svg(document: Mapping[str, Any], soup: Soup) -> Any:
-    corners = soup.corners.reshape(-1, 3)
+def _sensor_svg(document: Mapping[str, Any], mechanism: Mechanism, soup: Soup) -> Any:
+    corners = outline(mechanism)
     size = float(np.linalg.norm(np.ptp(corners, axis=0))) if len(corners) else 1.0
     outlines = views(document["sensors"], size)
     camera = look_at(

@@ -8,9 +8,12 @@ from __future__ import annotations
 import base64
 import colorsys
 import io
+import itertools
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,10 +24,17 @@ from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Mechanism
 from yellowiron.report.rows import in_rows
 
-_SUN = np.array([0.35, -0.70, 1.0]) / math.sqrt(0.35**2 + 0.70**2 + 1.0)
-_SKY = np.array([0.85, 0.89, 0.93])
-_GROUND = np.array([0.78, 0.77, 0.74])
+Singles = NDArray[np.float32]
+"""A picture needs no more: a micrometre at ten metres."""
+
+_SUN = (np.array([0.35, -0.70, 1.0]) / math.sqrt(0.35**2 + 0.70**2 + 1.0)).astype(np.float32)
+_SKY = np.array([0.85, 0.89, 0.93], dtype=np.float32)
+_GROUND = np.array([0.78, 0.77, 0.74], dtype=np.float32)
+_UP = np.array([0.0, 0.0, 1.0], dtype=np.float32)
+_BAND = 48
 YELLOW = (0.87, 0.47, 0.01)
+# Linear to sRGB (IEC 61966-2-1, as a power of 2.2), by 16 bits of light.
+_DISPLAY = (255.0 * np.linspace(0.0, 1.0, 65536) ** (1.0 / 2.2) + 0.5).astype(np.uint8)
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,11 +42,35 @@ class Soup:
     """Triangles to draw: corners (m, 3, 3) in metres, corner normals (m, 3, 3), colours (m, 3), part numbers (m,).
     `spans`: body → its first triangle and the one after its last."""
 
-    corners: Floats
-    normals: Floats
-    colors: Floats
-    parts: NDArray[np.int64]
+    corners: Singles
+    normals: Singles
+    colors: Singles
+    parts: NDArray[np.int32]
     spans: Mapping[str, tuple[int, int]] = field(default_factory=dict)
+
+    @cached_property
+    def scene(self) -> Any:
+        """Embree's, for rays; every picture of the soup asks the same."""
+        from embreex import rtcore_scene
+        from embreex.mesh_construction import TriangleMesh
+
+        scene = rtcore_scene.EmbreeScene()
+        TriangleMesh(scene, self.corners)
+        return scene
+
+    @cached_property
+    def box(self) -> tuple[Singles, Singles]:
+        """Its two corners (3,)."""
+        corners = self.corners.reshape(-1, 3)
+        return (corners.min(axis=0), corners.max(axis=0)) if len(corners) else (_SKY * 0.0, _SKY * 0.0)
+
+    def by_body(self, mechanism: Mechanism) -> Singles:
+        """Colours (m, 3) that tell the bodies apart, a counted row of them alike."""
+        colors = self.colors.copy()
+        for name, color in body_colors(mechanism).items():
+            first, last = self.spans[name]
+            colors[first:last] = color
+        return colors
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,21 +100,18 @@ def machine_soup(
     frame: Floats,
     *,
     poses: Mapping[str, Floats] | None = None,
-    by_body: bool = False,
 ) -> Soup:
-    """All parts of a mechanism's bodies.
+    """All parts of a mechanism's bodies in their CAD colours.
 
-    `frame` (4, 4): CAD → machine; `poses`: body → (4, 4) displacement from the drawn pose, machine frame; `by_body`
-    colours every body (a counted row of them alike) by itself instead of by its parts' CAD colours.
+    `frame` (4, 4): CAD → machine; `poses`: body → (4, 4) displacement from the drawn pose, machine frame.
     """
     parts = {p.id: p for p in assembly.parts}
-    corners: list[Floats] = []
-    normals: list[Floats] = []
-    colors: list[Floats] = []
-    numbers: list[NDArray[np.int64]] = []
+    corners: list[Singles] = []
+    normals: list[Singles] = []
+    colors: list[Singles] = []
+    numbers: list[NDArray[np.int32]] = []
     spans: dict[str, tuple[int, int]] = {}
     count = 0
-    own = body_colors(mechanism)
     for body in mechanism.bodies:
         first = count
         displacement = poses.get(body.name, np.eye(4)) if poses else np.eye(4)
@@ -101,16 +132,16 @@ def machine_soup(
                 turned = shape.mesh.normals @ np.linalg.inv(place[:3, :3])
                 turned /= np.maximum(np.linalg.norm(turned, axis=1, keepdims=True), 1e-30)
                 corner_normals = turned[triangles]
-            color = own[body.name] if by_body else (part.color or shape.color or YELLOW)
-            corners.append(soup)
-            normals.append(corner_normals)
-            colors.append(np.broadcast_to(np.asarray(color, dtype=np.float64), (len(soup), 3)))
-            numbers.append(np.full(len(soup), len(numbers), dtype=np.int64))
+            color = part.color or shape.color or YELLOW
+            corners.append(soup.astype(np.float32))
+            normals.append(corner_normals.astype(np.float32))
+            colors.append(np.broadcast_to(np.asarray(color, dtype=np.float32), (len(soup), 3)))
+            numbers.append(np.full(len(soup), len(numbers), dtype=np.int32))
             count += len(soup)
         spans[body.name] = (first, count)
     if not corners:
-        nothing = np.zeros((0, 3, 3))
-        return Soup(nothing, nothing, np.zeros((0, 3)), np.zeros(0, dtype=np.int64))
+        nothing = np.zeros((0, 3, 3), dtype=np.float32)
+        return Soup(nothing, nothing, nothing[:, 0], np.zeros(0, dtype=np.int32))
     return Soup(
         np.concatenate(corners), np.concatenate(normals), np.concatenate(colors), np.concatenate(numbers), spans
     )
@@ -121,7 +152,7 @@ def posed(soup: Soup, poses: Mapping[str, Floats]) -> Soup:
     corners, normals = soup.corners.copy(), soup.normals.copy()
     for name, (first, last) in soup.spans.items():
         if name in poses:
-            turn, way = poses[name][:3, :3], poses[name][:3, 3]
+            turn, way = poses[name][:3, :3].astype(np.float32), poses[name][:3, 3].astype(np.float32)
             corners[first:last] = corners[first:last] @ turn.T + way
             normals[first:last] = normals[first:last] @ turn.T
     return replace(soup, corners=corners, normals=normals)
@@ -159,65 +190,83 @@ def look_at(
     return Camera(eye, forward, right, up, scale, width, height)
 
 
-def render(soup: Soup, camera: Camera, *, supersample: int = 2) -> Image.Image:
-    """The picture: sun with shadow, sky light, a ground plane, and lines where parts or creases meet."""
-    from embreex import rtcore_scene
-    from embreex.mesh_construction import TriangleMesh
+def outline(mechanism: Mechanism, poses: Mapping[str, Floats] | None = None) -> Floats:
+    """Corners (n, 3) of the bodies' hulls, moved by body → (4, 4) displacement: enough to see all of the machine."""
+    places = poses or {}
+    hulls = [(np.asarray(b.hull), places.get(b.name, np.eye(4))) for b in mechanism.bodies if len(b.hull)]
+    return np.concatenate([np.zeros((0, 3)), *(hull @ place[:3, :3].T + place[:3, 3] for hull, place in hulls)])
 
+
+def render(soup: Soup, camera: Camera, *, colors: Singles | None = None, supersample: int = 2) -> Image.Image:
+    """The picture: sun with shadow, sky light, a ground plane, and lines where parts or creases meet. `colors` (m, 3)
+    take the place of the soup's."""
+    own = soup.colors if colors is None else colors
     width, height = camera.width * supersample, camera.height * supersample
-    scale = np.float32(camera.scale * supersample)
-    eye, sun_direction = camera.eye.astype(np.float32), _SUN.astype(np.float32)
-    columns, rows = np.meshgrid(np.arange(width, dtype=np.float32) + 0.5, np.arange(height, dtype=np.float32) + 0.5)
-    directions = (
-        camera.forward.astype(np.float32)
-        + ((columns - width / 2) / scale)[..., None] * camera.right.astype(np.float32)
-        - ((rows - height / 2) / scale)[..., None] * camera.up.astype(np.float32)
-    ).reshape(-1, 3)
-    directions /= np.sqrt(np.einsum("ij,ij->i", directions, directions))[:, None]
-    scene = rtcore_scene.EmbreeScene()
-    TriangleMesh(scene, soup.corners.astype(np.float32))
-    hit = scene.run(np.broadcast_to(eye, directions.shape).copy(), directions, output=True)
-    face = hit["primID"].astype(np.int64)
+    image = np.empty((height, width, 3), dtype=np.float32)
+    normals = np.empty_like(image)
+    face = np.empty((height, width), dtype=np.int32)
+    # Band by band, so that a band's numbers stay in the processor's cache.
+    for top in range(0, height, _BAND):
+        band = slice(top, top + _BAND)
+        directions = _rays(camera, supersample, np.arange(height, dtype=np.float32)[band] + np.float32(0.5))
+        colored, facing, met = _shade(soup, own, camera.eye.astype(np.float32), directions)
+        image[band], normals[band] = colored.reshape(-1, width, 3), facing.reshape(-1, width, 3)
+        face[band] = met.reshape(-1, width)
     seen = face >= 0
+    label = np.where(seen, soup.parts[np.maximum(face, 0)] if len(soup.parts) else -1, -1)
+    image[_edges(label, normals, seen)] *= 0.2
+    pixels = _DISPLAY[(65535.0 * np.clip(image, 0.0, 1.0)).astype(np.uint16)]
+    return Image.fromarray(pixels).resize((camera.width, camera.height), Image.Resampling.BOX)
 
-    # What each ray meets: a part, else the ground, else the sky.
-    color = np.tile(_SKY.astype(np.float32), (len(directions), 1))
-    normals = np.zeros_like(directions)
-    ground = ~seen & (directions[:, 2] < 0)
-    u, v = hit["u"][seen, None], hit["v"][seen, None]
-    corner = soup.normals.astype(np.float32)[face[seen]]
-    normal = (1 - u - v) * corner[:, 0] + u * corner[:, 1] + v * corner[:, 2]
-    normal /= np.maximum(np.sqrt(np.einsum("ij,ij->i", normal, normal)), 1e-12)[:, None]
-    normal *= np.where(np.einsum("ij,ij->i", normal, directions[seen]) > 0, -1.0, 1.0)[:, None]
-    normals[seen] = normal
-    normals[ground] = (0.0, 0.0, 1.0)
 
-    def shade(rays: NDArray[np.bool_], distance: NDArray[np.float32], albedo: Floats | NDArray[np.float32]) -> None:
-        points = eye + directions[rays] * distance[:, None]
-        facing = normals[rays]
-        start = points + facing * np.float32(2e-3)
-        blocked = scene.run(start, np.broadcast_to(sun_direction, start.shape).copy(), query="OCCLUDED") >= 0
-        sun = np.where(blocked, 0.0, np.clip(facing @ sun_direction, 0.0, 1.0))
-        light = 0.22 + 0.24 * (0.5 + 0.5 * facing[:, 2]) + 0.62 * sun
-        color[rays] = albedo * light[:, None]
+def _rays(camera: Camera, supersample: int, rows: Singles) -> Singles:
+    """Unit directions (n, 3) through the pixels of some rows, row by row."""
+    width, height = np.float32(camera.width * supersample), np.float32(camera.height * supersample)
+    scale = np.float32(camera.scale * supersample)
+    across = (np.arange(width, dtype=np.float32) + np.float32(0.5) - width / 2) / scale
+    down = (rows - height / 2) / scale
+    sides = across[None, :, None] * camera.right.astype(np.float32) - down[:, None, None] * camera.up.astype(np.float32)
+    directions = (camera.forward.astype(np.float32) + sides).reshape(-1, 3)
+    return np.asarray(directions / np.sqrt(np.einsum("ij,ij->i", directions, directions))[:, None])
 
-    if seen.any():
-        shade(seen, hit["tfar"][seen], soup.colors.astype(np.float32)[face[seen]])
-    if ground.any():
-        to_ground = -eye[2] / directions[ground, 2]
-        shade(ground, to_ground, _GROUND.astype(np.float32))
+
+def _shade(soup: Soup, own: Singles, eye: Singles, directions: Singles) -> tuple[Singles, Singles, NDArray[np.int32]]:
+    """What each ray (n, 3) meets: a part, else the ground, else the sky. Linear colours (n, 3), normals (n, 3) and
+    triangles (n,), -1 where it is none."""
+    hit = soup.scene.run(np.broadcast_to(eye, directions.shape).copy(), directions, output=True)
+    face = hit["primID"]
+    color, normals = np.tile(_SKY, (len(directions), 1)), np.zeros_like(directions)
+    limits = _shadow(soup)
+
+    def light(points: Singles, facing: Singles) -> Singles:
+        sun = np.clip(facing @ _SUN, 0.0, 1.0)
+        # What is turned away from the sun is dark without asking, and what is far from the machine is lit.
+        near = ((points[:, :2] >= limits[0]) & (points[:, :2] <= limits[1])).all(axis=1)
+        asked = np.flatnonzero((sun > 0.0) & near)
+        if len(asked):
+            start = points[asked] + facing[asked] * np.float32(2e-3)
+            towards = np.broadcast_to(_SUN, start.shape).copy()
+            sun[asked[soup.scene.run(start, towards, query="OCCLUDED") >= 0]] = 0.0
+        return np.asarray(0.34 + 0.12 * facing[:, 2] + 0.62 * sun)[:, None]
+
+    seen = np.flatnonzero(face >= 0)
+    if len(seen):
+        u, v, met, rays = hit["u"][seen, None], hit["v"][seen, None], face[seen], directions[seen]
+        corner = soup.normals[met]
+        normal = (1 - u - v) * corner[:, 0] + u * corner[:, 1] + v * corner[:, 2]
+        normal /= np.maximum(np.sqrt(np.einsum("ij,ij->i", normal, normal)), 1e-12)[:, None]
+        normal *= np.where(np.einsum("ij,ij->i", normal, rays) > 0, np.float32(-1.0), np.float32(1.0))[:, None]
+        normals[seen] = normal
+        color[seen] = own[met] * light(eye + rays * hit["tfar"][seen, None], normal)
+    ground = np.flatnonzero((face < 0) & (directions[:, 2] < 0))
+    if len(ground):
+        normals[ground] = _UP
+        points = eye - directions[ground] * (eye[2] / directions[ground, 2:])
         # The ground fades into the sky, so that it has no edge.
         middle, reach = _extent(soup)
-        spread = np.linalg.norm((eye + directions[ground] * to_ground[:, None])[:, :2] - middle, axis=1)
-        fade = np.clip(spread / reach, 0.0, 1.0)[:, None] ** 2
-        color[ground] = color[ground] * (1 - fade) + _SKY.astype(np.float32) * fade
-
-    label = np.where(seen, soup.parts[np.maximum(face, 0)] if len(soup.parts) else -1, -1)
-    edges = _edges(label.reshape(height, width), normals.reshape(height, width, 3), seen.reshape(height, width))
-    image = color.reshape(height, width, 3)
-    image[edges] *= 0.2
-    pixels = (_display(np.clip(image, 0.0, 1.0)) * 255.0 + 0.5).astype(np.uint8)
-    return Image.fromarray(pixels).resize((camera.width, camera.height), Image.Resampling.BOX)
+        fade = np.clip(np.linalg.norm(points[:, :2] - middle, axis=1) / reach, 0.0, 1.0)[:, None] ** 2
+        color[ground] = _GROUND * light(points, normals[ground]) * (1 - fade) + _SKY * fade
+    return color, normals, face
 
 
 def encode(image: Image.Image, *, quality: int = 82) -> bytes:
@@ -255,21 +304,23 @@ def body_color(index: int) -> tuple[float, float, float]:
     return (red**2.2, green**2.2, blue**2.2)
 
 
-def _extent(soup: Soup) -> tuple[NDArray[np.float32], np.float32]:
+def _extent(soup: Soup) -> tuple[Singles, np.float32]:
     """The middle on the ground, and how far from it the ground is seen: a little more than the machine's size."""
     if not len(soup.corners):
         return np.zeros(2, dtype=np.float32), np.float32(1.0)
-    corners = soup.corners.reshape(-1, 3)
-    low, high = corners.min(axis=0), corners.max(axis=0)
-    return (0.5 * (low + high))[:2].astype(np.float32), np.float32(1.4 * np.linalg.norm(high - low))
+    low, high = soup.box
+    return (0.5 * (low + high))[:2], np.float32(1.4 * np.linalg.norm(high - low))
 
 
-def _display(linear: Floats) -> Floats:
-    """Linear to sRGB (IEC 61966-2-1, as a power of 2.2)."""
-    return np.asarray(linear ** (1.0 / 2.2), dtype=np.float64)
+def _shadow(soup: Soup) -> Singles:
+    """From where to where (2, 2) along x and y the machine, and its shadow on the ground, may be."""
+    corners = np.array(list(itertools.product(*zip(*soup.box, strict=True))), dtype=np.float32)
+    below = corners - corners[:, 2:] / _SUN[2] * _SUN
+    both = np.concatenate([corners, below])[:, :2]
+    return np.array([both.min(axis=0), both.max(axis=0)])
 
 
-def _edges(label: NDArray[np.int64], normals: Floats, seen: NDArray[np.bool_]) -> NDArray[np.bool_]:
+def _edges(label: NDArray[np.int32], normals: Singles, seen: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """Pixels where two parts, or two faces at more than about 35°, meet."""
     edges = np.zeros(label.shape, dtype=bool)
     for axis in (0, 1):

@@ -11,7 +11,7 @@ import numpy as np
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Mechanism
 from yellowiron.model.sweep import Frame, Sweep
-from yellowiron.report.pictures import Soup, data_uri, look_at, posed, render
+from yellowiron.report.pictures import Soup, data_uri, look_at, outline, posed, render
 from yellowiron.report.plots import Line, plot
 from yellowiron.report.simulation import engine_name
 from yellowiron.report.words import sentence
@@ -48,10 +48,7 @@ def _frames(sweep: Sweep, mechanism: Mechanism, soup: Soup) -> list[dict[str, An
     if not _moves(sweep.frames, mechanism):
         return []
     # One camera for all of a strip: what moves is the machine.
-    points = np.concatenate([
-        np.asarray(body.hull) @ frame.poses[body.name][:3, :3].T + frame.poses[body.name][:3, 3]
-        for frame in sweep.frames for body in mechanism.bodies if len(body.hull)
-    ])  # fmt: skip
+    points = np.concatenate([outline(mechanism, frame.poses) for frame in sweep.frames])
     camera = look_at(points, azimuth=-1.1, elevation=0.2, width=WIDTH, height=HEIGHT)
     return [
         {
