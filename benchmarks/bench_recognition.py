@@ -1,13 +1,16 @@
 """How right alignment is on machines nobody tuned for: synthetic loaders and excavators without names, turned, scaled
 and shuffled, sound and with one defect at a time, from B-rep and from triangles.
 
-`python benchmarks/bench_recognition.py [--first SEED] [--count N] [--kinds loader,excavator] [--defects …]
-[--inputs brep,triangles] [--out FILE.json]`, from the repository's root. Seeds below 1000 were looked at while the
-aligner was written, those from 1000 on are held back.
+    python benchmarks/bench_recognition.py [--first SEED] [--count N] [--kinds loader,excavator] [--defects …]
+        [--inputs brep,triangles] [--out FILE.json] [--parts 1000,5000]
+
+From the repository's root. Seeds below 1000 were looked at while the aligner was written, those from 1000 on are held
+back.
 
 A part is wrong if its body is, or the role where it is a pin or of a track's row. A role (body or pin) is right if most
 of its parts have it. Silent: wrong, and neither the part nor the role is listed for review. Hoses between any two
-bodies have no truth and are not counted. Seconds are CPU time of `align` alone, one thread.
+bodies have no truth and are not counted. Seconds are CPU time of `align` alone, one thread. With `--parts`, sound
+machines are filled up with bolts to as many parts.
 """
 
 from __future__ import annotations
@@ -25,7 +28,7 @@ import numpy as np
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "src"), str(ROOT / "tests"), str(ROOT / "tests" / "align")]
 
-from defects import DEFECTS, spoiled  # noqa: E402
+from defects import DEFECTS, crowded, spoiled  # noqa: E402
 from synthetic import disguise  # noqa: E402
 
 from yellowiron.align import align  # noqa: E402
@@ -77,10 +80,12 @@ def judged(found: Alignment, truth: dict[str, tuple[str, str]], template: Templa
     }  # fmt: skip
 
 
-def one(kind: str, seed: int, defect: str, *, triangles: bool) -> dict[str, Any]:
-    """One machine, one defect."""
+def one(kind: str, seed: int, defect: str, *, triangles: bool, parts: int = 0) -> dict[str, Any]:
+    """One machine, one defect, filled up to `parts`."""
     template = load_template(TEMPLATES[kind])
     machine = spoiled(kind, seed, defect, triangles=triangles)
+    if parts:
+        machine = crowded(machine, parts)
     assembly, truth, _ = disguise(machine, seed, scale=True)
     start = time.process_time()
     found = align(assembly, template, Specifications())
@@ -110,10 +115,16 @@ def main() -> None:
     parser.add_argument("--kinds", default="loader,excavator")
     parser.add_argument("--inputs", default="brep,triangles")
     parser.add_argument("--defects", default=",".join(DEFECTS))
+    parser.add_argument("--parts", default="")
     parser.add_argument("--out", type=Path)
     chosen = parser.parse_args()
     everything: dict[str, list[dict[str, Any]]] = {}
     print(f"{'':38s}   n  parts   right silent  flagd    roles  sil.     mean    max s")
+    if chosen.parts:
+        for kind in chosen.kinds.split(","):
+            for count in (int(c) for c in chosen.parts.split(",")):
+                print(row(f"{kind}, {count} parts", [one(kind, chosen.first, "sound", triangles=False, parts=count)]))
+        return
     for kind in chosen.kinds.split(","):
         for source in chosen.inputs.split(","):
             for defect in chosen.defects.split(","):

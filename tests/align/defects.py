@@ -13,7 +13,7 @@ from excavator_machines import excavator
 from synthetic import Machine, loader
 
 import align_solids
-from align_solids import Array
+from align_solids import Array, bolt, place
 from crawler import merged
 from yellowiron.cad.placed import shape_of
 from yellowiron.model.assembly import Part
@@ -26,10 +26,11 @@ def drawn(kind: str, seed: int, *, segments: int = 32) -> Machine:
     """The machine of a kind and seed, everything about it from the seed; round things of `segments` corners."""
     rng = np.random.default_rng([seed, 23])
     embedded, stop, hoses = bool(rng.random() < 0.5), bool(rng.random() < 0.15), int(rng.choice([0, 0, 4, 8]))
+    links = int(rng.choice([1, 1, 2]))
     kept, align_solids.SEGMENTS = align_solids.SEGMENTS, segments
     try:
         if kind == "loader":
-            return loader(seed, embedded=embedded, stop=stop, hoses=hoses)
+            return loader(seed, embedded=embedded, stop=stop, hoses=hoses, links=links)
         return excavator(seed, embedded=embedded)
     finally:
         align_solids.SEGMENTS = kept
@@ -109,6 +110,26 @@ def missing_cylinder(machine: Machine, rng: np.random.Generator) -> Machine:
     barrel = rod.replace("piston_rod", "cylinder_barrel")
     gone = {f"{b}{side}" for b in (rod, barrel) for side in ("", "_l", "_r")}
     return _with(machine, [p for p in machine.parts if is_pin(machine, p) or machine.truth[p.id][1] not in gone])
+
+
+def crowded(machine: Machine, count: int) -> Machine:
+    """The machine with as many parts: bolts that stand anywhere on its faces are added."""
+    rng = np.random.default_rng([count, 37])
+    result = replace(
+        machine, parts=list(machine.parts), shapes=dict(machine.shapes), truth=dict(machine.truth), pose=np.eye(4)
+    )
+    bolts = [bolt(f"crowd{k}", r, 4 * r) for k, r in enumerate((0.008, 0.01, 0.012))]
+    hosts = [p for p in machine.parts if machine.truth[p.id][1] and machine.shapes[p.shape].area > 0.3]
+    while len(result.parts) < count:
+        host = hosts[int(rng.integers(len(hosts)))]
+        mesh = machine.shapes[host.shape].mesh
+        corners = mesh.points[mesh.triangles[int(rng.integers(len(mesh.triangles)))]]
+        corners = corners @ host.transform[:3, :3].T + host.transform[:3, 3]
+        normal = np.cross(corners[1] - corners[0], corners[2] - corners[0])
+        if np.linalg.norm(normal) > 1e-3:
+            body = machine.truth[host.id][1]
+            result.add("bolt", body, body, bolts[int(rng.integers(3))], place(corners.mean(axis=0), normal))
+    return result
 
 
 DEFECTS: dict[str, Defect] = {

@@ -84,7 +84,9 @@ def away(q: Array, a: Array, b: Array) -> float:
 class Drawer:
     """One machine from one generator of random numbers."""
 
-    def __init__(self, seed: int, *, twin: bool | None, steered: bool, embedded: bool, stop: bool, hoses: int) -> None:
+    def __init__(
+        self, seed: int, *, twin: bool | None, steered: bool, embedded: bool, stop: bool, hoses: int, links: int = 1
+    ) -> None:
         self.rng = np.random.default_rng(seed)
         self.m = Machine(bool(self.rng.random() < 0.7) if twin is None else twin)
         u = self.rng.uniform
@@ -101,7 +103,7 @@ class Drawer:
         self.gap = float(self.rng.choice([0.0, 0.001, 0.004])) * s
         self.bushes = bool(self.rng.random() < 0.6)
         self.e = 0.004 * s if embedded else 0.0
-        self.stop, self.hoses = stop, hoses
+        self.stop, self.hoses, self.links = stop, hoses, links
         self.link_pins()
 
     # ---- planar linkage ----
@@ -724,10 +726,17 @@ class Drawer:
         self.pin("bucket_piston_rod_pin", "bucket_piston_rod", self.at("F", -out), self.at("F", out))
         wide = out + t + self.gap
         self.pin("rocker_pin", "rocker", self.at("G", -wide), self.at("G", wide))
+        if self.links == 2:
+            # Outside the rocker and the boom's lugs.
+            y_link = y + 2 * (t + self.gap)
+            out = y_link + t / 2
+            for side in (1, -1):
+                outline = around((*H, 1.7 * self.pin_r), (*J, 1.7 * self.pin_r))
+                self.side_plate("link", "bucket_link", side * y_link, outline, "HJ")
+        else:
+            outline = around((*H, 1.7 * self.pin_r), (*J, 1.7 * self.pin_r))
+            self.side_plate("link", "bucket_link", 0.0, outline, "HJ", thickness=w)
         self.pin("bucket_link_pin", "bucket_link", self.at("H", -out), self.at("H", out))
-        self.side_plate(
-            "link", "bucket_link", 0.0, around((*H, 1.7 * self.pin_r), (*J, 1.7 * self.pin_r)), "HJ", thickness=w
-        )
 
     def bucket(self) -> None:
         e = self.e
@@ -769,11 +778,15 @@ class Drawer:
             wide = 1.5 * t + self.gap
             self.pin("bucket_pin", body, self.at("B", side * (self.yb + wide)), self.at("B", side * (self.yb - wide)))
         jl = np.linalg.inv(local) @ np.array([J[0], 0, J[1], 1])
+        beside = self.eye_w / 2 + self.gap + t / 2 + (self.links - 1) * (t + self.gap)
         for d in (1, -1):
-            y = d * (self.eye_w / 2 + self.gap + t / 2)
             outline = around((jl[0], jl[2], 2 * self.pin_r), (back + e, 0.2 * s, 0), (back + e, 0.6 * s, 0))
-            put("link ear", plate("link_ear", outline, t, [(jl[0], jl[2], self.bore_r)]), place((0, y, 0), XZ, X))
-        half = self.eye_w / 2 + self.gap + t
+            put(
+                "link ear",
+                plate("link_ear", outline, t, [(jl[0], jl[2], self.bore_r)]),
+                place((0, d * beside, 0), XZ, X),
+            )
+        half = beside + t / 2 + (self.links - 1) * (t + self.gap)
         self.pin("bucket_link_bucket_pin", body, self.at("J", -half), self.at("J", half))
 
     def lift(self) -> None:
@@ -825,11 +838,13 @@ def loader(
     embedded: bool = False,
     stop: bool = False,
     hoses: int = 0,
+    links: int = 1,
 ) -> Machine:
     """The machine of a seed, in its own frame, in drawing order, with names. `embedded`: plates are drawn into each
     other along their welds; `stop`: a steering stop lies flat against both frames; `hoses` run between any two bodies
-    (their truth is empty)."""
-    return Drawer(seed, twin=twin, steered=steered and not stop, embedded=embedded, stop=stop, hoses=hoses).draw()
+    (their truth is empty); `links`: one bucket link in the middle, or one on each side of the rocker."""
+    steered = steered and not stop
+    return Drawer(seed, twin=twin, steered=steered, embedded=embedded, stop=stop, hoses=hoses, links=links).draw()
 
 
 def disguise(

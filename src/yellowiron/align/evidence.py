@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -9,7 +10,7 @@ import numpy as np
 
 from yellowiron.align.contacts import PARALLEL, Fit, Flat, Line
 from yellowiron.align.hydraulics import Ram
-from yellowiron.align.solids import Solid, coaxial
+from yellowiron.align.solids import Cyl, Solid, coaxial
 from yellowiron.align.wheels import Wheel
 
 WIDE = 6.0
@@ -107,7 +108,7 @@ def evidence_of(
                 pinned[fit.outer].add(number[k])
         elif fit.outer in fasteners or (mine is not None and theirs is not None) or _of_wheel(mine, theirs):
             continue
-        elif fit.shaft.radius > wide and (_race(fit, solids) or (slewing and solids[fit.inner].axis is not None)):
+        elif fit.shaft.radius > wide and (slewing or solids[fit.inner].axis is None or _race(fit, solids)):
             races.append((number[k], fit))
         elif solids[fit.inner].axis is not None:
             pressed.append(fit)
@@ -175,19 +176,30 @@ def _race(fit: Fit, solids: tuple[Solid, ...]) -> bool:
 
 
 def tables_of(solids: tuple[Solid, ...], flats: list[Flat]) -> list[Fit]:
-    """A fit for every two round parts about one axis that lie flat on each other and are as wide as a slewing bearing:
-    a turntable that is only drawn as faces."""
+    """A fit for every two parts that lie flat on each other with round ends about one axis, as wide as a slewing
+    bearing: a turntable that is only drawn as faces."""
     if not solids:
         return []
     size = float(np.linalg.norm(np.max([s.high for s in solids], axis=0) - np.min([s.low for s in solids], axis=0)))
     found = []
     for flat in flats:
-        a, b = solids[flat.a].axis, solids[flat.b].axis
-        if a is None or b is None or not coaxial(a, b, 0.02) or min(a.radius, b.radius) < SLEWING * size:
-            continue
-        if abs(float(flat.normal @ a.direction)) > PARALLEL:
-            found.append(Fit(flat.a, flat.b, a, b, 0.0, b.off(a.center)))
+        for a, b in itertools.product(*(_ends(solids[i], flat, SLEWING * size) for i in (flat.a, flat.b))):
+            if coaxial(a, b, 0.02):
+                found.append(Fit(flat.a, flat.b, a, b, 0.0, b.off(a.center)))
+                break
     return found
+
+
+def _ends(solid: Solid, flat: Flat, least: float) -> list[Cyl]:
+    """The round bosses of a part, of at least a radius, that end at a flat contact; its axis, if it is round itself."""
+    bosses = [solid.axis] if solid.axis is not None else [c for c in solid.cylinders if c.full and not c.inner]
+    return [
+        c
+        for c in bosses
+        if c.radius >= least
+        and abs(float(flat.normal @ c.direction)) > PARALLEL
+        and (c is solid.axis or abs(abs(float((flat.center - c.center) @ c.direction)) - c.half) < 0.05 * c.radius)
+    ]
 
 
 def _of_wheel(mine: tuple[str, int] | None, theirs: tuple[str, int] | None) -> bool:
