@@ -39,6 +39,8 @@ _ROUND = 0.996
 """What has less than this between its two radii is oval."""
 _SLENDER = 4.0
 """What is left of a patch that was no cylinder is one only if it is this many radii long."""
+_TRIES = 1
+"""What has been part of so many patches that were not round is bent in two directions, and not tried again."""
 _TURN = 2.0 * math.pi
 
 
@@ -59,17 +61,18 @@ def find(mesh: Mesh) -> Found:
     soup = soup_of(mesh)
     free = np.ones(len(soup.corners), dtype=bool)
     rounds: list[Round] = []
+    refused = np.zeros(len(soup.corners), dtype=np.int64)
     # Whole ovals first: a piece of one is nearly a piece of a circle.
     found = _ovals(soup, free, whole=True)
     for guesses in (by_folds(soup), by_normals(soup, free)):
         for guess, seeds in guesses:
             seeds = seeds[free[seeds]]
-            if len(seeds) < 4 or guess.radius < _TINY * soup.size:
+            if len(seeds) < 4 or guess.radius < _TINY * soup.size or float(np.median(refused[seeds])) >= _TRIES:
                 continue
             cylinder = grown(soup, guess, seeds, free)
             if cylinder is not None and not _is_round(soup, cylinder):
-                cylinder = trimmed(soup, cylinder)
-                cylinder = cylinder if cylinder is not None and _is_straight(soup, cylinder) else None
+                refused[cylinder.triangles] += 1
+                cylinder = _straight(soup, cylinder)
             if cylinder is not None:
                 rounds.append(cylinder)
                 free[cylinder.triangles] = False
@@ -117,10 +120,17 @@ def _is_round(soup: Soup, cylinder: Round) -> bool:
     return float(np.abs(off).max()) <= close and not _is_oval(soup, cylinder, corners, off)
 
 
-def _is_straight(soup: Soup, cylinder: Round) -> bool:
-    """Whether a patch is round and much longer than it is wide."""
-    length = float(np.ptp(cylinder.along(soup.points[soup.corners[cylinder.triangles]].reshape(-1, 3))))
-    return length > _SLENDER * cylinder.radius and _is_round(soup, cylinder)
+def _straight(soup: Soup, cylinder: Round) -> Round | None:
+    """The straight of a patch that is no cylinder as a whole, round and much longer than it is wide; None without."""
+    if _length(soup, cylinder) <= _SLENDER * cylinder.radius:
+        return None
+    rest = trimmed(soup, cylinder)
+    good = rest is not None and _length(soup, rest) > _SLENDER * rest.radius and _is_round(soup, rest)
+    return rest if good else None
+
+
+def _length(soup: Soup, cylinder: Round) -> float:
+    return float(np.ptp(cylinder.along(soup.points[soup.corners[cylinder.triangles]].reshape(-1, 3))))
 
 
 def _is_oval(soup: Soup, cylinder: Round, corners: Floats, off: Floats) -> bool:

@@ -75,10 +75,28 @@ def welded(mesh: Mesh) -> NDArray[np.int64]:
     low, high = bounds(mesh)
     rounding = 4.0 * float(np.finfo(np.float32).eps) * float(max(np.abs(low).max(), np.abs(high).max()))
     step = max(float(np.linalg.norm(high - low)) * WELD, rounding, 1e-12)
-    pairs = cKDTree(mesh.points).query_pairs(step, output_type="ndarray")
-    count = len(mesh.points)
+    points, own = _distinct(mesh.points)
+    pairs = cKDTree(points).query_pairs(step, output_type="ndarray")
+    count = len(points)
     graph = coo_array((np.ones(len(pairs), dtype=np.int8), (pairs[:, 0], pairs[:, 1])), shape=(count, count))
-    return np.asarray(connected_components(graph, directed=False)[1], dtype=np.int64)
+    label = connected_components(graph, directed=False)[1].astype(np.int64)
+    # Numbered by the first point of each, so that the order of equal ones does not matter.
+    first = np.full(int(label.max()) + 1, len(own))
+    np.minimum.at(first, label[own], np.arange(len(own)))
+    return np.asarray(np.argsort(np.argsort(first))[label[own]], dtype=np.int64)
+
+
+def _distinct(points: Floats) -> tuple[Floats, NDArray[np.int64]]:
+    """The points of which no two are equal, and the number of each point's; a triangle soup has six of each."""
+    bits = (np.ascontiguousarray(points) + 0.0).view(np.uint64)
+    mixed = bits[:, 0] * np.uint64(0x9E3779B97F4A7C15)
+    for column in (1, 2):
+        mixed = (mixed ^ (mixed >> np.uint64(29)) ^ bits[:, column]) * np.uint64(0xBF58476D1CE4E5B9)
+    _, first, own = np.unique(mixed, return_index=True, return_inverse=True)
+    distinct = points[first]
+    if not np.array_equal(distinct[own], points):
+        distinct, own = np.unique(points, axis=0, return_inverse=True)
+    return distinct, np.asarray(own, dtype=np.int64).reshape(-1)
 
 
 def compacted(mesh: Mesh) -> Mesh:
@@ -93,59 +111,3 @@ def compacted(mesh: Mesh) -> Mesh:
         normals=None if mesh.normals is None else mesh.normals[used],
         triangle_colors=None if mesh.triangle_colors is None else mesh.triangle_colors[good],
     )
-
-
-def components(mesh: Mesh) -> NDArray[np.int64]:
-    """(m,) for every triangle the number of the piece of connected triangles it is in, numbered in order."""
-    points = welded(mesh)
-    corners = points[mesh.triangles]
-    rows = np.concatenate([corners[:, 0], corners[:, 0]])
-    columns = np.concatenate([corners[:, 1], corners[:, 2]])
-    count = int(points.max()) + 1 if len(points) else 0
-    graph = coo_array((np.ones(len(rows), dtype=np.int8), (rows, columns)), shape=(count, count))
-    label = connected_components(graph, directed=False)[1][corners[:, 0]]
-    first = np.unique(label, return_index=True)[1]
-    order = np.argsort(np.argsort(first))
-    return np.asarray(order[np.unique(label, return_inverse=True)[1]], dtype=np.int64)
-
-
-def right_side_out(mesh: Mesh) -> tuple[Mesh, float, bool]:
-    """The mesh with every closed piece turned to face outward, the volume of the closed pieces (m³, hollows within
-    others taken off), and whether all of it is closed."""
-    label = components(mesh)
-    points = welded(mesh)
-    middle = mesh.points.mean(axis=0)
-    corners = mesh.points[mesh.triangles] - middle
-    signed = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6.0
-    count = int(label.max()) + 1
-    volume = np.bincount(label, weights=signed, minlength=count)
-    sound = _closed_pieces(points[mesh.triangles], label, count)
-    low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
-    np.minimum.at(low, label, corners.min(axis=1))
-    np.maximum.at(high, label, corners.max(axis=1))
-    flip = np.zeros(count, dtype=bool)
-    for k in np.flatnonzero(sound & (volume < 0.0)):
-        around = sound & (volume > -volume[k]) & (low <= low[k]).all(axis=1) & (high >= high[k]).all(axis=1)
-        flip[k] = not around.any()
-    turned = flip[label]
-    triangles = np.where(turned[:, None], mesh.triangles[:, ::-1], mesh.triangles).astype(np.int32)
-    normals = mesh.normals
-    if normals is not None and turned.any():
-        normals = normals.copy()
-        normals[np.unique(mesh.triangles[turned])] *= -1.0
-    total = float(np.where(flip, -volume, volume)[sound].sum())
-    return Mesh(mesh.points, triangles, normals, mesh.triangle_colors), max(0.0, total), bool(sound.all())
-
-
-def _closed_pieces(triangles: NDArray[np.int64], label: NDArray[np.int64], count: int) -> NDArray[np.bool_]:
-    """(count,) which pieces have every edge once in each direction, or as often in one as in the other."""
-    edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
-    piece = np.tile(label, 3)
-    real = edges[:, 0] != edges[:, 1]
-    edges, piece = edges[real], piece[real]
-    forward = edges[:, 0] < edges[:, 1]
-    number = np.unique(np.sort(edges, axis=1), axis=0, return_inverse=True)[1].reshape(-1)
-    balance = np.bincount(number, weights=np.where(forward, 1.0, -1.0))
-    uneven = np.zeros(count, dtype=bool)
-    uneven[piece[balance[number] != 0.0]] = True
-    return ~uneven

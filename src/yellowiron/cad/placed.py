@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from yellowiron.cad import facets, meshed
+from yellowiron.cad import copies, facets, meshed, shells
 from yellowiron.cad.naming import unique_ids
 from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.errors import CadError
@@ -44,8 +44,9 @@ def assemble(
 ) -> Assembly:
     """The assembly of placed meshes; those that cannot be parts are left out, with a finding. `CadError` if none can.
 
-    Shapes of equal meshes are one, whatever the file calls them.
+    Shapes of equal meshes are one, whatever the file calls them, and wherever it has written them out.
     """
+    occurrences = _shared(occurrences)
     remarks = list(findings)
     shapes: dict[str, Shape] = {}
     known: dict[tuple[int, Color | None], Shape | None] = {}
@@ -83,13 +84,25 @@ def assemble(
     return Assembly(name, format, unit, parts, shapes, tuple(remarks), declared)
 
 
+def _shared(occurrences: Sequence[Occurrence]) -> list[Occurrence]:
+    """The occurrences, those of a mesh that is another's copy with that other's."""
+    meshes = list({id(item.mesh): item.mesh for item in occurrences}.values())
+    found = dict(zip(map(id, meshes), copies.originals(meshes), strict=True))
+    shared = []
+    for item in occurrences:
+        first, moved = found[id(item.mesh)]
+        place = item.transform if moved is None else item.transform @ moved
+        shared.append(replace(item, mesh=meshes[first], transform=place))
+    return shared
+
+
 def shape_of(mesh: Mesh, name: str, color: Color | None = None) -> Shape:
     """The shape of a mesh of triangles: measured, turned right side out, with the cylinders and planes that fit it.
 
     A closed mesh has its volume, centre and inertia; one that is open anywhere counts as a sheet, whose centre is
     that of its area and whose volume is that of its closed pieces. `mesh` has no triangle without an area.
     """
-    mesh, volume, closed = meshed.right_side_out(mesh)
+    mesh, volume, closed = shells.right_side_out(mesh)
     area, centroid = meshed.area_properties(mesh)
     inertia = np.zeros((3, 3))
     if closed:
@@ -195,13 +208,13 @@ def guessed_unit(points: Sequence[Floats], path: str) -> tuple[float, list[Findi
 
 
 def pieces(mesh: Mesh) -> list[Mesh]:
-    """The pieces of connected triangles of a mesh, in the order of their first triangles."""
+    """The solids and sheets of a mesh, in the order of their first triangles."""
     if not len(mesh.triangles):
         return []
-    label = meshed.components(mesh)
+    label = shells.solids(mesh)
+    order = np.argsort(label, kind="stable")
     found = []
-    for k in range(int(label.max()) + 1):
-        rows = label == k
+    for rows in np.split(order, np.flatnonzero(np.diff(label[order])) + 1):
         used, triangles = np.unique(mesh.triangles[rows], return_inverse=True)
         found.append(
             Mesh(
