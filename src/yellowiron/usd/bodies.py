@@ -10,6 +10,7 @@ from pxr import Gf, Sdf, Vt
 
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Body, BodyShape, Site
+from yellowiron.usd.ends import write_end_frames
 from yellowiron.usd.geometry import mirrored_path, pieces_path
 from yellowiron.usd.metadata import describe_body, describe_part, describe_site, set_custom
 from yellowiron.usd.plan import COLLIDERS, GEOMETRY_FILE, HULL, VISUALS, PlacedPart, Plan
@@ -53,6 +54,7 @@ def write_bodies(layer: Sdf.Layer, plan: Plan) -> None:
             add_reference(define(layer, f"{path}/{HULL}"), f"./{GEOMETRY_FILE}", plan.hull_paths[body.name])
         for site in sites.get(body.name, ()):
             _write_site(layer, plan.site_paths[site.name], site, body)
+    write_end_frames(layer, plan.ends)
 
 
 def _write_visuals(layer: Sdf.Layer, body: str, parts: tuple[PlacedPart, ...]) -> None:

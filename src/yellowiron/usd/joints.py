@@ -57,9 +57,11 @@ def write_joints(layer: Sdf.Layer, plan: Plan) -> None:
 def _write_frames(spec: Sdf.PrimSpec, joint: Joint, plan: Plan) -> None:
     """Body relationships and local frames. Bodies' axes are parallel to the machine's, so one rotation serves both."""
     rotation = Gf.Quatf(Gf.Quatd(*quaternion_to(joint.axis)))
+    ends = {end.side: end for end in plan.ends if end.joint is joint}
     for side, name in enumerate((joint.body0, joint.body1)):
-        set_targets(spec, f"physics:body{side}", plan.body_paths[name])
-        offset = np.asarray(joint.anchor) - np.asarray(plan.mechanism.body(name).origin)
+        set_targets(spec, f"physics:body{side}", ends[side].path if side in ends else plan.body_paths[name])
+        origin = joint.anchor if side in ends else plan.mechanism.body(name).origin
+        offset = np.asarray(joint.anchor) - np.asarray(origin)
         local = Gf.Vec3f(*offset.tolist())
         if local != Gf.Vec3f(0.0):
             set_attribute(spec, f"physics:localPos{side}", Types.Point3f, local)

@@ -8,6 +8,7 @@ from pxr import Gf, Sdf
 from yellowiron.model.mechanism import Body, chained, rolling
 from yellowiron.usd.articulation import articulation_roots
 from yellowiron.usd.bodies import shape_path
+from yellowiron.usd.ends import write_ends
 from yellowiron.usd.joints import write_joints
 from yellowiron.usd.materials import write_physics_material
 from yellowiron.usd.overlap import overlapping_bodies
@@ -34,6 +35,7 @@ def write_physics(layer: Sdf.Layer, base: Sdf.Layer, plan: Plan) -> None:
             _write_touching(over(layer, shape_path(str(spec.path), shape)), shape.material, plan)
     _write_filtered_pairs(layer, plan)
     write_joints(layer, plan)
+    write_ends(layer, plan.ends, plan.mechanism, plan.body_paths)
     for spec in articulation_roots(layer, plan):
         apply_schemas(spec, "PhysicsArticulationRootAPI")
 

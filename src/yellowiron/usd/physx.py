@@ -13,6 +13,7 @@ from pxr import Sdf
 from yellowiron.model.mechanism import Drive, Joint, Mechanism
 from yellowiron.usd.articulation import articulation_roots
 from yellowiron.usd.drives import INSTANCES, to_usd_unit
+from yellowiron.usd.ends import slewed_cuts
 from yellowiron.usd.plan import COLLIDERS, MESH, Plan
 from yellowiron.usd.stage import Types, apply_schemas, over, set_attribute
 
@@ -38,13 +39,7 @@ _VALUE_TYPES = {bool: Types.Bool, int: Types.Int, float: Types.Float}
 def loops_last(mechanism: Mechanism) -> bool:
     """Whether a machine's scene should solve its loops last: where a motor turns a body that loops hang on, as an
     excavator's swing does, and no ring of track shoes hangs on a sprocket, which then gives way by an eighth."""
-    if mechanism.floating:
-        return False
-    tree = [joint for joint in mechanism.joints if not joint.cut]
-    turned = {joint.body1 for joint in tree if joint.drive is not None and joint.drive.kind == "velocity"}
-    for _ in mechanism.bodies:
-        turned |= {joint.body1 for joint in tree if joint.body0 in turned}
-    return any(joint.body0 in turned for joint in mechanism.joints if joint.cut)
+    return not mechanism.floating and bool(slewed_cuts(mechanism))
 
 
 def iterations(mechanism: Mechanism) -> int:

@@ -13,6 +13,7 @@ from yellowiron.model.errors import MechanismError
 from yellowiron.model.geometry import Floats, Mesh, Shape
 from yellowiron.model.mechanism import Body, BodyPart, Mechanism
 from yellowiron.usd.collision import APPROXIMATIONS, Approximation, approximation
+from yellowiron.usd.ends import End, plan_ends
 from yellowiron.usd.materials import Look, look_of
 from yellowiron.usd.stage import Names
 from yellowiron.usd.turned import turned_pieces
@@ -57,7 +58,7 @@ class Plan:
     """Paths by name. `root` is the machine's prim; `body_paths`, `joint_paths`, `site_paths`, `sensor_paths` (of
     sensors on bodies) and `material_paths` are
     absolute in the composed machine; `hull_paths` are in the geometry layer. `parts` holds each body's parts in the
-    mechanism's order."""
+    mechanism's order, `ends` those of slewed cut pins."""
 
     mechanism: Mechanism
     root: str
@@ -69,6 +70,7 @@ class Plan:
     hull_paths: Mapping[str, str]
     parts: Mapping[str, tuple[PlacedPart, ...]]
     prototypes: tuple[Prototype, ...]
+    ends: tuple[End, ...] = ()
 
     @property
     def root_name(self) -> str:
@@ -85,6 +87,7 @@ def make_plan(mechanism: Mechanism, assembly: Assembly, frame: Floats, name: str
     inner = Names(JOINTS, MATERIALS)
     body_paths = {body.name: f"{root}/{inner.give(body.name)}" for body in mechanism.bodies}
     joint_names, material_names, hull_names = Names(BASE_JOINT), Names(), Names()
+    joint_paths = {j.name: f"{root}/{JOINTS}/{joint_names.give(j.name)}" for j in mechanism.joints}
     placer = _Placer(mechanism, assembly, frame)
     parts = {body.name: placer.place(body) for body in mechanism.bodies}
     inside = {body: Names(VISUALS, COLLIDERS, HULL) for body in body_paths}
@@ -92,7 +95,7 @@ def make_plan(mechanism: Mechanism, assembly: Assembly, frame: Floats, name: str
         mechanism=mechanism,
         root=root,
         body_paths=body_paths,
-        joint_paths={j.name: f"{root}/{JOINTS}/{joint_names.give(j.name)}" for j in mechanism.joints},
+        joint_paths=joint_paths,
         site_paths={s.name: f"{body_paths[s.body]}/{inside[s.body].give(s.name)}" for s in mechanism.sites},
         sensor_paths={
             s.name: f"{body_paths[s.body]}/{inside[s.body].give(s.name)}" for s in mechanism.sensors if s.body
@@ -101,6 +104,7 @@ def make_plan(mechanism: Mechanism, assembly: Assembly, frame: Floats, name: str
         hull_paths={b.name: f"{HULLS}/{hull_names.give(b.name)}" for b in mechanism.bodies},
         parts=parts,
         prototypes=tuple(placer.prototypes.prototypes),
+        ends=tuple(plan_ends(mechanism, root, inner, f"{root}/{JOINTS}", joint_names)),
     )
 
 

@@ -20,6 +20,7 @@ from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Body, BodyPart, BodyShape, Drive, Joint, Mechanism, Site, Vector
 from yellowiron.model.template import JointType
 from yellowiron.usd.drives import INSTANCES, per_usd_unit, to_usd_unit
+from yellowiron.usd.ends import KIND as END
 from yellowiron.usd.metadata import DOCUMENTS, FORMAT, KEY, from_json
 from yellowiron.usd.plan import HULL, JOINTS, VISUALS
 from yellowiron.usd.rotation import axis_of, principal_axes
@@ -134,8 +135,8 @@ class _Reader:
         data = self._prim.GetCustomDataByKey(KEY)
         body_prims = [p for p in self._prim.GetChildren() if _kind(p) == "body"]
         self._names = {p.GetPath(): str(_data(p)["name"]) for p in body_prims}
+        self._names |= {p.GetPath(): str(_data(p)["name"]) for p in self._prim.GetChildren() if _kind(p) == END}
         bodies = tuple(self._body(p) for p in body_prims)
-        origins = {body.name: body.origin for body in bodies}
         scope = self._prim.GetChild(JOINTS)
         joint_prims = [p for p in scope.GetChildren() if _kind(p) == "joint"] if scope else []
         hints = typing.get_type_hints(Mechanism)
@@ -144,7 +145,7 @@ class _Reader:
             equipment_type=str(data["equipmentType"]),
             root=str(data["root"]),
             bodies=bodies,
-            joints=tuple(self._joint(p, origins) for p in joint_prims),
+            joints=tuple(self._joint(p) for p in joint_prims),
             sites=tuple(s for p in body_prims for s in self._sites(p)),
             sensors=read_sensors(self._prim, self._cache),
             **{name: from_json(hints[name], data[name]) for name in DOCUMENTS if name in data},
@@ -153,8 +154,7 @@ class _Reader:
     def _body(self, prim: Usd.Prim) -> Body:
         data = _data(prim)
         mass = UsdPhysics.MassAPI(prim)
-        matrix, _ = self._cache.ComputeRelativeTransform(prim, self._prim)
-        origin = np.array(matrix.ExtractTranslation())
+        origin = self._origin(prim)
         recorded = np.array(data["centerOfMass"])
         center = _exact(_array(mass.GetCenterOfMassAttr()) + origin, recorded, scale=np.abs(recorded - origin))
         inertia = np.array(data["inertia"], dtype=np.float64)
@@ -176,6 +176,10 @@ class _Reader:
             source=str(data.get("source", "")),
             shapes=from_json(tuple[BodyShape, ...], data["shapes"]) if "shapes" in data else (),
         )
+
+    def _origin(self, prim: Usd.Prim) -> Floats:
+        matrix, _ = self._cache.ComputeRelativeTransform(prim, self._prim)
+        return np.array(matrix.ExtractTranslation())
 
     def _parts(self, body: Usd.Prim) -> Iterator[BodyPart]:
         scope = body.GetChild(VISUALS)
@@ -211,12 +215,12 @@ class _Reader:
                     source=str(data.get("source", "")),
                 )
 
-    def _joint(self, prim: Usd.Prim, origins: dict[str, Vector]) -> Joint:
+    def _joint(self, prim: Usd.Prim) -> Joint:
         data = _data(prim)
         kind: JointType = data["type"]
         joint = UsdPhysics.Joint(prim)
         names = [self._joined(rel, prim) for rel in (joint.GetBody0Rel(), joint.GetBody1Rel())]
-        origin = np.array(origins[names[0]])
+        origin = self._origin(self._stage.GetPrimAtPath(joint.GetBody0Rel().GetTargets()[0]))
         recorded = np.array(data["anchor"])
         anchor = _array(joint.GetLocalPos0Attr()) + origin
         rotation = Gf.Quatd(joint.GetLocalRot0Attr().Get())

@@ -28,9 +28,12 @@ _OVERLAP = 1e-3
     "Give it one, if anything shall touch it: without it everything falls through.",
 )
 def no_collider(view: View) -> Remarks:
-    """A body has no collider."""
+    """A body has no collider, nor has one that it is welded to."""
+    welds = [joint.bodies for joint in view.joints if joint.enabled and joint.type == "fixed"]
+    solid = {path for path, body in view.bodies.items() if body.has_collider}
+    solid |= {path for weld in welds if solid.intersection(weld) for path in weld}
     for body in view.bodies.values():
-        if body.enabled and not body.has_collider and body.mass:
+        if body.enabled and body.path not in solid and body.mass:
             yield body.path, "No collider is at or under it."
 
 
