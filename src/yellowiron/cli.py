@@ -120,7 +120,7 @@ def extract(
 
     with _progress(as_json) as progress:
         progress("Reading the specification sheets")
-        template = library.load_template(equipment_type)
+        template = library.load_template(equipment_type, sheet_only=True)
         model = _model(llm_model, llm_url, llm_key, llm_record, llm_replay)
         found = specs.extract(template, pdfs, config=config, extractor=extractor, model=model, progress=progress)
         if show is not None:
@@ -175,6 +175,7 @@ def align_parts(
     """Find the part that plays each role."""
     from yellowiron import align, library
     from yellowiron import cad as readers
+    from yellowiron.build import aligned
     from yellowiron.model.specification import Specifications
     from yellowiron.output import output_file
     from yellowiron.report import alignment_entry, alignment_table
@@ -184,8 +185,8 @@ def align_parts(
         progress("Reading the CAD model")
         assembly = readers.read_cad(cad)
         progress("Finding the part that plays each role")
-        edits = align.read_alignment(out, assembly, template) if out is not None and out.exists() else None
-        alignment = align.align(assembly, template, Specifications(), edits=edits)
+        earlier = out if out is not None and out.exists() else None
+        assembly, alignment = aligned(assembly, template, Specifications(), earlier=earlier)
         if out is not None:
             with output_file(out) as temporary:
                 align.write_alignment(alignment, assembly, temporary)
@@ -281,15 +282,17 @@ def list_templates(as_json: Json = False) -> None:
     from yellowiron import library
 
     names = library.list_templates()
-    _show({"templates": list(names)}, Text("\n".join(names)), as_json)
+    sheets = [name for name in names if library.is_sheet_only(name)]
+    lines = [Text.assemble(name, ("  sheet only" if name in sheets else "", "dim")) for name in names]
+    _show({"templates": list(names), "sheet_only": sheets}, Text("\n").join(lines), as_json)
 
 
 @templates.command("show")
 def show_template(equipment_type: Type, as_json: Json = False) -> None:
-    """Show a template's hierarchy and joints."""
+    """Show a template's hierarchy and joints, or what it asks a sheet for."""
     from yellowiron import library
 
-    template = library.load_template(equipment_type)
+    template = library.load_template(equipment_type, sheet_only=True)
     _show(asdict(template), library.tree(template), as_json)
 
 
@@ -299,7 +302,7 @@ def check_template(equipment_type: Type, as_json: Json = False) -> None:
     from yellowiron import library
     from yellowiron.report import lint_table
 
-    lint = library.lint(library.load_template(equipment_type))
+    lint = library.lint(library.load_template(equipment_type, sheet_only=True))
     document = {
         "findings": [asdict(f) for f in lint.findings],
         "counts": dict(lint.counts),

@@ -5,7 +5,7 @@ from yellowiron.library.documents import Documents, apply_joints, apply_sensors,
 from yellowiron.library.filled import filled_joints
 from yellowiron.library.likeness import Likeness, likeness
 from yellowiron.library.lint import LintReport, lint
-from yellowiron.library.load import list_templates, load_template
+from yellowiron.library.load import is_sheet_only, list_templates, load_template
 from yellowiron.library.propose import propose
 from yellowiron.library.reading import template_schema
 from yellowiron.library.show import tree
@@ -18,6 +18,7 @@ __all__ = [
     "apply_sensors",
     "copy_template",
     "filled_joints",
+    "is_sheet_only",
     "likeness",
     "lint",
     "list_templates",

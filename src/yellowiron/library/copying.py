@@ -15,7 +15,7 @@ def copy_template(type_or_folder: str | Path, folder: str | Path) -> Path:
     `OutputError` where the folder has something in it or cannot be written, or a texture lies outside the template;
     `TemplateError` where the template does not load."""
     source, target = find_template(type_or_folder), Path(folder)
-    template = load_template(type_or_folder)
+    template = load_template(type_or_folder, sheet_only=True)
     if target.exists() and (not target.is_dir() or any(target.iterdir())):
         raise OutputError(
             "The folder is there already, and nothing is overwritten",

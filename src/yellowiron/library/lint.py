@@ -41,7 +41,10 @@ class LintReport:
 
 def lint(template: Template) -> LintReport:
     """Checks names, references and mobility under every set of the template's choices. A finding that several sets
-    share is there once; errors come first."""
+    share is there once; errors come first. A type that is known by its sheet only has nothing to check but its words,
+    which loading does."""
+    if template.sheet_only:
+        return LintReport((), (), {"values asked of a sheet": len(template.wanted)})
     findings: dict[Finding, None] = dict.fromkeys(_whole(template))
     figures: list[TemplateMobility] = []
     combinations = _combinations(template)

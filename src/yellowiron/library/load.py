@@ -45,20 +45,37 @@ def library_folder() -> Path:
 
 
 def list_templates() -> tuple[str, ...]:
-    """The equipment types of the library, sorted."""
-    return tuple(sorted(p.name for p in library_folder().iterdir() if (p / "joints.json").is_file()))
+    """The equipment types of the library, sorted; those that `is_sheet_only` too."""
+    kinds = ("joints.json", "wanted.json")
+    return tuple(sorted(p.name for p in library_folder().iterdir() if any((p / kind).is_file() for kind in kinds)))
 
 
-def load_template(type_or_folder: str | Path) -> Template:
+def is_sheet_only(equipment_type: str) -> bool:
+    """Whether the library knows of a type only what to ask a sheet for: it can be extracted, not built."""
+    return not (library_folder() / equipment_type / "joints.json").is_file()
+
+
+def load_template(type_or_folder: str | Path, *, sheet_only: bool = False) -> Template:
     """The template of a library type, of a folder, or of one `joints.json` (the journal paper's Fig. A1 as printed).
 
     A bare name is a library type first; write `./name` for a folder that has a type's name. All variants are in the
-    template that comes back; `model.template.choose` decides them. `TemplateError` names file and key of what is wrong.
+    template that comes back; `model.template.choose` decides them. With `sheet_only`, a folder that has a `wanted.json`
+    and no joints will do: it says what to ask a sheet for. `TemplateError` names file and key of what is wrong.
     """
     folder = find_template(type_or_folder)
     if folder.is_file():
         return _assemble({"joints": read_document(folder, "joints")}, folder)
     paths = _documents_in(folder)
+    if "joints" not in paths and "wanted" in paths:
+        if sheet_only:
+            wanted = details.read_wanted(read_document(paths["wanted"], "wanted"), ())
+            return Template(folder.resolve().name, str(folder), "", (), (), wanted=wanted)
+        raise TemplateError(
+            f"Of a {folder.resolve().name.replace('_', ' ')} only the sheet can be read so far: "
+            "its template has no bodies and joints to build from",
+            where=str(folder),
+            hint="Use `yellowiron extract`, or begin a template with `yellowiron templates new --from CAD`.",
+        )
     if "joints" not in paths:
         raise TemplateError(
             "The folder is no template: it has no joints.json",

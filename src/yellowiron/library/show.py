@@ -13,8 +13,14 @@ from yellowiron.model.units import SI_UNIT
 
 
 def tree(template: Template) -> Tree:
-    """The hierarchy with, under each body, its joints (type, other body, pin, limits, drive)."""
+    """The hierarchy with, under each body, its joints (type, other body, pin, limits, drive); of a type known by
+    its sheet only, what the sheet is asked for."""
     top = Tree(Text(template.equipment_type, style="bold"))
+    if template.sheet_only:
+        asked = top.add(Text("asked of a sheet", style="italic"))
+        for wanted in template.wanted:
+            asked.add(Text.assemble((wanted.name, "bold"), (f"  {wanted.dimension}; {wanted.where}", "dim")))
+        return top
     nodes: dict[str | None, Tree] = {None: top}
     shown: set[str] = set()
     for role in template.roles:

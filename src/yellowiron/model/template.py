@@ -202,6 +202,11 @@ class Template:
     tests: tuple[MachineTest, ...] = ()
     words: Mapping[str, Mapping[str, tuple[str, ...]]] = field(default_factory=dict)
 
+    @property
+    def sheet_only(self) -> bool:
+        """Whether it says what to ask a sheet for and nothing else: no machine can be built with it."""
+        return not self.joints
+
     def role(self, name: str) -> Role:
         """The role of that name; of a row's member (`shoe_7` of `shoe[*]`) the row's, under the member's name.
         `KeyError` if there is none."""
