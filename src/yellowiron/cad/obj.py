@@ -69,9 +69,10 @@ def _groups(path: str, findings: list[Finding]) -> list[tuple[str, Mesh, Color |
 def _parsed(path: str) -> tuple[np.ndarray[tuple[int, int], np.dtype[np.float64]], list[_Group], list[str]]:
     """Points (n, 3) in the file's unit, its groups that have faces, and the material files it names."""
     points: list[tuple[float, float, float]] = []
-    groups: dict[tuple[str, str], _Group] = {}
+    groups: dict[tuple[int, str], _Group] = {}
     libraries: list[str] = []
     above = group = material = ""
+    objects = 0
     text = Path(path).read_bytes().decode("utf-8", errors="replace").replace("\\\n", " ")
     for number, line in enumerate(text.splitlines(), start=1):
         word, _, rest = line.strip().partition(" ")
@@ -83,12 +84,14 @@ def _parsed(path: str) -> tuple[np.ndarray[tuple[int, int], np.dtype[np.float64]
                 corners = [_index(entry, len(points)) for entry in rest.split()]
                 if len(corners) < 3:
                     raise ValueError
-                own = groups.setdefault((above, group), _Group(decode_name(group or above, "utf-8")))
+                own = groups.setdefault((objects, group), _Group(decode_name(group or above, "utf-8")))
                 for k in range(1, len(corners) - 1):
                     own.triangles.append((corners[0], corners[k], corners[k + 1]))
                     own.materials.append(material)
             elif word in ("o", "g"):
+                # Objects may share a name; a group that is named again goes on.
                 above, group = (rest.strip(), "") if word == "o" else (above, rest.strip())
+                objects += word == "o"
             elif word == "usemtl":
                 material = rest.strip()
             elif word == "mtllib":
