@@ -90,7 +90,7 @@ def build(
     with _progress(as_json) as progress:
         machine = build_machine(
             equipment_type, cad, out, sheets=specs or (), alignment_file=alignment, documents=data or (),
-            settings=[*(settings or ()), *([f"tracks={tracks}"] if tracks else [])], config=config,
+            settings=[*(settings or ()), *([f"--tracks={tracks}"] if tracks else [])], config=config,
             extractor=extractor, model=_model(llm_model, llm_url, llm_key, llm_record, llm_replay),
             engines=engines, progress=progress,
         )  # fmt: skip

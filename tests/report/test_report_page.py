@@ -17,7 +17,7 @@ from yellowiron.report.plots import Line, plot
 from yellowiron.report.rows import in_rows
 from yellowiron.report.sensors import field_of_view, sensor_marks, sensor_rows, views
 from yellowiron.report.simulation import in_a_sentence, simulation_tables
-from yellowiron.report.words import counted, sentence, shown, signed
+from yellowiron.report.words import breakable, counted, sentence, shown, signed
 
 
 def joint(name: str, **other: Any) -> dict[str, Any]:
@@ -183,3 +183,8 @@ def test_a_plot_stays_in_its_frame() -> None:
     y = [float(pair.split(",")[1]) for pair in points.group(1).split()]
     assert min(y) >= 0.0 and max(y) <= 190.0
     assert "nan" not in svg
+
+
+def test_names_go_on_in_a_new_line_only_after_a_word() -> None:
+    assert breakable("rear_frame2boom_joint") == "rear_<wbr>frame<wbr>2boom_<wbr>joint"
+    assert breakable("a<b_1") == "a&lt;b_<wbr>1"

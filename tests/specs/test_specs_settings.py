@@ -116,6 +116,10 @@ def test_choices_are_split_from_values() -> None:
     )
     with pytest.raises(YellowironError, match="'four' is no choice of wheel_drive"):
         split_settings(["wheel_drive=four"], machine)
+    assert split_settings(["--wheel-drive=rear"], machine) == ((), {"wheel_drive": "rear"})
+    with pytest.raises(YellowironError, match="have no tracks to choose") as caught:
+        split_settings(["--tracks=belt"], machine)
+    assert caught.value.where == "--tracks" and "--set" not in str(caught.value.hint)
 
 
 def spec(name: str, status: str, value: float | None = None, source: str = "sheet") -> Specification:

@@ -23,7 +23,7 @@ from yellowiron.report.sensors import sensor_marks, sensor_rows, view_svg, views
 from yellowiron.report.simulation import engine_name, in_a_sentence, simulation_tables
 from yellowiron.report.sweeps import Sweeps, sweep_entries
 from yellowiron.report.viewer import viewer
-from yellowiron.report.words import counted, sentence, shown, signed
+from yellowiron.report.words import breakable, counted, sentence, shown, signed
 
 Poses = Mapping[str, Mapping[str, Floats]]
 """Caption → body → (4, 4) displacement from the drawn pose, machine frame."""
@@ -51,7 +51,12 @@ def page(
     import jinja2
 
     environment = jinja2.Environment(autoescape=True, trim_blocks=True, undefined=jinja2.StrictUndefined)
-    environment.filters |= {"sentence": sentence, "counted": counted, "engine_name": engine_name}
+    environment.filters |= {
+        "sentence": sentence,
+        "breakable": breakable,
+        "counted": counted,
+        "engine_name": engine_name,
+    }
     folder = resources.files("yellowiron.report").joinpath("data")
     source, style = (folder.joinpath(name).read_text(encoding="utf-8") for name in ("page.html.j2", "page.css"))
     frame = np.asarray(alignment.frame, dtype=np.float64)

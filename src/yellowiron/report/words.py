@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import re
+from typing import Any
+
 from yellowiron.model.text import display
 
 MINUS = "\N{MINUS SIGN}"
@@ -33,6 +36,13 @@ def sentence(name: str) -> str:
     """`rear_frame` → `Rear frame`."""
     words = spoken(name)
     return words[:1].upper() + words[1:]
+
+
+def breakable(name: str) -> Any:
+    """`rear_frame2front_frame_joint` as HTML that may go on in a new line after each of its words, and nowhere else."""
+    from markupsafe import Markup, escape
+
+    return Markup(re.sub(r"(_|(?<=[a-z])(?=2[a-z]))", r"\1<wbr>", str(escape(name))))
 
 
 def counted(number: int, thing: str, things: str = "") -> str:

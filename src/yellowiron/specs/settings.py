@@ -24,8 +24,9 @@ _ROUNDING = 1e-9
 def split_settings(texts: Iterable[str], template: Template) -> tuple[tuple[str, ...], dict[str, str]]:
     """`--set` texts as (values for `parse_settings`, variant choices by the variant's own name).
 
-    A text whose name is a variant of the template is a choice (`wheel_drive=rear`). `YellowironError` for a text
-    without "=", and for a choice that the variant does not have.
+    A text whose name is a variant of the template is a choice (`wheel_drive=rear`); one that starts with `--` comes
+    from an option of that name (`--tracks=shoes`) and is a choice or nothing. `YellowironError` for a text without "=",
+    for a choice that the variant does not have, and for an option whose variant the template does not have.
     """
     variants = {fold(v.name): v for v in template.variants}
     values: list[str] = []
@@ -33,6 +34,9 @@ def split_settings(texts: Iterable[str], template: Template) -> tuple[tuple[str,
     for text in texts:
         name, value = _halves(text)
         variant = variants.get(fold(name))
+        if variant is None and name.startswith("--"):
+            words = f"Machines of the type '{template.equipment_type}' have no {name.lstrip('-')} to choose"
+            raise YellowironError(words, where=name, hint="Leave the option out.")
         if variant is None:
             values.append(text)
         else:
