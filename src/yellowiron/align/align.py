@@ -24,11 +24,12 @@ import numpy as np
 from yellowiron.align.clusters import Structure
 from yellowiron.align.doubts import doubts
 from yellowiron.align.frame import MachineFrame, machine_frame
-from yellowiron.align.hydraulics import Ram
+from yellowiron.align.ground import grounded
 from yellowiron.align.islands import islands
+from yellowiron.align.nests import Nest
 from yellowiron.align.report import reported
 from yellowiron.align.search import Search, is_whole, rivals_of
-from yellowiron.align.seen import see
+from yellowiron.align.seen import Seen, see
 from yellowiron.align.shaken import shaken
 from yellowiron.align.sheet import sheet_findings
 from yellowiron.align.solids import solids_of
@@ -83,6 +84,7 @@ def align(
         if sided != answer.unary:
             solution = solve(structure, resolved, unary=sided, barred=answer.barred) or solution
             frame = machine_frame(seen.solids, structure, solution, seen.wheels, resolved, tracks)
+    solution = grounded(solution, structure, seen.solids, resolved)
     answer = replace(answer, solution=solution)
     rivals = {} if is_whole(answer) else rivals_of(answer)
     spreader = Spreader(
@@ -115,7 +117,7 @@ def align(
         frame or MachineFrame(np.eye(4)),
         documents=documents,
         apart=apart,
-        axes=_axes(structure, solution, seen.rams),
+        axes=_axes(structure, solution, seen),
         remarks=[
             *(edits.findings if edits is not None else ()),
             *sheet_findings(structure, seen.rams, resolved, specifications, solution),
@@ -134,14 +136,15 @@ def align(
     )
 
 
-def _axes(structure: Structure, solution: Solution, rams: tuple[Ram, ...]) -> dict[str, tuple[Vector, Vector]]:
-    """Joint → its axis, for the joints that no pin is drawn for and that no wheel turns on, and for the slides whose
-    rod is not drawn in its barrel."""
+def _axes(structure: Structure, solution: Solution, seen: Seen) -> dict[str, tuple[Vector, Vector]]:
+    """Joint → its axis, for the joints that no pin is drawn for and that no wheel turns on, for the slides whose rod is
+    not drawn in its barrel, and for sections in each other."""
     found = {}
-    for joint, number in sorted(solution.slide_of.items()):
-        ram = rams[structure.slides[number][2]]
-        if ram.apart:
-            found[joint] = (_vector(ram.origin), _vector(ram.direction))
+    for joint, slide in sorted(solution.slide_of.items()):
+        number = structure.slides[slide][2]
+        drawn = seen.rams[number] if number < len(seen.rams) else seen.nests[number - len(seen.rams)]
+        if isinstance(drawn, Nest) or drawn.apart:
+            found[joint] = (_vector(drawn.origin), _vector(drawn.direction))
     for joint, number in sorted(solution.hinge_of.items()):
         hinge = structure.hinges[number]
         if not hinge.pins and not any(structure.clusters[c].kind == "wheel" for c in (hinge.a, hinge.b)):

@@ -8,13 +8,15 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Edge:
-    """A joint of clusters `a` and `b`: a hinge (`number`) on a `line`, or a slide of that hydraulic cylinder."""
+    """A joint of clusters `a` and `b`: a hinge (`number`) on a `line`, or a slide of that hydraulic cylinder (`driven`)
+    or of that section in another."""
 
     a: int
     b: int
     line: int
     number: int
     slide: bool
+    driven: bool = False
 
 
 def blocks(edges: Sequence[Edge]) -> list[list[Edge]]:
@@ -71,7 +73,7 @@ def freedoms(edges: Sequence[Edge]) -> tuple[int, int]:
     nothing and counts with the first."""
     wrong = doubled = 0
     for block in blocks(edges):
-        slides = sum(e.slide for e in block)
+        slides = sum(e.driven for e in block)
         if len(block) == 1:
             wrong += slides
             continue

@@ -48,7 +48,8 @@ class Hinge:
 
 @dataclass(frozen=True, eq=False)
 class Structure:
-    """What geometry alone says: clusters, hinges between them, slides (barrel, rod, number of the hydraulic cylinder),
+    """What geometry alone says: clusters, hinges between them, slides (barrel, rod, number of the hydraulic
+    cylinder; then sections in each other, numbered on),
     lines (the wheels' axes behind those of the evidence), for each pin and bolt its hosts, and the pairs of solids that
     touch but were not welded, since a pin would have nothing to turn on, with the strength of their contact;
     and the hoses and such that hold nothing; and line → the races of a slewing bearing on it."""
@@ -109,6 +110,7 @@ def loose_ends(structure: Structure) -> int:
 
 def _touching(groups: Groups, evidence: Evidence) -> list[tuple[int, int]]:
     """Pairs in different groups whose meshes touch and that lie about no common line."""
+    sliding = {(min(n.outer, n.inner), max(n.outer, n.inner)) for n in evidence.nests}
     return [
         (a, b)
         for a, b in evidence.near
@@ -116,6 +118,7 @@ def _touching(groups: Groups, evidence: Evidence) -> list[tuple[int, int]]:
         and groups.may_join(a, b)
         and not evidence.about[a] & evidence.about[b]
         and not {a, b} & (evidence.fasteners | (evidence.slight - evidence.sheets))
+        and (a, b) not in sliding
         and evidence.touching(a, b)
     ]
 
@@ -239,6 +242,8 @@ def _collected(groups: Groups, evidence: Evidence, refused: Pairs) -> Structure:
         lines.append(Line(wheel.center, wheel.direction, wheel.radius, ()))
     hinges = tuple(Hinge(a, b, k, tuple(sorted(p))) for (a, b, k), p in sorted(pins.items()))
     slides = tuple((cluster(min(r.barrel)), cluster(min(r.rod)), k) for k, r in enumerate(evidence.rams))
+    sections = [(cluster(n.outer), cluster(n.inner)) for n in evidence.nests]
+    slides += tuple((a, b, len(slides) + k) for k, (a, b) in enumerate(sections) if a != b)
     apart = tuple((a, b, strength(evidence, a, b)) for a, b in refused if groups.find(a) != groups.find(b))
     races: dict[int, tuple[int, ...]] = {}
     for k, fit in evidence.races:

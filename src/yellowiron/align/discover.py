@@ -102,11 +102,12 @@ def _looked(assembly: Assembly, contact: float) -> Seen:
 
 def _anything(wheels: int) -> Template:
     """A template that asks for all that can be looked for."""
-    bodies = [("base", "frame"), ("top", "frame"), ("barrel", "barrel"), ("rod", "rod")]
+    bodies = [("base", "frame"), ("top", "frame"), ("section", "arm"), ("barrel", "barrel"), ("rod", "rod")]
     bodies += [(f"wheel_{k}", "wheel") for k in range(wheels)]
     roles = tuple(Role(name, None if name == "base" else "base", True, kind) for name, kind in bodies)
     swing = JointTemplate("base2top_joint", "revolute", ("base", "top"), drive="angular")
-    return Template("machine", "", "base", roles, (swing,))
+    section = JointTemplate("base2section_joint", "prismatic", ("base", "section"))
+    return Template("machine", "", "base", roles, (swing, section))
 
 
 def _rolling(seen: Seen) -> bool:
@@ -142,7 +143,7 @@ def _readings(seen: Seen, up: Floats | None) -> Iterator[_Reading]:
 
 def _reading(seen: Seen, structure: Structure, up: Floats | None) -> _Reading:
     """The joints of a structure: hinges of bodies, and slides."""
-    slides = [Edge(a, b, -1, ram, True) for a, b, ram in structure.slides if a != b]
+    slides = [Edge(a, b, -1, k, True, k < len(seen.rams)) for a, b, k in structure.slides if a != b]
     pivots = _pivots(seen, structure)
     bodies = _bodies(seen, structure, pivots)
     hinges = [e for e in pivots if e.a in bodies and e.b in bodies]

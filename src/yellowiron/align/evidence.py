@@ -10,6 +10,7 @@ import numpy as np
 
 from yellowiron.align.contacts import PARALLEL, Fit, Flat, Line
 from yellowiron.align.hydraulics import Ram
+from yellowiron.align.nests import Nest, sliding_pairs
 from yellowiron.align.solids import Cyl, Solid, coaxial
 from yellowiron.align.wheels import Wheel
 
@@ -38,6 +39,7 @@ class Evidence:
     - `direct`: shafts of structural parts in bores, `races` of slewing bearings, empty bores side by side, (line, fit);
     - `welds`, `turning`: flat contacts that hold, and those that allow turning about a shared line;
     - `area`: m² of flat contact of a pair;
+    - `nests`: sections that slide in each other;
     - `near`: pairs whose boxes touch; `touching(a, b)` asks the meshes.
     """
 
@@ -61,6 +63,7 @@ class Evidence:
     welds: tuple[Flat, ...]
     turning: tuple[Flat, ...]
     area: dict[tuple[int, int], float]
+    nests: tuple[Nest, ...] = ()
 
 
 def evidence_of(
@@ -76,6 +79,7 @@ def evidence_of(
     tolerance: float,
     *,
     slewing: bool = False,
+    nests: tuple[Nest, ...] = (),
 ) -> Evidence:
     """Sorts fits and flat contacts. Fits between a barrel and its rod, and between a wheel and its axle, slide. `bare`:
     empty bores side by side; `lines` number the fits first, then these. `slewing`: whatever round thing is as wide as a
@@ -131,10 +135,11 @@ def evidence_of(
     slight = frozenset(astray) | frozenset(
         s.index for s in solids if not pinned[s.index] and s.index not in held and s.volume < SLIGHT * s.size**3
     )
+    sliding = sliding_pairs(nests, flats)
     welds: list[Flat] = []
     turning: list[Flat] = []
     for flat in sorted(flats, key=lambda f: (-round(f.area, 9), f.a, f.b)):
-        if not {flat.a, flat.b} & (fasteners | slight):
+        if not {flat.a, flat.b} & (fasteners | slight) and (flat.a, flat.b) not in sliding:
             (turning if _may_turn(flat, lines, pinned, about) else welds).append(flat)
     area: dict[tuple[int, int], float] = {}
     for flat in welds:
@@ -160,6 +165,7 @@ def evidence_of(
         tuple(welds),
         tuple(turning),
         area,
+        nests,
     )
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from yellowiron.align.contacts import Fit, Flat, bare_fits_of, fits_of, flats_of, lines_of, neighbours
 from yellowiron.align.evidence import Evidence, evidence_of, tables_of
 from yellowiron.align.hydraulics import Ram, rams_of
+from yellowiron.align.nests import Nest, nests_of
 from yellowiron.align.solids import Solid, solids_of
 from yellowiron.align.touch import Touch
 from yellowiron.align.visual import apart_rams_of, interrupted_fits_of, pierced_fits_of, solid_rams_of
@@ -36,6 +37,7 @@ class Seen:
     touch: Touch
     size: float
     up: Floats | None = None
+    nests: tuple[Nest, ...] = ()
 
 
 def see(assembly: Assembly, template: Template, contact: float) -> Seen:
@@ -57,20 +59,39 @@ def see(assembly: Assembly, template: Template, contact: float) -> Seen:
     bare = bare_fits_of(solids, fits, tolerance)
     near = neighbours(solids, tolerance)
     flats = flats_of(solids, near, tolerance)
+    nests = tuple(nests_of(solids, size, tolerance)) if _sections(template) else ()
     taken = {i for r in rams for i in r.barrel | r.rod}
     wheels = wheels_of(solids, sum(1 for r in template.roles if r.kind == "wheel" and r.rigid), taken, tolerance)
 
     def sorted_out(fits: list[Fit], *, slewing: bool) -> Evidence:
         lines = lines_of([*fits, *bare], tolerance)
         return evidence_of(
-            solids, fits, bare, lines, flats, rams, wheels, near, touch.touching, tolerance, slewing=slewing
+            solids,
+            fits,
+            bare,
+            lines,
+            flats,
+            rams,
+            wheels,
+            near,
+            touch.touching,
+            tolerance,
+            slewing=slewing,
+            nests=nests,
         )
 
     evidence = [sorted_out(fits, slewing=False)]
     tables = tables_of(solids, flats) if slewing_joints(template) else []
     other = sorted_out([*fits, *tables], slewing=True) if slewing_joints(template) else evidence[0]
     evidence += [other] if len(other.races) > len(evidence[0].races) else []
-    return Seen(solids, flats, near, tuple(rams), wheels, tuple(evidence), touch, size)
+    return Seen(solids, flats, near, tuple(rams), wheels, tuple(evidence), touch, size, nests=nests)
+
+
+def _sections(template: Template) -> bool:
+    """Whether it has slides that are no hydraulic cylinder's: sections of a telescopic boom."""
+    kinds = {r.name: r.kind for r in template.roles}
+    sliding = [template.bodies_of(j) for j in template.joints if j.type == "prismatic"]
+    return any(not {"barrel", "rod"} & {kinds[b] for b in ends if b is not None} for ends in sliding)
 
 
 def slewing_joints(template: Template) -> list[str]:

@@ -23,7 +23,7 @@ def sheet_weights(
     weights: dict[tuple[int, str], int] = {}
     for barrel, rod, quantity, _, value in _known(template, specifications):
         for barrel_cluster, rod_cluster, number in structure.slides:
-            drawn = _drawn(rams[number], quantity)
+            drawn = _drawn(rams[number], quantity) if number < len(rams) else None
             if drawn is not None and abs(drawn - value) <= AGREE * value:
                 for key in ((barrel_cluster, barrel), (rod_cluster, rod)):
                     weights[key] = weights.get(key, 0) + SHEET_WEIGHT

@@ -199,6 +199,11 @@ def _labels(seen: Seen, members: list[int]) -> tuple[str, ...]:
 
 def _joint(seen: Seen, structure: Structure, e: Edge, number: dict[int, int], loop: bool, upright: bool) -> FoundJoint:
     a, b = sorted((e.a, e.b), key=lambda c: number[c])
+    if e.slide and not e.driven:
+        nest = seen.nests[e.number - len(seen.rams)]
+        reason = "a long box close inside the walls of another"
+        point, direction = _vector(nest.origin), _vector(nest.direction)
+        return FoundJoint("prismatic", number[a], number[b], point, direction, 0.0, (), reason, loop=loop)
     if e.slide:
         ram = seen.rams[e.number]
         place = "drawn beside its bore" if ram.apart else "in its bore" if ram.hollow else "out of its barrel's end"
@@ -251,7 +256,7 @@ def _remarks(
     findings = []
     hinged = {c for e in edges if not e.slide for c in (e.a, e.b)}
     for e in edges:
-        if not e.slide:
+        if not e.driven:
             continue
         for c in (e.a, e.b):
             if c not in hinged:

@@ -23,6 +23,10 @@ STOUT = 0.002
 """… and is a pivot only from this radius on, in machine sizes."""
 LEAST = 0.1
 """A bar runs through a part over at least this share of its radius; less is a part that it ends at."""
+RIM = 0.12
+"""Points of a hole's edge are this near to the bar's surface, as a share of its radius …"""
+SECTORS = 6
+"""… in all sectors around it but one."""
 TABLE = 0.02
 """A round base is a turntable from this radius on, in machine sizes …"""
 NEAR = 0.05
@@ -189,11 +193,13 @@ def _through(solid: Solid, bars: list[Cyl], solids: tuple[Solid, ...], touch: To
         for other in solids:
             if other.index == solid.index or (other.low > bar.center + reach).any():
                 continue
-            if (other.high < bar.center - reach).any() or not touch.pierced(other.index, bar, CORE * bar.radius):
+            if (other.high < bar.center - reach).any():
                 continue
             low, high = other.span(bar.center, bar.direction)
             low, high = max(low, -bar.half), min(high, bar.half)
             if high - low < LEAST * bar.radius:
+                continue
+            if not (_rimmed(other, bar) or touch.pierced(other.index, bar, CORE * bar.radius)):
                 continue
             middle = bar.center + 0.5 * (low + high) * bar.direction
             hole = replace(bar, center=middle, half=0.5 * (high - low), inner=True)
@@ -201,6 +207,22 @@ def _through(solid: Solid, bars: list[Cyl], solids: tuple[Solid, ...], touch: To
             if other.index not in best or fit.overlap > best[other.index].overlap:
                 best[other.index] = fit
     return [best[k] for k in sorted(best)]
+
+
+def _rimmed(solid: Solid, bar: Cyl) -> bool:
+    """True if a part has a hole for a bar that was not recognised as one: points all around it, right outside."""
+    if any(c.inner and c.full and coaxial(c, bar, 0.1) for c in solid.cylinders):
+        return False
+    delta = solid.points - bar.center
+    along = delta @ bar.direction
+    across = delta - along[:, None] * bar.direction
+    radial = np.linalg.norm(across, axis=1)
+    rim = (np.abs(along) < bar.half) & (radial > (1 - RIM) * bar.radius) & (radial < (1 + RIM) * bar.radius)
+    if rim.sum() < SECTORS:
+        return False
+    u, v = np.linalg.svd(bar.direction[None, :])[2][1:]
+    turn = np.arctan2(across[rim] @ v, across[rim] @ u)
+    return len(set(np.floor((turn + np.pi) / (2 * np.pi) * SECTORS).astype(int) % SECTORS)) >= SECTORS - 1
 
 
 def solid_rams_of(solids: tuple[Solid, ...], rams: list[Ram], tolerance: float) -> list[Ram]:

@@ -233,7 +233,8 @@ def _slide(draft: _Draft, k: int) -> Json:
     moved = title(draft.names[draft.machine.joints[k].b])
     back = draft.want(f"{moved} Travel In", "length", "how far it goes in from the drawn pose")
     out = draft.want(f"{moved} Travel Out", "length", "how far it goes out from the drawn pose")
-    return {"Limit": [f"-{back}", out], "Drive": ["Linear Drive"]}
+    # In a closed chain it is the cylinder that moves it.
+    return {"Limit": [f"-{back}", out]} | ({} if draft.machine.joints[k].loop else {"Drive": ["Linear Drive"]})
 
 
 def _free(draft: _Draft, joint: FoundJoint) -> Json:
@@ -258,7 +259,8 @@ def _cylinders(draft: _Draft) -> None:
     """One actuator for the cylinders between the same two bodies."""
     groups: dict[tuple[int, int], list[tuple[int, int, int]]] = {}
     for k, slide in enumerate(draft.machine.joints):
-        ends = _pivots(draft.machine, k) if slide.type == "prismatic" else None
+        halves = {draft.machine.bodies[slide.a].kind, draft.machine.bodies[slide.b].kind}
+        ends = _pivots(draft.machine, k) if slide.type == "prismatic" and halves == {"barrel", "rod"} else None
         if ends is not None:
             hosts = [_other(draft.machine.joints[e], c) for e, c in zip(ends, (slide.a, slide.b), strict=True)]
             groups.setdefault((hosts[0], hosts[1]), []).append((k, *ends))
