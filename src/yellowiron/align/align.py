@@ -119,7 +119,8 @@ def align(
         apart=apart,
         axes=_axes(structure, solution, seen),
         remarks=[
-            *(edits.findings if edits is not None else ()),
+            # What reading the file found; the rest was of an earlier model.
+            *(f for f in (edits.findings if edits is not None else ()) if f.code in ("ALN012", "ALN013")),
             *sheet_findings(structure, seen.rams, resolved, specifications, solution),
             *doubts(
                 seen.solids,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import weakref
 from dataclasses import dataclass
 
 import numpy as np
@@ -106,8 +107,18 @@ def coaxial(a: Cyl, b: Cyl, slack: float, tolerance: float = 0.0) -> bool:
     return b.off(a.center) <= max(tolerance, slack * min(a.radius, b.radius))
 
 
+_known: weakref.WeakKeyDictionary[Assembly, tuple[Solid, ...]] = weakref.WeakKeyDictionary()
+"""What was computed of assemblies that are still in use: every contact tolerance looks at the same solids."""
+
+
 def solids_of(assembly: Assembly) -> tuple[Solid, ...]:
     """Every part with a mesh, in an order that depends on shape and place alone (then on the id)."""
+    if assembly not in _known:
+        _known[assembly] = _solids(assembly)
+    return _known[assembly]
+
+
+def _solids(assembly: Assembly) -> tuple[Solid, ...]:
     solids = []
     planes: dict[str, tuple[PlaneFeature, ...]] = {}
     for part in assembly.parts:

@@ -92,12 +92,14 @@ def _least_suspicious(groups: Groups, evidence: Evidence, pairs: Pairs) -> tuple
     """The pair whose smaller group is on the fewest lines, among those that leave something turning on each line."""
     on = lines_by_group(groups, evidence, without=evidence.bolted)
     by_line = _by_line(on)
-    solid = {groups.find(s.index) for s in evidence.solids}
-    loose = {k: {g for g in found if _loose(groups, evidence, g, evidence.lines[k])} for k, found in by_line.items()}
+    members: dict[int, list[Solid]] = {}
+    for s in evidence.solids:
+        members.setdefault(groups.find(s.index), []).append(s)
+    loose = {k: {g for g in found if _loose(members.get(g, []), evidence.lines[k])} for k, found in by_line.items()}
     best: tuple[tuple[int, int, int], tuple[int, int]] | None = None
     for order, (a, b) in enumerate(pairs):
         ga, gb = groups.find(a), groups.find(b)
-        if ga == gb or not groups.may_join(ga, gb) or not {ga, gb} <= solid:
+        if ga == gb or not groups.may_join(ga, gb) or ga not in members or gb not in members:
             continue
         la, lb = on.get(ga, set()), on.get(gb, set())
         common = la & lb
@@ -112,9 +114,8 @@ def _least_suspicious(groups: Groups, evidence: Evidence, pairs: Pairs) -> tuple
     return best[1] if best is not None else None
 
 
-def _loose(groups: Groups, evidence: Evidence, group: int, line: Line) -> bool:
+def _loose(members: list[Solid], line: Line) -> bool:
     """True for washers and spacers: groups of nothing but rings about the line."""
-    members = [s for s in evidence.solids if groups.find(s.index) == group]
     return all(_turned_about(s, line) for s in members)
 
 
