@@ -45,10 +45,9 @@ def plate(name: str, outline: Array, thickness: float, holes: list[tuple[float, 
     circles = [np.array([x, y]) + r * np.stack([np.cos(turn), np.sin(turn)], axis=1) for x, y, r in holes]
     flat = np.concatenate([np.array(rim), *circles])
     triangles = Delaunay(flat).simplices
-    middle = flat[triangles].mean(axis=1)
-    keep = np.ones(len(triangles), dtype=bool)
-    for x, y, r in holes:
-        keep &= np.hypot(middle[:, 0] - x, middle[:, 1] - y) > 0.98 * r * math.cos(math.pi / SEGMENTS)
+    # What has all its corners on one circle fills its hole.
+    circle = np.concatenate([np.full(len(rim), -1), np.repeat(np.arange(len(holes)), SEGMENTS)])[triangles]
+    keep = (circle[:, 0] < 0) | (circle != circle[:, :1]).any(axis=1)
     corners = flat[triangles]
     cross = (corners[:, 1, 0] - corners[:, 0, 0]) * (corners[:, 2, 1] - corners[:, 0, 1]) - (
         corners[:, 1, 1] - corners[:, 0, 1]

@@ -107,9 +107,9 @@ def build(
         with clock.stage("align", "Finding the part that plays each role"):
             assembly = align.to_scale(assembly, template, specifications)
             earlier = Path(alignment_file or out / "alignment.json")
-            edits = align.read_alignment(earlier, assembly, template) if alignment_file or earlier.exists() else None
-            alignment = align.align(
-                assembly, template, specifications, edits=library.with_relations(edits, data), choices=choices
+            edited = earlier if alignment_file or earlier.exists() else None
+            assembly, alignment = aligned(
+                assembly, template, specifications, earlier=edited, data=data, choices=choices
             )
             chosen = choose(template, {**alignment.choices, **choices})
             template = expand(chosen, alignment.counts)
@@ -167,6 +167,32 @@ def build(
         folder=out,
         fell_short=tuple(report.fell_short(document)),
     )
+
+
+def aligned(
+    assembly: Assembly,
+    template: Template,
+    specifications: Specifications,
+    *,
+    earlier: Path | None = None,
+    data: library.Documents | None = None,
+    choices: Mapping[str, str] | None = None,
+) -> tuple[Assembly, Alignment]:
+    """Roles for the parts of a CAD model, and the model whose parts they are: where roles are missing, its merged
+    meshes taken apart, if that finds more of them. `earlier` is an alignment file whose edits hold."""
+
+    def found(model: Assembly) -> Alignment:
+        edits = align.read_alignment(earlier, model, template) if earlier is not None else None
+        edits = edits if data is None else library.with_relations(edits, data)
+        return align.align(model, template, specifications, edits=edits, choices=choices)
+
+    alignment = found(assembly)
+    apart = cad.taken_apart(assembly) if alignment.missing else assembly
+    if apart is not assembly:
+        other = found(apart)
+        if len(other.missing) < len(alignment.missing):
+            return apart, other
+    return assembly, alignment
 
 
 def _mechanism(

@@ -1,5 +1,21 @@
-"""CAD files to an `Assembly`: `read_cad`."""
+"""CAD files to an `Assembly`: `read_cad`; `taken_apart` for meshes that hold several parts."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
 
 from yellowiron.cad.read import read_cad
 
-__all__ = ["read_cad"]
+if TYPE_CHECKING:
+    from yellowiron.cad.apart import taken_apart
+
+__all__ = ["read_cad", "taken_apart"]
+
+
+def __getattr__(name: str) -> Any:
+    """What needs scipy is loaded when it is asked for: most runs never do."""
+    if name == "taken_apart":
+        from yellowiron.cad.apart import taken_apart
+
+        return taken_apart
+    raise AttributeError(f"module 'yellowiron.cad' has no attribute {name!r}")

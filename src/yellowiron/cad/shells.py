@@ -141,8 +141,9 @@ def _measures(
     corners = mesh.points[mesh.triangles]
     shifted = corners - mesh.points.mean(axis=0)
     signed = np.einsum("ij,ij->i", shifted[:, 0], np.cross(shifted[:, 1], shifted[:, 2])) / 6.0
-    volume = np.bincount(label, weights=signed, minlength=count)
-    low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
+    volume = np.bincount(label, weights=signed, minlength=count).astype(np.float64)
+    low: Floats = np.full((count, 3), np.inf)
+    high: Floats = np.full((count, 3), -np.inf)
     np.minimum.at(low, label, corners.min(axis=1))
     np.maximum.at(high, label, corners.max(axis=1))
     return volume, _closed_pieces(number[mesh.triangles], label, count), low, high

@@ -1,0 +1,77 @@
+"""Merged meshes taken apart: solids that touch, and a barrel with its rod in one solid."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+import trimesh
+
+from align_solids import box, place, tube
+from yellowiron.cad import taken_apart
+from yellowiron.cad.placed import Occurrence, assemble
+from yellowiron.model.assembly import Assembly
+from yellowiron.model.geometry import Mesh
+
+
+def assembly_of(*meshes: Mesh) -> Assembly:
+    found = [Occurrence(f"m{k}", (), mesh, np.eye(4)) for k, mesh in enumerate(meshes)]
+    return assemble(found, name="x", format="GLB", unit=1.0, path="x.glb")
+
+
+def merged(*meshes: Mesh) -> Mesh:
+    counts = np.cumsum([0, *(len(m.points) for m in meshes)])
+    triangles = np.concatenate([m.triangles + c for m, c in zip(meshes, counts[:-1], strict=True)])
+    return Mesh(np.concatenate([m.points for m in meshes]), triangles.astype(np.int32))
+
+
+def moved(mesh: Mesh, *offset: float) -> Mesh:
+    return Mesh(mesh.points + np.array(offset), mesh.triangles)
+
+
+def test_one_mesh_of_many_parts() -> None:
+    """Parts that touch come apart; four equal ones are one shape."""
+    bolt, block = tube("bolt", 0.01, 0.0, 0.05).mesh, box("block", 0.4, 0.4, 0.1).mesh
+    bolts = [moved(bolt, x, y, 0.05) for x in (-0.1, 0.1) for y in (-0.1, 0.1)]
+    whole = assembly_of(merged(block, *bolts), moved(block, 0.0, 0.0, 3.0))
+    found = taken_apart(whole)
+    assert [p.id for p in found.parts] == ["m0/1", "m0/2", "m0/3", "m0/4", "m0/5", "m1"]
+    assert len(found.shapes) == 3
+    assert [f.code for f in found.findings if f.code == "CAD013"] == ["CAD013"]
+    for part, mesh in zip(found.parts[1:5], bolts, strict=True):
+        points = found.points_of(part)
+        assert np.abs(points.min(axis=0) - mesh.points.min(axis=0)).max() < 1e-6
+    assert len(found.shape_of(found.parts[1]).cylinders) == 1
+
+
+def test_parts_of_one_solid_stay() -> None:
+    whole = assembly_of(box("block", 0.4, 0.4, 0.1).mesh)
+    assert taken_apart(whole) is whole
+
+
+def turned(profile: list[tuple[float, float]], count: int) -> trimesh.Trimesh:
+    return trimesh.creation.revolve(np.array(profile), sections=count)
+
+
+def ram(count: int) -> Mesh:
+    """A barrel and its rod along z as one solid, an eye across each end: barrel to z = 0.6, rod to 1.1."""
+    bar = turned([(0, 0), (0.06, 0), (0.06, 0.6), (0.03, 0.6), (0.03, 1.1), (0, 1.1)], count)
+    eyes = [trimesh.creation.annulus(0.03, 0.07, 0.08, sections=count) for _ in range(2)]
+    for eye, z in zip(eyes, (-0.04, 1.14), strict=True):
+        eye.apply_transform(place((0.0, 0.0, z), (0.0, 1.0, 0.0)))
+    joined = trimesh.util.concatenate([bar, *eyes])
+    joined.merge_vertices()
+    return Mesh(np.asarray(joined.vertices, dtype=np.float64), np.asarray(joined.faces, dtype=np.int32))
+
+
+@pytest.mark.parametrize("count", [12, 32])
+def test_barrel_and_rod_in_one_solid_are_cut_where_the_rod_comes_out(count: int) -> None:
+    found = taken_apart(assembly_of(ram(count)))
+    bars = [(found.shape_of(p), found.points_of(p)) for p in found.parts]
+    spans = sorted((float(q[:, 2].min()), float(q[:, 2].max())) for s, q in bars if s.cylinders[0].length > 0.2)
+    assert spans == [pytest.approx((0.0, 0.6), abs=1e-6), pytest.approx((0.6, 1.1), abs=1e-6)]
+    assert all(shape.closed for shape, _ in bars)
+    area = count / 2 * math.sin(2 * math.pi / count)
+    volumes = sorted(s.volume for s, _ in bars if s.cylinders[0].length > 0.2)
+    assert volumes == pytest.approx([area * 0.03**2 * 0.5, area * 0.06**2 * 0.6], rel=1e-6)
