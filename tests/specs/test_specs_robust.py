@@ -20,6 +20,12 @@ ASKED = template(wanted("Wheelbase", "length"), wanted("Operating Weight", "mass
 ROWS = [("Wheelbase", "3450 mm"), ("Operating weight", "25 510 kg")]
 
 
+@pytest.fixture(autouse=True)
+def _no_text_recognition(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As on a machine without tesseract; with it: `test_specs_ocr.py`."""
+    monkeypatch.setattr("yellowiron.specs.ocr.program", lambda: None)
+
+
 def good(path: Path) -> Path:
     c = canvas(path)
     leaders(c, 36, 780, 300, ROWS)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from collections.abc import Set as AbstractSet
+from dataclasses import replace
 from pathlib import Path
 from typing import Literal
 
@@ -11,6 +13,7 @@ from yellowiron.model.errors import SheetError
 from yellowiron.model.finding import Finding
 from yellowiron.model.specification import Specification, Specifications
 from yellowiron.model.template import Template, Wanted
+from yellowiron.specs import ocr
 from yellowiron.specs.agreement import agreed
 from yellowiron.specs.asked import asked
 from yellowiron.specs.by_model import find
@@ -19,10 +22,11 @@ from yellowiron.specs.decide import Sheets, decide, quantity_words, unmatched, u
 from yellowiron.specs.endpoint import Endpoint, EndpointError, ModelOptions
 from yellowiron.specs.labels import in_label
 from yellowiron.specs.match import match
-from yellowiron.specs.numbers import DecimalStyle
+from yellowiron.specs.numbers import DecimalStyle, decimal_style
 from yellowiron.specs.reader import MEMORY_MB, TIMEOUT_S, Sheet, check_file
 
 Extractor = Literal["rules", "llm", "both"]
+_INSTALL = "Install the program tesseract (tesseract-ocr) to have it read"
 _MOST_COLUMNS = 20
 """Columns that a hint names."""
 
@@ -42,16 +46,23 @@ def extract(
     Where a sheet says itself which configuration its figures are for, that settles what `config` leaves open; values
     that still differ between columns or pages are a `conflict`. `extractor`: rules, the language `model` ("llm"), or
     both, where agreement raises confidence and disagreement is a `conflict`; then an endpoint that fails is a finding.
-    Each PDF is read in a guarded child process. `SheetError` for a file that is missing, empty, no PDF, truncated,
-    damaged or encrypted; `EndpointError` for a model that is not configured or, where nothing else reads, fails.
+    Each PDF is read in a guarded child process; pages without a text layer are read through the program tesseract
+    where it is installed, and their values are `review` at most. `SheetError` for a file that is missing, empty, no
+    PDF, truncated, damaged or encrypted; `EndpointError` for a model that is not configured or, where nothing else
+    reads, fails.
     """
     return from_sheets(
-        template, [read(path) for path in pdfs], config=config, extractor=extractor, model=model, progress=progress
+        template,
+        [read(path, progress=progress) for path in pdfs],
+        config=config,
+        extractor=extractor,
+        model=model,
+        progress=progress,
     )
 
 
-def read(path: Path) -> Sheet:
-    """A PDF's statements, read in a guarded child process."""
+def read(path: Path, *, progress: Callable[[str], None] = lambda words: None) -> Sheet:
+    """A PDF's statements, read in guarded child processes; `progress` is told each page."""
     path = Path(path)
     check_file(path)
     sheet = run_guarded(
@@ -61,9 +72,38 @@ def read(path: Path) -> Sheet:
         error=SheetError,
         timeout_s=TIMEOUT_S,
         memory_mb=MEMORY_MB,
+        progress=progress,
     )
     assert isinstance(sheet, Sheet)
-    return sheet
+    return _recognised(sheet, path, progress) if sheet.silent and ocr.program() else sheet
+
+
+def _recognised(sheet: Sheet, path: Path, progress: Callable[[str], None]) -> Sheet:
+    """The sheet with what text recognition makes of its silent pages, in a child of its own: a picture that breaks it
+    costs no page that has text."""
+    try:
+        pages: list[ocr.Recognised] = run_guarded(
+            "yellowiron.specs.ocr:recognise",
+            path.resolve(),
+            sheet.silent,
+            where=str(path),
+            error=SheetError,
+            timeout_s=2.0 * ocr.PAGE_TIMEOUT_S,
+            memory_mb=MEMORY_MB,
+            who="Text recognition",
+            progress=progress,
+        )
+    except SheetError as error:
+        return replace(sheet, unrecognised=f"{error.message} ({error.hint})")
+    known = {page.number for page in pages}
+    return replace(
+        sheet,
+        statements=(*sheet.statements, *(s for page in pages for s in page.statements)),
+        silent=tuple(n for n in sheet.silent if n not in known),
+        style=sheet.style if sheet.statements else decimal_style([page.text for page in pages]),
+        stated=(*sheet.stated, *(one for page in pages for one in page.stated)),
+        recognised=tuple(sorted(known)),
+    )
 
 
 def from_sheets(
@@ -78,16 +118,23 @@ def from_sheets(
     """`extract` on sheets that are already read."""
     wanted = asked(template)
     claims: list[Claim] = []
+    guessed: list[Claim] = []
     files: dict[int, str] = {}
     columns: dict[int, frozenset[str]] = {}
     for sheet in sheets:
-        claims.extend(claims_of(sheet.statements, sheet.style))
+        for claim in claims_of(sheet.statements, sheet.style):
+            (guessed if claim.statement.page in sheet.recognised else claims).append(claim)
         files.update((id(s), sheet.file) for s in sheet.statements)
         columns.update(_columns(sheet))
     stated = tuple(one for sheet in sheets for one in sheet.stated)
     known = Sheets(files, columns, stated)
     style = sheets[0].style if sheets else "point"
     values = _by_rules(wanted, claims, known, config, style)
+    if guessed:
+        # Words read from a picture have a say only where no text has.
+        open_ = [w for w in wanted if values[w.name].status == "missing"]
+        values |= _by_rules(open_, guessed, known, config, style)
+        claims += guessed
     findings = [*_findings(sheets), *_ignored(config, claims, known, sheets)]
     if extractor != "rules":
         with Endpoint(model or ModelOptions("")) as endpoint:
@@ -101,8 +148,10 @@ def from_sheets(
             findings.append(_cost(endpoint))
         both = {w.name: agreed(w, values[w.name], pointed[w.name]) for w in wanted if w.name in pointed}
         values |= pointed if extractor == "llm" else both
-    silent = [s.file for s in sheets if not s.statements and s.silent]
+    pictures = {(s.file, number) for s in sheets for number in s.recognised}
+    silent = [s.file for s in sheets if s.silent and all(one.page in s.recognised for one in s.statements)]
     for one in wanted:
+        values[one.name] = _at_most_review(values[one.name], pictures)
         if silent and values[one.name].status == "missing":
             values[one.name] = unreadable(one, silent)
     return Specifications(values, tuple(findings))
@@ -120,6 +169,20 @@ def _by_rules(
         else:
             values[one.name] = decide(one, matches.get(one.name, []), known, config)
     return values
+
+
+def _at_most_review(value: Specification, pictures: AbstractSet[tuple[str, int]]) -> Specification:
+    """A value that was read from one of the pictures (file, page) is to be looked at."""
+    seen = value.evidence
+    if value.status != "ok" or seen is None or (seen.file, seen.page) not in pictures:
+        return value
+    return replace(
+        value,
+        status="review",
+        confidence=min(value.confidence, 0.5),
+        reason=f"page {seen.page} is a picture: its text is what tesseract makes of it; {value.reason}",
+        hint=f'Compare it with the page; settle it with --set "{value.name}=VALUE UNIT".',
+    )
 
 
 def _ignored(config: str, claims: Sequence[Claim], known: Sheets, sheets: Sequence[Sheet]) -> list[Finding]:
@@ -174,19 +237,33 @@ def _columns(sheet: Sheet) -> dict[int, frozenset[str]]:
 def _findings(sheets: Sequence[Sheet]) -> list[Finding]:
     findings = []
     for sheet in sheets:
+        if sheet.recognised:
+            pages = _pages(sheet.recognised)
+            findings.append(
+                Finding(
+                    code="SPC005",
+                    severity="info",
+                    where=f"{sheet.file}, {pages}",
+                    message=f"{sheet.file} has no text layer on {pages}: read there through tesseract",
+                    hint="Compare the values to review with the pages.",
+                )
+            )
         if not sheet.silent:
             continue
         pages = _pages(sheet.silent)
-        whole = not sheet.statements
+        whole = all(one.page in sheet.recognised for one in sheet.statements)
+        message = f"{sheet.file} has no text layer on {pages}: nothing could be read there"
+        message += f"; {sheet.unrecognised}" if sheet.unrecognised else ""
+        installed = "Run it through text recognition (OCR) first" if ocr.program() else _INSTALL
         findings.append(
             Finding(
                 code="SPC001",
                 severity="warning" if whole else "info",
                 where=f"{sheet.file}, {pages}",
-                message=f"{sheet.file} has no text layer on {pages}: nothing could be read there",
-                hint="Run it through text recognition (OCR) first, or give the values with --set."
+                message=message,
+                hint=f"{installed}, or give the values with --set."
                 if whole
-                else "Only if these pages hold specifications: run them through text recognition (OCR).",
+                else f"Only if these pages hold specifications: {installed[0].lower()}{installed[1:]}.",
             )
         )
     return findings

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import time
 from dataclasses import dataclass
 from pathlib import Path
 
+from yellowiron.guard import beat
 from yellowiron.model.errors import SheetError
 from yellowiron.specs.layout import statements_of
 from yellowiron.specs.numbers import DecimalStyle, decimal_style
@@ -12,8 +14,11 @@ from yellowiron.specs.stated import Stated, stated_in
 from yellowiron.specs.statement import Statement
 from yellowiron.specs.words import read_page
 
-TIMEOUT_S = 120.0
+TIMEOUT_S = 60.0
+"""For one page; the reader gives a sign of life at each."""
 MEMORY_MB = 4096
+_MOST_S = 600.0
+"""For a whole file."""
 _MOST_PAGES = 400
 _MOST_BYTES = 512 * 1024 * 1024
 
@@ -21,7 +26,8 @@ _MOST_BYTES = 512 * 1024 * 1024
 @dataclass(frozen=True)
 class Sheet:
     """A read PDF. `silent` pages have pictures or marks but no readable text; `style`: how it writes decimals;
-    `stated`: sentences that may say which configuration its figures are for."""
+    `stated`: sentences that may say which configuration its figures are for. `recognised`: pages whose words are a
+    program's guess from their picture; `unrecognised` says why that program failed."""
 
     file: str
     pages: int
@@ -29,6 +35,8 @@ class Sheet:
     silent: tuple[int, ...]
     style: DecimalStyle
     stated: tuple[Stated, ...] = ()
+    recognised: tuple[int, ...] = ()
+    unrecognised: str = ""
 
 
 def read_sheet(path: Path) -> Sheet:
@@ -52,9 +60,22 @@ def read_sheet(path: Path) -> Sheet:
         silent: list[int] = []
         texts: list[str] = []
         stated: list[Stated] = []
+        begin = time.monotonic()
         for number in range(1, len(document) + 1):
+            beat(f"Reading page {number} of {len(document)} of {path.name}")
+            if time.monotonic() - begin > _MOST_S:
+                raise SheetError(
+                    f"{path.name} takes more than {_MOST_S:g} s: stopped at page {number} of {len(document)}",
+                    where=str(path),
+                    hint="Give the pages with the specifications only.",
+                )
             try:
-                page = read_page(document[number - 1], number)
+                # Closed at once: the pages of a manual would fill the memory.
+                opened = document[number - 1]
+                try:
+                    page = read_page(opened, number)
+                finally:
+                    opened.close()
             except pypdfium2.PdfiumError as error:
                 raise SheetError(
                     f"Page {number} of {path.name} cannot be read: the file is damaged",
