@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import re
+import unicodedata
 from collections.abc import Sequence
 
 from yellowiron.model.found import FoundMachine
 
-_WORD = re.compile(r"[A-Z]+(?![a-z])\d*|[A-Z]?[a-z]+\d*|[^\W\d_a-zA-Z]+\d*")
+_WORD = re.compile(r"[A-Z]+(?![a-z])\d*|[A-Z]?[a-z]+\d*|[^\W\d_a-zA-Z]+\d*|(?<!\d)\d{1,2}(?![\d.x])")
 _ENDING = re.compile(
     r"\.(stl|obj|stp|step|igs|iges|ipt|iam|prt|asm|sldprt|sldasm|catpart|glb|gltf|dae|fbx|x_t)\b", re.I
 )
@@ -54,7 +55,8 @@ def _own(name: str, place: int, k: int, machine: FoundMachine, words: Sequence[S
 
 
 def _words(label: str) -> list[str]:
-    return [w.casefold() for w in _WORD.findall(_ENDING.sub(" ", label))]
+    plain = "".join(base if (base := unicodedata.normalize("NFKD", c)[0]).isascii() else c for c in label)
+    return [w.casefold() for w in _WORD.findall(_ENDING.sub(" ", plain))]
 
 
 def _common(machine: FoundMachine) -> frozenset[str]:
@@ -65,7 +67,15 @@ def _common(machine: FoundMachine) -> frozenset[str]:
 
 def _name(label: str, common: frozenset[str]) -> str:
     kept: list[str] = []
+    before = ""
     for word in _words(label):
+        if word.isdigit():
+            # A number counts what stands before it: section 2, not mesh 2.
+            if kept and before == kept[-1]:
+                kept.append(word)
+            before = word
+            continue
+        before = word
         letters = re.sub(r"\d", "", word)
         short = letters.isascii() and len(letters) < (_LEAST if not kept else 2)
         if letters in _NOISE or re.fullmatch(r"link\d+", word) or word in common or short or word in kept:
