@@ -72,7 +72,7 @@ def supports(mechanism: Mechanism, chain: ClosedChain, state: State) -> tuple[tu
         if name not in rolling:
             pose = chain.displacement(state, name)
             points = hull @ pose[:3, :3].T + pose[:3, 3]
-            found += [(name, p) for p in points if p[2] < points[:, 2].min() + TOUCHING]
+            found += [(name, p) for p in points[points[:, 2] < points[:, 2].min() + TOUCHING]]
             continue
         joint, radius = rolling[name]
         pose = chain.displacement(state, joint.body0)
