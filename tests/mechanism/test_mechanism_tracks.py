@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from crawler import PITCH_RADIUS, Crawler, crawler
+from crawler import PITCH_RADIUS, Crawler, crawler, merged
 from tracked_template import write_tracked_template
 from yellowiron import kinematics
 from yellowiron.library import load_template
@@ -139,3 +140,28 @@ def test_a_track_that_is_not_there(drawn: Crawler, template: Template) -> None:
     found = build_mechanism(drawn.assembly(), chosen, aligned, Specifications(), name="crawler")
     assert "MEC070" in {f.code for f in found.findings}
     assert sum("track_wheel" in b.name for b in found.bodies) == 3
+
+
+def test_a_frame_drawn_in_one_with_its_tracks(drawn: Crawler, template: Template) -> None:
+    """It collides between the tracks, and what is measured there is the frame's: no corner of the whole's hull is."""
+    moved = {p.part: p.body for p in drawn.aligned(shoes=False).parts}
+    assembly = drawn.assembly()
+    below = [p for p in assembly.parts if moved[p.id] == "undercarriage" and drawn.truth[p.id] != "swing_bearing"]
+    shape = merged("crawler", *((assembly.shape_of(p), p.transform) for p in below))
+    one = Crawler(drawn.shoes, [p for p in assembly.parts if p not in below], {**assembly.shapes})
+    one.truth = {p.id: drawn.truth[p.id] for p in one.parts}
+    one.add("crawler", "undercarriage", shape, np.eye(4))
+    sided = [replace(r, side=r.name[-1]) if r.hidden else r for r in template.roles]
+    found = build(one, replace(template, roles=tuple(sided)), "belt")
+    assert {f.where for f in found.findings if f.code == "MEC072"} == {"track_wheel_l", "track_wheel_r"}
+    frame = found.body("undercarriage")
+    (box,) = frame.shapes
+    deck = next(assembly.points_of(p) for p in assembly.parts if p.name == "deck")
+    assert box.size is not None
+    assert box.center[2] - 0.5 * box.size[2] == pytest.approx(deck[:, 2].min(), abs=1e-6)
+    assert box.size[0] == pytest.approx(np.ptp(deck[:, 0]), rel=1e-6) and box.center[1] == pytest.approx(0.0, abs=1e-6)
+    assert 0.5 * np.ptp(deck[:, 1]) < box.size[1] < np.ptp(deck[:, 1])
+    middle = frame.hull[np.abs(frame.hull[:, 1]) <= 0.5 * box.size[1] + 1e-9]
+    assert middle[:, 2].min() == pytest.approx(deck[:, 2].min(), abs=1e-6)
+    assert {p.collision for p in frame.parts if p.role == "undercarriage"} == {"none"}
+    assert whole(found)[0] > 0.0

@@ -15,15 +15,17 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from yellowiron.mechanism.body import vector
+from yellowiron.mechanism.body import hull_corners, vector
 from yellowiron.mechanism.choice import Choice
 from yellowiron.mechanism.mass import STEEL, Moments, combine, key_of
 from yellowiron.mechanism.placement import Placement
 from yellowiron.model.finding import Finding
-from yellowiron.model.geometry import Floats
+from yellowiron.model.geometry import Floats, Ints, Mesh
 from yellowiron.model.mechanism import Body, BodyShape
 from yellowiron.model.template import Material, Role, Template
 
+MIDDLE = 2.0 / 3.0
+"""Share of the room between two tracks, drawn in one with their frame, that is surely the frame's."""
 ON_GROUND = 0.03
 """What is this near to the lowest point, as a share of the track's height, lies on the ground."""
 LEFT_OVER = 0.02
@@ -33,7 +35,8 @@ LEFT_OVER = 0.02
 @dataclass(frozen=True, eq=False)
 class HiddenWheel:
     """One of them: `center` (3,) and `radius` in metres, machine frame; `rows` of the parts it stands for and its
-    `share` of their mass; `carrier`, the body that these move with."""
+    `share` of their mass; `carrier`, the body that these move with. `inner`: y of the track's inner edge, where these
+    parts are its frame too."""
 
     role: str
     center: Floats
@@ -41,6 +44,7 @@ class HiddenWheel:
     rows: tuple[int, ...]
     share: float
     carrier: str
+    inner: float | None = None
 
     @property
     def axis(self) -> Floats:
@@ -59,9 +63,9 @@ def hidden_wheels(placement: Placement, template: Template, findings: list[Findi
     for row, roles in rows.items():
         rule = roles[0].hidden
         parts = parts_of_row(placement, template, rule["row"])
-        points, part_of = placement.points_of(parts), 1.0
+        points, part_of, inner = placement.points_of(parts), 1.0, None
         if not parts:
-            parts, points, part_of = _side(placement, template, roles[0])
+            parts, points, part_of, inner = _side(placement, template, roles[0])
             if not parts:
                 words = f"No part of the CAD model is '{rule['row']}': there is nothing that '{row}' could stand for."
                 findings.append(Finding("MEC070", "error", row, words, "Give its parts that role in the alignment."))
@@ -74,7 +78,7 @@ def hidden_wheels(placement: Placement, template: Template, findings: list[Findi
         for role, at in zip(roles, rule["at"], strict=True):
             center = np.array([middle + at * length, 0.5 * (low[1] + high[1]), low[2] + radius + rule["above"]])
             share = part_of * rule["mass"] / len(roles)
-            found[role.name] = HiddenWheel(role.name, center, radius, parts, share, placement.bodies[parts[0]])
+            found[role.name] = HiddenWheel(role.name, center, radius, parts, share, placement.bodies[parts[0]], inner)
     return found
 
 
@@ -84,27 +88,27 @@ def parts_of_row(placement: Placement, template: Template, row: str) -> tuple[in
     return tuple(i for i, name in enumerate(placement.roles) if name in members or name == row)
 
 
-def _side(placement: Placement, template: Template, wheel: Role) -> tuple[tuple[int, ...], Floats, float]:
+def _side(placement: Placement, template: Template, wheel: Role) -> tuple[tuple[int, ...], Floats, float, float]:
     """Where tracks and frame are drawn in one: the parts of the body that a hidden wheel hangs on, their points on the
-    track of its side, and which share of those parts' surface it is. The track is as wide as what touches the
-    ground."""
+    track of its side, which share of those parts' surface it is, and y of its inner edge. The track is as wide as what
+    touches the ground."""
     carrier = template.body_of(wheel.parent) if wheel.parent is not None else None
     rows = placement.rows_of_body(carrier) if carrier is not None and wheel.side else ()
     points = placement.points_of(rows)
     if not len(points):
-        return (), points, 0.0
+        return (), points, 0.0, 0.0
     sign = 1.0 if wheel.side == "l" else -1.0
     low, high = float(points[:, 2].min()), float(points[:, 2].max())
     ground = points[(points[:, 2] < low + ON_GROUND * (high - low)) & (sign * points[:, 1] > 0.0)]
     if not len(ground):
-        return (), points, 0.0
+        return (), points, 0.0, 0.0
     inner, outer = ground[:, 1].min(), ground[:, 1].max()
     kept = points[(points[:, 1] >= inner) & (points[:, 1] <= outer)]
     facets = [placement.facets(row) for row in rows]
     middle = np.concatenate([center[:, 1] for center, _, _ in facets])
     area = np.concatenate([size for _, _, size in facets])
     on = (middle >= inner) & (middle <= outer)
-    return rows, kept, float(area[on].sum() / area.sum())
+    return rows, kept, float(area[on].sum() / area.sum()), float(sign * np.abs([inner, outer]).min())
 
 
 def _stretch(points: Floats) -> tuple[Floats, Floats, tuple[float, float]]:
@@ -142,7 +146,42 @@ def with_wheels(
         made = [by_name[n] for n, w in wheels.items() if w.carrier == carrier]
         stood_for = frozenset(placement.ids(row for w in wheels.values() if w.carrier == carrier for row in w.rows))
         by_name[carrier] = _lighter(_bare(by_name[carrier], stood_for), made, findings)
+        by_name[carrier] = _between(by_name[carrier], [w for w in wheels.values() if w.carrier == carrier], placement)
     return tuple(by_name[name] for name in order)
+
+
+def _between(body: Body, wheels: Sequence[HiddenWheel], placement: Placement) -> Body:
+    """A frame drawn in one with its tracks: what is between them is in no corner of the whole's hull, and its parts
+    have no colliders. It gets the corners of that middle, and a box around it to collide with."""
+    inner = [w.inner for w in wheels if w.inner is not None]
+    right, left = max((y for y in inner if y < 0.0), default=0.0), min((y for y in inner if y > 0.0), default=0.0)
+    rows = sorted({row for w in wheels if w.inner is not None for row in w.rows})
+    margin = 0.5 * (1.0 - MIDDLE) * (left - right)
+    corners = [
+        _slab(placement.points(row), placement.shapes[row].mesh.triangles, right + margin, left - margin)
+        for row in rows
+    ]
+    points = np.concatenate([np.zeros((0, 3)), *corners])
+    if left <= right or not len(points):
+        return body
+    first, last = points.min(axis=0), points.max(axis=0)
+    material = next(p.material for p in body.parts if p.part in placement.ids(rows))
+    size, center = vector(np.maximum(last - first, 1e-3)), vector(0.5 * (first + last))
+    box = BodyShape(f"{body.name}_between_tracks", center, 0.5 * max(size), material, size)
+    return replace(body, hull=np.concatenate([body.hull, points]), shapes=(*body.shapes, box))
+
+
+def _slab(points: Floats, triangles: Ints, low: float, high: float) -> Floats:
+    """Corners (n, 3) of the convex hull of what a mesh has between two planes across y."""
+    edges = points[np.asarray(triangles)[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)]
+    found = [points[(points[:, 1] >= low) & (points[:, 1] <= high)]]
+    for plane in (low, high):
+        before, after = edges[:, 0, 1] - plane, edges[:, 1, 1] - plane
+        crossing = before * after < 0.0
+        share = (before[crossing] / (before - after)[crossing])[:, None]
+        found.append(edges[crossing, 0] + share * (edges[crossing, 1] - edges[crossing, 0]))
+    inside = np.concatenate(found)
+    return hull_corners(Mesh(inside, np.zeros((0, 3), dtype=np.int64))) if len(inside) else inside
 
 
 def _bare(body: Body, parts: frozenset[str]) -> Body:

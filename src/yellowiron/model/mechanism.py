@@ -31,13 +31,14 @@ class BodyPart:
 
 @dataclass(frozen=True)
 class BodyShape:
-    """A collider that no CAD part has: a ball of `radius` metres about `center` (machine frame, drawn pose), of a
-    material among `Mechanism.materials`."""
+    """A collider that no CAD part has: a ball of `radius` metres about `center` (machine frame, drawn pose), or with a
+    `size` a box of those lengths along the machine's axes, of a material among `Mechanism.materials`."""
 
     name: str
     center: Vector
     radius: float
     material: str = ""
+    size: Vector | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,7 +46,7 @@ class Body:
     """A rigid body. `origin` is its frame's origin (axes parallel to the machine's in the drawn pose);
     `center_of_mass` and `inertia` (3, 3, kg·m² about the centre of mass) are in the machine frame. `hull` (n, 3):
     corners of the convex hulls of its parts in the machine frame, for extents and ground contact. `shapes` are
-    colliders of its own: a hidden wheel has no parts."""
+    colliders of its own: a hidden wheel has no parts, and a frame drawn in one with its tracks collides as a box."""
 
     name: str
     origin: Vector

@@ -91,16 +91,18 @@ def _write_colliders(
 
 
 def _write_shapes(layer: Sdf.Layer, path: str, body: Body) -> None:
-    """A body's own colliders, which no CAD part has: balls."""
+    """A body's own colliders, which no CAD part has: balls and boxes."""
     if not body.shapes:
         return
     set_attribute(define(layer, f"{path}/{COLLIDERS}", "Scope"), "purpose", Types.Token, "guide", uniform=True)
     for shape in body.shapes:
-        spec = define(layer, shape_path(path, shape), "Sphere")
-        set_attribute(spec, "radius", Types.Double, float(shape.radius))
-        half = Gf.Vec3f(float(shape.radius))
-        set_attribute(spec, "extent", Types.Float3Array, Vt.Vec3fArray([-half, half]))
-        set_placement(spec, np.asarray(shape.center) - np.asarray(body.origin))
+        place = np.eye(4)
+        place[:3, 3] = np.asarray(shape.center) - np.asarray(body.origin)
+        if shape.size is None:
+            primitive = Primitive("sphere", np.zeros(3), np.eye(3), (float(shape.radius),))
+        else:
+            primitive = Primitive("box", np.zeros(3), np.eye(3), shape.size)
+        _write_primitive(layer, shape_path(path, shape), primitive, place, 1.0)
 
 
 def shape_path(body: str, shape: BodyShape) -> str:

@@ -34,7 +34,7 @@ def overlapping_bodies(plan: Plan, tolerance: float = TOLERANCE) -> list[tuple[s
     if balls:
         centers = np.concatenate([centers, [shape.center for _, shape in balls]])
         axes = np.concatenate([axes, np.broadcast_to(np.eye(3), (len(balls), 3, 3))])
-        halves = np.concatenate([halves, [[shape.radius] * 3 for _, shape in balls]])
+        halves = np.concatenate([halves, [0.5 * np.array(s.size or [2.0 * s.radius] * 3) for _, s in balls]])
     first, second = np.nonzero(owner[:, None] < owner[None, :])
     hit = _boxes_overlap(centers, axes, halves, first, second, tolerance)
     pairs = sorted({(int(owner[i]), int(owner[j])) for i, j in zip(first[hit], second[hit], strict=True)})
