@@ -202,10 +202,17 @@ def test_no_folder(tmp_path: Path, solved: Alignment, assembly: Assembly) -> Non
 
 def test_explain(solved: Alignment) -> None:
     text = explain(solved, "boom_pin")
-    assert text.count("\n") == 1
+    first, *sentences = text.splitlines()
+    assert first.startswith("boom_pin: 2 parts, ")
+    assert len(sentences) == 2
     assert "through bores of" in text
+    assert "on both sides, coaxial within" in text
     pin = solved.parts_of_role("rocker_pin")[0]
     assert "Moves with rocker" in explain(solved, pin)
+    rod = solved.parts_of_role("bucket_piston_rod")[0]
+    assert "Otherwise: " in explain(solved, "rocker")
+    assert "  found by: joints\n" in explain(solved, rod)
+    assert "the whole machine was found: 1" in explain(solved, rod)
     with pytest.raises(AlignmentError, match="neither a role nor a part") as caught:
         explain(solved, "bom_pin")
     assert "boom_pin" in caught.value.hint

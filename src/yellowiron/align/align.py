@@ -29,7 +29,7 @@ from yellowiron.align.islands import islands
 from yellowiron.align.nests import Nest
 from yellowiron.align.report import reported
 from yellowiron.align.search import Search, is_whole, rivals_of
-from yellowiron.align.seen import Seen, see
+from yellowiron.align.seen import CONTACT, Seen, see
 from yellowiron.align.shaken import shaken
 from yellowiron.align.sheet import sheet_findings
 from yellowiron.align.solids import solids_of
@@ -118,6 +118,8 @@ def align(
         documents=documents,
         apart=apart,
         axes=_axes(structure, solution, seen),
+        whole=is_whole(answer),
+        rung=CONTACT.index(answer.contact),
         remarks=[
             # What reading the file found; the rest was of an earlier model.
             *(f for f in (edits.findings if edits is not None else ()) if f.code in ("ALN012", "ALN013")),

@@ -87,6 +87,37 @@ def unheld(solids: tuple[Solid, ...], structure: Structure, solution: Solution) 
     return frozenset(found)
 
 
+def next_bodies(structure: Structure, template: Template, solution: Solution) -> dict[int, tuple[str | None, float]]:
+    """Cluster → the body it could best be instead, all others as they are, and by how large a share fewer of that
+    body's joints hold than of its own (1: none holds; 0: as many; the joints' shares are compared)."""
+    pairs = {frozenset((h.a, h.b)) for h in structure.hinges}
+    slides = {frozenset(s[:2]) for s in structure.slides}
+    cluster_of = {b: c for c, b in solution.body_of.items()}
+    kinds = {r.name: r.kind if r.kind in ("barrel", "rod", "wheel") else "" for r in template.roles if r.rigid}
+    ends: dict[str, list[tuple[str, str]]] = {b: [] for b in kinds}
+    for joint in template.joints:
+        first, second = template.bodies_of(joint)
+        if first in ends and second in ends and first != second:
+            ends[str(first)].append((joint.type, str(second)))
+            ends[str(second)].append((joint.type, str(first)))
+
+    def share(cluster: int, body: str) -> float:
+        held = 0
+        for kind, other in ends[body]:
+            there = cluster_of.get(other)
+            known = slides if kind == "prismatic" else pairs
+            held += there is not None and there != cluster and frozenset((cluster, there)) in known
+        return held / len(ends[body]) if ends[body] else 0.0
+
+    found: dict[int, tuple[str | None, float]] = {}
+    for cluster, body in sorted(solution.body_of.items()):
+        like = [b for b, kind in kinds.items() if kind == kinds[body] and b != body]
+        best = max(like, key=lambda b: (share(cluster, b), b), default=None)
+        rival = share(cluster, best) if best is not None else 0.0
+        found[cluster] = (best if rival > 0 else None, max(0.0, share(cluster, body) - rival))
+    return found
+
+
 def has_tyre(wheel: Wheel, solids: tuple[Solid, ...]) -> bool:
     """True if the outermost ring of a wheel is thick enough for a tyre, or is all there is."""
     inner = max((solids[i].reach for i in wheel.members if i != wheel.tyre), default=0.0)

@@ -237,7 +237,8 @@ def _near(name: str, known: set[str]) -> str:
 
 
 def explain(alignment: Alignment, role_or_part: str) -> str:
-    """Why a role has its parts, or a part its role, in sentences.
+    """Why a role has its parts, the doubtful ones first, or a part its role, in sentences: how probable it is, what it
+    was found by, what else it could be; for a single part also the figures that its probability rests on.
 
     A part is named by its id, or by the end of it (its name, say) where that leaves no doubt. `AlignmentError` for a
     name that is neither, or that several parts end with.
@@ -256,7 +257,13 @@ def explain(alignment: Alignment, role_or_part: str) -> str:
             f"'{role_or_part}' is neither a role nor a part of this alignment", where=role_or_part,
             hint=_near(role_or_part, known) or "Name a role of the template or a part id.",
         )  # fmt: skip
-    return "\n".join(_sentence(p) for p in sorted(chosen, key=lambda p: p.confidence))
+    chosen = sorted(chosen, key=lambda p: p.confidence)
+    if len(chosen) == 1:
+        return "\n".join([_sentence(chosen[0]), *_figures(chosen[0])])
+    sure = f"{chosen[0].confidence:.0%} to {chosen[-1].confidence:.0%} sure"
+    review = [p.part for p in chosen if p.part in alignment.to_review]
+    doubt = f", {len(review)} to review" if review else ""
+    return "\n".join([f"{role_or_part}: {len(chosen)} parts, {sure}{doubt}.", *(_sentence(p) for p in chosen)])
 
 
 def _ending(alignment: Alignment, name: str) -> list[PartAssignment]:
@@ -271,6 +278,23 @@ def _ending(alignment: Alignment, name: str) -> list[PartAssignment]:
         if found:
             return found
     return []
+
+
+_FIGURES = {
+    "whole": "the whole machine was found: {0:g} (1: every body and joint)",
+    "rung": "contact tolerance widened {0:g} times",
+    "names for": "its names speak for it by {0:g}",
+    "names against": "its names speak for another body by {0:g}",
+    "lead": "joints ahead of the runner-up's: {0:.0%}",
+}
+
+
+def _figures(p: PartAssignment) -> list[str]:
+    """What a probability rests on, a line each; what plays no part is left out."""
+    by = [f"  found by: {name.removeprefix('by ')}" for name in p.evidence if name.startswith("by ")]
+    odds = p.evidence.get("strength")
+    by += [f"  strength of that: {1 / (1 + float(np.exp(-odds))):.2f}"] if odds is not None else []
+    return by + [f"  {_FIGURES[n].format(v)}" for n, v in p.evidence.items() if n in _FIGURES and (v or n == "whole")]
 
 
 def _sentence(p: PartAssignment) -> str:

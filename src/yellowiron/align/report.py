@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from yellowiron.align.confidence import grounds, probability
 from yellowiron.align.frame import MachineFrame
 from yellowiron.align.solve import Solution
 from yellowiron.align.spread import Place, pin_role
@@ -14,7 +15,7 @@ from yellowiron.model.rows import count_members
 from yellowiron.model.template import Template
 
 REVIEW = 0.5
-"""Parts and roles below this confidence are for a person to look at."""
+"""Parts whose evidence has less strength than this are for a person to look at."""
 
 APART = 0.6
 """Confidence that a part which stands apart is no part of the machine: one remark speaks for all of them."""
@@ -33,11 +34,14 @@ def reported(
     apart: Mapping[str, float] | None = None,
     remarks: Sequence[Finding] = (),
     axes: Mapping[str, tuple[Vector, Vector]] | None = None,
+    whole: bool = True,
+    rung: int = 0,
 ) -> Alignment:
     """The alignment. `places` by part id; `edited`: part id → the role a person gave it ("": none), which wins;
     `documents`: part id → why, for those of them that a document placed; `apart`: part id → metres from the rest, for
-    those left out; `remarks`: further findings; `axes`: the alignment's."""
-    parts = []
+    those left out; `remarks`: further findings; `axes`: the alignment's; `whole`, `rung`: see `confidence.grounds`."""
+    parts: list[PartAssignment] = []
+    doubted: set[str] = set()
     for part in assembly.parts:
         place = places.get(part.id)
         if part.id in edited:
@@ -53,8 +57,12 @@ def reported(
             parts.append(PartAssignment(part.id, None, None, APART, words))
         elif place is None:
             parts.append(PartAssignment(part.id, None, None, 0.0, "nothing speaks for any role"))
+            doubted.add(part.id)
         else:
-            confidence = round(min(max(place.confidence, 0.0), 1.0), 3)
+            if place.confidence < REVIEW:
+                doubted.add(part.id)
+            evidence = grounds(place, whole=whole, rung=rung)
+            confidence = round(probability(evidence), 3)
             parts.append(
                 PartAssignment(
                     part.id,
@@ -64,11 +72,12 @@ def reported(
                     place.reason,
                     "name" if place.by_name else "solved",
                     place.runner_up,
+                    evidence,
                 )
             )
     played = {p.role for p in parts} | {p.body for p in parts}
     missing = tuple(r.name for r in template.roles if _required(r.name, template) and r.name not in played)
-    doubtful = tuple(p.part for p in sorted(parts, key=lambda p: p.confidence) if p.confidence < REVIEW)
+    doubtful = tuple(p.part for p in sorted(parts, key=lambda p: p.confidence) if p.part in doubted)
     findings = (*_findings(template, solution, missing, frame, edited), *remarks)
     return Alignment(
         template.equipment_type,

@@ -8,8 +8,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from yellowiron.align.clusters import Structure
-from yellowiron.align.contacts import Flat
-from yellowiron.align.doubts import STURDY, has_tyre, unheld
+from yellowiron.align.contacts import Fit, Flat
+from yellowiron.align.doubts import STURDY, has_tyre, next_bodies, unheld
 from yellowiron.align.islands import FAR
 from yellowiron.align.names import exact_role, exact_roles
 from yellowiron.align.solids import Solid
@@ -33,7 +33,10 @@ NAMED = 0.9
 
 @dataclass(frozen=True)
 class Place:
-    """What is known of one part: role, body, confidence, reason, runner-up (a body), and whether a name decided it."""
+    """What is known of one part: role, body, strength of the evidence (0 to 1, no probability: see `confidence`),
+    reason, runner-up (a body), whether a name decided it, and what it was found by: `joints`, `pin`, `bores`, `flat`,
+    `ring`, `touch`, `near`, `name` or `track`. `said`: how much more its names speak of the body than of any other;
+    `lead`: how many more of its joints hold than of the runner-up's, as a share."""
 
     role: str
     body: str
@@ -41,6 +44,9 @@ class Place:
     reason: str
     runner_up: str | None = None
     by_name: bool = False
+    how: str = "joints"
+    said: float = 0.0
+    lead: float = 1.0
 
 
 @dataclass
@@ -79,12 +85,17 @@ class Spreader:
         self._by_exact_name()
         self._nearest()
         self._specific(wheels)
+        for i, place in self.places.items():
+            others = max((v for b, v in self.scores[i].items() if b != place.body), default=0.0)
+            self.places[i] = replace(place, said=self.scores[i].get(place.body, 0.0) - others)
         return self.places
 
     # ---- the solved bodies ----
     def _bodies(self) -> None:
+        second = next_bodies(self.structure, self.template, self.solution)
         for c, body in sorted(self.solution.body_of.items()):
             joints = [j for j in self.template.joints if body in self.template.bodies_of(j)]
+            other, lead = second[c]
             solved = [j.name for j in joints if j.name in self.solution.hinge_of or j.name in self.solution.slide_of]
             share = len(solved) / len(joints) if joints else 0.0
             confidence = 0.4 + 0.58 * share if solved else 0.35
@@ -100,7 +111,7 @@ class Spreader:
             for i in self.structure.clusters[c].members:
                 rival = self._named_other(i, body)
                 drop = 0.1 if rival else 0.0
-                self.places[i] = Place(body, body, confidence - drop, words, doubt or rival)
+                self.places[i] = Place(body, body, confidence - drop, words, doubt or rival or other, lead=lead)
 
     def _torn(self) -> None:
         """Parts that hold to two bodies about as firmly: the one chosen is a guess."""
@@ -144,9 +155,21 @@ class Spreader:
                 fits = self.structure.hosts[pin]
                 gap = max(f.gap for f in fits)
                 radius = max(f.shaft.radius for f in fits)
-                words = f"pin Ø{2e3 * radius:.4g} through bores of {a} and {b}, coaxial within {1e3 * gap:.2g} mm"
+                sides = " on both sides" if self._both_sides(fits) else ""
+                words = f"pin Ø{2e3 * radius:.4g} through bores of {a} and {b}{sides}"
+                words += f", coaxial within {1e3 * gap:.2g} mm"
                 share = min(self._sure(a), self._sure(b))
-                self.places[pin] = Place(role, body, min(0.99, share + 0.01), words)
+                self.places[pin] = Place(role, body, min(0.99, share + 0.01), words, how="pin")
+
+    def _both_sides(self, fits: tuple[Fit, ...]) -> bool:
+        """True if a body has bores on both sides of another's, along a pin."""
+        along = fits[0].shaft.direction
+        at: dict[str, list[float]] = {}
+        for fit in fits:
+            if fit.outer in self.places:
+                at.setdefault(self.places[fit.outer].body, []).append(float(fit.bore.center @ along))
+        pairs = [(x, y) for a, x in at.items() for b, y in at.items() if a != b]
+        return any(min(x) < min(y) and max(y) < max(x) for x, y in pairs)
 
     def _race(self, line: int, role: str, body: str) -> None:
         """Of a slewing bearing the race of the body that carries it is the joint's pin."""
@@ -172,7 +195,7 @@ class Spreader:
                     votes[place.body] = votes.get(place.body, 0.0) + fit.overlap
                     sure = min(sure, place.confidence)
             if votes:
-                self._vote(pin, votes, sure * 0.98, "sits in bores of {body}")
+                self._vote(pin, votes, sure * 0.98, "sits in bores of {body}", "bores")
                 self._unplayed(pin, set(votes))
 
     def _unplayed(self, pin: int, hosts: set[str]) -> None:
@@ -195,13 +218,13 @@ class Spreader:
                 return
 
     # ---- contact ----
-    def _vote(self, i: int, votes: dict[str, float], best: float, words: str) -> None:
+    def _vote(self, i: int, votes: dict[str, float], best: float, words: str, how: str) -> None:
         ranked = sorted(votes, key=lambda b: (-round(votes[b], 9), b))
         total = sum(votes.values()) or 1.0
         share = votes[ranked[0]] / total
         second = ranked[1] if len(ranked) > 1 else None
         confidence = best * (0.55 + 0.45 * share if second else 1.0)
-        self._give(i, Place(ranked[0], ranked[0], confidence, words.format(body=ranked[0]), second))
+        self._give(i, Place(ranked[0], ranked[0], confidence, words.format(body=ranked[0]), second, how=how))
 
     def _give(self, i: int, place: Place) -> None:
         """What could move on its own goes with a neighbour for want of a body, for a person to look at."""
@@ -223,7 +246,7 @@ class Spreader:
         for flat in self.flats:
             across.setdefault(flat.a, []).append((flat.b, flat.area))
             across.setdefault(flat.b, []).append((flat.a, flat.area))
-        self._rounds(lambda i: across.get(i, []), 0.97, "lies flat against {body}")
+        self._rounds(lambda i: across.get(i, []), 0.97, "lies flat against {body}", "flat")
 
     def _by_touch(self) -> None:
         """Meshes that touch or cut each other, parts counted."""
@@ -236,9 +259,9 @@ class Spreader:
             found = [j for j in beside.get(i, []) if j in self.places and j not in self.structure.slight]
             return [(j, 1.0) for j in found if self.touch.touching(i, j)]
 
-        self._rounds(neighbours, 0.92, "touches {body}")
+        self._rounds(neighbours, 0.92, "touches {body}", "touch")
 
-    def _rounds(self, neighbours: Callable[[int], list[tuple[int, float]]], best: float, words: str) -> None:
+    def _rounds(self, neighbours: Callable[[int], list[tuple[int, float]]], best: float, words: str, how: str) -> None:
         while True:
             found: list[tuple[list[int], dict[str, float], float]] = []
             for group in self._groups():
@@ -257,7 +280,7 @@ class Spreader:
                 return
             for group, votes, sure in found:
                 for i in group:
-                    self._vote(i, votes, best * sure, words)
+                    self._vote(i, votes, best * sure, words, how)
 
     def _is_pin(self, i: int) -> bool:
         return i in self.structure.hosts
@@ -304,7 +327,7 @@ class Spreader:
                         sure = min(sure, place.confidence)
             if votes:
                 for i in group:
-                    self._vote(i, votes, 0.9 * sure, "sits on a pin of {body}")
+                    self._vote(i, votes, 0.9 * sure, "sits on a pin of {body}", "ring")
 
     def _by_exact_name(self) -> None:
         """Parts that bear a role's very name, where geometry found nothing of that body."""
@@ -315,7 +338,7 @@ class Spreader:
                 body = self.template.body_of(role) if role is not None else None
                 if role is not None and body is not None and body not in self.cluster_of:
                     words = f"bears the name of the role {role}"
-                    self.places[i] = Place(role, body, NAMED, words, by_name=True)
+                    self.places[i] = Place(role, body, NAMED, words, by_name=True, how="name")
 
     def _nearest(self) -> None:
         """What floats goes with what is nearest, and with its assembly; what is far from everything is left out."""
@@ -362,7 +385,8 @@ class Spreader:
             confidence = min(confidence, DOUBTFUL)
         words = f"floats; {ranked[0]} is nearest, {1e3 * far[ranked[0]]:.3g} mm away"
         for i in group:
-            self._give(i, Place(ranked[0], ranked[0], confidence, words, ranked[1] if len(ranked) > 1 else None))
+            second = ranked[1] if len(ranked) > 1 else None
+            self._give(i, Place(ranked[0], ranked[0], confidence, words, second, how="near"))
 
     def _turned(self, body: str) -> bool:
         cluster = self.cluster_of.get(body)

@@ -363,7 +363,7 @@ def track_places(
                 body = template.body_of(name)
                 if body is not None:
                     said = f"{words} of {len(groups)}" if role.many else words
-                    places |= {ids[i]: Place(name, body, SURE, said) for i in group}
+                    places |= {ids[i]: Place(name, body, SURE, said, how="track") for i in group}
     return places
 
 

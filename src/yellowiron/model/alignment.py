@@ -18,8 +18,9 @@ class PartAssignment:
     """The role of one part.
 
     `role` is the template's most specific name for the part (a pin's role; else the role of its body), `body` the
-    rigid role it moves with (None: left out of the machine). `confidence` in [0, 1]; `reason` in words;
-    `edited` parts were set by a person and win over every solver.
+    rigid role it moves with (None: left out of the machine). `confidence` in [0, 1] is the probability that it is
+    right, which rests on the figures in `evidence` (see `align.confidence.grounds`); `reason` in words; `edited` parts
+    were set by a person and win over every solver.
     """
 
     part: str
@@ -29,6 +30,7 @@ class PartAssignment:
     reason: str
     source: AssignmentSource = "solved"
     runner_up: str | None = None
+    evidence: Mapping[str, float] = field(default_factory=dict, compare=False)
 
 
 @dataclass(frozen=True, eq=False)
