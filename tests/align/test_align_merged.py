@@ -61,3 +61,18 @@ def test_loader_merged(merged: str) -> None:
 @pytest.mark.parametrize("seed", [1002, 1005])
 def test_excavators_merged(merged: str, seed: int) -> None:
     assert wrong(excavator(seed), "excavator", merged, seed) == []
+
+
+def test_bodies_without_pins_are_not_taken_apart() -> None:
+    """Nothing is gained by it: their roles are missing all the same."""
+    machine = loader(1002)
+    pins = {role for role, _ in machine.truth.values() if role.endswith("_pin") or "cylinder" in role or "rod" in role}
+    machine.parts[:] = [p for p in machine.parts if not set(machine.truth[p.id]) & pins]
+    assembly, truth, _ = disguise(machine, 1002)
+    groups: dict[str, list[str]] = {}
+    for part in assembly.parts:
+        groups.setdefault(truth[part.id][1], []).append(part.id)
+    merged = meshed(assembly, list(groups.values()))
+    found, alignment = aligned(merged, load_template("wheel_loader"), Specifications())
+    assert alignment.missing
+    assert found is merged
