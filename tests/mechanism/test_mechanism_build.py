@@ -203,10 +203,19 @@ def test_a_body_without_mass_gets_some() -> None:
     assert {"MEC031", "MEC034"} <= codes(built)
 
 
-def test_no_root_is_an_error() -> None:
+def test_without_the_root_the_nearest_body_stands_in() -> None:
+    assembly, alignment = machine()
+    built = build((assembly, without(alignment, "BASE", "PIN L", "PIN R", "PIN C")))
+    assert built.root != "base"
+    assert built.root in {b.name for b in built.bodies}
+    (said,) = [f for f in built.findings if f.code == "MEC015"]
+    assert (said.where, said.severity) == ("base", "error")
+
+
+def test_no_body_at_all_is_an_error() -> None:
     assembly, alignment = machine()
     with pytest.raises(MechanismError, match="root body 'base'"):
-        build((assembly, without(alignment, "BASE", "PIN L", "PIN R", "PIN C")))
+        build((assembly, without(alignment, *(p.name for p in assembly.parts))))
 
 
 def test_sites_at_joints_points_and_edges() -> None:

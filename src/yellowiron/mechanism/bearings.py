@@ -150,8 +150,8 @@ def lone_bearing(placement: Placement, bodies: tuple[str, str], line: Line) -> B
 
 
 def lone_slide(placement: Placement, bodies: tuple[str, str], line: Line) -> Bearing:
-    """The axis that the alignment found for a slide of which no bore and rod show it: through the cylinders of both that
-    are on that line, else the line itself."""
+    """The axis that the alignment found for a slide of which no bore and rod show it: through the cylinders of both on
+    that line, else the line itself."""
     features = placement.features(row for body in bodies for row in placement.rows_of_body(body))
     features = features.take(on_line(features, line))
     doubt = ("MEC014", "No rod in its bore shows the axis: the slide is along the line that both its bodies are on.")

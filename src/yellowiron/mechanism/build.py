@@ -53,7 +53,7 @@ def build_mechanism(
 
     `template` has its variants decided (`choose`); `alignment` says which part moves with which body, and where the
     machine frame is. `documents` win over the template's materials and collision. What could not be found is left
-    out or guessed, with a finding; raises `MechanismError` only where no part is the root body's.
+    out or guessed, with a finding; raises `MechanismError` only where no part is any body's.
 
     Pivot limits that follow from loops, gains, mobility and the branch signs of loops are the kinematics' part.
     """
@@ -62,12 +62,7 @@ def build_mechanism(
 
     # Where the parts and the joints are.
     placement, findings = place(assembly, template, alignment)
-    if not placement.has_body(template.root):
-        raise MechanismError(
-            f"No part of the CAD model is the root body '{template.root}'",
-            where=assembly.name,
-            hint="Give its parts that role in the alignment.",
-        )
+    template = _standing(template, placement, assembly.name, findings)
     wheels = hidden_wheels(placement, template, findings)
     frames, remarks = joint_frames(placement, template, wheels)
     findings += remarks
@@ -132,6 +127,25 @@ def build_mechanism(
         sensors=sensed,
         floating=floating,
     )
+
+
+def _standing(template: Template, placement: Placement, where: str, findings: list[Finding]) -> Template:
+    """The template with a body as its root that the CAD model has: its own, else the one fewest joints away."""
+    hint = "Give its parts that role in the alignment."
+    if placement.has_body(template.root):
+        return template
+    ends = [template.bodies_of(j) for j in template.joints]
+    near = [template.root]
+    for name in near:
+        beside = [str(b) for pair in ends if name in pair for b in pair if b is not None and b not in near]
+        near += dict.fromkeys(beside)
+    order = [*near, *(r.name for r in template.roles if r.rigid)]
+    stand = next((name for name in order if placement.has_body(name)), None)
+    if stand is None:
+        raise MechanismError(f"No part of the CAD model is the root body '{template.root}'", where=where, hint=hint)
+    words = f"No part of the CAD model is the root body: '{stand}' stands in for it."
+    findings.append(Finding("MEC015", "error", template.root, words, hint))
+    return replace(template, root=stand)
 
 
 def _weld_loose(
