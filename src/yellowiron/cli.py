@@ -127,9 +127,10 @@ def extract(
             with output_folder(show) as folder:
                 specs.draw_evidence(pdfs, found, folder)
     entries = [specification_entry(s) for s in found]
+    missing, findings = specs.missing_values(template, found), [asdict(f) for f in found.findings]
     _show(
-        {"specifications": entries, "findings": [asdict(f) for f in found.findings]},
-        specification_table(entries),
+        {"specifications": entries, "missing": missing, "findings": findings},
+        specification_table(entries, missing=missing, findings=findings),
         as_json,
     )
     short = any(e["status"] in ("review", "conflict", "unreadable") for e in entries) or missing_limits(template, found)

@@ -15,6 +15,7 @@ _DISPLAY = {
     "Pa": ("MPa", 1e-6),
     "m^3/s": ("L/min", 6e4),
     "N": ("kN", 1e-3),
+    "W": ("kW", 1e-3),
     "m/s": ("km/h", 3.6),
     "rad/s": ("rpm", 30.0 / math.pi),
 }

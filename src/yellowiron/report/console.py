@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
@@ -13,29 +14,78 @@ from yellowiron.model.alignment import Alignment
 from yellowiron.model.mechanism import Measurement
 from yellowiron.model.text import display
 from yellowiron.report.document import within_tolerance
+from yellowiron.report.words import shown
 
 _STATUS = {"ok": "green", "review": "yellow", "conflict": "red", "missing": "dim", "unreadable": "red"}
 _SEVERITY = {"error": "red", "warning": "yellow", "info": "dim"}
 
 
-def specification_table(entries: Iterable[Mapping[str, Any]]) -> Table:
-    """Specifications: name, value, status, and where it was read."""
-    table = _table("Specification", "Value", "Status", "Page", "Evidence", right=("Value", "Page"))
+def specification_table(
+    entries: Sequence[Mapping[str, Any]],
+    *,
+    missing: Sequence[Mapping[str, str]] = (),
+    findings: Sequence[Mapping[str, Any]] = (),
+) -> RenderableType:
+    """What the sheets say: name, value, status, page and quote, with the reason under what a person has to look at;
+    what is `missing` (`specs.missing_values`), and how to give it; the `findings` of the reading; how many of each."""
+    told = {one["name"] for one in missing}
+    files = {entry["file"] for entry in entries if entry["file"]}
+    table = _table("Specification", "Value", "Status", "Page", "Quote", right=("Value",))
+    for column in table.columns[:4]:
+        column.no_wrap = True
+    table.columns[0].overflow = "fold"
+    table.columns[0].no_wrap = False
     for entry in entries:
-        note = f"“{entry['quote']}”" if entry["quote"] else entry["hint"] or entry["reason"]
-        if entry["example"]:
-            note += "  (example value)"
-        if entry["status"] == "conflict":
-            values = (f"{display(c['value'], c['unit'])} {c['configuration']}".strip() for c in entry["candidates"])
-            note = " | ".join(values)
+        if entry["name"] in told:
+            continue
+        # An ellipsis in cells of the terminal: a Chinese character takes two of them.
+        note = Text(_quote(entry), overflow="ellipsis", no_wrap=True, style="dim")
+        page = "" if entry["page"] is None else str(entry["page"])
         table.add_row(
             entry["name"],
-            display(entry["value"], entry["unit"]),
+            shown(entry["value"], entry["unit"]),
             Text(entry["status"], style=_STATUS[entry["status"]]),
-            "" if entry["page"] is None else str(entry["page"]),
-            Text(note, overflow="ellipsis", no_wrap=True, style="dim"),
+            f"{entry['file']} {page}" if len(files) > 1 and page else page,
+            note,
         )
-    return table
+    blocks: list[RenderableType] = [table] if table.row_count else []
+    blocks += [t for t in (_to_look_at(entries, told), _still_missing(missing)) if t is not None]
+    if findings:
+        blocks += ["", finding_table(findings)]
+    counts = Counter(entry["status"] for entry in entries)
+    summary = ", ".join(f"{counts[status]} {status}" for status in _STATUS if counts[status])
+    return Group(*blocks, "", Text(f"{len(entries)} values asked for: {summary}.", "bold"))
+
+
+def _quote(entry: Mapping[str, Any]) -> str:
+    if not entry["quote"]:
+        return str(entry["reason"])
+    return f"“{entry['quote']}”" + ("  (example value)" if entry["example"] else "")
+
+
+def _to_look_at(entries: Sequence[Mapping[str, Any]], told: set[str]) -> RenderableType | None:
+    """Why a person has to look at some values, and the candidates of a conflict."""
+    table = _table("", "", right=())
+    table.show_header = False
+    for entry in entries:
+        if entry["status"] not in ("review", "conflict") or entry["name"] in told:
+            continue
+        words = Text(entry["reason"], "dim")
+        for candidate in entry["candidates"] if entry["status"] == "conflict" else ():
+            value, place = shown(candidate["value"], candidate["unit"]), f"page {candidate['page']}"
+            words.append(f"\n{value}  {place}  {candidate['configuration']}".rstrip())
+        table.add_row(Text(entry["name"], _STATUS[entry["status"]]), words)
+    return Group("", Text("To look at", "bold"), table) if table.row_count else None
+
+
+def _still_missing(missing: Sequence[Mapping[str, str]]) -> RenderableType | None:
+    """What no sheet says: two lines each."""
+    table = _table("Not on the sheet", "Where makers print it, and how to give it", right=())
+    table.columns[0].max_width = 40
+    for one in missing:
+        name = Text.assemble(one["name"], "\n", (f"  {one['what']}", "dim"))
+        table.add_row(name, Text.assemble(one["where"], "\n", (f"--set {one['set']}", "cyan")))
+    return Group("", table) if missing else None
 
 
 def measurement_table(entries: Sequence[Mapping[str, Any]]) -> Table:

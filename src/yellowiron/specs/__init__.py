@@ -2,11 +2,12 @@
 
 `extract` reads sheets by rules, without any network, or with a language model that the user names; `parse_settings`
 takes values a person gives; `merge` decides between sources; `draw_evidence` shows on pictures of the pages where each
-value stands.
+value stands; `missing_values` says what a person can still give.
 """
 
 from __future__ import annotations
 
+from yellowiron.specs.asked import missing_values
 from yellowiron.specs.endpoint import EndpointError, ModelOptions
 from yellowiron.specs.extract import Extractor, extract
 from yellowiron.specs.picture import draw_evidence
@@ -19,6 +20,7 @@ __all__ = [
     "draw_evidence",
     "extract",
     "merge",
+    "missing_values",
     "parse_settings",
     "split_settings",
 ]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from yellowiron.model.specification import fold
+from yellowiron.model.specification import Specifications, fold
 from yellowiron.model.template import JointTemplate, Template, Wanted
 
 _ANGULAR = {"revolute", "spherical"}
@@ -38,10 +38,24 @@ def _from_limit(name: str, joint: JointTemplate) -> Wanted:
 
 def hint_for(wanted: Wanted) -> str:
     """What a missing value is, where makers print it and how to give it."""
-    what = f"{wanted.name} ({wanted.dimension}"
-    what += f"; {wanted.use.rstrip('.')})" if wanted.use else ")"
-    place = wanted.where.rstrip(".") or _PLACES.get(wanted.dimension, "the specification tables")
-    return f'{what}. Look in {place}; give it with --set "{wanted.name}={_EXAMPLES.get(wanted.dimension, "VALUE")}".'
+    say = _explained(wanted)
+    return f"{wanted.name} ({say['what']}). Look in {say['where']}; give it with --set {say['set']}."
+
+
+def missing_values(template: Template, specifications: Specifications) -> tuple[dict[str, str], ...]:
+    """What a person can still give: of every value that no sheet says or that cannot be read, its `name`, `what` it
+    is, `where` makers usually print it, and what to `set` (`"Axle Height=VALUE mm"`, with its quotes)."""
+    open_ = {s.name for s in specifications if s.status in ("missing", "unreadable")}
+    return tuple({"name": w.name, **_explained(w)} for w in asked(template) if w.name in open_)
+
+
+def _explained(wanted: Wanted) -> dict[str, str]:
+    kind = wanted.dimension.replace("_", " ")
+    return {
+        "what": f"{kind}; {wanted.use.rstrip('.')}" if wanted.use else kind,
+        "where": wanted.where.rstrip(".") or _PLACES.get(wanted.dimension, "the specification tables"),
+        "set": f'"{wanted.name}={_EXAMPLES.get(wanted.dimension, "VALUE")}"',
+    }
 
 
 _PLACES = {
