@@ -22,13 +22,14 @@ from dataclasses import replace
 import numpy as np
 
 from yellowiron.align.clusters import Structure
-from yellowiron.align.doubts import doubts
+from yellowiron.align.coupler import coupled
+from yellowiron.align.doubts import doubts, name_doubts
 from yellowiron.align.frame import MachineFrame, machine_frame
 from yellowiron.align.ground import grounded
 from yellowiron.align.islands import islands
 from yellowiron.align.nests import Nest
 from yellowiron.align.report import reported
-from yellowiron.align.search import Search, is_whole, rivals_of
+from yellowiron.align.search import BELIEVED, Search, is_whole, rivals_of
 from yellowiron.align.seen import CONTACT, Seen, see
 from yellowiron.align.shaken import shaken
 from yellowiron.align.sheet import sheet_findings
@@ -101,7 +102,7 @@ def align(
         rivals,
         shaken(solution, resolved),
     )
-    places = spreader.run(seen.wheels)
+    places = coupled(spreader.run(seen.wheels), seen.solids, structure, solution, resolved)
     apart |= {seen.solids[i].part.id: metres for i, metres in spreader.apart.items()}
     by_id = {seen.solids[i].part.id: place for i, place in places.items()}
     whole = choose(template, answer.choices)
@@ -123,6 +124,7 @@ def align(
         remarks=[
             # What reading the file found; the rest was of an earlier model.
             *(f for f in (edits.findings if edits is not None else ()) if f.code in ("ALN012", "ALN013")),
+            *name_doubts(search.heed, BELIEVED, template.equipment_type),
             *sheet_findings(structure, seen.rams, resolved, specifications, solution),
             *doubts(
                 seen.solids,

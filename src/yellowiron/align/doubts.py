@@ -167,5 +167,13 @@ def doubts(
     return findings
 
 
+def name_doubts(heed: float, believed: float, where: str) -> list[Finding]:
+    """ALN015 for names that agree with the joints (`weights.heed`) less than is `believed`."""
+    if heed >= believed:
+        return []
+    text = f"The parts' names contradict the joints (they agree to {heed:.0%}, chance taken off): they have no say"
+    return [Finding("ALN015", "info", where, text, "Check the names if they should be right, or the equipment type.")]
+
+
 def _some(names: Sequence[str]) -> str:
     return ", ".join(names[:SOME]) + (", …" if len(names) > SOME else "")
