@@ -9,6 +9,7 @@ import fcl
 import numpy as np
 
 from yellowiron.align.solids import Cyl, Solid
+from yellowiron.model.geometry import Floats
 
 
 class Touch:
@@ -17,6 +18,8 @@ class Touch:
     def __init__(self, solids: tuple[Solid, ...], tolerance: float) -> None:
         self._solids = solids
         self._tolerance = tolerance
+        self._low = np.array([s.low for s in solids]).reshape(-1, 3)
+        self._high = np.array([s.high for s in solids]).reshape(-1, 3)
         self._object = functools.cache(self._build)
         self.distance = functools.cache(self._distance)
 
@@ -35,6 +38,10 @@ class Touch:
         if fcl.collide(first, second, fcl.CollisionRequest(), fcl.CollisionResult()):
             return 0.0
         return max(0.0, float(fcl.distance(first, second, fcl.DistanceRequest(), fcl.DistanceResult())))
+
+    def reaching(self, low: Floats, high: Floats) -> list[int]:
+        """The solids whose boxes reach a box, (3,) corners."""
+        return np.flatnonzero((self._low <= high).all(axis=1) & (self._high >= low).all(axis=1)).tolist()
 
     def pierced(self, index: int, bar: Cyl, radius: float) -> bool:
         """True if a solid's mesh comes within a radius of the axis of a bar, between its ends."""

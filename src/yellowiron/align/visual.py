@@ -190,10 +190,8 @@ def _through(solid: Solid, bars: list[Cyl], solids: tuple[Solid, ...], touch: To
     best: dict[int, Fit] = {}
     for bar in bars:
         reach = bar.half * np.abs(bar.direction) + bar.radius
-        for other in solids:
-            if other.index == solid.index or (other.low > bar.center + reach).any():
-                continue
-            if (other.high < bar.center - reach).any():
+        for other in (solids[i] for i in touch.reaching(bar.center - reach, bar.center + reach)):
+            if other.index == solid.index:
                 continue
             low, high = other.span(bar.center, bar.direction)
             low, high = max(low, -bar.half), min(high, bar.half)
