@@ -92,7 +92,8 @@ def revised(earlier: Mapping[str, Print], later: Mapping[str, Print]) -> dict[st
 
     def pairs(limit: float, alike: float) -> list[tuple[float, int, int]]:
         """Candidates (cost, old, new) near each other; a shared id halves the cost."""
-        free = [j for j in range(len(new)) if j not in set(found.values())]
+        taken = set(found.values())
+        free = [j for j in range(len(new)) if j not in taken]
         open_ = [i for i in range(len(old)) if i not in found]
         if not free or not open_:
             return []
