@@ -102,7 +102,7 @@ def _flat(points: Floats, across: Floats) -> Floats:
 
 
 def _within(points: Floats, room: Floats) -> bool:
-    """Whether points (n, 2) lie in the convex hull of others (m, 2), the middle of each among them at least."""
+    """Whether the middle of points (n, 2) lies in the convex hull of others (m, 2)."""
     from scipy.spatial import Delaunay, QhullError
 
     try:
