@@ -61,10 +61,12 @@ def is_closed(mesh: Mesh) -> bool:
 
 
 def content_key(mesh: Mesh) -> str:
-    """A hash of the points and triangles, to a millionth of the size."""
+    """A hash of the points and triangles, to a millionth of the size, and of the size."""
     low, high = bounds(mesh)
-    step = max(float(np.linalg.norm(high - low)) * WELD, 1e-12)
-    digest = hashlib.sha256(np.round(mesh.points / step).astype("<i8").tobytes())
+    size = float(np.linalg.norm(high - low))
+    step = max(size * WELD, 1e-12)
+    digest = hashlib.sha256(f"{size:.4e}".encode())  # like shapes of other sizes are other shapes
+    digest.update(np.round(mesh.points / step).astype("<i8").tobytes())
     digest.update(mesh.triangles.astype("<i4").tobytes())
     return digest.hexdigest()[:32]
 

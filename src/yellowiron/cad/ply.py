@@ -23,9 +23,22 @@ _DAMAGED = "Copy or export it again; the file is damaged."
 
 def read_ply(path: str) -> Assembly:
     """The assembly in a PLY file, text or binary, in metres. `CadError` if it is damaged or holds no triangle."""
+    raw = mesh_of(Path(path))
+    unit, findings = placed.guessed_unit([raw.points], path)
+    mesh = Mesh(raw.points * unit, raw.triangles, None, raw.triangle_colors)
+    pieces = placed.pieces(mesh) if np.isfinite(mesh.points).all() else [mesh]
+    name = Path(path).stem
+    return placed.assemble(
+        [Occurrence(name, (), piece, np.eye(4)) for piece in pieces],
+        name=name, format="PLY", unit=unit, path=path, findings=findings,
+    )  # fmt: skip
+
+
+def mesh_of(file: Path) -> Mesh:
+    """The triangles of a PLY file, in the file's unit. `CadError` as for `read_ply`."""
     from trimesh.exchange.ply import load_ply
 
-    data = Path(path).read_bytes()
+    path, data = str(file), file.read_bytes()
     if b"end_header" not in data[:65536]:
         raise CadError("The PLY file is truncated: its header has no end", where=path, hint=_DAMAGED)
     try:
@@ -38,14 +51,7 @@ def read_ply(path: str) -> Assembly:
         raise CadError("The PLY file holds no triangle", where=path, hint="Export surfaces, not a cloud of points.")
     if not 0 <= triangles.min() <= triangles.max() < len(points):
         raise CadError("The PLY file is broken: its faces name points that are not there", where=path, hint=_DAMAGED)
-    unit, findings = placed.guessed_unit([points], path)
-    mesh = Mesh(points * unit, triangles.astype(np.int32), None, _colors(loaded, triangles))
-    pieces = placed.pieces(mesh) if np.isfinite(mesh.points).all() else [mesh]
-    name = Path(path).stem
-    return placed.assemble(
-        [Occurrence(name, (), piece, np.eye(4)) for piece in pieces],
-        name=name, format="PLY", unit=unit, path=path, findings=findings,
-    )  # fmt: skip
+    return Mesh(points, triangles.astype(np.int32), None, _colors(loaded, triangles))
 
 
 def _colors(loaded: dict[str, Any], triangles: np.ndarray[Any, Any]) -> Floats | None:

@@ -18,6 +18,7 @@ Findings:
 | CAD010 | info     | names are not in a standard encoding, and which was taken                                  |
 | CAD011 | info     | a body of triangles without surfaces: its measures are theirs, its cylinders are fitted    |
 | CAD012 | info     | textures are not read                                                                      |
+| CAD013 | info     | meshes that hold several solids were taken apart (`taken_apart`)                           |
 """
 
 from __future__ import annotations
@@ -50,21 +51,24 @@ _READERS = {
     "Blender": "yellowiron.cad.blend:read_blend",
 }
 """Format → the function that reads it, in the child process."""
+_FOLDER = "yellowiron.cad.folder:read_folder"
 
 
 def read_cad(path: str | Path, *, timeout_s: float = 600.0, memory_mb: int = 8192) -> Assembly:
-    """The assembly in a CAD file, in metres, in the file's own frame.
+    """The assembly in a CAD file, or in all those of a folder, in metres, in the file's own frame.
 
     Which formats are read is `sniff.READABLE`; cylinders and planes of triangles are fitted to them.
     The reader may take `timeout_s` seconds and `memory_mb` MB. `CadError` for a file that is missing, empty, damaged,
     of no or of an unreadable CAD format, or without a part in it.
     """
     source = Path(path)
-    kind = sniff.format_of(source)
+    kind = "folder" if source.is_dir() else sniff.format_of(source)
+    target, arguments = (_FOLDER, (_READERS,)) if source.is_dir() else (_READERS[kind], ())
     try:
         assembly: Assembly = run_guarded(
-            _READERS[kind],
+            target,
             str(source),
+            *arguments,
             where=str(source),
             error=CadError,
             timeout_s=timeout_s,
