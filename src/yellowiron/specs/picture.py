@@ -6,13 +6,14 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from yellowiron.guard import run_guarded
+from yellowiron.guard import beat, run_guarded
 from yellowiron.model.errors import OutputError, SheetError
 from yellowiron.model.specification import Evidence, Specifications
 from yellowiron.specs.reader import MEMORY_MB, TIMEOUT_S, check_file
 
 _SCALE = 1.6
-"""Pixels a point."""
+"""Pixels a point, less on a page that would be more than this many pixels:"""
+_MOST_PIXELS = 12_000_000
 _MARGIN = 330
 _COLORS = {"ok": (24, 128, 56), "example": (32, 96, 190), "review": (214, 118, 0), "conflict": (200, 30, 30)}
 Mark = tuple[int, tuple[float, float, float, float], str, str]
@@ -75,10 +76,15 @@ def draw_pages(pdf: Path, marks: Sequence[Mark], folder: Path) -> list[str]:
     document = pypdfium2.PdfDocument(pdf)
     try:
         for number in sorted({mark[0] for mark in marks}):
-            page = document[number - 1].render(scale=_SCALE).to_pil().convert("RGB")
-            image = Image.new("RGB", (page.width + _MARGIN, page.height), (250, 250, 250))
-            image.paste(page, (0, 0))
-            _draw(ImageDraw.Draw(image, "RGBA"), page.width, [m for m in marks if m[0] == number])
+            beat(f"Drawing page {number} of {pdf.name}")
+            opened = document[number - 1]
+            width, height = opened.get_size()
+            scale = min(_SCALE, (_MOST_PIXELS / max(width * height, 1.0)) ** 0.5)
+            page = opened.render(scale=scale).to_pil().convert("RGB")
+            opened.close()
+            image = Image.new("RGB", (page.width + 2 * _MARGIN, page.height), (250, 250, 250))
+            image.paste(page, (_MARGIN, 0))
+            _draw(ImageDraw.Draw(image, "RGBA"), page.width, scale, [m for m in marks if m[0] == number])
             name = f"{pdf.stem}-page-{number}.png"
             image.save(folder / name)
             names.append(name)
@@ -87,21 +93,26 @@ def draw_pages(pdf: Path, marks: Sequence[Mark], folder: Path) -> list[str]:
     return names
 
 
-def _draw(draw: Any, width: int, marks: Sequence[Mark]) -> None:
-    """A box around each value; its names in the margin at its height, below each other, with a line between."""
+def _draw(draw: Any, width: int, scale: float, marks: Sequence[Mark]) -> None:
+    """A box around each value; its names in the nearer margin at its height, below each other, with a line between
+    that runs under the row's words."""
     from PIL import ImageFont
 
     font = ImageFont.load_default(size=11)
     captions: dict[tuple[tuple[float, float, float, float], str], list[str]] = {}
     for _, box, kind, name in marks:
         captions.setdefault((box, kind), []).append(name)
-    free = 6.0
+    free = {True: 6.0, False: 6.0}
     for (box, kind), names in sorted(captions.items(), key=lambda item: (item[0][0][1], item[0][0][0])):
         color = _COLORS[kind]
-        x0, top, x1, bottom = (v * _SCALE for v in box)
-        draw.rectangle((x0 - 3, top - 3, x1 + 3, bottom + 3), outline=(*color, 255), fill=(*color, 24), width=2)
-        middle = (top + bottom) / 2
-        y = max(middle - 7, free)
-        draw.line((x1 + 3, middle, width + 4, y + 7), fill=(*color, 110), width=1)
-        draw.text((width + 8, y), ", ".join(names), fill=(*color, 255), font=font)
-        free = y + 15
+        x0, top, x1, bottom = (v * scale for v in box)
+        left = x0 + x1 < width
+        x0, top, x1, bottom = x0 + _MARGIN - 3, top - 3, x1 + _MARGIN + 3, bottom + 3
+        draw.rectangle((x0, top, x1, bottom), outline=(*color, 255), fill=(*color, 24), width=2)
+        words = ", ".join(names)
+        y = max((top + bottom) / 2 - 7, free[left])
+        turn, out, end = (_MARGIN, -16, x0) if left else (_MARGIN + width, 16, x1)
+        draw.line((end, bottom - 1, turn, bottom - 1, turn + out, y + 7), fill=(*color, 110), width=1)
+        at = turn + out - 4 - draw.textlength(words, font=font) if left else turn + out + 4
+        draw.text((at, y), words, fill=(*color, 255), font=font)
+        free[left] = y + 15
