@@ -139,6 +139,15 @@ def test_ovals(radius: float, slender: float, count: int, axis: Floats, center: 
     assert found.arc == pytest.approx(2 * math.pi)
 
 
+@pytest.mark.parametrize("scale", [2e-3, 1.0, 39.37, 1e3])
+def test_any_unit(scale: float) -> None:
+    """A pin, and a bent pipe that is none, in a model of a model and in one whose millimetres were taken for metres."""
+    pin = placed(wall(0.04 * scale, 0.3 * scale, 16, 2 * math.pi), np.array([0.6, 0.0, 0.8]), np.zeros(3))
+    assert only(pin).radius == pytest.approx(0.04 * scale)
+    pipe = pipe_bend(0.02, 0.1, math.radians(15), 16)
+    assert facets.find(Mesh(pipe.points * scale, pipe.triangles)).cylinders == ()
+
+
 def test_sheets_drawn_from_both_sides_count_once() -> None:
     mesh = wall(0.1, 0.5, 16, 2 * math.pi)
     twice = Mesh(mesh.points, np.concatenate([mesh.triangles, mesh.triangles[:, ::-1]]))

@@ -8,12 +8,12 @@ is that of the corners.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from yellowiron.cad.ovals import knuckles, ovals
-from yellowiron.cad.roundness import LEAST, ROUGH, Round, fit, grown, trimmed, widths
+from yellowiron.cad.roundness import ROUGH, Round, fit, grown, least, trimmed, widths
 from yellowiron.cad.soup import Flags, Indices, Soup, soup_of
 from yellowiron.cad.strips import by_folds, by_normals, flat_facets
 from yellowiron.model.geometry import CylinderFeature, Floats, Mesh, PlaneFeature
@@ -116,7 +116,7 @@ def _is_round(soup: Soup, cylinder: Round) -> bool:
         return True
     if length < _PATCH * width and arc < ENOUGH[1][1]:
         return False
-    close = max(0.25 * ROUGH * cylinder.radius, 0.5 * LEAST, 4.0 * soup.rounding)
+    close = max(0.25 * ROUGH * cylinder.radius, 0.5 * cylinder.least, 4.0 * soup.rounding)
     return float(np.abs(off).max()) <= close and not _is_oval(soup, cylinder, corners, off)
 
 
@@ -206,20 +206,20 @@ def _united(soup: Soup, rounds: list[Round]) -> list[Round]:
     for group in groups:
         rows = np.unique(np.concatenate([r.triangles for r in group]))
         for run in _runs(soup, group[0], rows):
-            start = Round(group[0].point, group[0].direction, group[0].radius, group[0].inner, run)
+            start = replace(group[0], triangles=run)
             better = fit(start, soup.points[np.unique(soup.corners[run])]) if len(group) > 1 else None
             result.append(better or start)
     return result
 
 
 def _same(soup: Soup, one: Round, other: Round) -> bool:
-    if one.inner != other.inner or abs(one.radius - other.radius) > max(2.0 * ROUGH * one.radius, LEAST):
+    if one.inner != other.inner or abs(one.radius - other.radius) > max(2.0 * ROUGH * one.radius, one.least):
         return False
     if abs(float(one.direction @ other.direction)) < 0.999:
         return False
     along = other.along(soup.points[soup.corners[other.triangles]].reshape(-1, 3))
     ends = other.point + np.outer((along.min(), along.max()), other.direction)
-    return bool((one.distances(ends) < max(5.0 * ROUGH * one.radius, LEAST)).all())
+    return bool((one.distances(ends) < max(5.0 * ROUGH * one.radius, one.least)).all())
 
 
 def _runs(soup: Soup, cylinder: Round, rows: Indices) -> list[Indices]:
@@ -278,10 +278,10 @@ def _planes(soup: Soup, free: Flags) -> tuple[PlaneFeature, ...]:
         normal /= max(float(np.linalg.norm(normal)), 1e-12)
         point = weight @ soup.middles[rows]
         corners = soup.points[soup.corners[rows]].reshape(-1, 3) - point
-        if float(np.abs(corners @ normal).max()) > max(_OFF * soup.size, LEAST):
+        if float(np.abs(corners @ normal).max()) > max(_OFF * soup.size, least(soup)):
             continue
         level = np.abs(np.einsum("ij,ij->i", point - points[:count], normals[:count]))
-        same = (level < max(0.5 * _OFF * soup.size, LEAST)) & (normals[:count] @ normal > math.cos(FLAT))
+        same = (level < max(0.5 * _OFF * soup.size, least(soup))) & (normals[:count] @ normal > math.cos(FLAT))
         if same.any():
             i = int(np.argmax(same))
             both = sizes[i] + area[k]

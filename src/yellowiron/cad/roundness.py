@@ -13,7 +13,9 @@ from yellowiron.model.geometry import Floats
 ROUGH = 2e-3
 """Points are on a cylinder within this share of its radius, or …"""
 LEAST = 2e-5
-"""… this, metres: what meshes are off by that were noisy, or drawn by hand."""
+"""… this, metres: what meshes are off by that were noisy, or drawn by hand …"""
+SMALL = 5e-3
+"""… but by no more than this share of the radius, or of the mesh: models of models are small."""
 WIDEST = math.radians(50.5)
 """The widest a flat strip may be, seen from the axis: eight to a circle, with a margin."""
 LEAN = 0.35
@@ -48,9 +50,14 @@ class Round:
     triangles: Indices
 
     @property
+    def least(self) -> float:
+        """How far from it a point may be however small it is."""
+        return min(LEAST, SMALL * self.radius)
+
+    @property
     def slack(self) -> float:
         """How far from it a point may be and still be on it."""
-        return max(ROUGH * self.radius, LEAST)
+        return max(ROUGH * self.radius, self.least)
 
     def frame(self) -> tuple[Floats, Floats]:
         """Two unit vectors across the axis, a right-handed frame with it."""
@@ -71,6 +78,11 @@ class Round:
         u, v = self.frame()
         offset = points - self.point
         return np.arctan2(offset @ v, offset @ u)
+
+
+def least(soup: Soup) -> float:
+    """What the corners of a mesh may be off by from a plane."""
+    return min(LEAST, 0.1 * SMALL * soup.size)
 
 
 def fit(start: Round, points: Floats) -> Round | None:
