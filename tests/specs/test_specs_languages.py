@@ -1,0 +1,54 @@
+"""Every name of every type, asked for in every language: its first label with a value, one row each."""
+
+from __future__ import annotations
+
+import pytest
+
+from yellowiron.library import list_templates, load_template
+from yellowiron.model.template import Wanted
+from yellowiron.specs.extract import from_sheets
+from yellowiron.specs.reader import Sheet
+from yellowiron.specs.statement import Statement
+
+UNIT = {
+    "length": ("mm", 1e-3), "angle": ("°", 0.017453292519943295), "mass": ("kg", 1.0), "pressure": ("kPa", 1e3),
+    "flow": ("L/min", 1e-3 / 60.0), "volume": ("m³", 1.0), "force": ("kN", 1e3), "torque": ("kNm", 1e3),
+    "power": ("kW", 1e3), "speed": ("km/h", 1.0 / 3.6),
+    "angular_speed": ("rpm", 0.10471975511965977), "time": ("s", 1.0),
+    "count": ("", 1.0),
+}  # fmt: skip
+LANGUAGES = ("en", "de", "fr", "es", "zh", "ja")
+
+
+def printed(wanted: Wanted, index: int) -> tuple[str, float]:
+    """A value within the range, different for every name, as text and in SI."""
+    unit, factor = UNIT[wanted.dimension]
+    low, high = (wanted.minimum or 0.0) / factor, (wanted.maximum or 1.0) / factor
+    number = low + (high - low) * (0.2 + 0.6 * ((index * 37) % 101) / 101)
+    digits = 0 if wanted.dimension in ("count", "length", "mass", "pressure") else 1
+    text = f"{number:.{digits}f}"
+    return f"{text} {unit}".strip(), float(text) * factor
+
+
+def statements(wanted: tuple[Wanted, ...], language: str, label: int) -> list[Statement]:
+    return [
+        Statement(1, n, w.synonyms[language][min(label, len(w.synonyms[language]) - 1)], printed(w, n)[0],
+                  (10.0, 12.0 * n, 90.0, 12.0 * n + 9.0), f"row {n}")
+        for n, w in enumerate(wanted)
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("equipment_type", list_templates())
+def test_first_labels(equipment_type: str, language: str) -> None:
+    template = load_template(equipment_type, sheet_only=True)
+    asked = tuple(w for w in template.wanted if w.in_label_of is None)
+    sheet = Sheet("a.pdf", 1, tuple(statements(asked, language, 0)), (), "point")
+    found = from_sheets(template, [sheet])
+    truth = {w.name: printed(w, n)[1] for n, w in enumerate(asked)}
+    right = 0
+    for one in found:
+        if one.status == "ok":
+            assert one.value == pytest.approx(truth[one.name], rel=1e-6), (one.name, one.evidence)
+            right += 1
+    assert right >= 0.9 * len(asked), [(s.name, s.status, s.reason) for s in found if s.status != "ok"]
