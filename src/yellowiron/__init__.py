@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from yellowiron.model.mechanism import Mechanism
     from yellowiron.model.specification import Specifications
     from yellowiron.model.template import Template
+    from yellowiron.new import new_template
     from yellowiron.usd import read_machine, write_machine
 
 _HOME = {
@@ -30,6 +31,7 @@ _HOME = {
     "lint": "library",
     "load_template": "library",
     "measure": "kinematics",
+    "new_template": "new",
     "read_cad": "cad",
     "read_machine": "usd",
     "write_machine": "usd",
@@ -46,6 +48,7 @@ __all__ = [
     "lint",
     "load_template",
     "measure",
+    "new_template",
     "read_cad",
     "read_machine",
     "write_machine",
