@@ -48,6 +48,11 @@ PAIRS = (
 CASES = 4
 """Machines of a seed and kind: each second one with two defects."""
 EDGES = (0.0, 0.5, 0.7, 0.8, 0.9, 0.95, 0.98, 0.99, 1.0)
+SIGNS = {
+    **dict.fromkeys(("strength", "whole", "names for", "lead"), (0.0, None)),
+    **dict.fromkeys(("rung", "names against"), (None, 0.0)),
+}
+"""What can only speak for a place, or only against it: few are wrong, and chance must not turn that round."""
 RIDGE = 1.0
 """Strength of the pull of every weight towards none, in parts."""
 Floats = NDArray[np.float64]
@@ -86,7 +91,7 @@ def read(path: Path) -> list[dict[str, Any]]:
 
 
 def fit(path: Path) -> None:
-    """Logistic regression with a ridge, parts of one machine together counting as its root: they err together."""
+    """Logistic regression with a ridge and `SIGNS`."""
     machines = read(path)
     names = sorted({name for m in machines for grounds, *_ in m["parts"] for name in grounds})
     x = np.array([[1.0, *(g.get(n, 0.0) for n in names)] for m in machines for g, *_ in m["parts"]])
@@ -98,7 +103,8 @@ def fit(path: Path) -> None:
         value = float(np.sum(np.logaddexp(0.0, odds) - y * odds) + 0.5 * RIDGE * ridge @ ridge)
         return value, np.asarray(x.T @ (1 / (1 + np.exp(-odds)) - y) + RIDGE * ridge)
 
-    best = minimize(loss, np.zeros(x.shape[1]), jac=True, method="L-BFGS-B").x
+    bounds = [SIGNS.get(name, (None, None)) for name in ["always", *names]]
+    best = minimize(loss, np.zeros(x.shape[1]), jac=True, method="L-BFGS-B", bounds=bounds).x
     seeds = sorted({m["seed"] for m in machines})
     source = (
         f"Logistic regression on {len(y)} parts, {int((1 - y).sum())} of them wrong, of {len(machines)} synthetic "
