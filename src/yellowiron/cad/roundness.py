@@ -14,7 +14,7 @@ ROUGH = 2e-3
 """Points are on a cylinder within this share of its radius, or …"""
 LEAST = 2e-5
 """… this, metres: what meshes are off by that were noisy, or drawn by hand …"""
-SMALL = 5e-3
+SMALL = 2.5e-3
 """… but by no more than this share of the radius, or of the mesh: models of models are small."""
 WIDEST = math.radians(50.5)
 """The widest a flat strip may be, seen from the axis: eight to a circle, with a margin."""
@@ -82,7 +82,7 @@ class Round:
 
 def least(soup: Soup) -> float:
     """What the corners of a mesh may be off by from a plane."""
-    return min(LEAST, 0.1 * SMALL * soup.size)
+    return min(LEAST, 0.2 * SMALL * soup.size)
 
 
 def fit(start: Round, points: Floats) -> Round | None:
