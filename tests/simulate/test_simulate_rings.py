@@ -17,8 +17,10 @@ from yellowiron.model.mechanism import chained
 from yellowiron.model.rows import expand
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import choose
+from yellowiron.simulate import simulate
 from yellowiron.simulate.crawling import pitch_radius
 from yellowiron.simulate.engine import Setup, import_engine, load_engine, poses, standing_bodies, tell
+from yellowiron.simulate.held import held_machine
 from yellowiron.usd import read_machine, write_machine
 
 pytestmark = pytest.mark.slow
@@ -68,3 +70,17 @@ def test_rings_hold_and_roll(file: Path, engine: str, dt: float) -> None:
                 for n in (number[joint.body0], number[joint.body1])
             ]
             assert np.linalg.norm(ends[0] - ends[1]) < 0.02, joint.name
+
+
+def test_a_sprocket_without_its_ring_keeps_its_speed(file: Path) -> None:
+    """On a fixed base the rings are left out; the sprockets turn as heavily as with them."""
+    result = simulate(file, engine="mujoco", actuators=["travel_left"])
+    assert not result.findings
+    held, changed = held_machine(file, "fixed")
+    machine = read_machine(file)
+    assert [b.name for b in changed] == ["sprocket_l", "sprocket_r"] and not held.floating
+    shoes = sum(b.mass for b in machine.bodies if b.name in chained(machine)) / 2.0
+    radius = pitch_radius(machine, machine.joint("undercarriage2sprocket_l_joint"))
+    assert radius is not None
+    more = changed[0].inertia - machine.body("sprocket_l").inertia
+    assert np.diag(more) == pytest.approx(shoes * radius**2 * np.array([0.5, 1.0, 0.5]))

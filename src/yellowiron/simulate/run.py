@@ -70,7 +70,7 @@ def simulate(
     if not 0.0 <= payload_kg < math.inf:
         raise YellowironError("The payload must be 0 kg or more", where=f"{payload_kg:g} kg")
     import_engine(engine)
-    read = held_machine(usd_path, base)
+    read, changed = held_machine(usd_path, base)
     mechanism = with_payload(read, payload_kg)
     moves = motions(mechanism, actuators)
     if not moves:
@@ -78,7 +78,7 @@ def simulate(
             "The machine has nothing to drive", where=mechanism.name, hint="Name its actuators in the template."
         )
     comparison = Comparison(mechanism)
-    heavier = tuple(b for b, old in zip(mechanism.bodies, read.bodies, strict=True) if b is not old)
+    heavier = tuple(b for b, old in zip(mechanism.bodies, read.bodies, strict=True) if b is not old or b in changed)
     progress(f"Loading the machine into {engine}")
     setup = Setup(
         usd_path=Path(usd_path),
