@@ -135,13 +135,14 @@ class Sheet:
 
     def say(self, name: str, value: float | None = None, *, note: bool = True) -> Said:
         """A wanted value as printed, and the truth noted; `value` where it is not the machine's own."""
-        value = self.machine.values[name] if value is None else value
+        usual = self.machine.values[name]  # all of a row's columns are in the unit of this one
+        value = usual if value is None else value
         unit = unit_of(self.machine.kind, name)
         decimals = {"mm": 0, "kg": 0, "deg": 0, "L/min": 0, "kN": 0, "-": 0, "m3": 2}.get(unit, 1)
         decimals = max(decimals, 1 if unit in ("mm", "deg", "L/min", "kN") and value % 1 else 0)
-        if unit == "mm" and self.style.metres and value >= 1000 and " Cylinder " not in name:
+        if unit == "mm" and self.style.metres and usual >= 1000 and " Cylinder " not in name:
             unit, value, decimals = "m", value / 1000, 2 if value % 10 == 0 else 3
-        elif unit == "kg" and self.style.tonnes and value >= 10000:
+        elif unit == "kg" and self.style.tonnes and usual >= 10000:
             unit, value, decimals = "t", value / 1000, 2
         elif unit == "MPa" and self.style.pressure != "MPa":
             factor = {"bar": 10, "kPa": 1000}[self.style.pressure]

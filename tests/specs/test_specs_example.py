@@ -234,8 +234,8 @@ def test_a_page_takes_little_time(sheet: Path) -> None:
     document = pypdfium2.PdfDocument(sheet)
     times = []
     for number in [1, *range(1, len(document) + 1)]:  # the first only warms up
-        start = time.perf_counter()
+        start = time.process_time()
         statements_of(read_page(document[number - 1], number))
-        times.append(time.perf_counter() - start)
+        times.append(time.process_time() - start)
     document.close()
-    assert statistics.median(times[1:]) < 0.5  # 0.1 s on a quiet core
+    assert statistics.median(times[1:]) < 0.3  # 0.1 s on a quiet core

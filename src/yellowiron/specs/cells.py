@@ -176,12 +176,12 @@ def add_continuation(found: list[Statement], cells: Sequence[ValueCell]) -> None
 
 def _quote(row: Sequence[Line], context: Sequence[Piece], cell: ValueCell, heads: Sequence[Piece]) -> str:
     """What the page prints: sub-heading or head, then each line of the row from the label to the value."""
-    parts = [p.text for p in [*heads, *context]]
+    parts = [p.printed for p in [*heads, *context]]
     chosen = [*cell.label, *cell.values]
     for line in row:
         mine = [i for i, p in enumerate(line.pieces) if any(p is q for q in chosen)]
         if mine:
-            parts.append(" ".join(p.text for p in line.pieces[mine[0] : mine[-1] + 1]))
+            parts.append(" ".join(p.printed for p in line.pieces[mine[0] : mine[-1] + 1]))
     return " … ".join(dict.fromkeys(parts))
 
 

@@ -6,7 +6,7 @@ from bisect import bisect_left
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from yellowiron.specs.statement import Piece, kind_of
+from yellowiron.specs.statement import Piece, kind_of, split_inline
 from yellowiron.specs.strokes import Box, Rule
 from yellowiron.specs.words import Word
 
@@ -129,7 +129,7 @@ def _gutter(lines: Sequence[Line], bars: Sequence[Box], across: Sequence[Box]) -
             # The rows of two columns need not be level with each other: a label may stand alone on its line.
             if kind_of(piece) != "text" or (index == 0 and piece.x0 < left_edge + _HANGING):
                 continue
-            paired = any(kind_of(p) == "value" for p in line.pieces[index + 1 : index + 4])
+            paired = any(kind_of(p) == "value" for p in line.pieces[index + 1 : index + 4]) or _says_all(line, index)
             starts.setdefault(round(piece.x0 / 3), []).append((piece.x0, paired))
     candidates: list[float] = []
     for key in sorted(starts):
@@ -146,13 +146,20 @@ def _gutter(lines: Sequence[Line], bars: Sequence[Box], across: Sequence[Box]) -
     for x in candidates:
         first, last, weight = _run(lines, across, x)
         left_values = sum(
-            any(p.x0 < x - 2 and kind_of(p) == "value" for p in line.pieces) for line in lines[first:last]
+            any(p.x0 < x - 2 and (kind_of(p) == "value" or _says_all(line, i)) for i, p in enumerate(line.pieces))
+            for line in lines[first:last]
         )
         begun = sum(any(abs(p.x0 - x) < 12 for p in line.pieces) for line in lines[first:last])
         parts = left_values >= 2 or (x in by_bars and begun >= 3)
         if weight >= 3 and parts and (best is None or weight > best[0]):
             best = (weight, x, first, last)
     return best[1:] if best else None
+
+
+def _says_all(line: Line, index: int) -> bool:
+    """Whether a piece holds both a label and its value ("Wheelbase: 3450 mm"), and no other value follows it."""
+    after = line.pieces[index + 1 : index + 2]
+    return bool(split_inline(line.pieces[index].bare)[0]) and not any(kind_of(p) == "value" for p in after)
 
 
 def _run(lines: Sequence[Line], across: Sequence[Box], x: float) -> tuple[int, int, int]:

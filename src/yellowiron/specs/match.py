@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Sequence
+from collections.abc import Sequence, Set
 from dataclasses import dataclass
 
 from yellowiron.model.template import Wanted
@@ -15,6 +15,8 @@ LEAST = 0.55
 """Score below which a claim does not speak of a wanted value at all."""
 _EXTREME = {"maximum"}
 """Says of a label no more than makers mean without it; a value of which both are asked forbids it."""
+_RATED = {"flow", "pressure", "force", "torque"}
+"""Dimensions of values that are printed for their maximum, whether the label says so or not."""
 _BY_CIRCUIT = {"pressure", "flow"}
 """Dimensions of which every hydraulic circuit has its own value."""
 
@@ -38,16 +40,21 @@ class Match:
 def match(claims: Sequence[Claim], wanted: Sequence[Wanted]) -> dict[str, list[Match]]:
     """The matches by wanted name. A claim that one wanted value explains better does not count for another."""
     found: dict[str, list[Match]] = {w.name: [] for w in wanted}
+    by_dimension: dict[str, list[_Asked]] = {}
+    for one in wanted:
+        by_dimension.setdefault(one.dimension, []).append(_asked(one))
     for claim in claims:
-        matches = [m for w in wanted if (m := match_one(w, claim)) is not None and m.score >= LEAST]
+        asked_for = by_dimension.get(claim.quantity.dimension, [])
+        said = _said(claim)
+        matches = [m for a in asked_for if (m := _match(a, claim, said)) is not None and m.score >= LEAST]
         if not matches:
             continue
         if any(m.by_label for m in matches):
             matches = [m for m in matches if m.by_label]
         best = max((m.score, _specific(m)) for m in matches)
-        for one in matches:
-            if one.score >= best[0] - 1e-9 and (one.score > 0.999 or _specific(one) >= best[1]):
-                found[one.wanted.name].append(one)
+        for found_one in matches:
+            if found_one.score >= best[0] - 1e-9 and (found_one.score > 0.999 or _specific(found_one) >= best[1]):
+                found[found_one.wanted.name].append(found_one)
     return found
 
 
@@ -55,30 +62,90 @@ def _specific(found: Match) -> int:
     return len(tokens(found.phrase))
 
 
+@dataclass(frozen=True)
+class _Asked:
+    """A wanted value's words, cut once: its phrases, all their words, its name's; headings that support it, phrases
+    that forbid it."""
+
+    wanted: Wanted
+    phrases: tuple[tuple[str, frozenset[str]], ...]
+    words: frozenset[str]
+    name: frozenset[str]
+    sections: tuple[frozenset[str], ...]
+    forbidden: tuple[tuple[str, frozenset[str]], ...]
+
+
+@dataclass(frozen=True)
+class _Said:
+    """A claim's words, cut once. `naming` are the heads that name properties and not configurations."""
+
+    label: frozenset[str]
+    head: frozenset[str]
+    contexts: tuple[frozenset[str], ...]
+    section: frozenset[str]
+    naming: tuple[frozenset[str], ...]
+    text: str
+
+    @property
+    def context(self) -> frozenset[str]:
+        """The words of all sub-headings."""
+        return frozenset[str]().union(*self.contexts)
+
+
+def _asked(wanted: Wanted) -> _Asked:
+    said = tuple((p, words) for p in phrases(wanted) if (words := frozenset(tokens(p))))
+    return _Asked(
+        wanted=wanted,
+        phrases=said,
+        words=frozenset[str]().union(*(words for _, words in said)),
+        name=frozenset(tokens(wanted.name)),
+        sections=tuple(words for s in wanted.sections if (words := frozenset(tokens(s)))),
+        forbidden=tuple((p, frozenset(tokens(p))) for p in wanted.forbidden),
+    )
+
+
+def _said(claim: Claim) -> _Said:
+    statement = claim.statement
+    heads = [h for h in statement.column if not _names_configuration(h)]
+    return _Said(
+        label=frozenset(tokens(claim.words)),
+        head=frozenset(tokens(claim.head)),
+        contexts=tuple(frozenset(tokens(c)) for c in statement.context),
+        section=frozenset(tokens(statement.section)),
+        naming=tuple(frozenset(tokens(h)) for h in heads),
+        text=" ".join([claim.words, *heads]).casefold(),
+    )
+
+
 def match_one(wanted: Wanted, claim: Claim) -> Match | None:
     """How well a claim speaks of a wanted value; None where it cannot: dimension, forbidden words, words that are
     missing."""
-    if claim.quantity.dimension != wanted.dimension:
+    return _match(_asked(wanted), claim, _said(claim)) if claim.quantity.dimension == wanted.dimension else None
+
+
+def _match(asked_for: _Asked, claim: Claim, said: _Said) -> Match | None:
+    wanted = asked_for.wanted
+    label, head, context, section = said.label, said.head, said.context, said.section
+    if not (label | head | context | section) & asked_for.words:
         return None
-    statement = claim.statement
-    label, head = set(tokens(claim.words)), set(tokens(claim.head))
-    context = {t for c in statement.context for t in tokens(c)}
-    section = set(tokens(statement.section))
-    supported = _supports(wanted, section)
-    naming = [set(tokens(h)) for h in statement.column if not _names_configuration(h)]
-    above = [words for c in statement.context if not _supports(wanted, words := set(tokens(c)))]
-    if _forbidden(wanted, claim, [label, *naming, *above, set() if supported else section]):
+    supported = _supports(asked_for, section)
+    above = [words for words in said.contexts if not _supports(asked_for, words)]
+    if _forbidden(asked_for, claim, said.text, [label, *said.naming, *above, *([] if supported else [section])]):
         return None
-    circuits = label.union(*naming) | context | section
-    if wanted.dimension in _BY_CIRCUIT and (circuits & CIRCUITS) - _all_words(wanted):
+    circuits = label.union(*said.naming) | context | section
+    if wanted.dimension in _BY_CIRCUIT and (circuits & CIRCUITS) - asked_for.words:
         return None
     everything = label | head | context | section
     explained: set[str] = set()
     from_head: set[str] = set()
     borrowed = 1.0
-    best = ""
-    for phrase in phrases(wanted):
-        words = set(tokens(phrase))
+    best, most = "", 0
+    by_itself = any(words <= label for _, words in asked_for.phrases)
+    optional = (_EXTREME if wanted.dimension in _RATED else set()) - everything
+    for phrase, words in asked_for.phrases:
+        words = words - optional if optional else words
+        if by_itself and words & head - label - context - section:
+            continue  # the label says it without its column's head
         if not words or not words <= everything or not _anchored(words, label, head, context | section):
             continue
         if len(words) == 1 and not supported and label - words - NEUTRAL:
@@ -87,13 +154,13 @@ def match_one(wanted: Wanted, claim: Claim) -> Match | None:
         from_head |= words - label - context - section
         lent = words - label - head
         borrowed = min(borrowed, 0.05 * bool(lent) + 0.05 * bool(lent - context))
-        if len(words) > len(set(tokens(best))):
-            best = phrase
+        if len(words) > most:
+            best, most = phrase, len(words)
     if not explained:
         return None
     primary = (label if explained & label else set()) | (head if from_head else set()) or context | section
     # A word of the value's own name makes the label mean nothing else.
-    rest = {t for t in primary - explained - NEUTRAL - _EXTREME - set(tokens(wanted.name)) if not _is_number(t)}
+    rest = {t for t in primary - explained - NEUTRAL - _EXTREME - asked_for.name if not _is_number(t)}
     if (everything - explained) & REVERSING:
         return None
     asked = {t for p in (wanted.name, best) for t in tokens(p)}
@@ -106,10 +173,6 @@ def match_one(wanted: Wanted, claim: Claim) -> Match | None:
     )
 
 
-def _all_words(wanted: Wanted) -> frozenset[str]:
-    return frozenset(t for p in phrases(wanted) for t in tokens(p))
-
-
 @functools.lru_cache(maxsize=1024)
 def _phrases(name: str, synonyms: tuple[tuple[str, ...], ...]) -> tuple[str, ...]:
     return tuple(dict.fromkeys([name, *(s for group in synonyms for s in group)]))
@@ -120,7 +183,7 @@ def phrases(wanted: Wanted) -> tuple[str, ...]:
     return _phrases(wanted.name, tuple(tuple(group) for group in wanted.synonyms.values()))
 
 
-def _anchored(words: set[str], label: set[str], head: set[str], above: set[str]) -> bool:
+def _anchored(words: Set[str], label: Set[str], head: Set[str], above: Set[str]) -> bool:
     """Whether the statement's own label or head holds part of a phrase: headings alone name no property, unless the
     value has no label at all."""
     if words & label:
@@ -130,13 +193,14 @@ def _anchored(words: set[str], label: set[str], head: set[str], above: set[str])
     return not label and not head and words <= above
 
 
-def _contradicts(words: set[str], asked: set[str]) -> bool:
+def _contradicts(words: Set[str], asked: Set[str]) -> bool:
     """Whether one of the words is the opposite of one asked for: a front axle, where the rear one is meant."""
     return any(OPPOSITES.get(word, frozenset()) & asked for word in words)
 
 
 def _is_number(token: str) -> bool:
-    return token[0].isdigit()
+    """Whether a word names no property: a number, a standard ("J732"), a model."""
+    return any(c.isdigit() for c in token)
 
 
 @functools.lru_cache(maxsize=4096)
@@ -145,20 +209,17 @@ def _names_configuration(head: str) -> bool:
     return any(q.printed is not None for r in read(head) for q in r.numbers)
 
 
-def _supports(wanted: Wanted, heading: set[str]) -> bool:
+def _supports(asked_for: _Asked, heading: frozenset[str]) -> bool:
     """Whether a heading is one under which makers print the value."""
-    return any(set(tokens(s)) <= heading for s in wanted.sections if tokens(s)) if heading else False
+    return any(words <= heading for words in asked_for.sections) if heading else False
 
 
-def _forbidden(wanted: Wanted, claim: Claim, texts: Sequence[set[str]]) -> bool:
+def _forbidden(asked_for: _Asked, claim: Claim, text: str, places: Sequence[frozenset[str]]) -> bool:
     """Whether the label, a head or a heading says a forbidden phrase; its words must stand in one of them."""
-    heads = (h for h in claim.statement.column if not _names_configuration(h))
-    text = " ".join([claim.words, *heads]).casefold()
-    for phrase in wanted.forbidden:
-        parts = set(tokens(phrase))
+    for phrase, parts in asked_for.forbidden:
         if has_cjk(phrase) and squeezed(phrase) in squeezed(text + claim.statement.section):
             return True
-        if (parts and any(parts <= words for words in texts)) or (not parts and phrase.casefold() in text):
+        if (parts and any(parts <= words for words in places)) or (not parts and phrase.casefold() in text):
             return True
     return False
 
@@ -174,7 +235,12 @@ def weakly(wanted: Wanted, claim: Claim) -> Match | None:
     shared = max((len(own & words) / len(own) for own in named if own), default=0.0)
     if claim.quantity.dimension != wanted.dimension or shared < 0.5 or not (label & asked):
         return None
-    if _forbidden(wanted, claim, [words]) or words & REVERSING or _contradicts(words, asked - words):
+    said = _said(claim)
+    if (
+        _forbidden(_asked(wanted), claim, said.text, [frozenset(words)])
+        or words & REVERSING
+        or _contradicts(words, asked - words)
+    ):
         return None
     rest = tuple(sorted(t for t in label - asked - NEUTRAL if not _is_number(t)))
     return Match(wanted, claim, 0.5 * shared, "", rest, 1.0 - 0.5 * shared)

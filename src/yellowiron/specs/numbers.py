@@ -181,11 +181,14 @@ def _number_with_unit() -> re.Pattern[str]:
     return re.compile(rf"(?P<number>{_NUMBER})(?P<gap>[\s\u00a0]?-?[\s\u00a0]?)(?P<unit>{unit_pattern()})?")
 
 
+_BEGINS = re.compile(r"[\d½¼¾⅛⅜⅝⅞]|[.,](?=\d)")
+
+
 def _quantities(text: str, unit: str, style: DecimalStyle) -> list[Quantity]:
     found: list[Quantity] = []
     position = 0
     while position < len(text):
-        start = re.compile(r"[\d½¼¾⅛⅜⅝⅞]|[.,](?=\d)").search(text, position)
+        start = _BEGINS.search(text, position)
         if start is None:
             break
         at = start.start()
@@ -201,14 +204,23 @@ def _quantities(text: str, unit: str, style: DecimalStyle) -> list[Quantity]:
     return found
 
 
+_LONGEST_WORD = 30
+
+
+@functools.cache
+def _ends_in_unit() -> re.Pattern[str]:
+    return re.compile(rf"\d\s?{unit_pattern()}$")
+
+
 def _inside_a_word(text: str, at: int) -> bool:
     """A digit glued to letters before it is part of a name ("L5", "ISO14396"), unless those are a unit ("km/h4.0") or
     a cross ("x441")."""
-    before = re.search(r"[A-Za-z][A-Za-z0-9./-]*$", text[:at])
+    text = text[max(0, at - _LONGEST_WORD) : at]
+    before = re.search(r"[A-Za-z][A-Za-z0-9./-]*$", text)
     if before is None:
         return False
     word = before.group(0)
-    if word.lower() == "x" or re.search(rf"\d\s?{unit_pattern()}$", text[:at]):
+    if word.lower() == "x" or _ends_in_unit().search(text):
         return False
     return word[-1].isalnum() or word[-1] in "-/"
 
@@ -289,7 +301,7 @@ def _value(digits: str, unit: str, style: DecimalStyle) -> tuple[float, int, flo
     printed = printed_unit(unit) if unit else None
     fine = printed is not None and printed.fine
     if mark == "," and style != "comma":
-        return grouped, 0, None
+        return grouped, 0, as_decimal if fine and style == "unknown" else None
     if mark == ",":
         return (as_decimal, 3, None) if fine else (as_decimal, 3, grouped)
     if style == "comma":

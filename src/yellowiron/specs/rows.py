@@ -94,19 +94,32 @@ def read_block(page: Page, block: Block, first_row: int, section: str = "") -> t
     found: list[Statement] = []
     size = _body_size(block)
     paragraphs = paragraphs_of(block.lines)
-    running = {id(line) for paragraph in paragraphs for line in paragraph}
-    lines = [line for line in block.lines if id(line) not in running]
+    running = {id(piece) for paragraph in paragraphs for line in paragraph for piece in line.pieces}
+    kept = [tuple(p for p in line.pieces if id(p) not in running) for line in block.lines]
+    beside = {
+        id(line.pieces[-1]): " ".join(p.text for p in rest)
+        for line, rest in zip(block.lines, kept, strict=True)
+        if len(rest) < len(line.pieces)
+    }
+    lines = [Line(pieces) for pieces in kept if pieces]
     rows = [r for band in bands(lines, page.rules, _bars_of(page, block), block.x0, block.x1)
             for r in _split_if_separate(band)]  # fmt: skip
     for index, row in enumerate(rows):
         if _continue_label(row, rows[index + 1] if index + 1 < len(rows) else None, state, found):
             continue
         before = len(found)
+        ordered = sorted(row, key=lambda line: line.top)
+        if len(row) == 2 and _captioned(ordered[:1], ordered[1:], ()):
+            _read_captions(page, ordered[0], ordered[1], state, first_row + before + index, found)
+            continue
+        if index and _captioned(rows[index - 1], row, rows[index + 1 : index + 2]):
+            _read_captions(page, rows[index - 1][0], row[0], state, first_row + before + index, found)
+            continue
         _read_row(page, block, row, state, size, first_row + len(found) + index, found)
         state.last = (row, range(before, len(found)), row[0].pieces[0].text) if len(found) > before else None
     for paragraph in paragraphs:
         above = [h for h in state.headings if h.bottom <= paragraph[0].top + 2]
-        heading = above[-1].text if above else section
+        heading = beside[id(paragraph[0].pieces[-1])] or (above[-1].text if above else section)
         found.extend(read_paragraph(page.number, paragraph, first_row + len(found) + len(block.lines), heading))
     return found, state.headings
 
@@ -132,6 +145,32 @@ def _read_row(
     state.orphans = []
     _read_values(page, row, state, number, found)
     state.data_since_heads = True
+
+
+def _captioned(above: Sequence[Line], row: Sequence[Line], following: Sequence[Sequence[Line]]) -> bool:
+    """Whether a line of values has a label right above each; where more values stand under them, the words above are
+    columns' heads."""
+    if len(above) != 1 or len(row) != 1 or len(above[0].pieces) != len(row[0].pieces):
+        return False
+    for label, value in zip(above[0].pieces, row[0].pieces, strict=True):
+        near = abs(label.x0 - value.x0) < 2 and value.box[1] - label.box[3] < 0.8 * value.size
+        if not near or kind_of(label) != "text" or kind_of(value) != "value" or label.size > 1.05 * value.size:
+            return False
+    return not (following and all(kind_of(p) == "value" for line in following[0] for p in line.pieces))
+
+
+def _read_captions(page: Page, labels: Line, values: Line, state: _State, number: int, found: list[Statement]) -> None:
+    state.heads, state.pending, state.last = [], [], None
+    for label, value in zip(labels.pieces, values.pieces, strict=True):
+        cell = ValueCell([label], [value])
+        marked = any(EXAMPLE.search(text) for text in (state.section, label.text, value.text))
+        statement = statement_of(page, (labels, values), cell, (), state.context, (), number)
+        found.append(_in_section(statement, state, marked=marked))
+
+
+def _in_section(statement: Statement, state: _State, *, marked: bool) -> Statement:
+    section, unit = unit_of_heading(EXAMPLE.sub("", state.section).strip())
+    return replace(statement, section=section, unit=statement.unit or unit, example=marked or statement.example)
 
 
 def _continue_label(
@@ -203,7 +242,7 @@ def _are_heads(pieces: Sequence[Piece], kinds: Sequence[str], state: _State) -> 
 
 def _read_words(page: Page, block: Block, line: Line, state: _State, size: float) -> None:
     """A heading, column heads, a sub-heading, or the first line of a label."""
-    texts = [p for p in line.pieces if kind_of(p) != "mark"]
+    texts = [q for p in line.pieces if kind_of(p) != "mark" for q in _parted(p)]
     if not texts:
         if state.heads and not state.data_since_heads:
             state.heads.append(line.pieces)
@@ -224,6 +263,14 @@ def _read_words(page: Page, block: Block, line: Line, state: _State, size: float
         state.add_label(texts[0])
     else:
         state.pending = []
+
+
+def _parted(piece: Piece) -> list[Piece]:
+    """Heads that nearly touch, parted behind their units: "bore (mm) stroke (mm)"."""
+    ends = [i for i, w in enumerate(piece.words[:-1], start=1) if w.text[0] == "(" and is_unit(w.text)]
+    if not ends or not is_unit(piece.words[-1].text):
+        return [piece]
+    return [Piece(piece.words[a:b]) for a, b in zip([0, *ends], [*ends, len(piece.words)], strict=True)]
 
 
 def _are_column_heads(texts: Sequence[Piece], labels_end: float, state: _State) -> bool:
@@ -341,10 +388,7 @@ def _read_values(page: Page, row: Sequence[Line], state: _State, number: int, fo
         heads = heads_over(state.heads, join_boxes(p.box for p in cell.values))
         above = context if not cell.label or pending else []
         statement = statement_of(page, row, cell, heads, context, above, number)
-        section, unit = unit_of_heading(EXAMPLE.sub("", state.section).strip())
-        found.append(
-            replace(statement, section=section, unit=statement.unit or unit, example=marked or statement.example)
-        )
+        found.append(_in_section(statement, state, marked=marked))
     if not has_label:
         # A value under a label on a line of its own, its partner beneath: "25,510 kg" / "56,240 lb".
         state.pending = pending
@@ -371,7 +415,9 @@ def _keep_sub_heading(cells: Sequence[ValueCell], pending: Sequence[Piece], stat
 def _end_heads(row: Sequence[Line], cells: Sequence[ValueCell], state: _State) -> None:
     """Forgets column heads where their table has ended: a narrower row, a row of several labels, or a gap."""
     labels = {id(c.label[0]) for c in cells if c.label}
-    narrower = state.data_since_heads and 2 * len(cells) < state.values_in_row
+    dashes = sum(kind_of(p) == "mark" and bool(p.bare) for line in row for p in line.pieces)  # "none" in a column
+    filled = len(cells) + dashes
+    narrower = state.data_since_heads and 2 * filled < state.values_in_row
     apart = False
     if state.heads and not state.data_since_heads:
         lowest = max(p.box[3] for head in state.heads for p in head)
@@ -379,4 +425,4 @@ def _end_heads(row: Sequence[Line], cells: Sequence[ValueCell], state: _State) -
         apart = min(line.top for line in row) - lowest > 3 * size
     if narrower or apart or len(labels) > 1:
         state.heads = []
-    state.values_in_row = len(cells)
+    state.values_in_row = filled

@@ -27,15 +27,15 @@ _LONGEST = 16
 
 
 def paragraphs_of(lines: Sequence[Line]) -> list[tuple[Line, ...]]:
-    """Lines that are running text: one piece each, set flush left under each other, with the ends of two sentences (or
-    of one inside the text)."""
+    """Running text: pieces set flush left under each other, each the last of its line and, from the second on, alone on
+    it, with the ends of two sentences (or of one inside the text)."""
     groups: list[list[Line]] = []
     for line in lines:
         last = groups[-1][-1] if groups else None
-        if last is not None and _follows(last, line):
+        if last is not None and len(line.pieces) == 1 and _follows(last, line):
             groups[-1].append(line)
         else:
-            groups.append([line])
+            groups.append([Line(line.pieces[-1:])])
     return [tuple(g) for g in groups if _is_running(g)]
 
 
@@ -43,8 +43,7 @@ def _follows(last: Line, line: Line) -> bool:
     a, b = last.pieces[0], line.pieces[0]
     size = max(a.size, b.size)
     return (
-        len(last.pieces) == len(line.pieces) == 1
-        and abs(a.size - b.size) < 0.1 * size
+        abs(a.size - b.size) < 0.1 * size
         and abs(a.x0 - b.x0) < size
         and 0 < line.bottom - last.bottom < _PITCH * size
         and a.bold == b.bold
@@ -53,11 +52,10 @@ def _follows(last: Line, line: Line) -> bool:
 
 
 def _is_running(lines: Sequence[Line]) -> bool:
-    if any(len(line.pieces) > 1 for line in lines):
-        return False
     text, _ = _text_of(lines)
+    number = re.search(r"\d", text)
     ends = _ends(text)
-    inside = [e for e in ends if e < len(text.rstrip()) and read(text[:e])]
+    inside = [e for e in ends if number and number.start() < e < len(text.rstrip())]
     return bool(inside) or (len(lines) > 1 and len(text) > 60 and len(ends) >= 1)
 
 
@@ -96,12 +94,19 @@ def read_paragraph(page: int, lines: Sequence[Line], first_row: int, section: st
         sentence = text[start:end]
         offset, start = start, end
         edge = before = 0
+        owner = ""
         for reading in read(sentence):
             quantities = (*reading.numbers, *reading.partner)
             begin, stop = min(q.start for q in quantities), max(q.end for q in quantities)
             label = _label(sentence[edge:begin])
             if not label and quantities[0].dimension != "angle":  # "Dump height at 45°: 2.9 m"
                 label = _label(sentence[before:begin])
+            elif edge == 0 and (
+                listed := re.match(r"^(.*?)[:：]\s*(.+)$", label)
+            ):  # "Arm cylinder: bore 9, stroke 20 mm"
+                owner, label = listed.group(1), f"{listed.group(1)} {listed.group(2)}"
+            elif owner and label and re.match(r"[\s)]*[,，、]", sentence[edge:begin]):
+                label = f"{owner} {label}"
             if label and not reading.condition and len(label.split()) <= _LONGEST:
                 boxes = [w.box for a, b, w in places if a < offset + stop and b > offset + begin]
                 yield Statement(

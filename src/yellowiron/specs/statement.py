@@ -33,6 +33,11 @@ class Piece:
         return " ".join(w.text for w in self.words)
 
     @property
+    def printed(self) -> str:
+        """The words with their footnote signs, as the page prints them."""
+        return " ".join(w.text + w.marks for w in self.words)
+
+    @property
     def box(self) -> Box:
         """x0, top, x1, bottom."""
         return join_boxes(w.box for w in self.words)
@@ -142,7 +147,7 @@ def unit_in_label(text: str) -> tuple[str, str]:
         r"^(.*?)\s*,\s*([^,]+?)\s*:?$", text
     )
     match = match or re.search(r"^(.*[^\W\d])\s+(mm|cm|kg|kPa|MPa|kN|l/min|L/min|m³|m3|km/h)$", text)
-    if match and (unit := is_unit(match.group(2))):
+    if match and (unit := is_unit(match.group(2))) and unit.rstrip(".") != "min":  # the least, not minutes
         return match.group(1), unit
     return text, ""
 
@@ -168,7 +173,7 @@ def kind_of(piece: Piece) -> str:
         return "mark"
     if is_unit(bare):
         return "unit"
-    if not any(c.isalnum() for c in bare):
+    if not bare.strip("-–—−/. "):
         return "mark"
     return "value" if looks_like_value(bare) else "text"
 
@@ -192,8 +197,8 @@ def looks_like_value(text: str) -> bool:
     if not readings:
         return False
     first = readings[0].numbers[0]
-    if not first.unit and re.match(r"[.):]?\s+[^\W\d_]{3,}", text[first.end :]):
-        return False  # "10 Wheelbase": a drawing's key and a label
+    if not first.unit and re.match(r"[.):]?\s+(?!(?:to|bis|up)\b)[^\W\d_]{2,}", text[first.end :]):
+        return False  # "10 Wheelbase", "4.2 No. of shoes": a drawing's key or an outline's number, and a label
     return len(words_beside_numbers(text, readings)) <= 8
 
 
@@ -207,6 +212,7 @@ def words_beside_numbers(text: str, readings: Sequence[Reading]) -> list[str]:
     return re.findall(r"[^\W\d_]{2,}", rest)
 
 
+@functools.lru_cache(maxsize=65536)
 def split_inline(text: str) -> tuple[str, str]:
     """A piece that holds a label and its value: ("Wheelbase", "3,450 mm"); ("", "") if it does not.
 
@@ -229,6 +235,7 @@ def split_inline(text: str) -> tuple[str, str]:
 def without_key(label: str) -> str:
     """A label without its drawing's letter key: "B Hinge pin height" → "Hinge pin height"."""
     match = re.match(
-        r"^\(?(?:[A-Z]{1,2}[′'\"]?|\d{1,2})[.):]*\s+(?=[A-ZÀ-Ý(][^\W\d_]+|[\u3040-\u30ff\u3400-\u9fff])(.+)$", label
+        r"^\(?(?:[A-Z]{1,2}[′'\"]?|\d{1,2}(?:\.\d{1,2})*)[.):]*\s+(?=[A-ZÀ-Ý(][^\W\d_]+|[\u3040-\u30ff\u3400-\u9fff])(.+)$",
+        label,
     )
     return match.group(1) if match else label
