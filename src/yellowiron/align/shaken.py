@@ -20,7 +20,7 @@ def shaken(solution: Solution, template: Template) -> dict[str, str]:
     jointed: set[str] = set()
     beside: dict[str, set[str]] = {b: set() for b in kinds}
     linked: dict[str, set[str]] = {b: set() for b in kinds}
-    apart: dict[str, str] = {}
+    apart: list[tuple[str, str, str]] = []
     for joint in template.joints:
         bodies = [b for b in template.bodies_of(joint) if b is not None]
         if len(bodies) != 2 or not set(bodies) <= set(kinds):
@@ -33,15 +33,18 @@ def shaken(solution: Solution, template: Template) -> dict[str, str]:
                 linked[own].add(other)
                 jointed.add(own)
             elif plain and joint.type == "revolute":
-                apart[own] = f"{joint.name} is not found: parts of {other} may be among its parts"
+                apart.append((own, other, joint.name))
     reached, front = {template.root}, [template.root]
     while front:
         front = [b for own in front for b in sorted(linked[own]) if b not in reached]
         reached.update(front)
     words = {b: "nothing that was found joins it to the rest of the machine" for b in kinds if b not in reached}
-    words |= apart
+    undrawn = _undrawn(template, set(kinds) - jointed, kinds)
+    for own, other, joint_name in apart:
+        if not {own, other} & undrawn:
+            words[own] = f"{joint_name} is not found: parts of {other} may be among its parts"
     for body, kind in kinds.items():
-        if kind in _TYPED or body in optional or body in jointed:
+        if kind in _TYPED or body in optional or body in jointed or body in undrawn:
             continue
         ring, front = {body}, [body]
         for _ in range(AROUND):
@@ -49,3 +52,16 @@ def shaken(solution: Solution, template: Template) -> dict[str, str]:
             ring.update(front)
         words |= dict.fromkeys(sorted(ring - {body}), f"{body} is not found: its parts may be among these")
     return words
+
+
+def _undrawn(template: Template, absent: set[str], kinds: dict[str, str]) -> set[str]:
+    """Those of the absent bodies that hang together with an absent hydraulic cylinder: a whole chain that is not drawn,
+    whose parts are nowhere, and not one body that was welded to another."""
+    pairs = [bodies for j in template.joints if set(bodies := template.bodies_of(j)) <= absent]
+    undrawn = {b for b in absent if kinds[b] in ("barrel", "rod")}
+    grown = True
+    while grown:
+        more = {b for pair in pairs for b in pair if b is not None and undrawn & set(pair)}
+        grown = not more <= undrawn
+        undrawn |= more
+    return undrawn
