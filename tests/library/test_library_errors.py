@@ -134,7 +134,7 @@ def test_defect(name: str, tmp_path: Path) -> None:
 def test_unknown_type_suggests_near_ones() -> None:
     with pytest.raises(TemplateError, match="no equipment type") as caught:
         library.load_template("wheel_loadr")
-    assert "Did you mean wheel_loader?" in caught.value.hint
+    assert "Did you mean wheel_loader or backhoe_loader?" in caught.value.hint
 
 
 def test_missing_file_and_folder_without_joints(tmp_path: Path) -> None:
