@@ -75,7 +75,7 @@ def main() -> None:
     seconds: list[float] = []
     with tempfile.TemporaryDirectory() as scratch:
         folder = Path(scratch)
-        for split in arguments.sets.split(","):
+        for split in filter(None, arguments.sets.split(",")):
             total, parts, count = Score(), {}, 0
             for case in cases(split):
                 sheet = make(case, folder)
