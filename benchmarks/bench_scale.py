@@ -4,8 +4,9 @@
 
 The machine is the example's; it grows by bolts that stand on its plates (three shapes, at random places) and shrinks
 by leaving its own hardware out. Every size is built in a process of its own. `growth` is a stage's time per part
-against that of the size before: above 1, it grows faster than the parts. Memory is the largest resident size during a
-stage; the CAD reader's is that of its child process.
+against that of the size before: above 1, it grows faster than the parts. Times are the processor's, of the build and
+the children that read files for it: other work on the machine changes them little. Memory is the largest resident size
+during a stage; the CAD reader's is that of its child process.
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ import resource
 import subprocess
 import sys
 import tempfile
+import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -139,17 +141,25 @@ def drop_hardware(shapes: Any, machine: Any, count: int) -> None:
         count -= len(group)
 
 
-class Peaks:
-    """The largest resident memory of this process in every stage, MB, by what the build says it is doing."""
+class Stages:
+    """The largest resident memory of this process in every stage, MB, and its processor time, seconds, in order."""
 
     def __init__(self) -> None:
-        self.peaks: list[tuple[str, float]] = []
-        self._words = "start"
+        self.peaks: list[float] = []
+        self.seconds: list[float] = []
+        self._before = self._now()
 
     def __call__(self, words: str) -> None:
-        self.peaks.append((self._words, self._high()))
+        self.peaks.append(self._high())
         Path("/proc/self/clear_refs").write_text("5", encoding="ascii")
-        self._words = words
+        now = self._now()
+        self.seconds.append(now - self._before)
+        self._before = now
+
+    @staticmethod
+    def _now() -> float:
+        used = resource.getrusage(resource.RUSAGE_CHILDREN)
+        return time.process_time() + used.ru_utime + used.ru_stime
 
     @staticmethod
     def _high() -> float:
@@ -161,12 +171,14 @@ def one(equipment_type: str, cad: Path, sheets: list[Path], out: Path) -> dict[s
     """Builds a machine and returns its parts, seconds and megabytes by stage."""
     from yellowiron.build import build
 
-    peaks = Peaks()
-    machine = build(equipment_type, cad, out, sheets=sheets, progress=peaks)
-    peaks("end")
-    seconds = json.loads((out / "timings.json").read_text(encoding="utf-8"))
-    names = [name for name in seconds if name != "total"]
-    memory = dict(zip(names, (mb for _, mb in peaks.peaks[1:]), strict=False))
+    stages = Stages()
+    machine = build(equipment_type, cad, out, sheets=sheets, progress=stages)
+    stages("end")
+    timed = json.loads((out / "timings.json").read_text(encoding="utf-8"))
+    names = [name for name in timed if name != "total"]
+    memory = dict(zip(names, stages.peaks[1:], strict=False))
+    seconds = dict(zip(names, stages.seconds[1:], strict=False))
+    seconds["total"] = sum(seconds.values())
     memory["convert"] = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024.0
     parts = machine.report["alignment"]
     return {
