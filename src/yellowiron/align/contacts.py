@@ -281,11 +281,12 @@ def covered(fa: Floats, fb: Floats, low: Floats, high: Floats, count: int = 24) 
     steps = (np.arange(count) + 0.5) / count
     gx, gy = np.meshgrid(low[0] + steps * (high[0] - low[0]), low[1] + steps * (high[1] - low[1]))
     samples = np.c_[gx.ravel(), gy.ravel()]
-    both = inside(samples, fa, low, high) & inside(samples, fb, low, high)
-    if not both.any():
+    few, many = sorted((fa, fb), key=len)
+    chosen = samples[inside(samples, few, low, high)]
+    chosen = chosen[inside(chosen, many, low, high)]
+    if not len(chosen):
         return 0.0, low, 0.0
-    chosen = samples[both]
-    area = float(both.mean() * np.prod(high - low))
+    area = float(len(chosen) / len(samples) * np.prod(high - low))
     return area, chosen.mean(axis=0), float(np.linalg.norm(np.ptp(chosen, axis=0)))
 
 
@@ -293,7 +294,7 @@ def inside(samples: Floats, triangles: Floats, low: Floats, high: Floats) -> np.
     """Which samples (n, 2) lie in any of the triangles (m, 3, 2) that reach the box [low, high]."""
     near = (triangles.max(axis=1) >= low).all(axis=1) & (triangles.min(axis=1) <= high).all(axis=1)
     tri = triangles[near]
-    if not len(tri):
+    if not len(tri) or not len(samples):
         return np.zeros(len(samples), dtype=np.bool_)
     hit = np.ones((len(samples), len(tri)), dtype=np.bool_)
     edge = tri[:, 1] - tri[:, 0]
