@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import os
 import signal
 import subprocess
@@ -119,7 +120,10 @@ def test_stopping_the_command_stops_the_engine(bad: Path, usd_file: Path, sent: 
     write(bad, f"open({str(pid)!r}, 'w').write(str(os.getpid())); time.sleep(600)")
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(p for p in sys.path if p)}
     command = [sys.executable, "-m", "yellowiron", "simulate", str(usd_file), "--engine", "bad", "--json"]
-    ours = subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    # What runs in the background of a script ignores interrupts, and so would its children.
+    heeding = functools.partial(signal.signal, signal.SIGINT, signal.SIG_DFL)
+    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    ours = subprocess.Popen(command, env=environment, preexec_fn=heeding, **quiet)
     try:
         _until(lambda: pid.is_file() and pid.read_text() != "")
         ours.send_signal(sent)
