@@ -33,8 +33,12 @@ from rich.table import Table
 
 ROOT = Path(__file__).resolve().parent.parent
 STAGES = ("convert", "extract", "align", "mechanism", "measure", "write", "check", "report")
-BOLTS = ((8.0, 40.0), (10.0, 50.0), (15.0, 60.0))
-"""Radius and length of the shanks, mm."""
+BOLTS = ((8.0, 8.0), (10.0, 10.0), (12.0, 12.0))
+"""Radius and length of the shanks, mm: no longer than plates are thick."""
+CLEAR, GRAIN = 0.06, 0.02
+"""Metres: from a bolt to other parts and bolts; between the points that stand for a surface."""
+MOST = 60_000
+"""Places that are tried."""
 MANY = 8
 """A shape that is used so often in one assembly is hardware."""
 
@@ -96,27 +100,41 @@ def bolt(radius: float, length: float) -> Any:
 
 
 def places(assembly: Any) -> Iterator[Any]:
-    """Endless frames on flat spots of large parts, z out of the surface, millimetres; the same every time."""
+    """Frames on flat spots of large parts, z out of the surface, millimetres; the same every time. A bolt is clear of
+    other parts and of earlier bolts, as on a real machine: what touches two bodies would hold them together."""
     from OCP.gp import gp_Ax3, gp_Dir, gp_Pnt, gp_Trsf
+    from scipy.spatial import cKDTree
 
-    rng, spots = random.Random(1), []
+    rng, spots, skins, owners = random.Random(1), [], [], []
+    dice = np.random.default_rng(1)
     room = 3e-3 * max(b[0] for b in BOLTS)
-    for part in assembly.parts:
+    for number, part in enumerate(assembly.parts):
         mesh, points = assembly.shape_of(part).mesh, assembly.points_of(part)
-        if np.ptp(points, axis=0).max() < 0.5:
-            continue
         corners = points[mesh.triangles]
         normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
         areas = 0.5 * np.linalg.norm(normals, axis=1)
+        copies = np.repeat(np.arange(len(areas)), np.ceil(areas / GRAIN**2).astype(int))
+        weights = dice.dirichlet((1.0, 1.0, 1.0), len(copies))
+        skins.append(np.einsum("ij,ijk->ik", weights, corners[copies]))
+        owners += [number] * len(copies)
+        if np.ptp(points, axis=0).max() < 0.5:
+            continue
         around = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).sum(axis=1)
         wide = np.flatnonzero(2.0 * areas / np.maximum(around, 1e-9) > room)  # the inscribed circle's radius
-        spots += [(corners[i], normals[i] / np.linalg.norm(normals[i])) for i in wide]
-    while True:
-        corners, normal = rng.choice(spots)
-        weights = np.array([rng.uniform(0.2, 1.0) for _ in range(3)])
-        x, y, z = (1000.0 * weights / weights.sum()) @ corners
+        spots += [(number, areas[i], corners[i], normals[i] / np.linalg.norm(normals[i])) for i in wide]
+    skin, owner, taken = cKDTree(np.concatenate(skins)), np.array(owners), []
+    sizes = [area for _, area, _, _ in spots]
+    for _ in range(MOST):
+        number, _, corners, normal = rng.choices(spots, sizes)[0]
+        weights = np.array([rng.uniform(0.1, 1.0) for _ in range(3)])
+        spot = (weights / weights.sum()) @ corners
+        if (owner[skin.query_ball_point(spot, CLEAR)] != number).any():
+            continue
+        if taken and np.min(np.linalg.norm(np.array(taken) - spot, axis=1)) < CLEAR:
+            continue
+        taken.append(spot)
         frame = gp_Trsf()
-        frame.SetTransformation(gp_Ax3(gp_Pnt(x, y, z), gp_Dir(*normal.tolist())), gp_Ax3())
+        frame.SetTransformation(gp_Ax3(gp_Pnt(*(1000.0 * spot).tolist()), gp_Dir(*normal.tolist())), gp_Ax3())
         yield frame
 
 

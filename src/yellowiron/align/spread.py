@@ -381,12 +381,17 @@ class Spreader:
         ranked = sorted(weight, key=lambda b: (-round(weight[b], 9), b))
         rival = weight[ranked[1]] / weight[ranked[0]] if len(ranked) > 1 else 0.0
         confidence = 0.45 + 0.45 * (1 - rival)
-        if far[ranked[0]] > CLOSE * size:
+        if far[ranked[0]] > CLOSE * size and not self._borne(group, ranked[0]):
             confidence = min(confidence, DOUBTFUL)
         words = f"floats; {ranked[0]} is nearest, {1e3 * far[ranked[0]]:.3g} mm away"
         for i in group:
             second = ranked[1] if len(ranked) > 1 else None
             self._give(i, Place(ranked[0], ranked[0], confidence, words, second, how="near"))
+
+    def _borne(self, group: list[int], body: str) -> bool:
+        """Whether something long and thin of that body, which alone would not say where a part belongs, touches it."""
+        thin = [j for j in self.structure.slight if j in self.places and self.places[j].body == body]
+        return any(self.touch.touching(i, j) for i in group for j in thin)
 
     def _turned(self, body: str) -> bool:
         cluster = self.cluster_of.get(body)
