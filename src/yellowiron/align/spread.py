@@ -172,10 +172,11 @@ class Spreader:
         return any(min(x) < min(y) and max(y) < max(x) for x, y in pairs)
 
     def _race(self, line: int, role: str, body: str) -> None:
-        """Of a slewing bearing the race of the body that carries it is the joint's pin."""
+        """Of a slewing bearing the race of the body that carries it is the joint's pin; where the race is drawn in one
+        with other things, that part is no pin."""
         for i in self.structure.races.get(line, ()):
             place = self.places.get(i)
-            if place is not None and place.body == body:
+            if place is not None and place.body == body and self.solids[i].axis is not None:
                 self.places[i] = replace(place, role=role, reason=f"{place.reason}; a race of the bearing it turns in")
 
     def _sure(self, body: str | None) -> float:
