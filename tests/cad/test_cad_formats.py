@@ -13,6 +13,7 @@ from cad_exports import ITEMS, WRITERS, Meshes
 from yellowiron.cad import read_cad
 from yellowiron.model.assembly import Assembly, Part
 
+pytestmark = pytest.mark.slow
 SURFACES = ("STEP", "IGES", "BREP", "FreeCAD")
 """Formats with exact surfaces: volumes are those of the solids, not of their meshes."""
 

@@ -3,9 +3,11 @@ let through."""
 
 from __future__ import annotations
 
+import functools
 import json
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import given
@@ -28,8 +30,11 @@ from typer.testing import CliRunner
 from yellowiron.cli import app
 from yellowiron.library import load_template
 from yellowiron.model.specification import Specifications
-from yellowiron.specs import EndpointError, ModelOptions, extract
+from yellowiron.model.template import Template
+from yellowiron.specs import EndpointError, ModelOptions
 from yellowiron.specs.endpoint import parsed
+from yellowiron.specs.extract import from_sheets
+from yellowiron.specs.extract import read as read_pdf
 
 TEMPLATE = template(
     wanted("Lift Cylinder Stroke", "length", "lift cylinder stroke"),
@@ -61,6 +66,14 @@ TRUTH = {
     "Steering Cylinder Stroke": 0.441,
     "Operating Weight": 20500.0,
 }
+
+
+_opened = functools.cache(read_pdf)
+
+
+def extract(known: Template, pdfs: list[Path], **options: Any) -> Specifications:
+    """`specs.extract`, each file read once."""
+    return from_sheets(known, [_opened(pdf) for pdf in pdfs], **options)
 
 
 @pytest.fixture(autouse=True)
