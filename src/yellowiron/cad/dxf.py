@@ -18,7 +18,7 @@ from yellowiron.cad.placed import Occurrence
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import CadError
 from yellowiron.model.finding import Finding
-from yellowiron.model.geometry import Color, Floats, Mesh
+from yellowiron.model.geometry import Color, Floats, Mesh, linear
 
 _DAMAGED = "Copy or export it again; the file is damaged."
 _ACIS = ("3DSOLID", "BODY", "REGION", "SURFACE", "EXTRUDEDSURFACE", "LOFTEDSURFACE", "REVOLVEDSURFACE", "SWEPTSURFACE")
@@ -144,5 +144,4 @@ def _color(entity: Any, document: Any) -> Color | None:
         if not 0 < index < 256:
             return None
         rgb = colors.aci2rgb(index)
-    r, g, b = (v / 255.0 / 12.92 if v <= 10 else ((v / 255.0 + 0.055) / 1.055) ** 2.4 for v in rgb)
-    return r, g, b
+    return linear([v / 255.0 for v in rgb])

@@ -28,7 +28,7 @@ from yellowiron.cad.xcaf import Tree, add_product, new_document
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import CadError
 from yellowiron.model.finding import Finding
-from yellowiron.model.geometry import Color
+from yellowiron.model.geometry import Color, linear
 
 _DAMAGED = "Copy or save it again; the file is damaged."
 _GROUPS = ("App::Part", "App::DocumentObjectGroup", "Assembly::AssemblyObject", "App::LinkGroup")
@@ -179,13 +179,7 @@ def _looks(root: ElementTree.Element, objects: Mapping[str, _Object]) -> None:
                 one.shown = any(e.get("value") == "true" for e in item.iter("Bool"))
             elif item.get("name") == "ShapeColor":
                 packed = next((int(e.get("value", "0")) for e in item.iter("PropertyColor")), None)
-                one.color = None if packed is None else _linear(packed)
-
-
-def _linear(packed: int) -> Color:
-    srgb = [((packed >> shift) & 255) / 255.0 for shift in (24, 16, 8)]
-    r, g, b = (v / 12.92 if v <= 0.04045 else ((v + 0.055) / 1.055) ** 2.4 for v in srgb)
-    return r, g, b
+                one.color = None if packed is None else linear([(packed >> s & 255) / 255.0 for s in (24, 16, 8)])
 
 
 def _shapes(archive: zipfile.ZipFile, objects: Mapping[str, _Object], path: str) -> dict[str, Any]:

@@ -63,10 +63,7 @@ _OPEN = {
     ".brp": "BREP",
 }
 """Open formats by extension."""
-READABLE = (
-    "STEP", "IGES", "BREP", "FreeCAD", "GLB", "glTF", "STL", "OBJ", "PLY", "3MF", "COLLADA", "FBX", "USD", "URDF",
-    "MJCF", "IFC", "DXF", "Blender",
-)  # fmt: skip
+READABLE = ("STEP", *dict.fromkeys(_OPEN.values()))
 """The formats that are read here, by the names that `format_of` gives."""
 _IFC = re.compile(rb"FILE_SCHEMA\s*\(\s*\(\s*'IFC")
 _ROOTS = {b"COLLADA": "COLLADA", b"robot": "URDF", b"mujoco": "MJCF"}

@@ -20,7 +20,7 @@ from yellowiron.cad.placed import Occurrence
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import CadError
 from yellowiron.model.finding import Finding
-from yellowiron.model.geometry import Color, Floats, Mesh
+from yellowiron.model.geometry import Color, Floats, Mesh, linear
 
 _UNITS = {"micron": 1e-6, "millimeter": 1e-3, "centimeter": 1e-2, "meter": 1.0, "inch": 0.0254, "foot": 0.3048}
 _DAMAGED = "Copy or export it again; the file is damaged."
@@ -161,10 +161,8 @@ def _all(entry: ElementTree.Element, name: str) -> list[ElementTree.Element]:
 
 
 def _color(text: str) -> Color | None:
-    """#RRGGBB or #RRGGBBAA, which are sRGB, in linear RGB (IEC 61966-2-1)."""
+    """#RRGGBB or #RRGGBBAA, which are sRGB, in linear RGB."""
     try:
-        srgb = [int(text[i : i + 2], 16) / 255.0 for i in (1, 3, 5)]
+        return linear([int(text[i : i + 2], 16) / 255.0 for i in (1, 3, 5)])
     except ValueError:
         return None
-    r, g, b = (v / 12.92 if v <= 0.04045 else ((v + 0.055) / 1.055) ** 2.4 for v in srgb)
-    return r, g, b

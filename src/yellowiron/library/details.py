@@ -11,7 +11,7 @@ from yellowiron.library.hierarchy import choices_of, yes
 from yellowiron.library.quantities import in_unit, quantity
 from yellowiron.library.reading import Document, near
 from yellowiron.model.errors import TemplateError
-from yellowiron.model.geometry import Color
+from yellowiron.model.geometry import Color, linear
 from yellowiron.model.specification import fold
 from yellowiron.model.template import (
     ActuatorTemplate,
@@ -312,7 +312,7 @@ def _color(value: str | list[float] | None) -> Color | None:
         return None
     if isinstance(value, str):
         coded = [int(value[i : i + 2], 16) / 255.0 for i in (1, 3, 5)]
-        value = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in coded]
+        value = list(linear(coded))
     return (float(value[0]), float(value[1]), float(value[2]))
 
 

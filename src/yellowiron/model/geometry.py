@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -10,6 +11,12 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int32]
 Color = tuple[float, float, float]
+
+
+def linear(srgb: Sequence[float]) -> Color:
+    """A colour as files write it, sRGB in [0, 1], as linear RGB (IEC 61966-2-1)."""
+    r, g, b = (v / 12.92 if v <= 0.04045 else ((v + 0.055) / 1.055) ** 2.4 for v in srgb)
+    return r, g, b
 
 
 @dataclass(frozen=True, eq=False)

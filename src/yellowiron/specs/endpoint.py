@@ -35,8 +35,6 @@ _ANSWER = {"value", "tokens_in", "tokens_out"}
 """What is kept of an answer."""
 _FENCED = re.compile(r"```(?:json)?\s*(.*?)```", re.DOTALL)
 _HINT = "Check --llm-url, --llm-model and the key, or leave --extractor at rules, which needs no network."
-_PAUSE_S = 0.5
-"""Wait before the second attempt; doubled before each further one."""
 
 
 @dataclass(frozen=True)
