@@ -1,37 +1,45 @@
 """Damaged CAD files: every reader is given thousands of mutants of a sound file, and none may crash the program, hang,
 or pass for whole.
 
-    python benchmarks/bench_fuzz.py [--mutants 2000] [FORMAT …]
+    python benchmarks/bench_fuzz.py [--mutants 2000] [--notes FOLDER] [FORMAT …]
 
 A mutant is the sound file with bytes flipped, cut off, taken out, put in twice, or numbers changed (seeded: the same
-every time). Readers run in a child process as they do behind `read_cad`, but one child reads many mutants. Counted are:
+every time). Readers run in a child process as they do behind `read_cad`, but one child reads many mutants, and the next
+is forked from a process that has their libraries loaded. Counted are:
 
 - `read`: mutants that are still readable; `refused`: an error in one sentence;
 - `child died`: a crash or a bomb in the child, which the guard makes an error of;
 - `hung`: no answer in the limit, which the guard ends, too;
 - `said`: read with fewer parts than the sound file has, and a finding says so;
 - `unsaid`: with fewer parts and no finding. Only for truncated mutants is that a defect for sure (`half`): a change in
-  the tree's own text may take a part out of it without a trace.
+  the tree's own text may take a part out of it without a trace;
+- `main`: what would have ended the program itself: looking at the file before it is read, or at what is left after;
+- `strays`: files left anywhere but where the mutant was; `MB`: the most memory a child held; `slowest`: one mutant, s.
 """
 
 from __future__ import annotations
 
 import argparse
+import contextlib
 import importlib
 import io
 import json
 import os
+import pickle
 import random
 import re
 import resource
 import selectors
+import signal
 import subprocess
 import sys
 import tempfile
 import time
 import zipfile
 from collections import Counter
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "tests" / "cad")]
@@ -76,85 +84,146 @@ def mutant(sound: bytes, seed: int) -> tuple[str, bytes]:
 
 def work(target: str, file: Path, first: int, last: int) -> None:
     """The child: reads mutants, and says a line of JSON for each."""
+    from yellowiron.cad import sniff
+    from yellowiron.model.errors import YellowironError
+
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     module, name = target.split(":")
     reader = getattr(importlib.import_module(module), name)
     sound = file.read_bytes()
-    # Libraries write to the standard output, too: what is ours goes where it was, what is theirs to the errors.
+    # Libraries write to the standard output, too: what is ours goes where it was, what is theirs nowhere.
     out = os.fdopen(os.dup(1), "w")
     os.dup2(2, 1)
     for seed in range(first, last):
         kind, data = mutant(sound, seed)
         file.write_bytes(data)
+        start = time.perf_counter()
         answer: dict[str, object] = {"seed": seed, "kind": kind}
         try:
+            sniff.format_of(file)
+        except YellowironError:
+            pass
+        except Exception as error:  # noqa: BLE001 - what would end the program
+            answer["main"] = f"{type(error).__name__}: {error}"
+        try:
             assembly = reader(str(file))
+            pickle.dumps(assembly)
             codes = [f.code for f in assembly.findings if f.severity in ("error", "warning")]
             answer |= {"parts": len(assembly.parts), "codes": codes}
         except MemoryError:
             answer["error"] = "MemoryError"
         except Exception as error:  # noqa: BLE001 - what the guard does
-            answer["error"] = type(error).__name__
+            answer["error"] = f"{type(error).__name__}: {error}"[:200]
+        answer["s"] = round(time.perf_counter() - start, 3)
         out.write(json.dumps(answer) + "\n")
         out.flush()
     file.write_bytes(sound)
 
 
-def run(target: str, file: Path, count: int) -> tuple[list[dict[str, object]], list[tuple[int, str]]]:
-    """Every mutant's answer, and those that gave none: (seed, "died" or "hung")."""
+def nursery(target: str, file: Path, last: int) -> None:
+    """Loads what the reader loads, then for every number on the standard input a child that reads from there on."""
+    learned, told = os.pipe()
+    if (child := os.fork()) == 0:
+        module, name = target.split(":")
+        os.dup2(2, 1)
+        getattr(importlib.import_module(module), name)(str(file))
+        os.write(told, "\n".join(sys.modules).encode())
+        os._exit(0)
+    os.close(told)
+    with os.fdopen(learned) as lines:
+        modules = lines.read().split("\n")
+    os.waitpid(child, 0)
+    saved = os.dup(1)
+    os.dup2(2, 1)
+    for name in modules:
+        # Some modules are there only as part of another.
+        with contextlib.suppress(ImportError):
+            importlib.import_module(name)
+    os.dup2(saved, 1)
+    for line in sys.stdin:
+        if (child := os.fork()) == 0:
+            work(target, file, int(line), last)
+            os._exit(0)
+        os.write(1, json.dumps({"child": child}).encode() + b"\n")
+        usage = os.wait4(child, 0)[2]
+        os.write(1, b"\n" + json.dumps({"ended": child, "kb": usage.ru_maxrss}).encode() + b"\n")
+
+
+def run(target: str, file: Path, count: int) -> tuple[list[dict[str, Any]], list[tuple[int, str]], float]:
+    """Every mutant's answer, those that gave none: (seed, "died" or "hung"), and the most memory, MB."""
     sound = file.read_bytes()
-    answers: list[dict[str, object]] = []
+    answers: list[dict[str, Any]] = []
     lost: list[tuple[int, str]] = []
-    seed = 0
-    while seed < count:
-        file.write_bytes(sound)
-        command = [sys.executable, __file__, "--work", target, str(file), str(seed), str(count)]
-        with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL) as child:
-            assert child.stdout is not None
-            rest = b""
-            with selectors.DefaultSelector() as streams:
-                streams.register(child.stdout, selectors.EVENT_READ)
-                while streams.select(LIMIT_S if answers else 3 * LIMIT_S):
-                    data = os.read(child.stdout.fileno(), 65536)
-                    if not data:
-                        break
-                    *lines, rest = (rest + data).split(b"\n")
-                    answers += [json.loads(line) for line in lines]
-                    seed += len(lines)
+    peak = 0.0
+    command = [sys.executable, __file__, "--work", target, str(file), str(count)]
+    pipe = subprocess.PIPE
+    with subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=subprocess.DEVNULL, cwd=file.parent) as source:
+        assert source.stdin is not None and source.stdout is not None
+        lines = _lines(source.stdout.fileno())
+        seed = 0
+        while seed < count:
+            file.write_bytes(sound)
+            source.stdin.write(f"{seed}\n".encode())
+            source.stdin.flush()
+            child, end = int(next(lines)["child"]), "died"
+            for line in lines:
+                if line is None:
+                    end = "hung"
+                    os.kill(child, signal.SIGKILL)
+                elif "ended" in line:
+                    peak = max(peak, line["kb"] / 1024.0)
+                    break
+                else:
+                    answers.append(line)
+                    seed += 1
             if seed < count:
-                lost.append((seed, "hung" if not _ended(child) else "died"))
+                lost.append((seed, end))
                 seed += 1
-            child.kill()
+        source.stdin.close()
     file.write_bytes(sound)
-    return answers, lost
+    return answers, lost, peak
 
 
-def _ended(child: subprocess.Popen[bytes]) -> bool:
-    try:
-        child.wait(1.0)
-    except subprocess.TimeoutExpired:
-        return False
-    return True
+def _lines(stream: int) -> Iterator[Any]:
+    """The JSON of every whole line; None after a limit without one."""
+    rest, limit = b"", 10 * LIMIT_S
+    with selectors.DefaultSelector() as streams:
+        streams.register(stream, selectors.EVENT_READ)
+        while True:
+            if not streams.select(limit):
+                yield None
+                continue
+            limit = LIMIT_S
+            data = os.read(stream, 65536)
+            if not data:
+                return
+            *whole, rest = (rest + data).split(b"\n")
+            for line in filter(None, whole):
+                # A child that dies may leave half a line.
+                with contextlib.suppress(json.JSONDecodeError):
+                    yield json.loads(line)
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--mutants", type=int, default=2000)
-    parser.add_argument("--work", nargs=4, help=argparse.SUPPRESS)
+    parser.add_argument("--notes", type=Path, help="a folder for what came of every mutant, a file a format")
+    parser.add_argument("--work", nargs=3, help=argparse.SUPPRESS)
     parser.add_argument("formats", nargs="*", metavar="FORMAT")
     options = parser.parse_args()
     if options.work:
-        target, file, first, last = options.work
-        work(target, Path(file), int(first), int(last))
+        target, file, last = options.work
+        nursery(target, Path(file), int(last))
         return
     from cad_exports import ITEMS, WRITERS
 
-    from yellowiron.cad import read_cad
+    from yellowiron.cad import part21, read_cad
     from yellowiron.cad.read import _READERS
     from yellowiron.cad.sniff import format_of
 
-    heads = ("format", "mutants", "read", "refused", "child died", "hung", "said", "unsaid", "half", "strays", "s")
+    heads = ("format", "mutants", "read", "refused", "child died", "hung", "said", "unsaid", "half", "main", "strays")
+    heads += ("MB", "slowest", "s")
     sys.stdout.write("| " + " | ".join(heads) + " |\n|" + "---|" * len(heads) + "\n")
     with tempfile.TemporaryDirectory() as folder:
         truth = Path(folder, "truth.step")
@@ -165,27 +234,42 @@ def main() -> None:
         for name, (file, write) in WRITERS.items():
             if options.formats and name not in options.formats:
                 continue
+            # Deep down, and with the folder for temporary files inside: what a file makes its reader write is seen.
             own = Path(folder, re.sub(r"\W", "", name))
-            own.mkdir()
-            path = own / file
+            path, spare = own / "a" / "b" / "c" / file, own / "spare"
+            path.parent.mkdir(parents=True)
+            spare.mkdir()
+            os.environ["TMPDIR"] = str(spare)
             write(path, meshes)
-            before = {p.name for p in own.iterdir()}
+            before = set(own.rglob("*"))
             start = time.perf_counter()
-            answers, lost = run(_READERS[format_of(path)], path, options.mutants)
+            answers, lost, peak = run(_READERS[format_of(path)], path, options.mutants)
             seconds = time.perf_counter() - start
+            # After a crash the program itself looks at the text.
+            if format_of(path) == "STEP":
+                for seed, _ in lost:
+                    part21.diagnose(mutant(path.read_bytes(), seed)[1])
             counted = Counter("refused" if "error" in a else "read" for a in answers)
             ends = Counter(end for _, end in lost)
-            fewer = [a for a in answers if "error" not in a and int(str(a["parts"])) < len(ITEMS)]
+            fewer = [a for a in answers if "error" not in a and a["parts"] < len(ITEMS)]
             unsaid = [a for a in fewer if not a["codes"]]
             half = [a for a in unsaid if a["kind"] == "cut"]
-            strays = {p.name for p in own.iterdir()} - before
+            main = [a for a in answers if "main" in a]
+            # A child that was ended cannot tidy up its folder for temporary files; the guard's parent does.
+            strays = [p for p in set(own.rglob("*")) - before if spare not in p.parents]
             cells = (
                 name, len(answers) + len(lost), counted["read"], counted["refused"], ends["died"], ends["hung"],
-                len(fewer) - len(unsaid), len(unsaid), len(half), len(strays), f"{seconds:.0f}",
+                len(fewer) - len(unsaid), len(unsaid), len(half), len(main), len(strays), f"{peak:.0f}",
+                f"{max((a['s'] for a in answers), default=0.0):.1f}", f"{seconds:.0f}",
             )  # fmt: skip
             sys.stdout.write("| " + " | ".join(str(c) for c in cells) + " |\n")
             sys.stdout.flush()
-            for entry in (lost, half):
+            if options.notes:
+                options.notes.mkdir(parents=True, exist_ok=True)
+                notes = [*answers, *({"seed": seed, "lost": end} for seed, end in lost)]
+                text = "".join(json.dumps(note) + "\n" for note in notes)
+                (options.notes / f"{own.name}.jsonl").write_text(text, encoding="utf-8")
+            for entry in (lost, half, main, strays):
                 if entry:
                     sys.stderr.write(f"{name}: {entry[:8]}\n")
 
