@@ -67,12 +67,59 @@ def _all_solids() -> list[Any]:
 
 
 def iges(path: Path, meshes: Meshes) -> None:
+    """Inches; a figure a shape, coloured and placed by subfigures (one of them turned), in groups with names."""
+    from OCP.BRepToIGESBRep import BRepToIGESBRep_Entity
+    from OCP.collections import HArray1_IGESData_IGESEntity, HArray2_double
+    from OCP.gp import gp_XYZ
+    from OCP.IGESBasic import IGESBasic_Group, IGESBasic_Name, IGESBasic_SingularSubfigure, IGESBasic_SubfigureDef
     from OCP.IGESControl import IGESControl_Controller, IGESControl_Writer
+    from OCP.IGESGeom import IGESGeom_TransformationMatrix
+    from OCP.IGESGraph import IGESGraph_Color
+    from OCP.TCollection import TCollection_HAsciiString
 
     IGESControl_Controller.Init_s()
     writer = IGESControl_Writer("IN", 1)
-    for shape in _all_solids():
-        writer.AddShape(shape)
+    made = BRepToIGESBRep_Entity()
+    made.SetModel(writer.Model())
+
+    def entities(*members: Any) -> Any:
+        array = HArray1_IGESData_IGESEntity(1, len(members))
+        for number, member in enumerate(members, start=1):
+            array.SetValue(number, member)
+        return array
+
+    def named(entity: Any, name: str) -> Any:
+        title = IGESBasic_Name()
+        title.Init(1, TCollection_HAsciiString(name))
+        entity.AddProperty(title)
+        return entity
+
+    figures = {}
+    for item in ITEMS:
+        if item.shape not in figures:
+            color = IGESGraph_Color()
+            color.Init(*(100.0 * _srgb(v) for v in item.color), None)
+            solid = made.TransferShape(solids()[item.shape])
+            solid.InitColor(color)
+            figure = figures[item.shape] = IGESBasic_SubfigureDef()
+            figure.Init(0, TCollection_HAsciiString(item.name), entities(solid))
+
+    def placed(item: Item) -> Any:
+        entity, inch = IGESBasic_SingularSubfigure(), 0.0254
+        entity.Init(figures[item.shape], gp_XYZ(0.0, 0.0, 0.0), False, 1.0)
+        rows = HArray2_double(1, 3, 1, 4)
+        for i in range(3):
+            for j in range(4):
+                rows.SetValue(i + 1, j + 1, item.matrix[i, j] / (inch if j == 3 else 1.0))
+        matrix = IGESGeom_TransformationMatrix()
+        matrix.Init(rows)
+        entity.InitTransf(matrix)
+        return entity
+
+    front, loader = IGESBasic_Group(), IGESBasic_Group()
+    front.Init(entities(*(placed(item) for item in ITEMS[:3])))
+    loader.Init(entities(named(front, "FRONT"), placed(ITEMS[3])))
+    writer.AddEntity(named(loader, "LOADER"))
     writer.ComputeModel()
     writer.Write(str(path))
 

@@ -99,6 +99,49 @@ def add_product(document: Any, name: str, shape: Any, color: Color | None = None
         tool.SetColor(label, Quantity_Color(*color, Quantity_TOC_RGB), XCAFDoc_ColorSurf)
 
 
+@dataclass(eq=False)
+class Product:
+    """What becomes a product of a document: a `shape` (millimetres) with its colour and those of single faces; or an
+    assembly of other products at their places, one product at several places being several instances of it."""
+
+    name: str
+    shape: Any = None
+    children: Sequence[tuple[Product, Any]] = ()
+    color: Color | None = None
+    face_colors: Sequence[tuple[Any, Color]] = ()
+
+
+def add_products(document: Any, roots: Sequence[Product]) -> None:
+    """Adds products, and all that they hold, to a document."""
+    shapes = XCAFDoc_DocumentTool.ShapeTool_s(document.Main())
+    shapes.SetAutoNaming_s(False)
+    colors = XCAFDoc_DocumentTool.ColorTool_s(document.Main())
+    known: dict[int, Any] = {}
+
+    def added(product: Product) -> Any:
+        if id(product) in known:
+            return known[id(product)]
+        if product.shape is not None:
+            label = shapes.AddShape(product.shape, False)
+            for face, color in product.face_colors:
+                part = shapes.AddSubShape(label, face)
+                if not part.IsNull():
+                    colors.SetColor(part, Quantity_Color(*color, Quantity_TOC_RGB), XCAFDoc_ColorSurf)
+        else:
+            label = shapes.NewShape()
+            for child, place in product.children:
+                shapes.AddComponent(label, added(child), place)
+        TDataStd_Name.Set_s(label, TCollection_ExtendedString(product.name, True))
+        if product.color is not None:
+            colors.SetColor(label, Quantity_Color(*product.color, Quantity_TOC_RGB), XCAFDoc_ColorSurf)
+        known[id(product)] = label
+        return label
+
+    for root in roots:
+        added(root)
+    shapes.UpdateAssemblies()
+
+
 class Tree:
     """The product tree of an XCAF document."""
 
