@@ -5,10 +5,13 @@ from __future__ import annotations
 from dataclasses import asdict
 from typing import Any
 
+import numpy as np
 from rich.console import Console
 
+from yellowiron.model.alignment import Alignment, PartAssignment
+from yellowiron.model.finding import Finding
 from yellowiron.model.mechanism import Measurement
-from yellowiron.report import measurement_table, simulation_table
+from yellowiron.report import alignment_table, measurement_table, simulation_table
 
 
 def drawn(renderable: Any) -> str:
@@ -45,3 +48,27 @@ def test_joints_of_one_actuator_are_told_apart() -> None:
     assert "drive, left_joint" in shown and "drive, right_joint" in shown
     assert "lift_joint" not in shown
     assert "500 mm" in shown and "28.648 °" in shown  # a hinge driven without its cylinder moves by an angle
+
+
+def test_what_to_review_stands_with_its_reason_the_most_doubtful_first() -> None:
+    alignment = Alignment(
+        "excavator",
+        np.eye(4),
+        (
+            PartAssignment("plate", "boom", "boom", 0.4, "touches boom alone", runner_up="arm"),
+            PartAssignment("beam", "boom", "boom", 0.99, "3 of 3 joints"),
+            PartAssignment("stub", "arm_pin", "arm", 0.2, "nearest to arm"),
+        ),
+        missing=("bucket", "bucket_pin"),
+        to_review=("plate", "bucket", "bucket_pin", "arm_pin", "stub"),
+        findings=(
+            Finding("ALN001", "warning", "bucket", "No part plays bucket"),
+            Finding("ALN014", "warning", "model", "The model is in inches"),
+        ),
+    )
+    text = drawn(alignment_table(alignment))
+    review = text[text.index("To review") : text.index("No part plays")]
+    assert review.index("arm_pin") < review.index("plate")
+    assert "touches boom alone" in review and "bucket" not in review
+    assert text.count("bucket_pin") == 1, "a role that no part plays is told once"
+    assert "ALN014" in text and "ALN001" not in text

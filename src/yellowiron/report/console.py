@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import asdict
 from typing import Any
 
 from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from yellowiron.model.alignment import Alignment
+from yellowiron.model.alignment import Alignment, PartAssignment
 from yellowiron.model.mechanism import Measurement
 from yellowiron.model.text import display
 from yellowiron.report.document import within_tolerance
@@ -120,19 +121,41 @@ def finding_table(entries: Iterable[Mapping[str, Any]]) -> Table:
 
 
 def alignment_table(alignment: Alignment) -> RenderableType:
-    """Bodies with their parts counted, then what to review."""
+    """Bodies with their parts counted; then what to review, the most doubtful first, and why; the roles that no part
+    plays; the findings that say more."""
     table = _table("Body", "Parts", "Confidence", "Pins", right=("Parts", "Confidence"))
-    bodies = list(dict.fromkeys(a.body for a in alignment.parts))
-    for body in bodies:
+    for body in dict.fromkeys(a.body for a in alignment.parts):
         parts = [a for a in alignment.parts if a.body == body]
         roles = dict.fromkeys(a.role for a in parts if a.role not in (None, body))
         lowest = min(a.confidence for a in parts)
         table.add_row(body or "–", str(len(parts)), f"≥ {lowest:.2f}", ", ".join(str(r) for r in roles))
+    unplayed, told = set(alignment.missing), set(alignment.missing) | set(alignment.to_review)
     blocks: list[RenderableType] = [table]
-    for title, items in (("No part plays", alignment.missing), ("To review", alignment.to_review)):
-        if items:
-            blocks += ["", Text(title, "bold yellow"), *(Text(f"  • {item}") for item in items)]
+    doubtful = [item for item in alignment.to_review if item not in unplayed]
+    if doubtful:
+        blocks += ["", Text("To review", "bold yellow"), _review_table(alignment, doubtful)]
+    if alignment.missing:
+        blocks += ["", Text("No part plays", "bold yellow"), Text(", ".join(alignment.missing))]
+    findings = [asdict(f) for f in alignment.findings if f.severity != "info" and f.where not in told]
+    if findings:
+        blocks += ["", finding_table(findings)]
     return Group(*blocks)
+
+
+def _review_table(alignment: Alignment, doubtful: Sequence[str]) -> Table:
+    """Parts and roles that a person should look at: a role stands with the reason of its least certain part."""
+    table = _table("Part or role", "As", "Or", "Confidence", "Why", right=("Confidence",))
+    least: dict[str, PartAssignment] = {}
+    for one in sorted(alignment.parts, key=lambda a: -a.confidence):
+        least |= {item: one for item in (one.part, one.role, one.body) if item}
+    for item in sorted(doubtful, key=lambda item: (least[item].confidence if item in least else 0.0, item)):
+        worst = least.get(item)
+        if worst is None:
+            table.add_row(item, "", "", "", "")
+        else:
+            role = (worst.role or worst.body or "–") if item == worst.part else ""
+            table.add_row(item, role, worst.runner_up or "", f"{worst.confidence:.2f}", Text(worst.reason, "dim"))
+    return table
 
 
 def simulation_table(document: Mapping[str, Any]) -> RenderableType:
