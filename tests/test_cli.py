@@ -44,3 +44,12 @@ def test_align_explains_a_role(capsys: pytest.CaptureFixture[str], example: Path
     code, explained = _asked(capsys, "align", "wheel_loader", example / "wheel_loader.step", "--explain", "boom_pin")
     assert code == 0 and explained["explain"] == "boom_pin"
     assert "coaxial" in explained["reason"]
+
+
+@pytest.mark.slow
+def test_align_checks_the_scale_by_the_sheet(capsys: pytest.CaptureFixture[str], example: Path) -> None:
+    """A length that no pose explains is told."""
+    cad = example / "wheel_loader.step"
+    _, aligned = _asked(capsys, "align", "wheel_loader", cad, "--set", "Overall Length=23 m")
+    assert [f["severity"] for f in aligned["findings"] if f["code"] == "ALN014"] == ["warning"]
+    assert not aligned["missing"]

@@ -105,7 +105,6 @@ def build(
             specifications = specs.merge(read, specs.parse_settings(values, template))
 
         with clock.stage("align", "Finding the part that plays each role"):
-            assembly = align.to_scale(assembly, template, specifications)
             earlier = Path(alignment_file or out / "alignment.json")
             edited = earlier if alignment_file or earlier.exists() else None
             assembly, alignment = aligned(
@@ -178,14 +177,16 @@ def aligned(
     data: library.Documents | None = None,
     choices: Mapping[str, str] | None = None,
 ) -> tuple[Assembly, Alignment]:
-    """Roles for the parts of a CAD model, and the model whose parts they are: where roles are missing, its merged
-    meshes taken apart, if that finds most of them. `earlier` is an alignment file whose edits hold."""
+    """Roles for the parts of a CAD model, and the model whose parts they are: scaled where the sheet's overall length
+    asks for it; where roles are missing, its merged meshes taken apart, if that finds most of them. `earlier` is an
+    alignment file whose edits hold."""
 
     def found(model: Assembly) -> Alignment:
         edits = align.read_alignment(earlier, model, template) if earlier is not None else None
         edits = edits if data is None else library.with_relations(edits, data)
         return align.align(model, template, specifications, edits=edits, choices=choices)
 
+    assembly = align.to_scale(assembly, template, specifications)
     alignment = found(assembly)
     apart = cad.taken_apart(assembly) if alignment.missing else assembly
     if apart is not assembly:

@@ -6,7 +6,7 @@ import signal
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -171,13 +171,15 @@ def align_parts(
         Path | None, typer.Option("--out", help="The alignment file to write (edits in it are kept).")
     ] = None,
     explain: Annotated[str | None, typer.Option("--explain", help="Say why for one role or part.")] = None,
+    sheets: Sheets = None,
+    settings: Settings = None,
+    config: Config = "",
     as_json: Json = False,
 ) -> None:
-    """Find the part that plays each role."""
-    from yellowiron import align, library
+    """Find the part that plays each role; with a sheet, the model's scale is checked against it."""
+    from yellowiron import align, library, specs
     from yellowiron import cad as readers
     from yellowiron.build import aligned
-    from yellowiron.model.specification import Specifications
     from yellowiron.output import output_file
     from yellowiron.report import alignment_entry, alignment_table
 
@@ -185,12 +187,16 @@ def align_parts(
         template = library.load_template(equipment_type)
         progress("Reading the CAD model")
         assembly = readers.read_cad(cad)
+        values, choices = specs.split_settings(settings or (), template)
+        read = specs.extract(template, sheets or (), config=config, progress=progress)
+        specifications = specs.merge(read, specs.parse_settings(values, template))
         progress("Finding the part that plays each role")
         earlier = out if out is not None and out.exists() else None
-        assembly, alignment = aligned(assembly, template, Specifications(), earlier=earlier)
+        assembly, alignment = aligned(assembly, template, specifications, earlier=earlier, choices=choices)
         if out is not None:
             with output_file(out) as temporary:
                 align.write_alignment(alignment, assembly, temporary)
+    alignment = replace(alignment, findings=(*read.findings, *assembly.findings, *alignment.findings))
     if explain is not None:
         words = align.explain(alignment, explain)
         _show({"explain": explain, "reason": words}, Text(words), as_json)
