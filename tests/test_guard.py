@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from yellowiron.guard import run_guarded
+from yellowiron.guard import must_end, run_guarded
 from yellowiron.model.errors import CadError, SheetError
 
 
@@ -91,3 +91,18 @@ def test_the_child_ends_with_its_parent(tmp_path: Path) -> None:
     while any(Path(f"/proc/{child}").exists() for child in children) and time.monotonic() < deadline:
         time.sleep(0.05)
     assert children and not any(Path(f"/proc/{child}").exists() for child in children)
+
+
+def test_what_goes_round_in_a_circle_is_ended() -> None:
+    code = "from yellowiron.guard import must_end\nwith must_end(0.5):\n    while True: pass"
+    start = time.monotonic()
+    with pytest.raises(CadError, match="came to no end"):
+        run_guarded("builtins:exec", code, where="bad.brep", error=CadError, timeout_s=60.0)
+    assert time.monotonic() - start < 30.0
+
+
+def test_what_ends_in_time_may_go_on() -> None:
+    before = resource.getrlimit(resource.RLIMIT_CPU)
+    with must_end(3600.0):
+        assert resource.getrlimit(resource.RLIMIT_CPU) != before
+    assert resource.getrlimit(resource.RLIMIT_CPU) == before

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import contextlib
 import importlib
+import math
 import os
 import pickle
 import resource
@@ -14,7 +15,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import IO, Any, cast
 
@@ -133,7 +134,22 @@ def beat(words: str = "") -> None:
         os.write(_life, f"{words}\n".encode())
 
 
+@contextlib.contextmanager
+def must_end(seconds: float) -> Iterator[None]:
+    """Ends the process, a guarded child, where what is inside takes more than so many seconds of the processor: for
+    readers that go round in a circle on some damage, and whose time is known from the file's size."""
+    before = resource.getrlimit(resource.RLIMIT_CPU)
+    latest = math.ceil(time.process_time() + seconds)
+    resource.setrlimit(resource.RLIMIT_CPU, (latest, before[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_CPU, before)
+
+
 def _obituary(who: str, returncode: int, noise: bytes) -> str:
+    if returncode == -signal.SIGXCPU:
+        return f"{who} came to no end"
     if returncode < 0:
         name = signal.Signals(-returncode).name if -returncode in signal.valid_signals() else str(-returncode)
         return f"{who} crashed ({name})"

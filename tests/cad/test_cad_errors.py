@@ -191,3 +191,25 @@ def test_diagnosis(good: bytes) -> None:
     assert "twice" in part21.diagnose(good.replace(b"ENDSEC;\nEND-ISO", b"#11 = PLANE('',#12);\nENDSEC;\nEND-ISO"))
     assert "not numbers" in part21.diagnose(good.replace(b"(0.,", b"(NaN,"))
     assert "1.E300" in part21.diagnose(good.replace(b"(0.,", b"(1.E300,"))
+
+
+def test_a_shape_that_is_cut_short_is_not_read_for_ever(tmp_path: Path) -> None:
+    from OCP.BRepTools import BRepTools
+
+    path = tmp_path / "block.brep"
+    BRepTools.Write_s(box(10, 20, 30), str(path))
+    text = path.read_text()
+    path.write_text(text[: text.rindex("*") - 8])
+    # What becomes of it hangs on what is in memory; never does it take the whole time that a reader has.
+    assert "more than" not in fail(path).message
+
+
+def test_warnings_leave_no_file_behind(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    geom = '<geom type="box" size="1 1 1" user="nan"/>'
+    Path("box.xml").write_text(f"<mujoco><worldbody><body>{geom}</body></worldbody></mujoco>")
+    try:
+        read_cad("box.xml")
+    except CadError as error:
+        assert error.hint
+    assert [p.name for p in tmp_path.iterdir()] == ["box.xml"]

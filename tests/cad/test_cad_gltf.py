@@ -245,3 +245,19 @@ def test_flipped_bytes(seed: int, tmp_path: Path) -> None:
     else:
         for part in assembly.parts:
             assert np.isfinite(assembly.points_of(part)).all()
+
+
+def test_meshes_outside_the_scene_are_told(write: Callable[..., Path]) -> None:
+    content, blob = document()
+    content["nodes"][0]["children"].remove(4)
+    assembly = read_cad(write(content, blob))
+    assert len(assembly.parts) == 3
+    assert [f.code for f in assembly.findings if f.severity == "warning"] == ["CAD001"]
+
+
+def test_a_mesh_that_lost_its_triangles_is_told(write: Callable[..., Path]) -> None:
+    content, blob = document()
+    content["meshes"][2]["primitivgs"] = content["meshes"][2].pop("primitives")
+    assembly = read_cad(write(content, blob))
+    assert len(assembly.parts) == 3
+    assert "declares 4" in next(f.message for f in assembly.findings if f.code == "CAD001")

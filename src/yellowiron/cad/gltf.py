@@ -73,6 +73,11 @@ def read_gltf(path: str) -> Assembly:
     if _textured(document):
         words = "Textures are not read: parts have the colour that is under them"
         findings.append(Finding("CAD012", "info", path, words))
+    loose = sum("mesh" in entry for entry in _list(document, "nodes")) - len(nodes)
+    if loose:
+        words = f"{loose} nodes with meshes are not in the scene that is shown, and were left out"
+        hint = "Put them into the scene, or export it again, if they are parts of the machine."
+        findings.append(Finding("CAD001", "warning", path, words, hint))
     scene = _list(document, "scenes")[document.get("scene", 0)] if _list(document, "scenes") else {}
     name = str(scene.get("name") or "")
     return placed.assemble(
@@ -256,8 +261,9 @@ def _meshes(
 
 
 def _has_triangles(document: dict[str, Any], mesh: int) -> bool:
+    """Whether a mesh should have triangles: it says so, or has lost what it has to have."""
     primitives = _list(_list(document, "meshes")[mesh], "primitives")
-    return any(p.get("mode", 4) in _TRIANGLES for p in primitives)
+    return not primitives or any(p.get("mode", 4) in _TRIANGLES for p in primitives)
 
 
 def _fault(document: dict[str, Any], buffers: Sequence[bytes], primitive: Mapping[str, Any]) -> str:

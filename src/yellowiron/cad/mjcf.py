@@ -31,6 +31,8 @@ def read_mjcf(path: str) -> Assembly:
     MuJoCo's word if it does not."""
     import mujoco
 
+    # Else a warning is written to a file in the working folder; what it is about is found here or refused.
+    mujoco.set_mju_user_warning(lambda message: None)
     try:
         spec = mujoco.MjSpec.from_file(path)
         # Nothing may be left out or made one because it does not collide or move.

@@ -25,6 +25,7 @@ from OCP.TopoDS import TopoDS_Shape
 from yellowiron.cad import products
 from yellowiron.cad.naming import decode_name
 from yellowiron.cad.xcaf import Tree, add_product, new_document
+from yellowiron.guard import must_end
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import CadError
 from yellowiron.model.finding import Finding
@@ -36,6 +37,8 @@ _LINKS = ("App::Link", "App::LinkElement")
 _LARGEST = 1024**3
 """Bytes of one file of an archive when unpacked."""
 _DEEPEST = 50
+_PATIENCE, _SLOWEST = 2.0, 1e6
+"""Seconds, and bytes a second: a fiftieth of what is usual."""
 
 
 def read_brep(path: str) -> Assembly:
@@ -50,10 +53,13 @@ def read_brep(path: str) -> Assembly:
 def _shape(file: str, path: str) -> Any:
     """The shape in a text or binary file of Open CASCADE."""
     shape = TopoDS_Shape()
-    if Path(file).read_bytes()[:64].lstrip(b"\n").startswith(b"Open CASCADE Topology V"):
-        read = BinTools.Read_s(shape, file)
-    else:
-        read = BRepTools.Read_s(shape, file, BRep_Builder())
+    data = Path(file).read_bytes()
+    # A text that is cut short, or has letters where a number should be, is read on for ever.
+    with must_end(_PATIENCE + len(data) / _SLOWEST):
+        if data[:64].lstrip(b"\n").startswith(b"Open CASCADE Topology V"):
+            read = BinTools.Read_s(shape, file)
+        else:
+            read = BRepTools.Read_s(shape, file, BRep_Builder())
     if not read or shape.IsNull():
         raise CadError("The shape cannot be read: it is damaged or cut short", where=path, hint=_DAMAGED)
     return shape
