@@ -13,6 +13,12 @@ from yellowiron.model.geometry import CylinderFeature, Mesh, PlaneFeature, Shape
 
 Array = NDArray[np.float64]
 SEGMENTS = 32
+HOLLOW = True
+"""False: nothing has a hole, and the round ends of plates are features, as in models that are drawn to be looked at."""
+CORNERS = 24
+"""Corners of a circle in an outline."""
+RINGS = ("tyre", "rim")
+"""These stay hollow in any model."""
 
 
 def _shape(name: str, mesh: trimesh.Trimesh, cylinders: list[CylinderFeature], planes: list[PlaneFeature]) -> Shape:
@@ -34,7 +40,7 @@ def _shape(name: str, mesh: trimesh.Trimesh, cylinders: list[CylinderFeature], p
 
 def plate(name: str, outline: Array, thickness: float, holes: list[tuple[float, float, float]] | None = None) -> Shape:
     """A convex `outline` (n, 2) in x, y, extruded from z = −t/2 to t/2, with round through holes (x, y, radius)."""
-    holes = holes or []
+    holes = (holes or []) if HOLLOW else []
     hull = outline[ConvexHull(outline).vertices]
     turn = np.linspace(0.0, 2 * math.pi, SEGMENTS, endpoint=False)
     rim = []
@@ -87,12 +93,38 @@ def plate(name: str, outline: Array, thickness: float, holes: list[tuple[float, 
         )
         for x, y, r in holes
     ]
+    if not HOLLOW:
+        cylinders += [
+            CylinderFeature((x, y, 0.0), (0.0, 0.0, 1.0), r, -half, half, arc, False, True, arc * r * thickness)
+            for x, y, r, arc in _ends(hull)
+        ]
     return _shape(name, mesh, cylinders, planes)
+
+
+def _ends(hull: Array) -> list[tuple[float, float, float, float]]:
+    """The arcs of a convex outline (n, 2) whose corners `around` has drawn: x, y, radius, radians."""
+    edges = np.roll(hull, -1, axis=0) - hull
+    length = np.hypot(*edges.T)
+    ahead = np.roll(edges, -1, axis=0)
+    turn = np.arctan2(edges[:, 0] * ahead[:, 1] - edges[:, 1] * ahead[:, 0], (edges * ahead).sum(axis=1))
+    step = 2 * math.pi / CORNERS
+    # Edge k and the one after it are of one circle.
+    same = (np.abs(turn - step) < 1e-6) & (np.abs(np.roll(length, -1) / length - 1) < 1e-6)
+    found = []
+    for k in np.flatnonzero(same & ~np.roll(same, 1)).tolist():
+        count = 1
+        while same[(k + count) % len(hull)] and count < len(hull):
+            count += 1
+        radius = float(length[k] / (2 * math.sin(step / 2)))
+        inward = np.array([-edges[k, 1], edges[k, 0]]) / length[k]
+        centre = hull[k] + edges[k] / 2 + inward * radius * math.cos(step / 2)
+        found.append((float(centre[0]), float(centre[1]), radius, (count + 1) * step))
+    return found
 
 
 def lathe(name: str, profile: list[tuple[float, float]]) -> Shape:
     """A closed `profile` of (radius, z), counter-clockwise with r to the right and z up, turned about z."""
-    rows = [np.array(p, dtype=np.float64) for p in profile]
+    rows = [np.array(p, dtype=np.float64) for p in (profile if HOLLOW or name in RINGS else _filled(profile))]
     turn = np.linspace(0.0, 2 * math.pi, SEGMENTS, endpoint=False)
     ring = np.stack([np.cos(turn), np.sin(turn)], axis=1)
     points = np.concatenate([np.c_[r * ring, np.full(SEGMENTS, z)] for r, z in rows])
@@ -123,6 +155,14 @@ def lathe(name: str, profile: list[tuple[float, float]]) -> Shape:
     return _shape(name, mesh, cylinders, planes)
 
 
+def _filled(profile: list[tuple[float, float]]) -> list[tuple[float, float]]:
+    """The profile without its inner side: its surfaces that face outward, and what closes them on the axis."""
+    pairs = zip(profile, [*profile[1:], profile[0]], strict=True)
+    outer = [p for a, b in pairs if b[1] > a[1] for p in (a, b) if max(a[0], b[0]) > 0.0]
+    outer = [p for k, p in enumerate(outer) if k == 0 or p != outer[k - 1]]
+    return [(0.0, outer[0][1]), *outer, (0.0, outer[-1][1])]
+
+
 def tube(name: str, outer: float, inner: float, length: float) -> Shape:
     """A tube (or with inner 0 a bar) along z from 0 to `length`."""
     return lathe(name, [(inner, 0.0), (outer, 0.0), (outer, length), (inner, length)])
@@ -143,7 +183,7 @@ def box(name: str, x: float, y: float, z: float, holes: list[tuple[float, float,
 
 def around(*circles: tuple[float, float, float]) -> Array:
     """The outline around circles (x, y, radius): points to take the convex hull of; radius 0: a corner."""
-    turn = np.linspace(0.0, 2 * math.pi, 24, endpoint=False)
+    turn = np.linspace(0.0, 2 * math.pi, CORNERS, endpoint=False)
     return np.concatenate(
         [
             np.array([[x, y]]) if r == 0 else np.array([x, y]) + r * np.stack([np.cos(turn), np.sin(turn)], axis=1)

@@ -22,18 +22,20 @@ from yellowiron.model.geometry import Mesh
 Defect = Callable[[Machine, np.random.Generator], Machine]
 
 
-def drawn(kind: str, seed: int, *, segments: int = 32) -> Machine:
-    """The machine of a kind and seed, everything about it from the seed; round things of `segments` corners."""
+def drawn(kind: str, seed: int, *, segments: int = 32, hollow: bool = True) -> Machine:
+    """The machine of a kind and seed, everything about it from the seed; round things of `segments` corners, and
+    without holes unless `hollow`."""
     rng = np.random.default_rng([seed, 23])
     embedded, stop, hoses = bool(rng.random() < 0.5), bool(rng.random() < 0.15), int(rng.choice([0, 0, 4, 8]))
     links = int(rng.choice([1, 1, 2]))
-    kept, align_solids.SEGMENTS = align_solids.SEGMENTS, segments
+    kept = align_solids.SEGMENTS, align_solids.HOLLOW
+    align_solids.SEGMENTS, align_solids.HOLLOW = segments, hollow
     try:
         if kind == "loader":
             return loader(seed, embedded=embedded, stop=stop, hoses=hoses, links=links)
         return excavator(seed, embedded=embedded)
     finally:
-        align_solids.SEGMENTS = kept
+        align_solids.SEGMENTS, align_solids.HOLLOW = kept
 
 
 def _with(machine: Machine, parts: list[Part]) -> Machine:
@@ -141,12 +143,13 @@ DEFECTS: dict[str, Defect] = {
     "merged": merged_bodies,
     "8 segments": sound,
     "missing cylinder": missing_cylinder,
+    "visual": no_pins,
 }
 
 
 def spoiled(kind: str, seed: int, defect: str, *, triangles: bool = False) -> Machine:
     """A machine with one defect, its features exact or (`triangles`) found on its triangles."""
-    machine = drawn(kind, seed, segments=8 if defect == "8 segments" else 32)
+    machine = drawn(kind, seed, segments=8 if defect == "8 segments" else 32, hollow=defect != "visual")
     machine = DEFECTS[defect](machine, np.random.default_rng([seed, 31]))
     if triangles:
         used = {p.shape for p in machine.parts}

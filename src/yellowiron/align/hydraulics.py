@@ -33,7 +33,9 @@ class Ram:
 
 
 @dataclass(frozen=True, eq=False)
-class _Pair:
+class Pair:
+    """A part with a bore (or a bar, where none is drawn) and one with a bar that comes out of its end."""
+
     tube: Solid
     bore: Cyl
     bar: Solid
@@ -65,18 +67,18 @@ def rams_of(solids: tuple[Solid, ...], tolerance: float) -> list[Ram]:
         if pair.tube.index in used or pair.bar.index in used:
             continue
         twins = [p for p in pairs if p.tube is pair.tube and p.bar is pair.bar and _alike(p, pair)]
-        grown = [_grown(p, solids, used, tolerance) for p in twins]
-        rod = frozenset().union(*(r.rod for r in grown))
+        halves = [grown(p, solids, used, tolerance) for p in twins]
+        rod = frozenset().union(*(r.rod for r in halves))
         ram = replace(
-            grown[0], barrel=frozenset().union(*(r.barrel for r in grown)) - rod, rod=rod,
-            origin=np.asarray(np.mean([r.origin for r in grown], axis=0)), count=len(grown),
+            halves[0], barrel=frozenset().union(*(r.barrel for r in halves)) - rod, rod=rod,
+            origin=np.asarray(np.mean([r.origin for r in halves], axis=0)), count=len(halves),
         )  # fmt: skip
         used |= ram.barrel | ram.rod
         rams.append(ram)
     return rams
 
 
-def _alike(one: _Pair, other: _Pair) -> bool:
+def _alike(one: Pair, other: Pair) -> bool:
     """True for a cylinder and itself, or its twin beside it: as wide, as far out, and parallel."""
     same = abs(one.bore.radius - other.bore.radius) < TWIN * other.bore.radius
     same = same and abs(one.shaft.radius - other.shaft.radius) < TWIN * other.shaft.radius
@@ -87,7 +89,7 @@ def _alike(one: _Pair, other: _Pair) -> bool:
     return one is other or (same and apart and as_far and one.shaft is not other.shaft)
 
 
-def _pair(tube: Solid, bore: Cyl, bar: Solid, shaft: Cyl, eyes: list[Cyl], tolerance: float) -> _Pair | None:
+def _pair(tube: Solid, bore: Cyl, bar: Solid, shaft: Cyl, eyes: list[Cyl], tolerance: float) -> Pair | None:
     if tube.index == bar.index or not 0.25 * bore.radius < shaft.radius < 0.95 * bore.radius:
         return None
     if not coaxial(bore, shaft, 0.03, tolerance):
@@ -109,7 +111,7 @@ def _pair(tube: Solid, bore: Cyl, bar: Solid, shaft: Cyl, eyes: list[Cyl], toler
     ahead = any(max(bore.half, b - reach) < p < far + reach for p in places)
     if not (behind and ahead):
         return None
-    return _Pair(tube, bore, bar, shaft, direction, inside * bore.radius + 1e-3 * (high - low))
+    return Pair(tube, bore, bar, shaft, direction, inside * bore.radius + 1e-3 * (high - low))
 
 
 def crossing(eye: Cyl, origin: Floats, direction: Floats, radius: float) -> float | None:
@@ -122,7 +124,7 @@ def crossing(eye: Cyl, origin: Floats, direction: Floats, radius: float) -> floa
     return float(delta @ direction) if skew < 0.5 * radius and abs(float(delta @ eye.direction)) < 12 * radius else None
 
 
-def _grown(pair: _Pair, solids: tuple[Solid, ...], used: set[int], tolerance: float) -> Ram:
+def grown(pair: Pair, solids: tuple[Solid, ...], used: set[int], tolerance: float) -> Ram:
     """The parts turned about the cylinder's axis, each to the barrel or to the rod."""
     origin, d, r = pair.bore.center, pair.direction, pair.bore.radius
     mouth, bottom = pair.bore.half, -pair.bore.half

@@ -16,7 +16,7 @@ from yellowiron.align.seen import CONTACT
 from yellowiron.align.solids import solids_of
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.finding import Finding
-from yellowiron.model.geometry import CylinderFeature, Mesh, PlaneFeature, Shape
+from yellowiron.model.geometry import CylinderFeature, PlaneFeature, Shape
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import Template
 
@@ -123,7 +123,7 @@ def _larger(shape: Shape, factor: float, key: str) -> Shape:
     return replace(
         shape,
         key=key,
-        mesh=Mesh(mesh.points * factor, mesh.triangles, mesh.normals, mesh.triangle_colors),
+        mesh=replace(mesh, points=mesh.points * factor),
         volume=shape.volume * factor**3,
         area=shape.area * factor**2,
         centroid=shape.centroid * factor,

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from yellowiron.align.contacts import Fit, Flat, bare_fits_of, fits_of, flats_of, lines_of, neighbours
+from yellowiron.align.ends import bored, ended_fits_of
 from yellowiron.align.evidence import Evidence, evidence_of, tables_of
 from yellowiron.align.hydraulics import Ram, rams_of
 from yellowiron.align.nests import Nest, nests_of
@@ -56,6 +57,8 @@ def see(assembly: Assembly, template: Template, contact: float) -> Seen:
     fits = fits_of(solids, tolerance)
     fits += interrupted_fits_of(solids, fits, tolerance)
     fits += pierced_fits_of(solids, fits, rams, touch, size)
+    if not bored(solids, template, size):
+        fits += ended_fits_of(solids, fits, rams, touch, size)
     bare = bare_fits_of(solids, fits, tolerance)
     near = neighbours(solids, tolerance)
     flats = flats_of(solids, near, tolerance)

@@ -265,7 +265,8 @@ def _looseness(pair: tuple[int, int], solids: Sequence[Solid], shoes: list[list[
 
 # ---- wheels ----
 def _wheels(row: list[int], axis: Floats, solids: Sequence[Solid], taken: set[int]) -> list[TrackWheel]:
-    """The round hollow things inside a loop that turn about lines across it, those on one line together."""
+    """The round hollow things inside a loop that turn about lines across it, those on one line together; where nothing
+    there is hollow, as in models drawn to be looked at, the widest solid one on each line."""
     centers = np.array([_middle(solids[i]) for i in row])
     middle = centers.mean(axis=0)
     plane = np.linalg.svd(axis[None, :])[2][1:]
@@ -274,7 +275,7 @@ def _wheels(row: list[int], axis: Floats, solids: Sequence[Solid], taken: set[in
     pitch = float(np.median(np.linalg.norm(np.roll(loop, -1, axis=0) - loop, axis=1)))
     rings: list[tuple[Floats, list[int]]] = []
     for s in solids:
-        if s.index in taken or s.axis is None or s.hole == 0.0 or abs(float(s.axis.direction @ axis)) < PARALLEL:
+        if s.index in taken or s.axis is None or abs(float(s.axis.direction @ axis)) < PARALLEL:
             continue
         place = plane @ (s.axis.center - middle)
         low, high = s.span(middle, axis)
@@ -287,6 +288,11 @@ def _wheels(row: list[int], axis: Floats, solids: Sequence[Solid], taken: set[in
                 break
         else:
             rings.append((place, [s.index]))
+    hollow = [(place, [i for i in members if solids[i].hole > 0.0]) for place, members in rings]
+    if any(members for _, members in hollow):
+        rings = [(place, members) for place, members in hollow if members]
+    else:
+        rings = [(place, [max(members, key=lambda i: (round(solids[i].reach, 5), -i))]) for place, members in rings]
     wheels = []
     for place, members in rings:
         main = max(members, key=lambda i: (round(solids[i].reach, 5), -i))

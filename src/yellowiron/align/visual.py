@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from yellowiron.align.contacts import PARALLEL, Fit
-from yellowiron.align.hydraulics import Ram, crossing
+from yellowiron.align.hydraulics import Pair, Ram, crossing, grown
 from yellowiron.align.solids import Cyl, Solid, coaxial
 from yellowiron.align.touch import Touch
 from yellowiron.model.geometry import Floats
@@ -256,12 +256,15 @@ def solid_rams_of(solids: tuple[Solid, ...], rams: list[Ram], tolerance: float) 
             and abs(t.radius - thick.radius) < TWIN * thick.radius
             and abs(b.radius - thin.radius) < TWIN * thin.radius
         ]
-        origin = np.mean([t.center for t, _ in twins], axis=0)
         direction = thick.direction if float((thin.center - thick.center) @ thick.direction) > 0 else -thick.direction
+        halves = [grown(Pair(tube, t, bar, b, direction, 0.0), solids, taken, tolerance) for t, b in twins]
+        rod = frozenset().union(*(h.rod for h in halves))
+        barrel = frozenset().union(*(h.barrel for h in halves)) - rod
+        taken |= barrel | rod
+        origin = np.mean([t.center for t, _ in twins], axis=0)
         found.append(
             Ram(
-                frozenset({tube.index}), frozenset({bar.index}), np.asarray(origin), direction, thick.radius,
-                thin.radius, hollow=False, count=len(twins),
+                barrel, rod, np.asarray(origin), direction, thick.radius, thin.radius, hollow=False, count=len(twins)
             )
         )  # fmt: skip
     return found

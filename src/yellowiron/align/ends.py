@@ -1,0 +1,108 @@
+"""Pivots of which neither pin nor bores are drawn: a round end of a part, and what lies right beside it on its axis.
+
+Whoever draws a link rounds its ends about the pins. In a model without holes that is what is left of a pivot.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+import numpy as np
+
+from yellowiron.align.contacts import PARALLEL, Fit
+from yellowiron.align.hydraulics import Ram
+from yellowiron.align.solids import Cyl, Solid, coaxial
+from yellowiron.align.touch import Touch
+from yellowiron.model.template import Template
+
+ARC = 1.5
+"""Radians that an end is round at least."""
+LEAST, MOST = 0.002, 0.025
+"""An end's radius in machine sizes."""
+LONG = 6.0
+"""A hole longer than this many radii is a barrel's."""
+BESIDE = 0.25
+"""What is beside an end is at most this share of its radius away …"""
+CORE = 0.3
+"""… and there within this share of it from its axis."""
+PIN = 0.5
+"""A pin has about this share of the radius of the end around it."""
+
+
+def bored(solids: tuple[Solid, ...], template: Template, size: float) -> bool:
+    """Whether a model's pivots are drawn with holes: as many stout ones as the template has hinges, or more."""
+    hinges = sum(1 for j in template.joints if j.type == "revolute")
+    holes = sum(
+        c.inner and c.full and LEAST * size < c.radius < MOST * size and 2 * c.half < LONG * c.radius
+        for s in solids
+        for c in s.cylinders
+    )
+    return holes >= hinges
+
+
+def ended_fits_of(
+    solids: tuple[Solid, ...], fits: Iterable[Fit], rams: Iterable[Ram], touch: Touch, size: float
+) -> list[Fit]:
+    """A fit for every part right beside a round end of another, for pairs of parts without one. `inner` is the part
+    with the end; the shaft is the pin that is not drawn."""
+    rams = list(rams)
+    joined = {frozenset((f.inner, f.outer)) for f in fits}
+    of_ram = {i: ram for ram in rams for i in ram.barrel | ram.rod}
+    found: dict[tuple[int, int], Fit] = {}
+    for solid in solids:
+        if solid.axis is not None or (solid.shaft is not None and solid.index not in of_ram):
+            continue
+        for end in (*solid.cylinders, *solid.knuckles):
+            if end.inner or end.arc < ARC or not LEAST * size < end.radius < MOST * size:
+                continue
+            ram = of_ram.get(solid.index)
+            if ram is not None and abs(float(end.direction @ ram.direction)) > PARALLEL:
+                continue
+            for side in (1.0, -1.0):
+                for other, bore in _beside(solid, end, side, solids, touch):
+                    pair = (solid.index, other)
+                    if frozenset(pair) in joined:
+                        continue
+                    pin = replace(end, radius=PIN * end.radius)
+                    if pair not in found or end.radius * end.arc > found[pair].overlap:
+                        found[pair] = Fit(solid.index, other, pin, bore, end.radius * end.arc, 0.0)
+    return _chained([found[pair] for pair in sorted(found)], joined)
+
+
+def _chained(fits: list[Fit], joined: set[frozenset[int]]) -> list[Fit]:
+    """The fits, and one for every two parts that are beside a third on one axis: its pin goes through them all."""
+    joined = joined | {frozenset((f.inner, f.outer)) for f in fits}
+    by_part: dict[int, list[Fit]] = {}
+    for fit in fits:
+        by_part.setdefault(fit.inner, []).append(fit)
+        by_part.setdefault(fit.outer, []).append(fit)
+    more = []
+    for part in sorted(by_part):
+        for k, one in enumerate(by_part[part]):
+            for other in by_part[part][k + 1 :]:
+                a, b = (f.inner + f.outer - part for f in (one, other))
+                if frozenset((a, b)) not in joined and a != b and coaxial(one.shaft, other.shaft, 0.1):
+                    joined.add(frozenset((a, b)))
+                    more.append(Fit(a, b, one.shaft, other.bore, one.overlap, 0.0))
+    return fits + more
+
+
+def _beside(solid: Solid, end: Cyl, side: float, solids: tuple[Solid, ...], touch: Touch) -> list[tuple[int, Cyl]]:
+    """The parts that have material on an end's axis right beyond one of its faces, and where: those that are turned
+    about it themselves (hubs, spacers) belong to a neighbour and are none."""
+    gap = BESIDE * end.radius
+    center = end.center + side * (end.half + 0.4 * gap) * end.direction
+    probe = replace(end, center=center, half=0.6 * gap)
+    reach = probe.half * np.abs(probe.direction) + CORE * end.radius
+    found = []
+    for k in touch.reaching(center - reach, center + reach):
+        other = solids[k]
+        if k == solid.index or (other.line is not None and coaxial(other.line, end, 0.1)):
+            continue
+        low, high = other.span(end.center, side * end.direction)
+        if high < end.half + 0.5 * gap or low < -end.half:
+            continue  # it ends here, or runs through
+        if touch.pierced(k, probe, CORE * end.radius):
+            found.append((k, replace(probe, radius=PIN * end.radius, inner=True, arc=2 * np.pi)))
+    return found
