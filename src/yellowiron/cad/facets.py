@@ -13,9 +13,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from yellowiron.cad.ovals import knuckles, ovals
-from yellowiron.cad.roundness import ROUGH, Round, fit, grown, least, trimmed, widths
-from yellowiron.cad.soup import Flags, Indices, Soup, soup_of
-from yellowiron.cad.strips import by_folds, by_normals, flat_facets
+from yellowiron.cad.roundness import ROUGH, Round, fit, grown, least, median, trimmed, widths
+from yellowiron.cad.soup import Flags, Indices, Soup, flat_facets, soup_of
+from yellowiron.cad.strips import by_folds, by_normals
 from yellowiron.model.geometry import CylinderFeature, Floats, Mesh, PlaneFeature
 
 ENOUGH = ((5, 1.4), (4, 2.2))
@@ -53,12 +53,13 @@ class Found:
     knuckles: tuple[CylinderFeature, ...] = ()
 
 
-def find(mesh: Mesh) -> Found:
+def find(mesh: Mesh, number: Indices | None = None) -> Found:
     """The cylinders and planes of a mesh, metres, in its frame; cylinders in the order of their first triangles, planes
-    by area. `mesh` has no triangle without an area, and outward is where its triangles face."""
+    by area. `mesh` has no triangle without an area, and outward is where its triangles face; `number` says which of its
+    points are one (`meshed.welded`), where that is known."""
     if len(mesh.triangles) < 4:
         return Found((), ())
-    soup = soup_of(mesh)
+    soup = soup_of(mesh, number)
     free = np.ones(len(soup.corners), dtype=bool)
     rounds: list[Round] = []
     refused = np.zeros(len(soup.corners), dtype=np.int64)
@@ -67,7 +68,7 @@ def find(mesh: Mesh) -> Found:
     for guesses in (by_folds(soup), by_normals(soup, free)):
         for guess, seeds in guesses:
             seeds = seeds[free[seeds]]
-            if len(seeds) < 4 or guess.radius < _TINY * soup.size or float(np.median(refused[seeds])) >= _TRIES:
+            if len(seeds) < 4 or guess.radius < _TINY * soup.size or median(refused[seeds]) >= _TRIES:
                 continue
             cylinder = grown(soup, guess, seeds, free)
             if cylinder is not None and not _is_round(soup, cylinder):
@@ -103,12 +104,12 @@ def _is_round(soup: Soup, cylinder: Round) -> bool:
     count, arc = _strips(soup, cylinder)
     if not any(count >= least and arc >= around for least, around in ENOUGH):
         return False
-    corners = soup.points[np.unique(soup.corners[triangles])]
+    corners = soup.corners_of(triangles)
     off = cylinder.distances(corners) - cylinder.radius
     if float(np.sqrt(np.mean(off**2))) > 0.5 * cylinder.slack:
         return False
     length = float(np.ptp(cylinder.along(corners)))
-    width = float(np.median(widths(soup, cylinder, triangles))) * cylinder.radius
+    width = median(widths(soup, cylinder, triangles)) * cylinder.radius
     ends = _smooth_ends(soup, cylinder)
     if ends and length < _BAND * width:
         return False
@@ -146,7 +147,7 @@ def _is_oval(soup: Soup, cylinder: Round, corners: Floats, off: Floats) -> bool:
 def _strips(soup: Soup, cylinder: Round) -> tuple[int, float]:
     """How many strips a patch has (directions in which its triangles face), and how far around it goes, radians."""
     rows = cylinder.triangles
-    u, v = cylinder.frame()
+    u, v = cylinder.frame
     facing = np.sort(np.arctan2(soup.normals[rows] @ v, soup.normals[rows] @ u))
     gaps = np.append(np.diff(facing), facing[0] + _TURN - facing[-1])
     return int((gaps > math.radians(1.0)).sum()), _arc(soup, cylinder)
@@ -207,7 +208,7 @@ def _united(soup: Soup, rounds: list[Round]) -> list[Round]:
         rows = np.unique(np.concatenate([r.triangles for r in group]))
         for run in _runs(soup, group[0], rows):
             start = replace(group[0], triangles=run)
-            better = fit(start, soup.points[np.unique(soup.corners[run])]) if len(group) > 1 else None
+            better = fit(start, soup.corners_of(run)) if len(group) > 1 else None
             result.append(better or start)
     return result
 

@@ -9,9 +9,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
+from yellowiron.cad.linked import linked
 from yellowiron.cad.roundness import ROUGH, WIDEST, Round, across
 from yellowiron.cad.soup import Flags, Indices, Soup
 from yellowiron.cad.strips import beside
@@ -56,9 +55,7 @@ def ovals(soup: Soup, free: Flags) -> Iterator[Oval]:
     a, b = pairs[:, 0], pairs[:, 1]
     alike = np.abs(np.einsum("ij,ij->i", direction[a], direction[b])) > _IN_LINE
     alike &= soup.concave[chosen[a]] == soup.concave[chosen[b]]
-    count = len(chosen)
-    graph = coo_array((np.ones(int(alike.sum()), dtype=np.int8), (a[alike], b[alike])), shape=(count, count))
-    label = connected_components(graph, directed=False)[1]
+    label = linked(pairs[alike], len(chosen))
     members = np.bincount(label)
     for k in sorted(np.flatnonzero(members >= _FEWEST).tolist(), key=lambda k: (-members[k], k)):
         rows = chosen[label == k]
@@ -128,11 +125,8 @@ def knuckles(soup: Soup, free: Flags) -> Iterator[Oval]:
     """The rounded bosses among the pieces of connected triangles of which none is known to be round, in their order:
     the circle that is nearest to the folds along a piece's main direction."""
     bent = (soup.angle > _SLIGHTEST) & (soup.angle < WIDEST) & ~soup.concave & free[soup.pair].all(axis=1)
-    count = len(soup.points)
-    rows = np.concatenate([soup.corners[:, 0], soup.corners[:, 0]])
-    columns = np.concatenate([soup.corners[:, 1], soup.corners[:, 2]])
-    graph = coo_array((np.ones(len(rows), dtype=np.int8), (rows, columns)), shape=(count, count))
-    piece = connected_components(graph, directed=False)[1][soup.corners[:, 0]]
+    sides = np.concatenate([soup.corners[:, [0, 1]], soup.corners[:, [0, 2]]])
+    piece = linked(sides, len(soup.points))[soup.corners[:, 0]]
     known = set(piece[~free].tolist())
     folds = np.flatnonzero(bent)
     label = piece[soup.pair[folds, 0]]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from dataclasses import dataclass, replace
 
@@ -59,13 +60,14 @@ class Round:
         """How far from it a point may be and still be on it."""
         return max(ROUGH * self.radius, self.least)
 
+    @functools.cached_property
     def frame(self) -> tuple[Floats, Floats]:
         """Two unit vectors across the axis, a right-handed frame with it."""
         return across(self.direction)
 
     def distances(self, points: Floats) -> Floats:
         """Distances of points (…, 3) from the axis."""
-        u, v = across(self.direction)
+        u, v = self.frame
         offset = points - self.point
         return np.asarray(np.hypot(offset @ u, offset @ v))
 
@@ -75,9 +77,15 @@ class Round:
 
     def angles(self, points: Floats) -> Floats:
         """Angles of points (…, 3) about the axis."""
-        u, v = self.frame()
+        u, v = self.frame
         offset = points - self.point
         return np.arctan2(offset @ v, offset @ u)
+
+
+def median(values: Floats | Indices) -> float:
+    """The median, as `numpy.median`, which takes far longer for few."""
+    ordered = np.sort(values)
+    return float(0.5 * (ordered[(len(values) - 1) // 2] + ordered[len(values) // 2]))
 
 
 def least(soup: Soup) -> float:
@@ -91,16 +99,15 @@ def fit(start: Round, points: Floats) -> Round | None:
     middle = points.mean(axis=0)
     current = replace(start, point=start.point + float((middle - start.point) @ start.direction) * start.direction)
     reach = max(float(np.linalg.norm(points - middle, axis=1).max()), 1e-12)
+    ones, ridge = np.ones(len(points)), 1e-12 * len(points) * np.eye(5)
     for _ in range(_ROUNDS):
-        u, v = current.frame()
+        u, v = current.frame
         offset = points - current.point
         a, b, z = offset @ u, offset @ v, offset @ current.direction
         radial = np.maximum(np.hypot(a, b), 1e-12)
         cosine, sine = a / radial, b / radial
-        matrix = np.stack([cosine, sine, cosine * z / reach, sine * z / reach, np.ones(len(points))], axis=1)
-        square = matrix.T @ matrix
-        square[np.diag_indices(5)] += 1e-12 * len(points)
-        step = np.linalg.solve(square, matrix.T @ (radial - current.radius))
+        matrix = np.array([cosine, sine, cosine * z / reach, sine * z / reach, ones])
+        step = np.linalg.solve(matrix @ matrix.T + ridge, matrix @ (radial - current.radius))
         if not np.isfinite(step).all() or abs(step[4]) > 0.9 * current.radius:
             return None
         direction = current.direction + (step[2] * u + step[3] * v) / reach
@@ -146,9 +153,9 @@ def grown(soup: Soup, start: Round, seeds: Indices, free: Flags) -> Round | None
     they do not lie on one."""
     surest = lying_on(soup, start, seeds, start.slack)
     seeds = surest if len(surest) > max(4, len(seeds) // 4) else seeds
-    first = soup.points[np.unique(soup.corners[seeds])]
+    first = soup.corners_of(seeds)
     current = fit(start, first)
-    if current is None or float(np.median(np.abs(current.distances(first) - current.radius))) > 3.0 * current.slack:
+    if current is None or median(np.abs(current.distances(first) - current.radius)) > 3.0 * current.slack:
         return None
     if len(lying_on(soup, current, seeds, current.slack)) < 4:
         return None
@@ -164,7 +171,7 @@ def grown(soup: Soup, start: Round, seeds: Indices, free: Flags) -> Round | None
         if np.array_equal(now, found):
             break
         found = seeds = now
-        better = fit(current, soup.points[np.unique(soup.corners[found])])
+        better = fit(current, soup.corners_of(found))
         if better is None:
             return None
         current = better
@@ -175,13 +182,13 @@ def trimmed(soup: Soup, cylinder: Round) -> Round | None:
     """The part of a cylinder's triangles that lies on one far better than all of them do (a pipe without the first
     rings of its bends); None where there is none."""
     longest = _long(soup, cylinder)
-    current = fit(replace(cylinder, triangles=longest), soup.points[np.unique(soup.corners[longest])])
+    current = fit(replace(cylinder, triangles=longest), soup.corners_of(longest))
     if current is None:
         return None
     rows = lying_on(soup, current, cylinder.triangles, max(4.0 * soup.rounding, 1e-3 * cylinder.slack))
     if len(rows) < 4 or len(rows) == len(cylinder.triangles):
         return None
-    better = fit(current, soup.points[np.unique(soup.corners[rows])])
+    better = fit(current, soup.corners_of(rows))
     return replace(better, triangles=rows) if better is not None else None
 
 

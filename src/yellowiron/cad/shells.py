@@ -8,10 +8,9 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
-from yellowiron.cad.meshed import welded
+from yellowiron.cad.linked import linked
+from yellowiron.cad.meshed import cross, welded
 from yellowiron.model.geometry import Floats, Mesh
 
 _THIN = 0.02
@@ -34,7 +33,7 @@ def components(mesh: Mesh, number: Indices | None = None) -> Indices:
     points = np.zeros((int(number.max()) + 1, 3))
     points[number[::-1]] = mesh.points[::-1]
     pair, lonely, flat = _paired(points, corners)
-    label = _labels(pair, count)
+    label = linked(pair, count)
     open_ = np.zeros(count, dtype=bool)
     open_[label[lonely]] = True
     loose = np.flatnonzero(open_[label])
@@ -42,15 +41,7 @@ def components(mesh: Mesh, number: Indices | None = None) -> Indices:
     columns = np.concatenate([corners[loose, 1], corners[loose, 2]]) + count
     own = np.stack([loose, corners[loose, 0] + count], axis=1)
     pair = np.concatenate([pair, flat, np.stack([rows, columns], axis=1), own])
-    label = _labels(pair, count + len(points))[:count]
-    first = np.unique(label, return_index=True)[1]
-    order = np.argsort(np.argsort(first))
-    return np.asarray(order[np.unique(label, return_inverse=True)[1]], dtype=np.int64)
-
-
-def _labels(pair: Indices, count: int) -> Indices:
-    graph = coo_array((np.ones(len(pair), dtype=np.int8), (pair[:, 0], pair[:, 1])), shape=(count, count))
-    return np.asarray(connected_components(graph, directed=False)[1], dtype=np.int64)
+    return linked(pair, count + len(points))[:count]
 
 
 def _paired(points: Floats, corners: Indices) -> tuple[Indices, Indices, Indices]:
@@ -140,7 +131,7 @@ def _measures(
     """Of every piece: the signed volume, whether it is closed, and its bounds."""
     corners = mesh.points[mesh.triangles]
     shifted = corners - mesh.points.mean(axis=0)
-    signed = np.einsum("ij,ij->i", shifted[:, 0], np.cross(shifted[:, 1], shifted[:, 2])) / 6.0
+    signed = np.einsum("ij,ij->i", shifted[:, 0], cross(shifted[:, 1], shifted[:, 2])) / 6.0
     volume = np.bincount(label, weights=signed, minlength=count).astype(np.float64)
     low: Floats = np.full((count, 3), np.inf)
     high: Floats = np.full((count, 3), -np.inf)
@@ -153,15 +144,15 @@ def _winding(corners: Floats, point: Floats) -> float:
     """How often triangles (m, 3, 3) go around a point: the sum of their solid angles over 4π (van Oosterom, 1983)."""
     a, b, c = (corners[:, i] - point for i in range(3))
     la, lb, lc = (np.linalg.norm(v, axis=1) for v in (a, b, c))
-    over = np.einsum("ij,ij->i", a, np.cross(b, c))
+    over = np.einsum("ij,ij->i", a, cross(b, c))
     below = la * lb * lc + (a * b).sum(axis=1) * lc + (b * c).sum(axis=1) * la + (c * a).sum(axis=1) * lb
     return float(np.arctan2(over, below).sum() / (2.0 * np.pi))
 
 
-def right_side_out(mesh: Mesh) -> tuple[Mesh, float, bool]:
+def right_side_out(mesh: Mesh, number: Indices | None = None) -> tuple[Mesh, float, bool]:
     """The mesh with every closed piece turned to face outward, the volume of the closed pieces (m³, hollows within
-    others taken off), and whether all of it is closed."""
-    number = welded(mesh)
+    others taken off), and whether all of it is closed. `number` is `welded(mesh)`, where that is known."""
+    number = welded(mesh) if number is None else number
     label = components(mesh, number)
     count = int(label.max()) + 1
     volume, sound, low, high = _measures(mesh, number, label, count)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,10 +11,14 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from yellowiron.cad import meshed
+from yellowiron.cad.linked import linked
 from yellowiron.model.geometry import Floats, Mesh
 
 Indices = NDArray[np.int64]
 Flags = NDArray[np.bool_]
+
+_LEVEL = math.radians(0.05)
+"""Triangles side by side are one strip within this angle, radians."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,15 +48,31 @@ class Soup:
         """The triangles' middles, to look things up by place."""
         return cKDTree(self.middles)
 
+    def corners_of(self, triangles: Indices) -> Floats:
+        """The points (n, 3) that some triangles have for corners, each once, in their order."""
+        used = np.zeros(len(self.points), dtype=bool)
+        used[self.corners[triangles]] = True
+        return self.points[used]
 
-def soup_of(mesh: Mesh) -> Soup:
+    @functools.cached_property
+    def facets(self) -> Indices:
+        """(m,) numbers of the flat facets that triangles make up with those beside them."""
+        return flat_facets(self, _LEVEL)
+
+
+def flat_facets(soup: Soup, angle: float) -> Indices:
+    """(m,) numbers of the flat facets that triangles make up with those beside them within an angle, radians."""
+    return linked(soup.pair[soup.angle <= angle], len(soup.corners))
+
+
+def soup_of(mesh: Mesh, number: Indices | None = None) -> Soup:
     """The triangles of a mesh, its coincident points made one; those that lose their area by it, and those that are
-    there twice, are left out."""
-    number = meshed.welded(mesh)
+    there twice, are left out. `number` is `welded(mesh)`, where that is known."""
+    number = meshed.welded(mesh) if number is None else number
     points = np.zeros((int(number.max()) + 1, 3))
     points[number[::-1]] = mesh.points[::-1]
     corners = number[mesh.triangles]
-    cross = np.cross(points[corners[:, 1]] - points[corners[:, 0]], points[corners[:, 2]] - points[corners[:, 0]])
+    cross = meshed.cross(points[corners[:, 1]] - points[corners[:, 0]], points[corners[:, 2]] - points[corners[:, 0]])
     twice = np.linalg.norm(cross, axis=1)
     low, high = meshed.bounds(mesh)
     size = float(np.linalg.norm(high - low))

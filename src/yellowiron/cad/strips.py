@@ -6,13 +6,14 @@ Where slivers hide the strips (a rod that ends in an eye), the normals of the wh
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Iterator
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
+from yellowiron.cad.linked import linked
+from yellowiron.cad.meshed import cross
 from yellowiron.cad.roundness import ROUGH, WIDEST, Round, across
 from yellowiron.cad.soup import Flags, Indices, Soup
 from yellowiron.model.geometry import Floats
@@ -26,6 +27,8 @@ _ALIGNED = math.cos(math.radians(3.0))
 _CROWD = 40
 """A flat facet with more folds than this around it is no strip."""
 _TRIES = 48
+_ONE_WAY = math.cos(0.05)
+"""Normals that are all this near to one of them are not spread out at all."""
 _NONE = np.zeros(0, dtype=np.int64)
 
 
@@ -50,9 +53,7 @@ def by_folds(soup: Soup) -> Iterator[tuple[Round, Indices]]:
         & (np.abs(radius[a] - radius[b]) < _ALIKE * np.minimum(radius[a], radius[b]))
         & (apart < _ALIKE * np.minimum(radius[a], radius[b]))
     )
-    count = len(chosen)
-    graph = coo_array((np.ones(int(alike.sum()), dtype=np.int8), (a[alike], b[alike])), shape=(count, count))
-    label = connected_components(graph, directed=False)[1]
+    label = linked(pairs[alike], len(chosen))
     members = np.bincount(label)
     order = np.argsort(label, kind="stable")
     starts = np.concatenate([[0], np.cumsum(members)])
@@ -110,7 +111,7 @@ def beside(soup: Soup, chosen: Indices) -> Indices:
     found = [of_triangle[:, pair] for pair in ((0, 1), (1, 2), (0, 2))]
     left, right = of_triangle[soup.pair[:, 0]], of_triangle[soup.pair[:, 1]]
     found += [np.stack([left[:, i], right[:, j]], axis=1) for i in range(3) for j in range(3)]
-    facet = flat_facets(soup, math.radians(0.05))
+    facet = soup.facets
     faces = np.concatenate([soup.pair[chosen, 0], soup.pair[chosen, 1]])
     rows = np.tile(np.arange(len(chosen)), 2)
     order = np.argsort(facet[faces], kind="stable")
@@ -121,26 +122,15 @@ def beside(soup: Soup, chosen: Indices) -> Indices:
         near &= sizes[label[step:]] <= _CROWD
         found.append(np.stack([rows[:-step][near], rows[step:][near]], axis=1))
     pairs = np.concatenate(found)
-    pairs = pairs[(pairs >= 0).all(axis=1) & (pairs[:, 0] != pairs[:, 1])]
-    return np.unique(np.sort(pairs, axis=1), axis=0)
-
-
-def flat_facets(soup: Soup, angle: float) -> Indices:
-    """(m,) numbers of the flat facets that triangles make up with those beside them within an angle, radians."""
-    flat = soup.angle <= angle
-    count = len(soup.corners)
-    pair = soup.pair[flat]
-    graph = coo_array((np.ones(len(pair), dtype=np.int8), (pair[:, 0], pair[:, 1])), shape=(count, count))
-    return np.asarray(connected_components(graph, directed=False)[1], dtype=np.int64)
+    low, high = pairs.min(axis=1), pairs.max(axis=1)
+    keys = np.unique((low * len(chosen) + high)[(low >= 0) & (low != high)])
+    return np.stack([keys // len(chosen), keys % len(chosen)], axis=1)
 
 
 def by_normals(soup: Soup, free: Flags) -> Iterator[tuple[Round, Indices]]:
     """Guesses for the smooth patches of free triangles, the largest patch first; one guess a patch and side."""
     smooth = (soup.angle < WIDEST) & free[soup.pair].all(axis=1)
-    count = len(soup.corners)
-    pair = soup.pair[smooth]
-    graph = coo_array((np.ones(len(pair), dtype=np.int8), (pair[:, 0], pair[:, 1])), shape=(count, count))
-    label = connected_components(graph, directed=False)[1]
+    label = linked(soup.pair[smooth], len(soup.corners))
     members = np.bincount(label)
     order = np.argsort(label, kind="stable")
     starts = np.concatenate([[0], np.cumsum(members)])
@@ -161,7 +151,7 @@ def _guesses(soup: Soup, patch: Indices) -> Iterator[tuple[Round, Indices]]:
     normals /= np.linalg.norm(normals, axis=1)[:, None]
     middles = points.mean(axis=1)
     best: tuple[float, Floats, float] | None = None
-    for i, j in _picks(len(rows)):
+    for i, j in _picks(len(rows)).tolist():
         turn = normals[i] - normals[j]
         square = float(turn @ turn)
         if square < 0.02:
@@ -188,9 +178,11 @@ def _guesses(soup: Soup, patch: Indices) -> Iterator[tuple[Round, Indices]]:
 def _great_circle(soup: Soup, patch: Indices) -> Floats | None:
     """The direction that most of a patch's normals lie across; None where they lie in all directions or in one."""
     normals, areas = soup.normals[patch], soup.areas[patch]
+    if (normals @ normals[0] > _ONE_WAY).all():
+        return None
     best: tuple[float, Floats] | None = None
-    picks = np.array(list(_picks(len(patch))))
-    axes = np.cross(normals[picks[:, 0]], normals[picks[:, 1]])
+    picks = _picks(len(patch))
+    axes = cross(normals[picks[:, 0]], normals[picks[:, 1]])
     length = np.linalg.norm(axes, axis=1)
     axes = axes[length > 0.1] / length[length > 0.1, None]
     for axis in axes:
@@ -207,10 +199,10 @@ def _great_circle(soup: Soup, patch: Indices) -> Floats | None:
     return np.asarray(axis)
 
 
-def _picks(count: int) -> Iterator[tuple[int, int]]:
-    """Pairs of rows, spread over all of them; always the same ones."""
-    for k in range(_TRIES):
-        i = (k * 7919) % count
-        j = (i + 1 + (k * 104729) % max(1, count - 1)) % count
-        if i != j:
-            yield i, j
+@functools.cache
+def _picks(count: int) -> Indices:
+    """(k, 2) pairs of rows, spread over all of them; always the same ones."""
+    k = np.arange(_TRIES)
+    i = (k * 7919) % count
+    j = (i + 1 + (k * 104729) % max(1, count - 1)) % count
+    return np.stack([i, j], axis=1)[i != j]
