@@ -126,6 +126,27 @@ def test_archives(tmp_path: Path, good: bytes) -> None:
     assert "gunzip" in fail(tmp_path / "a.stpz").hint
 
 
+@pytest.mark.parametrize("version", [20, 138])
+def test_an_archive_of_another_version_is_damaged(version: int, tmp_path: Path) -> None:
+    path = tmp_path / "a.usdz"
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr("machine.usda", "#usda 1.0\n")
+    data = bytearray(path.read_bytes())
+    data[data.index(b"PK\x01\x02") + 6] = version
+    path.write_bytes(data)
+    fail(path)
+
+
+def test_an_instance_of_nothing_is_told(tmp_path: Path) -> None:
+    path = tmp_path / "machine.usda"
+    cube, empty = 'def Cube "frame" {}', 'def Xform "pin" (instanceable = true) {}'
+    path.write_text(f"#usda 1.0\n(metersPerUnit = 1)\n{cube}\n{empty}\n")
+    assembly = read_cad(path)
+    assert [f.message for f in assembly.findings if f.code == "CAD001"] == [
+        "The file declares 2 occurrences of parts and 1 were read"
+    ]
+
+
 def test_content_decides_not_the_name(good: bytes, tmp_path: Path) -> None:
     path = tmp_path / "machine.sldasm"
     path.write_bytes(b"\n/* a comment */\n" + good)

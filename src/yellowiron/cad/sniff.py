@@ -212,7 +212,7 @@ def _zip(path: Path) -> tuple[str, str]:
     try:
         with zipfile.ZipFile(path) as archive:
             names = [name.lower() for name in archive.namelist()]
-    except (zipfile.BadZipFile, OSError):
+    except (zipfile.BadZipFile, OSError, NotImplementedError, ValueError):
         return "a damaged zip archive", "copy or export it again"
     if "document.xml" in names:
         return "FreeCAD", ""

@@ -38,7 +38,7 @@ def read_usd(path: str) -> Assembly:
     looks = _Looks()
     meshes: dict[Sdf.Path, tuple[Mesh, Color | None] | None] = {}
     occurrences: list[Occurrence] = []
-    declared = 0
+    declared = _hollow(stage)
     for prim, transform in _drawn(stage):
         declared += 1
         source = prim.GetPrimInPrototype().GetPath() if prim.IsInstanceProxy() else prim.GetPath()
@@ -87,6 +87,15 @@ def _unit(stage: Usd.Stage, path: str) -> tuple[float, list[Finding]]:
     words = "The file says nothing of its unit of length, which in USD means centimetres"
     hint = "Check the machine's size against the sheet's; metersPerUnit in the file settles it."
     return unit, [Finding("CAD009", "warning", path, words, hint)]
+
+
+def _hollow(stage: Usd.Stage) -> int:
+    """How many instances have nothing in them: what they were of is lost, without an error of USD's own."""
+    below = Usd.TraverseInstanceProxies(Usd.PrimDefaultPredicate)
+    return sum(
+        prim.IsInstanceable() and prim.GetTypeName() in ("", "Xform") and not prim.GetFilteredChildren(below)
+        for prim in stage.Traverse()
+    )
 
 
 def _drawn(stage: Usd.Stage) -> Iterator[tuple[Usd.Prim, Floats]]:
