@@ -146,14 +146,14 @@ def convert(
     """Convert CAD to USD, nothing else."""
     from yellowiron import cad as readers
     from yellowiron import usd
-    from yellowiron.output import output_file
-    from yellowiron.usd.convert import SUFFIXES
+    from yellowiron.usd.convert import check_target
 
-    with _progress(as_json) as progress, output_file(out, suffixes=SUFFIXES) as temporary:
+    check_target(out)
+    with _progress(as_json) as progress:
         progress("Reading the CAD model")
         assembly = readers.read_cad(cad)
         progress("Writing USD")
-        usd.write_assembly(assembly, temporary)
+        usd.write_assembly(assembly, out)
     document = {
         "file": str(out),
         "parts": len(assembly.parts),

@@ -21,12 +21,14 @@ from typing import Any
 import numpy as np
 
 from yellowiron.cad import placed
+from yellowiron.cad.gltf_materials import Materials
+from yellowiron.cad.looks import Dressed, Look, joined
 from yellowiron.cad.naming import decode_name, is_generic
 from yellowiron.cad.placed import Occurrence
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import CadError
 from yellowiron.model.finding import Finding
-from yellowiron.model.geometry import Color, Floats, Mesh
+from yellowiron.model.geometry import Floats, Mesh
 
 _MAGIC, _JSON, _BIN = b"glTF", 0x4E4F534A, 0x004E4942
 _AGAIN = "Export it again as GLB, without compression (no Draco, no meshopt)."
@@ -64,15 +66,15 @@ def read_gltf(path: str) -> Assembly:
     buffers = _buffers(document, blob, path)
     nodes = _nodes(document, path)
     findings: list[Finding] = []
-    meshes = _meshes(document, buffers, {n.mesh for n in nodes}, path, findings)
-    broken = {n.mesh for n in nodes if n.mesh not in meshes and _has_triangles(document, n.mesh)}
-    colors = {index: _color(document, index) for index in meshes}
+    materials = Materials(document, buffers, path)
+    found = _meshes(document, buffers, {n.mesh for n in nodes}, materials, findings)
+    broken = {n.mesh for n in nodes if n.mesh not in found and _has_triangles(document, n.mesh)}
     occurrences = [
-        Occurrence(n.name, n.path, meshes[n.mesh], n.transform, colors[n.mesh]) for n in nodes if n.mesh in meshes
+        Occurrence(n.name, n.path, one.mesh, n.transform, one.color, one.finishes)
+        for n in nodes
+        if (one := found.get(n.mesh)) is not None
     ]
-    if _textured(document):
-        words = "Textures are not read: parts have the colour that is under them"
-        findings.append(Finding("CAD012", "info", path, words))
+    findings += materials.findings()
     loose = sum("mesh" in entry for entry in _list(document, "nodes")) - len(nodes)
     if loose:
         words = f"{loose} nodes with meshes are not in the scene that is shown, and were left out"
@@ -87,7 +89,7 @@ def read_gltf(path: str) -> Assembly:
         unit=1.0,
         path=path,
         findings=findings,
-        declared=sum(1 for n in nodes if n.mesh in meshes or n.mesh in broken),
+        declared=sum(1 for n in nodes if n.mesh in found or n.mesh in broken),
     )
 
 
@@ -238,8 +240,12 @@ def _matrix(entry: Mapping[str, Any], index: int, path: str) -> Floats:
 
 # ---- the meshes ----
 def _meshes(
-    document: dict[str, Any], buffers: Sequence[bytes], wanted: set[int], path: str, findings: list[Finding]
-) -> dict[int, Mesh]:
+    document: dict[str, Any],
+    buffers: Sequence[bytes],
+    wanted: set[int],
+    materials: Materials,
+    findings: list[Finding],
+) -> dict[int, Dressed]:
     """The triangles of the wanted meshes, by index; those that have none or are broken are absent, with a finding."""
     entries = _list(document, "meshes")
     chosen: list[tuple[int, dict[str, Any]]] = []
@@ -254,10 +260,10 @@ def _meshes(
             else:
                 chosen.append((index, primitive))
     decoded = _decoded(document, buffers, [p for _, p in chosen])
-    pieces: dict[int, list[tuple[Mesh, dict[str, Any]]]] = {}
+    pieces: dict[int, list[tuple[Mesh, Look, Floats | None, Floats | None]]] = {}
     for (index, primitive), mesh in zip(chosen, decoded, strict=True):
-        pieces.setdefault(index, []).append((mesh, primitive))
-    return {index: _joined(document, found) for index, found in pieces.items()}
+        pieces.setdefault(index, []).append((mesh, *materials.of(primitive, mesh)))
+    return {index: joined(found) for index, found in pieces.items()}
 
 
 def _has_triangles(document: dict[str, Any], mesh: int) -> bool:
@@ -368,50 +374,3 @@ def _packed(document: Mapping[str, Any], blob: bytes) -> bytes:
     text += b" " * (-len(text) % 4)
     head = struct.pack("<4sIIII", _MAGIC, 2, 28 + len(text) + len(blob), len(text), _JSON)
     return head + text + struct.pack("<II", len(blob), _BIN) + blob
-
-
-def _joined(document: dict[str, Any], pieces: Sequence[tuple[Mesh, dict[str, Any]]]) -> Mesh:
-    """One mesh of a mesh's primitives; with a colour a triangle where they have several."""
-    colors = [_primitive_color(document, primitive) for _, primitive in pieces]
-    starts = np.cumsum([0, *(len(mesh.points) for mesh, _ in pieces)])
-    painted = None
-    if len(set(colors)) > 1:
-        painted = np.concatenate(
-            [np.tile(c or (0.5, 0.5, 0.5), (len(m.triangles), 1)) for c, (m, _) in zip(colors, pieces, strict=True)]
-        )
-    return Mesh(
-        points=np.concatenate([mesh.points for mesh, _ in pieces]),
-        triangles=np.concatenate(
-            [mesh.triangles + np.int32(start) for (mesh, _), start in zip(pieces, starts[:-1], strict=True)]
-        ).astype(np.int32),
-        triangle_colors=painted,
-    )
-
-
-# ---- looks ----
-def _color(document: dict[str, Any], mesh: int) -> Color | None:
-    """The colour of a mesh whose primitives have one and the same."""
-    colors = {_primitive_color(document, p) for p in _list(_list(document, "meshes")[mesh], "primitives")}
-    return colors.pop() if len(colors) == 1 else None
-
-
-def _primitive_color(document: dict[str, Any], primitive: Mapping[str, Any]) -> Color | None:
-    """Linear RGB of a primitive's material; None without one, and where it is all in a texture."""
-    number, materials = primitive.get("material"), _list(document, "materials")
-    if not isinstance(number, int) or not 0 <= number < len(materials):
-        return None
-    look = materials[number].get("pbrMetallicRoughness")
-    look = look if isinstance(look, dict) else {}
-    factor = look.get("baseColorFactor", (1.0, 1.0, 1.0, 1.0))
-    try:
-        red, green, blue = (min(max(float(v), 0.0), 1.0) for v in factor[:3])
-    except (TypeError, ValueError):
-        return None
-    if not all(math.isfinite(v) for v in (red, green, blue)):
-        return None
-    return None if "baseColorTexture" in look and (red, green, blue) == (1.0, 1.0, 1.0) else (red, green, blue)
-
-
-def _textured(document: dict[str, Any]) -> bool:
-    looks = [m.get("pbrMetallicRoughness") for m in _list(document, "materials")]
-    return any(isinstance(look, dict) and "baseColorTexture" in look for look in looks)

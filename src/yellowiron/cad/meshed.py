@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -111,10 +112,17 @@ def compacted(mesh: Mesh) -> Mesh:
     corners = mesh.points[mesh.triangles]
     twice = np.linalg.norm(cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
     good = twice > 1e-14 * float(np.ptp(corners.reshape(-1, 3), axis=0).max()) ** 2
-    used, triangles = np.unique(mesh.triangles[good], return_inverse=True)
+    return chosen(mesh, good)
+
+
+def chosen(mesh: Mesh, rows: NDArray[Any]) -> Mesh:
+    """Some triangles of a mesh (flags or numbers), with all that belongs to them."""
+    used, triangles = np.unique(mesh.triangles[rows], return_inverse=True)
     return Mesh(
         points=mesh.points[used],
         triangles=triangles.reshape(-1, 3).astype(np.int32),
         normals=None if mesh.normals is None else mesh.normals[used],
-        triangle_colors=None if mesh.triangle_colors is None else mesh.triangle_colors[good],
+        triangle_colors=None if mesh.triangle_colors is None else mesh.triangle_colors[rows],
+        uvs=None if mesh.uvs is None else mesh.uvs[rows],
+        triangle_finishes=None if mesh.triangle_finishes is None else mesh.triangle_finishes[rows],
     )

@@ -13,7 +13,7 @@ from yellowiron.cad.naming import unique_ids
 from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.errors import CadError
 from yellowiron.model.finding import Finding
-from yellowiron.model.geometry import Color, Floats, Mesh, Shape
+from yellowiron.model.geometry import Color, Finish, Floats, Mesh, Shape
 
 LARGEST = 1e3
 """Metres. Nothing in a machine is larger: a wrong unit, or a coordinate that is damaged."""
@@ -23,13 +23,14 @@ _AGAIN = "Export the file again."
 @dataclass(frozen=True, eq=False)
 class Occurrence:
     """A mesh at a place: its name, those of the assemblies above, the mesh (shared by all occurrences of it), the
-    (4, 4) transform into the file's frame (metres) and the colour."""
+    (4, 4) transform into the file's frame (metres), the colour and the finish (or those that its triangles number)."""
 
     name: str
     path: tuple[str, ...]
     mesh: Mesh
     transform: Floats
     color: Color | None = None
+    finishes: tuple[Finish, ...] = ()
 
 
 def assemble(
@@ -49,11 +50,11 @@ def assemble(
     occurrences = _shared(occurrences)
     remarks = list(findings)
     shapes: dict[str, Shape] = {}
-    known: dict[tuple[int, Color | None], Shape | None] = {}
+    known: dict[tuple[int, Color | None, tuple[Finish, ...]], Shape | None] = {}
     found: list[tuple[Occurrence, Shape]] = []
     empty: list[str] = []
     for item in occurrences:
-        key = (id(item.mesh), item.color)
+        key = (id(item.mesh), item.color, item.finishes)
         if key not in known:
             known[key] = _shape(item, remarks)
         shape = known[key]
@@ -86,30 +87,39 @@ def assemble(
 
 def _shared(occurrences: Sequence[Occurrence]) -> list[Occurrence]:
     """The occurrences, those of a mesh that is another's copy with that other's."""
-    meshes = list({id(item.mesh): item.mesh for item in occurrences}.values())
+    meshes = list({id(item.mesh): item.mesh for item in occurrences if _is_plain(item.mesh)}.values())
     found = dict(zip(map(id, meshes), copies.originals(meshes), strict=True))
     shared = []
     for item in occurrences:
+        if id(item.mesh) not in found:
+            shared.append(item)
+            continue
         first, moved = found[id(item.mesh)]
         place = item.transform if moved is None else item.transform @ moved
         shared.append(replace(item, mesh=meshes[first], transform=place))
     return shared
 
 
-def shape_of(mesh: Mesh, name: str, color: Color | None = None) -> Shape:
+def _is_plain(mesh: Mesh) -> bool:
+    """Whether copies of a mesh can differ in nothing but their place and colours."""
+    return mesh.uvs is None and mesh.triangle_finishes is None
+
+
+def shape_of(mesh: Mesh, name: str, color: Color | None = None, finishes: tuple[Finish, ...] = ()) -> Shape:
     """The shape of a mesh of triangles: measured, turned right side out, with the cylinders and planes that fit it.
 
     A closed mesh has its volume, centre and inertia; one that is open anywhere counts as a sheet, whose centre is
     that of its area and whose volume is that of its closed pieces. `mesh` has no triangle without an area.
     """
-    mesh, volume, closed = shells.right_side_out(mesh)
+    turned, volume, closed = shells.right_side_out(mesh)
+    mesh = _dressed(turned, mesh)
     area, centroid = meshed.area_properties(mesh)
     inertia = np.zeros((3, 3))
     if closed:
         volume, centroid, inertia = meshed.volume_properties(mesh)
     found = facets.find(mesh)
     return Shape(
-        key=_painted(meshed.content_key(mesh), mesh, color),
+        key=_painted(meshed.content_key(mesh), mesh, color, finishes),
         name=name,
         mesh=mesh,
         volume=volume,
@@ -123,7 +133,17 @@ def shape_of(mesh: Mesh, name: str, color: Color | None = None) -> Shape:
         planes=found.planes,
         bounds=meshed.bounds(mesh),
         knuckles=found.knuckles,
+        finishes=finishes,
     )
+
+
+def _dressed(turned: Mesh, mesh: Mesh) -> Mesh:
+    """A mesh, some triangles of which were turned over, with what belongs to the corners and triangles."""
+    uvs = mesh.uvs
+    if uvs is not None:
+        over = (turned.triangles != mesh.triangles).any(axis=1)
+        uvs = np.where(over[:, None, None], uvs[:, ::-1], uvs)
+    return replace(turned, uvs=uvs, triangle_finishes=mesh.triangle_finishes)
 
 
 def _shape(item: Occurrence, remarks: list[Finding]) -> Shape | None:
@@ -141,7 +161,7 @@ def _shape(item: Occurrence, remarks: list[Finding]) -> Shape | None:
         remarks.append(Finding("CAD003", "error", item.name, f"Left out: it would be {size:.3g} large", _AGAIN))
         return None
     mesh = meshed.compacted(mesh)
-    return shape_of(mesh, item.name, item.color) if len(mesh.triangles) else None
+    return shape_of(mesh, item.name, item.color, item.finishes) if len(mesh.triangles) else None
 
 
 def _misplaced(shape: Shape, transform: Floats) -> str:
@@ -155,14 +175,20 @@ def _misplaced(shape: Shape, transform: Floats) -> str:
     return f"it would be {size:.3g} m large, or away" if size > LARGEST else ""
 
 
-def _painted(key: str, mesh: Mesh, color: Color | None) -> str:
-    """A key with the colours, if there are any: one key is one look."""
-    if color is None and mesh.triangle_colors is None:
+def _painted(key: str, mesh: Mesh, color: Color | None, finishes: tuple[Finish, ...]) -> str:
+    """A key with the colours and finishes, if there are any: one key is one look."""
+    if color is None and mesh.triangle_colors is None and not finishes:
         return key
     paint = "" if color is None else repr(tuple(round(v, 4) for v in color))
     digest = hashlib.sha256(paint.encode())
     if mesh.triangle_colors is not None:
         digest.update(np.round(mesh.triangle_colors * 1e4).astype("<i4").tobytes())
+    if finishes:
+        digest.update(repr(finishes).encode())
+    if mesh.uvs is not None:
+        digest.update(mesh.uvs.astype("<f4").tobytes())
+    if mesh.triangle_finishes is not None:
+        digest.update(mesh.triangle_finishes.astype("<i4").tobytes())
     return f"{key}-{digest.hexdigest()[:8]}"
 
 
@@ -215,13 +241,5 @@ def pieces(mesh: Mesh) -> list[Mesh]:
     order = np.argsort(label, kind="stable")
     found = []
     for rows in np.split(order, np.flatnonzero(np.diff(label[order])) + 1):
-        used, triangles = np.unique(mesh.triangles[rows], return_inverse=True)
-        found.append(
-            Mesh(
-                mesh.points[used],
-                triangles.reshape(-1, 3).astype(np.int32),
-                None if mesh.normals is None else mesh.normals[used],
-                None if mesh.triangle_colors is None else mesh.triangle_colors[rows],
-            )
-        )
+        found.append(meshed.chosen(mesh, rows))
     return found

@@ -19,18 +19,42 @@ def linear(srgb: Sequence[float]) -> Color:
     return r, g, b
 
 
+@dataclass(frozen=True)
+class Texture:
+    """A picture on a surface. `file` is its name without a folder, unique by its content, ending in .png or .jpg;
+    `data` that file's bytes; `factor` (linear RGB) multiplies it."""
+
+    file: str
+    data: bytes = field(compare=False, repr=False)
+    factor: Color = (1.0, 1.0, 1.0)
+
+
+@dataclass(frozen=True)
+class Finish:
+    """What a surface is like besides its colour, as far as a file says so: metalness and roughness in [0, 1], and the
+    texture that is seen instead of the plain colour, which is then its mean."""
+
+    metallic: float | None = None
+    roughness: float | None = None
+    texture: Texture | None = None
+
+
 @dataclass(frozen=True, eq=False)
 class Mesh:
     """A triangle mesh.
 
     `points` (n, 3) float64 in metres, `triangles` (m, 3) int32 indices, counter-clockwise seen from outside,
-    `normals` (n, 3) unit vertex normals or None, `triangle_colors` (m, 3) linear RGB or None.
+    `normals` (n, 3) unit vertex normals or None, `triangle_colors` (m, 3) linear RGB or None; `uvs` (m, 3, 2) texture
+    coordinates of the triangles' corners, the picture's lower left being (0, 0), or None; `triangle_finishes` (m,) the
+    number of each triangle's finish among its shape's, where it has several.
     """
 
     points: Floats
     triangles: Ints
     normals: Floats | None = None
     triangle_colors: Floats | None = None
+    uvs: Floats | None = None
+    triangle_finishes: Ints | None = None
 
 
 @dataclass(frozen=True)
@@ -83,7 +107,8 @@ class Shape:
     `key` is a hash of the content: equal shapes of two files have equal keys. `volume` (m³), `centroid` (3,)
     and `inertia` (3, 3) (m⁵: for density 1, about the centroid) are exact where `exact` is true (B-rep), else
     those of the mesh. `closed` is false for sheets and open meshes, whose volume means little. `knuckles` are rounded
-    bosses and eyes of a mesh that are no cylinders, each with the cylinder that is nearest to it.
+    bosses and eyes of a mesh that are no cylinders, each with the cylinder that is nearest to it. `finishes`: one for
+    all of it, or those that the mesh's triangles number; none where the file states none.
     """
 
     key: str
@@ -100,3 +125,4 @@ class Shape:
     planes: tuple[PlaneFeature, ...] = ()
     bounds: Floats = field(default_factory=lambda: np.zeros((2, 3)))
     knuckles: tuple[CylinderFeature, ...] = ()
+    finishes: tuple[Finish, ...] = ()

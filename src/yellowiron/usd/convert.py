@@ -10,7 +10,7 @@ from pxr import Sdf
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import OutputError
 from yellowiron.usd.geometry import write_prototypes
-from yellowiron.usd.materials import look_of
+from yellowiron.usd.materials import Look, look_of, write_pictures
 from yellowiron.usd.metadata import set_custom
 from yellowiron.usd.plan import Prototypes
 from yellowiron.usd.stage import Names, add_reference, create_layer, define, save_layer, set_display_name, set_transform
@@ -23,18 +23,21 @@ def write_assembly(assembly: Assembly, path: str | Path) -> Path:
     """Writes an assembly as one USD file, in the CAD file's own frame, and returns its path.
 
     The tree of the CAD file becomes Xforms; every part is an instanceable reference to its shape, which lives in the
-    same file. The file appears whole or not at all. `OutputError` for another extension or an unwritable place.
+    same file; textures are written into `textures/` beside it. The file appears whole or not at all. `OutputError` for
+    another extension or an unwritable place.
     """
     target = Path(path)
-    if target.suffix.lower() not in SUFFIXES:
-        raise OutputError(
-            f"'{target.suffix}' is no USD extension", where=str(target), hint=f"Use {', '.join(SUFFIXES)}."
-        )
-    layer = _author(assembly, binary=target.suffix.lower() != ".usda")
+    check_target(target)
+    layer, looks = _author(assembly, binary=target.suffix.lower() != ".usda")
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory(prefix=f".{target.stem}-", dir=target.parent) as folder:
-            save_layer(layer, Path(folder) / target.name).replace(target)
+            written = save_layer(layer, Path(folder) / target.name)
+            # Their names hold their content: what is there already is the same.
+            for file in write_pictures(looks, Path(folder)):
+                (target.parent / file.parent.name).mkdir(exist_ok=True)
+                file.replace(target.parent / file.parent.name / file.name)
+            written.replace(target)
     except OSError as error:
         raise OutputError(
             "The USD file cannot be written", where=str(target), hint="Check the folder, its permissions and its space."
@@ -42,7 +45,17 @@ def write_assembly(assembly: Assembly, path: str | Path) -> Path:
     return target
 
 
-def _author(assembly: Assembly, *, binary: bool) -> Sdf.Layer:
+def check_target(target: Path) -> None:
+    """`OutputError` where a path cannot be a USD file's."""
+    if target.suffix.lower() not in SUFFIXES:
+        raise OutputError(
+            f"'{target.suffix}' is no USD extension", where=str(target), hint=f"Use {', '.join(SUFFIXES)}."
+        )
+    if target.is_dir():
+        raise OutputError("The output file is a folder", where=str(target), hint="Name a file.")
+
+
+def _author(assembly: Assembly, *, binary: bool) -> tuple[Sdf.Layer, list[Look]]:
     names = Names()
     root = f"/{names.give(assembly.name or 'assembly')}"
     layer = create_layer(root[1:], binary=binary)
@@ -63,7 +76,7 @@ def _author(assembly: Assembly, *, binary: bool) -> Sdf.Layer:
             set_custom(spec, {"part": part.id})
         define(layer, prototypes.root, abstract=True)
         write_prototypes(layer, prototypes.prototypes, {})
-    return layer
+    return layer, [prototype.look for prototype in prototypes.prototypes]
 
 
 class _Tree:

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from pxr import Gf, Sdf, Vt
 
 from yellowiron.model.geometry import Floats, Ints, Mesh, Shape
-from yellowiron.usd.materials import write_look
+from yellowiron.usd.materials import bind, look_path, write_look
 from yellowiron.usd.plan import MESH, PIECE, PlacedPart, Plan, Prototype
-from yellowiron.usd.stage import Types, add_reference, define, set_attribute, set_display_name
+from yellowiron.usd.stage import Types, add_reference, define, identifier, over, set_attribute, set_display_name
 from yellowiron.usd.weld import Singles, distinct, weld
 
 CREASE_ANGLE = np.radians(30.0)
@@ -34,6 +34,30 @@ def write_prototypes(layer: Sdf.Layer, prototypes: Iterable[Prototype], textures
         if prototype.look.texture is not None:
             _write_box_mapping(layer.GetPrimAtPath(mesh_path), prototype.shape.mesh)
         write_look(layer, prototype.path, prototype.look, textures)
+        if prototype.look.faces:
+            _write_subsets(layer, mesh_path, prototype)
+
+
+def _write_subsets(layer: Sdf.Layer, mesh_path: str, prototype: Prototype) -> None:
+    """The triangles of every look, as subsets of the mesh that are bound to its material."""
+    mesh = prototype.shape.mesh
+    finishes = mesh.triangle_finishes
+    if finishes is None:
+        return
+    set_attribute(
+        over(layer, mesh_path), "subsetFamily:materialBind:familyType", Types.Token, "nonOverlapping", uniform=True
+    )
+    rows = finishes[weld(mesh)[2]]
+    for number, look in enumerate(prototype.look.faces):
+        chosen = np.flatnonzero(rows == number).astype(np.int32)
+        if not len(chosen):
+            continue
+        path = look_path(prototype.path, look)
+        subset = define(layer, f"{mesh_path}/{identifier(look.name)}", "GeomSubset")
+        set_attribute(subset, "elementType", Types.Token, "face", uniform=True)
+        set_attribute(subset, "familyName", Types.Token, "materialBind", uniform=True)
+        set_attribute(subset, "indices", Types.IntArray, Vt.IntArray.FromNumpy(chosen))
+        bind(subset, path)
 
 
 def write_mirrored(layer: Sdf.Layer, placed: Iterable[PlacedPart]) -> None:
@@ -119,6 +143,8 @@ def write_mesh(spec: Sdf.PrimSpec, shape: Shape, mesh: Mesh) -> None:
         normals, ranks = distinct(mesh.normals)
         indices = ranks[mesh.triangles[kept]]
         _write_indexed(spec, "normals", Types.Normal3fArray, Vt.Vec3fArray.FromNumpy(normals), indices)
+    if mesh.uvs is not None:
+        _write_coordinates(spec, mesh.uvs[kept].reshape(-1, 2))
     if mesh.triangle_colors is not None:
         colors = _single(mesh.triangle_colors[kept])
         set_attribute(spec, "primvars:displayColor", Types.Color3fArray, colors, interpolation="uniform")
@@ -171,6 +197,14 @@ def _write_box_mapping(spec: Sdf.PrimSpec, mesh: Mesh) -> None:
     drop = np.abs(facet).argmax(axis=1)
     kept = np.array([[1, 2], [0, 2], [0, 1]])[drop]
     values = np.take_along_axis(corners, np.broadcast_to(kept[:, None, :], (*corners.shape[:2], 2)), axis=2)
-    unique, indices = np.unique(values.reshape(-1, 2), axis=0, return_inverse=True)
+    _write_coordinates(spec, values.reshape(-1, 2))
+
+
+def _write_coordinates(spec: Sdf.PrimSpec, values: Floats | Singles) -> None:
+    """Texture coordinates (3m, 2), one a corner, in place of any that are there."""
+    for name in ("primvars:st", "primvars:st:indices"):
+        if name in spec.attributes:
+            spec.RemoveProperty(spec.attributes[name])
+    unique, indices = np.unique(values.astype(np.float32), axis=0, return_inverse=True)
     array = Vt.Vec2fArray.FromNumpy(np.ascontiguousarray(unique, dtype=np.float32))
     _write_indexed(spec, "st", Types.TexCoord2fArray, array, indices.astype(np.int32))

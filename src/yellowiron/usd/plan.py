@@ -123,7 +123,9 @@ class Prototypes:
         found = self._by_key.get((shape.key, look))
         if found is None:
             path = f"{self.root}/{self._names.give(shape.name or 'shape')}"
-            mesh = self._mesh_by_shape.setdefault(shape.key, f"{path}/mesh")
+            # What is bound to some triangles, or mapped otherwise, is a mesh of its own.
+            kind = f"{shape.key} {path}" if look.faces else f"{shape.key} {look.texture is not None}"
+            mesh = self._mesh_by_shape.setdefault(kind if shape.finishes else shape.key, f"{path}/mesh")
             found = Prototype(path, mesh, shape, look)
             self._by_key[shape.key, look] = found
             self.prototypes.append(found)

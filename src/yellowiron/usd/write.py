@@ -14,7 +14,7 @@ from yellowiron.model.errors import OutputError
 from yellowiron.model.mechanism import Mechanism
 from yellowiron.usd.bodies import is_mirrored, write_bodies
 from yellowiron.usd.geometry import write_hulls, write_mirrored, write_pieces, write_prototypes
-from yellowiron.usd.materials import copy_textures
+from yellowiron.usd.materials import copy_textures, write_pictures
 from yellowiron.usd.mujoco import write_mujoco
 from yellowiron.usd.physics import write_physics
 from yellowiron.usd.physx import write_physx
@@ -52,6 +52,7 @@ def write_machine(
     textures, texture_files = copy_textures(
         named, payloads / TEXTURE_FOLDER, search=[Path(f) for f in texture_folders], relative=f"./{TEXTURE_FOLDER}"
     )
+    texture_files += write_pictures((p.look for p in plan.prototypes), payloads)
     machine_file = f"{name}.usda"
     machine, scene = create_layer(plan.root_name), create_layer("World")
     geometry = create_layer(PROTOTYPES[1:], binary=True)
