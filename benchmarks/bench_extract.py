@@ -1,14 +1,15 @@
 """Extraction from generated sheets whose every value is known (`tests/specs/sheets.py`). Bars: docs/extraction.md.
 
-Run from the repository's root: `python benchmarks/bench_extract.py [--sets tuned,held,final,last] [--by] [--faults F]
-[--manual PAGES]`. `--by` adds a line for each layout and language, `--faults` writes each value that did not come back
-as it should, `--manual` reads a manual of so many pages in the guarded child and prints its time and peak memory
-(default: no manual). Seconds are processor time.
+Run from the repository's root: `python benchmarks/bench_extract.py [--sets tuned,held,final,last,fresh] [--by]
+[--faults F] [--manual PAGES]`. `--by` adds a line for each layout and language (and type, in the sets of all types),
+`--faults` writes each value that did not come back as it should, `--manual` reads a manual of so many pages in the
+guarded child and prints its time and peak memory (default: no manual). Seconds are processor time.
 """
 
 from __future__ import annotations
 
 import argparse
+import functools
 import resource
 import statistics
 import sys
@@ -20,7 +21,7 @@ ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "src"), str(ROOT / "tests" / "specs")]
 
 from reportlab.pdfgen.canvas import Canvas  # noqa: E402
-from sheets import KINDS, LAYOUTS, Score, cases, make, page_texts, score  # noqa: E402
+from sheets import LAYOUTS, WORDED, Score, cases, make, page_texts, score  # noqa: E402
 
 from yellowiron.library import load_template  # noqa: E402
 from yellowiron.specs.extract import from_sheets, read  # noqa: E402
@@ -65,12 +66,12 @@ def line(name: str, one: Score) -> str:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--sets", default=",".join(LAYOUTS))
+    parser.add_argument("--sets", default=",".join([*LAYOUTS, *WORDED]))
     parser.add_argument("--by", action="store_true")
     parser.add_argument("--faults", type=Path)
     parser.add_argument("--manual", type=int, default=0)
     arguments = parser.parse_args()
-    templates = {kind: load_template(kind) for kind in KINDS}
+    load = functools.cache(load_template)
     faults: list[str] = []
     seconds: list[float] = []
     with tempfile.TemporaryDirectory() as scratch:
@@ -81,11 +82,12 @@ def main() -> None:
                 sheet = make(case, folder)
                 start = time.process_time()
                 one = read_sheet(sheet.path)
-                found = from_sheets(templates[case.kind], [one], config=sheet.config)
+                found = from_sheets(load(case.kind), [one], config=sheet.config)
                 seconds += [(time.process_time() - start) / one.pages] * one.pages
                 scored = score(sheet, found, page_texts(sheet.path))
                 total, count = total + scored, count + 1
-                for part in (case.layout, case.style[:2]):
+                kind = (case.kind,) if split in WORDED else ()
+                for part in (case.layout, case.style[:2], *kind):
                     parts[part] = parts.get(part, Score()) + scored
             print(line(f"{split} ({count} sheets)", total))
             if arguments.by:
@@ -99,7 +101,7 @@ def main() -> None:
         dense(folder / "dense.pdf")
         start = time.process_time()
         one = read_sheet(folder / "dense.pdf")
-        from_sheets(templates["excavator"], [one])
+        from_sheets(load("excavator"), [one])
         print(f"a densely ruled page: {time.process_time() - start:.3f} s, {len(one.statements)} statements")
         if arguments.manual:
             manual(folder / "manual.pdf", arguments.manual)

@@ -1,8 +1,8 @@
-"""Generated sheets with their truths, in four sets that share neither machine nor layout, and how they are scored.
+"""Generated sheets with their truths, in sets that share neither machine nor layout, and how they are scored.
 
 `tuned`: what the rules were made on. `held`: read when that was done, then mended for; `final` after it the same way.
 `last`: read once, when all that was done. Labels differ too: the tuned sheets print each name's first wording, `held`
-and `final` the second and (in English) the third, `last` others again.
+and `final` the second and (in English) the third, `last` others again. `fresh`: all ten types, in words of its own.
 """
 
 from __future__ import annotations
@@ -15,17 +15,20 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal
 
+from sheets_fresh import FRESH
 from sheets_held import FINAL, HELD
 from sheets_last import LAST
 from sheets_machines import Machine, machines
 from sheets_make import Sheet, Truth, styles
 from sheets_tuned import TUNED
+from sheets_worded import Worded, Wording
 
 from yellowiron.model.specification import Specification, Specifications
 
-Split = Literal["tuned", "held", "final", "last"]
+Split = Literal["tuned", "held", "final", "last", "fresh"]
 KINDS = ("wheel_loader", "excavator")
 LAYOUTS = {"tuned": TUNED, "held": HELD, "final": FINAL, "last": LAST}
+WORDED: dict[str, Worded] = {"fresh": FRESH}
 _WORDING = {"tuned": 0, "held": 1, "final": 2, "last": 3}
 _SIXTH = {"tuned": (0, 1, 2), "held": (4,), "final": (5,), "last": (3,)}
 """Of every six machines of a type, in the order of `machines`, those of a split."""
@@ -51,6 +54,8 @@ class Case:
 
 def cases(split: Split, *, styles_a_layout: int = 5) -> list[Case]:
     """The sheets of a split: every layout of it, for both types, in several styles; machines in turn."""
+    if split in WORDED:
+        return [Case(split, *drawn) for drawn in WORDED[split].cases()]
     found: list[Case] = []
     names = list(styles(0))
     for kind in KINDS:
@@ -76,6 +81,13 @@ _ENGLISH = {"imperial_first", "stacked", "wrapped", "cards"}
 
 def make(case: Case, folder: Path) -> Sheet:
     """Typesets a case into `folder`; the drawn sheet has its file and its truth."""
+    path = folder / f"{case.split}-{case.name}.pdf"
+    if case.split in WORDED:
+        own = WORDED[case.split]
+        worded = Wording(path, case.machine, own.styles[case.style], case.seed, file=own.file)
+        own.layouts[case.layout](worded)
+        worded.finish()
+        return worded
     style = styles(_WORDING[case.split])[case.style]
     config = ""
     if case.configured and case.layout in _CONFIGURED:
@@ -84,7 +96,7 @@ def make(case: Case, folder: Path) -> Sheet:
             config = case.machine.name.upper() + dice.choice(("", "-L", "-XL"))
         else:
             config = dice.choice(case.machine.variants).heads[style.language]
-    sheet = Sheet(folder / f"{case.split}-{case.name}.pdf", case.machine, style, case.seed, config)
+    sheet = Sheet(path, case.machine, style, case.seed, config)
     LAYOUTS[case.split][case.layout](sheet)
     sheet.finish()
     return sheet

@@ -233,11 +233,82 @@ def unit_of(kind: str, name: str) -> str:
     for entry in entries(kind):
         if entry.name == name:
             return entry.third
-    return "mm"
+    return next((one.unit for one in kept(kind) if one.name == name), "mm")
+
+
+@dataclass(frozen=True)
+class Kept:
+    """A value of a type's machine of `sheets_types.txt`; `power` None: of every size the same."""
+
+    name: str
+    unit: str
+    value: float
+    power: float | None
+
+
+@cache
+def kept(kind: str) -> tuple[Kept, ...]:
+    """The values of a type in `sheets_types.txt`."""
+    found, here = [], ""
+    for line in (HERE / "sheets_types.txt").read_text(encoding="utf-8").splitlines():
+        if line.startswith("["):
+            here = line.strip("[]")
+        elif here == kind and line and not line.startswith("#"):
+            name, unit, value, power = (part.strip() for part in line.split("|"))
+            found.append(Kept(name, unit, float(value), None if power == "=" else float(power)))
+    return tuple(found)
+
+
+# What is the sum of others, and what is smaller than another
+_SUMS = {
+    "wheel_loader": {"Total Cycle Time": ("Raise Time", "Dump Time", "Lower Time")},
+    "excavator": {"Overall Width": ("Track Gauge", "Shoe Width")},
+    "articulated_dump_truck": {"Gross Weight": ("Empty Weight", "Rated Payload")},
+    "rigid_dump_truck": {"Empty Weight": ("Body Weight", "Chassis Weight"),
+                         "Gross Weight": ("Empty Weight", "Rated Payload")},
+    "dozer": {"Width over Tracks": ("Track Gauge", "Shoe Width")},
+    "grader": {"Wheelbase": ("Front Axle to Articulation", "Rear Axle to Articulation")},
+    "forklift": {"Overall Length": ("Length to Fork Face", "Fork Length")},
+    "skid_steer": {"Tipping Load": ("Rated Operating Capacity", "Rated Operating Capacity")},
+}  # fmt: skip
+_SMALLER = {
+    "articulated_dump_truck": [("Body Capacity Struck with Tailgate", "Body Capacity Heaped"),
+                               ("Body Capacity Struck", "Body Capacity Struck with Tailgate"),
+                               ("Body Capacity Heaped", "Body Capacity Heaped with Tailgate"),
+                               ("Body Width Inside", "Body Width Outside")],
+    "rigid_dump_truck": [("Body Capacity Struck", "Body Capacity Heaped"), ("Body Width Inside", "Body Width Outside"),
+                         ("Operating Width", "Overall Width"), ("Canopy Width", "Overall Width"),
+                         ("Front Canopy Height", "Overall Height")],
+    "dozer": [("Width over Tracks", "Width over Trunnions"), ("Shipping Weight", "Operating Weight")],
+    "grader": [("Tire Centerline Width", "Overall Width"), ("Height to Top of Cylinders", "Overall Height")],
+    "backhoe_loader": [("Overall Width", "Loader Bucket Width"), ("Loader Dump Height", "Loader Hinge Pin Height")],
+    "forklift": [("Ground Clearance Below Mast", "Ground Clearance")],
+    "skid_steer": [("Overall Width", "Bucket Width"), ("Dumping Clearance", "Hinge Pin Height at Maximum Lift")],
+}  # fmt: skip
+
+
+def typed(kind: str, name: str, seed: str) -> Machine:
+    """A machine of any type, drawn about the one of `sheets_types.txt`."""
+    dice = random.Random(f"{kind} {seed}")
+    size = dice.uniform(0.45, 1.9) ** (1 / 3)
+    base: dict[str, tuple[float, float | None]] = {one.name: (one.value, one.power) for one in kept(kind)}
+    values = {}
+    for key, (value, power) in {**_BASES.get(kind, {}), **base}.items():
+        grown = value if power is None else value * size**power * dice.uniform(0.955, 1.045)
+        fine = grown < 100 and unit_of(kind, key) == "mm" and " Cylinder " not in key
+        values[key] = float(round(grown)) if fine else rounded(kind, key, grown)
+    if kind in _BASES:
+        values = _consistent(kind, values)
+    for whole, parts in _SUMS.get(kind, {}).items():
+        values[whole] = rounded(kind, whole, sum(values[part] for part in parts))
+    for small, large in _SMALLER.get(kind, []):
+        if values[small] > 0.985 * values[large]:
+            values[small] = rounded(kind, small, 0.96 * values[large])
+    return Machine(name, kind, values)
 
 
 _STEPS = {"mm": 5.0, "kg": 10.0, "m3": 0.05, "kN": 1.0, "deg": 1.0, "MPa": 0.1, "L/min": 1.0, "s": 0.1, "km/h": 0.1,
-          "rpm": 0.1, "kNm": 0.1, "-": 1.0}  # fmt: skip
+          "rpm": 0.1, "kNm": 0.1, "-": 1.0, "kW": 1.0, "kPa": 1.0, "m/s": 0.01, "m/min": 1.0}  # fmt: skip
 
 
 def rounded(kind: str, name: str, value: float) -> float:

@@ -29,7 +29,7 @@ SECTIONS = {
 }  # fmt: skip
 _SI = {"mm": 1e-3, "m": 1.0, "kg": 1.0, "t": 1e3, "deg": 0.017453292519943295, "MPa": 1e6, "bar": 1e5, "kPa": 1e3,
        "L/min": 1e-3 / 60, "m3": 1.0, "kN": 1e3, "kNm": 1e3, "km/h": 1 / 3.6, "s": 1.0, "rpm": 0.10471975511965977,
-       "kW": 1e3, "L": 1e-3,
+       "kW": 1e3, "L": 1e-3, "m/s": 1.0, "m/min": 1 / 60,
        "-": 1.0}  # fmt: skip
 _SHOWN = {"deg": "°", "kNm": "kN·m", "m3": "m³", "-": ""}
 
@@ -37,7 +37,7 @@ _SHOWN = {"deg": "°", "kNm": "kN·m", "m3": "m³", "-": ""}
 @dataclass(frozen=True)
 class Style:
     """How a sheet writes. `wording` chooses among the labels; `metres`: long lengths in m; `imperial`: also printed;
-    `group`, `point`: thousands and decimals."""
+    `group`, `point`: thousands and decimals; `feet`: how feet and inches are put."""
 
     language: str = "en"
     wording: int = 0
@@ -47,6 +47,7 @@ class Style:
     point: str = "."
     pressure: str = "MPa"
     tonnes: bool = False
+    feet: str = "{}'{}\""
 
 
 @dataclass(frozen=True)
@@ -138,7 +139,8 @@ class Sheet:
         usual = self.machine.values[name]  # all of a row's columns are in the unit of this one
         value = usual if value is None else value
         unit = unit_of(self.machine.kind, name)
-        decimals = {"mm": 0, "kg": 0, "deg": 0, "L/min": 0, "kN": 0, "-": 0, "m3": 2}.get(unit, 1)
+        decimals = {"mm": 0, "kg": 0, "deg": 0, "L/min": 0, "kN": 0, "-": 0, "m3": 2, "kW": 0, "kPa": 0, "m/s": 2,
+                    "m/min": 0}.get(unit, 1)  # fmt: skip
         decimals = max(decimals, 1 if unit in ("mm", "deg", "L/min", "kN") and value % 1 else 0)
         if unit == "mm" and self.style.metres and usual >= 1000 and " Cylinder " not in name:
             unit, value, decimals = "m", value / 1000, 2 if value % 10 == 0 else 3
@@ -161,13 +163,15 @@ class Sheet:
             if inches < 60:
                 return f"{self.digits(inches, 1)} in"
             whole = round(inches)
-            return f"{whole // 12}'{whole % 12}\""
+            return self.style.feet.format(whole // 12, whole % 12)
         factor, decimals, name = {
             "kg": (2.20462262, 0, "lb"), "t": (2204.62262, 0, "lb"), "MPa": (145.0377, 0, "psi"),
             "bar": (14.50377, 0, "psi"), "kPa": (0.1450377, 0, "psi"), "L/min": (0.264172, 1, "gal/min"),
             "m3": (1.30795, 2, "yd³"), "kN": (224.809, 0, "lbf"), "kNm": (737.562, 0, "lbf·ft"),
-            "km/h": (0.621371, 1, "mph"),
+            "km/h": (0.621371, 1, "mph"), "kW": (1.341022, 0, "hp"), "m/s": (196.8504, 0, "ft/min"),
+            "m/min": (3.28084, 0, "ft/min"),
         }.get(unit, (0.0, 0, ""))  # fmt: skip
+        decimals += unit == "kPa" and value < 200
         return f"{self.digits(value * factor, decimals)} {name}" if name else ""
 
     def only_imperial(self, name: str) -> None:
