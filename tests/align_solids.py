@@ -40,6 +40,8 @@ def _shape(name: str, mesh: trimesh.Trimesh, cylinders: list[CylinderFeature], p
 
 def plate(name: str, outline: Array, thickness: float, holes: list[tuple[float, float, float]] | None = None) -> Shape:
     """A convex `outline` (n, 2) in x, y, extruded from z = −t/2 to t/2, with round through holes (x, y, radius)."""
+    if not HOLLOW and holes:
+        outline = np.concatenate([outline, around(*holes)])  # a hole may be beside the outline, and widens it
     holes = (holes or []) if HOLLOW else []
     hull = outline[ConvexHull(outline).vertices]
     turn = np.linspace(0.0, 2 * math.pi, SEGMENTS, endpoint=False)

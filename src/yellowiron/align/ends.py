@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from yellowiron.align.contacts import PARALLEL, Fit
+from yellowiron.align.contacts import PARALLEL, Fit, Line, lines_of
 from yellowiron.align.hydraulics import Ram
 from yellowiron.align.solids import Cyl, Solid, coaxial
 from yellowiron.align.touch import Touch
@@ -23,9 +23,10 @@ LEAST, MOST = 0.002, 0.025
 LONG = 6.0
 """A hole longer than this many radii is a barrel's."""
 BESIDE = 0.25
-"""What is beside an end is at most this share of its radius away …"""
+"""What is right beside an end is at most this share of its radius away; if nothing is, then what is no further away
+than the end is wide …"""
 CORE = 0.3
-"""… and there within this share of it from its axis."""
+"""… and on its axis within this share of its radius."""
 PIN = 0.5
 """A pin has about this share of the radius of the end around it."""
 
@@ -70,6 +71,34 @@ def ended_fits_of(
     return _chained([found[pair] for pair in sorted(found)], joined)
 
 
+def stays_of(pierced: Iterable[Fit], ended: list[Fit], solids: tuple[Solid, ...], touch: Touch) -> frozenset[int]:
+    """Bars through parts that hold them together and are no pins: where few of the round ends have a pin, those between
+    whose ends and other parts there is no room."""
+    pins = sorted({f.inner for f in pierced if solids[f.inner].shaft is not None})
+    lines = lines_of(ended, 0.0)
+    bars = {i: shaft for i in pins if (shaft := solids[i].shaft) is not None}
+    on = [ln for ln in lines if any(_along(bar, ln) for bar in bars.values())]
+    if 2 * len(on) >= len(lines):
+        return frozenset()
+    return frozenset(i for i, bar in bars.items() if not any(_along(bar, ln) for ln in on) and _held(i, bar, touch))
+
+
+def _along(bar: Cyl, line: Line) -> bool:
+    return abs(float(bar.direction @ line.direction)) > PARALLEL and line.off(bar.center) < 0.1 * line.radius
+
+
+def _held(index: int, bar: Cyl, touch: Touch) -> bool:
+    """Whether other parts begin right beyond both ends of a bar."""
+    gap = BESIDE * bar.radius
+    for side in (1.0, -1.0):
+        center = bar.center + side * bar.half * bar.direction
+        probe = replace(bar, center=center, half=0.5 * gap)
+        near = touch.reaching(center - bar.radius, center + bar.radius)
+        if not any(k != index and touch.pierced(k, probe, CORE * bar.radius) for k in near):
+            return False
+    return True
+
+
 def _chained(fits: list[Fit], joined: set[frozenset[int]]) -> list[Fit]:
     """The fits, and one for every two parts that are beside a third on one axis: its pin goes through them all."""
     joined = joined | {frozenset((f.inner, f.outer)) for f in fits}
@@ -89,20 +118,21 @@ def _chained(fits: list[Fit], joined: set[frozenset[int]]) -> list[Fit]:
 
 
 def _beside(solid: Solid, end: Cyl, side: float, solids: tuple[Solid, ...], touch: Touch) -> list[tuple[int, Cyl]]:
-    """The parts that have material on an end's axis right beyond one of its faces, and where: those that are turned
+    """The parts that have material on an end's axis next beyond one of its faces, and where: those that are turned
     about it themselves (hubs, spacers) belong to a neighbour and are none."""
-    gap = BESIDE * end.radius
-    center = end.center + side * (end.half + 0.4 * gap) * end.direction
-    probe = replace(end, center=center, half=0.6 * gap)
-    reach = probe.half * np.abs(probe.direction) + CORE * end.radius
-    found = []
-    for k in touch.reaching(center - reach, center + reach):
-        other = solids[k]
-        if k == solid.index or (other.line is not None and coaxial(other.line, end, 0.1)):
-            continue
-        low, high = other.span(end.center, side * end.direction)
-        if high < end.half + 0.5 * gap or low < -end.half:
-            continue  # it ends here, or runs through
-        if touch.pierced(k, probe, CORE * end.radius):
-            found.append((k, replace(probe, radius=PIN * end.radius, inner=True, arc=2 * np.pi)))
-    return found
+    for gap in (BESIDE * end.radius, max(BESIDE * end.radius, 2.0 * end.half)):
+        center = end.center + side * (end.half + 0.5 * gap - 0.1 * BESIDE * end.radius) * end.direction
+        probe = replace(end, center=center, half=0.5 * gap + 0.1 * BESIDE * end.radius)
+        reach = probe.half * np.abs(probe.direction) + CORE * end.radius
+        found = []
+        for k in touch.reaching(center - reach, center + reach):
+            other = solids[k]
+            if k == solid.index or (other.line is not None and coaxial(other.line, end, 0.1)):
+                continue
+            if other.span(end.center, side * end.direction)[1] < end.half + 0.1 * end.radius:
+                continue  # it ends here
+            if touch.pierced(k, probe, CORE * end.radius):
+                found.append((k, replace(probe, radius=PIN * end.radius, inner=True, arc=2 * np.pi)))
+        if found:
+            return found
+    return []

@@ -80,17 +80,22 @@ def evidence_of(
     *,
     slewing: bool = False,
     nests: tuple[Nest, ...] = (),
+    stays: frozenset[int] = frozenset(),
 ) -> Evidence:
     """Sorts fits and flat contacts. Fits between a barrel and its rod, and between a wheel and its axle, slide. `bare`:
     empty bores side by side; `lines` number the fits first, then these. `slewing`: whatever round thing is as wide as a
-    slewing bearing turns in its bore, though it is no thin ring."""
+    slewing bearing turns in its bore, though it is no thin ring. `stays`: bars that are no pins."""
     owner: dict[int, tuple[str, int]] = {}
     for k, ram in enumerate(rams):
         owner.update(dict.fromkeys(ram.barrel, ("barrel", k)) | dict.fromkeys(ram.rod, ("rod", k)))
     for k, wheel in enumerate(wheels):
         owner.update(dict.fromkeys(wheel.members, ("wheel", k)))
     inner = {f.inner for f in fits}
-    fasteners = frozenset(s.index for s in solids if s.shaft is not None and s.index in inner and s.index not in owner)
+    fasteners = frozenset(
+        s.index
+        for s in solids
+        if s.shaft is not None and s.index in inner and s.index not in owner and s.index not in stays
+    )
     number = {f: k for k, line in enumerate(lines) for f in line.fits}
     hosts: dict[int, list[Fit]] = {}
     line_of: dict[int, set[int]] = {}

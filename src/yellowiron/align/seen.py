@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from yellowiron.align.contacts import Fit, Flat, bare_fits_of, fits_of, flats_of, lines_of, neighbours
-from yellowiron.align.ends import bored, ended_fits_of
+from yellowiron.align.ends import bored, ended_fits_of, stays_of
 from yellowiron.align.evidence import Evidence, evidence_of, tables_of
 from yellowiron.align.hydraulics import Ram, rams_of
 from yellowiron.align.nests import Nest, nests_of
@@ -56,9 +56,13 @@ def see(assembly: Assembly, template: Template, contact: float) -> Seen:
         rams += apart_rams_of(solids, rams, tolerance)
     fits = fits_of(solids, tolerance)
     fits += interrupted_fits_of(solids, fits, tolerance)
-    fits += pierced_fits_of(solids, fits, rams, touch, size)
+    pierced = pierced_fits_of(solids, fits, rams, touch, size)
+    fits += pierced
+    stays: frozenset[int] = frozenset()
     if not bored(solids, template, size):
-        fits += ended_fits_of(solids, fits, rams, touch, size)
+        ended = ended_fits_of(solids, fits, rams, touch, size)
+        stays = stays_of(pierced, ended, solids, touch)
+        fits += ended
     bare = bare_fits_of(solids, fits, tolerance)
     near = neighbours(solids, tolerance)
     flats = flats_of(solids, near, tolerance)
@@ -81,6 +85,7 @@ def see(assembly: Assembly, template: Template, contact: float) -> Seen:
             tolerance,
             slewing=slewing,
             nests=nests,
+            stays=stays,
         )
 
     evidence = [sorted_out(fits, slewing=False)]
