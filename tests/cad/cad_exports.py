@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 from xml.sax.saxutils import quoteattr
 
+import cad_fbx
 import numpy as np
 from cad_stepfiles import Node, Use, box, compound, cut, cylinder, moved, rotation, translation, write_step
 
@@ -359,6 +360,29 @@ def collada(path: Path, meshes: Meshes) -> None:
     )
 
 
+def fbx(path: Path, meshes: Meshes, *, binary: bool = False) -> None:
+    """Inches, Z up; one geometry for two pins."""
+    inch = 0.0254
+    number = {key: 1000 + n for n, key in enumerate(meshes)}
+    objects = [cad_fbx.geometry(number[key], points / inch, faces) for key, (points, faces) in meshes.items()]
+    objects += [
+        cad_fbx.material(number[key] + 100, key, next(i.color for i in ITEMS if i.shape == key)) for key in meshes
+    ]
+    objects += [cad_fbx.model(n, name, np.eye(4), mesh=False) for n, name in ((1, "LOADER"), (2, "FRONT"))]
+    links = [(1, 0), (2, 1)]
+    for n, item in enumerate(ITEMS, start=10):
+        place = item.matrix.copy()
+        place[:3, 3] /= inch
+        objects.append(cad_fbx.model(n, item.name, place, mesh=True))
+        links += [(n, len(item.path)), (number[item.shape], n), (number[item.shape] + 100, n)]
+    cad_fbx.write(path, objects, links, unit_cm=2.54, binary=binary)
+
+
+def fbx_binary(path: Path, meshes: Meshes) -> None:
+    """The same records as bytes."""
+    fbx(path, meshes, binary=True)
+
+
 def usd(path: Path, meshes: Meshes) -> None:
     """Centimetres, prototypes with their materials inside, instances."""
     from pxr import Gf, Sdf, Usd, UsdGeom, UsdShade
@@ -535,6 +559,8 @@ WRITERS: dict[str, tuple[str, Writer]] = {
     "PLY": ("machine.ply", ply),
     "3MF": ("machine.3mf", threemf),
     "COLLADA": ("machine.dae", collada),
+    "FBX (text)": ("machine.fbx", fbx),
+    "FBX (binary)": ("machine.fbx", fbx_binary),
     "USD (usda)": ("machine.usda", usd),
     "USD (usdc)": ("machine.usdc", usd),
     "USD (usdz)": ("machine.usdz", usdz),

@@ -6,25 +6,31 @@ Both state their unit; Open Asset Import gives metres, and keeps the tree and it
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+import struct
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
+from numpy.typing import NDArray
 
 from yellowiron.cad import placed
+from yellowiron.cad.looks import Dressed, Look, joined
 from yellowiron.cad.naming import decode_name, is_generic
+from yellowiron.cad.pictures import Pictures, finish
 from yellowiron.cad.placed import Occurrence
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import CadError
-from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Color, Floats, Mesh
 
 _HINT = "Export the file again, as GLB or, better, as STEP."
 _UP = re.compile(rb"<up_axis>\s*([XYZ]_UP)\s*</up_axis>")
 _FROM_Y_UP = {"Z_UP": np.array([[1.0, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1]])}
 """The library turns what has another axis up to Y up; this turns it back."""
+_DIFFUSE = 1
+"""The library's number for textures of the diffuse colour."""
 _HELPER = "_$AssimpFbx$_"
 """Marks nodes that stand for one step of an FBX node's transform."""
 
@@ -49,7 +55,28 @@ def read_fbx(path: str) -> Assembly:
     triangle."""
     import assimp_py
 
-    return _read(path, "FBX", assimp_py.Process_GlobalScale, np.eye(4), {})
+    data = Path(path).read_bytes()
+    up, unit = _setting(data, b"UpAxis"), _setting(data, b"UnitScaleFactor")
+    frame = _FROM_Y_UP["Z_UP"] if up == 2.0 else np.eye(4)
+    read = _read(path, "FBX", assimp_py.Process_GlobalScale, frame, {})
+    # The library has used the unit, centimetres by default, up.
+    return replace(read, unit=0.01 * (unit or 1.0))
+
+
+def _setting(data: bytes, name: bytes) -> float | None:
+    """A number of an FBX file's global settings, text or binary; None where it states none."""
+    text = re.search(rb'"%s"\s*,\s*"\w*"\s*,\s*"\w*"\s*,\s*"\w*"\s*,\s*([-+.\deE]+)' % name, data)
+    record = rb"S%s\0\0\0%s(?:S[\0-\x20]\0\0\0\w*){3}([ID])(.{8})" % (bytes([len(name)]), name)
+    packed = None if text else re.search(record, data, re.DOTALL)
+    try:
+        if text:
+            return float(text.group(1))
+        if packed:
+            kind, size = ("<i", 4) if packed.group(1) == b"I" else ("<d", 8)
+            return float(struct.unpack(kind, packed.group(2)[:size])[0])
+    except ValueError:
+        return None
+    return None
 
 
 def _read(path: str, format: str, flags: int, frame: Floats, titles: Mapping[str, str]) -> Assembly:
@@ -64,23 +91,20 @@ def _read(path: str, format: str, flags: int, frame: Floats, titles: Mapping[str
     # The root holds the unit: it goes into the meshes, and the places stay free of it.
     unit = abs(float(np.linalg.det(np.asarray(scene.root_node.transformation).reshape(4, 4)[:3, :3]))) ** (1.0 / 3.0)
     unit = float(f"{unit:.6g}") or 1.0
-    meshes = [_mesh(entry, unit) for entry in scene.meshes]
-    looks = [_color(entry) for entry in scene.materials]
-    paint = [looks[m.material_index] if 0 <= m.material_index < len(looks) else None for m in scene.meshes]
-    joined: dict[tuple[int, ...], tuple[Mesh, Color | None] | None] = {}
+    pictures = Pictures(path)
+    looks = [_look(entry, pictures) for entry in scene.materials]
+    meshes = [_mesh(entry, unit, looks) for entry in scene.meshes]
+    known: dict[tuple[int, ...], Dressed | None] = {}
     occurrences = []
     nodes = list(_nodes(scene.root_node, frame, titles))
     for names, indices, transform in nodes:
-        if indices not in joined:
-            joined[indices] = _joined([meshes[i] for i in indices], [paint[i] for i in indices])
-        found = joined[indices]
-        if found is not None:
+        if indices not in known:
+            kept = [meshes[i] for i in indices if len(meshes[i][0].triangles)]
+            known[indices] = joined(kept) if kept else None
+        one = known[indices]
+        if one is not None:
             transform[:3, :3] /= unit
-            occurrences.append(Occurrence(names[-1], names[:-1], found[0], transform, found[1]))
-    findings = []
-    if any(entry.get("TEXTURES") for entry in scene.materials):
-        words = "Textures are not read: parts have the colour that is under them"
-        findings.append(Finding("CAD012", "info", path, words))
+            occurrences.append(Occurrence(names[-1], names[:-1], one.mesh, transform, one.color, one.finishes))
     root = decode_name(titles.get(scene.root_node.name, ""), "utf-8")
     return placed.assemble(
         occurrences,
@@ -88,7 +112,7 @@ def _read(path: str, format: str, flags: int, frame: Floats, titles: Mapping[str
         format=format,
         unit=unit,
         path=path,
-        findings=findings,
+        findings=pictures.findings(),
         declared=len(nodes),
     )
 
@@ -108,33 +132,45 @@ def _nodes(
         stack += [(child, names, matrix) for child in reversed(here.children)]
 
 
-def _mesh(entry: Any, unit: float) -> Mesh:
+def _mesh(entry: Any, unit: float, looks: Sequence[Look]) -> tuple[Mesh, Look, Floats | None, Floats | None]:
+    """A mesh in metres, its look, its triangles' texture coordinates (m, 3, 2) and colours (m, 3)."""
     points = np.asarray(entry.vertices, dtype=np.float64).reshape(-1, 3) * unit
     indices = np.asarray(entry.indices, dtype=np.int64)
     # Points and lines come as meshes of their own, with fewer corners a face.
     corners = indices.reshape(-1, 3) if len(indices) == 3 * entry.num_faces else np.zeros((0, 3), dtype=np.int64)
-    return Mesh(points, corners.astype(np.int32))
+    look = looks[entry.material_index] if 0 <= entry.material_index < len(looks) else Look()
+    uvs = _corners(entry.texcoords, len(points), corners)
+    paint = _corners(entry.colors, len(points), corners)
+    mesh = Mesh(points, corners.astype(np.int32))
+    return mesh, look, None if uvs is None else uvs[:, :, :2], None if paint is None else paint[:, :, :3].mean(axis=1)
 
 
-def _joined(meshes: list[Mesh], paint: list[Color | None]) -> tuple[Mesh, Color | None] | None:
-    """A node's meshes, one for each of its materials, as one; None where it has no triangle."""
-    kept = [(m, c) for m, c in zip(meshes, paint, strict=True) if len(m.triangles)]
-    if len(kept) < 2:
-        return kept[0] if kept else None
-    starts = np.cumsum([0, *(len(m.points) for m, _ in kept)])
-    points = np.concatenate([m.points for m, _ in kept])
-    triangles = np.concatenate([m.triangles + start for (m, _), start in zip(kept, starts, strict=False)])
-    colors = {c for _, c in kept}
-    if len(colors) == 1:
-        return Mesh(points, triangles.astype(np.int32)), colors.pop()
-    rows = np.concatenate([np.tile(c or (0.5, 0.5, 0.5), (len(m.triangles), 1)) for m, c in kept])
-    return Mesh(points, triangles.astype(np.int32), None, rows), None
-
-
-def _color(material: Mapping[str, Any]) -> Color | None:
-    """A material's diffuse colour; None where a picture stands for it."""
-    value = material.get("COLOR_DIFFUSE")
-    if value is None:
+def _corners(sets: Any, count: int, corners: NDArray[np.int64]) -> Floats | None:
+    """(m, 3, k) the first set of numbers at `count` points, at the triangles' corners; None without one."""
+    numbers = np.asarray(sets[0], dtype=np.float64) if sets else np.zeros(0)
+    if not count or not numbers.size or numbers.size % count or numbers.size < 2 * count:
         return None
-    r, g, b = (min(max(float(v), 0.0), 1.0) for v in value[:3])
-    return r, g, b
+    return np.asarray(numbers.reshape(count, -1)[corners])
+
+
+def _look(material: Mapping[str, Any], pictures: Pictures) -> Look:
+    """A material's diffuse colour, or the picture that stands for it, metalness and roughness."""
+    value = material.get("COLOR_DIFFUSE")
+    color: Color | None = None
+    if value is not None:
+        r, g, b = (min(max(float(v), 0.0), 1.0) for v in value[:3])
+        color = (r, g, b)
+    metallic, roughness = (_number(material.get(f"{key}FACTOR")) for key in ("METALLIC", "ROUGHNESS"))
+    names = (material.get("TEXTURES") or {}).get(_DIFFUSE) or []
+    name = str(names[0]) if names else ""
+    if name.startswith("*"):
+        pictures.fault(name, "it is packed into the file, where it cannot be got at")
+    picture = pictures.beside(name) if name and not name.startswith("*") else None
+    if picture is None:
+        return Look(color, finish(metallic, roughness))
+    texture, mean = picture.painted(None)
+    return Look(mean, finish(metallic, roughness, texture))
+
+
+def _number(value: Any) -> float | None:
+    return float(value) if isinstance(value, (int, float)) else None

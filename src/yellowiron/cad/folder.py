@@ -15,12 +15,12 @@ from pathlib import Path
 import numpy as np
 
 from yellowiron.cad import obj, placed, ply, sniff, stl
+from yellowiron.cad.looks import Dressed
 from yellowiron.cad.naming import decode_name, is_generic, unique_ids
 from yellowiron.cad.placed import Occurrence
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import CadError
 from yellowiron.model.finding import Finding
-from yellowiron.model.geometry import Color, Mesh
 
 _MOST = 5000
 """Files of a folder."""
@@ -85,20 +85,20 @@ def _names(file: Path, folder: Path) -> tuple[str, ...]:
 
 def _loose(files: Sequence[Path], folder: Path) -> Assembly:
     """Files of triangles without a unit, each piece a part."""
-    raw: list[tuple[tuple[str, ...], str, Mesh, Color | None]] = []
+    raw: list[tuple[tuple[str, ...], str, Dressed]] = []
     for file in files:
         names = _names(file, folder)
         if file.suffix.lower() == ".obj":
-            raw += [(names, name, mesh, color) for name, mesh, color in obj.meshes_of(file)]
+            raw += [(names, name, one) for name, one in obj.meshes_of(file)]
             continue
         meshes = [m for _, m in stl.solids_of(file)] if file.suffix.lower() == ".stl" else [ply.mesh_of(file)]
-        raw += [(names, "", mesh, None) for mesh in meshes]
-    unit, findings = placed.guessed_unit([mesh.points for _, _, mesh, _ in raw], str(folder))
+        raw += [(names, "", Dressed(mesh)) for mesh in meshes]
+    unit, findings = placed.guessed_unit([one.mesh.points for _, _, one in raw], str(folder))
     occurrences = []
-    for names, name, mesh, color in raw:
-        scaled = Mesh(mesh.points * unit, mesh.triangles, None, mesh.triangle_colors)
+    for names, name, one in raw:
+        scaled = replace(one.mesh, points=one.mesh.points * unit)
         above, title = (names, name) if name and not is_generic(name) else (names[:-1], names[-1])
-        occurrences.append(Occurrence(title, above, scaled, np.eye(4), color))
+        occurrences.append(Occurrence(title, above, scaled, np.eye(4), one.color, one.finishes))
     return placed.assemble(
         occurrences, name=folder.name, format="folder", unit=unit, path=str(folder), findings=findings,
         declared=len(occurrences),

@@ -28,7 +28,7 @@ from OCP.TopoDS import TopoDS, TopoDS_Compound
 
 from yellowiron.cad import products
 from yellowiron.cad.brep import subshapes
-from yellowiron.cad.naming import decode_name, is_generic, sniff_encoding
+from yellowiron.cad.naming import decode_name, is_generic, remark, sniff_encoding
 from yellowiron.cad.tessellate import MILLIMETRE
 from yellowiron.cad.xcaf import EXPORT_AGAIN, Product, Tree, add_products, new_document
 from yellowiron.model.assembly import Assembly
@@ -102,10 +102,7 @@ class _Model:
         self._members = {id(e.Value(k)) for e in self._entities if _holds(e) for k in range(1, e.NbEntities() + 1)}
         self._known: dict[int, Product | None] = {}
         self._taken: set[int] = set()
-        self.findings: list[Finding] = []
-        if self._encoding != "utf-8":
-            words = f"Names are not in a standard encoding; they were read as {self._encoding}"
-            self.findings.append(Finding("CAD010", "info", path, words))
+        self.findings: list[Finding] = remark(self._encoding, path)
 
     def products(self) -> list[Product]:
         """The products that nothing else holds, in the file's order; loose surfaces are one."""

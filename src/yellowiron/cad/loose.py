@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 from yellowiron.cad import assimp, gltf, obj, stl
@@ -19,7 +20,9 @@ def loose_meshes(path: Path) -> list[tuple[str, Mesh, Color | None]]:
     if kind == ".stl":
         return [("", mesh, None) for _, mesh in stl.solids_of(path)]
     if kind == ".obj":
-        return obj.meshes_of(path)
+        return [
+            (name, replace(one.mesh, uvs=None, triangle_finishes=None), one.color) for name, one in obj.meshes_of(path)
+        ]
     if kind == ".dae":
         return _of(assimp.read_collada(str(path)))
     if kind in (".glb", ".gltf"):
@@ -32,7 +35,10 @@ def loose_meshes(path: Path) -> list[tuple[str, Mesh, Color | None]]:
 
 
 def _of(assembly: Assembly) -> list[tuple[str, Mesh, Color | None]]:
-    return [
-        (part.name, Mesh(assembly.points_of(part), assembly.shape_of(part).mesh.triangles), part.color)
-        for part in assembly.parts
-    ]
+    found = []
+    for part in assembly.parts:
+        mesh = assembly.shape_of(part).mesh
+        found.append(
+            (part.name, Mesh(assembly.points_of(part), mesh.triangles, None, mesh.triangle_colors), part.color)
+        )
+    return found

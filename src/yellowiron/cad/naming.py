@@ -6,6 +6,8 @@ import re
 import unicodedata
 from collections.abc import Iterable, Sequence
 
+from yellowiron.model.finding import Finding
+
 _GENERIC = re.compile(
     r"(?:=>.*|\d+|nauo\s*\d*|(?:solid|compound|compsolid|shell|part|body|component|product|shape|assembly|assy|default|"
     r"none|unnamed|unknown|noname|no name|open cascade step translator.*)[\s_.:#-]*\d*(?:[.:_-]\d+)*)",
@@ -34,6 +36,22 @@ def sniff_encoding(names: Sequence[bytes]) -> str:
     }
     best = max(scores, key=lambda codec: scores[codec])
     return _sibling_of_gb(high) if best == "gb18030" else best
+
+
+def decode_text(data: bytes, names: Sequence[bytes]) -> tuple[str, str]:
+    """A text file, and the codec that the names in it are written in."""
+    try:
+        return data.decode("utf-8-sig"), "utf-8"
+    except UnicodeDecodeError:
+        encoding = sniff_encoding(names)
+    return data.decode(encoding, errors="replace"), encoding
+
+
+def remark(encoding: str, path: str) -> list[Finding]:
+    """What to say of names in another encoding than the standard's (CAD010)."""
+    if encoding == "utf-8":
+        return []
+    return [Finding("CAD010", "info", path, f"Names are not in a standard encoding; they were read as {encoding}")]
 
 
 def _sibling_of_gb(names: Sequence[bytes]) -> str:

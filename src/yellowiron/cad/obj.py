@@ -1,34 +1,54 @@
 """A Wavefront OBJ file to an `Assembly`: a part for every object or group. Runs in the guard's child process.
 
-OBJ has no unit and no instances; of its material file the colours are read.
+OBJ has no unit and no instances; of its material file the colours, metalness, roughness and textures are read.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+import re
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
 
 from yellowiron.cad import placed
-from yellowiron.cad.naming import decode_name, is_generic
+from yellowiron.cad.looks import Dressed, Look, dress
+from yellowiron.cad.naming import decode_name, decode_text, is_generic, remark
+from yellowiron.cad.pictures import Pictures, finish
 from yellowiron.cad.placed import Occurrence
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import CadError
 from yellowiron.model.finding import Finding
-from yellowiron.model.geometry import Color, Mesh
+from yellowiron.model.geometry import Color, Floats, Mesh
 
 _DAMAGED = "Copy or export it again; the file is damaged."
+_NAMES = re.compile(rb"^[ \t]*(?:o|g|usemtl|mtllib|newmtl)[ \t]+([^\r\n]*)", re.MULTILINE)
+_OPTION = re.compile(r"\s*-(?:[a-z]+)(?:\s+(?:on|off|[lmrgbz]|[-+]?[\d.]+(?:e[-+]?\d+)?))*\s+", re.IGNORECASE)
 
 
 @dataclass
 class _Group:
-    """The faces under one object and group, as corners into the file's points, and the material of each."""
+    """The faces under one object and group, as corners into the file's points and texture coordinates (-1: none), and
+    the material of each."""
 
     name: str
     triangles: list[tuple[int, int, int]] = field(default_factory=list)
+    pictured: list[tuple[int, int, int]] = field(default_factory=list)
     materials: list[str] = field(default_factory=list)
+
+
+@dataclass
+class _File:
+    """What stands in a file: points (n, 3) in its unit, their colours where all have one, texture coordinates (k, 2),
+    the groups that have faces, and the material files it names."""
+
+    points: Floats
+    paint: Floats | None
+    coordinates: Floats
+    groups: list[_Group]
+    libraries: list[str]
+    encoding: str
 
 
 def read_obj(path: str) -> Assembly:
@@ -36,57 +56,72 @@ def read_obj(path: str) -> Assembly:
     if faces name points that are not there, or without a face."""
     findings: list[Finding] = []
     groups = _groups(path, findings)
-    unit, remarks = placed.guessed_unit([mesh.points for _, mesh, _ in groups], path)
+    unit, remarks = placed.guessed_unit([one.mesh.points for _, one in groups], path)
     findings += remarks
     occurrences = []
-    for name, mesh, color in groups:
-        scaled = Mesh(mesh.points * unit, mesh.triangles, None, mesh.triangle_colors)
-        occurrences.append(Occurrence(name if name and not is_generic(name) else "Part", (), scaled, np.eye(4), color))
+    for name, one in groups:
+        scaled = replace(one.mesh, points=one.mesh.points * unit)
+        title = name if name and not is_generic(name) else "Part"
+        occurrences.append(Occurrence(title, (), scaled, np.eye(4), one.color, one.finishes))
     return placed.assemble(
         occurrences, name=Path(path).stem, format="OBJ", unit=unit, path=path, findings=findings,
     )  # fmt: skip
 
 
-def meshes_of(file: Path) -> list[tuple[str, Mesh, Color | None]]:
-    """Name, triangles (in the file's unit) and colour of every object or group. `CadError` as for `read_obj`."""
+def meshes_of(file: Path) -> list[tuple[str, Dressed]]:
+    """Name and mesh (in the file's unit) of every object or group. `CadError` as for `read_obj`."""
     return _groups(str(file), [])
 
 
-def _groups(path: str, findings: list[Finding]) -> list[tuple[str, Mesh, Color | None]]:
-    points, groups, libraries = _parsed(path)
-    colors = _colors(libraries, path, findings)
+def _groups(path: str, findings: list[Finding]) -> list[tuple[str, Dressed]]:
+    file = _parsed(path)
+    findings += remark(file.encoding, path)
+    looks = _looks(file, path, findings)
+    numbers = {name: number for number, name in enumerate(looks)}
     found = []
-    for group in groups:
-        used, triangles = np.unique(np.array(group.triangles, dtype=np.int64), return_inverse=True)
-        paint = [colors.get(name) for name in group.materials]
-        several = len(set(paint)) > 1
-        painted = np.array([c or (0.5, 0.5, 0.5) for c in paint]) if several else None
-        mesh = Mesh(points[used], triangles.reshape(-1, 3).astype(np.int32), None, painted)
-        found.append((group.name, mesh, None if several else paint[0]))
+    for group in file.groups:
+        corners = np.array(group.triangles, dtype=np.int64)
+        used, triangles = np.unique(corners, return_inverse=True)
+        mesh = Mesh(file.points[used], triangles.reshape(-1, 3).astype(np.int32))
+        rows = np.array([numbers.get(name, -1) for name in group.materials], dtype=np.int64)
+        pictured = np.array(group.pictured, dtype=np.int64)
+        uvs = file.coordinates[pictured] if len(file.coordinates) and (pictured >= 0).all() else None
+        paint = None if file.paint is None else file.paint[corners].mean(axis=1)
+        found.append((group.name, dress(mesh, list(looks.values()), rows, uvs=uvs, paint=paint)))
     return found
 
 
-def _parsed(path: str) -> tuple[np.ndarray[tuple[int, int], np.dtype[np.float64]], list[_Group], list[str]]:
-    """Points (n, 3) in the file's unit, its groups that have faces, and the material files it names."""
+def _parsed(path: str) -> _File:
     points: list[tuple[float, float, float]] = []
+    paint: list[tuple[float, float, float]] = []
+    coordinates: list[tuple[float, float]] = []
     groups: dict[tuple[int, str], _Group] = {}
     libraries: list[str] = []
     above = group = material = ""
     objects = 0
-    text = Path(path).read_bytes().decode("utf-8", errors="replace").replace("\\\n", " ")
-    for number, line in enumerate(text.splitlines(), start=1):
+    data = Path(path).read_bytes()
+    text, encoding = decode_text(data, _NAMES.findall(data))
+    for number, line in enumerate(text.replace("\\\n", " ").splitlines(), start=1):
         word, _, rest = line.strip().partition(" ")
         try:
             if word == "v":
-                x, y, z = (float(v) for v in rest.split()[:3])
+                values = [float(v) for v in rest.split()]
+                x, y, z = values[:3]
                 points.append((x, y, z))
+                if len(values) == 6:
+                    paint.append((values[3], values[4], values[5]))
+            elif word == "vt":
+                values = [float(v) for v in rest.split()]
+                coordinates.append((values[0], values[1] if len(values) > 1 else 0.0))
             elif word == "f":
                 corners = [_index(entry, len(points)) for entry in rest.split()]
                 if len(corners) < 3:
                     raise ValueError
+                seen = [_coordinate(entry, len(coordinates)) for entry in rest.split()]
                 own = groups.setdefault((objects, group), _Group(decode_name(group or above, "utf-8")))
                 for k in range(1, len(corners) - 1):
                     own.triangles.append((corners[0], corners[k], corners[k + 1]))
+                    own.pictured.append((seen[0], seen[k], seen[k + 1]))
                     own.materials.append(material)
             elif word in ("o", "g"):
                 # Objects may share a name; a group that is named again goes on.
@@ -101,7 +136,11 @@ def _parsed(path: str) -> tuple[np.ndarray[tuple[int, int], np.dtype[np.float64]
             raise CadError(words, where=path, hint=_DAMAGED) from error
     if not groups:
         raise CadError("The OBJ file holds no face", where=path, hint="Export the machine's parts with it.")
-    return np.array(points, dtype=np.float64).reshape(-1, 3), list(groups.values()), libraries
+    colors = np.clip(np.array(paint, dtype=np.float64), 0.0, 1.0) if len(paint) == len(points) else None
+    return _File(
+        np.array(points, dtype=np.float64).reshape(-1, 3), colors,
+        np.array(coordinates, dtype=np.float64).reshape(-1, 2), list(groups.values()), libraries, encoding,
+    )  # fmt: skip
 
 
 def _index(entry: str, count: int) -> int:
@@ -113,29 +152,66 @@ def _index(entry: str, count: int) -> int:
     return index
 
 
-def _colors(libraries: list[str], path: str, findings: list[Finding]) -> dict[str, Color]:
-    """Material → linear RGB, from the material files beside the OBJ file; others are not opened."""
+def _coordinate(entry: str, count: int) -> int:
+    """A corner's texture coordinate counted from 0; -1 for one that is not there."""
+    text = entry.split("/", 2)[1:2]
+    if not text or not text[0]:
+        return -1
+    index = int(text[0])
+    index = index - 1 if index > 0 else count + index
+    return index if 0 <= index < count else -1
+
+
+@dataclass
+class _Material:
+    color: Color | None = None
+    metallic: float | None = None
+    roughness: float | None = None
+    picture: str = ""
+
+
+def _looks(file: _File, path: str, findings: list[Finding]) -> dict[str, Look]:
+    """Material → look, from the material files beside the OBJ file; others are not opened."""
     folder = Path(path).absolute().parent.resolve()
-    colors: dict[str, Color] = {}
-    for library in libraries:
+    pictures = Pictures(path)
+    looks: dict[str, Look] = {}
+    for library in file.libraries:
         target = (folder / library.replace("\\", "/")).resolve()
         if not target.is_relative_to(folder) or not target.is_file():
             where = "outside of its folder" if not target.is_relative_to(folder) else "not there"
             words = f"The material file '{library}' is {where}: parts have no colour"
             findings.append(Finding("CAD008", "warning", path, words, "Put it beside the OBJ file."))
             continue
-        name = ""
-        for line in target.read_bytes().decode("utf-8", errors="replace").splitlines():
-            word, _, rest = line.strip().partition(" ")
-            if word == "newmtl":
-                name = rest.strip()
-            elif word == "Kd" and len(color := _triple(rest)) == 3:
-                colors[name] = (color[0], color[1], color[2])
-    return colors
+        for name, one in _materials(target.read_bytes(), file.encoding).items():
+            picture = pictures.beside(one.picture) if one.picture else None
+            if picture is None:
+                looks[name] = Look(one.color, finish(one.metallic, one.roughness))
+                continue
+            # Black under a picture is what exporters write for "the picture alone".
+            texture, mean = picture.painted(one.color if one.color and max(one.color) > 0.0 else None)
+            looks[name] = Look(mean, finish(one.metallic, one.roughness, texture))
+    findings += pictures.findings()
+    return looks
+
+
+def _materials(data: bytes, encoding: str) -> dict[str, _Material]:
+    found: dict[str, _Material] = {}
+    one = _Material()
+    for line in data.decode(encoding, errors="replace").splitlines():
+        word, _, rest = line.strip().partition(" ")
+        if word == "newmtl":
+            one = found.setdefault(rest.strip(), _Material())
+        elif word == "Kd" and len(color := _triple(rest)) == 3:
+            one.color = (color[0], color[1], color[2])
+        elif word in ("Pm", "Pr") and (value := _triple(rest)):
+            one.metallic, one.roughness = (value[0], one.roughness) if word == "Pm" else (one.metallic, value[0])
+        elif word == "map_Kd":
+            one.picture = re.sub(rf"^(?:{_OPTION.pattern})+", "", rest.strip(), flags=re.IGNORECASE).strip()
+    return found
 
 
 def _triple(text: str) -> list[float]:
-    """Three numbers in [0, 1], or nothing."""
+    """Up to three numbers in [0, 1], or nothing."""
     try:
         values = [float(v) for v in text.split()[:3]]
     except ValueError:

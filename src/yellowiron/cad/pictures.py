@@ -88,7 +88,8 @@ class Pictures:
         """Files that a reference may mean; none is outside of the model's folder."""
         text = _plain(reference)
         name = text.rpartition("/")[2]
-        for candidate in (text, *(f"{folder}/{name}" if folder else name for folder in _FOLDERS)):
+        folders = (*_FOLDERS, f"{Path(self._path).stem}.fbm")
+        for candidate in (text, *(f"{folder}/{name}" if folder else name for folder in folders)):
             if "\0" in candidate or not name:
                 continue
             target = (self._folder / candidate).resolve()
@@ -126,7 +127,8 @@ class Pictures:
             return None
         self._spent += len(data)
         stem = re.sub(r"[^A-Za-z0-9_-]+", "_", Path(_plain(name)).stem)[:40].strip("_") or "texture"
-        file = f"{stem}_{hashlib.sha256(data).hexdigest()[:8]}{suffix}"
+        mark = hashlib.sha256(data).hexdigest()[:8]
+        file = stem.removesuffix("_" + mark) + f"_{mark}{suffix}"
         return Picture(Texture(file, data), mean, raw)
 
 

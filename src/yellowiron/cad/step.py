@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from yellowiron.cad import part21, products
-from yellowiron.cad.naming import sniff_encoding
+from yellowiron.cad.naming import remark, sniff_encoding
 from yellowiron.cad.products import Piece, listed
 from yellowiron.cad.xcaf import Leaf, open_step
 from yellowiron.model.assembly import Assembly
@@ -49,11 +49,7 @@ def read_step(path: str) -> Assembly:
             hint="Copy or export it again; the end of the file is missing.",
         )
     encoding = sniff_encoding(facts.names)
-    findings = []
-    if encoding != "utf-8":
-        findings.append(
-            Finding("CAD010", "info", path, f"Names are not in a standard encoding; they were read as {encoding}")
-        )
+    findings = remark(encoding, path)
     tree, unit_names = open_step(path, encoding)
     unit, unit_findings = _unit(unit_names, path)
     findings += unit_findings
