@@ -91,9 +91,9 @@ def find(mesh: Mesh, number: Indices | None = None) -> Found:
 def _ovals(soup: Soup, free: Flags, *, whole: bool) -> list[tuple[Round, float]]:
     """Ovals with their arcs, no longer free; only those that go all the way round, or any."""
     found = []
-    for oval in ovals(soup, free):
+    for oval in ovals(soup, free, _ROUND if whole else 1.0):
         wanted = not whole or (oval.arc > 0.99 * _TURN and oval.ratio < _ROUND)
-        if wanted and _smooth_ends(soup, oval.round) == 0 and free[oval.round.triangles].all():
+        if wanted and _smooth_ends(soup, oval.round, _arc(soup, oval.round)) == 0 and free[oval.round.triangles].all():
             found.append((oval.round, oval.arc))
             free[oval.round.triangles] = False
     return found
@@ -101,7 +101,7 @@ def _ovals(soup: Soup, free: Flags, *, whole: bool) -> list[tuple[Round, float]]
 
 def _is_round(soup: Soup, cylinder: Round) -> bool:
     triangles = cylinder.triangles
-    count, arc = _strips(soup, cylinder)
+    count, arc = _strips(soup, cylinder), _arc(soup, cylinder)
     if not any(count >= least and arc >= around for least, around in ENOUGH):
         return False
     corners = soup.corners_of(triangles)
@@ -110,7 +110,7 @@ def _is_round(soup: Soup, cylinder: Round) -> bool:
         return False
     length = float(np.ptp(cylinder.along(corners)))
     width = median(widths(soup, cylinder, triangles)) * cylinder.radius
-    ends = _smooth_ends(soup, cylinder)
+    ends = _smooth_ends(soup, cylinder, arc)
     if ends and length < _BAND * width:
         return False
     if ends < 2:
@@ -144,13 +144,13 @@ def _is_oval(soup: Soup, cylinder: Round, corners: Floats, off: Floats) -> bool:
     return math.hypot(found[0], found[1]) > max(3.0 * rest, 2.0 * soup.rounding)
 
 
-def _strips(soup: Soup, cylinder: Round) -> tuple[int, float]:
-    """How many strips a patch has (directions in which its triangles face), and how far around it goes, radians."""
+def _strips(soup: Soup, cylinder: Round) -> int:
+    """How many strips a patch has: directions in which its triangles face."""
     rows = cylinder.triangles
     u, v = cylinder.frame
     facing = np.sort(np.arctan2(soup.normals[rows] @ v, soup.normals[rows] @ u))
     gaps = np.append(np.diff(facing), facing[0] + _TURN - facing[-1])
-    return int((gaps > math.radians(1.0)).sum()), _arc(soup, cylinder)
+    return int((gaps > math.radians(1.0)).sum())
 
 
 def _arc(soup: Soup, cylinder: Round) -> float:
@@ -172,8 +172,9 @@ def _arc(soup: Soup, cylinder: Round) -> float:
     return _TURN if open_ < 1e-4 else _TURN - open_
 
 
-def _smooth_ends(soup: Soup, cylinder: Round) -> int:
-    """How many of a ring's two ends go on without an edge over half of their length or more."""
+def _smooth_ends(soup: Soup, cylinder: Round, arc: float) -> int:
+    """How many of the two ends of a ring, which goes `arc` radians around, go on without an edge over half of their
+    length or more."""
     inside = np.zeros(len(soup.corners), dtype=bool)
     inside[cylinder.triangles] = True
     border = inside[soup.pair[:, 0]] != inside[soup.pair[:, 1]]
@@ -186,7 +187,7 @@ def _smooth_ends(soup: Soup, cylinder: Round) -> int:
     corners = cylinder.along(soup.points[soup.corners[cylinder.triangles]].reshape(-1, 3))
     middle = 0.5 * (corners.min() + corners.max())
     count = 0
-    around = cylinder.radius * _arc(soup, cylinder)
+    around = cylinder.radius * arc
     for side in (height < middle, height >= middle):
         smooth = side & ringwise & (angle < math.radians(35.0))
         count += float(length[smooth].sum()) > 0.5 * around

@@ -11,12 +11,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from yellowiron.cad.linked import linked
-from yellowiron.cad.roundness import ROUGH, WIDEST, Round, across
-from yellowiron.cad.soup import Flags, Indices, Soup
-from yellowiron.cad.strips import beside
+from yellowiron.cad.roundness import ROUGH, Round, across
+from yellowiron.cad.soup import WIDEST, Flags, Indices, Soup, beside
 from yellowiron.model.geometry import Floats
 
-_SLIGHTEST = math.radians(0.7)
 _IN_LINE = math.cos(math.radians(0.5))
 """Folds of one oval run in one direction within this."""
 _FEWEST = 10
@@ -40,16 +38,16 @@ class Oval:
     ratio: float = 1.0
 
 
-def ovals(soup: Soup, free: Flags) -> Iterator[Oval]:
-    """The ovals among the free triangles, those with most folds first."""
-    bent = (soup.angle > _SLIGHTEST) & (soup.angle < WIDEST) & free[soup.pair].all(axis=1)
-    chosen = np.flatnonzero(bent)
+def ovals(soup: Soup, free: Flags, roundest: float = 1.0) -> Iterator[Oval]:
+    """The ovals among the free triangles, those with most folds first; without most of those whose radii have a larger
+    ratio than `roundest`."""
+    chosen = np.flatnonzero(soup.bent & free[soup.pair].all(axis=1))
     if len(chosen) < _FEWEST:
         return
     ends = soup.points[soup.edges[chosen]]
     direction = ends[:, 1] - ends[:, 0]
     direction /= np.linalg.norm(direction, axis=1)[:, None]
-    pairs = beside(soup, chosen)
+    pairs = soup.beside if len(chosen) == int(soup.bent.sum()) else beside(soup, chosen)
     if not len(pairs):
         return
     a, b = pairs[:, 0], pairs[:, 1]
@@ -59,18 +57,21 @@ def ovals(soup: Soup, free: Flags) -> Iterator[Oval]:
     members = np.bincount(label)
     for k in sorted(np.flatnonzero(members >= _FEWEST).tolist(), key=lambda k: (-members[k], k)):
         rows = chosen[label == k]
-        found = _oval(soup, rows, direction[label == k])
+        found = _oval(soup, rows, direction[label == k], roundest)
         if found is not None and free[found.round.triangles].all():
             yield found
 
 
-def _oval(soup: Soup, folds: Indices, directions: Floats) -> Oval | None:
+def _oval(soup: Soup, folds: Indices, directions: Floats, roundest: float) -> Oval | None:
     """The oval that most of some folds lie on, in line with each other."""
     signed = directions * np.where(directions @ directions[0] < 0.0, -1.0, 1.0)[:, None]
     axis = signed.mean(axis=0)
     axis /= float(np.linalg.norm(axis))
     basis = np.stack(across(axis))
     flat = soup.points[soup.edges[folds]].mean(axis=1) @ basis.T
+    away = np.linalg.norm(flat - flat.mean(axis=0), axis=1)
+    if float(np.ptp(away)) < 0.2 * (1.0 - roundest) * float(away.max()):
+        return None
     kept = np.arange(len(folds))
     while len(kept) >= _FEWEST:
         ellipse = _ellipse(flat[kept])
@@ -124,7 +125,7 @@ def _ellipse(points: Floats) -> tuple[Floats, Floats, float] | None:
 def knuckles(soup: Soup, free: Flags) -> Iterator[Oval]:
     """The rounded bosses among the pieces of connected triangles of which none is known to be round, in their order:
     the circle that is nearest to the folds along a piece's main direction."""
-    bent = (soup.angle > _SLIGHTEST) & (soup.angle < WIDEST) & ~soup.concave & free[soup.pair].all(axis=1)
+    bent = soup.bent & ~soup.concave & free[soup.pair].all(axis=1)
     sides = np.concatenate([soup.corners[:, [0, 1]], soup.corners[:, [0, 2]]])
     piece = linked(sides, len(soup.points))[soup.corners[:, 0]]
     known = set(piece[~free].tolist())

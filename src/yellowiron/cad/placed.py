@@ -111,13 +111,14 @@ def shape_of(mesh: Mesh, name: str, color: Color | None = None, finishes: tuple[
     A closed mesh has its volume, centre and inertia; one that is open anywhere counts as a sheet, whose centre is
     that of its area and whose volume is that of its closed pieces. `mesh` has no triangle without an area.
     """
-    turned, volume, closed = shells.right_side_out(mesh)
+    number = meshed.welded(mesh)
+    turned, volume, closed = shells.right_side_out(mesh, number)
     mesh = _dressed(turned, mesh)
     area, centroid = meshed.area_properties(mesh)
     inertia = np.zeros((3, 3))
     if closed:
         volume, centroid, inertia = meshed.volume_properties(mesh)
-    found = facets.find(mesh)
+    found = facets.find(mesh, number)
     return Shape(
         key=_painted(meshed.content_key(mesh), mesh, color, finishes),
         name=name,

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from yellowiron.cad.soup import Flags, Indices, Soup
+from yellowiron.cad.soup import WIDEST, Flags, Indices, Soup
 from yellowiron.model.geometry import Floats
 
 ROUGH = 2e-3
@@ -17,8 +17,6 @@ LEAST = 2e-5
 """… this, metres: what meshes are off by that were noisy, or drawn by hand …"""
 SMALL = 2.5e-3
 """… but by no more than this share of the radius, or of the mesh: models of models are small."""
-WIDEST = math.radians(50.5)
-"""The widest a flat strip may be, seen from the axis: eight to a circle, with a margin."""
 LEAN = 0.35
 """Sine of the most by which a triangle on a cylinder may lean from its surface: slivers do."""
 _ROUNDS = 12

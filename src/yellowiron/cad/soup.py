@@ -17,8 +17,14 @@ from yellowiron.model.geometry import Floats, Mesh
 Indices = NDArray[np.int64]
 Flags = NDArray[np.bool_]
 
+SLIGHTEST = math.radians(0.7)
+"""The least fold between two strips: five hundred to a circle."""
+WIDEST = math.radians(50.5)
+"""The widest a flat strip may be, seen from the axis: eight to a circle, with a margin."""
 _LEVEL = math.radians(0.05)
 """Triangles side by side are one strip within this angle, radians."""
+_CROWD = 40
+"""A flat facet with more folds than this around it is no strip."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,6 +54,16 @@ class Soup:
         """The triangles' middles, to look things up by place."""
         return cKDTree(self.middles)
 
+    @functools.cached_property
+    def bent(self) -> Flags:
+        """(k,) whether the edges fold as two strips of one cylinder do."""
+        return np.asarray((self.angle > SLIGHTEST) & (self.angle < WIDEST))
+
+    @functools.cached_property
+    def beside(self) -> Indices:
+        """`beside` of all edges that are bent."""
+        return beside(self, np.flatnonzero(self.bent))
+
     def corners_of(self, triangles: Indices) -> Floats:
         """The points (n, 3) that some triangles have for corners, each once, in their order."""
         used = np.zeros(len(self.points), dtype=bool)
@@ -58,6 +74,34 @@ class Soup:
     def facets(self) -> Indices:
         """(m,) numbers of the flat facets that triangles make up with those beside them."""
         return flat_facets(self, _LEVEL)
+
+
+def beside(soup: Soup, chosen: Indices) -> Indices:
+    """(k, 2) pairs of rows of `chosen` whose folds bound one triangle, one flat facet or two adjacent triangles."""
+    row = np.full(len(soup.edges), -1, dtype=np.int64)
+    row[chosen] = np.arange(len(chosen))
+    of_triangle = np.full((len(soup.corners), 3), -1, dtype=np.int64)
+    for side in (0, 1):
+        faces = soup.pair[:, side]
+        local = np.argmax(soup.corners[faces] == soup.opposite[:, side][:, None], axis=1)
+        of_triangle[faces, local] = row
+    found = [of_triangle[:, pair] for pair in ((0, 1), (1, 2), (0, 2))]
+    left, right = of_triangle[soup.pair[:, 0]], of_triangle[soup.pair[:, 1]]
+    found += [np.stack([left[:, i], right[:, j]], axis=1) for i in range(3) for j in range(3)]
+    facet = soup.facets
+    faces = np.concatenate([soup.pair[chosen, 0], soup.pair[chosen, 1]])
+    rows = np.tile(np.arange(len(chosen)), 2)
+    order = np.argsort(facet[faces], kind="stable")
+    label, rows = facet[faces][order], rows[order]
+    sizes = np.bincount(label)
+    for step in range(1, 6):
+        near = label[step:] == label[:-step]
+        near &= sizes[label[step:]] <= _CROWD
+        found.append(np.stack([rows[:-step][near], rows[step:][near]], axis=1))
+    pairs = np.concatenate(found)
+    low, high = pairs.min(axis=1), pairs.max(axis=1)
+    keys = np.unique((low * len(chosen) + high)[(low >= 0) & (low != high)])
+    return np.stack([keys // len(chosen), keys % len(chosen)], axis=1)
 
 
 def flat_facets(soup: Soup, angle: float) -> Indices:

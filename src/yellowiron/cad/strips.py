@@ -14,18 +14,14 @@ import numpy as np
 
 from yellowiron.cad.linked import linked
 from yellowiron.cad.meshed import cross
-from yellowiron.cad.roundness import ROUGH, WIDEST, Round, across
-from yellowiron.cad.soup import Flags, Indices, Soup
+from yellowiron.cad.roundness import ROUGH, Round, across
+from yellowiron.cad.soup import WIDEST, Flags, Indices, Soup, beside
 from yellowiron.model.geometry import Floats
 
-_SLIGHTEST = math.radians(0.7)
-"""The least fold between two strips: five hundred to a circle."""
 _ALIKE = 0.15
 """Two folds tell of one cylinder if their radii and axes differ by less than this share of the radius …"""
 _ALIGNED = math.cos(math.radians(3.0))
 """… and their directions by less than this."""
-_CROWD = 40
-"""A flat facet with more folds than this around it is no strip."""
 _TRIES = 48
 _ONE_WAY = math.cos(0.05)
 """Normals that are all this near to one of them are not spread out at all."""
@@ -34,14 +30,13 @@ _NONE = np.zeros(0, dtype=np.int64)
 
 def by_folds(soup: Soup) -> Iterator[tuple[Round, Indices]]:
     """Guesses with the triangles that they rest on, those on most folds first."""
-    bent = (soup.angle > _SLIGHTEST) & (soup.angle < WIDEST)
-    chosen = np.flatnonzero(bent)
+    chosen = np.flatnonzero(soup.bent)
     if not len(chosen):
         return
     point, direction, radius, good = _circles(soup, chosen)
     chosen, point, direction, radius = chosen[good], point[good], direction[good], radius[good]
     inner = soup.concave[chosen]
-    pairs = beside(soup, chosen)
+    pairs = soup.beside if good.all() else beside(soup, chosen)
     if not len(pairs):
         return
     a, b = pairs[:, 0], pairs[:, 1]
@@ -97,34 +92,6 @@ def _circles(soup: Soup, chosen: Indices) -> tuple[Floats, Floats, Floats, Flags
     good &= (radius > 4.0 * soup.rounding) & (radius < soup.size)
     # A strip is no wider than its neighbour by much more than the ends of a patch are narrower.
     return start + center, direction, radius, good
-
-
-def beside(soup: Soup, chosen: Indices) -> Indices:
-    """(k, 2) pairs of rows of `chosen` whose folds bound one triangle, one flat facet or two adjacent triangles."""
-    row = np.full(len(soup.edges), -1, dtype=np.int64)
-    row[chosen] = np.arange(len(chosen))
-    of_triangle = np.full((len(soup.corners), 3), -1, dtype=np.int64)
-    for side in (0, 1):
-        faces = soup.pair[:, side]
-        local = np.argmax(soup.corners[faces] == soup.opposite[:, side][:, None], axis=1)
-        of_triangle[faces, local] = row
-    found = [of_triangle[:, pair] for pair in ((0, 1), (1, 2), (0, 2))]
-    left, right = of_triangle[soup.pair[:, 0]], of_triangle[soup.pair[:, 1]]
-    found += [np.stack([left[:, i], right[:, j]], axis=1) for i in range(3) for j in range(3)]
-    facet = soup.facets
-    faces = np.concatenate([soup.pair[chosen, 0], soup.pair[chosen, 1]])
-    rows = np.tile(np.arange(len(chosen)), 2)
-    order = np.argsort(facet[faces], kind="stable")
-    label, rows = facet[faces][order], rows[order]
-    sizes = np.bincount(label)
-    for step in range(1, 6):
-        near = label[step:] == label[:-step]
-        near &= sizes[label[step:]] <= _CROWD
-        found.append(np.stack([rows[:-step][near], rows[step:][near]], axis=1))
-    pairs = np.concatenate(found)
-    low, high = pairs.min(axis=1), pairs.max(axis=1)
-    keys = np.unique((low * len(chosen) + high)[(low >= 0) & (low != high)])
-    return np.stack([keys // len(chosen), keys % len(chosen)], axis=1)
 
 
 def by_normals(soup: Soup, free: Flags) -> Iterator[tuple[Round, Indices]]:
