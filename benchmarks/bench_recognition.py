@@ -10,7 +10,8 @@ back.
 A part is wrong if its body is, or the role where it is a pin or of a track's row. A role (body or pin) is right if most
 of its parts have it. Silent: wrong, and neither the part nor the role is listed for review. Hoses between any two
 bodies have no truth and are not counted. Seconds are CPU time of `align` alone, one thread. With `--parts`, sound
-machines are filled up with bolts to as many parts.
+machines are filled up with bolts to as many parts; from triangles each bolt is a shape of its own, and the seconds are
+told apart that finding cylinders and planes on them takes.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ import json
 import sys
 import time
 from collections import Counter
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -29,11 +31,14 @@ ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "src"), str(ROOT / "tests"), str(ROOT / "tests" / "align")]
 
 from defects import DEFECTS, crowded, spoiled  # noqa: E402
-from synthetic import disguise  # noqa: E402
+from synthetic import Machine, disguise  # noqa: E402
 
 from yellowiron.align import align  # noqa: E402
+from yellowiron.cad.meshed import compacted  # noqa: E402
+from yellowiron.cad.placed import shape_of  # noqa: E402
 from yellowiron.library import load_template  # noqa: E402
 from yellowiron.model.alignment import Alignment  # noqa: E402
+from yellowiron.model.geometry import Mesh  # noqa: E402
 from yellowiron.model.specification import Specifications  # noqa: E402
 from yellowiron.model.template import Template, choose  # noqa: E402
 
@@ -80,12 +85,40 @@ def judged(found: Alignment, truth: dict[str, tuple[str, str]], template: Templa
     }  # fmt: skip
 
 
-def one(kind: str, seed: int, defect: str, *, triangles: bool, parts: int = 0) -> dict[str, Any]:
-    """One machine, one defect, filled up to `parts`."""
+def one(kind: str, seed: int, defect: str, *, triangles: bool) -> dict[str, Any]:
+    """One machine, one defect."""
+    return solved(kind, seed, spoiled(kind, seed, defect, triangles=triangles))
+
+
+def filled(kind: str, seed: int, parts: int, *, triangles: bool) -> tuple[dict[str, Any], float]:
+    """One sound machine with as many parts; and the CPU seconds that the features of its triangles took."""
+    machine = crowded(spoiled(kind, seed, "sound"), parts)
+    seconds = 0.0
+    if triangles:
+        meshes = own_meshes(machine)
+        start = time.process_time()
+        shapes = {key: replace(shape_of(mesh, key), key=key) for key, mesh in meshes.items()}
+        seconds = time.process_time() - start
+        own = [replace(p, shape=p.id) if p.id in shapes else p for p in machine.parts]
+        machine = replace(machine, shapes=shapes, parts=own)
+    return solved(kind, seed, machine), seconds
+
+
+def own_meshes(machine: Machine) -> dict[str, Mesh]:
+    """The meshes by shape, in single precision; a bolt has one of its own, by its part's id, a little longer or
+    shorter than the others."""
+    rng = np.random.default_rng([len(machine.parts), 53])
+    meshes = {}
+    for part in machine.parts:
+        mesh, bolted = machine.shapes[part.shape].mesh, part.name == "bolt"
+        points = mesh.points * (rng.uniform(0.9, 1.1) if bolted else 1.0)
+        meshes[part.id if bolted else part.shape] = Mesh(points.astype(np.float32).astype(np.float64), mesh.triangles)
+    return {key: compacted(mesh) for key, mesh in meshes.items()}
+
+
+def solved(kind: str, seed: int, machine: Machine) -> dict[str, Any]:
+    """What alignment makes of a machine."""
     template = load_template(TEMPLATES[kind])
-    machine = spoiled(kind, seed, defect, triangles=triangles)
-    if parts:
-        machine = crowded(machine, parts)
     assembly, truth, _ = disguise(machine, seed, scale=True)
     start = time.process_time()
     found = align(assembly, template, Specifications())
@@ -122,8 +155,11 @@ def main() -> None:
     print(f"{'':38s}   n  parts   right silent  flagd    roles  sil.     mean    max s")
     if chosen.parts:
         for kind in chosen.kinds.split(","):
-            for count in (int(c) for c in chosen.parts.split(",")):
-                print(row(f"{kind}, {count} parts", [one(kind, chosen.first, "sound", triangles=False, parts=count)]))
+            for source in chosen.inputs.split(","):
+                for count in (int(c) for c in chosen.parts.split(",")):
+                    result, seconds = filled(kind, chosen.first, count, triangles=source == "triangles")
+                    line = row(f"{kind}, {source}, {count} parts", [result])
+                    print(line, f" features {seconds:.1f} s", flush=True)
         return
     for kind in chosen.kinds.split(","):
         for source in chosen.inputs.split(","):
