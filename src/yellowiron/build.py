@@ -15,6 +15,8 @@ from typing import Any
 from yellowiron import align, cad, check, kinematics, library, mechanism, report, specs, usd
 from yellowiron.model.alignment import Alignment
 from yellowiron.model.assembly import Assembly
+from yellowiron.model.errors import MechanismError
+from yellowiron.model.finding import Finding
 from yellowiron.model.mechanism import Measurement, Mechanism
 from yellowiron.model.rows import expand
 from yellowiron.model.specification import Specifications
@@ -115,6 +117,7 @@ def build(
 
         with clock.stage("mechanism", "Building the mechanism"):
             machine = _mechanism(assembly, template, alignment, specifications, data)
+            compared = mechanism.compare_declared(machine, assembly, alignment)
             start = kinematics.legal_start(machine)
             if start is not None:
                 assembly, template, alignment = kinematics.started(assembly, template, alignment, start)
@@ -142,10 +145,13 @@ def build(
         with clock.stage("report", "Writing the report"):
             document = report.report_document(
                 machine, template, alignment, specifications, measurements,
-                findings=(*library.lint(chosen).findings, *assembly.findings, *data.findings, *checked),
+                findings=(
+                    *library.lint(chosen).findings, *assembly.findings, *data.findings,
+                    *mechanism.declared_findings(compared, assembly.name), *checked,
+                ),
                 usd_counts=usd.count_joints(folder / f"{machine.name}.usda"),
                 levers={a.name: kinematics.lever_table(machine, a.name) for a in machine.actuators},
-                simulation=simulation,
+                simulation=simulation, declared=compared,
             )  # fmt: skip
             report.write_document(document, folder / "report.json")
             report.write_document({"specifications": document["specifications"]}, folder / "specifications.json")
@@ -195,6 +201,18 @@ def aligned(
         if len(other.missing) < 0.5 * len(alignment.missing):
             return apart, other
     return assembly, alignment
+
+
+def declared_findings(
+    assembly: Assembly, template: Template, alignment: Alignment, specifications: Specifications
+) -> tuple[Finding, ...]:
+    """How the joints that the CAD file declares agree with those that its geometry shows."""
+    chosen = expand(choose(template, alignment.choices), alignment.counts)
+    try:
+        machine = mechanism.build_mechanism(assembly, chosen, alignment, specifications, name=assembly.name)
+    except MechanismError:
+        return ()
+    return mechanism.declared_findings(mechanism.compare_declared(machine, assembly, alignment), assembly.name)
 
 
 def _mechanism(

@@ -179,7 +179,7 @@ def align_parts(
     """Find the part that plays each role; with a sheet, the model's scale is checked against it."""
     from yellowiron import align, library, specs
     from yellowiron import cad as readers
-    from yellowiron.build import aligned
+    from yellowiron.build import aligned, declared_findings
     from yellowiron.output import output_file
     from yellowiron.report import alignment_entry, alignment_table
 
@@ -196,7 +196,8 @@ def align_parts(
         if out is not None:
             with output_file(out) as temporary:
                 align.write_alignment(alignment, assembly, temporary)
-    alignment = replace(alignment, findings=(*read.findings, *assembly.findings, *alignment.findings))
+        remarks = declared_findings(assembly, template, alignment, specifications) if assembly.joints else ()
+    alignment = replace(alignment, findings=(*read.findings, *assembly.findings, *alignment.findings, *remarks))
     if explain is not None:
         words = align.explain(alignment, explain)
         _show({"explain": explain, "reason": words}, Text(words), as_json)

@@ -14,7 +14,7 @@ from yellowiron.align.hydraulics import rams_of
 from yellowiron.align.islands import islands
 from yellowiron.align.seen import CONTACT
 from yellowiron.align.solids import solids_of
-from yellowiron.model.assembly import Assembly
+from yellowiron.model.assembly import Assembly, DeclaredJoint
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import CylinderFeature, PlaneFeature, Shape
 from yellowiron.model.specification import Specifications
@@ -115,7 +115,14 @@ def scaled(assembly: Assembly, factor: float) -> Assembly:
         matrix = part.transform.copy()
         matrix[:3, 3] *= factor
         parts.append(replace(part, transform=matrix, shape=part.shape + mark))
-    return replace(assembly, parts=tuple(parts), shapes=shapes, unit=assembly.unit * factor)
+    joints = tuple(_joint(joint, factor) for joint in assembly.joints)
+    return replace(assembly, parts=tuple(parts), shapes=shapes, unit=assembly.unit * factor, joints=joints)
+
+
+def _joint(joint: DeclaredJoint, factor: float) -> DeclaredJoint:
+    along = factor if joint.type == "prismatic" else 1.0
+    lower, upper = (None if v is None else v * along for v in (joint.lower, joint.upper))
+    return replace(joint, anchor=_triple(joint.anchor, factor), lower=lower, upper=upper)
 
 
 def _larger(shape: Shape, factor: float, key: str) -> Shape:

@@ -100,17 +100,48 @@ def _bodies(model: Any, body: int) -> tuple[str, ...]:
     """The names of a body and those above it, outermost first."""
     names: list[str] = []
     while body > 0:
-        names.append(decode_name(model.body(body).name, "utf-8") or f"body {body}")
+        names.append(_called(model, body))
         body = int(model.body_parentid[body])
     return tuple(reversed(names))
 
 
 def _mjcf_joints(model: Any, data: Any) -> Iterator[DeclaredJoint]:
+    """Joints, the welds of bodies without one, and what closes loops: points that two bodies have in common."""
     kinds = ("free", "spherical", "prismatic", "revolute")
+    for body in range(1, model.nbody):
+        if not model.body_jntnum[body]:
+            ends = _called(model, int(model.body_parentid[body])), _called(model, body)
+            yield declared_joint(f"{ends[1]} weld", "fixed", ends, data.xpos[body], (0.0, 0.0, 0.0))
     for j in range(model.njnt):
         body = int(model.jnt_bodyid[j])
-        ends = tuple(model.body(b).name or f"body {b}" for b in (int(model.body_parentid[body]), body))
+        ends = _called(model, int(model.body_parentid[body])), _called(model, body)
         limited = bool(model.jnt_limited[j])
         lower, upper = (float(v) if limited else None for v in model.jnt_range[j])
         name, kind = model.joint(j).name or f"joint {j}", kinds[int(model.jnt_type[j])]
-        yield declared_joint(name, kind, (ends[0], ends[1]), data.xanchor[j], data.xaxis[j], (lower, upper))
+        yield declared_joint(name, kind, ends, data.xanchor[j], data.xaxis[j], (lower, upper))
+    yield from _closures(model, data)
+
+
+def _closures(model: Any, data: Any) -> Iterator[DeclaredJoint]:
+    import mujoco
+
+    held = {mujoco.mjtEq.mjEQ_CONNECT: "spherical", mujoco.mjtEq.mjEQ_WELD: "fixed"}
+    for e in range(model.neq):
+        kind = held.get(mujoco.mjtEq(int(model.eq_type[e])))
+        if kind is None or not model.eq_active0[e]:
+            continue
+        one, other = int(model.eq_obj1id[e]), int(model.eq_obj2id[e])
+        if int(model.eq_objtype[e]) == mujoco.mjtObj.mjOBJ_SITE:
+            anchor = data.site_xpos[one]
+            one, other = int(model.site_bodyid[one]), int(model.site_bodyid[other])
+        else:
+            # A connect's point is in the first body's frame, a weld's in the second's.
+            body = one if kind == "spherical" else other
+            anchor = data.xpos[body] + data.xmat[body].reshape(3, 3) @ model.eq_data[e, :3]
+        ends = _called(model, one), _called(model, other)
+        yield declared_joint(model.equality(e).name or f"loop {e}", kind, ends, anchor, (0.0, 0.0, 0.0))
+
+
+def _called(model: Any, body: int) -> str:
+    """A body's name; the world's is empty."""
+    return (decode_name(model.body(body).name, "utf-8") or f"body {body}") if body else ""

@@ -139,7 +139,8 @@ def _geometry(
 
 
 def _found(name: str, robot: Path) -> Path | None:
-    """The file that a mesh's name stands for: beside the robot's, or in a package in one of the folders above it."""
+    """The file that a mesh's name stands for: where it says, or in a package in one of the folders above the robot's,
+    or beside it."""
     folder = robot.absolute().parent
     text = name.removeprefix("file://")
     if "://" in text and not text.startswith("package://"):
@@ -152,7 +153,9 @@ def _found(name: str, robot: Path) -> Path | None:
         for part in (inside, Path(*inside.parts[1:])):
             if part.parts and (above / part).is_file():
                 return above / part
-    return None
+    # Downloaded without its package's folders.
+    beside = folder / inside.name
+    return beside if beside.is_file() else None
 
 
 def _scaled(mesh: Mesh, scale: Floats) -> Mesh:

@@ -1,12 +1,13 @@
 """A USD, USDA, USDC or USDZ file to an `Assembly`: a part for every mesh that is drawn. Runs in the guard's child
 process.
 
-With or without physics: what the file says of bodies and joints is left to `check`; here it is a tree of parts.
+With or without physics: here it is a tree of parts, with the joints that the file declares.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,7 @@ from pxr import Gf, Sdf, Tf, Usd, UsdGeom, UsdShade
 from yellowiron.cad import placed, polygons
 from yellowiron.cad.naming import decode_name, is_generic
 from yellowiron.cad.placed import Occurrence
+from yellowiron.cad.usd_joints import usd_joints
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import CadError
 from yellowiron.model.finding import Finding
@@ -55,9 +57,10 @@ def read_usd(path: str) -> Assembly:
         findings.append(Finding("CAD012", "info", path, words))
     root = stage.GetDefaultPrim()
     name = root.GetName() if root and not is_generic(root.GetName()) else Path(path).stem
-    return placed.assemble(
+    read = placed.assemble(
         occurrences, name=name, format="USD", unit=unit, path=path, findings=findings, declared=declared
     )
+    return replace(read, joints=tuple(usd_joints(stage, unit, _names)))
 
 
 def _opened(path: str) -> Usd.Stage:

@@ -49,9 +49,13 @@ MEC050  a limit names a specification that is not known; the joint is not limite
 MEC070  hidden wheels stand for a row of which no part is there; they are left out
 MEC071  hidden wheels would weigh more than the body that carries the track; it keeps its mass besides
 MEC072  tracks and frame are drawn in one: the track is what stands on the ground on its side
+MEC080  how many of the joints that the file declares agree with those found, and how well
+MEC081  a joint that the file declares differs from the one found, or none was found between its bodies
+MEC082  joints that the file declares and that cannot be compared: a body of theirs draws nothing
 ======  ========================================================================================================
 """
 
 from yellowiron.mechanism.build import build_mechanism
+from yellowiron.mechanism.declared import ComparedJoint, compare_declared, declared_findings
 
-__all__ = ["build_mechanism"]
+__all__ = ["ComparedJoint", "build_mechanism", "compare_declared", "declared_findings"]

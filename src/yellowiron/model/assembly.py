@@ -31,9 +31,10 @@ class Part:
 
 @dataclass(frozen=True)
 class DeclaredJoint:
-    """A joint that a robot description declares, in its zero configuration: `type` as in a template (or `free`,
-    `planar`), the names of the bodies it joins (parent, child), anchor (metres) and unit axis in the file's frame,
-    limits in metres or radians."""
+    """A joint that a robot description declares, in the pose it is drawn in: `type` as in a template (or `free`,
+    `planar`), the names of the bodies it joins (parent, child; '' is the world), anchor (metres) and unit axis in the
+    file's frame, limits in metres or radians from that pose. A body is called by its name in its parts' paths, or by
+    the whole path to it. A `spherical` joint that the file closes a loop with holds a point: it says no axis."""
 
     name: str
     type: str
@@ -64,6 +65,18 @@ class Assembly:
             if part.id == part_id:
                 return part
         raise KeyError(part_id)
+
+    def links(self) -> dict[str, tuple[Part, ...]]:
+        """Body of the declared joints → its parts, in CAD order: a part is of the innermost such body above it."""
+        names = {name for joint in self.joints for name in joint.bodies if name}
+        found: dict[str, list[Part]] = {}
+        for part in self.parts if names else ():
+            tree = (*part.path, part.name)
+            above = (tree[:k] for k in range(len(tree), 0, -1))
+            link = next((n for t in above for n in ("/".join(t), t[-1]) if n in names), None)
+            if link is not None:
+                found.setdefault(link, []).append(part)
+        return {link: tuple(parts) for link, parts in found.items()}
 
     def shape_of(self, part: Part) -> Shape:
         """The shape that a part is an occurrence of."""

@@ -31,6 +31,7 @@ def report_document(
     usd_counts: Mapping[str, int] | None = None,
     levers: Mapping[str, Any] | None = None,
     simulation: Mapping[str, Any] | None = None,
+    declared: Sequence[Any] = (),
 ) -> dict[str, Any]:
     """The document behind `report.json` and `report.html`. SI units, machine frame, radians."""
     everything = (*findings, *specifications.findings, *alignment.findings, *mechanism.findings)
@@ -58,6 +59,8 @@ def report_document(
             for b in mechanism.bodies
         ],
         "joints": [_joint_entry(j) for j in mechanism.joints],
+        # What the CAD file itself declares, beside what was found.
+        "declared_joints": [asdict(d) for d in declared],
         "cylinders": [{**asdict(c), "extension": c.extension} for c in mechanism.cylinders],
         "actuators": [asdict(a) for a in mechanism.actuators],
         "loops": [asdict(loop) for loop in mechanism.loops],

@@ -1,0 +1,170 @@
+"""Joints that the CAD file itself declares (a robot description), beside those that its geometry shows.
+
+| code   | severity | says                                                                                  |
+|--------|----------|---------------------------------------------------------------------------------------|
+| MEC080 | info     | how many declared joints agree with those found, and how well                         |
+| MEC081 | warning  | a declared joint differs from the one found, or none was found between its bodies     |
+| MEC082 | info     | declared joints that cannot be compared: a body of theirs draws nothing               |
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from yellowiron.model.alignment import Alignment
+from yellowiron.model.assembly import Assembly, DeclaredJoint
+from yellowiron.model.finding import Finding
+from yellowiron.model.geometry import Floats
+from yellowiron.model.mechanism import Joint, Mechanism
+
+ANGLE = math.radians(0.5)
+"""Declared and found axes agree within this, …"""
+OFFSET = 5e-4
+"""… and hinges if one runs past the other by less than this share of the machine's size."""
+_TYPES = ("revolute", "prismatic", "spherical", "fixed")
+
+
+@dataclass(frozen=True)
+class ComparedJoint:
+    """A joint that the file declares, beside what was found: the mechanism's joint, its type, the angle between the
+    axes (radians) and how far the found axis runs past the declared anchor (metres; of a slide None). `agrees` is None
+    where there is nothing to compare, `words` say why not."""
+
+    name: str
+    type: str
+    bodies: tuple[str, str]
+    joint: str = ""
+    found: str = ""
+    angle: float | None = None
+    distance: float | None = None
+    agrees: bool | None = None
+    words: str = ""
+
+
+def compare_declared(mechanism: Mechanism, assembly: Assembly, alignment: Alignment) -> tuple[ComparedJoint, ...]:
+    """Every declared joint beside the one that the mechanism has between the same bodies.
+
+    `mechanism` is in the pose in which `assembly` is drawn. Left out are joints to the world, and welds within a body.
+    """
+    played = _played(assembly, alignment)
+    size = _size(mechanism)
+    compared = []
+    for declared in assembly.joints:
+        if declared.type not in _TYPES or "" in declared.bodies:
+            continue
+        ends = played.get(declared.bodies[0]), played.get(declared.bodies[1])
+        if declared.type == "fixed" and (None in ends or ends[0] == ends[1]):
+            continue
+        one = _compared(declared, ends, mechanism, alignment.frame, size)
+        if one is not None:
+            compared.append(one)
+    return tuple(compared)
+
+
+def declared_findings(compared: Sequence[ComparedJoint], where: str) -> tuple[Finding, ...]:
+    """MEC080 … MEC082."""
+    alike = [c for c in compared if c.agrees]
+    unlike = [c for c in compared if c.agrees is False]
+    findings = []
+    if alike or unlike:
+        angle = max((math.degrees(c.angle) for c in alike if c.angle is not None), default=0.0)
+        distance = max((1e3 * c.distance for c in alike if c.distance is not None), default=0.0)
+        words = f"{len(alike)} of {len(alike) + len(unlike)} joints that the file declares agree with those found"
+        words += f": axes within {angle:.2g}°, hinges within {distance:.2g} mm." if alike else "."
+        findings.append(Finding("MEC080", "info", where, words))
+    hint = "See which is right: the file's joint, or the pins and bores of its parts."
+    findings += [Finding("MEC081", "warning", c.name, c.words, hint) for c in unlike]
+    blank = [c.name for c in compared if c.agrees is None]
+    if blank:
+        words = f"Not compared, since nothing is drawn for one of their bodies: {', '.join(blank)}."
+        findings.append(Finding("MEC082", "info", where, words))
+    return tuple(findings)
+
+
+def _played(assembly: Assembly, alignment: Alignment) -> dict[str, str | None]:
+    """Declared body → the mechanism's body that most of its surface is; one that draws nothing is what it is welded
+    to."""
+    bodies = {a.part: a.body for a in alignment.parts}
+    played: dict[str, str | None] = {}
+    for link, parts in assembly.links().items():
+        area: dict[str, float] = {}
+        for part in parts:
+            body = bodies.get(part.id)
+            if body is not None:
+                area[body] = area.get(body, 0.0) + assembly.shape_of(part).area
+        played[link] = max(sorted(area), key=lambda b: area[b]) if area else None
+    welds = [j.bodies for j in assembly.joints if j.type == "fixed" and "" not in j.bodies]
+    for _ in welds:
+        for one, other in (*welds, *((b, a) for a, b in welds)):
+            if one not in played and other in played:
+                played[one] = played[other]
+    return played
+
+
+def _size(mechanism: Mechanism) -> float:
+    clouds = [body.hull for body in mechanism.bodies if len(body.hull)]
+    return float(np.linalg.norm(np.ptp(np.concatenate(clouds), axis=0))) if clouds else 0.0
+
+
+def _compared(
+    declared: DeclaredJoint, ends: tuple[str | None, str | None], mechanism: Mechanism, frame: Floats, size: float
+) -> ComparedJoint | None:
+    """One joint; None for a weld of two bodies that no joint ties together."""
+    name, kind, bodies = declared.name, declared.type, declared.bodies
+    title = f"Declared {kind} between '{bodies[0]}' and '{bodies[1]}'"
+    if ends[0] is None or ends[1] is None:
+        return ComparedJoint(name, kind, bodies, words=f"{title}: nothing is drawn for one of them.")
+    if ends[0] == ends[1]:
+        words = f"{title}: both are parts of one body, '{ends[0]}'."
+        return ComparedJoint(name, kind, bodies, agrees=False, words=words)
+    anchor = frame[:3, :3] @ np.array(declared.anchor) + frame[:3, 3]
+    axis = frame[:3, :3] @ np.array(declared.axis)
+    direct = [j for j in mechanism.joints if {j.body0, j.body1} == set(ends)]
+    if not direct and kind == "fixed":
+        return None
+    found = min(direct or _across(mechanism, ends), key=lambda j: _rank(j, kind, anchor, axis), default=None)
+    if found is None:
+        words = f"{title}: no joint was found between '{ends[0]}' and '{ends[1]}'."
+        return ComparedJoint(name, kind, bodies, agrees=False, words=words)
+    angle = _angle(found, axis) if kind in ("revolute", "prismatic") and found.type == kind else None
+    turns = kind in ("revolute", "spherical") and found.type in ("revolute", "spherical")
+    distance = _distance(found, anchor) if turns else None
+    # A point that closes a loop stands for a hinge: the rest of the loop holds its axis.
+    alike = found.type == kind or (kind == "spherical" and found.type == "revolute")
+    agrees = alike and (angle or 0.0) <= ANGLE and (distance or 0.0) <= OFFSET * size
+    words = "" if agrees else f"{title}; found is a {found.type} joint"
+    if not agrees and alike:
+        words += f", its axis {math.degrees(angle):.2f}° off" if angle is not None else ""
+        words += f", {1e3 * distance:.1f} mm beside" if distance is not None else ""
+    return ComparedJoint(name, kind, bodies, found.name, found.type, angle, distance, agrees, words and f"{words}.")
+
+
+def _across(mechanism: Mechanism, ends: tuple[str | None, str | None]) -> list[Joint]:
+    """Joints of the one body with a third, about the same line as one of that third with the other: several bodies turn
+    on one pin."""
+    found = []
+    for one in mechanism.joints:
+        for other in mechanism.joints:
+            pairs = {one.body0, one.body1}, {other.body0, other.body1}
+            if ends[0] not in pairs[0] or ends[1] not in pairs[1] or len(pairs[0] & pairs[1]) != 1 or one is other:
+                continue
+            same = _angle(one, np.array(other.axis)) < ANGLE and _distance(one, np.array(other.anchor)) < 1e-3
+            if one.type == other.type == "revolute" and same:
+                found.append(one)
+    return found
+
+
+def _rank(joint: Joint, kind: str, anchor: Floats, axis: Floats) -> tuple[bool, float, float]:
+    return joint.type != kind, round(_angle(joint, axis), 6), _distance(joint, anchor)
+
+
+def _angle(joint: Joint, axis: Floats) -> float:
+    return math.atan2(float(np.linalg.norm(np.cross(joint.axis, axis))), abs(float(np.dot(joint.axis, axis))))
+
+
+def _distance(joint: Joint, anchor: Floats) -> float:
+    return float(np.linalg.norm(np.cross(anchor - np.array(joint.anchor), joint.axis)))
