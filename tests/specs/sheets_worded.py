@@ -191,10 +191,10 @@ class Wording(Sheet):
 
 
 def parted(imperial: str) -> tuple[str, str]:
-    """An imperial text as number and unit; feet and inches keep their marks in the number."""
+    """An imperial text as number and unit; feet and inches keep their marks, or words, in the number."""
     found = _IMPERIAL.fullmatch(imperial)
     assert found
-    return found[1], found[2] or "ft in"
+    return (imperial, "") if " ft " in imperial else (found[1], found[2] or "ft in")
 
 
 @dataclass
