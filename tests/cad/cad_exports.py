@@ -163,7 +163,14 @@ def freecad(path: Path, meshes: Meshes) -> None:
         for n in kinds
     ]
     members = "".join(f'<Link value="{n}"/>' for n in ("Boom", "Pin", "Link"))
-    data.append(entry("Front", f'<Property name="Group"><LinkList>{members}</LinkList></Property>', placement(group)))
+    data.append(
+        entry(
+            "Front",
+            f'<Property name="Group"><LinkList>{members}</LinkList></Property>',
+            placement(group),
+            label="FRONT",
+        )
+    )
     linked = '<Property name="LinkedObject"><XLink name="Pin"/></Property>'
     data.append(entry("Link", linked, placement(inside[2], "LinkPlacement"), label="PIN"))
     objects = "".join(f'<Object name="{n}" type="{t}"/>' for n, t in types.items())

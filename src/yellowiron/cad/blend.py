@@ -11,12 +11,13 @@ from typing import Any
 import numpy as np
 
 from yellowiron.cad import placed
+from yellowiron.cad.looks import Dressed, Look, dress
 from yellowiron.cad.naming import decode_name
+from yellowiron.cad.pictures import Picture, Pictures, finish
 from yellowiron.cad.placed import Occurrence
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import CadError
-from yellowiron.model.finding import Finding
-from yellowiron.model.geometry import Color, Floats, Mesh
+from yellowiron.model.geometry import Color, Mesh
 
 _SOLID = {"MESH", "CURVE", "SURFACE", "META", "FONT"}
 
@@ -40,10 +41,10 @@ def read_blend(path: str) -> Assembly:
     scene = bpy.context.scene
     unit = float(scene.unit_settings.scale_length) if scene.unit_settings.system != "NONE" else 1.0
     graph = bpy.context.evaluated_depsgraph_get()
-    meshes: dict[str, tuple[Mesh, Color | None] | None] = {}
+    pictures = Pictures(path)
+    meshes: dict[str, Dressed | None] = {}
     occurrences = []
     declared = 0
-    textured = False
     for instance in graph.object_instances:
         shown = instance.object
         if shown.type not in _SOLID or not instance.show_self:
@@ -52,21 +53,18 @@ def read_blend(path: str) -> Assembly:
         own = shown.original
         key = own.name_full
         if key not in meshes:
-            meshes[key] = _mesh(shown, unit)
-            textured |= any(_pictured(slot.material) for slot in own.material_slots)
+            meshes[key] = _mesh(shown, unit, pictures)
         found = meshes[key]
         if found is None:
             continue
         place = np.array(instance.matrix_world, dtype=np.float64)
         place[:3, 3] *= unit
         above = instance.parent.original if instance.is_instance and instance.parent else None
-        occurrences.append(Occurrence(decode_name(own.name, "utf-8"), _above(own, above), found[0], place, found[1]))
-    findings = []
-    if textured:
-        words = "Textures are not read: parts have the colour that is under them"
-        findings.append(Finding("CAD012", "info", path, words))
+        name = decode_name(own.name, "utf-8")
+        occurrences.append(Occurrence(name, _above(own, above), found.mesh, place, found.color, found.finishes))
     return placed.assemble(
-        occurrences, name=Path(path).stem, format="Blender", unit=unit, path=path, findings=findings, declared=declared,
+        occurrences, name=Path(path).stem, format="Blender", unit=unit, path=path, findings=pictures.findings(),
+        declared=declared,
     )  # fmt: skip
 
 
@@ -82,8 +80,8 @@ def _above(own: Any, instancer: Any) -> tuple[str, ...]:
     return tuple(reversed(names))
 
 
-def _mesh(shown: Any, unit: float) -> tuple[Mesh, Color | None] | None:
-    """An evaluated object's triangles, in metres, and colour; None without any."""
+def _mesh(shown: Any, unit: float, pictures: Pictures) -> Dressed | None:
+    """An evaluated object's triangles, in metres, with its looks; None without any."""
     data = shown.to_mesh()
     if data is None:
         return None
@@ -94,32 +92,54 @@ def _mesh(shown: Any, unit: float) -> tuple[Mesh, Color | None] | None:
     data.loop_triangles.foreach_get("vertices", triangles)
     rows = np.empty(len(data.loop_triangles), dtype=np.int32)
     data.loop_triangles.foreach_get("material_index", rows)
-    colors = [_color(slot.material) for slot in shown.original.material_slots]
+    uvs = None
+    if data.uv_layers.active is not None:
+        corners = np.empty(3 * len(data.loop_triangles), dtype=np.int32)
+        data.loop_triangles.foreach_get("loops", corners)
+        flat = np.empty(2 * len(data.loops), dtype=np.float32)
+        data.uv_layers.active.data.foreach_get("uv", flat)
+        uvs = flat.astype(np.float64).reshape(-1, 2)[corners].reshape(-1, 3, 2)
+    looks = [_look(slot.material, pictures) for slot in shown.original.material_slots]
     shown.to_mesh_clear()
     if not len(triangles):
         return None
-    used = {int(r) for r in np.unique(rows)}
-    paint = {r: colors[r] if 0 <= r < len(colors) else None for r in used}
-    painted: Floats | None = None
-    if len(set(paint.values())) > 1:
-        painted = np.array([paint[int(r)] or (0.5, 0.5, 0.5) for r in rows])
-    one = None if painted is not None else next(iter(paint.values()))
-    return Mesh(points.reshape(-1, 3) * unit, triangles.reshape(-1, 3), None, painted), one
+    mesh = Mesh(points.reshape(-1, 3) * unit, triangles.reshape(-1, 3))
+    return dress(mesh, looks, rows.astype(np.int64), uvs=uvs)
 
 
-def _color(material: Any) -> Color | None:
-    """The base colour of a material (linear RGB)."""
+def _look(material: Any, pictures: Pictures) -> Look:
+    """The base colour of a material (linear RGB), or the picture that is linked to it; metalness and roughness."""
     if material is None:
+        return Look()
+    color = _color(material.diffuse_color)
+    nodes = material.node_tree.nodes if material.node_tree is not None else []
+    surface = next((node for node in nodes if node.type == "BSDF_PRINCIPLED"), None)
+    if surface is None:
+        return Look(color)
+    base = surface.inputs["Base Color"]
+    metallic, roughness = (_stated(surface.inputs[key]) for key in ("Metallic", "Roughness"))
+    shown = base.links[0].from_node if base.is_linked else None
+    picture = _picture(shown.image, pictures) if shown is not None and shown.type == "TEX_IMAGE" else None
+    if picture is None:
+        return Look(_color(base.default_value), finish(metallic, roughness))
+    texture, mean = picture.painted(None)
+    return Look(mean, finish(metallic, roughness, texture))
+
+
+def _stated(entry: Any) -> float | None:
+    """A number that stands in a node; None where something else makes it."""
+    return None if entry.is_linked else float(entry.default_value)
+
+
+def _picture(image: Any, pictures: Pictures) -> Picture | None:
+    """A picture that is packed into the file, or beside it."""
+    if image is None:
         return None
-    value = material.diffuse_color
-    if material.node_tree is not None:
-        for node in material.node_tree.nodes:
-            if node.type == "BSDF_PRINCIPLED":
-                value = node.inputs["Base Color"].default_value
+    if image.packed_file is not None:
+        return pictures.inside(bytes(image.packed_file.data), image.name)
+    return pictures.beside(image.filepath.removeprefix("//")) if image.filepath else None
+
+
+def _color(value: Any) -> Color:
     r, g, b = (min(max(float(v), 0.0), 1.0) for v in tuple(value)[:3])
     return r, g, b
-
-
-def _pictured(material: Any) -> bool:
-    nodes = material.node_tree.nodes if material is not None and material.node_tree is not None else []
-    return any(node.type == "TEX_IMAGE" for node in nodes)

@@ -7,12 +7,14 @@ Read are meshes, polyfaces and 3D faces. Solids in ACIS's own form (3DSOLID, BOD
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from yellowiron.cad import placed, polygons
+from yellowiron.cad.looks import Dressed, Look, dress
 from yellowiron.cad.naming import decode_name
 from yellowiron.cad.placed import Occurrence
 from yellowiron.model.assembly import Assembly
@@ -36,20 +38,20 @@ def read_dxf(path: str) -> Assembly:
         document, _ = recover.readfile(path)
     except (OSError, ezdxf.DXFError, ValueError) as error:
         raise CadError(f"The DXF file cannot be read: {error}", where=path, hint=_DAMAGED) from error
-    blocks: dict[str, list[tuple[str, Mesh, Color | None]]] = {}
+    blocks: dict[str, list[tuple[str, Dressed]]] = {}
     acis = 0
     placements = list(_inserted(document.modelspace(), (), np.eye(4), 0))
     if len(placements) > _MOST:
         raise CadError(f"The DXF file places more than {_MOST} blocks", where=path, hint=_DAMAGED)
-    raw: list[tuple[tuple[str, ...], str, Mesh, Floats, Color | None]] = []
+    raw: list[tuple[tuple[str, ...], str, Dressed, Floats]] = []
     for names, layout, transform in placements:
         key = layout.block_record_handle if hasattr(layout, "block_record_handle") else layout.layout_key
         acis += sum(1 for e in layout if e.dxftype() in _ACIS)
         if key not in blocks:
             blocks[key] = list(_meshes(layout, document))
         # A block is a part; loose geometry is one a layer.
-        for layer, mesh, color in blocks[key]:
-            raw.append((names[:-1], names[-1] if names else layer, mesh, transform, color))
+        for layer, one in blocks[key]:
+            raw.append((names[:-1], names[-1] if names else layer, one, transform))
     if not raw:
         words = f"The DXF file holds {acis} ACIS solids and no mesh" if acis else "The DXF file holds no 3D faces"
         raise CadError(words, where=path, hint=_STEP)
@@ -58,13 +60,13 @@ def read_dxf(path: str) -> Assembly:
     if code:
         unit = float(units.conversion_factor(code, units.M))
     else:
-        unit, findings = placed.guessed_unit([_at(m.points, t) for _, _, m, t, _ in raw], path)
-    scaled = {id(m): Mesh(m.points * unit, m.triangles) for _, _, m, _, _ in raw}
+        unit, findings = placed.guessed_unit([_at(one.mesh.points, t) for _, _, one, t in raw], path)
+    scaled = {id(one): replace(one.mesh, points=one.mesh.points * unit) for _, _, one, _ in raw}
     occurrences = []
-    for above, name, mesh, transform, color in raw:
+    for above, name, one, transform in raw:
         place = transform.copy()
         place[:3, 3] *= unit
-        occurrences.append(Occurrence(name, above, scaled[id(mesh)], place, color))
+        occurrences.append(Occurrence(name, above, scaled[id(one)], place, one.color))
     if acis:
         words = f"{acis} ACIS solids of the drawing cannot be read"
         findings.append(Finding("CAD001", "warning", path, words, _STEP))
@@ -96,11 +98,11 @@ def _inserted(
             yield from _inserted(block, (*names, title), transform @ own, depth + 1)
 
 
-def _meshes(layout: Any, document: Any) -> Iterator[tuple[str, Mesh, Color | None]]:
-    """A layout's own geometry, one mesh a layer: its name, triangles in the file's unit, colour."""
+def _meshes(layout: Any, document: Any) -> Iterator[tuple[str, Dressed]]:
+    """A layout's own geometry, one mesh a layer: its name, triangles in the file's unit, colours."""
     points: dict[str, list[Floats]] = {}
     triangles: dict[str, list[Any]] = {}
-    colors: dict[str, Color | None] = {}
+    colors: dict[str, list[tuple[Color | None, int]]] = {}
     for entity in layout:
         for vertices, faces in _faces(entity):
             layer = entity.dxf.layer
@@ -109,10 +111,12 @@ def _meshes(layout: Any, document: Any) -> Iterator[tuple[str, Mesh, Color | Non
             cut, _ = polygons.fans(counts, [i for f in faces for i in f])
             points.setdefault(layer, []).append(np.array(vertices, dtype=np.float64).reshape(-1, 3))
             triangles.setdefault(layer, []).append(cut + start)
-            colors.setdefault(layer, _color(entity, document))
+            colors.setdefault(layer, []).append((_color(entity, document), len(cut)))
     for layer in points:
         mesh = Mesh(np.concatenate(points[layer]), np.concatenate(triangles[layer]).astype(np.int32))
-        yield decode_name(layer, "utf-8"), mesh, colors[layer]
+        looks = list(dict.fromkeys(Look(color) for color, _ in colors[layer]))
+        rows = np.repeat([looks.index(Look(color)) for color, _ in colors[layer]], [n for _, n in colors[layer]])
+        yield decode_name(layer, "utf-8"), dress(mesh, looks, rows)
 
 
 def _faces(entity: Any) -> Iterator[tuple[Any, Any]]:

@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from yellowiron.cad import obj, placed, ply, sniff, stl
-from yellowiron.cad.looks import Dressed
+from yellowiron.cad.looks import Dressed, repainted
 from yellowiron.cad.naming import decode_name, is_generic, unique_ids
 from yellowiron.cad.placed import Occurrence
 from yellowiron.model.assembly import Assembly
@@ -92,7 +92,7 @@ def _loose(files: Sequence[Path], folder: Path) -> Assembly:
             raw += [(names, name, one) for name, one in obj.meshes_of(file)]
             continue
         meshes = [m for _, m in stl.solids_of(file)] if file.suffix.lower() == ".stl" else [ply.mesh_of(file)]
-        raw += [(names, "", Dressed(mesh)) for mesh in meshes]
+        raw += [(names, "", repainted(mesh)) for mesh in meshes]
     unit, findings = placed.guessed_unit([one.mesh.points for _, _, one in raw], str(folder))
     occurrences = []
     for names, name, one in raw:

@@ -71,6 +71,13 @@ def dress(
     return Dressed(dressed, None if painted is not None else one, kept)
 
 
+def repainted(mesh: Mesh) -> Dressed:
+    """A mesh whose triangles have colours, with one colour where they all have the same."""
+    if mesh.triangle_colors is None:
+        return Dressed(mesh)
+    return dress(replace(mesh, triangle_colors=None), [], paint=mesh.triangle_colors)
+
+
 def _without_texture(look: Look) -> Look:
     if look.finish is None or look.finish.texture is None:
         return look

@@ -7,9 +7,10 @@ colours; the shapes are files beside it. Objects that others are made from are h
 
 from __future__ import annotations
 
+import struct
 import zipfile
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -19,12 +20,14 @@ from OCP.BinTools import BinTools
 from OCP.BRep import BRep_Builder
 from OCP.BRepTools import BRepTools
 from OCP.gp import gp_Pnt, gp_Quaternion, gp_Trsf, gp_Vec
+from OCP.TopAbs import TopAbs_FACE
 from OCP.TopLoc import TopLoc_Location
 from OCP.TopoDS import TopoDS_Shape
 
 from yellowiron.cad import products
+from yellowiron.cad.brep import subshapes
 from yellowiron.cad.naming import decode_name
-from yellowiron.cad.xcaf import Tree, add_product, new_document
+from yellowiron.cad.xcaf import Product, Tree, add_product, add_products, new_document
 from yellowiron.guard import must_end
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import CadError
@@ -36,6 +39,9 @@ _GROUPS = ("App::Part", "App::DocumentObjectGroup", "Assembly::AssemblyObject", 
 _LINKS = ("App::Link", "App::LinkElement")
 _LARGEST = 1024**3
 """Bytes of one file of an archive when unpacked."""
+_LARGEST_PALETTE = 64 * 1024**2
+_PALETTES = {"DiffuseColor": ("ColorList", 4, 0), "ShapeAppearance": ("MaterialList", 24, 4)}
+"""Lists of colours: their element, the bytes of an entry, and where its diffuse colour is."""
 _DEEPEST = 50
 _PATIENCE, _SLOWEST = 2.0, 1e6
 """Seconds, and bytes a second: a fiftieth of what is usual."""
@@ -79,6 +85,8 @@ class _Object:
     linked: str = ""
     shown: bool = True
     color: Color | None = None
+    palette: list[Color] = field(default_factory=list)
+    """A colour for every face of its shape."""
 
 
 def read_freecad(path: str) -> Assembly:
@@ -87,20 +95,30 @@ def read_freecad(path: str) -> Assembly:
         with zipfile.ZipFile(path) as archive:
             objects = _objects(ElementTree.fromstring(archive.read("Document.xml")))
             if "GuiDocument.xml" in archive.namelist():
-                _looks(ElementTree.fromstring(archive.read("GuiDocument.xml")), objects)
+                _looks(ElementTree.fromstring(archive.read("GuiDocument.xml")), objects, archive)
             shapes = _shapes(archive, objects, path)
     except (zipfile.BadZipFile, ElementTree.ParseError, KeyError, ValueError, EOFError, NotImplementedError) as error:
         raise CadError(f"The FreeCAD file is broken: {error}", where=path, hint=_DAMAGED) from error
     document = new_document()
     owned = {m for o in objects.values() for m in o.members}
+    roots: list[tuple[Product, Any]] = []
     for name in objects:
         if name not in owned:
-            _add(document, name, TopLoc_Location(), objects, shapes, path, 0)
+            _add(roots, name, TopLoc_Location(), objects, shapes, path, 0)
+    add_products(document, [_at(product, place) for product, place in roots])
     return products.assemble(Tree(document, "utf-8"), path=path, format="FreeCAD", unit=1e-3)
 
 
+def _at(product: Product, place: Any) -> Product:
+    """A product that nothing holds, at its place."""
+    if product.shape is None or place.IsIdentity():
+        return product
+    faces = [(face.Moved(place), color) for face, color in product.face_colors]
+    return replace(product, shape=product.shape.Moved(place), face_colors=faces)
+
+
 def _add(
-    document: Any,
+    held: list[tuple[Product, Any]],
     name: str,
     outer: Any,
     objects: Mapping[str, _Object],
@@ -109,7 +127,7 @@ def _add(
     depth: int,
     label: str = "",
 ) -> None:
-    """Adds an object, and what it groups or links to, at its place."""
+    """Adds an object, and what it groups or links to, at its place; `outer` is from the document's origin."""
     one = objects.get(name)
     if one is None or (not one.shown and not label):
         return
@@ -117,17 +135,22 @@ def _add(
         raise CadError("The FreeCAD file is broken: an object holds itself", where=path, hint=_DAMAGED)
     place = outer if one.place is None else outer * one.place
     if one.kind in _GROUPS:
+        inner: list[tuple[Product, Any]] = []
         for member in one.members:
-            _add(document, member, place, objects, shapes, path, depth + 1)
+            _add(inner, member, place, objects, shapes, path, depth + 1)
+        if inner:
+            held.append((Product(label or one.label, None, inner), TopLoc_Location()))
     elif one.kind in _LINKS:
         target = objects.get(one.linked)
         if target is not None:
             # A link has a place of its own instead of its target's.
             undo = target.place.Inverted() if target.place is not None else TopLoc_Location()
-            _add(document, one.linked, place * undo, objects, shapes, path, depth + 1, one.label)
+            _add(held, one.linked, place * undo, objects, shapes, path, depth + 1, one.label)
     elif name in shapes and (label or not _is_used(one, objects)):
         # The shape's file has its object's own place in it.
-        add_product(document, label or one.label, shapes[name].Moved(outer), one.color)
+        faces = subshapes(shapes[name], TopAbs_FACE)
+        painted = list(zip(faces, one.palette, strict=True)) if len(faces) == len(one.palette) > 1 else []
+        held.append((Product(label or one.label, shapes[name], [], one.color, painted), outer))
 
 
 def _is_used(one: _Object, objects: Mapping[str, _Object]) -> bool:
@@ -174,18 +197,41 @@ def _location(entry: ElementTree.Element) -> Any:
     return TopLoc_Location(turn)
 
 
-def _looks(root: ElementTree.Element, objects: Mapping[str, _Object]) -> None:
-    """Which objects are shown, and in which colour (packed RGBA, sRGB)."""
+def _looks(root: ElementTree.Element, objects: Mapping[str, _Object], archive: zipfile.ZipFile) -> None:
+    """Which objects are shown, and in which colours: one, or one a face (packed RGBA, sRGB). They stand in the
+    document up to FreeCAD 0.21 (`DiffuseColor` in a file of its own), in `ShapeAppearance` since 1.0."""
     for entry in root.iterfind("./ViewProviderData/ViewProvider"):
         one = objects.get(entry.get("name", ""))
         if one is None:
             continue
         for item in entry.iterfind("./Properties/Property"):
-            if item.get("name") == "Visibility":
+            key = item.get("name", "")
+            if key == "Visibility":
                 one.shown = any(e.get("value") == "true" for e in item.iter("Bool"))
-            elif item.get("name") == "ShapeColor":
+            elif key == "ShapeColor":
                 packed = next((int(e.get("value", "0")) for e in item.iter("PropertyColor")), None)
-                one.color = None if packed is None else linear([(packed >> s & 255) / 255.0 for s in (24, 16, 8)])
+                one.color = None if packed is None else _unpacked(packed)
+            elif key in _PALETTES:
+                tag, size, at = _PALETTES[key]
+                file = next((e.get("file", "") for e in item.iter(tag)), "")
+                one.palette = _palette(archive, file, size, at)
+                if len(one.palette) == 1:
+                    one.color = one.palette[0]
+
+
+def _palette(archive: zipfile.ZipFile, file: str, size: int, at: int) -> list[Color]:
+    """The colours in a list of an archive: how many there are, then `size` bytes each, the colour `at` so many."""
+    if file not in archive.namelist() or archive.getinfo(file).file_size > _LARGEST_PALETTE:
+        return []
+    data = archive.read(file)
+    count = struct.unpack_from("<I", data)[0] if len(data) >= 4 else 0
+    if len(data) < 4 + count * size:
+        return []
+    return [_unpacked(struct.unpack_from("<I", data, 4 + n * size + at)[0]) for n in range(count)]
+
+
+def _unpacked(packed: int) -> Color:
+    return linear([(packed >> shift & 255) / 255.0 for shift in (24, 16, 8)])
 
 
 def _shapes(archive: zipfile.ZipFile, objects: Mapping[str, _Object], path: str) -> dict[str, Any]:

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from yellowiron.cad import placed
+from yellowiron.cad.looks import repainted
 from yellowiron.cad.placed import Occurrence
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import CadError
@@ -29,7 +30,7 @@ def read_ply(path: str) -> Assembly:
     pieces = placed.pieces(mesh) if np.isfinite(mesh.points).all() else [mesh]
     name = Path(path).stem
     return placed.assemble(
-        [Occurrence(name, (), piece, np.eye(4)) for piece in pieces],
+        [Occurrence(name, (), one.mesh, np.eye(4), one.color) for one in map(repainted, pieces)],
         name=name, format="PLY", unit=unit, path=path, findings=findings,
     )  # fmt: skip
 

@@ -1,11 +1,13 @@
 """An STL file to an `Assembly`: a part for every piece of connected triangles. Runs in the guard's child process.
 
-STL has no names (but of solids, in text), no tree, no colours and no unit.
+STL has no names (but of solids, in text), no tree and no unit; some programs put colours into the two bytes that the
+binary form has to spare.
 """
 
 from __future__ import annotations
 
 import struct
+from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -13,11 +15,12 @@ from typing import Any
 import numpy as np
 
 from yellowiron.cad import placed
+from yellowiron.cad.looks import repainted
 from yellowiron.cad.naming import decode_name, is_generic
 from yellowiron.cad.placed import Occurrence
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import CadError
-from yellowiron.model.geometry import Mesh
+from yellowiron.model.geometry import Floats, Mesh
 
 _HEADER, _TRIANGLE = 84, 50
 _DAMAGED = "Copy or export it again; the file is damaged."
@@ -30,11 +33,12 @@ def read_stl(path: str) -> Assembly:
     unit, findings = placed.guessed_unit([mesh.points for _, mesh in solids], path)
     occurrences = []
     for name, mesh in solids:
-        mesh = Mesh(mesh.points * unit, mesh.triangles)
+        mesh = replace(mesh, points=mesh.points * unit)
         # What is not a number is left in one piece, for the check of every part to name it.
         pieces = placed.pieces(mesh) if np.isfinite(mesh.points).all() else [mesh]
         title = name if name and not is_generic(name) else Path(path).stem
-        occurrences += [Occurrence(title, (), piece, np.eye(4)) for piece in pieces]
+        dressed = [repainted(piece) for piece in pieces]
+        occurrences += [Occurrence(title, (), one.mesh, np.eye(4), one.color) for one in dressed]
     return placed.assemble(
         occurrences, name=Path(path).stem, format="STL", unit=unit, path=path, findings=findings,
     )  # fmt: skip
@@ -78,4 +82,29 @@ def _solids(data: bytes, path: str) -> list[tuple[str, Mesh]]:
         triangles = np.asarray(entry["faces"], dtype=np.int32).reshape(-1, 3)
         name = decode_name(str(entry.get("metadata", {}).get("name") or ""), "utf-8")
         solids.append((name, Mesh(points, triangles)))
+    colors = _colors(data) if len(solids) == 1 else None
+    if colors is not None and len(colors) == len(solids[0][1].triangles):
+        solids = [(solids[0][0], replace(solids[0][1], triangle_colors=colors))]
     return solids
+
+
+def _colors(data: bytes) -> Floats | None:
+    """(m, 3) colours of a binary file's triangles, 15 bits each; None where it has none. With 'COLOR=' in the header
+    (Magics) red comes first and the top bit means "the header's"; else (VisCAM) blue, and the bit must be there."""
+    if len(data) < _HEADER or len(data) != _HEADER + _TRIANGLE * struct.unpack_from("<I", data, 80)[0]:
+        return None
+    bits = np.ndarray((len(data) - _HEADER) // _TRIANGLE, dtype="<u2", buffer=data, offset=_HEADER + 48, strides=50)
+    whole = data[:80].find(b"COLOR=")
+    own = (bits & 0x8000) != 0
+    if 0 <= whole <= 70:
+        own = ~own
+    if not own.any():
+        return None
+    channels = np.stack([bits & 31, bits >> 5 & 31, bits >> 10 & 31], axis=1) / 31.0
+    rest = np.array([0.5, 0.5, 0.5])
+    if 0 <= whole <= 70:
+        rest = np.frombuffer(data[whole + 6 : whole + 9], dtype=np.uint8) / 255.0
+    else:
+        channels = channels[:, ::-1]
+    srgb = np.where(own[:, None], channels, rest)
+    return np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
