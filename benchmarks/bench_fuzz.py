@@ -143,9 +143,9 @@ def nursery(target: str, file: Path, last: int) -> None:
     os.dup2(saved, 1)
     for line in sys.stdin:
         if (child := os.fork()) == 0:
+            os.write(1, json.dumps({"child": os.getpid()}).encode() + b"\n")
             work(target, file, int(line), last)
             os._exit(0)
-        os.write(1, json.dumps({"child": child}).encode() + b"\n")
         usage = os.wait4(child, 0)[2]
         os.write(1, b"\n" + json.dumps({"ended": child, "kb": usage.ru_maxrss}).encode() + b"\n")
 
