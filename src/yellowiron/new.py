@@ -43,7 +43,7 @@ def new_template(
     progress("Reading the CAD model")
     assembly = cad.read_cad(cad_file)
     progress("Finding bodies and joints")
-    machine = align.discover(assembly)
+    machine = align.discover_declared(assembly) if assembly.joints else align.discover(assembly)
     lent = None
     if like is not None:
         progress(f"Comparing with {like}")

@@ -11,6 +11,16 @@ from yellowiron.align.align import align
 from yellowiron.align.discover import discover
 from yellowiron.align.files import explain, read_alignment, write_alignment
 from yellowiron.align.report import REVIEW
+from yellowiron.align.robot import discover_declared
 from yellowiron.align.scale import to_scale
 
-__all__ = ["REVIEW", "align", "discover", "explain", "read_alignment", "to_scale", "write_alignment"]
+__all__ = [
+    "REVIEW",
+    "align",
+    "discover",
+    "discover_declared",
+    "explain",
+    "read_alignment",
+    "to_scale",
+    "write_alignment",
+]

@@ -29,6 +29,10 @@ def proposed_names(machine: FoundMachine) -> tuple[list[str], list[str]]:
     words = [[_name(label, common) for label in body.labels] for body in machine.bodies]
     names, reasons = [], []
     for k, body in enumerate(machine.bodies):
+        if given := plain(body.name):
+            names.append(given)
+            reasons.append(f"the file calls it '{body.name}'")
+            continue
         chosen = next((i for i, name in enumerate(words[k]) if name and _own(name, i, k, machine, words)), None)
         if chosen is None:
             names.append("")
@@ -37,6 +41,11 @@ def proposed_names(machine: FoundMachine) -> tuple[list[str], list[str]]:
             names.append(words[k][chosen])
             reasons.append(f"named after '{body.labels[chosen]}'")
     return _distinct(_filled(names, machine)), reasons
+
+
+def plain(name: str) -> str:
+    """A name as a template has it: `Boom Link.001` → `boom_link_001`."""
+    return re.sub(r"\W+", "_", name).strip("_").casefold()
 
 
 def title(name: str) -> str:

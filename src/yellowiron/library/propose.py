@@ -16,8 +16,9 @@ import numpy as np
 
 from yellowiron.library.details import matches
 from yellowiron.library.likeness import Likeness
-from yellowiron.library.naming import proposed_names, title
+from yellowiron.library.naming import plain, proposed_names, title
 from yellowiron.model.found import FoundJoint, FoundMachine
+from yellowiron.model.specification import fold
 
 Json = dict[str, Any]
 STEEL = {
@@ -173,7 +174,7 @@ def _collision(draft: _Draft) -> Json:
 def _joint_name(draft: _Draft, joint: FoundJoint) -> str:
     a, b = draft.names[joint.a], draft.names[joint.b]
     between = "_2_" if a[-1].isdigit() else "2"
-    name = draft.like.joint(a, b, joint.type) or f"{a}{between}{b}_joint"
+    name = draft.like.joint(a, b, joint.type) or plain(joint.name) or f"{a}{between}{b}_joint"
     while name in draft.joint_names:
         name = name.removesuffix("_joint") + "_other_joint"
     return name
@@ -221,7 +222,8 @@ def _entry(draft: _Draft, k: int, joint: FoundJoint) -> Json:
         entry |= _slide(draft, k)
     elif joint.type == "revolute" and not joint.loop:
         entry |= _free(draft, joint)
-    return entry | {"source": f"found by: {joint.reason}"}
+    declared = any(body.name for body in draft.machine.bodies)
+    return entry | {"source": joint.reason if declared else f"found by: {joint.reason}"}
 
 
 def _slide(draft: _Draft, k: int) -> Json:
@@ -273,7 +275,7 @@ def _cylinders(draft: _Draft) -> None:
                 draft.want(wanted, "", "") if wanted in draft.like.wanted else None
             continue
         name = _said(draft, [k for k, _, _ in members]) or draft.names[max(host, moved)]
-        name = name if name not in draft.actuators else f"{name}_{len(draft.actuators)}"
+        name = _own(draft, name, f"{name}_{len(draft.actuators)}")
         signs = _signs(draft.machine, host, moved, [k for k, _, _ in members])
         cylinders = []
         for place, ((k, barrel, rod), sign) in enumerate(zip(members, signs, strict=True)):
@@ -287,10 +289,17 @@ def _cylinders(draft: _Draft) -> None:
         draft.actuators[name] = {"kind": "cylinder", "cylinders": cylinders, "specifications": said}
 
 
+def _own(draft: _Draft, name: str, other: str) -> str:
+    """The name, or the other where an actuator has it already, as templates read names."""
+    return other if fold(name) in map(fold, draft.actuators) else name
+
+
 def _said(draft: _Draft, slides: list[int]) -> str:
     """What some cylinders are called by the names of all their halves: `bucket` of `bucket_cyl1` and `bucket_cyl2`."""
     ends = [end for k in slides for end in (draft.machine.joints[k].a, draft.machine.joints[k].b)]
-    words = [[re.sub(r"\d", "", w) for w in draft.names[end].split("_")] for end in ends]
+    said = [[re.sub(r"\d", "", w) for w in name.split("_")] for name in draft.names]
+    # A word of every name, such as a robot's `link`, says nothing of one.
+    words = [[w for w in said[end] if not all(w in other for other in said)] for end in ends]
     return "_".join(dict.fromkeys(w for w in words[0] if w and w not in _HALVES and all(w in o for o in words)))
 
 
@@ -350,7 +359,7 @@ def _motors(draft: _Draft) -> None:
 
 
 def _motor(draft: _Draft, name: str, joints: list[str]) -> None:
-    name = name if name not in draft.actuators else f"{name}_motor"
+    name = _own(draft, name, f"{name}_motor")
     said = {q: draft.want(f"{title(name)} {w}", d, use) for q, (w, d, use) in MOTORS.items()}
     draft.actuators[name] = {"kind": "motor", "joints": joints, "specifications": said}
 

@@ -13,12 +13,14 @@ Vector = tuple[float, float, float]
 @dataclass(frozen=True)
 class FoundBody:
     """Parts that move as one. `kind`: `frame`, `arm`, `barrel`, `rod`, `wheel` or ""; `labels` are names that its parts
-    and their assemblies have, most telling first; `reason` says why it is a body."""
+    and their assemblies have, most telling first; `reason` says why it is a body; `name` is what the file itself calls
+    it, where it is a robot description."""
 
     parts: tuple[str, ...]
     kind: str
     labels: tuple[str, ...]
     reason: str
+    name: str = ""
 
 
 @dataclass(frozen=True)
@@ -26,7 +28,7 @@ class FoundJoint:
     """A joint of the bodies `a`, the one nearer to the root, and `b` (indices): about or along the line through `point`
     (metres) in the unit `direction` (of a slide: towards the rod's end), both in the CAD file's frame. `type`:
     `revolute`, `prismatic` or `fixed`. `pins` are ids of the parts that are its pin. `loop`: it is one of a closed
-    chain; `upright`: its axis is the machine's upright. `radius` (metres) of its pin or rod."""
+    chain; `upright`: its axis is the machine's upright. `radius` (metres) of its pin or rod. `name` as of a body."""
 
     type: Literal["revolute", "prismatic", "fixed"]
     a: int
@@ -38,6 +40,7 @@ class FoundJoint:
     reason: str
     loop: bool = False
     upright: bool = False
+    name: str = ""
 
 
 @dataclass(frozen=True)
