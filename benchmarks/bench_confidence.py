@@ -50,7 +50,7 @@ CASES = 4
 EDGES = (0.0, 0.5, 0.7, 0.8, 0.9, 0.95, 0.98, 0.99, 1.0)
 SIGNS = {
     **dict.fromkeys(("strength", "whole", "names for", "lead"), (0.0, None)),
-    **dict.fromkeys(("rung", "names against"), (None, 0.0)),
+    **dict.fromkeys(("rung", "names against", "doubted"), (None, 0.0)),
 }
 """What can only speak for a place, or only against it: few are wrong, and chance must not turn that round."""
 RIDGE = 1.0

@@ -27,6 +27,7 @@ def test_grounds() -> None:
         "lead": 0.5,
     }
     assert "lead" not in grounds(place(how="near"), whole=True, rung=0)
+    assert grounds(place(0.4), whole=True, rung=0)["doubted"] == 1.0
 
 
 @pytest.mark.parametrize("how", ["joints", "pin", "bores", "flat", "ring", "touch", "near", "name", "track"])

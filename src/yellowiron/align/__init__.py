@@ -8,9 +8,9 @@ are left out · `ALN010` there seems to be more than one machine · `ALN011` the
 """
 
 from yellowiron.align.align import align
+from yellowiron.align.confidence import REVIEW
 from yellowiron.align.discover import discover
 from yellowiron.align.files import explain, read_alignment, write_alignment
-from yellowiron.align.report import REVIEW
 from yellowiron.align.robot import discover_declared
 from yellowiron.align.scale import to_scale
 

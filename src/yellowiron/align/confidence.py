@@ -13,19 +13,23 @@ from yellowiron.align.spread import Place
 
 Grounds = Mapping[str, float]
 """What a probability rests on, by name; see `grounds`."""
+REVIEW = 0.5
+"""Parts whose evidence has less strength than this are for a person to look at."""
 LIMIT = 0.005
 """No place is surer than 1 less this: the machines fitted to are not the world."""
 
 
 def grounds(place: Place, *, whole: bool, rung: int) -> dict[str, float]:
     """What speaks for and against a place. `strength`: the log-odds of the solver's own measure; `by …`: 1 for what it
-    was found by; `whole`: 1 if every body and joint of the machine was found, no cylinder left over; `rung`: how often
-    the contact tolerance was widened; `names for`, `names against`: how much more the part's names speak of its body
-    than of any other, or of another; `lead`: how many more of its body's joints hold than of the runner-up's."""
+    was found by; `doubted`: 1 where it is listed for review; `whole`: 1 if every body and joint of the machine was
+    found, no cylinder left over; `rung`: how often the contact tolerance was widened; `names for`, `names against`: how
+    much more the part's names speak of its body than of any other, or of another; `lead`: how many more of its body's
+    joints hold than of the runner-up's."""
     strength = min(max(place.confidence, 0.02), 0.98)
     return {
         "strength": round(math.log(strength / (1 - strength)), 3),
         f"by {place.how}": 1.0,
+        **({"doubted": 1.0} if place.confidence < REVIEW else {}),
         "whole": float(whole),
         "rung": float(rung),
         "names for": round(max(place.said, 0.0), 3),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from yellowiron.align.confidence import grounds, probability
+from yellowiron.align.confidence import REVIEW, grounds, probability
 from yellowiron.align.frame import MachineFrame
 from yellowiron.align.solve import Solution
 from yellowiron.align.spread import Place, pin_role
@@ -13,9 +13,6 @@ from yellowiron.model.assembly import Assembly
 from yellowiron.model.finding import Finding
 from yellowiron.model.rows import count_members
 from yellowiron.model.template import Template
-
-REVIEW = 0.5
-"""Parts whose evidence has less strength than this are for a person to look at."""
 
 APART = 0.6
 """Confidence that a part which stands apart is no part of the machine: one remark speaks for all of them."""
