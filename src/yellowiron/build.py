@@ -118,6 +118,10 @@ def build(
         with clock.stage("mechanism", "Building the mechanism"):
             machine = _mechanism(assembly, template, alignment, specifications, data)
             compared = mechanism.compare_declared(machine, assembly, alignment)
+            lent = mechanism.declared_values(machine, template, assembly, alignment, compared, specifications)
+            if lent.values:
+                specifications = specs.merge(lent, specifications)
+                machine = _mechanism(assembly, template, alignment, specifications, data)
             start = kinematics.legal_start(machine)
             if start is not None:
                 assembly, template, alignment = kinematics.started(assembly, template, alignment, start)

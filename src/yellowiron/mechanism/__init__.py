@@ -52,10 +52,11 @@ MEC072  tracks and frame are drawn in one: the track is what stands on the groun
 MEC080  how many of the joints that the file declares agree with those found, and how well
 MEC081  a joint that the file declares differs from the one found, or none was found between its bodies
 MEC082  joints that the file declares and that cannot be compared: a body of theirs draws nothing
+MEC083  values that no sheet gives were taken from the limits of joints that the file declares
 ======  ========================================================================================================
 """
 
 from yellowiron.mechanism.build import build_mechanism
-from yellowiron.mechanism.declared import ComparedJoint, compare_declared, declared_findings
+from yellowiron.mechanism.declared import ComparedJoint, compare_declared, declared_findings, declared_values
 
-__all__ = ["ComparedJoint", "build_mechanism", "compare_declared", "declared_findings"]
+__all__ = ["ComparedJoint", "build_mechanism", "compare_declared", "declared_findings", "declared_values"]

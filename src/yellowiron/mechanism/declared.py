@@ -5,12 +5,13 @@
 | MEC080 | info     | how many declared joints agree with those found, and how well                         |
 | MEC081 | warning  | a declared joint differs from the one found, or none was found between its bodies     |
 | MEC082 | info     | declared joints that cannot be compared: a body of theirs draws nothing               |
+| MEC083 | warning  | values that no sheet gives were taken from the limits of declared joints              |
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,6 +21,8 @@ from yellowiron.model.assembly import Assembly, DeclaredJoint
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Joint, Mechanism
+from yellowiron.model.specification import Specification, Specifications
+from yellowiron.model.template import Template
 
 ANGLE = math.radians(0.5)
 """Declared and found axes agree within this, …"""
@@ -83,6 +86,58 @@ def declared_findings(compared: Sequence[ComparedJoint], where: str) -> tuple[Fi
         words = f"Not compared, since nothing is drawn for one of their bodies: {', '.join(blank)}."
         findings.append(Finding("MEC082", "info", where, words))
     return tuple(findings)
+
+
+def declared_values(
+    mechanism: Mechanism,
+    template: Template,
+    assembly: Assembly,
+    alignment: Alignment,
+    compared: Sequence[ComparedJoint],
+    specifications: Specifications,
+) -> Specifications:
+    """What the limits of declared joints say of values that nothing else gives (SI, source `geometry`): angles of
+    hinges, travels of slides, strokes and closed lengths of cylinders. MEC083."""
+    found: dict[str, Specification] = {}
+    declared = {d.name: d for d in assembly.joints}
+    played = _played(assembly, alignment)
+    for one in compared:
+        source = declared[one.name]
+        if not one.agrees or one.found != one.type or source.lower is None or source.upper is None:
+            continue
+        joint = mechanism.joint(one.joint)
+        turned = float(np.dot(alignment.frame[:3, :3] @ np.array(source.axis), joint.axis)) < 0.0
+        # The other way round, too, where the mechanism's tree runs through it from the other end.
+        turned ^= played.get(source.bodies[0]) == joint.body1
+        low, high = (-source.upper, -source.lower) if turned else (source.lower, source.upper)
+        unit = "m" if joint.type == "prismatic" else "rad"
+        for name, value in _named(mechanism, template, joint, low, high):
+            known = specifications.get(name)
+            if name not in found and (known is None or known.status in ("missing", "unreadable")):
+                reason = f"limits of the joint '{one.name}', which the CAD file declares"
+                found[name] = Specification(name, value, unit, "ok", "geometry", confidence=0.5, reason=reason)
+    if not found:
+        return Specifications()
+    words = f"Taken from the limits of joints that the file declares, since no sheet gives them: {', '.join(found)}."
+    hint = "Limits of a robot are often a site's or a program's: check them against the machine's sheet."
+    return Specifications(found, (Finding("MEC083", "warning", assembly.name, words, hint),))
+
+
+def _named(
+    mechanism: Mechanism, template: Template, joint: Joint, low: float, high: float
+) -> Iterator[tuple[str, float]]:
+    """Wanted names that a joint's range gives, with their values."""
+    cylinder = next((c for c in mechanism.cylinders if c.slide == joint.name), None)
+    if cylinder is not None:
+        for actuator in template.actuators:
+            if any(c.slide == joint.name for c in actuator.cylinders):
+                lengths = {"stroke": high - low, "closed_length": cylinder.drawn_length + low}
+                yield from ((n, v) for q, v in lengths.items() if (n := actuator.specifications.get(q)) and v > 0.0)
+        return
+    entry = next((e for e in template.joints if e.name == joint.name), None)
+    for stated, value in ((entry.lower, low), (entry.upper, high)) if entry is not None else ():
+        if isinstance(stated, str):
+            yield stated.lstrip("-− ").strip(), -value if stated.lstrip()[0] in "-−" else value
 
 
 def _played(assembly: Assembly, alignment: Alignment) -> dict[str, str | None]:
