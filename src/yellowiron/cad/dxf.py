@@ -24,25 +24,36 @@ from yellowiron.model.geometry import Color, Floats, Mesh, linear
 
 _DAMAGED = "Copy or export it again; the file is damaged."
 _ACIS = ("3DSOLID", "BODY", "REGION", "SURFACE", "EXTRUDEDSURFACE", "LOFTEDSURFACE", "REVOLVEDSURFACE", "SWEPTSURFACE")
-_STEP = "Export the solids as STEP from the program that made the drawing; DXF keeps them in a form that is not open."
+_STEP = "Export the solids as STEP from the program that made the drawing; they are kept in a form that is not open."
 _DEEPEST = 20
 _MOST = 200_000
 
 
 def read_dxf(path: str) -> Assembly:
     """The assembly in a DXF file, in metres. `CadError` if it is damaged, or holds no 3D content that is readable."""
+    return assembled(opened(path, path), path, "DXF")
+
+
+def opened(file: str, path: str) -> Any:
+    """The drawing in a DXF file; errors name `path`."""
     import ezdxf
-    from ezdxf import recover, units
+    from ezdxf import recover
 
     try:
-        document, _ = recover.readfile(path)
+        return recover.readfile(file)[0]
     except (OSError, ezdxf.DXFError, ValueError) as error:
         raise CadError(f"The DXF file cannot be read: {error}", where=path, hint=_DAMAGED) from error
+
+
+def assembled(document: Any, path: str, format: str) -> Assembly:
+    """The assembly in a drawing of ezdxf's, in metres. `CadError` if it holds no 3D content that is readable."""
+    from ezdxf import units
+
     blocks: dict[str, list[tuple[str, Dressed]]] = {}
     acis = 0
     placements = list(_inserted(document.modelspace(), (), np.eye(4), 0))
     if len(placements) > _MOST:
-        raise CadError(f"The DXF file places more than {_MOST} blocks", where=path, hint=_DAMAGED)
+        raise CadError(f"The {format} file places more than {_MOST} blocks", where=path, hint=_DAMAGED)
     raw: list[tuple[tuple[str, ...], str, Dressed, Floats]] = []
     for names, layout, transform in placements:
         key = layout.block_record_handle if hasattr(layout, "block_record_handle") else layout.layout_key
@@ -53,7 +64,8 @@ def read_dxf(path: str) -> Assembly:
         for layer, one in blocks[key]:
             raw.append((names[:-1], names[-1] if names else layer, one, transform))
     if not raw:
-        words = f"The DXF file holds {acis} ACIS solids and no mesh" if acis else "The DXF file holds no 3D faces"
+        held = f"{acis} ACIS solids and no mesh" if acis else "no 3D faces"
+        words = f"The {format} file holds {held}"
         raise CadError(words, where=path, hint=_STEP)
     code = document.units
     findings: list[Finding] = []
@@ -71,7 +83,7 @@ def read_dxf(path: str) -> Assembly:
         words = f"{acis} ACIS solids of the drawing cannot be read"
         findings.append(Finding("CAD001", "warning", path, words, _STEP))
     return placed.assemble(
-        occurrences, name=Path(path).stem, format="DXF", unit=unit, path=path, findings=findings,
+        occurrences, name=Path(path).stem, format=format, unit=unit, path=path, findings=findings,
     )  # fmt: skip
 
 

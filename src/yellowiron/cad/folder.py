@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from yellowiron.cad import obj, placed, ply, sniff, stl
+from yellowiron.cad import dwg, obj, placed, ply, sniff, stl
 from yellowiron.cad.looks import Dressed, repainted
 from yellowiron.cad.naming import decode_name, is_generic, unique_ids
 from yellowiron.cad.placed import Occurrence
@@ -59,7 +59,12 @@ def _known(folder: Path) -> tuple[dict[Path, str], list[Finding]]:
         raise CadError(words, where=str(folder), hint="Name the folder with the machine's own files.")
     for file in found:
         try:
-            kinds[file] = sniff.format_of(file)
+            kind = sniff.format_of(file)
+            if kind == "DWG" and not dwg.is_readable():
+                words = "A DWG file is read through another program, and none is here"
+                findings.append(Finding("CAD008", "warning", str(file), words, f"{dwg.STEPS}."))
+                continue
+            kinds[file] = kind
         except CadError as error:
             if error.message.startswith("No open reader"):
                 findings.append(Finding("CAD008", "warning", str(file), error.message, error.hint))

@@ -17,7 +17,7 @@ Findings:
 | CAD009 | warning, info | the unit of length is unknown; units are mixed                                        |
 | CAD010 | info     | names are not in a standard encoding, and which was taken                                  |
 | CAD011 | info     | a body of triangles without surfaces: its measures are theirs, its cylinders are fitted    |
-| CAD012 | info     | textures are not read                                                                      |
+| CAD012 | info     | textures that could not be kept                                                            |
 | CAD013 | info     | meshes that hold several solids were taken apart (`taken_apart`)                           |
 """
 
@@ -48,6 +48,7 @@ _READERS = {
     "MJCF": "yellowiron.cad.mjcf:read_mjcf",
     "IFC": "yellowiron.cad.ifc:read_ifc",
     "DXF": "yellowiron.cad.dxf:read_dxf",
+    "DWG": "yellowiron.cad.dwg:read_dwg",
     "Blender": "yellowiron.cad.blend:read_blend",
 }
 """Format → the function that reads it, in the child process."""

@@ -6,37 +6,12 @@ import re
 import zipfile
 from pathlib import Path
 
+from yellowiron.cad import proprietary
+from yellowiron.cad.proprietary import Program
 from yellowiron.model.errors import CadError
 
-_OLE = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"
 _BOM = b"\xef\xbb\xbf"
 _HEAD = 65536
-
-_PROPRIETARY: dict[str, tuple[str, str]] = {
-    ".sldprt": ("SolidWorks", "File > Save As > STEP AP214 (*.step)"),
-    ".sldasm": ("SolidWorks", "File > Save As > STEP AP214 (*.step)"),
-    ".rvt": ("Revit", "File > Export > CAD formats > STEP, or IFC into a CAD program that writes STEP"),
-    ".rfa": ("Revit", "File > Export > CAD formats > STEP"),
-    ".catpart": ("CATIA", "File > Save As > stp"),
-    ".catproduct": ("CATIA", "File > Save As > stp"),
-    ".cgr": ("CATIA", "open the part itself and use File > Save As > stp"),
-    ".ipt": ("Inventor", "File > Export > CAD Format > STEP"),
-    ".iam": ("Inventor", "File > Export > CAD Format > STEP"),
-    ".prt": ("NX, Creo or CADDS", "File > Export > STEP"),
-    ".asm": ("Creo or Solid Edge", "File > Save As > STEP"),
-    ".par": ("Solid Edge", "File > Save As > STEP"),
-    ".psm": ("Solid Edge", "File > Save As > STEP"),
-    ".jt": ("JT", "export from the program that made it, File > Export > STEP"),
-    ".dgn": ("DGN (MicroStation)", "File > Export > STEP"),
-    ".x_t": ("Parasolid", "export from the program that made it, as STEP"),
-    ".x_b": ("Parasolid", "export from the program that made it, as STEP"),
-    ".dwg": ("DWG", "command EXPORT or STEPOUT in a program that has it"),
-    ".sat": ("ACIS", "export from the program that made it, as STEP"),
-    ".sab": ("ACIS", "export from the program that made it, as STEP"),
-    ".skp": ("SketchUp", "open it in a CAD program that writes STEP"),
-    ".3dxml": ("3DXML (CATIA)", "open the product itself and use File > Save As > stp"),
-}
-"""Formats without an open reader, by extension: name and how to export."""
 
 _OPEN = {
     ".glb": "GLB",
@@ -51,6 +26,7 @@ _OPEN = {
     ".iges": "IGES",
     ".ifc": "IFC",
     ".dxf": "DXF",
+    ".dwg": "DWG",
     ".fcstd": "FreeCAD",
     ".usd": "USD",
     ".usda": "USD",
@@ -63,6 +39,10 @@ _OPEN = {
     ".brp": "BREP",
 }
 """Open formats by extension."""
+_UNKNOWN_OLE = Program(
+    "this OLE container (SolidWorks, Inventor, Revit, …)", (), "STEP (AP214 or AP242)",
+    ("Open it in the program that made it", "File > Export or Save As, type STEP", "Give that file"),
+)  # fmt: skip
 READABLE = ("STEP", *dict.fromkeys(_OPEN.values()))
 """The formats that are read here, by the names that `format_of` gives."""
 _IFC = re.compile(rb"FILE_SCHEMA\s*\(\s*\(\s*'IFC")
@@ -85,15 +65,12 @@ def format_of(path: Path) -> str:
             where=str(path),
             hint="Save it again as plain text or UTF-8 without a signature.",
         )
-    name, hint = recognise(head, path)
-    if name in READABLE:
-        return name
-    if name:
-        raise CadError(
-            f"No open reader exists for {name}: export to STEP (AP214 or AP242)",
-            where=str(path),
-            hint=f"In the program that made it: {hint}.",
-        )
+    found = recognise(head, path)
+    if isinstance(found, str):
+        return found
+    if found is not None:
+        words = f"No open reader exists for {found.name}" + (f": export to {found.target}" if found.target else "")
+        raise CadError(words, where=str(path), hint=found.hint)
     if path.suffix.lower() in (".step", ".stp", ".p21"):
         raise CadError(
             "This is not a STEP file, whatever its name says: it does not start with ISO-10303-21",
@@ -132,98 +109,72 @@ def _is_step(head: bytes) -> bool:
     return text.startswith(b"ISO-10303-21")
 
 
-def recognise(head: bytes, path: Path) -> tuple[str, str]:
-    """The format of a file that is not STEP and how to export from it; ('', '') for one that is not known."""
+def recognise(head: bytes, path: Path) -> str | Program | None:
+    """The format of a file that is not STEP, or whose it is; None for one that is not known."""
     suffix = path.suffix.lower()
-    by_content = _by_content(head, path)
-    if by_content is not None:
-        return by_content
-    if suffix in _PROPRIETARY and not _is_text(head):
-        return _PROPRIETARY[suffix]
-    if suffix in _OPEN and _may_be(suffix, head):
-        return _OPEN[suffix], ""
-    return "", ""
+    found = _by_content(head, path)
+    if found is not None:
+        return found
+    if not _is_text(head) and (program := proprietary.by_suffix(suffix)) is not None:
+        return program
+    return _OPEN[suffix] if suffix in _OPEN and _may_be(suffix, head) else None
 
 
-def _by_content(head: bytes, path: Path) -> tuple[str, str] | None:
-    suffix = path.suffix.lower()
-    if head.startswith(_OLE):
-        for marker, extension in (
-            ("RevitPreview", ".rvt"),
-            ("BasicFileInfo", ".rvt"),
-            ("SldAsm", ".sldasm"),
-            ("SolidWorks", ".sldprt"),
-            ("swXmlContents", ".sldprt"),
-            ("Inventor", ".ipt"),
-            ("UFRxDoc", ".ipt"),
-            ("JSite", ".par"),
-        ):
-            if marker.encode("utf-16-le") in head or marker.encode() in head:
-                return _PROPRIETARY[extension]
-        return _PROPRIETARY.get(suffix, ("this OLE container (SolidWorks, Inventor, Revit, …)", "File > Export > STEP"))
-    starts: tuple[tuple[bytes, str], ...] = (
-        (b"V5_CFV2", ".catpart"),
-        (b"AC10", ".dwg"),
-        (b"**ABCDEFGHIJKLMNOPQRSTUVWXYZ", ".x_t"),
-        (b"PS\x00\x00", ".x_b"),
-        (b"#UGC:2", ".asm"),
-        (b"ACIS BinaryFile", ".sab"),
-        (b"ASM BinaryFile", ".sab"),
-        (b"\xff\xfe\xff\x0eS\x00k\x00e\x00t\x00c\x00h\x00U\x00p", ".skp"),
-    )
-    for start, extension in starts:
-        if head.startswith(start):
-            return _PROPRIETARY[extension]
-    if re.match(rb"Version \d+\.\d+ +JT", head):
-        return _PROPRIETARY[".jt"]
-    if suffix == ".dgn" and head[:4] in (b"\x08\x09\xfe\x02", b"\xc8\x09\xfe\x02"):
-        return _PROPRIETARY[".dgn"]
+def _by_content(head: bytes, path: Path) -> str | Program | None:
+    program = proprietary.by_content(head, path)
+    if program is not None:
+        return program
+    if head.startswith(proprietary.OLE):
+        return proprietary.by_suffix(path.suffix.lower()) or _UNKNOWN_OLE
+    if re.match(rb"AC10\d\d", head):
+        return "DWG"
     if head.startswith(b"glTF"):
-        return "GLB", ""
+        return "GLB"
     if head.startswith(b"Kaydara FBX"):
-        return "FBX", ""
+        return "FBX"
     if head.startswith((b"PXR-USDC", b"#usda")):
-        return "USD", ""
+        return "USD"
     if head.startswith(b"BLENDER"):
-        return "Blender", ""
+        return "Blender"
     if re.match(rb"ply[ \t]*\r?\n", head):
-        return "PLY", ""
+        return "PLY"
     if head.lstrip().startswith((b"DBRep_DrawableShape", b"CASCADE Topology V", b"Open CASCADE Topology V")):
-        return "BREP", ""
+        return "BREP"
     if re.match(rb"\s*; FBX \d", head):
-        return "FBX", ""
+        return "FBX"
     if head.startswith(b"AutoCAD Binary DXF") or re.match(rb"\s*(?:999\r?\n.*\r?\n)*\s*0\r?\n\s*SECTION\r?\n", head):
-        return "DXF", ""
+        return "DXF"
     if head[:2] == b"\x1f\x8b":
-        return "a compressed file", "unpack it (gunzip) and give the STEP file inside"
+        return Program("a compressed file", (), "", ("unpack it (gunzip)", "give the STEP file inside"))
     if head.startswith(b"PK\x03\x04"):
         return _zip(path)
     if _STEP_XML.search(head[:4096]):
-        return "STEP-XML", "export as STEP Part 21 (.step), AP242 without XML"
+        return Program("STEP-XML", (), "STEP Part 21 (.step)", ("choose AP242 without XML", "give that file"))
     root = _ROOT.match(head.removeprefix(_BOM))
     if root and root.group(1) in _ROOTS:
-        return _ROOTS[root.group(1)], ""
+        return _ROOTS[root.group(1)]
     if len(head) >= 80 and re.match(rb".{72}S {6}1[ \r\n]", head, re.DOTALL):
-        return "IGES", ""
+        return "IGES"
     return None
 
 
-def _zip(path: Path) -> tuple[str, str]:
+def _zip(path: Path) -> str | Program:
     try:
         with zipfile.ZipFile(path) as archive:
             names = [name.lower() for name in archive.namelist()]
     except (zipfile.BadZipFile, OSError, NotImplementedError, ValueError):
-        return "a damaged zip archive", "copy or export it again"
+        return Program("a damaged zip archive", (), "", ("copy or export it again",))
     if "document.xml" in names:
-        return "FreeCAD", ""
+        return "FreeCAD"
     if any(name.endswith(".model") for name in names):
-        return "3MF", ""
+        return "3MF"
     if any(name.endswith((".usda", ".usdc", ".usd")) for name in names):
-        return "USD", ""
-    if any("swxmlcontents" in name or "docprops" in name for name in names):
-        return _PROPRIETARY[".sldprt"]
-    suffix = path.suffix.lower()
-    return _PROPRIETARY.get(suffix, ("a zip archive", "unpack it and give the STEP file inside"))
+        return "USD"
+    for mark, program in (("swxmlcontents", "SolidWorks"), ("fusionasset", "Fusion"), (".3drep", "CATIA")):
+        if any(mark in name for name in names):
+            return proprietary.PROGRAMS[program]
+    by_name = proprietary.by_suffix(path.suffix.lower())
+    return by_name or Program("a zip archive", (), "", ("unpack it", "give the CAD file inside"))
 
 
 def _is_text(head: bytes) -> bool:
