@@ -9,6 +9,7 @@ from yellowiron.model.template import Wanted
 from yellowiron.specs.extract import from_sheets
 from yellowiron.specs.reader import Sheet
 from yellowiron.specs.statement import Statement
+from yellowiron.specs.vocabulary import tokens
 
 UNIT = {
     "length": ("mm", 1e-3), "angle": ("°", 0.017453292519943295), "mass": ("kg", 1.0), "pressure": ("kPa", 1e3),
@@ -52,3 +53,33 @@ def test_first_labels(equipment_type: str, language: str) -> None:
             assert one.value == pytest.approx(truth[one.name], rel=1e-6), (one.name, one.evidence)
             right += 1
     assert right >= 0.9 * len(asked), [(s.name, s.status, s.reason) for s in found if s.status != "ok"]
+
+
+@pytest.mark.parametrize(
+    ("label", "words"),
+    [
+        ("Gesamtlänge", "overall length"), ("Länge gesamt", "length overall"), ("Länge über alles", "length overall"),
+        ("Laenge gesamt", "length overall"), ("Longueur hors-tout", "length overall"),
+        ("Largo total", "length overall"),
+        ("Hubdauer", "raise time"), ("Temps de levée", "raise time"), ("Tiempo de elevación", "raise time"),
+        ("Hubzylinderhub", "lift cylinder stroke"), ("Löffelstielzylinderhub", "stick cylinder stroke"),
+        ("Kipplast, voll eingelenkt", "tipping load maximum turn"), ("倾翻载荷-满转向", "tipping load maximum turn"),
+        ("Charge maximale de basculement", "tipping load maximum"), ("Width over tires", "width overtire"),
+        ("Breite über Reifen", "width overtire"), ("Tire width", "tire width"), ("Bodenplattenbreite", "shoe width"),
+        ("Kabinenhöhe", "cab height"), ("Achslastverteilung", "achslastverteilung"),
+    ],
+)  # fmt: skip
+def test_labels_become_the_same_english_words(label: str, words: str) -> None:
+    assert " ".join(tokens(label)) == words
+
+
+def test_a_sub_heading_and_a_label_may_be_one_expression() -> None:
+    """A long label wrapped over two lines: its second half is the label, its first the sub-heading."""
+    box = (10.0, 10.0, 90.0, 20.0)
+    sheet = Sheet("a.pdf", 1, (
+        Statement(1, 0, "bore", "115 mm", box, "q", context=("Steering cylinder –",)),
+        Statement(1, 1, "reach at ground level", "8,835 mm", box, "q", context=("Max. digging",)),
+    ), (), "point")  # fmt: skip
+    bore = from_sheets(load_template("wheel_loader"), [sheet]).values["Steering Cylinder Bore"]
+    reach = from_sheets(load_template("excavator"), [sheet]).values["Maximum Reach at Ground Line"]
+    assert bore.value == pytest.approx(0.115) and reach.value == pytest.approx(8.835)

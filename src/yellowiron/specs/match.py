@@ -15,6 +15,8 @@ LEAST = 0.55
 """Score below which a claim does not speak of a wanted value at all."""
 _EXTREME = {"maximum"}
 """Says of a label no more than makers mean without it; a value of which both are asked forbids it."""
+_WHOLE = {"overall"}
+"""Says of a part no more than makers mean without it: the overall width of a bucket is its width."""
 _RATED = {"flow", "pressure", "force", "torque"}
 """Dimensions of values that are printed for their maximum, whether the label says so or not."""
 _BY_CIRCUIT = {"pressure", "flow"}
@@ -107,10 +109,13 @@ def _asked(wanted: Wanted) -> _Asked:
 def _said(claim: Claim) -> _Said:
     statement = claim.statement
     heads = [h for h in statement.column if not _names_configuration(h)]
+    label, context = claim.words, statement.context
+    if context and tokens(whole := f"{context[-1]} {label}") != tokens(context[-1]) + tokens(label):
+        label, context = whole, context[:-1]  # an expression goes on from the line above: "rod" over "diameter"
     return _Said(
-        label=frozenset(tokens(claim.words)),
+        label=frozenset(tokens(label)),
         head=frozenset(tokens(claim.head)),
-        contexts=tuple(frozenset(tokens(c)) for c in statement.context),
+        contexts=tuple(frozenset(tokens(c)) for c in context),
         section=frozenset(tokens(statement.section)),
         naming=tuple(frozenset(tokens(h)) for h in heads),
         text=" ".join([claim.words, *heads]).casefold(),
@@ -148,7 +153,7 @@ def _match(asked_for: _Asked, claim: Claim, said: _Said) -> Match | None:
             continue  # the label says it without its column's head
         if not words or not words <= everything or not _anchored(words, label, head, context | section):
             continue
-        if len(words) == 1 and not supported and label - words - NEUTRAL:
+        if len(words) == 1 and not supported and label - words - NEUTRAL - _WHOLE:
             continue
         explained |= words
         from_head |= words - label - context - section
@@ -161,12 +166,14 @@ def _match(asked_for: _Asked, claim: Claim, said: _Said) -> Match | None:
     primary = (label if explained & label else set()) | (head if from_head else set()) or context | section
     # A word of the value's own name makes the label mean nothing else.
     rest = {t for t in primary - explained - NEUTRAL - _EXTREME - asked_for.name if not _is_number(t)}
+    if not from_head:
+        rest -= _WHOLE
     if (everything - explained) & REVERSING:
         return None
     asked = {t for p in (wanted.name, best) for t in tokens(p)}
     if any(_contradicts(group - explained, asked - group) for group in (label, head, context, section)):
         return None
-    lost = len(rest) / max(len(primary - NEUTRAL), 1)
+    lost = len(rest) / max(len(primary - NEUTRAL - _WHOLE), 1)
     score = 1.0 - lost - borrowed
     return Match(
         wanted, claim, max(score, 0.0), best, tuple(sorted(rest)), lost, bool(explained & label), bool(from_head)

@@ -195,6 +195,9 @@ def _quantities(text: str, unit: str, style: DecimalStyle) -> list[Quantity]:
         if at > 0 and _inside_a_word(text, at):
             position = _end_of_word(text, at)
             continue
+        if standard := _of_a_standard(text, at):
+            position = standard
+            continue
         quantity = _feet(text, at, unit) or _fraction(text, at, unit) or _plain(text, at, unit, style)
         if quantity is None:
             position = _end_of_word(text, at)
@@ -223,6 +226,21 @@ def _inside_a_word(text: str, at: int) -> bool:
     if word.lower() == "x" or _ends_in_unit().search(text):
         return False
     return word[-1].isalnum() or word[-1] in "-/"
+
+
+_STANDARD = re.compile(
+    r"(?:\b(?:ISO|DIN|EN|JIS|CECE|UNE|NF|BS|GB(?:/T)?|EU|ECE|IEC)\b[\s/-]*)+(?:[A-Z]\s?)?$", re.IGNORECASE
+)
+_STANDARD_NUMBER = re.compile(r"\d{3,5}(?:-\d{1,2})?(?::(?:19|20)\d\d)?(?![\d.,])")
+
+
+def _of_a_standard(text: str, at: int) -> int:
+    """Where a standard's number that begins at `at` ends ("ISO 14397-1"); 0 if it is none, or has a unit."""
+    number = _STANDARD_NUMBER.match(text, at)
+    if number is None or not _STANDARD.search(text[max(0, at - _LONGEST_WORD) : at]):
+        return 0
+    measured = _number_with_unit().match(text, at)
+    return 0 if measured is not None and measured["unit"] else number.end()
 
 
 def _end_of_word(text: str, at: int) -> int:

@@ -68,7 +68,12 @@ watt                | power         | metric   | W
 horsepower          | power         | imperial | hp|HP|bhp
 metric_horsepower   | power         | metric   | PS|CV
 kilometer/hour      | speed         | metric   | km/h|kph|km/hr|kmh
-meter/second        | speed         | metric   | m/s(?:ec)?
+meter/second        | speed         | metric   | m/s(?:ec)?\\.?
+meter/minute        | speed         | metric   | m/min\\.?|mpm
+centimeter/second   | speed         | metric   | cm/s(?:ec)?\\.?
+millimeter/second   | speed         | metric   | mm/s(?:ec)?\\.?
+foot/minute         | speed         | imperial | ft/min\\.?|fpm|ft\\./min\\.?
+foot/second         | speed         | imperial | ft/s(?:ec)?\\.?|fps
 mile/hour           | speed         | imperial | mph|MPH|mi/h
 revolution/minute   | angular_speed | both     | rpm|RPM|r/min|rev/min|min-1|min⁻¹|U/min|tr/min
 second              | time          | both     | s|secs?\\.?|seconds?

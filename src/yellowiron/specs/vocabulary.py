@@ -6,13 +6,13 @@ import functools
 import json
 import re
 import unicodedata
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from importlib import resources
 from typing import Any
 
 
-def _data() -> Mapping[str, Any]:
-    text = resources.files("yellowiron.specs").joinpath("data/words.json").read_text(encoding="utf-8")
+def _data(name: str) -> Mapping[str, Any]:
+    text = resources.files("yellowiron.specs").joinpath(f"data/{name}.json").read_text(encoding="utf-8")
     return dict(json.loads(text))
 
 
@@ -20,7 +20,7 @@ def _words(lines: Iterable[str]) -> frozenset[str]:
     return frozenset(word for line in lines for word in line.split())
 
 
-_DATA = _data()
+_DATA = _data("words")
 _STOP = _words(_DATA["stop"])
 """Words that say nothing of which property is meant."""
 _ALIAS = {word: meant for meant, spellings in _DATA["alias"].items() for word in spellings.split()}
@@ -40,23 +40,170 @@ _CJK = re.compile(r"[\u3040-\u30ff\u3400-\u9fff\uac00-\ud7af]")
 _TOKEN = re.compile(
     r"[\u3040-\u30ff\u3400-\u9fff\uac00-\ud7af々]+|[^\W_\u3040-\u30ff\u3400-\u9fff\uac00-\ud7af々]+(?:[.,]\d+)?|±"
 )
-_TERMS = {term: tuple(meant.split()) for meant, terms in _DATA["cjk"].items() for term in terms.split()}
-_TERM = re.compile("|".join(sorted((re.escape(t) for t in _TERMS), key=len, reverse=True)))
-"""Terms of scripts without spaces, the longest first, each with the English words it stands for."""
+_LINKS = ("", "s", "n", "en", "es", "e", "er")
+"""What German puts between the parts of a compound."""
+_INFLECTED = re.compile(r"(?:e[snmr]?|a|o|n)$")
+_LEAST_STEM = 4
+_LEAST_COMPOUND = 6
+
+
+def _fold(word: str) -> str:
+    """A word without case and accents, in one spelling; plurals as singulars, whatever means most or least alike."""
+    plain = "".join(c for c in unicodedata.normalize("NFKD", word.casefold()) if not unicodedata.combining(c))
+    if plain in _ALIAS:
+        return _ALIAS[plain]
+    if plain in _STOP:
+        return plain
+    if plain.startswith("maxim"):
+        return "maximum"
+    if plain.startswith("minim"):
+        return "minimum"
+    if len(plain) > 3 and plain.endswith("s") and not plain.endswith(("ss", "us", "is")):
+        plain = plain[:-1]
+    return _ALIAS.get(plain, plain)
+
+
+def _key(spelling: str) -> tuple[str, ...]:
+    return tuple(f for w in _TOKEN.findall(spelling) if (f := _fold(w)))
+
+
+def _lexicon() -> tuple[dict[tuple[str, ...], tuple[str, ...]], dict[tuple[str, ...], tuple[str, ...]]]:
+    """Expressions → the English words they stand for: those that hang on a filler ("over tires", "à vide"), and the
+    others, without theirs."""
+    hanging: dict[tuple[str, ...], tuple[str, ...]] = {}
+    others: dict[tuple[str, ...], tuple[str, ...]] = {}
+    for language in ("romance", "german", "english"):
+        for meant, spellings in _LEXICON[language].items():
+            words = tuple(_fold(w) for w in meant.split())
+            for spelling in spellings.split(" | "):
+                whole = _key(spelling)
+                bare = tuple(w for w in whole if w not in _STOP)
+                if len(bare) < len(whole) and len(bare) < 2:
+                    hanging[whole] = words
+                elif bare:
+                    others[bare] = words
+    return hanging, others
+
+
+_LEXICON = _data("lexicon")
+_HANGING, _EXPRESSIONS = _lexicon()
+_LONGEST = max(len(key) for key in (*_HANGING, *_EXPRESSIONS))
+_STEMS = {
+    stem: meant
+    for key, meant in _EXPRESSIONS.items()
+    if len(key) == 1 and len(stem := _INFLECTED.sub("", key[0])) >= _LEAST_STEM
+}
+_PARTS = {
+    key[0]: tuple(_fold(w) for w in meant.split())
+    for meant, spellings in _LEXICON["german"].items()
+    for spelling in spellings.split(" | ")
+    if len(key := _key(spelling)) == 1
+} | {"reifen": ("tire",)}
+"""German words that compounds are made of."""
+_FIRST = _PARTS | {_fold(w): (meant,) for meant, words in _LEXICON["german first"].items() for w in words.split()}
+"""The same, before the last part: the Hub of a Hubzylinder lifts, the Zylinderhub is a stroke."""
+_HEADS = tuple(_LEXICON["german heads"].split())
+
+
+def _english(words: list[str]) -> list[str]:
+    """Latin words in order as English ones: known expressions, the longest first; inflected forms; compounds."""
+    folded = [f for w in words if (f := _fold(w))]
+    found: list[str] = []
+    waiting: list[str] = []
+
+    def settle() -> None:
+        for known, piece in _cut([w for w in waiting if w not in _STOP], _EXPRESSIONS):
+            found.extend(piece if known else _one(piece[0]))
+        waiting.clear()
+
+    for known, piece in _cut(folded, _HANGING):
+        if known:
+            settle()
+            found.extend(piece)
+        else:
+            waiting.extend(piece)
+    settle()
+    return found
+
+
+def _cut(words: list[str], table: Mapping[tuple[str, ...], tuple[str, ...]]) -> Iterator[tuple[bool, tuple[str, ...]]]:
+    """Words in order, the expressions of a table replaced: whether it was one, and what it stands for."""
+    at = 0
+    while at < len(words):
+        for length in range(min(_LONGEST + 1, len(words) - at), 0, -1):
+            piece = tuple(words[at : at + length])
+            meant = table.get(piece) or (_around(piece, table) if length > 2 else None)
+            if meant is not None:
+                yield True, meant
+                at += length
+                break
+        else:
+            yield False, (words[at],)
+            at += 1
+
+
+_EXTREMES = {"maximum", "minimum"}
+
+
+def _around(words: tuple[str, ...], table: Mapping[tuple[str, ...], tuple[str, ...]]) -> tuple[str, ...] | None:
+    """What an expression with "maximum" or "minimum" inside it stands for: "hauteur maximale de chargement"."""
+    inside = tuple(w for w in words[1:-1] if w in _EXTREMES)
+    meant = table.get(tuple(w for w in words if w not in _EXTREMES)) if inside else None
+    return (*meant, *inside) if meant and not {words[0], words[-1]} & _EXTREMES else None
+
+
+@functools.lru_cache(maxsize=8192)
+def _one(word: str) -> tuple[str, ...]:
+    """What a single word that is no expression stands for; itself where nothing is known of it."""
+    if not word.isalpha():
+        return (word,)
+    for spelled in (word, word.replace("ae", "a").replace("oe", "o").replace("ue", "u")):
+        if (key := (spelled,)) in _EXPRESSIONS:
+            return _EXPRESSIONS[key]
+        if (meant := _STEMS.get(_INFLECTED.sub("", spelled))) is not None:
+            return meant
+        if len(spelled) >= _LEAST_COMPOUND and (parts := _compound(spelled)):
+            return parts
+    for head in _HEADS:
+        if word.endswith(head) and len(word) > len(head) + 2:
+            return (word[: -len(head)], *_PARTS.get(head, (head,)))
+    return (word,)
+
+
+@functools.lru_cache(maxsize=8192)
+def _compound(word: str) -> tuple[str, ...]:
+    """A German compound's parts in English; () if it is not made of known words."""
+    for end in range(len(word) - 2, 2, -1):
+        first = _FIRST.get(word[:end])
+        if first is None:
+            continue
+        for link in _LINKS:
+            rest = word[end + len(link) :]
+            if not word[end:].startswith(link) or len(rest) < 3:
+                continue
+            last = _PARTS.get(rest) or _compound(rest)
+            if last:
+                return (*first, *last)
+    return ()
 
 
 @functools.lru_cache(maxsize=8192)
 def tokens(text: str) -> tuple[str, ...]:
-    """The words of a text in order: no case, accents, plural or filler; numbers kept, units' signs not. Chinese and
-    Japanese text is cut into known terms, which become English words; what is between them stays as it is."""
+    """The words of a text in order, in English as far as they are known, without case, accents, plural or filler;
+    numbers kept, units' signs not. Chinese and Japanese text is cut into known terms; what is between them stays as it
+    is."""
     found: list[str] = []
+    latin: list[str] = []
     if _CJK.search(text):
         text = unicodedata.normalize("NFKC", text)
     for word in _TOKEN.findall(text.replace("°", " ").replace("º", " ")):
-        if _CJK.match(word):
-            found.extend(_terms(word))
-        elif token := _token(word):
-            found.append(token)
+        if not _CJK.match(word):
+            latin.append(word)
+            continue
+        found.extend(_english(latin))
+        latin.clear()
+        found.extend(_terms(word))
+    found.extend(_english(latin))
     return tuple(found)
 
 
@@ -73,40 +220,10 @@ def _terms(text: str) -> list[str]:
     return found
 
 
-_PARTICLES = {
-    "の",
-    "时",
-    "時",
-    "的",
-    "至",
-    "から",
-    "まで",
-    "ー",
-    "と",
-    "及",
-    "和",
-    "处",
-    "为",
-    "は",
-    "です",
-    "が",
-    "を",
-}
-
-
-def _token(word: str) -> str:
-    plain = "".join(c for c in unicodedata.normalize("NFKD", word.casefold()) if not unicodedata.combining(c))
-    if plain in _ALIAS:
-        return _ALIAS[plain]
-    if plain in _STOP:
-        return ""
-    if plain.startswith("maxim"):
-        return "maximum"
-    if plain.startswith("minim"):
-        return "minimum"
-    if len(plain) > 3 and plain.endswith("s") and not plain.endswith(("ss", "us", "is")):
-        plain = plain[:-1]
-    return _ALIAS.get(plain, plain)
+_TERMS = {term: tuple(_english(meant.split())) for meant, terms in _DATA["cjk"].items() for term in terms.split()}
+_TERM = re.compile("|".join(sorted((re.escape(t) for t in _TERMS), key=len, reverse=True)))
+"""Terms of scripts without spaces, the longest first, each with the English words it stands for."""
+_PARTICLES = frozenset(_DATA["particles"].split())
 
 
 def has_cjk(text: str) -> bool:
