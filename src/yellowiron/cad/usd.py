@@ -6,22 +6,23 @@ With or without physics: here it is a tree of parts, with the joints that the fi
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
-from pxr import Gf, Sdf, Tf, Usd, UsdGeom, UsdShade
+from pxr import Gf, Sdf, Tf, Usd, UsdGeom
 
 from yellowiron.cad import placed, polygons
+from yellowiron.cad.looks import Dressed
 from yellowiron.cad.naming import decode_name, is_generic
 from yellowiron.cad.placed import Occurrence
 from yellowiron.cad.usd_joints import usd_joints
+from yellowiron.cad.usd_looks import Looks
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import CadError
 from yellowiron.model.finding import Finding
-from yellowiron.model.geometry import Color, Floats, Mesh
+from yellowiron.model.geometry import Floats, Mesh
 
 _DAMAGED = "Copy or export it again; the file is damaged."
 _DRAWN = (UsdGeom.Tokens.default_, UsdGeom.Tokens.render, UsdGeom.Tokens.proxy)
@@ -37,8 +38,8 @@ def read_usd(path: str) -> Assembly:
     findings = _unresolved(stage, path)
     unit, remarks = _unit(stage, path)
     findings += remarks
-    looks = _Looks()
-    meshes: dict[Sdf.Path, tuple[Mesh, Color | None] | None] = {}
+    looks = Looks(path)
+    meshes: dict[Sdf.Path, Dressed | None] = {}
     occurrences: list[Occurrence] = []
     declared = _hollow(stage)
     for prim, transform in _drawn(stage):
@@ -49,12 +50,9 @@ def read_usd(path: str) -> Assembly:
         found = meshes[source]
         if found is not None:
             names = _names(prim)
-            occurrences.append(
-                Occurrence(names[-1], tuple(names[:-1]), found[0], _in_metres(transform, unit), found[1])
-            )
-    if looks.textured:
-        words = "Textures are not read: parts have the colour that is under them"
-        findings.append(Finding("CAD012", "info", path, words))
+            place = _in_metres(transform, unit)
+            occurrences.append(Occurrence(names[-1], tuple(names[:-1]), found.mesh, place, found.color, found.finishes))
+    findings += looks.findings()
     root = stage.GetDefaultPrim()
     name = root.GetName() if root and not is_generic(root.GetName()) else Path(path).stem
     read = placed.assemble(
@@ -162,11 +160,11 @@ def _names(prim: Usd.Prim) -> list[str]:
     return names
 
 
-def _mesh(prim: Usd.Prim, unit: float, looks: _Looks, findings: list[Finding]) -> tuple[Mesh, Color | None] | None:
-    """A prim's triangles in its own frame, in metres, and its colour; None for what has no surface."""
+def _mesh(prim: Usd.Prim, unit: float, looks: Looks, findings: list[Finding]) -> Dressed | None:
+    """A prim's triangles in its own frame, in metres, with its looks; None for what has no surface."""
     solid = _solid(prim)
     if solid is not None:
-        return Mesh(solid.points * unit, solid.triangles), looks.of(prim)
+        return looks.dressed(prim, Mesh(solid.points * unit, solid.triangles))
     if not prim.IsA(UsdGeom.Mesh):
         return None
     mesh = UsdGeom.Mesh(prim)
@@ -180,11 +178,11 @@ def _mesh(prim: Usd.Prim, unit: float, looks: _Looks, findings: list[Finding]) -
             Finding("CAD003", "error", name, "Left out: its faces name points that are not there", _DAMAGED)
         )
         return None
-    triangles, polygon = polygons.fans(counts, corners)
+    numbers, polygon = polygons.fans(counts, np.arange(len(corners)))
     if mesh.GetOrientationAttr().Get() == UsdGeom.Tokens.leftHanded:
-        triangles = triangles[:, ::-1]
-    color, faces = looks.of(prim), looks.of_faces(prim, len(counts))
-    return Mesh(points * unit, triangles, None, None if faces is None else faces[polygon]), color
+        numbers = numbers[:, ::-1]
+    triangles = corners[numbers].reshape(-1, 3).astype(np.int32)
+    return looks.dressed(prim, Mesh(points * unit, triangles), polygon, numbers.astype(np.int64))
 
 
 def _solid(prim: Usd.Prim) -> Mesh | None:
@@ -204,66 +202,3 @@ def _solid(prim: Usd.Prim) -> Mesh | None:
             axis = {"X": [2, 0, 1], "Y": [1, 2, 0], "Z": [0, 1, 2]}[solid.GetAxisAttr().Get()]
             return Mesh(mesh.points[:, axis], mesh.triangles)
     return None
-
-
-class _Looks:
-    """Colours (linear RGB) of prims: the bound material's, else the prim's own. `textured` once a picture was met."""
-
-    def __init__(self) -> None:
-        self.textured = False
-        self._known: dict[Sdf.Path, Color | None] = {}
-
-    def of(self, prim: Usd.Prim) -> Color | None:
-        """A prim's one colour."""
-        material = UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial()[0]
-        color = self._of_material(material) if material else None
-        if color is not None:
-            return color
-        shown = UsdGeom.Gprim(prim).GetDisplayColorPrimvar()
-        values = shown.ComputeFlattened() if shown and shown.HasAuthoredValue() else None
-        return _color(values[0]) if values is not None and len(values) == 1 else None
-
-    def of_faces(self, prim: Usd.Prim, count: int) -> Floats | None:
-        """(count, 3) colours of a mesh's faces; None where it has one for all."""
-        shown = UsdGeom.Gprim(prim).GetDisplayColorPrimvar()
-        colors: Floats | None = None
-        if shown and shown.HasAuthoredValue() and shown.GetInterpolation() == UsdGeom.Tokens.uniform:
-            values = np.asarray(shown.ComputeFlattened(), dtype=np.float64).reshape(-1, 3)
-            colors = np.clip(values, 0.0, 1.0) if len(values) == count else None
-        base = self.of(prim)
-        for subset in UsdShade.MaterialBindingAPI(prim).GetMaterialBindSubsets():
-            material = UsdShade.MaterialBindingAPI(subset.GetPrim()).ComputeBoundMaterial()[0]
-            color = self._of_material(material) if material else None
-            rows = np.asarray(subset.GetIndicesAttr().Get() or [], dtype=np.int64)
-            if color is not None and len(rows) and 0 <= rows.min() <= rows.max() < count:
-                colors = np.tile(base or (0.5, 0.5, 0.5), (count, 1)).astype(float) if colors is None else colors
-                colors[rows] = color
-        return colors
-
-    def _of_material(self, material: UsdShade.Material) -> Color | None:
-        path = material.GetPath()
-        if path not in self._known:
-            self._known[path] = self._read(material)
-        return self._known[path]
-
-    def _read(self, material: UsdShade.Material) -> Color | None:
-        """The diffuse colour of a material's surface, under whichever name its shader has it."""
-        for prim in Usd.PrimRange(material.GetPrim()):
-            shader = UsdShade.Shader(prim)
-            for name in ("diffuseColor", "diffuse_color_constant", "base_color"):
-                entry: Any = shader.GetInput(name) if shader else None
-                if not entry:
-                    continue
-                self.textured |= entry.HasConnectedSource()
-                value = entry.Get()
-                if value is not None:
-                    return _color(value)
-        return None
-
-
-def _color(value: Sequence[float]) -> Color | None:
-    rgb = np.asarray(value, dtype=np.float64).reshape(-1)[:3]
-    if len(rgb) != 3 or not np.isfinite(rgb).all():
-        return None
-    r, g, b = (float(v) for v in np.clip(rgb, 0.0, 1.0))
-    return r, g, b
