@@ -1,6 +1,6 @@
 """Extraction from generated sheets whose every value is known (`tests/specs/sheets.py`). Bars: docs/extraction.md.
 
-Run from the repository's root: `python benchmarks/bench_extract.py [--sets tuned,held,final,last,fresh,fresh2] [--by]
+Run from the repository's root: `python benchmarks/bench_extract.py [--sets tuned,held,final,last,fresh,fresh2,fresh3] [--by]
 [--faults F] [--manual PAGES]`. `--by` adds a line for each layout and language (and type, in the sets of all types),
 `--faults` writes each value that did not come back as it should, `--manual` reads a manual of so many pages in the
 guarded child and prints its time and peak memory (default: no manual). Seconds are processor time.
@@ -71,7 +71,7 @@ def main() -> None:
     parser.add_argument("--faults", type=Path)
     parser.add_argument("--manual", type=int, default=0)
     arguments = parser.parse_args()
-    load = functools.cache(load_template)
+    load = functools.cache(functools.partial(load_template, sheet_only=True))
     faults: list[str] = []
     seconds: list[float] = []
     with tempfile.TemporaryDirectory() as scratch:
