@@ -224,6 +224,15 @@ def test_a_shape_that_is_cut_short_is_not_read_for_ever(tmp_path: Path) -> None:
     assert "more than" not in fail(path).message
 
 
+def test_a_shape_that_is_nowhere_is_refused(tmp_path: Path) -> None:
+    from OCP.BRepTools import BRepTools
+
+    path = tmp_path / "block.brep"
+    BRepTools.Write_s(box(10, 20, 30), str(path))
+    path.write_text(path.read_text().replace(" 20 ", " nan.5 ", 1))
+    assert "not numbers" in fail(path).message
+
+
 def test_warnings_leave_no_file_behind(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     geom = '<geom type="box" size="1 1 1" user="nan"/>'

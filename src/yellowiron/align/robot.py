@@ -8,7 +8,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -24,6 +24,8 @@ from yellowiron.model.geometry import Floats
 
 PARALLEL = 0.999
 """Cosine from which two hinges of a loop are parallel."""
+BESIDE = 0.01
+"""Metres up to which two hinges are on one line."""
 ROUND = 0.05
 """A wheel is round, and on its axis, within this share of its radius."""
 _MOVING = ("revolute", "prismatic")
@@ -61,6 +63,7 @@ def robot(assembly: Assembly, geometry: FoundMachine | None) -> FoundMachine | N
     joints = [j for j in joints if j.name not in left]
     if not joints:
         return None
+    joints = [_with_pins(j, shown, group) for j in joints]
     extra = [j for j in shown if group[j.a] != group[j.b] and {group[j.a], group[j.b]} <= drawn]
     extra = [j for j in extra if not _is_known(j, joints, group)]
     if freedoms(_edges([*joints, *extra], group))[0] <= freedoms(_edges(joints, group))[0]:
@@ -158,6 +161,19 @@ def _edges(joints: Sequence[_Joint], group: Mapping[str, str]) -> list[Edge]:
     ]
 
 
+def _with_pins(joint: _Joint, shown: Sequence[_Joint], group: Mapping[str, str]) -> _Joint:
+    """A declared hinge with the pins that geometry finds on its line."""
+    ends = {group[joint.a], group[joint.b]}
+    same = (s for s in shown if {group[s.a], group[s.b]} == ends and s.pins and _in_line(joint, s))
+    found = next(same, None) if joint.type == "revolute" else None
+    return joint if found is None else replace(joint, pins=found.pins)
+
+
+def _in_line(one: _Joint, other: _Joint) -> bool:
+    beside = float(np.linalg.norm(np.cross(np.subtract(one.point, other.point), other.axis)))
+    return one.type == other.type == "revolute" and beside < BESIDE and _along(one.axis, other.axis)
+
+
 def _is_known(extra: _Joint, joints: Sequence[_Joint], group: Mapping[str, str]) -> bool:
     """Whether there is a joint between these bodies, or both turn on the same line already."""
     ends = {group[extra.a], group[extra.b]}
@@ -166,8 +182,7 @@ def _is_known(extra: _Joint, joints: Sequence[_Joint], group: Mapping[str, str])
         pair = {group[joint.a], group[joint.b]}
         if pair == ends:
             return True
-        beside = np.linalg.norm(np.cross(np.subtract(joint.point, extra.point), extra.axis))
-        if joint.type == extra.type == "revolute" and beside < 1e-2 and _along(joint.axis, extra.axis):
+        if _in_line(joint, extra):
             on |= pair
     return ends <= on
 

@@ -7,6 +7,7 @@ colours; the shapes are files beside it. Objects that others are made from are h
 
 from __future__ import annotations
 
+import re
 import struct
 import zipfile
 from collections.abc import Mapping
@@ -43,6 +44,7 @@ _LARGEST_PALETTE = 64 * 1024**2
 _PALETTES = {"DiffuseColor": ("ColorList", 4, 0), "ShapeAppearance": ("MaterialList", 24, 4)}
 """Lists of colours: their element, the bytes of an entry, and where its diffuse colour is."""
 _DEEPEST = 50
+_NO_NUMBER = re.compile(rb"[\s+-](?:nan|inf)", re.IGNORECASE)
 _PATIENCE, _SLOWEST = 2.0, 1e6
 """Seconds, and bytes a second: a fiftieth of what is usual."""
 
@@ -60,12 +62,12 @@ def _shape(file: str, path: str) -> Any:
     """The shape in a text or binary file of Open CASCADE."""
     shape = TopoDS_Shape()
     data = Path(file).read_bytes()
+    binary = data[:64].lstrip(b"\n").startswith(b"Open CASCADE Topology V")
+    if not binary and _NO_NUMBER.search(data):
+        raise CadError("The shape has coordinates that are not numbers", where=path, hint=_DAMAGED)
     # A text that is cut short, or has letters where a number should be, is read on for ever.
     with must_end(_PATIENCE + len(data) / _SLOWEST):
-        if data[:64].lstrip(b"\n").startswith(b"Open CASCADE Topology V"):
-            read = BinTools.Read_s(shape, file)
-        else:
-            read = BRepTools.Read_s(shape, file, BRep_Builder())
+        read = BinTools.Read_s(shape, file) if binary else BRepTools.Read_s(shape, file, BRep_Builder())
     if not read or shape.IsNull():
         raise CadError("The shape cannot be read: it is damaged or cut short", where=path, hint=_DAMAGED)
     return shape

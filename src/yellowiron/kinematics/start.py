@@ -4,14 +4,14 @@ built from them starts in it."""
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from yellowiron.kinematics.chain import ClosedChain
 from yellowiron.model.alignment import Alignment, Vector
-from yellowiron.model.assembly import Assembly
+from yellowiron.model.assembly import Assembly, DeclaredJoint
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Joint, Mechanism
@@ -85,10 +85,25 @@ def started(
             point, direction = alignment.axes[joint.name]
             axes[joint.name] = _moved(moves[body], point, direction) if body is not None else (point, direction)
     return (
-        replace(assembly, parts=parts),
+        replace(assembly, parts=parts, joints=tuple(_declared(assembly, body_of, moves))),
         replace(template, joints=tuple(joints)),
         replace(alignment, axes=axes),
     )
+
+
+def _declared(
+    assembly: Assembly, body_of: Mapping[str, str | None], moves: Mapping[str, Floats]
+) -> Iterator[DeclaredJoint]:
+    """The joints that the file declares, moved with a body of theirs; limits, which counted from there, are gone."""
+    links = assembly.links()
+    for joint in assembly.joints:
+        bodies = (str(body_of.get(part.id)) for link in joint.bodies for part in links.get(link, ()))
+        body = next((b for b in bodies if b in moves), None)
+        if body is None:
+            yield joint
+            continue
+        anchor, axis = _moved(moves[body], joint.anchor, joint.axis)
+        yield replace(joint, anchor=anchor, axis=axis, lower=None, upper=None)
 
 
 def _target(joint: Joint) -> float | None:

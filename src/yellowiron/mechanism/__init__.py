@@ -28,6 +28,7 @@ MEC012  a loop has no pin that could be cut
 MEC013  an actuator has no cylinder in the CAD model; its hinge is driven directly
 MEC014  no rod in its bore shows the axis of a slide: it is along the line that both its bodies are on
 MEC015  no part is the root body; another body stands in for it
+MEC016  nothing that is drawn shows a joint's axis: it is where the CAD file declares it
 MEC020  a bore or rod diameter differs between sheet and CAD
 MEC021  the piston's travel in CAD is not the stroke
 MEC022  a cylinder's closed length is not known; mid-stroke was assumed

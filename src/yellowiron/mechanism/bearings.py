@@ -160,6 +160,16 @@ def lone_slide(placement: Placement, bodies: tuple[str, str], line: Line) -> Bea
     return Bearing(axis_of(features), features, f"least squares over {len(features)} cylinder(s) in line", doubt)
 
 
+def declared_bearing(placement: Placement, bodies: tuple[str, str], kind: str) -> Bearing | None:
+    """The axis of two bodies' joint of that type as the CAD file declares it, where nothing drawn shows it."""
+    found = next((d for d in placement.declared if d.type == kind and d.bodies == set(bodies)), None)
+    if found is None:
+        return None
+    words = "Nothing that is drawn shows its axis: it is where the CAD file declares it."
+    method = f"declared by the CAD file: joint '{found.name}'"
+    return Bearing(Line(found.point, found.axis), placement.features(()), method, ("MEC016", words))
+
+
 def agree(one: Line, other: Line) -> bool:
     """Whether two lines may be one joint's axis: within a degree and two centimetres."""
     lean = float(np.linalg.norm(np.cross(one.direction, other.direction)))

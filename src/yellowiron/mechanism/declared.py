@@ -48,6 +48,31 @@ class ComparedJoint:
     words: str = ""
 
 
+@dataclass(frozen=True)
+class DeclaredLine:
+    """A declared hinge or slide between two of the mechanism's bodies: a point on its axis and the unit vector, in the
+    machine frame, metres."""
+
+    name: str
+    type: str
+    bodies: frozenset[str]
+    point: Floats
+    axis: Floats
+
+
+def declared_lines(assembly: Assembly, alignment: Alignment) -> tuple[DeclaredLine, ...]:
+    """The declared hinges and slides whose bodies the alignment knows."""
+    played = _played(assembly, alignment) if assembly.joints else {}
+    turn, move = alignment.frame[:3, :3], alignment.frame[:3, 3]
+    found = []
+    for joint in assembly.joints:
+        one, other = (played.get(body) for body in joint.bodies)
+        if joint.type in ("revolute", "prismatic") and one is not None and other is not None:
+            point, axis = turn @ np.array(joint.anchor) + move, turn @ np.array(joint.axis)
+            found.append(DeclaredLine(joint.name, joint.type, frozenset((one, other)), point, axis))
+    return tuple(found)
+
+
 def compare_declared(mechanism: Mechanism, assembly: Assembly, alignment: Alignment) -> tuple[ComparedJoint, ...]:
     """Every declared joint beside the one that the mechanism has between the same bodies.
 
@@ -132,7 +157,9 @@ def _named(
         for actuator in template.actuators:
             if any(c.slide == joint.name for c in actuator.cylinders):
                 lengths = {"stroke": high - low, "closed_length": cylinder.drawn_length + low}
-                yield from ((n, v) for q, v in lengths.items() if (n := actuator.specifications.get(q)) and v > 0.0)
+                # A rod that is longer than its barrel: a limit that somebody made up.
+                if 0.0 < lengths["stroke"] < lengths["closed_length"]:
+                    yield from ((n, v) for q, v in lengths.items() if (n := actuator.specifications.get(q)))
         return
     entry = next((e for e in template.joints if e.name == joint.name), None)
     for stated, value in ((entry.lower, low), (entry.upper, high)) if entry is not None else ():

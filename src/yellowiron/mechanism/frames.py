@@ -16,6 +16,7 @@ from yellowiron.mechanism.axes import Line, machine_sense
 from yellowiron.mechanism.bearings import (
     Bearing,
     agree,
+    declared_bearing,
     lone_bearing,
     lone_slide,
     outline_bearing,
@@ -135,6 +136,7 @@ def _pivot(
         found = Line(*placement.axes[joint.name])
         if bearing is None or not agree(bearing.line, found):
             bearing = lone_bearing(placement, bodies, found)
+    bearing = bearing or declared_bearing(placement, bodies, "revolute")
     if bearing is None and wheel is not None:
         bearing = outline_bearing(placement, placement.rows_of_body(wheel))
     if bearing is None:
@@ -167,6 +169,7 @@ def _slide(
         sense = found.direction
         if bearing is None or not agree(bearing.line, found):
             bearing = lone_slide(placement, bodies, found)
+    bearing = bearing or declared_bearing(placement, bodies, "prismatic")
     if bearing is None:
         words = f"'{bodies[0]}' and '{bodies[1]}' share no bore: the slide is left out."
         hint = "Check which parts are barrel and rod in the alignment."

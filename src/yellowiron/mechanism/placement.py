@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from yellowiron.mechanism.declared import DeclaredLine, declared_lines
 from yellowiron.model.alignment import Alignment, Vector
 from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.finding import Finding
@@ -70,7 +71,8 @@ class Placement:
     there.
 
     `bodies` and `roles` give each part's body and role; `axes`, of joints without a pin, the alignment's axis (a point
-    and a unit vector); what is computed from a part is kept for the next caller.
+    and a unit vector); `declared` are the joints that the CAD file declares; what is computed from a part is kept for
+    the next caller.
     """
 
     parts: tuple[Part, ...]
@@ -79,6 +81,7 @@ class Placement:
     bodies: tuple[str, ...]
     roles: tuple[str | None, ...]
     axes: Mapping[str, tuple[Floats, Floats]] = field(default_factory=dict)
+    declared: tuple[DeclaredLine, ...] = ()
     _features: dict[int, Features] = field(default_factory=dict)
     _points: dict[int, Floats] = field(default_factory=dict)
 
@@ -153,6 +156,7 @@ def place(assembly: Assembly, template: Template, alignment: Alignment) -> tuple
         bodies=tuple(str(assigned[p.id].body) for p in kept),
         roles=tuple(assigned[p.id].role for p in kept),
         axes={name: _axis(alignment.frame, *axis) for name, axis in alignment.axes.items()},
+        declared=declared_lines(assembly, alignment),
     )
     return placement, findings
 
