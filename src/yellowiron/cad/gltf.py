@@ -10,6 +10,7 @@ import base64
 import binascii
 import json
 import math
+import re
 import struct
 import urllib.parse
 from collections.abc import Mapping, Sequence
@@ -23,7 +24,7 @@ import numpy as np
 from yellowiron.cad import placed
 from yellowiron.cad.gltf_materials import Materials
 from yellowiron.cad.looks import Dressed, Look, joined
-from yellowiron.cad.naming import decode_name, is_generic
+from yellowiron.cad.naming import decode_name, decode_text, is_generic
 from yellowiron.cad.placed import Occurrence
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import CadError
@@ -42,6 +43,7 @@ _TRIANGLES = (4, 5, 6)
 _FAN = 6
 _STEPS = {5120: 127.0, 5121: 255.0, 5122: 32767.0, 5123: 65535.0}
 """What a normalised integer is divided by."""
+_NAMES = re.compile(rb'"name"\s*:\s*"([^"]*)"')
 _DEEPEST = 200
 
 
@@ -122,7 +124,8 @@ def _container(path: str) -> tuple[dict[str, Any], bytes | None]:
 
 def _document(text: bytes, path: str) -> dict[str, Any]:
     try:
-        document = json.loads(text)
+        # UTF-8 by the standard; some programs write names as their computer has them.
+        document = json.loads(decode_text(text, _NAMES.findall(text))[0])
     except (ValueError, RecursionError) as error:
         raise CadError("The glTF document is broken: it is not JSON", where=path, hint=_DAMAGED) from error
     if not isinstance(document, dict) or not isinstance(document.get("asset"), dict):
