@@ -146,6 +146,22 @@ def test_an_instance_of_nothing_is_told(tmp_path: Path) -> None:
     ]
 
 
+@pytest.mark.parametrize("damage", ["name", "number"])
+def test_what_a_drawing_lost_is_told(damage: str, tmp_path: Path) -> None:
+    ezdxf = pytest.importorskip("ezdxf")
+    document = ezdxf.new("R2018")
+    block = document.blocks.new("PIN")
+    block.add_3dface([(0, 0, 0), (1.25, 0, 0), (0, 1, 0)])
+    document.modelspace().add_blockref("PIN", (0, 0, 0))
+    document.modelspace().add_3dface([(0, 0, 0), (2, 0, 0), (0, 2, 0)])
+    path = tmp_path / "machine.dxf"
+    document.saveas(path)
+    text = path.read_text()
+    head, tail = text.split("AcDbBlockReference\n  2\nPIN\n") if damage == "name" else text.rsplit("1.25", 1)
+    path.write_text(head + ("AcDbBlockReference\n  2\nPIX\n" if damage == "name" else "1.25v") + tail)
+    assert "CAD001" in {f.code for f in read_cad(path).findings}
+
+
 def test_content_decides_not_the_name(good: bytes, tmp_path: Path) -> None:
     path = tmp_path / "machine.sldasm"
     path.write_bytes(b"\n/* a comment */\n" + good)

@@ -47,7 +47,7 @@ def _opened(path: str) -> Iterator[Any]:
         with TemporaryDirectory(prefix="yellowiron-") as folder:
             copy = Path(folder, "drawing.dxf")
             _by_libredwg(path, copy)
-            yield dxf.opened(str(copy), path)
+            yield dxf.opened(str(copy), path)[0]
         return
     if not _has_oda():
         raise CadError("A DWG file is read through another program, and none is here", where=path, hint=f"{STEPS}.")

@@ -31,27 +31,31 @@ _MOST = 200_000
 
 def read_dxf(path: str) -> Assembly:
     """The assembly in a DXF file, in metres. `CadError` if it is damaged, or holds no 3D content that is readable."""
-    return assembled(opened(path, path), path, "DXF")
+    document, faults = opened(path, path)
+    return assembled(document, path, "DXF", faults)
 
 
-def opened(file: str, path: str) -> Any:
-    """The drawing in a DXF file; errors name `path`."""
-    import ezdxf
+def opened(file: str, path: str) -> tuple[Any, int]:
+    """The drawing in a DXF file, and how many of its values were damaged; errors name `path`."""
+    import ezdxf.audit
     from ezdxf import recover
 
     try:
-        return recover.readfile(file)[0]
+        document, auditor = recover.readfile(file)
     except (OSError, ezdxf.DXFError, ValueError) as error:
         raise CadError(f"The DXF file cannot be read: {error}", where=path, hint=_DAMAGED) from error
+    # A letter in no known encoding is none: names are written in all kinds of them.
+    return document, sum(entry.code != ezdxf.audit.AuditError.DECODING_ERROR for entry in auditor.errors)
 
 
-def assembled(document: Any, path: str, format: str) -> Assembly:
+def assembled(document: Any, path: str, format: str, faults: int = 0) -> Assembly:
     """The assembly in a drawing of ezdxf's, in metres. `CadError` if it holds no 3D content that is readable."""
     from ezdxf import units
 
     blocks: dict[str, list[tuple[str, Dressed]]] = {}
     acis = 0
-    placements = list(_inserted(document.modelspace(), (), np.eye(4), 0))
+    lost: list[str] = []
+    placements = list(_inserted(document.modelspace(), (), np.eye(4), 0, lost))
     if len(placements) > _MOST:
         raise CadError(f"The {format} file places more than {_MOST} blocks", where=path, hint=_DAMAGED)
     raw: list[tuple[tuple[str, ...], str, Dressed, Floats]] = []
@@ -79,6 +83,12 @@ def assembled(document: Any, path: str, format: str) -> Assembly:
         place = transform.copy()
         place[:3, 3] *= unit
         occurrences.append(Occurrence(name, above, scaled[id(one)], place, one.color))
+    if lost:
+        words = f"{len(lost)} blocks are placed and not there: {', '.join(sorted(set(lost))[:5])}"
+        findings.append(Finding("CAD001", "warning", path, words, _DAMAGED))
+    if faults:
+        words = f"{faults} values of the drawing are damaged: parts may be missing or misshapen"
+        findings.append(Finding("CAD001", "warning", path, words, _DAMAGED))
     if acis:
         words = f"{acis} ACIS solids of the drawing cannot be read"
         findings.append(Finding("CAD001", "warning", path, words, _STEP))
@@ -92,22 +102,24 @@ def _at(points: Floats, transform: Floats) -> Floats:
 
 
 def _inserted(
-    layout: Any, names: tuple[str, ...], transform: Floats, depth: int
+    layout: Any, names: tuple[str, ...], transform: Floats, depth: int, lost: list[str]
 ) -> Iterator[tuple[tuple[str, ...], Any, Floats]]:
-    """A layout and every block placed in it, with names from outermost, and (4, 4) transforms."""
+    """A layout and every block placed in it, with names from outermost, and (4, 4) transforms; `lost` are the names of
+    those that are not there."""
     yield names, layout, transform
     if depth >= _DEEPEST:
         return
     for insert in layout.query("INSERT"):
         block = insert.block()
         if block is None:
+            lost.append(str(insert.dxf.get("name", "?")))
             continue
         title = decode_name(insert.dxf.name, "utf-8")
         copies = insert.multi_insert() if insert.mcount > 1 else [insert]
         for one in copies:
             # ezdxf's matrices take row vectors.
             own = np.array(list(one.matrix44()), dtype=np.float64).reshape(4, 4).T
-            yield from _inserted(block, (*names, title), transform @ own, depth + 1)
+            yield from _inserted(block, (*names, title), transform @ own, depth + 1, lost)
 
 
 def _meshes(layout: Any, document: Any) -> Iterator[tuple[str, Dressed]]:
