@@ -100,7 +100,7 @@ def align(
         seen.size,
         frame.matrix[2, :3] if frame is not None else np.array([0.0, 0.0, 1.0]),
         rivals,
-        shaken(solution, resolved),
+        shaken(solution, resolved, _surfaces(seen, structure, solution)),
     )
     places = coupled(spreader.run(seen.wheels), seen.solids, structure, solution, resolved)
     apart |= {seen.solids[i].part.id: metres for i, metres in spreader.apart.items()}
@@ -139,6 +139,14 @@ def align(
             ),
         ],
     )
+
+
+def _surfaces(seen: Seen, structure: Structure, solution: Solution) -> dict[str, float]:
+    """Body → the surface of its cluster, m²."""
+    return {
+        b: sum(seen.solids[i].surface for i in sorted(structure.clusters[c].members))
+        for c, b in solution.body_of.items()
+    }
 
 
 def _axes(structure: Structure, solution: Solution, seen: Seen) -> dict[str, tuple[Vector, Vector]]:

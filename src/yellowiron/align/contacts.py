@@ -18,6 +18,8 @@ from yellowiron.model.geometry import Floats
 
 PARALLEL = 1 - 2e-5
 """Cosine beyond which two lines are parallel (0.36°)."""
+BESIDE = 1.5
+"""Two bores that a pin is missing in are this many radii apart at most (or half as far as the longer one is long)."""
 LOOSEST = 0.84
 """Shaft radius over bore radius: a clearance hole of a small bolt."""
 
@@ -116,7 +118,8 @@ def bare_fits_of(solids: tuple[Solid, ...], fits: list[Fit], tolerance: float) -
     longest = max(c.half for _, c in bores)
     found = []
     for k, (a, one) in enumerate(bores):
-        for j in sorted(tree.query_ball_point(centres[k], 2 * one.half + longest + tolerance)):
+        room = max(one.half, BESIDE * one.radius)
+        for j in sorted(tree.query_ball_point(centres[k], one.half + room + longest + tolerance)):
             b, other = bores[j]
             if a == b or (other.half, j) < (one.half, k) or abs(float(one.direction @ other.direction)) < PARALLEL:
                 continue
@@ -124,7 +127,7 @@ def bare_fits_of(solids: tuple[Solid, ...], fits: list[Fit], tolerance: float) -
             near = other.interval(one.center, one.direction)
             apart = max(near[0] - one.half, -one.half - near[1])
             gap = other.off(one.center)
-            if alike and -0.1 * one.half < apart < one.half + tolerance and gap < max(tolerance, 0.02 * one.radius):
+            if alike and -0.1 * one.half < apart < room + tolerance and gap < max(tolerance, 0.02 * one.radius):
                 found.append(Fit(a, b, one, other, 0.0, gap))
     return found
 

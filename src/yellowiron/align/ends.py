@@ -22,9 +22,8 @@ LEAST, MOST = 0.002, 0.025
 """An end's radius in machine sizes."""
 LONG = 6.0
 """A hole longer than this many radii is a barrel's."""
-BESIDE = 0.25
-"""What is right beside an end is at most this share of its radius away; if nothing is, then what is no further away
-than the end is wide …"""
+BESIDE = (0.25, 0.5, 1.0)
+"""What is beside an end is at most this share of its radius away, the nearest first; or as far as the end is wide …"""
 CORE = 0.3
 """… and on its axis within this share of its radius."""
 PIN = 0.5
@@ -52,7 +51,11 @@ def ended_fits_of(
     of_ram = {i: ram for ram in rams for i in ram.barrel | ram.rod}
     found: dict[tuple[int, int], Fit] = {}
     for solid in solids:
-        if solid.axis is not None or (solid.shaft is not None and solid.index not in of_ram):
+        if (
+            solid.axis is not None
+            or (solid.shaft is not None and solid.index not in of_ram)
+            or (solid.slight and solid.shape.closed)
+        ):
             continue
         for end in (*solid.cylinders, *solid.knuckles):
             if end.inner or end.arc < ARC or not LEAST * size < end.radius < MOST * size:
@@ -89,7 +92,7 @@ def _along(bar: Cyl, line: Line) -> bool:
 
 def _held(index: int, bar: Cyl, touch: Touch) -> bool:
     """Whether other parts begin right beyond both ends of a bar."""
-    gap = BESIDE * bar.radius
+    gap = BESIDE[0] * bar.radius
     for side in (1.0, -1.0):
         center = bar.center + side * bar.half * bar.direction
         probe = replace(bar, center=center, half=0.5 * gap)
@@ -120,14 +123,19 @@ def _chained(fits: list[Fit], joined: set[frozenset[int]]) -> list[Fit]:
 def _beside(solid: Solid, end: Cyl, side: float, solids: tuple[Solid, ...], touch: Touch) -> list[tuple[int, Cyl]]:
     """The parts that have material on an end's axis next beyond one of its faces, and where: those that are turned
     about it themselves (hubs, spacers) belong to a neighbour and are none."""
-    for gap in (BESIDE * end.radius, max(BESIDE * end.radius, 2.0 * end.half)):
-        center = end.center + side * (end.half + 0.5 * gap - 0.1 * BESIDE * end.radius) * end.direction
-        probe = replace(end, center=center, half=0.5 * gap + 0.1 * BESIDE * end.radius)
+    inward = 0.05 * end.radius
+    for gap in sorted((*(share * end.radius for share in BESIDE), 2.0 * end.half)):
+        center = end.center + side * (end.half + 0.5 * (gap - inward)) * end.direction
+        probe = replace(end, center=center, half=0.5 * (gap + inward))
         reach = probe.half * np.abs(probe.direction) + CORE * end.radius
         found = []
         for k in touch.reaching(center - reach, center + reach):
             other = solids[k]
-            if k == solid.index or (other.line is not None and coaxial(other.line, end, 0.1)):
+            if (
+                k == solid.index
+                or (other.slight and other.shape.closed)
+                or (other.line is not None and coaxial(other.line, end, 0.1))
+            ):
                 continue
             if other.span(end.center, side * end.direction)[1] < end.half + 0.1 * end.radius:
                 continue  # it ends here

@@ -20,8 +20,6 @@ SLEWING = 0.02
 """The least radius of a slewing bearing, in sizes of the whole …"""
 THIN = 0.6
 """… and of the hole in each of its races, as a share of its outer radius."""
-SLIGHT = 5e-4
-"""Volume over the cube of the diagonal: a hose has less, a plate or a bar more."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,10 +79,12 @@ def evidence_of(
     slewing: bool = False,
     nests: tuple[Nest, ...] = (),
     stays: frozenset[int] = frozenset(),
+    holes: bool = True,
 ) -> Evidence:
     """Sorts fits and flat contacts. Fits between a barrel and its rod, and between a wheel and its axle, slide. `bare`:
     empty bores side by side; `lines` number the fits first, then these. `slewing`: whatever round thing is as wide as a
-    slewing bearing turns in its bore, though it is no thin ring. `stays`: bars that are no pins."""
+    slewing bearing turns in its bore, though it is no thin ring. `stays`: bars that are no pins. Without `holes`
+    what is turned about a pin's line may turn though it has no bore."""
     owner: dict[int, tuple[str, int]] = {}
     for k, ram in enumerate(rams):
         owner.update(dict.fromkeys(ram.barrel, ("barrel", k)) | dict.fromkeys(ram.rod, ("rod", k)))
@@ -135,10 +135,10 @@ def evidence_of(
             pinned[fit.inner].add(number[k])
             pinned[fit.outer].add(number[k])
     _through_rings(pinned, pressed, lines, tolerance)
-    about = _about(solids, lines, pinned, tolerance)
+    about = _about(solids, lines, pinned, tolerance, holes=holes)
     held = {i for f in pressed for i in (f.inner, f.outer)} | set(owner)
     slight = frozenset(astray) | frozenset(
-        s.index for s in solids if not pinned[s.index] and s.index not in held and s.volume < SLIGHT * s.size**3
+        s.index for s in solids if not pinned[s.index] and s.index not in held and s.slight
     )
     sliding = sliding_pairs(nests, flats)
     welds: list[Flat] = []
@@ -176,7 +176,7 @@ def evidence_of(
 
 def _wide(s: Solid) -> bool:
     """True for a thin part much wider than thick, and no pipe: area²/(4·volume·length) is width over thickness."""
-    area = s.shape.area * abs(float(np.linalg.det(s.part.transform[:3, :3]))) ** (2 / 3)
+    area = s.surface
     round_ = sum(c.radius * c.arc * 2 * c.half for c in s.cylinders if c.full)
     return bool(s.volume > 0 and area**2 > WIDE * 4 * s.volume * s.size and round_ < 0.2 * area)
 
@@ -245,7 +245,7 @@ def _through_rings(pinned: dict[int, set[int]], pressed: list[Fit], lines: list[
 
 
 def _about(
-    solids: tuple[Solid, ...], lines: list[Line], pinned: dict[int, set[int]], tolerance: float
+    solids: tuple[Solid, ...], lines: list[Line], pinned: dict[int, set[int]], tolerance: float, *, holes: bool
 ) -> dict[int, frozenset[int]]:
     about = {i: frozenset(on) for i, on in pinned.items()}
     rails = sorted({k for on in pinned.values() for k in on})
@@ -255,12 +255,12 @@ def _about(
     directions = np.array([lines[k].direction for k in rails])
     radii = np.array([lines[k].radius for k in rails])
     for s in solids:
-        if s.axis is None or s.hole == 0.0:
+        if s.axis is None or (holes and s.hole == 0.0):
             continue
         delta = s.axis.center - origins
         off = np.linalg.norm(delta - np.einsum("ij,ij->i", delta, directions)[:, None] * directions, axis=1)
         parallel = np.abs(directions @ s.axis.direction) > PARALLEL
-        good = parallel & (off < np.maximum(2 * tolerance, 0.05 * radii)) & (s.hole > 0.95 * radii)
+        good = parallel & (off < np.maximum(2 * tolerance, 0.05 * radii)) & (not holes or s.hole > 0.95 * radii)
         about[s.index] |= {rails[i] for i in np.flatnonzero(good)}
     return about
 

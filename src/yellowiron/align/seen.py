@@ -59,7 +59,8 @@ def see(assembly: Assembly, template: Template, contact: float) -> Seen:
     pierced = pierced_fits_of(solids, fits, rams, touch, size)
     fits += pierced
     stays: frozenset[int] = frozenset()
-    if not bored(solids, template, size):
+    holes = bored(solids, template, size)
+    if not holes:
         ended = ended_fits_of(solids, fits, rams, touch, size)
         stays = stays_of(pierced, ended, solids, touch)
         fits += ended
@@ -86,6 +87,7 @@ def see(assembly: Assembly, template: Template, contact: float) -> Seen:
             slewing=slewing,
             nests=nests,
             stays=stays,
+            holes=holes,
         )
 
     evidence = [sorted_out(fits, slewing=False)]

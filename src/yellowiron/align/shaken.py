@@ -3,17 +3,21 @@ was not found may be a false weld, and what nothing found joins to the root may 
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from yellowiron.align.solve import Solution
 from yellowiron.model.template import Template
 
 AROUND = 2
 """Parts of a body that was not found may be taken for bodies that are this many joints away."""
+PUNY = 0.02
+"""A frame of less than this share of the largest body's surface is none, and its parts are elsewhere."""
 _TYPED = ("barrel", "rod", "wheel")
 
 
-def shaken(solution: Solution, template: Template) -> dict[str, str]:
+def shaken(solution: Solution, template: Template, surface: Mapping[str, float] | None = None) -> dict[str, str]:
     """Body → why it is doubtful. Barrels, rods and wheels are told by their shape: one that is missing casts no doubt
-    on others."""
+    on others. `surface`: body → m², for those that were found."""
     found = {*solution.hinge_of, *solution.slide_of}
     kinds = {r.name: r.kind for r in template.roles if r.rigid}
     optional = {r.name for r in template.roles if r.optional}
@@ -39,7 +43,12 @@ def shaken(solution: Solution, template: Template) -> dict[str, str]:
         front = [b for own in front for b in sorted(linked[own]) if b not in reached]
         reached.update(front)
     words = {b: "nothing that was found joins it to the rest of the machine" for b in kinds if b not in reached}
-    undrawn = _undrawn(template, set(kinds) - jointed, kinds)
+    surface = surface or {}
+    least = PUNY * max(surface.values(), default=0.0)
+    puny = {b for b, kind in kinds.items() if kind == "frame" and surface.get(b, least) < least}
+    words |= dict.fromkeys(sorted(puny), "it is too small for a frame")
+    jointed -= puny
+    undrawn = _undrawn(template, set(kinds) - jointed - puny, kinds)
     for own, other, joint_name in apart:
         if not {own, other} & undrawn:
             words[own] = f"{joint_name} is not found: parts of {other} may be among its parts"

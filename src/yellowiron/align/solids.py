@@ -13,6 +13,8 @@ from yellowiron.model.geometry import CylinderFeature, Floats, Ints, PlaneFeatur
 
 FULL_ARC = 0.6 * 2 * math.pi
 """Radians around: more is taken for a whole cylinder (bores and shafts are often split, slotted or cross-drilled)."""
+SLIGHT = 5e-4
+"""Volume over the cube of the diagonal: a hose has less, a plate or a bar more."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,6 +73,16 @@ class Solid:
     def size(self) -> float:
         """Diagonal of its box."""
         return float(np.linalg.norm(self.high - self.low))
+
+    @property
+    def slight(self) -> bool:
+        """True for hoses, rails and sheets."""
+        return self.volume < SLIGHT * self.size**3
+
+    @property
+    def surface(self) -> float:
+        """Its area in the CAD frame, m²."""
+        return self.shape.area * abs(float(np.linalg.det(self.part.transform[:3, :3]))) ** (2 / 3)
 
     @property
     def line(self) -> Cyl | None:

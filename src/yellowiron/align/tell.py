@@ -70,8 +70,7 @@ def told(
 
 def surface(seen: Seen, structure: Structure, c: int) -> float:
     """The surface of a cluster, m²."""
-    solids = [seen.solids[i] for i in sorted(structure.clusters[c].members)]
-    return sum(float(s.shape.area) * abs(float(np.linalg.det(s.part.transform[:3, :3]))) ** (2 / 3) for s in solids)
+    return sum(seen.solids[i].surface for i in sorted(structure.clusters[c].members))
 
 
 def across(axis: Floats) -> Floats:

@@ -109,7 +109,7 @@ def _middle(solid: Solid) -> Floats:
 # ---- rows ----
 def _classes(solids: Sequence[Solid]) -> list[list[int]]:
     """Solids by volume and area, those that are equal (or mirror images) together, in the order of the first."""
-    order = sorted(range(len(solids)), key=lambda i: (solids[i].volume, _area(solids[i]), i))
+    order = sorted(range(len(solids)), key=lambda i: (solids[i].volume, solids[i].surface, i))
     classes: list[list[int]] = []
     for i in order:
         first = classes[-1][0] if classes else -1
@@ -120,14 +120,9 @@ def _classes(solids: Sequence[Solid]) -> list[list[int]]:
     return sorted((sorted(c) for c in classes), key=lambda c: c[0])
 
 
-def _area(solid: Solid) -> float:
-    scale = abs(float(np.linalg.det(solid.part.transform[:3, :3]))) ** (1 / 3)
-    return solid.shape.area * scale**2
-
-
 def _equal(a: Solid, b: Solid) -> bool:
     alike = abs(a.volume - b.volume) <= EQUAL * max(a.volume, b.volume)
-    return alike and abs(_area(a) - _area(b)) <= EQUAL * max(_area(a), _area(b))
+    return alike and abs(a.surface - b.surface) <= EQUAL * max(a.surface, b.surface)
 
 
 def _rows(members: list[int], solids: Sequence[Solid]) -> list[list[int]]:

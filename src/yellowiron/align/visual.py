@@ -144,7 +144,7 @@ def _turntables(solids: list[Solid], touch: Touch, size: float) -> list[Fit]:
     best: dict[frozenset[int], Fit] = {}
     for solid in solids:
         for base in solid.cylinders:
-            if not base.full or base.radius < TABLE * size:
+            if base.inner or not base.full or base.radius < TABLE * size:
                 continue
             gap = NEAR * base.radius
             reach = base.half * np.abs(base.direction) + gap
@@ -191,7 +191,7 @@ def _through(solid: Solid, bars: list[Cyl], solids: tuple[Solid, ...], touch: To
     for bar in bars:
         reach = bar.half * np.abs(bar.direction) + bar.radius
         for other in (solids[i] for i in touch.reaching(bar.center - reach, bar.center + reach)):
-            if other.index == solid.index:
+            if other.index == solid.index or (other.slight and other.shape.closed):
                 continue
             low, high = other.span(bar.center, bar.direction)
             low, high = max(low, -bar.half), min(high, bar.half)
