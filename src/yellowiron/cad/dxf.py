@@ -45,7 +45,9 @@ def opened(file: str, path: str) -> tuple[Any, int]:
     except (OSError, ezdxf.DXFError, ValueError) as error:
         raise CadError(f"The DXF file cannot be read: {error}", where=path, hint=_DAMAGED) from error
     # A letter in no known encoding is none: names are written in all kinds of them.
-    return document, sum(entry.code != ezdxf.audit.AuditError.DECODING_ERROR for entry in auditor.errors)
+    codes = ezdxf.audit.AuditError
+    lost = sum(entry.code == codes.UNDEFINED_BLOCK for entry in auditor.fixes)
+    return document, lost + sum(entry.code != codes.DECODING_ERROR for entry in auditor.errors)
 
 
 def assembled(document: Any, path: str, format: str, faults: int = 0) -> Assembly:
@@ -84,7 +86,7 @@ def assembled(document: Any, path: str, format: str, faults: int = 0) -> Assembl
         place[:3, 3] *= unit
         occurrences.append(Occurrence(name, above, scaled[id(one)], place, one.color))
     if lost:
-        words = f"{len(lost)} blocks are placed and not there: {', '.join(sorted(set(lost))[:5])}"
+        words = f"{len(lost)} blocks are placed and hold nothing: {', '.join(sorted(set(lost))[:5])}"
         findings.append(Finding("CAD001", "warning", path, words, _DAMAGED))
     if faults:
         words = f"{faults} values of the drawing are damaged: parts may be missing or misshapen"
@@ -105,13 +107,13 @@ def _inserted(
     layout: Any, names: tuple[str, ...], transform: Floats, depth: int, lost: list[str]
 ) -> Iterator[tuple[tuple[str, ...], Any, Floats]]:
     """A layout and every block placed in it, with names from outermost, and (4, 4) transforms; `lost` are the names of
-    those that are not there."""
+    those that are not there, or empty."""
     yield names, layout, transform
     if depth >= _DEEPEST:
         return
     for insert in layout.query("INSERT"):
         block = insert.block()
-        if block is None:
+        if block is None or not len(block):
             lost.append(str(insert.dxf.get("name", "?")))
             continue
         title = decode_name(insert.dxf.name, "utf-8")
