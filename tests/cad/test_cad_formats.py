@@ -9,9 +9,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 from cad_exports import ITEMS, WRITERS, Meshes
+from cad_validators import errors_of
+from test_cad_looks import TEXTURED
 
 from yellowiron.cad import read_cad
+from yellowiron.cad.usd import read_usd
 from yellowiron.model.assembly import Assembly, Part
+from yellowiron.usd import write_assembly
 
 pytestmark = pytest.mark.slow
 SURFACES = ("STEP", "IGES", "BREP", "FreeCAD")
@@ -82,8 +86,16 @@ def test_the_bore_and_the_pin_are_found(name: str, read: dict[str, Assembly]) ->
     assert (50, True) in found and (49, False) in found
 
 
-def kept(name: str, assembly: Assembly) -> dict[str, str]:
-    """What of the machine arrived."""
+@pytest.fixture(scope="module")
+def textured(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Assembly]:
+    """Where the format has textures and what stands beside them, a box that has them."""
+    return {name: read_cad(write(tmp_path_factory.mktemp("textured"))) for name, write in TEXTURED.items()}
+
+
+def kept(name: str, assembly: Assembly, textured: Assembly | None) -> dict[str, str]:
+    """What of the machine, and of a textured box, arrived."""
+    shapes = () if textured is None else textured.shapes.values()
+    finishes = [finish for shape in shapes for finish in shape.finishes]
     parts = assembly.parts
     names = {re.sub(r"[ #]+\d+$", "", p.name) for p in parts}
     tree = sum(p.path[-1:] == ("FRONT",) for p in parts) == 3
@@ -98,15 +110,19 @@ def kept(name: str, assembly: Assembly) -> dict[str, str]:
         "tree": "yes" if tree else "bodies" if above else "no",
         "unit": "guessed" if guessed else f"{assembly.unit:g} m",
         "colours": "yes" if len(right) == 3 else "of points" if faces else "no",
+        "metalness, roughness": "yes" if any(f.metallic is not None for f in finishes) else "",
+        "textures": "yes" if any(f.texture is not None for f in finishes) else "",
         "instances": "yes" if len(assembly.shapes) == 3 else "no",
         "surfaces": "exact" if all(s.exact for s in assembly.shapes.values()) else "fitted",
         "joints": "yes" if any(j.type == "revolute" for j in assembly.joints) else "",
     }
 
 
-def test_the_table_in_the_docs_is_what_was_read(read: dict[str, Assembly], root: Path) -> None:
+def test_the_table_in_the_docs_is_what_was_read(
+    read: dict[str, Assembly], textured: dict[str, Assembly], root: Path
+) -> None:
     """`YELLOWIRON_WRITE_DOCS=1` writes it anew."""
-    rows = {name: kept(name, assembly) for name, assembly in read.items()}
+    rows = {name: kept(name, assembly, textured.get(name)) for name, assembly in read.items()}
     heads = ["format", *next(iter(rows.values()))]
     lines = ["| " + " | ".join(heads) + " |", "|" + "---|" * len(heads)]
     lines += ["| " + " | ".join([name, *row.values()]) + " |" for name, row in rows.items()]
@@ -117,6 +133,22 @@ def test_the_table_in_the_docs_is_what_was_read(read: dict[str, Assembly], root:
         text = re.sub(r"\| format \| parts \| names .*?\n\n", lambda _: table + "\n\n", text, flags=re.DOTALL)
         page.write_text(text, encoding="utf-8")
     assert table in text
+
+
+@pytest.mark.parametrize("name", WRITERS)
+def test_converted_it_passes_the_validators_from_any_folder(
+    name: str, read: dict[str, Assembly], tmp_path: Path
+) -> None:
+    pytest.importorskip("physx_usd_schemas")
+    pytest.importorskip("newton_usd_schemas")
+    write_assembly(read[name], tmp_path / "out" / "machine.usdc")
+    (tmp_path / "out").rename(tmp_path / "elsewhere")
+    path = tmp_path / "elsewhere" / "machine.usdc"
+    assert errors_of(path) == []
+    again = read_usd(str(path))
+    np.testing.assert_allclose(_centres(again), _centres(read[name]), atol=3e-6)
+    assert len(again.shapes) == len(read[name].shapes)
+    assert [p.name for p in again.parts] == [p.name for p in read[name].parts]
 
 
 @pytest.mark.parametrize("name", ["URDF", "MJCF"])

@@ -136,6 +136,39 @@ def collada(path: Path) -> Path:
 WRITERS: dict[str, Callable[[Path], Path]] = {"a.obj": obj, "a.fbx": fbx, "a.dae": collada}
 
 
+def gltf(path: Path) -> Path:
+    data = glb(path.with_name("a.glb")).read_bytes()
+    size = struct.unpack_from("<I", data, 12)[0]
+    document = json.loads(data[20 : 20 + size])
+    document["buffers"][0]["uri"] = "a.bin"
+    path.with_name("a.bin").write_bytes(data[28 + size :])
+    path.write_text(json.dumps(document))
+    return path
+
+
+def usd(path: Path) -> Path:
+    from pxr import UsdUtils
+
+    assembly = read_cad(glb(path.with_name("a.glb")))
+    if path.suffix != ".usdz":
+        return write_assembly(assembly, path)
+    flat = write_assembly(assembly, path.with_suffix(".usdc"))
+    UsdUtils.CreateNewUsdzPackage(Sdf.AssetPath(str(flat)), str(path))
+    return path
+
+
+TEXTURED: dict[str, Callable[[Path], Path]] = {
+    "GLB": lambda folder: glb(folder / "b.glb"),
+    "glTF": lambda folder: gltf(folder / "b.gltf"),
+    "OBJ": lambda folder: obj(folder / "b.obj"),
+    "COLLADA": lambda folder: collada(folder / "b.dae"),
+    "FBX (text)": lambda folder: fbx(folder / "b.fbx", False),
+    "FBX (binary)": lambda folder: fbx(folder / "b.fbx"),
+    **{f"USD ({s})": lambda folder, s=s: usd(folder / f"b.{s}") for s in ("usda", "usdc", "usdz")},
+}
+"""Formats with textures, by their names in the docs' table."""
+
+
 def check(assembly: Assembly) -> None:
     """One textured box, its picture found and its coordinates in place."""
     (part,) = assembly.parts
