@@ -84,3 +84,11 @@ def test_a_pose_is_no_unit(template: Template, drawn: Assembly) -> None:
     for length in (0.7 * size(drawn), 1.5 * size(drawn)):
         assert to_scale(drawn, template, sheet(Overall_Length=length)) is drawn
     assert to_scale(drawn, template, Specifications()) is drawn
+
+
+def test_the_template_says_which_length(template: Template, drawn: Assembly) -> None:
+    """Without a value that is the whole machine's length there is nothing to compare with."""
+    plain = replace(template, wanted=tuple(replace(w, length_of=None) for w in template.wanted))
+    long = sheet(Overall_Length=30 * size(drawn))
+    assert to_scale(drawn, template, long) is not drawn
+    assert to_scale(drawn, plain, long) is drawn

@@ -20,8 +20,6 @@ from yellowiron.model.geometry import CylinderFeature, PlaneFeature, Shape
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import Template
 
-LENGTH = "Overall Length"
-"""The sheet's value that a model's longest extent is compared with."""
 POSES = (0.55, 1.9)
 """The longest extent, which is a diagonal, as a share of the overall length: the sheet's machine has its arms folded,
 the drawn one may have them anywhere."""
@@ -33,13 +31,15 @@ ENOUGH = 3
 
 
 def to_scale(assembly: Assembly, template: Template, specifications: Specifications) -> Assembly:
-    """The model in metres, by the sheet's overall length, with a finding (ALN014) if that changed it.
+    """The model in metres, by the sheet's overall length (the template's value that is `length_of` the whole machine),
+    with a finding (ALN014) if that changed it.
 
     A length that is off by more than a pose can explain means a wrong unit: that unit is taken with which the length
     comes out. If there is none, the diameters of the hydraulic cylinders give the scale; without these the length
     itself does, which is told as a guess.
     """
-    length = specifications.number(LENGTH)
+    wanted = next((w.name for w in template.wanted if w.length_of == "*"), None)
+    length = specifications.number(wanted) if wanted is not None else None
     drawn = _extent(assembly)
     if length is None or length <= 0.0 or drawn <= 0.0 or POSES[0] <= drawn / length <= POSES[1]:
         return assembly

@@ -96,18 +96,21 @@ class Material:
 class Wanted:
     """A value the template can ask a sheet for. `dimension` is one of: length, angle, mass, pressure, flow, volume,
     force, torque, power, speed, angular_speed, time, count. `synonyms` by language code (`en`, `de`, …); `forbidden`
-    words rule a statement out; `sections` are headings that support it; `mass_of` names the body (or `*`, the whole
-    machine) whose mass it is; `in_label_of` another wanted value in whose label it is printed; `where` says in which
-    table makers print it."""
+    words rule a statement out; `concepts` are sets of English words that say it in any language; `sections` are
+    headings that support it; `mass_of` names the body (or `*`, the whole machine) whose mass it is; `length_of` is `*`
+    for the whole machine's length; `in_label_of` another wanted value in whose label it is printed; `where` says in
+    which table makers print it."""
 
     name: str
     dimension: str
     synonyms: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    concepts: tuple[str, ...] = ()
     forbidden: tuple[str, ...] = ()
     sections: tuple[str, ...] = ()
     use: str = ""
     where: str = ""
     mass_of: str | None = None
+    length_of: str | None = None
     in_label_of: str | None = None
     minimum: float | None = None
     maximum: float | None = None
