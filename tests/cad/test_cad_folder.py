@@ -72,6 +72,13 @@ def test_blender(tmp_path: Path) -> None:
         "import bpy, sys\n"
         "bpy.ops.wm.read_factory_settings(use_empty=True)\n"
         "bpy.ops.mesh.primitive_cube_add(size=1, location=(1, 2, 3)); bpy.context.object.name = 'BOOM'\n"
+        "m = bpy.data.materials.new('Paint'); m.use_nodes = True; n = m.node_tree.nodes\n"
+        "b = next(e for e in n if e.type == 'BSDF_PRINCIPLED')\n"
+        "b.inputs['Metallic'].default_value = 0.25; b.inputs['Roughness'].default_value = 0.75\n"
+        "i = bpy.data.images.new('paint', 8, 8); i.pixels = [1, 0.5, 0, 1] * 64; i.pack()\n"
+        "t = n.new('ShaderNodeTexImage'); t.image = i\n"
+        "m.node_tree.links.new(t.outputs['Color'], b.inputs['Base Color'])\n"
+        "bpy.context.object.data.materials.append(m)\n"
         "bpy.ops.object.duplicate(linked=True); bpy.context.object.location = (4, 0, 0)\n"
         "bpy.ops.wm.save_as_mainfile(filepath=sys.argv[1])\n"
     )
@@ -81,3 +88,8 @@ def test_blender(tmp_path: Path) -> None:
     assert [p.name.partition(".")[0] for p in assembly.parts] == ["BOOM", "BOOM"] and len(assembly.shapes) == 1
     centres = sorted(assembly.points_of(p).mean(axis=0).tolist() for p in assembly.parts)
     assert np.allclose(centres, [[1.0, 2.0, 3.0], [4.0, 0.0, 0.0]])
+    shape = assembly.shape_of(assembly.parts[0])
+    (finish,) = shape.finishes
+    assert (finish.metallic, finish.roughness) == (0.25, 0.75)
+    assert finish.texture is not None and shape.mesh.uvs is not None
+    assert assembly.parts[0].color == pytest.approx((1.0, 0.216, 0.0), abs=0.01)
