@@ -1,4 +1,4 @@
-"""Sheets in a set's own wordings, for machines of all ten types: what the sets "fresh" and "fresh2" are drawn with.
+"""Sheets in a set's own wordings, for machines of all ten types: what "fresh", "fresh2" and "fresh3" are drawn with.
 
 A set has a file of words (its head says how it is written), layouts, ways of writing, and a plan. " > " in a label
 parts a group from its item: a layout may draw the group as a cell over its rows, or print the two one after the other.
