@@ -194,9 +194,14 @@ def aligned(
     def found(model: Assembly) -> Alignment:
         edits = align.read_alignment(earlier, model, template) if earlier is not None else None
         edits = edits if data is None else library.with_relations(edits, data)
-        return align.align(model, template, specifications, edits=edits, choices=choices)
+        alignment = align.align(model, template, specifications, edits=edits, choices=choices)
+        # A robot description whose bodies are the template's: what it says goes before what was found.
+        declared = align.declared_roles(model, template, alignment)
+        if declared:
+            edits = replace(edits or alignment, parts=(*(edits.parts if edits else ()), *declared))
+            alignment = align.align(model, template, specifications, edits=edits, choices=choices)
+        return alignment
 
-    assembly = align.to_scale(assembly, template, specifications)
     alignment = found(assembly)
     apart = cad.taken_apart(assembly) if alignment.missing else assembly
     if apart is not assembly:

@@ -11,12 +11,13 @@ from yellowiron.align.align import align
 from yellowiron.align.confidence import REVIEW
 from yellowiron.align.discover import discover
 from yellowiron.align.files import explain, read_alignment, write_alignment
-from yellowiron.align.robot import discover_declared
+from yellowiron.align.robot import declared_roles, discover_declared
 from yellowiron.align.scale import to_scale
 
 __all__ = [
     "REVIEW",
     "align",
+    "declared_roles",
     "discover",
     "discover_declared",
     "explain",

@@ -7,6 +7,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
@@ -16,14 +17,14 @@ import numpy as np
 from yellowiron.align.chains import Edge, bridges, components, freedoms
 from yellowiron.align.discover import discover
 from yellowiron.align.tell import UPRIGHT, across, some
-from yellowiron.model.assembly import Assembly, DeclaredJoint
+from yellowiron.model.alignment import Alignment, PartAssignment
+from yellowiron.model.assembly import PARALLEL, Assembly, DeclaredJoint, loop_axis
 from yellowiron.model.errors import AlignmentError
 from yellowiron.model.finding import Finding
 from yellowiron.model.found import FoundBody, FoundJoint, FoundMachine, Vector
 from yellowiron.model.geometry import Floats
+from yellowiron.model.template import Template
 
-PARALLEL = 0.999
-"""Cosine from which two hinges of a loop are parallel."""
 BESIDE = 0.01
 """Metres up to which two hinges are on one line."""
 ROUND = 0.05
@@ -44,6 +45,31 @@ class _Joint:
     axis: Vector
     reason: str
     pins: tuple[str, ...] = ()
+
+
+def declared_roles(assembly: Assembly, template: Template, found: Alignment) -> tuple[PartAssignment, ...]:
+    """Bodies for the parts that an alignment put elsewhere than the file's own links say. Only where the file has a
+    link for every body of the template, by its name: then the template was made from it."""
+    links = assembly.links()
+    roles = {_key(r.name): r.name for r in template.roles if r.rigid and not r.hidden}
+    body = {link: roles[_key(link)] for link in links if _key(link) in roles}
+    if not body or {r.name for r in template.roles if r.rigid and not r.optional} - set(body.values()):
+        return ()
+    welds = [j.bodies for j in assembly.joints if j.type == "fixed"]
+    for _ in welds:
+        for one, other in (*welds, *((b, a) for a, b in welds)):
+            if one in links and one not in body and other in body:
+                body[one] = body[other]
+    wanted = {part.id: body[link] for link, parts in links.items() if link in body for part in parts}
+    return tuple(
+        PartAssignment(a.part, wanted[a.part], wanted[a.part], 1.0, "the file declares it as that body", source="data")
+        for a in found.parts
+        if wanted.get(a.part, a.body) != a.body and a.source == "solved"
+    )
+
+
+def _key(name: str) -> str:
+    return re.sub(r"[\W_]+", "", name).casefold()
 
 
 def robot(assembly: Assembly, geometry: FoundMachine | None) -> FoundMachine | None:
@@ -133,24 +159,9 @@ def _declared(joints: Sequence[DeclaredJoint]) -> Iterator[_Joint]:
         if joint.type in _MOVING:
             kind: _Type = "revolute" if joint.type == "revolute" else "prismatic"
             yield _Joint(joint.name, kind, one, other, joint.anchor, joint.axis, reason)
-        axis = _common_axis(joint, joints) if joint.type == "spherical" else None
+        axis = loop_axis(joint, joints) if joint.type == "spherical" else None
         if axis is not None:
             yield _Joint(joint.name, "revolute", one, other, joint.anchor, axis, reason)
-
-
-def _common_axis(point: DeclaredJoint, joints: Sequence[DeclaredJoint]) -> Vector | None:
-    """The direction that a hinge of the one body has in common with one of the other: a planar loop's. A slide does not
-    turn, so the hinges of either half are the other's, too."""
-    slides = [j.bodies for j in joints if j.type == "prismatic"]
-    hinges = []
-    for body in point.bodies:
-        halves = {body, *(end for pair in slides if body in pair for end in pair)}
-        hinges.append([j for j in joints if j.type == "revolute" and halves & set(j.bodies)])
-    for one in hinges[0]:
-        for other in hinges[1]:
-            if _along(one.axis, other.axis):
-                return one.axis
-    return None
 
 
 def _edges(joints: Sequence[_Joint], group: Mapping[str, str]) -> list[Edge]:

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from yellowiron.model.alignment import Alignment
-from yellowiron.model.assembly import Assembly, DeclaredJoint
+from yellowiron.model.assembly import Assembly, DeclaredJoint, loop_axis
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Joint, Mechanism
@@ -67,9 +67,12 @@ def declared_lines(assembly: Assembly, alignment: Alignment) -> tuple[DeclaredLi
     found = []
     for joint in assembly.joints:
         one, other = (played.get(body) for body in joint.bodies)
-        if joint.type in ("revolute", "prismatic") and one is not None and other is not None:
-            point, axis = turn @ np.array(joint.anchor) + move, turn @ np.array(joint.axis)
-            found.append(DeclaredLine(joint.name, joint.type, frozenset((one, other)), point, axis))
+        closes = joint.type == "spherical"
+        axis = loop_axis(joint, assembly.joints) if closes else joint.axis
+        if one is None or other is None or axis is None or joint.type not in ("revolute", "prismatic", "spherical"):
+            continue
+        point, kind = turn @ np.array(joint.anchor) + move, "revolute" if closes else joint.type
+        found.append(DeclaredLine(joint.name, kind, frozenset((one, other)), point, turn @ np.array(axis)))
     return tuple(found)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -43,6 +43,22 @@ class DeclaredJoint:
     axis: tuple[float, float, float]
     lower: float | None = None
     upper: float | None = None
+
+
+PARALLEL = 0.999
+"""Cosine from which two hinges of a loop are parallel."""
+
+
+def loop_axis(point: DeclaredJoint, joints: Sequence[DeclaredJoint]) -> tuple[float, float, float] | None:
+    """The axis of the hinge that a declared point stands for, where it closes a planar loop: the direction that a hinge
+    of the one body has in common with one of the other. A slide does not turn, so either half's hinges count."""
+    slides = [j.bodies for j in joints if j.type == "prismatic"]
+    hinges = []
+    for body in point.bodies:
+        halves = {body, *(end for pair in slides if body in pair for end in pair)} - {""}
+        hinges.append([j for j in joints if j.type == "revolute" and halves & set(j.bodies)])
+    pairs = ((one.axis, other.axis) for one in hinges[0] for other in hinges[1])
+    return next((one for one, other in pairs if abs(float(np.dot(one, other))) > PARALLEL), None)
 
 
 @dataclass(frozen=True, eq=False)
