@@ -151,6 +151,16 @@ def test_converted_it_passes_the_validators_from_any_folder(
     assert [p.name for p in again.parts] == [p.name for p in read[name].parts]
 
 
+@pytest.mark.parametrize("name", TEXTURED)
+def test_textures_pass_the_validators_from_any_folder(name: str, textured: dict[str, Assembly], tmp_path: Path) -> None:
+    write_assembly(textured[name], tmp_path / "out" / "machine.usdc")
+    (tmp_path / "out").rename(tmp_path / "elsewhere")
+    path = tmp_path / "elsewhere" / "machine.usdc"
+    assert errors_of(path) == []
+    found = read_usd(str(path))
+    assert any(f.texture is not None for s in found.shapes.values() for f in s.finishes)
+
+
 @pytest.mark.parametrize("name", ["URDF", "MJCF"])
 def test_declared_joints(name: str, read: dict[str, Assembly]) -> None:
     joint = next(j for j in read[name].joints if j.type == "revolute")
