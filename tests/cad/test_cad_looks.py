@@ -358,3 +358,18 @@ def test_a_triangle_that_is_turned_over_takes_its_coordinates_along() -> None:
     mesh = shape_of(Mesh(corners, triangles, uvs=uvs), "BOX").mesh
     assert mesh.uvs is not None and not np.array_equal(mesh.triangles, triangles)
     np.testing.assert_allclose(mesh.uvs, mesh.points[mesh.triangles][:, :, :2])
+
+
+def test_two_boxes_in_one_textured_mesh_are_taken_apart_with_it(tmp_path: Path) -> None:
+    from yellowiron.cad import taken_apart
+
+    path = obj(tmp_path / "a.obj")
+    lines = path.read_text().splitlines()
+    points = [f"v {x + 9.0} {y} {z}" for x, y, z in CORNERS]
+    faces = ["f " + " ".join(f"{p + 9}/{3 * n + k + 1}" for k, p in enumerate(f)) for n, f in enumerate(FACES)]
+    path.write_text("\n".join([*lines, *points, *faces]) + "\n")
+    apart = taken_apart(read_cad(path))
+    assert len(apart.parts) == 2 and len(apart.shapes) == 1
+    (shape,) = apart.shapes.values()
+    assert shape.finishes[0].texture is not None
+    assert shape.mesh.uvs is not None and shape.mesh.uvs.shape == (12, 3, 2)

@@ -34,7 +34,8 @@ def taken_apart(assembly: Assembly) -> Assembly:
     places: dict[str, list[tuple[str, Floats]]] = {}
     for (key, mesh), (first, moved) in zip(order, same, strict=True):
         if first not in own:
-            own[first] = shape_of(mesh, assembly.shapes[key].name, assembly.shapes[key].color)
+            whole = assembly.shapes[key]
+            own[first] = shape_of(mesh, whole.name, whole.color, whole.finishes)
         places.setdefault(key, []).append((own[first].key, np.eye(4) if moved is None else moved))
     shapes = {key: shape for key, shape in assembly.shapes.items() if key not in found}
     shapes |= {shape.key: shape for shape in own.values()}

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from yellowiron.cad.meshed import WELD
-from yellowiron.model.geometry import Floats, Mesh
+from yellowiron.model.geometry import Floats, Ints, Mesh
 
 _ALIKE = 1e-4
 """Copies have the same area and reach within this share, before anything else is compared."""
@@ -18,7 +18,8 @@ def originals(meshes: Sequence[Mesh]) -> list[tuple[int, Floats | None]]:
     that one to it; None where they are the same.
 
     Copies have equal triangles in the same order, turned and moved but not mirrored, to what single precision leaves of
-    their coordinates; and equal colours. A mesh with coordinates that are not finite is a copy of none.
+    their coordinates; and equal colours and texture coordinates. A mesh with coordinates that are not finite is a copy
+    of none.
     """
     known: dict[int, list[tuple[int, Floats, Floats, float]]] = {}
     result: list[tuple[int, Floats | None]] = []
@@ -37,7 +38,7 @@ def originals(meshes: Sequence[Mesh]) -> list[tuple[int, Floats | None]]:
             allowed = _ALIKE * measures + 2.0 * (rounding + slack) * np.array([measures[2], 1.0, len(corners)])
             if (np.abs(sizes - measures) > allowed).any():
                 continue
-            if not _same_colors(meshes[first], mesh):
+            if not _same_looks(meshes[first], mesh):
                 continue
             turn = _rotation(other, centred)
             if turn is None or float(np.abs(other @ turn.T - centred).max()) > 2.0 * (rounding + slack):
@@ -69,7 +70,15 @@ def _rotation(one: Floats, other: Floats) -> Floats | None:
     return np.asarray(v.T @ np.diag([1.0, 1.0, sign]) @ u.T)
 
 
-def _same_colors(one: Mesh, other: Mesh) -> bool:
-    if one.triangle_colors is None or other.triangle_colors is None:
-        return one.triangle_colors is other.triangle_colors
-    return bool(np.allclose(one.triangle_colors, other.triangle_colors, atol=1e-4))
+def _same_looks(one: Mesh, other: Mesh) -> bool:
+    return (
+        _equal(one.triangle_colors, other.triangle_colors)
+        and _equal(one.uvs, other.uvs)
+        and _equal(one.triangle_finishes, other.triangle_finishes)
+    )
+
+
+def _equal(one: Floats | Ints | None, other: Floats | Ints | None) -> bool:
+    if one is None or other is None:
+        return one is other
+    return bool(np.allclose(one, other, atol=1e-4))

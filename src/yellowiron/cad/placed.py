@@ -87,22 +87,14 @@ def assemble(
 
 def _shared(occurrences: Sequence[Occurrence]) -> list[Occurrence]:
     """The occurrences, those of a mesh that is another's copy with that other's."""
-    meshes = list({id(item.mesh): item.mesh for item in occurrences if _is_plain(item.mesh)}.values())
+    meshes = list({id(item.mesh): item.mesh for item in occurrences}.values())
     found = dict(zip(map(id, meshes), copies.originals(meshes), strict=True))
     shared = []
     for item in occurrences:
-        if id(item.mesh) not in found:
-            shared.append(item)
-            continue
         first, moved = found[id(item.mesh)]
         place = item.transform if moved is None else item.transform @ moved
         shared.append(replace(item, mesh=meshes[first], transform=place))
     return shared
-
-
-def _is_plain(mesh: Mesh) -> bool:
-    """Whether copies of a mesh can differ in nothing but their place and colours."""
-    return mesh.uvs is None and mesh.triangle_finishes is None
 
 
 def shape_of(mesh: Mesh, name: str, color: Color | None = None, finishes: tuple[Finish, ...] = ()) -> Shape:
