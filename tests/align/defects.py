@@ -115,23 +115,32 @@ def missing_cylinder(machine: Machine, rng: np.random.Generator) -> Machine:
 
 
 def crowded(machine: Machine, count: int) -> Machine:
-    """The machine with as many parts: bolts that stand anywhere on its faces are added."""
+    """The machine with as many parts: bolts are added that stand anywhere on its faces, apart from each other."""
     rng = np.random.default_rng([count, 37])
     result = replace(
         machine, parts=list(machine.parts), shapes=dict(machine.shapes), truth=dict(machine.truth), pose=np.eye(4)
     )
     bolts = [bolt(f"crowd{k}", r, 4 * r) for k, r in enumerate((0.008, 0.01, 0.012))]
     hosts = [p for p in machine.parts if machine.truth[p.id][1] and machine.shapes[p.shape].area > 0.3]
+    faces = [(h, h.transform[:3, :3] @ c + h.transform[:3, 3:]) for h in hosts for c in _corners(machine, h)]
+    areas = np.array([np.linalg.norm(np.cross(c[:, 1] - c[:, 0], c[:, 2] - c[:, 0])) for _, c in faces])
+    spots = np.zeros((0, 3))
     while len(result.parts) < count:
-        host = hosts[int(rng.integers(len(hosts)))]
-        mesh = machine.shapes[host.shape].mesh
-        corners = mesh.points[mesh.triangles[int(rng.integers(len(mesh.triangles)))]]
-        corners = corners @ host.transform[:3, :3].T + host.transform[:3, 3]
-        normal = np.cross(corners[1] - corners[0], corners[2] - corners[0])
-        if np.linalg.norm(normal) > 1e-3:
-            body = machine.truth[host.id][1]
-            result.add("bolt", body, body, bolts[int(rng.integers(3))], place(corners.mean(axis=0), normal))
+        host, corners = faces[int(rng.choice(len(faces), p=areas / areas.sum()))]
+        spot = corners @ rng.dirichlet((1.0, 1.0, 1.0))
+        if len(spots) and np.linalg.norm(spots - spot, axis=1).min() < 0.04:
+            continue
+        spots = np.vstack([spots, spot])
+        body = machine.truth[host.id][1]
+        normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        result.add("bolt", body, body, bolts[int(rng.integers(3))], place(spot, normal))
     return result
+
+
+def _corners(machine: Machine, part: Part) -> Array:
+    """(m, 3, 3) the corners of a part's triangles in its own frame, one a column."""
+    mesh = machine.shapes[part.shape].mesh
+    return np.asarray(mesh.points[mesh.triangles].transpose(0, 2, 1))
 
 
 DEFECTS: dict[str, Defect] = {
