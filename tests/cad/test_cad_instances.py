@@ -225,3 +225,30 @@ def test_names_in_gltf(encoding: str, tmp_path: Path) -> None:
     (tmp_path / "a.bin").write_bytes(blob)
     (tmp_path / "a.gltf").write_bytes(json.dumps(document, ensure_ascii=False).encode(encoding))
     assert [p.name for p in read(tmp_path / "a.gltf").parts] == NAMES[encoding]
+
+
+def test_colours_of_faces_in_iges(tmp_path: Path) -> None:
+    """Of a solid and of surfaces; with the product's name."""
+    from cad_stepfiles import faces_of
+    from OCP.IGESCAFControl import IGESCAFControl_Writer
+    from OCP.IGESControl import IGESControl_Controller
+    from OCP.Interface import Interface_Static
+
+    from yellowiron.cad.xcaf import Product, add_products, new_document
+
+    shape = box(100.0, 200.0, 300.0)
+    red, blue = (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)
+    IGESControl_Controller.Init_s()
+    for mode in (0, 1):
+        document = new_document()
+        add_products(document, [Product("BOOM", shape, [], red, [(faces_of(shape)[0], blue)])])
+        Interface_Static.SetIVal_s("write.iges.brep.mode", mode)
+        writer = IGESCAFControl_Writer()
+        writer.SetColorMode(True)
+        writer.SetNameMode(True)
+        assert writer.Transfer(document)
+        writer.Write(str(tmp_path / "a.igs"))
+        (part,) = (assembly := read(tmp_path / "a.igs")).parts
+        colors = assembly.shape_of(part).mesh.triangle_colors
+        assert part.name == "BOOM" and assembly.shape_of(part).closed
+        assert colors is not None and {tuple(np.round(c, 3).tolist()) for c in colors} == {red, blue}

@@ -117,7 +117,11 @@ def _parsed(path: str) -> _File:
                 corners = [_index(entry, len(points)) for entry in rest.split()]
                 if len(corners) < 3:
                     raise ValueError
-                seen = [_coordinate(entry, len(coordinates)) for entry in rest.split()]
+                seen = (
+                    [_coordinate(entry, len(coordinates)) for entry in rest.split()]
+                    if coordinates
+                    else [-1] * len(corners)
+                )
                 own = groups.setdefault((objects, group), _Group(decode_name(group or above, "utf-8")))
                 for k in range(1, len(corners) - 1):
                     own.triangles.append((corners[0], corners[k], corners[k + 1]))
