@@ -197,6 +197,13 @@ def test_texture(name: str, tmp_path: Path) -> None:
     (file,) = (tmp_path / "usd" / "textures").iterdir()
     assert file.read_bytes() == picture()
     check(read_cad(out))
+    stage = Usd.Stage.Open(str(out))
+    (surface,) = [
+        shader
+        for p in stage.Traverse(Usd.TraverseInstanceProxies())
+        if (shader := UsdShade.Shader(p)) and shader.GetShaderId() == "UsdPreviewSurface"
+    ]
+    assert tuple(surface.GetInput("diffuseColor").Get()) == pytest.approx(assembly.parts[0].color)
     moved = tmp_path / "elsewhere"
     (tmp_path / "usd").rename(moved)
     check(read_cad(moved / "out.usda"))

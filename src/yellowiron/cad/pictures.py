@@ -122,7 +122,10 @@ class Pictures:
                     )
                     data, suffix = out.getvalue(), ".png"
             mean, raw = _means(data)
-        except (UnidentifiedImageError, OSError, ValueError, SyntaxError, EOFError, Image.DecompressionBombError):
+        except Image.DecompressionBombError:
+            self._faults[name] = "it has too many points"
+            return None
+        except (UnidentifiedImageError, OSError, ValueError, SyntaxError, EOFError):
             self._faults[name] = "it is damaged, or of a form that is not readable"
             return None
         self._spent += len(data)

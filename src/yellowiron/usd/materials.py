@@ -132,6 +132,9 @@ def _write_material(layer: Sdf.Layer, path: str, look: Look, textures: Mapping[s
             _write_texture(layer, path, textures[look.texture])
         elif look.picture is not None:
             _write_texture(layer, path, f"{PICTURES}/{look.picture.file}", look.picture.factor)
+            if look.color is not None:
+                # For those that show no pictures.
+                shader.attributes["inputs:diffuseColor"].default = Gf.Vec3f(*look.color)
     elif look.color is not None:
         set_attribute(shader, "inputs:diffuseColor", Types.Color3f, Gf.Vec3f(*look.color))
     else:
