@@ -36,7 +36,8 @@ from yellowiron.align.sheet import sheet_findings
 from yellowiron.align.solids import solids_of
 from yellowiron.align.solve import Solution, solve
 from yellowiron.align.spread import Spreader
-from yellowiron.align.tracks import Track, track_places, tracks_of, without_tracks
+from yellowiron.align.touch import Touch
+from yellowiron.align.tracks import Track, on_tracks, track_places, tracks_of, without_tracks
 from yellowiron.align.weights import side_weights
 from yellowiron.model.alignment import Alignment, Vector
 from yellowiron.model.assembly import Assembly
@@ -69,7 +70,8 @@ def align(
     edited = _edited(assembly, template, edits)
     apart = islands(assembly, [part for part, role in edited.items() if role])
     machine = replace(assembly, parts=tuple(p for p in assembly.parts if p.id not in apart))
-    tracked, tracks = _tracked(machine, template)
+    tracking = machine
+    tracked, tracks = _tracked(tracking, template)
     of_tracks = set(tracked.values())
     machine = replace(machine, parts=tuple(p for p in machine.parts if p.id not in of_tracks))
     plain = without_tracks(template)
@@ -106,7 +108,10 @@ def align(
     apart |= {seen.solids[i].part.id: metres for i, metres in spreader.apart.items()}
     by_id = {seen.solids[i].part.id: place for i, place in places.items()}
     whole = choose(template, answer.choices)
-    by_id |= track_places(tracks, tracked, frame.matrix, whole) if frame is not None else {}
+    if tracks and frame is not None:
+        rows = track_places(tracks, tracked, frame.matrix, whole)
+        all_solids = solids_of(tracking)
+        by_id |= on_tracks(by_id, rows, all_solids, Touch(all_solids, answer.contact * seen.size)) | rows
     documents = {item.part: item.reason for item in edits.parts if item.source == "data"} if edits is not None else {}
     return reported(
         assembly,

@@ -27,6 +27,10 @@ DOUBTFUL = 0.4
 """Confidence of what a person should look at."""
 ALOOF = 0.4
 """How much less than with others a floating part goes with a hydraulic cylinder or a wheel."""
+TORN = 0.8
+"""What touches two bodies this nearly as much is for a person to look at."""
+SUNK = 10.0
+"""How much more what a part is wholly inside of counts than what it only touches."""
 NAMED = 0.9
 """Confidence of a role whose very name the part bears, where geometry does not speak against it."""
 
@@ -225,6 +229,8 @@ class Spreader:
         share = votes[ranked[0]] / total
         second = ranked[1] if len(ranked) > 1 else None
         confidence = best * (0.55 + 0.45 * share if second else 1.0)
+        if how == "touch" and second is not None and votes[second] > TORN * votes[ranked[0]]:
+            confidence = min(confidence, DOUBTFUL)
         self._give(i, Place(ranked[0], ranked[0], confidence, words.format(body=ranked[0]), second, how=how))
 
     def _give(self, i: int, place: Place) -> None:
@@ -250,7 +256,7 @@ class Spreader:
         self._rounds(lambda i: across.get(i, []), 0.97, "lies flat against {body}", "flat")
 
     def _by_touch(self) -> None:
-        """Meshes that touch or cut each other, parts counted."""
+        """Meshes that touch or cut each other, parts counted, those that a part is sunk in for more."""
         beside: dict[int, list[int]] = {}
         for a, b in self.near:
             beside.setdefault(a, []).append(b)
@@ -258,7 +264,11 @@ class Spreader:
 
         def neighbours(i: int) -> list[tuple[int, float]]:
             found = [j for j in beside.get(i, []) if j in self.places and j not in self.structure.slight]
-            return [(j, 1.0) for j in found if self.touch.touching(i, j)]
+            found = [j for j in found if self.touch.touching(i, j)]
+            if len({self.places[j].body for j in found}) < 2:
+                return [(j, 1.0) for j in found]
+            # Between bodies it counts how deep a part is in each.
+            return [(j, 1.0 + SUNK * self.touch.sunk(i, j)) for j in found]
 
         self._rounds(neighbours, 0.92, "touches {body}", "touch")
 

@@ -11,6 +11,9 @@ import numpy as np
 from yellowiron.align.solids import Cyl, Solid
 from yellowiron.model.geometry import Floats
 
+SAMPLES = 12
+"""Points of a part that are asked whether they are inside of another."""
+
 
 class Touch:
     """Mesh distances of one assembly, remembered. `tolerance` metres counts as touching."""
@@ -22,6 +25,7 @@ class Touch:
         self._high = np.array([s.high for s in solids]).reshape(-1, 3)
         self._object = functools.cache(self._build)
         self.distance = functools.cache(self._distance)
+        self.sunk = functools.cache(self._sunk)
 
     def _build(self, index: int) -> Any:
         solid = self._solids[index]
@@ -39,6 +43,15 @@ class Touch:
             return 0.0
         return max(0.0, float(fcl.distance(first, second, fcl.DistanceRequest(), fcl.DistanceResult())))
 
+    def _sunk(self, a: int, b: int) -> float:
+        """The share of solid `a` that is inside of solid `b`, by some of its points; 0 where `b` is open."""
+        inner, outer = self._solids[a], self._solids[b]
+        if not outer.shape.closed:
+            return 0.0
+        points = np.concatenate([inner.center[None], inner.points[:: max(1, len(inner.points) // SAMPLES)]])
+        within = [abs(_winding(outer.points[outer.shape.mesh.triangles] - point)) for point in points]
+        return float(np.mean(np.minimum(within, 1.0)))
+
     def reaching(self, low: Floats, high: Floats) -> list[int]:
         """The solids whose boxes reach a box, (3,) corners."""
         return np.flatnonzero((self._low <= high).all(axis=1) & (self._high >= low).all(axis=1)).tolist()
@@ -55,3 +68,12 @@ class Touch:
         sa, sb = self._solids[a], self._solids[b]
         apart = np.maximum(sa.low - sb.high, sb.low - sa.high).max()
         return bool(apart <= self._tolerance) and self.distance(min(a, b), max(a, b)) <= self._tolerance
+
+
+def _winding(corners: Floats) -> float:
+    """How often triangles (m, 3, 3) go around the origin: their solid angles over 4π (van Oosterom, 1983)."""
+    a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
+    la, lb, lc = (np.linalg.norm(v, axis=1) for v in (a, b, c))
+    over = np.einsum("ij,ij->i", a, np.cross(b, c))
+    below = la * lb * lc + (a * b).sum(axis=1) * lc + (b * c).sum(axis=1) * la + (c * a).sum(axis=1) * lb
+    return float(np.arctan2(over, below).sum() / (2.0 * np.pi))

@@ -15,7 +15,8 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from yellowiron.align.solids import Solid, coaxial
-from yellowiron.align.spread import Place
+from yellowiron.align.spread import DOUBTFUL, Place
+from yellowiron.align.touch import Touch
 from yellowiron.model.geometry import Floats
 from yellowiron.model.rows import member, split_index
 from yellowiron.model.template import Role, Template
@@ -35,6 +36,8 @@ PLAIN = 0.02
 PARALLEL = 0.9995
 SURE = 0.95
 """Confidence of a part of a track."""
+ON = 0.5
+"""What stands on a track is smaller than this share of its largest part."""
 KINDS = ("shoe", "sprocket", "idler", "roller", "carrier")
 
 
@@ -366,6 +369,46 @@ def track_places(
                     said = f"{words} of {len(groups)}" if role.many else words
                     places |= {ids[i]: Place(name, body, SURE, said, how="track") for i in group}
     return places
+
+
+def on_tracks(
+    found: Mapping[str, Place], placed: Mapping[str, Place], solids: Sequence[Solid], touch: Touch
+) -> dict[str, Place]:
+    """Part id → place, for parts that stand on a track: whose place in `found` (or none) rests on no more than what
+    they touch or are near to, and which touch a part of a track in `placed` and are as deep in it."""
+    where = {s.part.id: s.index for s in solids}
+    rows = {where[part] for part in placed}
+    result: dict[str, Place] = {}
+    waiting = [
+        s.index
+        for s in solids
+        if s.index not in rows and (s.part.id not in found or found[s.part.id].how in ("touch", "near"))
+    ]
+    waiting = [i for i in waiting if solids[i].size < ON * max((solids[j].size for j in rows), default=0.0)]
+    bodies = {where[part]: place for part, place in placed.items()}
+    others = {where[part]: place.body for part, place in found.items() if where[part] not in waiting}
+    while True:
+        grown: dict[int, Place] = {}
+        for i in waiting:
+            near = [j for j in touch.reaching(solids[i].low, solids[i].high) if j != i and touch.touching(i, j)]
+            tracks = [j for j in near if j in bodies]
+            if not tracks:
+                continue
+            best = max(tracks, key=lambda j: (round(touch.sunk(i, j), 3), -j))
+            rival = max((touch.sunk(i, j) for j in near if j in others), default=-1.0)
+            own, body, words = found.get(solids[i].part.id), bodies[best].body, f"stands on {bodies[best].role}"
+            if own is not None and own.body == body:
+                grown[i] = replace(own, confidence=max(own.confidence, SURE), reason=words)
+            elif own is not None and rival > touch.sunk(i, best):
+                words = f"{own.reason}; but it {words}"
+                grown[i] = replace(own, confidence=DOUBTFUL, reason=words, runner_up=body)
+            else:
+                grown[i] = Place(body, body, SURE if rival < 0.0 else DOUBTFUL, words, how="touch")
+        if not grown:
+            return result
+        bodies |= {i: place for i, place in grown.items() if place.confidence >= SURE}
+        result |= {solids[i].part.id: place for i, place in grown.items()}
+        waiting = [i for i in waiting if i not in grown]
 
 
 def _side(role: Role) -> str:
