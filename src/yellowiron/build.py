@@ -202,6 +202,7 @@ def aligned(
             alignment = align.align(model, template, specifications, edits=edits, choices=choices)
         return alignment
 
+    assembly = align.to_scale(assembly, template, specifications)
     alignment = found(assembly)
     apart = cad.taken_apart(assembly) if alignment.missing else assembly
     if apart is not assembly:
