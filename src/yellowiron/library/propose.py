@@ -187,7 +187,8 @@ def _pins(draft: _Draft) -> None:
         if not joint.pins or same[0] is not joint:
             continue
         common = set.intersection(*({j.a, j.b} for j in same)) or {joint.a}
-        host = min(common)
+        # Where the file says which body has the pin, that carries it.
+        host = min(common, key=lambda k: (not set(joint.pins) <= set(draft.machine.bodies[k].parts), k))
         role = draft.like.pin(joint.pins)
         if role is None or role in draft.pins or role in draft.names:
             role = f"{draft.names[_other(joint, host) if host in (joint.a, joint.b) else joint.b]}_pin"
