@@ -132,6 +132,18 @@ def test_mirrored_and_scaled(name: str, tmp_path: Path) -> None:
     assert scales == pytest.approx([-1.0, 1.0, 8.0], rel=1e-5)
 
 
+def test_an_fbx_part_that_does_not_arrive_is_said(tmp_path: Path) -> None:
+    fbx(tmp_path / "a.fbx")
+    assert not read(tmp_path / "a.fbx").findings
+    data = (tmp_path / "a.fbx").read_bytes()
+    link = b"OO" + b"L" + (1).to_bytes(8, "little") + b"L" + (12).to_bytes(8, "little")
+    assert data.count(link) == 1
+    (tmp_path / "a.fbx").write_bytes(data.replace(link, link[:3] + (9).to_bytes(8, "little") + link[11:]))
+    assembly = read(tmp_path / "a.fbx")
+    assert len(assembly.parts) == 2
+    assert "declares 3 occurrences of parts and 2 were read" in assembly.findings[0].message
+
+
 def iges(path: Path, names: list[str]) -> None:
     """Boxes as figures with these names, the last placed twice as large; surfaces, not solids."""
     from OCP.BRepToIGES import BRepToIGES_BREntity

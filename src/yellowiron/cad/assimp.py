@@ -31,6 +31,8 @@ _FROM_Y_UP = {"Z_UP": np.array([[1.0, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0,
 """The library turns what has another axis up to Y up; this turns it back."""
 _DIFFUSE = 1
 """The library's number for textures of the diffuse colour."""
+_DRAWN = re.compile(rb'\x00\x01ModelS\x04\x00\x00\x00Mesh|\bModel:[^\n{]{0,300}?,\s*"Mesh"')
+"""A node with a mesh in an FBX file, binary or text."""
 _HELPER = "_$AssimpFbx$_"
 """Marks nodes that stand for one step of an FBX node's transform."""
 
@@ -58,7 +60,7 @@ def read_fbx(path: str) -> Assembly:
     data = Path(path).read_bytes()
     up, unit = _setting(data, b"UpAxis"), _setting(data, b"UnitScaleFactor")
     frame = _FROM_Y_UP["Z_UP"] if up == 2.0 else np.eye(4)
-    read = _read(path, "FBX", assimp_py.Process_GlobalScale, frame, {})
+    read = _read(path, "FBX", assimp_py.Process_GlobalScale, frame, {}, len(_DRAWN.findall(data)))
     # The library has used the unit, centimetres by default, up.
     return replace(read, unit=0.01 * (unit or 1.0))
 
@@ -79,8 +81,9 @@ def _setting(data: bytes, name: bytes) -> float | None:
     return None
 
 
-def _read(path: str, format: str, flags: int, frame: Floats, titles: Mapping[str, str]) -> Assembly:
-    """`frame` (4, 4) takes what the library delivers to the file's own axes; `titles` are better names of nodes."""
+def _read(path: str, format: str, flags: int, frame: Floats, titles: Mapping[str, str], declared: int = 0) -> Assembly:
+    """`frame` (4, 4) takes what the library delivers to the file's own axes; `titles` are better names of nodes;
+    `declared` is how many nodes with meshes the file says it has, if it does."""
     import assimp_py
 
     try:
@@ -113,7 +116,7 @@ def _read(path: str, format: str, flags: int, frame: Floats, titles: Mapping[str
         unit=unit,
         path=path,
         findings=pictures.findings(),
-        declared=len(nodes),
+        declared=max(declared, len(nodes)),
     )
 
 
