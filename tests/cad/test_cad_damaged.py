@@ -1,0 +1,114 @@
+"""Files that lie, are cut short, or lead elsewhere: told in one sentence or a finding."""
+
+from __future__ import annotations
+
+import struct
+import zipfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+from cad_exports import ITEMS, WRITERS
+
+from yellowiron.cad import read_cad
+from yellowiron.model.assembly import Assembly
+from yellowiron.model.errors import CadError
+
+BOX = np.array([[x, y, z] for x in (0.0, 0.4) for y in (0.0, 0.3) for z in (0.0, 0.2)])
+FACES = np.array([[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1], [2, 3, 7], [2, 7, 6], [0, 2, 6],
+                  [0, 6, 4], [1, 5, 7], [1, 7, 3]])  # fmt: skip
+
+
+def outcome(path: Path) -> Assembly | CadError:
+    """The assembly, or the one sentence that says why there is none."""
+    try:
+        return read_cad(path, timeout_s=60, memory_mb=3000)
+    except CadError as error:
+        assert error.where and error.hint and "\n" not in error.message
+        return error
+
+
+def codes(path: Path) -> set[str]:
+    found = outcome(path)
+    return {"refused"} if isinstance(found, CadError) else {f.code for f in found.findings}
+
+
+def sound(name: str, folder: Path) -> Path:
+    """The formats' small machine, its shapes boxes."""
+    file, write = WRITERS[name]
+    write(folder / file, {item.shape: (BOX, FACES) for item in ITEMS})
+    return folder / file
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_flipped_bytes(seed: int, tmp_path: Path) -> None:
+    """Open CASCADE crashes on many of them: in its own process."""
+    path = sound("STEP", tmp_path)
+    data = bytearray(path.read_bytes())
+    rng = np.random.default_rng(seed)
+    for at in rng.integers(len(data) // 2, len(data), 40):
+        data[at] ^= 1 << int(rng.integers(8))
+    path.write_bytes(data)
+    assert codes(path)
+
+
+def test_an_ifc_that_is_cut_short(tmp_path: Path) -> None:
+    pytest.importorskip("ifcopenshell")
+    path = sound("IFC", tmp_path)
+    path.write_bytes(path.read_bytes()[: -len("END-ISO-10303-21;") - 200])
+    assert codes(path) == {"refused"}
+
+
+@pytest.mark.parametrize("name", ["OBJ", "PLY", "3MF", "COLLADA"])
+def test_points_that_are_no_numbers(name: str, tmp_path: Path) -> None:
+    path = sound(name, tmp_path)
+    unit = {"OBJ": "400", "PLY": "0.4", "3MF": "15.748031496", "COLLADA": "40"}[name]
+    text = path.read_bytes() if name != "3MF" else zipfile.ZipFile(path).read("3D/3dmodel.model")
+    mark = b'"' if name == "3MF" else b" "
+    damaged = text.replace(mark + unit.encode(), mark + b"nan", 1)
+    assert damaged != text
+    if name == "3MF":
+        with zipfile.ZipFile(path, "w") as archive:
+            archive.writestr("3D/3dmodel.model", damaged)
+    else:
+        path.write_bytes(damaged)
+    assert codes(path) & {"CAD001", "CAD003", "refused"}
+
+
+def test_an_archive_that_would_fill_the_memory(tmp_path: Path) -> None:
+    path = sound("3MF", tmp_path)
+    data = bytearray(path.read_bytes())
+    at = data.index(b"3D/3dmodel.model", data.index(b"PK\x01\x02")) - 46
+    data[at + 24 : at + 28] = struct.pack("<I", 3_000_000_000)
+    path.write_bytes(data)
+    assert codes(path) == {"refused"}
+
+
+def test_an_archive_that_leads_elsewhere(tmp_path: Path) -> None:
+    folder = tmp_path / "a" / "b"
+    folder.mkdir(parents=True)
+    path = folder / "evil.usdz"
+    cube = b'#usda 1.0\n(metersPerUnit = 1)\ndef Cube "c" {}\ndef "e" (references = @../../evil.usda@</c>) {}\n'
+    with zipfile.ZipFile(path, "w") as archive:
+        for name, text in (("machine.usda", cube), ("../../evil.usda", b'#usda 1.0\ndef Cube "c" {}\n')):
+            archive.writestr(zipfile.ZipInfo(name), text)
+    before = sorted(p for p in tmp_path.rglob("*"))
+    outcome(path)
+    assert sorted(p for p in tmp_path.rglob("*")) == before
+    assert not (tmp_path.parent / "evil.usda").exists()
+
+
+def test_a_usd_reference_that_leads_nowhere(tmp_path: Path) -> None:
+    path = tmp_path / "machine.usda"
+    path.write_text('#usda 1.0\n(metersPerUnit = 1)\ndef Cube "frame" {}\ndef "boom" (references = @gone.usda@) {}\n')
+    assert "CAD008" in codes(path)
+
+
+def test_parts_without_a_name_and_of_one_name(tmp_path: Path) -> None:
+    path = tmp_path / "machine.usda"
+    cubes = "".join(f'def Xform "a{k}" (\ndisplayName = "PIN"\n)\n{{\ndef Cube "mesh" {{}}\n}}\n' for k in range(3))
+    path.write_text(f"#usda 1.0\n(metersPerUnit = 1)\n{cubes}")
+    read = outcome(path)
+    assert isinstance(read, Assembly)
+    assert len({p.id for p in read.parts}) == len(read.parts) == 3
+    assert {p.name for p in read.parts} == {"PIN"}
