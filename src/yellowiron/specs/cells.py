@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 
 from yellowiron.specs.lines import Line
 from yellowiron.specs.numbers import read
@@ -12,6 +13,7 @@ from yellowiron.specs.statement import (
     EXAMPLE,
     Piece,
     Statement,
+    is_key,
     is_unit,
     join_boxes,
     joined,
@@ -75,6 +77,8 @@ def cells_of(row: Sequence[Line]) -> list[ValueCell]:
     """The row's values, each with the labels to its left back to the value before."""
     pieces = sorted((p for line in row for p in line.pieces), key=lambda p: (p.words[0].baseline, p.x0))
     kinds = {id(p): kind_of(p) for p in pieces}
+    keys = _keys_of(pieces, kinds)
+    pieces = [p for p in pieces if id(p) not in keys]
     values = [p for p in pieces if kinds[id(p)] == "value"]
     if not values:
         values = [p for p in pieces if split_inline(p.bare)[0]]
@@ -108,6 +112,19 @@ def cells_of(row: Sequence[Line]) -> list[ValueCell]:
             if kinds[id(note)] == "text" and len(note.words) <= 8:
                 cells[-1].values.append(note)
     return cells
+
+
+def _keys_of(pieces: Sequence[Piece], kinds: Mapping[int, str]) -> frozenset[int]:
+    """The keys of a drawing before a row's labels, by identity: letters or numbers that words follow, and a value after
+    them. A key may look like a unit (L, N, m) or a value (7): the row begins with it, or another key does."""
+    ordered = sorted(pieces, key=lambda p: p.x0)
+    keys: set[int] = set()
+    for index, (piece, following) in enumerate(pairwise(ordered)):
+        begins = index == 0 or (bool(keys) and kinds[id(ordered[index - 1])] != "text")
+        valued = any(kinds[id(p)] == "value" for p in ordered[index + 2 :])
+        if begins and valued and is_key(piece.bare) and kinds[id(following)] == "text" and not is_key(following.bare):
+            keys.add(id(piece))
+    return frozenset(keys)
 
 
 def heads_over(heads: Sequence[tuple[Piece, ...]], box: Box) -> list[Piece]:

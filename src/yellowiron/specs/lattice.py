@@ -10,10 +10,12 @@ from dataclasses import dataclass, replace
 
 from yellowiron.specs.cells import marked_by_legend
 from yellowiron.specs.lines import Line, lines_of
+from yellowiron.specs.opened import side_walls
 from yellowiron.specs.statement import (
     EXAMPLE,
     Piece,
     Statement,
+    is_key,
     is_unit,
     join_boxes,
     joined,
@@ -74,15 +76,24 @@ def grids_of(page: Page) -> list[Grid]:
     from pdfplumber.table import cells_to_tables, edges_to_intersections, intersections_to_cells, merge_edges
 
     level = [r for r in page.rules if r.horizontal]
+    walls += side_walls(level, walls, page.words)
     edges = merge_edges([_edge(r) for r in (*level, *walls)], _SNAP, _SNAP, _SNAP, _SNAP)
     if not 4 <= len(edges) <= 3000:
         return []
-    found = []
-    for boxes in cells_to_tables(intersections_to_cells(edges_to_intersections(edges, _SNAP, _SNAP))):
-        grid = _grid(boxes, page.words)
-        if grid.rows >= 2 and grid.columns >= 2 and sum(bool(c.lines) for c in grid.cells) >= 3 and not _is_frame(grid):
-            found.append(grid)
+    grids = [
+        _grid(boxes, page.words)
+        for boxes in cells_to_tables(intersections_to_cells(edges_to_intersections(edges, _SNAP, _SNAP)))
+    ]
+    grids = [g for g in grids if g.columns >= 2 and sum(bool(c.lines) for c in g.cells) >= 2 and not _is_frame(g)]
+    tables = [g for g in grids if g.rows >= 2 and sum(bool(c.lines) for c in g.cells) >= 3]
+    found = [g for g in grids if any(g is t or (g.rows == 1 and _are_level(g, t)) for t in tables)]
     return sorted(found, key=lambda g: (g.box[1], g.box[0]))
+
+
+def _are_level(row: Grid, table: Grid) -> bool:
+    """Whether a row that stands alone has the columns of a table, or some of them."""
+    stops = {x for c in table.cells for x in (c.box[0], c.box[2])}
+    return all(any(abs(x - stop) <= _SNAP for stop in stops) for c in row.cells for x in (c.box[0], c.box[2]))
 
 
 def _edge(rule: Rule) -> dict[str, object]:
@@ -142,9 +153,13 @@ def _is_frame(grid: Grid) -> bool:
     return crowded >= 1 and crowded >= 0.3 * sum(bool(c.lines) for c in grid.cells)
 
 
-def read_grid(page: Page, grid: Grid, first_row: int, section: str = "") -> list[Statement]:
-    """The statements of a table: a value's label is the words to its left, its column the heads above."""
+def read_grid(
+    page: Page, grid: Grid, first_row: int, section: str = "", above: Sequence[Piece] = ()
+) -> list[Statement]:
+    """The statements of a table: a value's label is the words to its left, its column the heads above; `above` are
+    heads that stand over the table, outside of it."""
     found: list[Statement] = []
+    grid = _without_keys(grid)
     heads = _head_rows(page, grid)
     naming = frozenset(heads)
     titles = _titles(grid)
@@ -168,8 +183,58 @@ def read_grid(page: Page, grid: Grid, first_row: int, section: str = "") -> list
         if row in titles:
             read = [replace(f, label=f.label.removeprefix(titles[row]).strip(" :"),
                             context=(*f.context, titles[row])) for f in read]  # fmt: skip
+        if above and not heads:
+            read = [_headed(f, above) for f in read]
         found.extend(read)
     return found
+
+
+def columns_of(grid: Grid) -> list[tuple[float, float]]:
+    """Left and right edges of the columns that hold values."""
+    found = {c.columns: c.box for c in grid.cells if c.columns[1] - c.columns[0] == 1 and looks_like_value(c.text)}
+    return sorted((box[0], box[2]) for box in found.values())
+
+
+def _headed(statement: Statement, above: Sequence[Piece]) -> Statement:
+    """The statement with the heads over its cell; a cell under all of them has none of its own."""
+    own = [p for p in above if statement.box[0] <= (p.x0 + p.x1) / 2 <= statement.box[2]]
+    if len(own) == len(above) > 1:
+        return statement
+    unit = next((u for p in own if (u := is_unit(p.bare) or unit_in_label(p.bare)[1])), "")
+    column = [p for p in own if not is_unit(p.bare)]
+    return replace(
+        statement,
+        column=tuple(unit_in_label(p.bare)[0] for p in column),
+        heads=tuple(p.text for p in column),
+        unit=statement.unit or unit,
+    )
+
+
+def _without_keys(grid: Grid) -> Grid:
+    """The grid with the columns of a drawing's keys emptied: letters, symbols or outline numbers, no two alike, beside
+    a column of words."""
+    keys: set[int] = set()
+    for column in range(grid.columns - 1):
+        cells = [c for c in grid.cells if c.columns[0] == column and c.lines]
+        own = [c for c in cells if is_key(c.text)]
+        texts = [c.text for c in own]
+        numbers = all(t[0].isdigit() for t in texts)
+        if len(own) < 3 or len(own) < len(cells) - 1 or len(set(texts)) < len(texts) or all(map(is_unit, texts)):
+            continue
+        if numbers and not all(_worded(grid, c) for c in own):
+            continue
+        keys.update(id(c) for c in own)
+    if not keys:
+        return grid
+    emptied = {id(c): replace(c, lines=()) if id(c) in keys else c for c in grid.cells}
+    places = {place: emptied[id(c)] for place, c in grid.places.items()}
+    return replace(grid, cells=tuple(emptied.values()), places=places)
+
+
+def _worded(grid: Grid, key: Cell) -> bool:
+    """Whether the cell right of a number holds a label: words, and no unit."""
+    beside = grid.at(key.rows[0], key.columns[1])
+    return beside is not None and bool(beside.lines) and not (is_unit(beside.text) or looks_like_value(beside.text))
 
 
 def _titles(grid: Grid) -> dict[int, str]:
@@ -199,6 +264,8 @@ def _head_rows(page: Page, grid: Grid) -> list[int]:
             continue
         below = [c for c in grid.cells if c.rows[0] > row and looks_like_value(c.text)]
         wide = all(c.columns[1] - c.columns[0] > 1 and _parts(grid, row, c) for c in values)
+        if wide and len(values) == 1 and _labels(filled, values[0]) and values[0].columns[1] == grid.columns:
+            break  # one value for all columns
         bold = all(_is_bold(c) for c in filled) and not all(_is_bold(c) for c in below)
         shaded = all(_is_shaded(page, c) for c in filled) and not all(_is_shaded(page, c) for c in below)
         if not below or not (wide or bold or shaded):

@@ -6,8 +6,9 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from yellowiron.specs.cells import legend_of
-from yellowiron.specs.lattice import grids_of, read_grid
+from yellowiron.specs.lattice import Grid, columns_of, grids_of, read_grid
 from yellowiron.specs.lines import Line, blocks_of, lines_of
+from yellowiron.specs.opened import heads_above
 from yellowiron.specs.rows import Heading, read_block
 from yellowiron.specs.statement import Statement, kind_of
 from yellowiron.specs.strokes import Box
@@ -44,9 +45,10 @@ def statements_of(page: Page) -> list[Statement]:
         headings.extend(more)
         row += len(statements) + len(block.lines) + 1
         found.extend(statements)
+    free, boxes = lines_of(outside) if grids else [], [g.box for g in grids]
     for grid in grids:
-        title = _title(lines_of(outside), grid.box) or _heading_above(headings, grid.box[1], grid.box[0], grid.box[2])
-        found.extend(read_grid(page, grid, row, title))
+        title = _title(free, grid) or _heading_above(headings, grid.box[1], grid.box[0], grid.box[2])
+        found.extend(read_grid(page, grid, row, title, heads_above(free, grid.box, columns_of(grid), boxes)))
         row += grid.rows + 1
     return found
 
@@ -57,14 +59,16 @@ def _within(inner: Box, outer: Box) -> bool:
     )
 
 
-def _title(lines: Sequence[Line], box: Box) -> str:
-    """The words right above a table: one bold piece over its left part."""
+def _title(lines: Sequence[Line], grid: Grid) -> str:
+    """The words right above a table: one bold or larger piece over its left part."""
+    box = grid.box
+    sizes = sorted(p.size for c in grid.cells for p in c.pieces)
     over = [line for line in lines if 0 <= box[1] - line.bottom < 1.2 * line.pieces[0].size]
     for line in over:
         piece = line.pieces[0]
         if (
             len(line.pieces) == 1
-            and piece.bold
+            and (piece.bold or piece.size > 1.1 * sizes[len(sizes) // 2])
             and box[0] - 4 <= piece.x0 < (box[0] + box[2]) / 2
             and kind_of(piece) == "text"
         ):

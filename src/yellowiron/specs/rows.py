@@ -8,12 +8,14 @@ from dataclasses import dataclass, field, replace
 
 from yellowiron.specs.cells import ValueCell, add_continuation, cells_of, continues, heads_over, statement_of
 from yellowiron.specs.lines import Block, Line, bands
+from yellowiron.specs.margin import Beside, parted_margin, without_keys
 from yellowiron.specs.numbers import read
 from yellowiron.specs.sentences import paragraphs_of, read_paragraph
 from yellowiron.specs.statement import (
     EXAMPLE,
     Piece,
     Statement,
+    is_key,
     is_unit,
     join_boxes,
     joined,
@@ -61,6 +63,7 @@ class _State:
     headings: list[Heading] = field(default_factory=list)
     orphans: list[int] = field(default_factory=list)
     last: tuple[Sequence[Line], range, str] | None = None
+    beside: Beside | None = None
 
     def open_section(self, heading: Heading, heads: tuple[Piece, ...]) -> None:
         """A heading ends what held above it; `heads` stand on its line."""
@@ -71,7 +74,8 @@ class _State:
 
     def add_heads(self, heads: tuple[Piece, ...]) -> None:
         """A line of column heads: under the ones above it, or in their place where values stand between."""
-        if self.data_since_heads:
+        far = bool(self.heads) and heads[0].box[1] - self.heads[-1][0].box[3] > 2.5 * heads[0].size
+        if self.data_since_heads or far:
             self.heads = []
             self.data_since_heads = False
         self.heads.append(heads)
@@ -101,10 +105,11 @@ def read_block(page: Page, block: Block, first_row: int, section: str = "") -> t
         for line, rest in zip(block.lines, kept, strict=True)
         if len(rest) < len(line.pieces)
     }
-    lines = [Line(pieces) for pieces in kept if pieces]
+    lines, margin = parted_margin(without_keys([Line(pieces) for pieces in kept if pieces]), page.rules)
     rows = [r for band in bands(lines, page.rules, _bars_of(page, block), block.x0, block.x1)
             for r in _split_if_separate(band)]  # fmt: skip
     for index, row in enumerate(rows):
+        _enter_margin(block, row, margin, state)
         if _continue_label(row, rows[index + 1] if index + 1 < len(rows) else None, state, found):
             continue
         before = len(found)
@@ -122,6 +127,23 @@ def read_block(page: Page, block: Block, first_row: int, section: str = "") -> t
         heading = beside[id(paragraph[0].pieces[-1])] or (above[-1].text if above else section)
         found.extend(read_paragraph(page.number, paragraph, first_row + len(found) + len(block.lines), heading))
     return found, state.headings
+
+
+def _enter_margin(block: Block, row: Sequence[Line], margin: Sequence[Beside], state: _State) -> None:
+    """Makes what stands in the margin beside a row its section or, where it looks like a label, its sub-heading."""
+    middle = (min(line.top for line in row) + max(line.bottom for line in row)) / 2
+    beside = next((b for b in margin if b.top <= middle < b.bottom), None)
+    if beside is state.beside:
+        return
+    state.beside = beside
+    state.pending, state.indented = [], False
+    if beside is None:
+        state.context = []
+    elif beside.heading:
+        text = joined(p.text for p in beside.pieces)
+        state.open_section(Heading(beside.top, block.x0, block.x1, text), ())
+    else:
+        state.context = list(beside.pieces)
 
 
 def _read_row(
@@ -347,6 +369,10 @@ def _split_if_separate(row: Sequence[Line]) -> Iterator[Sequence[Line]]:
             yield (first,)
             yield from _split_if_separate(rest)
             return
+    if rest and all(kind_of(p) == "unit" for p in first.pieces) and first.bottom <= min(line.top for line in rest) + 1:
+        yield (first,)  # units over the columns of the first row
+        yield from _split_if_separate(rest)
+        return
     last, before = ordered[-1], ordered[:-1]
     if before and len(last.pieces) == 1 and kind_of(last.pieces[0]) == "text":
         largest = max(p.size for line in before for p in line.pieces)
@@ -420,9 +446,19 @@ def _end_heads(row: Sequence[Line], cells: Sequence[ValueCell], state: _State) -
     narrower = state.data_since_heads and 2 * filled < state.values_in_row
     apart = False
     if state.heads and not state.data_since_heads:
+        state.heads = [h for h in state.heads if not _are_keys(h, cells)]
+    if state.heads and not state.data_since_heads:
         lowest = max(p.box[3] for head in state.heads for p in head)
         size = max(p.size for line in row for p in line.pieces)
         apart = min(line.top for line in row) - lowest > 3 * size
     if narrower or apart or len(labels) > 1:
         state.heads = []
     state.values_in_row = filled
+
+
+def _are_keys(heads: Sequence[Piece], cells: Sequence[ValueCell]) -> bool:
+    """Whether the letters of a line stand about a drawing, and not each over a column of values."""
+    if not all(is_key(h.bare) for h in heads):
+        return False
+    columns = [join_boxes(p.box for p in c.values) for c in cells]
+    return len(heads) < 2 or not all(any(h.x0 < box[2] and box[0] < h.x1 for box in columns) for h in heads)

@@ -120,17 +120,25 @@ def join_boxes(boxes: Iterable[Box]) -> Box:
     return (min(b[0] for b in every), min(b[1] for b in every), max(b[2] for b in every), max(b[3] for b in every))
 
 
+_UNIT_PAIR = re.compile(r"(\S*[^\s(/\[|])\s*[(/\[|]\s*([^()\[\]]+?)\s*[)\]]?")
+_KEY = re.compile(r"[(\[]?(?:[A-Z]{1,2}\d{0,2}|[a-z]\d{0,2}|\d{1,2}(?:\.\d{1,2})*|[\u2460-\u24ff])[′'\"]?[)\].:]{0,2}")
+
+
+def is_key(text: str) -> bool:
+    """Whether a text may be a drawing's key or an outline's number, and no word: "A", "(b)", "h1", "2.3", "④"."""
+    return _KEY.fullmatch(text) is not None
+
+
 def is_unit(text: str) -> str:
     """The unit that a text is and nothing else ("mm", "(kg)", "ft in"); "" if it is not one.
 
     Two of them, one for the number in brackets, are "m|ft-in" for "m (ft-in)".
     """
     bare = text.strip()
-    pair = re.fullmatch(r"([^\s(/\[]+)\s*[(/\[]\s*([^()\[\]]+?)\s*[)\]]?", bare)
-    if pair and printed_unit(pair.group(1)) and (second := is_unit(pair.group(2))) and "|" not in second:
-        first = printed_unit(pair.group(1))
+    pair = _UNIT_PAIR.fullmatch(bare)
+    if pair and (first := printed_unit(pair.group(1))) and (second := is_unit(pair.group(2))) and "|" not in second:
         other = printed_unit("in" if second == FEET_INCHES else second)
-        if first and other and first.dimension == other.dimension and first.system != other.system:
+        if other and first.dimension == other.dimension and first.system != other.system:
             return f"{pair.group(1)}|{second}"
     if _FEET_HEAD.fullmatch(bare):
         return FEET_INCHES

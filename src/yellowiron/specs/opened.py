@@ -1,0 +1,84 @@
+"""Tables that are ruled in part: no walls at their sides, heads on a bar above them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+
+from yellowiron.specs.lines import Line, lines_of
+from yellowiron.specs.statement import Piece, kind_of
+from yellowiron.specs.strokes import Box, Rule
+from yellowiron.specs.words import Word
+
+_SNAP = 3.0
+_HIGHEST = 60.0
+"""Points; what is higher is no row."""
+_FAR = 40.0
+"""Points between a row of heads and the table or the heading under it."""
+
+
+def side_walls(level: Sequence[Rule], walls: Sequence[Rule], words: Sequence[Word]) -> list[Rule]:
+    """The walls that a table lacks at its left and right: between two rules of the same extent that walls in between
+    join, with words but no value left of the first wall."""
+    found: list[Rule] = []
+    for above, below in pairwise(_merged(level)):
+        height = below.top - above.top
+        if not _SNAP < height < _HIGHEST or abs(above.x0 - below.x0) > _SNAP or abs(above.x1 - below.x1) > _SNAP:
+            continue
+        joining = [w.x0 for w in walls if w.top <= above.top + _SNAP and w.bottom >= below.top - _SNAP
+                   and above.x0 - _SNAP <= w.x0 <= above.x1 + _SNAP]  # fmt: skip
+        inner = [x for x in joining if above.x0 + 10 < x < above.x1 - 10]
+        if not inner or (len(inner) < len(joining) and len(inner) + 2 == len(joining)):
+            continue
+        row = [w for w in words if above.top < (w.top + w.bottom) / 2 < below.top and above.x0 - 4 <= w.x0 <= above.x1]
+        kinds = {kind_of(p) for line in lines_of([w for w in row if w.x1 <= min(inner) + 1]) for p in line.pieces}
+        if "text" not in kinds or "value" in kinds:
+            continue
+        for x in (above.x0, above.x1):
+            if not any(abs(x - wall) <= _SNAP for wall in joining):
+                found.append(Rule(x, above.top, x, below.top))
+    return found
+
+
+def _merged(level: Sequence[Rule]) -> list[Rule]:
+    """Rules at one height that touch are one; from top to bottom."""
+    merged: list[Rule] = []
+    for rule in sorted(level, key=lambda r: (round(r.top), r.x0)):
+        last = merged[-1] if merged else None
+        if last is not None and abs(last.top - rule.top) <= 1 and rule.x0 <= last.x1 + _SNAP:
+            merged[-1] = Rule(min(last.x0, rule.x0), last.top, max(last.x1, rule.x1), last.top)
+        else:
+            merged.append(rule)
+    return sorted(merged, key=lambda r: (r.top, r.x0))
+
+
+def heads_above(
+    lines: Sequence[Line], box: Box, columns: Sequence[tuple[float, float]], tables: Sequence[Box]
+) -> tuple[Piece, ...]:
+    """The heads that stand over a table's columns (left and right edges, without the labels') outside of it: the
+    nearest line above with words over two or more of them. Only headings, tables of the same width and their heads may
+    stand between."""
+    top = box[1]
+    same = [t for t in tables if abs(t[0] - box[0]) < 2 * _SNAP and abs(t[2] - box[2]) < 2 * _SNAP]
+    for line in sorted(lines, key=lambda one: -one.bottom):
+        if line.bottom > box[1] + 2 or line.x1 < box[0] or line.x0 > box[2]:
+            continue
+        nearest = max((t[3] for t in same if t[3] <= top + 2), default=float("-inf"))
+        while nearest > line.bottom and top - nearest <= _FAR + 20:
+            top = min(t[1] for t in same if t[3] == nearest)
+            nearest = max((t[3] for t in same if t[3] <= top + 2), default=float("-inf"))
+        if top - line.bottom > _FAR:
+            return ()
+        over = [p for p in line.pieces if _column_of(p, columns) is not None]
+        if len(over) >= 2 and len({_column_of(p, columns) for p in over}) == len(over):
+            return tuple(over)
+        if len(line.pieces) > 1 or kind_of(line.pieces[0]) != "text":
+            return ()
+        top = line.top
+    return ()
+
+
+def _column_of(piece: Piece, columns: Sequence[tuple[float, float]]) -> int | None:
+    """The column that a head stands over."""
+    middle = (piece.x0 + piece.x1) / 2
+    return next((i for i, (x0, x1) in enumerate(columns) if x0 <= middle <= x1 and x0 - 6 <= piece.x0), None)
