@@ -87,7 +87,7 @@ def gate(wanted: Wanted, claim: Claim, every: Sequence[Wanted]) -> Match | None:
     Turned away: another dimension, forbidden or opposite words, none of the property's words, and a row whose words say
     another wanted value better. Words that say it in part make a weak match, which is for a person to review.
     """
-    own = match_one(wanted, claim) or weakly(wanted, claim)
+    own = match_one(wanted, claim, every) or weakly(wanted, claim)
     if own is None:
         return None
     others = [m.score for w in every if w.name != wanted.name and (m := match_one(w, claim)) is not None]

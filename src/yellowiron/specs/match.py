@@ -3,13 +3,25 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Sequence, Set
-from dataclasses import dataclass
+import itertools
+from collections.abc import Mapping, Sequence, Set
+from dataclasses import dataclass, field, replace
 
 from yellowiron.model.template import Wanted
 from yellowiron.specs.claims import Claim
 from yellowiron.specs.numbers import read
-from yellowiron.specs.vocabulary import CIRCUITS, NEUTRAL, OPPOSITES, REVERSING, has_cjk, squeezed, tokens
+from yellowiron.specs.vocabulary import (
+    CIRCUITS,
+    HARMLESS,
+    KNOWN,
+    NEUTRAL,
+    OPPOSITES,
+    REVERSING,
+    TELLING,
+    has_cjk,
+    squeezed,
+    tokens,
+)
 
 LEAST = 0.55
 """Score below which a claim does not speak of a wanted value at all."""
@@ -21,12 +33,15 @@ _RATED = {"flow", "pressure", "force", "torque"}
 """Dimensions of values that are printed for their maximum, whether the label says so or not."""
 _BY_CIRCUIT = {"pressure", "flow"}
 """Dimensions of which every hydraulic circuit has its own value."""
+_REMARK = 0.02
+"""What a word costs that is left over and says nothing else: enough to prefer a value that it does speak of."""
 
 
 @dataclass(frozen=True)
 class Match:
     """A claim that speaks of a wanted value. `score` 0…1: the share of its label that the wanted value's phrases
-    explain, less what is borrowed from headings. `rest` are the label's other words, `lost` what they cost;
+    explain, less what is borrowed from headings. `rest` are its other words that may mean another property, `lost` what
+    they cost;
     `by_label` is False where only headings or heads name the property, `by_head` True where heads are needed for it."""
 
     wanted: Wanted
@@ -43,8 +58,8 @@ def match(claims: Sequence[Claim], wanted: Sequence[Wanted]) -> dict[str, list[M
     """The matches by wanted name. A claim that one wanted value explains better does not count for another."""
     found: dict[str, list[Match]] = {w.name: [] for w in wanted}
     by_dimension: dict[str, list[_Asked]] = {}
-    for one in wanted:
-        by_dimension.setdefault(one.dimension, []).append(_asked(one))
+    for group in _by_dimension(wanted).values():
+        by_dimension[group[0].dimension] = _asked(group)
     for claim in claims:
         asked_for = by_dimension.get(claim.quantity.dimension, [])
         said = _said(claim)
@@ -60,6 +75,13 @@ def match(claims: Sequence[Claim], wanted: Sequence[Wanted]) -> dict[str, list[M
     return found
 
 
+def _by_dimension(wanted: Sequence[Wanted]) -> dict[str, list[Wanted]]:
+    groups: dict[str, list[Wanted]] = {}
+    for one in wanted:
+        groups.setdefault(one.dimension, []).append(one)
+    return groups
+
+
 def _specific(found: Match) -> int:
     return len(tokens(found.phrase))
 
@@ -67,7 +89,7 @@ def _specific(found: Match) -> int:
 @dataclass(frozen=True)
 class _Asked:
     """A wanted value's words, cut once: its phrases, all their words, its name's; headings that support it, phrases
-    that forbid it."""
+    that forbid it. `others`: by word, the values of its dimension that have it, each with the words of its phrase."""
 
     wanted: Wanted
     phrases: tuple[tuple[str, frozenset[str]], ...]
@@ -75,6 +97,7 @@ class _Asked:
     name: frozenset[str]
     sections: tuple[frozenset[str], ...]
     forbidden: tuple[tuple[str, frozenset[str]], ...]
+    others: Mapping[str, Sequence[tuple[_Asked, frozenset[str]]]] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -94,7 +117,18 @@ class _Said:
         return frozenset[str]().union(*self.contexts)
 
 
-def _asked(wanted: Wanted) -> _Asked:
+def _asked(wanted: Sequence[Wanted]) -> list[_Asked]:
+    """Values of one dimension, each knowing the words of all."""
+    alone = [_alone(one) for one in wanted]
+    others: dict[str, list[tuple[_Asked, frozenset[str]]]] = {}
+    for one in alone:
+        for _, words in one.phrases:
+            for word in words:
+                others.setdefault(word, []).append((one, words))
+    return [replace(one, others=others) for one in alone]
+
+
+def _alone(wanted: Wanted) -> _Asked:
     said = tuple((p, words) for p in phrases(wanted) if (words := frozenset(tokens(p))))
     return _Asked(
         wanted=wanted,
@@ -122,10 +156,13 @@ def _said(claim: Claim) -> _Said:
     )
 
 
-def match_one(wanted: Wanted, claim: Claim) -> Match | None:
-    """How well a claim speaks of a wanted value; None where it cannot: dimension, forbidden words, words that are
-    missing."""
-    return _match(_asked(wanted), claim, _said(claim)) if claim.quantity.dimension == wanted.dimension else None
+def match_one(wanted: Wanted, claim: Claim, among: Sequence[Wanted] = ()) -> Match | None:
+    """How well a claim speaks of a wanted value, `among` others; None where it cannot: dimension, forbidden words,
+    words that are missing."""
+    if claim.quantity.dimension != wanted.dimension:
+        return None
+    asked_for = _asked([wanted, *(w for w in among if w is not wanted and w.dimension == wanted.dimension)])
+    return _match(asked_for[0], claim, _said(claim))
 
 
 def _match(asked_for: _Asked, claim: Claim, said: _Said) -> Match | None:
@@ -153,7 +190,7 @@ def _match(asked_for: _Asked, claim: Claim, said: _Said) -> Match | None:
             continue  # the label says it without its column's head
         if not words or not words <= everything or not _anchored(words, label, head, context | section):
             continue
-        if len(words) == 1 and not supported and label - words - NEUTRAL - _WHOLE:
+        if len(words) == 1 and not supported and label - words - NEUTRAL - HARMLESS - _WHOLE:
             continue
         explained |= words
         from_head |= words - label - context - section
@@ -165,29 +202,52 @@ def _match(asked_for: _Asked, claim: Claim, said: _Said) -> Match | None:
         return None
     primary = (label if explained & label else set()) | (head if from_head else set()) or context | section
     # A word of the value's own name makes the label mean nothing else.
-    rest = {t for t in primary - explained - NEUTRAL - _EXTREME - asked_for.name if not _is_number(t)}
+    left = {t for t in primary - explained - NEUTRAL - _EXTREME - asked_for.name if not _is_number(t)}
     if not from_head:
-        rest -= _WHOLE
+        left -= _WHOLE
+    known = frozenset() if borrowed else KNOWN  # a heading that must help names other properties too
+    rest = {t for t in left if _is_telling(t, asked_for, explained | left, claim, said, known)}
     if (everything - explained) & REVERSING:
         return None
     asked = {t for p in (wanted.name, best) for t in tokens(p)}
     if any(_contradicts(group - explained, asked - group) for group in (label, head, context, section)):
         return None
-    lost = len(rest) / max(len(primary - NEUTRAL - _WHOLE), 1)
+    lost = len(rest) / max(len(primary - NEUTRAL - _WHOLE), 1) + _REMARK * len(left - rest)
     score = 1.0 - lost - borrowed
     return Match(
         wanted, claim, max(score, 0.0), best, tuple(sorted(rest)), lost, bool(explained & label), bool(from_head)
     )
 
 
+def _is_telling(
+    word: str, asked_for: _Asked, words: Set[str], claim: Claim, said: _Said, known: frozenset[str]
+) -> bool:
+    """Whether a word that is left over may make the label mean another property: a condition or another body; what
+    tells this value from another one of its dimension; a word that nothing is known of."""
+    if word in TELLING:
+        return True
+    for other, phrase in asked_for.others.get(word, ()) if word not in asked_for.words else ():
+        if phrase <= words and not _forbidden(other, claim, said.text, [said.label, *said.naming, *said.contexts]):
+            return True
+    return word not in HARMLESS and word not in known
+
+
 @functools.lru_cache(maxsize=1024)
-def _phrases(name: str, synonyms: tuple[tuple[str, ...], ...]) -> tuple[str, ...]:
-    return tuple(dict.fromkeys([name, *(s for group in synonyms for s in group)]))
+def _phrases(name: str, synonyms: tuple[tuple[str, ...], ...], concepts: tuple[str, ...]) -> tuple[str, ...]:
+    spelled = [p for concept in concepts for p in spelled_out(concept)]
+    return tuple(dict.fromkeys([name, *(s for group in synonyms for s in group), *spelled]))
+
+
+def spelled_out(concept: str) -> list[str]:
+    """The phrases of a concept: ("lift/boom cylinder bore") → ["lift cylinder bore", "boom cylinder bore"]; `_` joins
+    the words of an alternative."""
+    choices = [part.split("/") for part in concept.split()]
+    return [" ".join(chosen).replace("_", " ") for chosen in itertools.product(*choices)]
 
 
 def phrases(wanted: Wanted) -> tuple[str, ...]:
-    """A wanted value's name and synonyms in every language."""
-    return _phrases(wanted.name, tuple(tuple(group) for group in wanted.synonyms.values()))
+    """A wanted value's name, its synonyms in every language and its concepts."""
+    return _phrases(wanted.name, tuple(tuple(group) for group in wanted.synonyms.values()), wanted.concepts)
 
 
 def _anchored(words: Set[str], label: Set[str], head: Set[str], above: Set[str]) -> bool:
@@ -244,7 +304,7 @@ def weakly(wanted: Wanted, claim: Claim) -> Match | None:
         return None
     said = _said(claim)
     if (
-        _forbidden(_asked(wanted), claim, said.text, [frozenset(words)])
+        _forbidden(_alone(wanted), claim, said.text, [frozenset(words)])
         or words & REVERSING
         or _contradicts(words, asked - words)
     ):

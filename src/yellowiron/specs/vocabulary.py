@@ -28,6 +28,10 @@ NEUTRAL = _words(_DATA["neutral"])
 """Words that do not make a label mean something else."""
 REVERSING = _words(_DATA["reversing"])
 """Words that make a label mean something else than the words around them."""
+HARMLESS = _words(_DATA["harmless"])
+"""Places, parts and remarks that a maker may add to a label without meaning another property."""
+TELLING = _words(_DATA["telling"])
+"""Conditions and other bodies: beside the words of a property they may make it another one."""
 CIRCUITS = _words(_DATA["circuits"])
 """Words for a circuit of its own: its pressure and flow are no other's."""
 _PAIRS = tuple(pair.split("/") for pair in _DATA["opposites"])
@@ -87,6 +91,10 @@ def _lexicon() -> tuple[dict[tuple[str, ...], tuple[str, ...]], dict[tuple[str, 
 
 _LEXICON = _data("lexicon")
 _HANGING, _EXPRESSIONS = _lexicon()
+KNOWN = frozenset(word for table in (_HANGING, _EXPRESSIONS) for meant in table.values() for word in meant) | _words(
+    _DATA["cjk"]
+)
+"""English words that the words of other languages are brought to."""
 _LONGEST = max(len(key) for key in (*_HANGING, *_EXPRESSIONS))
 _STEMS = {
     stem: meant
