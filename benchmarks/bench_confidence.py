@@ -6,7 +6,7 @@ with one defect or two, without names, with right and with wrong ones.
     python benchmarks/bench_confidence.py show FILE.jsonl       prints the table, draws docs/confidence.svg
 
 from the repository's root. Fit and show on seeds of their own: those from 1000 on are held back from everything else,
-1500 to 1599 for this figure alone. A part is right as in `bench_recognition.py`.
+1810 to 1899 for this figure alone. A part is right as in `bench_recognition.py`.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ import argparse
 import itertools
 import json
 import sys
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -105,15 +106,25 @@ def fit(path: Path) -> None:
 
     bounds = [SIGNS.get(name, (None, None)) for name in ["always", *names]]
     best = minimize(loss, np.zeros(x.shape[1]), jac=True, method="L-BFGS-B", bounds=bounds).x
-    seeds = sorted({m["seed"] for m in machines})
     source = (
         f"Logistic regression on {len(y)} parts, {int((1 - y).sum())} of them wrong, of {len(machines)} synthetic "
-        f"loaders and excavators, seeds {seeds[0]} to {seeds[-1]}, sound and with one defect or two, with and without "
-        "names: benchmarks/bench_confidence.py."
+        f"loaders and excavators, seeds {spans(m['seed'] for m in machines)}, sound and with one defect or two, with "
+        "and without names: benchmarks/bench_confidence.py."
     )
     weights = {name: round(float(w), 3) + 0.0 for name, w in zip(["always", *names], best, strict=True)}
     DATA.write_text(json.dumps({"source": source, "weights": weights}, indent=1) + "\n", encoding="utf-8")
     print(source, json.dumps(weights, indent=1), sep="\n")
+
+
+def spans(seeds: Iterable[int]) -> str:
+    """Numbers in words, those in a row as a span."""
+    runs: list[list[int]] = []
+    for seed in sorted(set(seeds)):
+        if runs and seed == runs[-1][1] + 1:
+            runs[-1][1] = seed
+        else:
+            runs.append([seed, seed])
+    return ", ".join(f"{a} to {b}" if b > a else str(a) for a, b in runs)
 
 
 def show(path: Path) -> None:
