@@ -15,6 +15,7 @@ from yellowiron.specs.statement import (
     EXAMPLE,
     Piece,
     Statement,
+    ascending,
     is_key,
     is_unit,
     join_boxes,
@@ -218,10 +219,11 @@ def _without_keys(grid: Grid) -> Grid:
         cells = [c for c in grid.cells if c.columns[0] == column and c.lines]
         own = [c for c in cells if is_key(c.text)]
         texts = [c.text for c in own]
-        numbers = all(t[0].isdigit() for t in texts)
+        numbers = any(t[0].isdigit() for t in texts)
         if len(own) < 3 or len(own) < len(cells) - 1 or len(set(texts)) < len(texts) or all(map(is_unit, texts)):
             continue
-        if numbers and not all(_worded(grid, c) for c in own):
+        if numbers and not (ascending(texts) and all(_begins(grid, c) for c in own)
+                            and all(_worded(grid, c) for c in own)):  # fmt: skip
             continue
         keys.update(id(c) for c in own)
     if not keys:
@@ -229,6 +231,12 @@ def _without_keys(grid: Grid) -> Grid:
     emptied = {id(c): replace(c, lines=()) if id(c) in keys else c for c in grid.cells}
     places = {place: emptied[id(c)] for place, c in grid.places.items()}
     return replace(grid, cells=tuple(emptied.values()), places=places)
+
+
+def _begins(grid: Grid, key: Cell) -> bool:
+    """Whether no words stand left of a cell in its row."""
+    left = [grid.at(key.rows[0], column) for column in range(key.columns[0])]
+    return not any(c is not None and c.lines and c.rows == key.rows for c in left)
 
 
 def _worded(grid: Grid, key: Cell) -> bool:

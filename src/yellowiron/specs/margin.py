@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from yellowiron.specs.lines import Line
-from yellowiron.specs.statement import Piece, is_key, is_unit, kind_of
+from yellowiron.specs.statement import Piece, ascending, is_key, is_unit, kind_of
 from yellowiron.specs.strokes import Rule
 
 _LEVEL = 2.0
@@ -53,6 +53,7 @@ def without_keys(lines: Sequence[Line]) -> list[Line]:
             and len(set(texts)) == len(texts)
             and sum(beside for _, beside in column) >= 0.6 * len(column)
             and not all(is_unit(t) for t in texts)
+            and ascending([t for t in texts if t[0].isdigit()])
         ):
             keys.update(id(piece) for piece, beside in column if beside)
     if not keys:

@@ -6,6 +6,7 @@ import functools
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 from yellowiron.specs.numbers import FEET_INCHES, Reading, read
 from yellowiron.specs.printed_units import printed_unit, unit_pattern
@@ -127,6 +128,12 @@ _KEY = re.compile(r"[(\[]?(?:[A-Z]{1,2}\d{0,2}|[a-z]\d{0,2}|\d{1,2}(?:\.\d{1,2})
 def is_key(text: str) -> bool:
     """Whether a text may be a drawing's key or an outline's number, and no word: "A", "(b)", "h1", "2.3", "④"."""
     return _KEY.fullmatch(text) is not None
+
+
+def ascending(keys: Sequence[str]) -> bool:
+    """Whether the numbers of an outline go up: "1.1", "1.2", "2.1"."""
+    numbers = [[int(n) for n in re.findall(r"\d+", key)] for key in keys]
+    return all(a < b for a, b in pairwise(numbers))
 
 
 def is_unit(text: str) -> str:
