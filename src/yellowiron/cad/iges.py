@@ -31,6 +31,7 @@ from yellowiron.cad.brep import subshapes
 from yellowiron.cad.naming import decode_name, is_generic, remark, sniff_encoding
 from yellowiron.cad.tessellate import MILLIMETRE
 from yellowiron.cad.xcaf import EXPORT_AGAIN, Product, Tree, add_products, new_document
+from yellowiron.guard import must_end
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import CadError
 from yellowiron.model.finding import Finding
@@ -53,6 +54,8 @@ _SURFACES = frozenset({108, 114, 118, 120, 122, 128, 140, 143, 144, 190, 192, 19
 _WHOLE = frozenset({143, 144, _SOLID})
 """Solids and trimmed surfaces, which are nothing else's geometry."""
 _DEEPEST = 50
+_PATIENCE, _SLOWEST = 20.0, 2e4
+"""Seconds, and bytes a second: far less than is usual."""
 
 
 def read_iges(path: str) -> Assembly:
@@ -62,9 +65,11 @@ def read_iges(path: str) -> Assembly:
     reader = IGESControl_Reader()
     if reader.ReadFile(path) != IFSelect_ReturnStatus.IFSelect_RetDone:
         raise CadError("The IGES file cannot be read: its syntax is broken", where=path, hint=EXPORT_AGAIN)
-    model = _Model(reader, path)
     document = new_document()
-    add_products(document, model.products())
+    # Some damaged surfaces are worked on for ever.
+    with must_end(_PATIENCE + Path(path).stat().st_size / _SLOWEST):
+        model = _Model(reader, path)
+        add_products(document, model.products())
     tree = Tree(document, "utf-8")
     if not tree.roots:
         raise CadError("The IGES file holds nothing that can be read as a part", where=path, hint=EXPORT_AGAIN)
