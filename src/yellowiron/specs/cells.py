@@ -94,24 +94,39 @@ def cells_of(row: Sequence[Line]) -> list[ValueCell]:
     for column in columns:
         x0 = min(p.x0 for p in column)
         x1 = max(p.x1 for p in column)
-        label = [p for p in others if left_edge <= p.x0 < x0 and kinds[id(p)] == "text"]
-        units = [p for p in others if left_edge <= p.x0 < x0 and kinds[id(p)] == "unit"]
+        between = [p for p in others if left_edge <= p.x0 < x0]
+        label = [p for p in between if kinds[id(p)] == "text"]
+        units = [p for p in between if kinds[id(p)] == "unit"]
+        if cells and units and not _has_unit(cells[-1]) and (not label or units[0].x0 < label[0].x0):
+            cells[-1].values.append(units.pop(0))  # the unit after a number, in a column of its own
+        if cells and label:
+            units = [u for u in units if u.x0 > label[0].x0]
         if not label and cells:
             label = cells[-1].label
-            units = units or []
         unit = is_unit(units[-1].bare) if units else (cells[-1].unit if cells and label is cells[-1].label else "")
         cells.append(ValueCell(label, sorted(column, key=lambda p: (p.words[0].baseline, p.x0)), unit=unit))
         left_edge = x1
     if cells:
         last = [p for p in others if p.x0 >= left_edge]
         cells[-1].notes = last
-        trailing = [is_unit(p.bare) for p in last if kinds[id(p)] == "unit"]
-        if trailing and all(not c.unit for c in cells):
-            cells = [replace(c, unit=trailing[0]) for c in cells]
+        trailing = [p for p in last if kinds[id(p)] == "unit"]
+        if trailing and any(kinds[id(p)] == "unit" for c in cells for p in c.values):
+            if not _has_unit(cells[-1]):
+                cells[-1].values.append(trailing[0])
+        elif trailing and all(not c.unit for c in cells):
+            cells = [replace(c, unit=is_unit(trailing[0].bare)) for c in cells]
         for note in last:  # the words after a value may say which it is
+            if is_key(note.bare) and kinds[id(note)] == "text":
+                break  # another table's key
             if kinds[id(note)] == "text" and len(note.words) <= 8:
                 cells[-1].values.append(note)
     return cells
+
+
+def _has_unit(cell: ValueCell) -> bool:
+    """Whether a value has its unit: before it in a column of its own, or at its last number."""
+    readings = read(" ".join(p.text for p in cell.values))
+    return bool(cell.unit) or not readings or bool((readings[-1].partner or readings[-1].numbers)[-1].unit)
 
 
 def _keys_of(pieces: Sequence[Piece], kinds: Mapping[int, str]) -> frozenset[int]:

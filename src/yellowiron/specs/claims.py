@@ -39,7 +39,73 @@ def claims_of(statements: Sequence[Statement], style: DecimalStyle) -> list[Clai
     claims: list[Claim] = []
     for statement in statements:
         claims.extend(_expand(statement, style))
-    return _joined_systems(claims)
+    return _joined_systems(_with_units(claims))
+
+
+_BARE = {
+    "length": ("mm", "cm", "m"),
+    "mass": ("kg", "t"),
+    "volume": ("L", "m³"),
+    "force": ("kN",),
+    "pressure": ("kPa", "bar", "MPa"),
+    "speed": ("km/h",),
+    "flow": ("L/min",),
+    "power": ("kW",),
+    "torque": ("N·m",),
+}
+"""Metric units that a column of numbers may leave unsaid, by dimension."""
+
+
+def _with_units(claims: Sequence[Claim]) -> list[Claim]:
+    """A number without a unit beside its imperial counterpart ("3,595 | 11'10\"") has the metric unit in which the two
+    agree; where they agree in none, the imperial one is in doubt."""
+    found = list(claims)
+    for index, claim in enumerate(claims):
+        if claim.quantity.printed is None or claim.quantity.printed.system != "imperial" or claim.partner is not None:
+            continue
+        row = [
+            i
+            for i in range(max(0, index - 4), min(len(claims), index + 5))
+            if claims[i].statement.row == claim.statement.row and claims[i].words == claim.words
+        ]
+        others = [i for i in row if i != index]
+        bare = [i for i in others if not claims[i].quantity.unit and claims[i].statement is not claim.statement]
+        if len(bare) != 1 or len(others) != 1:
+            continue
+        quantity = claims[bare[0]].quantity
+        fitting = [
+            read_as
+            for unit in _BARE.get(claim.quantity.dimension, ())
+            for value in (quantity.value, quantity.other)
+            if value is not None
+            and same(read_as := replace(quantity, value=value, unit=unit, other=None), claim.quantity)
+        ]
+        if len(fitting) == 1:
+            found[bare[0]] = replace(claims[bare[0]], quantity=fitting[0])
+        else:
+            why = f"the sheet prints '{quantity.text}' beside '{claim.quantity.text}', and not in which unit"
+            found[index] = replace(claim, doubt=claim.doubt or why)
+    return found
+
+
+def configured(claims: Sequence[Claim], config: str) -> list[Claim]:
+    """The claims without those of other columns than the one that a configuration names to the letter: columns that
+    stand beside it in some row, whether or not it has a value in theirs."""
+    asked = {_bare(phrase) for phrase in re.split(r";|,(?!\d)|(?<!\d),", config) if phrase.strip()}
+    rows: dict[tuple[int, int], list[Statement]] = {}
+    for claim in claims:
+        if claim.statement.column:
+            rows.setdefault((claim.statement.page, claim.statement.row), []).append(claim.statement)
+    others: set[tuple[str, ...]] = set()
+    for row in rows.values():
+        columns = {tuple(map(_bare, s.column)) for s in row}
+        if any(asked.intersection(column) for column in columns):
+            others.update(column for column in columns if not asked.intersection(column))
+    return [c for c in claims if tuple(map(_bare, c.statement.column)) not in others]
+
+
+def _bare(text: str) -> str:
+    return "".join(text.casefold().split())
 
 
 def _expand(statement: Statement, style: DecimalStyle) -> Iterator[Claim]:
@@ -208,12 +274,24 @@ def _are_twins(a: Claim, b: Claim) -> bool:
     ua, ub = a.quantity.printed, b.quantity.printed
     return (
         a.words == b.words
-        and a.statement.column == b.statement.column
+        and _without_system(a.statement.column) == _without_system(b.statement.column)
         and ua is not None
         and ub is not None
         and ua.dimension == ub.dimension
         and {ua.system, ub.system} == {"metric", "imperial"}
     )
+
+
+_SYSTEM = re.compile(
+    r"(?:metric|si|imperial|english|us|u\.s\.|us customary|metrisch|métrique|métrico|公制|英制|メートル法)"
+    r"(?: (?:units?|system|measure))?",
+    re.IGNORECASE,
+)
+
+
+def _without_system(column: Sequence[str]) -> list[str]:
+    """A column's heads without those that name a system of measurement."""
+    return [head for head in column if not _SYSTEM.fullmatch(head.strip(" ()"))]
 
 
 def _metric_first(a: Claim, b: Claim) -> Claim:

@@ -17,7 +17,7 @@ from yellowiron.specs import ocr
 from yellowiron.specs.agreement import agreed
 from yellowiron.specs.asked import asked
 from yellowiron.specs.by_model import find
-from yellowiron.specs.claims import Claim, claims_of
+from yellowiron.specs.claims import Claim, claims_of, configured
 from yellowiron.specs.decide import Sheets, decide, quantity_words, unmatched, unreadable
 from yellowiron.specs.endpoint import Endpoint, EndpointError, ModelOptions
 from yellowiron.specs.labels import in_label
@@ -122,7 +122,7 @@ def from_sheets(
     files: dict[int, str] = {}
     columns: dict[int, frozenset[str]] = {}
     for sheet in sheets:
-        for claim in claims_of(sheet.statements, sheet.style):
+        for claim in configured(claims_of(sheet.statements, sheet.style), config):
             (guessed if claim.statement.page in sheet.recognised else claims).append(claim)
         files.update((id(s), sheet.file) for s in sheet.statements)
         columns.update(_columns(sheet))

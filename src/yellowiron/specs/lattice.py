@@ -7,6 +7,7 @@ import itertools
 from bisect import bisect_right
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 from yellowiron.specs.cells import marked_by_legend
 from yellowiron.specs.lines import Line, lines_of
@@ -333,7 +334,7 @@ def _read_row(
         if words:
             labels = words
         after = labels[-1].columns[0] if labels else -1
-        units = [is_unit(c.text) for c in [*fresh, *cells] if is_unit(c.text) and c.columns[0] > after]
+        units = [is_unit(c.text) for c in _units_for(value, values, fresh, cells) if c.columns[0] > after]
         seen = value.columns[0]
         over = _heads_over(grid, heads, value, labels)
         found.append(_statement(page, grid, value, labels, over, units[0] if units else "", number, section))
@@ -351,10 +352,31 @@ def _heads_over(grid: Grid, heads: Sequence[int], value: Cell, labels: Sequence[
         above = [grid.at(row, column) for column in range(*value.columns)]
         cell = above[0]
         if any(c is not cell for c in above):
+            beyond = [c for c in _row_cells(grid, row) if c.lines and c.columns[0] >= value.columns[1]]
+            before = [c for c in _row_cells(grid, row) if c.lines and c.columns[1] <= value.columns[0]]
+            named = [c for c in before if not any(c is one for one in labels) and c.columns[0] > _last(labels)]
+            if beyond or named:  # one value for some of the columns: it has all of their heads
+                over.extend(c for c in dict.fromkeys(above) if c is not None and c.lines)
             continue
         if cell is not None and cell.lines and not any(cell is c for c in (*over, *labels)):
             over.append(cell)
     return over
+
+
+def _units_for(value: Cell, values: Sequence[Cell], before: Sequence[Cell], cells: Sequence[Cell]) -> list[Cell]:
+    """The unit cells that may hold for a value: those before it (after the last value), else any of the row; where each
+    value has one after it, that."""
+    units = [c for c in cells if c.lines and is_unit(c.text)]
+    ends = [*(v.columns[0] for v in values), cells[-1].columns[1] if cells else 0]
+    after = [[u for u in units if a < u.columns[0] < b] for a, b in pairwise(ends)]
+    if len(values) > 1 and after[0] and sum(bool(u) for u in after) > 1:
+        return next(u for v, u in zip(values, after, strict=True) if v is value)
+    return [c for c in before if is_unit(c.text)] + units
+
+
+def _last(labels: Sequence[Cell]) -> int:
+    """The last column of a row's labels."""
+    return max((c.columns[1] - 1 for c in labels), default=-1)
 
 
 def _statement(

@@ -84,7 +84,7 @@ def parted_margin(lines: Sequence[Line], rules: Sequence[Rule]) -> tuple[list[Li
             groups[-1].append(piece)
         else:
             groups.append([piece])
-    edges = [y for y in across if top - 3 <= y <= bottom + 3]
+    edges = [y for y in across if top - 12 <= y <= bottom + 12]
     ruled = bool(edges) and all(
         sum(_cell_of(g, edges) == _cell_of(other, edges) for other in groups) == 1 for g in groups
     )
@@ -94,6 +94,7 @@ def parted_margin(lines: Sequence[Line], rules: Sequence[Rule]) -> tuple[list[Li
         above, below = group[0].box[1] - 0.5 * group[0].size, bottom + 1
         if ruled:
             above, below = _cell_of(group, edges)
+            above, below = max(above, top - 1), min(below, bottom + 1)
         elif index + 1 < len(groups):
             below = groups[index + 1][0].box[1] - 0.5 * group[0].size
         marked = all(p.bold or p.size > 1.1 * max(q.size for q in labels) for p in group)
