@@ -68,11 +68,22 @@ def match(claims: Sequence[Claim], wanted: Sequence[Wanted]) -> dict[str, list[M
             continue
         if any(m.by_label for m in matches):
             matches = [m for m in matches if m.by_label]
+        matches = [m for m in matches if _possible(m)] or matches
         best = max((m.score, _specific(m)) for m in matches)
         for found_one in matches:
             if found_one.score >= best[0] - 1e-9 and (found_one.score > 0.999 or _specific(found_one) >= best[1]):
                 found[found_one.wanted.name].append(found_one)
     return found
+
+
+def _possible(found: Match) -> bool:
+    """Whether the value, in one of its readings, lies where the wanted value can lie."""
+    wanted, quantity = found.wanted, found.claim.quantity
+    scale = quantity.si_value / quantity.value if quantity.value else 1.0
+    readings = [quantity.si_value, *([quantity.other * scale] if quantity.other is not None else [])]
+    low = wanted.minimum if wanted.minimum is not None else float("-inf")
+    high = wanted.maximum if wanted.maximum is not None else float("inf")
+    return any(low <= reading <= high for reading in readings)
 
 
 def _by_dimension(wanted: Sequence[Wanted]) -> dict[str, list[Wanted]]:
@@ -184,13 +195,15 @@ def _match(asked_for: _Asked, claim: Claim, said: _Said) -> Match | None:
     best, most = "", 0
     by_itself = any(words <= label for _, words in asked_for.phrases)
     optional = (_EXTREME if wanted.dimension in _RATED else set()) - everything
+    # One word alone is little: beside it only what no other value's words have passes for a remark.
+    remarks = HARMLESS - asked_for.others.keys()
     for phrase, words in asked_for.phrases:
         words = words - optional if optional else words
         if by_itself and words & head - label - context - section:
             continue  # the label says it without its column's head
         if not words or not words <= everything or not _anchored(words, label, head, context | section):
             continue
-        if len(words) == 1 and not supported and label - words - NEUTRAL - HARMLESS - _WHOLE:
+        if len(words) == 1 and not supported and label - words - NEUTRAL - _WHOLE - remarks:
             continue
         explained |= words
         from_head |= words - label - context - section
