@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from defects import spoiled
 from synthetic import Machine, disguise, loader
 
 from align_solids import bolt, box, place
@@ -118,3 +119,14 @@ def test_a_bucket_by_its_names() -> None:
     assert found.to_review == ()
     assert (found.frame == np.eye(4)).all()
     assert [f.code for f in found.findings] == ["ALN003"]
+
+
+@pytest.mark.parametrize(("kind", "library"), [("loader", "wheel_loader"), ("excavator", "excavator")])
+def test_neither_pins_nor_holes(kind: str, library: str) -> None:
+    """Pivots are where parts have round ends side by side; the pins are named as missing."""
+    assembly, truth, _ = disguise(spoiled(kind, 4, "visual"), 4)
+    found = align(assembly, load_template(library), NOTHING)
+    drawn = [p for p in found.parts if truth[p.part][1]]
+    assert all(p.body == truth[p.part][1] for p in drawn)
+    assert all(role.endswith(("_pin", "_bearing")) for role in found.missing)
+    assert len(found.to_review) - len(found.missing) <= 0.02 * len(drawn)

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 import trimesh
 
-from align_solids import box, place, tube
+from align_solids import box, lathe, place, tube
 from yellowiron.cad import taken_apart
 from yellowiron.cad.placed import Occurrence, assemble
-from yellowiron.model.assembly import Assembly
+from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.geometry import Mesh
 
 
@@ -75,3 +76,20 @@ def test_barrel_and_rod_in_one_solid_are_cut_where_the_rod_comes_out(count: int)
     area = count / 2 * math.sin(2 * math.pi / count)
     volumes = sorted(s.volume for s, _ in bars if s.cylinders[0].length > 0.2)
     assert volumes == pytest.approx([area * 0.03**2 * 0.5, area * 0.06**2 * 0.6], rel=1e-6)
+
+
+@pytest.mark.parametrize("out", [0.05, 0.5, 0.9])
+def test_one_exact_solid_is_cut_at_any_stroke_if_other_parts_are_its_eyes(out: float) -> None:
+    """Barrel to z = 0.6 with a collar, the rod `out` of it."""
+    end = 0.62 + out
+    profile = [(0, 0), (0.06, 0), (0.06, 0.6), (0.07, 0.6), (0.07, 0.62), (0.03, 0.62), (0.03, end), (0, end)]
+    shapes = {"fused": replace(lathe("fused", profile), exact=True), "eye": tube("eye", 0.07, 0.03, 0.08)}
+    parts = [Part("ram", "ram", (), "fused", np.eye(4))]
+    parts += [Part(f"eye{z:g}", "eye", (), "eye", place((0.0, -0.04, z), (0.0, 1.0, 0.0))) for z in (-0.05, end + 0.05)]
+    whole = Assembly("ram", "STEP", 1.0, tuple(parts), shapes)
+    found = taken_apart(whole)
+    assert [p.id for p in found.parts] == ["ram/1", "ram/2", *(p.id for p in parts[1:])]
+    spans = [(float(z.min()), float(z.max())) for p in found.parts[:2] for z in [found.points_of(p)[:, 2]]]
+    assert spans == [pytest.approx((0.0, 0.62), abs=1e-5), pytest.approx((0.62, end), abs=1e-5)]
+    alone = replace(whole, parts=tuple(parts[:2]))
+    assert taken_apart(alone) is alone

@@ -234,12 +234,21 @@ def solid_rams_of(solids: tuple[Solid, ...], rams: list[Ram], tolerance: float) 
         for s in solids
         if s.index not in taken
         for c in s.cylinders
-        if c.full and not c.inner and 2 * c.half > 4 * c.radius
+        if c.full and not c.inner and c.half > c.radius
     ]
     eyes = [c for s in solids for c in s.cylinders if c.arc > 2.0]
+    centers = np.array([c.center for _, c in bars]).reshape(-1, 3)
+    directions = np.array([c.direction for _, c in bars]).reshape(-1, 3)
+    radii = np.array([c.radius for _, c in bars])
     pairs = []
     for tube, thick in bars:
-        for bar, thin in bars:
+        if thick.half <= 2 * thick.radius:
+            continue
+        delta = centers - thick.center
+        off = np.linalg.norm(delta - np.outer(delta @ thick.direction, thick.direction), axis=1)
+        in_line = (off <= max(tolerance, 0.05 * thick.radius)) & (np.abs(directions @ thick.direction) > PARALLEL**9)
+        for k in np.flatnonzero(in_line & (radii < thick.radius)).tolist():
+            bar, thin = bars[k]
             if tube.index != bar.index and (score := _pair(thick, thin, eyes, tolerance)) > 0.0:
                 pairs.append((score, tube, thick, bar, thin))
     found: list[Ram] = []

@@ -3,6 +3,8 @@ cylinder whose barrel and rod are one solid, cut where the rod comes out."""
 
 from __future__ import annotations
 
+import functools
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -15,16 +17,25 @@ from yellowiron.model.geometry import CylinderFeature, Floats, Mesh, Shape
 
 ROUND = 1.2 * np.pi
 """Radians around: a bar goes further."""
-SLENDER = 2.0
-"""Barrel and rod are each longer than this many of their radii."""
+SLENDER, SHORT = 2.0, 0.5
+"""A barrel is longer than this many of its radii, what is seen of a rod than this many of its own."""
+EYE = 0.6 * np.pi
+"""Radians around: an eye goes further …"""
+WIDE = 6.0
+"""… and is no further to one side than this many radii of the barrel."""
+Eyes = tuple[Floats, Floats]
+"""Centres and unit directions, (n, 3) each."""
 THIN, THICK = 0.2, 0.95
 """A rod's radius over its barrel's, least and most."""
 
 
 def taken_apart(assembly: Assembly) -> Assembly:
-    """The assembly with a part for every solid of its meshes, where surfaces do not say what is one part. A part of one
-    solid stays as it is; of others the pieces have the part's name, and its id with a number."""
-    found = {key: _solids(shape) for key, shape in sorted(assembly.shapes.items()) if not shape.exact}
+    """The assembly with a part for every solid of its meshes, where surfaces do not say what is one part, and with
+    hydraulic cylinders that are one solid cut into barrel and rod. A part of one solid stays as it is; of others the
+    pieces have the part's name, and its id with a number."""
+    first = {part.shape: part for part in reversed(assembly.parts)}
+    eyes = _eyes(assembly)
+    found = {key: _solids(assembly.shapes[key], _moved(eyes, part.transform)) for key, part in sorted(first.items())}
     found = {key: meshes for key, meshes in found.items() if len(meshes) > 1}
     if not found:
         return assembly
@@ -32,11 +43,11 @@ def taken_apart(assembly: Assembly) -> Assembly:
     same = copies.originals([mesh for _, mesh in order])
     own: dict[int, Shape] = {}
     places: dict[str, list[tuple[str, Floats]]] = {}
-    for (key, mesh), (first, moved) in zip(order, same, strict=True):
-        if first not in own:
+    for (key, mesh), (original, moved) in zip(order, same, strict=True):
+        if original not in own:
             whole = assembly.shapes[key]
-            own[first] = shape_of(mesh, whole.name, whole.color, whole.finishes)
-        places.setdefault(key, []).append((own[first].key, np.eye(4) if moved is None else moved))
+            own[original] = shape_of(mesh, whole.name, whole.color, whole.finishes)
+        places.setdefault(key, []).append((own[original].key, np.eye(4) if moved is None else moved))
     shapes = {key: shape for key, shape in assembly.shapes.items() if key not in found}
     shapes |= {shape.key: shape for shape in own.values()}
     parts: list[Part] = []
@@ -48,18 +59,41 @@ def taken_apart(assembly: Assembly) -> Assembly:
             id, path = f"{part.id}/{number}", (*part.path, part.name)
             parts.append(replace(part, id=id, path=path, shape=key, transform=part.transform @ moved))
     count = sum(part.shape in found for part in assembly.parts)
-    words = f"{count} meshes hold several solids each: taken apart, the model has {len(parts)} parts"
+    words = f"{count} parts hold several solids each, or a barrel with its rod: taken apart, the model has {len(parts)}"
     finding = Finding("CAD013", "info", assembly.name, words, "Export every part as an object of its own.")
     return replace(assembly, parts=tuple(parts), shapes=shapes, findings=(*assembly.findings, finding))
 
 
-def _solids(shape: Shape) -> list[Mesh]:
-    """The meshes of a shape's solids, barrels and rods apart."""
-    found = pieces(shape.mesh)
+def _eyes(assembly: Assembly) -> Eyes:
+    """The round things of a model that a hydraulic cylinder may hang on, CAD frame."""
+    centers, directions = [np.zeros((0, 3))], [np.zeros((0, 3))]
+    for part in assembly.parts:
+        bores = [c for c in assembly.shape_of(part).cylinders if c.arc > EYE]
+        if bores:
+            centers.append(np.array([c.center for c in bores]) @ part.transform[:3, :3].T + part.transform[:3, 3])
+            directions.append(np.array([c.direction for c in bores]) @ part.transform[:3, :3].T)
+    whole = np.concatenate(directions)
+    return np.concatenate(centers), whole / np.maximum(np.linalg.norm(whole, axis=1), 1e-300)[:, None]
+
+
+def _moved(eyes: Eyes, transform: Floats) -> Callable[[], Eyes]:
+    """The eyes in the frame of a part, when they are asked for."""
+
+    def moved() -> Eyes:
+        back = np.linalg.inv(transform)
+        directions = eyes[1] @ back[:3, :3].T
+        return eyes[0] @ back[:3, :3].T + back[:3, 3], directions / np.linalg.norm(directions, axis=1)[:, None]
+
+    return functools.cache(moved)
+
+
+def _solids(shape: Shape, eyes: Callable[[], Eyes]) -> list[Mesh]:
+    """The meshes of a shape's solids, barrels and rods apart; where surfaces say what is one part, only these."""
+    found = [shape.mesh] if shape.exact else pieces(shape.mesh)
     cut = []
     for mesh in found:
         bars = shape.cylinders if len(found) == 1 else _within(shape.cylinders, mesh)
-        cut += _cut(mesh, bars, shape.cylinders)
+        cut += _cut(mesh, bars, eyes)
     return cut
 
 
@@ -75,7 +109,7 @@ def _within(cylinders: tuple[CylinderFeature, ...], mesh: Mesh) -> tuple[Cylinde
     return tuple(inside)
 
 
-def _cut(mesh: Mesh, bars: tuple[CylinderFeature, ...], eyes: tuple[CylinderFeature, ...]) -> list[Mesh]:
+def _cut(mesh: Mesh, bars: tuple[CylinderFeature, ...], eyes: Callable[[], Eyes]) -> list[Mesh]:
     """A mesh, or two where it is a barrel with its rod: cut at the step between two bars in line that have an eye
     beyond each of them, and closed with flat ends."""
     for thick, thin in ((a, b) for a in bars for b in bars):
@@ -89,13 +123,11 @@ def _cut(mesh: Mesh, bars: tuple[CylinderFeature, ...], eyes: tuple[CylinderFeat
     return [mesh]
 
 
-def _step(
-    thick: CylinderFeature, thin: CylinderFeature, eyes: tuple[CylinderFeature, ...]
-) -> tuple[Floats, Floats] | None:
+def _step(thick: CylinderFeature, thin: CylinderFeature, eyes: Callable[[], Eyes]) -> tuple[Floats, Floats] | None:
     """Where a rod comes out of its barrel, and the direction in which it does; None where two cylinders are no ram."""
     if thick.inner or thin.inner or not THIN * thick.radius < thin.radius < THICK * thick.radius:
         return None
-    if min(thick.arc, thin.arc) < ROUND or thick.length < SLENDER * thick.radius or thin.length < SLENDER * thin.radius:
+    if min(thick.arc, thin.arc) < ROUND or thick.length < SLENDER * thick.radius or thin.length < SHORT * thin.radius:
         return None
     axis, start = np.array(thick.direction), np.array(thick.center)
     across = np.array(thin.center) - start
@@ -108,13 +140,14 @@ def _step(
     root, end = ahead - 0.5 * thin.length, ahead + 0.5 * thin.length
     if not -0.1 * thick.radius < root - 0.5 * thick.length < 1.5 * thick.radius:
         return None
-    crossing = []
-    for one in eyes:
-        offset = np.array(one.center) - start
-        along = float(offset @ axis)
-        off = float(np.linalg.norm(offset - along * axis))
-        if one.arc > 0.6 * np.pi and abs(float(np.array(one.direction) @ axis)) < 0.02 and off < thick.radius:
-            crossing.append(along)
+    centers, directions = eyes()
+    across_it = np.abs(directions @ axis) < 0.02
+    offset = centers[across_it] - start
+    offset -= np.einsum("ij,ij->i", offset, directions[across_it])[:, None] * directions[across_it]
+    along = offset @ axis
+    aside = np.linalg.norm(centers[across_it] - start - along[:, None] * axis, axis=1)
+    off = np.linalg.norm(offset - along[:, None] * axis, axis=1)
+    crossing = along[(off < thick.radius) & (aside < WIDE * thick.radius)]
     reach = 6.0 * thick.radius
     behind = any(-0.5 * thick.length - reach < a < 0.0 for a in crossing)
     beyond = any(end - reach < a < end + reach and a > root for a in crossing)
