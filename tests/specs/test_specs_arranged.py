@@ -165,6 +165,40 @@ def test_outline_numbers_say_nothing_of_a_document_s_decimals() -> None:
     assert decimal_style(["1.1 Largo 8,12 m 1.2 Ancho 2,68 m 1.3 Alto 3,35 m 1.4 Peso"]) == "comma"
 
 
+def test_rows_counted_side_by_side(tmp_path: Path) -> None:
+    c = canvas(tmp_path / "a.pdf")
+    put(c, 36, 800, "Dimensions", bold=True, size=10)
+    for i, (label, metric, _) in enumerate(_SIZES):
+        y = _TOP - 14 * i
+        for x, number, words, value in ((40, i + 1, label, metric), (300, i + 6, f"Other {label}", f"9,{i}00")):
+            put(c, x, y, str(number))
+            put(c, x + 20, y, words)
+            put(c, x + 210, y, f"{value} mm", right=True)
+    c.save()
+    assert lengths(tmp_path / "a.pdf") == _ALL_OK
+
+
+def test_both_systems_parted_by_a_stroke_under_a_unit_of_both(tmp_path: Path) -> None:
+    c = canvas(tmp_path / "a.pdf")
+    rows = [
+        ("Wheelbase", "mm / in", "3,300 / 129.9"),
+        ("Overall width", "mm [in]", "2,680 [105.5]"),
+        ("Travel speed", "km/h (mph)", "38 (23.6)"),
+        ("Operating weight", "kg | lb", "18,200 | 40,124"),
+    ]
+
+    for i, (label, unit, value) in enumerate(rows):
+        put(c, 36, _TOP - 14 * i, label)
+        put(c, 200, _TOP - 14 * i, unit)
+        put(c, 400, _TOP - 14 * i, value, right=True)
+    c.save()
+    names = {"Wheelbase": "length", "Overall Width": "length", "Travel Speed": "speed", "Operating Weight": "mass"}
+    assert found(tmp_path / "a.pdf", names) == {
+        "Wheelbase": ("ok", 3.3), "Overall Width": ("ok", 2.68),
+        "Travel Speed": ("ok", pytest.approx(38 / 3.6)), "Operating Weight": ("ok", 18200.0),
+    }  # fmt: skip
+
+
 def test_units_in_pairs() -> None:
     assert is_unit("L/min (gal/min)") == "L/min|gal/min"
     assert is_unit("km/h (mph)") == "km/h|mph"

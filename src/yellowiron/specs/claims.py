@@ -134,6 +134,9 @@ def spelled_out(text: str, unit: str) -> tuple[str, str]:
             return f"({re.sub(_FEET_DASH, _feet_and_inches, words)})"
         return f"({words} {second})" if read(words) else match.group(0)
 
+    apart = re.fullmatch(r"(.*\d\S*)\s*(?:[/|]|\[)\s*([^\[\]/|()]*\d[^\[\]/|()]*)\]?", text)
+    if apart and "(" not in text and len(read(apart.group(1))) == len(read(apart.group(2))) == 1:
+        text = f"{apart.group(1)} ({apart.group(2)})"
     return re.sub(r"\(([^()]*)\)", inside, text), first
 
 

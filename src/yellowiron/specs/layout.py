@@ -8,6 +8,7 @@ from dataclasses import replace
 from yellowiron.specs.cells import legend_of
 from yellowiron.specs.lattice import Grid, columns_of, grids_of, read_grid
 from yellowiron.specs.lines import Line, blocks_of, lines_of
+from yellowiron.specs.margin import without_keys
 from yellowiron.specs.opened import heads_above
 from yellowiron.specs.rows import Heading, read_block
 from yellowiron.specs.statement import Statement, kind_of
@@ -38,7 +39,7 @@ def statements_of(page: Page) -> list[Statement]:
     headings: list[Heading] = []
     across = [*page.leaders, *((r.x0, r.top, r.x1, r.bottom) for r in page.rules if r.horizontal)]
     bars = [b for b in page.bars if not any(_within(b, g.box) for g in grids)]
-    for block in blocks_of(lines_of(outside, walls), bars, across):
+    for block in blocks_of(without_keys(lines_of(outside, walls)), bars, across):
         statements, more = read_block(
             page, block, row, _heading_above(headings, block.lines[0].top, block.x0, block.x1)
         )

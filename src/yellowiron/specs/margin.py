@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 from yellowiron.specs.lines import Line
 from yellowiron.specs.statement import Piece, ascending, is_key, is_unit, kind_of
@@ -36,8 +37,9 @@ def without_keys(lines: Sequence[Line]) -> list[Line]:
                 continue
             words = [kind_of(p) == "text" and not is_key(p.bare) for p in line.pieces]
             values = [kind_of(p) == "value" for p in line.pieces[index + 1 :]]
-            if piece.bare[0].isdigit() and not (words[index + 1 : index + 2] == [True] and not any(words[:index])):
-                continue  # a number: only right before the first label
+            begins = not any(words[:index]) or kind_of(line.pieces[index - 1]) == "value"
+            if piece.bare[0].isdigit() and not (begins and words[index + 1 : index + 2] == [True]):
+                continue  # a number: only right before a label
             middle = (piece.x0 + piece.x1) / 2
             near = [c for c in columns if abs((c[0][0].x0 + c[0][0].x1) / 2 - middle) < 0.8 * piece.size
                     or abs(c[0][0].x0 - piece.x0) < 1]  # fmt: skip
@@ -53,13 +55,23 @@ def without_keys(lines: Sequence[Line]) -> list[Line]:
             and len(set(texts)) == len(texts)
             and sum(beside for _, beside in column) >= 0.6 * len(column)
             and not all(is_unit(t) for t in texts)
-            and ascending([t for t in texts if t[0].isdigit()])
+            and _counts([piece for piece, _ in column if piece.bare[0].isdigit()], lines)
         ):
             keys.update(id(piece) for piece, beside in column if beside)
     if not keys:
         return list(lines)
     kept = [tuple(p for p in line.pieces if id(p) not in keys) for line in lines]
     return [Line(pieces) for pieces in kept if pieces]
+
+
+def _counts(numbers: Sequence[Piece], lines: Sequence[Line]) -> bool:
+    """Whether numbers count rows: they go up; those behind another row's value, one by one."""
+    texts = [piece.bare for piece in numbers]
+    first = {id(line.pieces[0]) for line in lines}
+    if all(id(piece) in first for piece in numbers):
+        return ascending(texts)
+    counted = [int(t) if t.isdigit() else 0 for t in (text.strip("()[].:") for text in texts)]
+    return all(b == a + 1 for a, b in pairwise(counted))
 
 
 def parted_margin(lines: Sequence[Line], rules: Sequence[Rule]) -> tuple[list[Line], list[Beside]]:
