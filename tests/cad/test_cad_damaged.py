@@ -59,6 +59,12 @@ def test_an_ifc_that_is_cut_short(tmp_path: Path) -> None:
     assert codes(path) == {"refused"}
 
 
+def test_an_iges_with_a_damaged_entity(tmp_path: Path) -> None:
+    path = sound("IGES", tmp_path)
+    path.write_text(path.read_text().replace("     186 ", "     1x6 ", 1))
+    assert "CAD001" in codes(path)
+
+
 @pytest.mark.parametrize("name", ["OBJ", "PLY", "3MF", "COLLADA"])
 def test_points_that_are_no_numbers(name: str, tmp_path: Path) -> None:
     path = sound(name, tmp_path)

@@ -108,6 +108,10 @@ class _Model:
         self._known: dict[int, Product | None] = {}
         self._taken: set[int] = set()
         self.findings: list[Finding] = remark(self._encoding, path)
+        damaged = sum(model.IsErrorEntity(i) or model.IsRedefinedContent(i) for i in self._number.values())
+        if damaged:
+            words = f"{damaged} entities of the file are damaged: parts may be missing or incomplete"
+            self.findings.append(Finding("CAD001", "warning", path, words, EXPORT_AGAIN))
 
     def products(self) -> list[Product]:
         """The products that nothing else holds, in the file's order; loose surfaces are one."""
