@@ -9,7 +9,7 @@ from rich.cells import cell_len
 from rich.console import Console
 
 from yellowiron.model.specification import Candidate, Evidence, Specification, Specifications
-from yellowiron.model.template import Template, Wanted
+from yellowiron.model.template import JointTemplate, Template, Wanted
 from yellowiron.report import specification_entry, specification_table
 from yellowiron.specs import missing_values
 
@@ -49,7 +49,7 @@ FOUND = Specifications(
         )
     }
 )
-TEMPLATE = Template("machine", "", "", (), (), wanted=ASKED)
+TEMPLATE = Template("machine", "", "", (), (JointTemplate("hinge", "revolute", ("frame", "arm")),), wanted=ASKED)
 
 
 @pytest.fixture(scope="module", params=[80, 100])

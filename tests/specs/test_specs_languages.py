@@ -6,6 +6,7 @@ import pytest
 
 from yellowiron.library import list_templates, load_template
 from yellowiron.model.template import Wanted
+from yellowiron.specs import missing_values
 from yellowiron.specs.extract import from_sheets
 from yellowiron.specs.reader import Sheet
 from yellowiron.specs.statement import Statement
@@ -83,3 +84,62 @@ def test_a_sub_heading_and_a_label_may_be_one_expression() -> None:
     bore = from_sheets(load_template("wheel_loader"), [sheet]).values["Steering Cylinder Bore"]
     reach = from_sheets(load_template("excavator"), [sheet]).values["Maximum Reach at Ground Line"]
     assert bore.value == pytest.approx(0.115) and reach.value == pytest.approx(8.835)
+
+
+@pytest.mark.parametrize(
+    ("equipment_type", "section", "label", "name"),
+    [
+        ("articulated_dump_truck", "Dump body and hoist", "Body raise, loaded", "Body Raise Time"),
+        ("articulated_dump_truck", "Dump body and hoist", "Tip time (down)", "Body Lower Time"),
+        ("articulated_dump_truck", "Weights", "Total machine weight, loaded", "Gross Weight"),
+        ("rigid_dump_truck", "外形尺寸参数", "货厢内深", "Body Depth Inside"),
+        ("rigid_dump_truck", "寸法", "エンジンガードクリアランス", "Engine Guard Clearance"),
+        ("rigid_dump_truck", "Gewichte", "Gesamtgewicht", "Gross Weight"),
+        ("dozer", "Track system", "Width, standard shoes, less blade", "Width over Tracks"),
+        ("dozer", "行走机构", "接地比压", "Ground Pressure"),
+        ("grader", "Schar", "Scharverschiebung links", "Blade Side Shift Left"),
+        ("grader", "Dimensions", "Clearance at rear axle", "Ground Clearance"),
+        ("backhoe_loader", "Backhoe", "Dipper tearout", "Dipper Digging Force"),
+        ("skid_steer", "Dimensions", "Width over tires, less bucket", "Overall Width"),
+        ("forklift", "Forks and carriage", "Fork arm thickness", "Fork Thickness"),
+        ("forklift", "質量", "前軸重（無負荷時）", "Axle Load Front Unladen"),
+        ("forklift", "Abmessungen", "Länge über alles", "Overall Length"),
+        ("mobile_crane", "Winde", "Seilzug Hubwerk", "Main Winch Line Pull"),
+        ("mobile_crane", "卷扬", "主卷扬单绳拉力", "Main Winch Line Pull"),
+        ("mobile_crane", "Stabilisateurs", "Écartement transversal des stabilisateurs", "Outrigger Spread Lateral"),
+    ],
+)  # fmt: skip
+def test_what_makers_print(equipment_type: str, section: str, label: str, name: str) -> None:
+    """One row of a maker's sheet is that value, and no other one."""
+    wanted = {w.name: w for w in load_template(equipment_type, sheet_only=True).wanted}
+    text, value = printed(wanted[name], 1)
+    sheet = Sheet(
+        "a.pdf", 1, (Statement(1, 0, label, text, (10.0, 10.0, 90.0, 20.0), "q", section=section),), (), "point"
+    )
+    found = from_sheets(load_template(equipment_type, sheet_only=True), [sheet])
+    assert {s.name: s.value for s in found if s.status == "ok"} == {name: pytest.approx(value, rel=1e-6)}
+
+
+@pytest.mark.parametrize(
+    ("equipment_type", "section", "label", "text"),
+    [
+        ("dozer", "Engine", "Bore", "132 mm"), ("grader", "发动机", "行程", "165 mm"),
+        ("forklift", "Hydraulik", "Arbeitsdruck für Anbaugeräte", "170 bar"),
+        ("backhoe_loader", "Dimensions", "Rear frame width", "2350 mm"),
+        ("mobile_crane", "Dimensions", "Jib stowed width", "900 mm"),
+        ("rigid_dump_truck", "Weights", "Front axle, empty", "22400 kg"),
+    ],
+)  # fmt: skip
+def test_what_is_nobodys_value(equipment_type: str, section: str, label: str, text: str) -> None:
+    sheet = Sheet(
+        "a.pdf", 1, (Statement(1, 0, label, text, (10.0, 10.0, 90.0, 20.0), "q", section=section),), (), "point"
+    )
+    found = from_sheets(load_template(equipment_type, sheet_only=True), [sheet])
+    assert not [s.name for s in found if s.status == "ok"]
+
+
+def test_a_type_that_cannot_be_built_takes_no_value_by_hand() -> None:
+    for equipment_type, by_hand in (("dozer", False), ("wheel_loader", True)):
+        template = load_template(equipment_type, sheet_only=True)
+        told = missing_values(template, from_sheets(template, [Sheet("a.pdf", 1, (), (), "point")]))
+        assert told and all(bool(one["set"]) == by_hand for one in told)

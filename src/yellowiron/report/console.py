@@ -80,12 +80,14 @@ def _to_look_at(entries: Sequence[Mapping[str, Any]], told: set[str]) -> Rendera
 
 
 def _still_missing(missing: Sequence[Mapping[str, str]]) -> RenderableType | None:
-    """What no sheet says: two lines each."""
-    table = _table("Not on the sheet", "Where makers print it, and how to give it", right=())
+    """What no sheet says: two lines each. A type that cannot be built takes no value by hand."""
+    given = ", and how to give it" if any(one["set"] for one in missing) else ""
+    table = _table("Not on the sheet", f"Where makers print it{given}", right=())
     table.columns[0].max_width = 40
     for one in missing:
         name = Text.assemble(one["name"], "\n", (f"  {one['what']}", "dim"))
-        table.add_row(name, Text.assemble(one["where"], "\n", (f"--set {one['set']}", "cyan")))
+        by_hand = ("\n", (f"--set {one['set']}", "cyan")) if one["set"] else ()
+        table.add_row(name, Text.assemble(one["where"], *by_hand))
     return Group("", table) if missing else None
 
 
