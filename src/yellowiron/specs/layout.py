@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from yellowiron.specs.boxed import read_boxes
 from yellowiron.specs.cells import legend_of
+from yellowiron.specs.keyed import key_legend, labelled, spelled
 from yellowiron.specs.lattice import Grid, columns_of, grids_of, read_grid
 from yellowiron.specs.lines import Line, blocks_of, lines_of
 from yellowiron.specs.margin import without_keys
@@ -23,7 +25,8 @@ def statements_of(page: Page) -> list[Statement]:
     rules: rows by gaps and overlap.
     """
     lines = lines_of(page.words)
-    page = replace(page, legend=legend_of(lines))
+    keys = key_legend(lines)
+    page = replace(spelled(page, keys), legend=legend_of(lines))
     grids = grids_of(page)
     outside = [
         w
@@ -49,9 +52,13 @@ def statements_of(page: Page) -> list[Statement]:
     free, boxes = lines_of(outside) if grids else [], [g.box for g in grids]
     for grid in grids:
         title = _title(free, grid) or _heading_above(headings, grid.box[1], grid.box[0], grid.box[2])
-        found.extend(read_grid(page, grid, row, title, heads_above(free, grid.box, columns_of(grid), boxes)))
+        filled = read_boxes(page, grid, row, title)
+        row += len(filled.statements)
+        found.extend(filled.statements)
+        above = heads_above(free, grid.box, columns_of(grid), boxes)
+        found.extend(read_grid(page, filled.grid, row, title, above))
         row += grid.rows + 1
-    return found
+    return labelled(found, keys)
 
 
 def _within(inner: Box, outer: Box) -> bool:

@@ -124,12 +124,13 @@ def _gutter(lines: Sequence[Line], bars: Sequence[Box], across: Sequence[Box]) -
     """The best gutter: its x and the range of lines that it parts."""
     starts: dict[int, list[tuple[float, bool]]] = {}
     left_edge = min(line.x0 for line in lines)
-    for line in lines:
+    for number, line in enumerate(lines):
         for index, piece in enumerate(line.pieces):
             # The rows of two columns need not be level with each other: a label may stand alone on its line.
             if kind_of(piece) != "text" or (index == 0 and piece.x0 < left_edge + _HANGING):
                 continue
             paired = any(kind_of(p) == "value" for p in line.pieces[index + 1 : index + 4]) or _says_all(line, index)
+            paired = paired or _folded(lines, number, index)
             starts.setdefault(round(piece.x0 / 3), []).append((piece.x0, paired))
     candidates: list[float] = []
     for key in sorted(starts):
@@ -154,6 +155,20 @@ def _gutter(lines: Sequence[Line], bars: Sequence[Box], across: Sequence[Box]) -
         if weight >= 3 and parts and (best is None or weight > best[0]):
             best = (weight, x, first, last)
     return best[1:] if best else None
+
+
+def _folded(lines: Sequence[Line], number: int, index: int) -> bool:
+    """Whether the value of a label stands on the line under it, further right: a row folded in two."""
+    piece = lines[number].pieces[index]
+    after = lines[number].pieces[index + 1 : index + 2]
+    end = after[0].x0 if after else float("inf")
+    for line in lines[number + 1 : number + 6]:
+        under = [p for p in line.pieces if piece.x0 - 2 <= p.x0 < end]
+        if line.top - lines[number].bottom > 0.8 * piece.size:
+            return False
+        if under and line.bottom > lines[number].bottom + 0.5 * piece.size:
+            return kind_of(under[0]) == "value" and under[0].x0 > piece.x0 + 2
+    return False
 
 
 def _says_all(line: Line, index: int) -> bool:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 
 from yellowiron.specs.cells import ValueCell, add_continuation, cells_of, continues, heads_over, statement_of
+from yellowiron.specs.folded import unfolded
 from yellowiron.specs.lines import Block, Line, bands
 from yellowiron.specs.margin import Beside, parted_margin, without_keys
 from yellowiron.specs.numbers import read
@@ -27,7 +28,7 @@ from yellowiron.specs.statement import (
 )
 from yellowiron.specs.strokes import Box
 from yellowiron.specs.vocabulary import has_cjk
-from yellowiron.specs.words import Page
+from yellowiron.specs.words import Page, Word
 
 _LONGEST_LABEL = 12
 """Words; more are prose."""
@@ -57,6 +58,7 @@ class _State:
     context: list[Piece] = field(default_factory=list)
     pending: list[Piece] = field(default_factory=list)
     heads: list[tuple[Piece, ...]] = field(default_factory=list)
+    kept: list[tuple[Piece, ...]] = field(default_factory=list)
     data_since_heads: bool = False
     indented: bool = False
     values_in_row: int = 0
@@ -67,13 +69,19 @@ class _State:
 
     def open_section(self, heading: Heading, heads: tuple[Piece, ...]) -> None:
         """A heading ends what held above it; `heads` stand on its line."""
+        if heads:
+            self.kept = []
+        elif self.heads and not self.data_since_heads and all(len(line) > 1 for line in self.heads):
+            self.kept = list(self.heads)  # a table's own heads, above its first section
         self.section = heading.text
         self.headings.append(heading)
-        self.context, self.pending, self.heads = [], [], [heads] if heads else []
+        self.context, self.pending, self.heads = [], [], [heads] if heads else list(self.kept)
         self.indented = self.data_since_heads = False
 
     def add_heads(self, heads: tuple[Piece, ...]) -> None:
         """A line of column heads: under the ones above it, or in their place where values stand between."""
+        if self.heads == self.kept:
+            self.heads, self.kept = [], []
         far = bool(self.heads) and heads[0].box[1] - self.heads[-1][0].box[3] > 2.5 * heads[0].size
         if self.data_since_heads or far:
             self.heads = []
@@ -96,7 +104,9 @@ def read_block(page: Page, block: Block, first_row: int, section: str = "") -> t
     """The statements of a column of text, and its headings. `first_row` numbers its rows."""
     state = _State(section=section)
     found: list[Statement] = []
-    size = _body_size(block)
+    size = _body_size(w for line in block.lines for p in line.pieces for w in p.words)
+    if not any(kind_of(p) == "value" for line in block.lines for p in line.pieces):
+        size = min(size, _body_size(page.words))  # headings alone
     paragraphs = paragraphs_of(block.lines)
     running = {id(piece) for paragraph in paragraphs for line in paragraph for piece in line.pieces}
     kept = [tuple(p for p in line.pieces if id(p) not in running) for line in block.lines]
@@ -106,8 +116,8 @@ def read_block(page: Page, block: Block, first_row: int, section: str = "") -> t
         if len(rest) < len(line.pieces)
     }
     lines, margin = parted_margin(without_keys([Line(pieces) for pieces in kept if pieces]), page.rules)
-    rows = [r for band in bands(lines, page.rules, _bars_of(page, block), block.x0, block.x1)
-            for r in _split_if_separate(band)]  # fmt: skip
+    rows = unfolded([r for band in bands(lines, page.rules, _bars_of(page, block), block.x0, block.x1)
+                     for r in _split_if_separate(band)])  # fmt: skip
     for index, row in enumerate(rows):
         _enter_margin(block, row, margin, state)
         if _continue_label(row, rows[index + 1] if index + 1 < len(rows) else None, state, found):
@@ -271,12 +281,15 @@ def _read_words(page: Page, block: Block, line: Line, state: _State, size: float
         return
     labels_end = block.x0 + 0.12 * (block.x1 - block.x0) + 4
     at_label = texts[0].x0 < labels_end
-    bar = _bar_under(page, texts[0], size)
+    bar = _bar_under(page, texts[0], size) if at_label or len(texts) < 2 else None
     if bar is not None or (len(texts) == 1 and at_label and _is_heading(texts[0], size)):
         on_bar = [p.text for p in line.pieces if bar is None or _inside(p.box, bar)]
         heads = tuple(texts[1:])
         section = texts[0].text if heads else " ".join(on_bar)
         state.open_section(Heading(line.bottom, block.x0, block.x1, section), heads)
+    elif len(texts) == 2 and at_label and _is_title(texts[0], size) and (unit := is_unit(texts[1].bare)):
+        words = f"{texts[0].text} {unit.replace('|', ' (')})" if "|" in unit else f"{texts[0].text} ({unit})"
+        state.open_section(Heading(line.bottom, block.x0, block.x1, words), ())
     elif _are_column_heads(texts, labels_end, state):
         state.add_heads(tuple(texts))
         if at_label and not is_unit(texts[0].bare):
@@ -316,6 +329,11 @@ def _is_heading(piece: Piece, size: float) -> bool:
     )
 
 
+def _is_title(piece: Piece, size: float) -> bool:
+    """Whether words with a unit at the right end of their line head a section, whose bare numbers have that unit."""
+    return piece.bold or _is_heading(piece, size)
+
+
 def _in_capitals(piece: Piece) -> bool:
     letters = [c for c in EXAMPLE.sub("", piece.text) if c.isalpha()]
     return len(letters) >= 4 and sum(c.isupper() for c in letters) > 0.85 * len(letters)
@@ -345,14 +363,12 @@ def _bars_of(page: Page, block: Block) -> list[Box]:
     return [b for b in page.bars if b[0] < block.x1 and block.x0 < b[2] and b[3] - b[1] < 40]
 
 
-def _body_size(block: Block) -> float:
-    """The type size that most characters of a block have."""
+def _body_size(words: Iterable[Word]) -> float:
+    """The type size that most characters have."""
     sizes: dict[float, int] = {}
-    for line in block.lines:
-        for piece in line.pieces:
-            for word in piece.words:
-                key = round(word.size, 1)
-                sizes[key] = sizes.get(key, 0) + len(word.text)
+    for word in words:
+        key = round(word.size, 1)
+        sizes[key] = sizes.get(key, 0) + len(word.text)
     return max(sizes, key=lambda s: (sizes[s], -s)) if sizes else 8.0
 
 
@@ -447,7 +463,7 @@ def _end_heads(row: Sequence[Line], cells: Sequence[ValueCell], state: _State) -
     apart = False
     if state.heads and not state.data_since_heads:
         state.heads = [h for h in state.heads if not _are_keys(h, cells)]
-    if state.heads and not state.data_since_heads:
+    if state.heads and not state.data_since_heads and state.heads != state.kept:
         lowest = max(p.box[3] for head in state.heads for p in head)
         size = max(p.size for line in row for p in line.pieces)
         apart = min(line.top for line in row) - lowest > 3 * size
