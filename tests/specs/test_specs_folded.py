@@ -6,6 +6,7 @@ from pathlib import Path
 
 from specs_layouts import canvas, lattice, put
 
+from yellowiron.specs.claims import enumerated
 from yellowiron.specs.reader import read_sheet
 from yellowiron.specs.statement import Statement
 
@@ -108,3 +109,15 @@ def test_heads_above_the_first_section_hold_for_the_next_ones(tmp_path: Path) ->
     assert len(found) == 8
     assert all(s.column == (("X 225",) if s.text.startswith("10") else ("X 240",)) for s in found)
     assert {s.section for s in found} == {"Engine", "Sizes"}
+
+
+def test_a_factor_of_a_product_may_be_called_length_of_stroke() -> None:
+    assert enumerated("Dump cylinder, dia. x length of stroke", 2) == [
+        "Dump cylinder dia.",
+        "Dump cylinder length of stroke",
+    ]
+    assert enumerated("Vérin de bras, diamètre de piston x longueur de course", 2) == [
+        "Vérin de bras diamètre de piston",
+        "Vérin de bras longueur de course",
+    ]
+    assert enumerated("Bore x stroke of lift cylinder", 2) == ["Bore of lift cylinder", "stroke of lift cylinder"]

@@ -196,6 +196,10 @@ def _factors(statement: Statement, label: str, reading: Reading) -> Iterator[Cla
         return
 
 
+_NAME = r"(?:(?:length|longueur|longitud|di[aá]m\w+|diamètre) (?:of|de|du|del) \S+|\S+(?:\s+(?:diameter|dia\.?))?)"
+"""What one factor of a product is called: "bore", "rod diameter", "length of stroke"."""
+
+
 def enumerated(label: str, count: int) -> list[str]:
     """The properties a label lists for a product of `count` factors, each with the words before the list.
 
@@ -205,12 +209,12 @@ def enumerated(label: str, count: int) -> list[str]:
     parts = [p.strip(" ()[]") for p in _CROSS.split(bare)]
     if len(parts) != count or not all(re.search(r"[^\W\d_]", p) for p in parts):
         return []
-    first = re.match(r"^(.*[-–—,:(]|.*?)\s*((?:\S+)(?:\s+(?:diameter|dia\.?))?)$", parts[0])
+    first = re.match(rf"^(.*[-–—,:(]|.*?)\s*({_NAME})$", parts[0])
     prefix, name = (first.group(1), first.group(2)) if first else ("", parts[0])
     if re.search(r"[-–—,:(]$", prefix.strip()):
         name = re.split(r"[-–—,:(]\s*", parts[0])[-1] or name
     prefix = prefix.strip(" -–—,:(")
-    last = re.match(r"^(\S+(?:\s+(?:diameter|dia\.?))?)(.*)$", parts[-1])
+    last = re.match(rf"^({_NAME})(.*)$", parts[-1])
     suffix = last.group(2).strip() if last else ""
     parts[-1] = last.group(1) if last else parts[-1]
     return [" ".join(f"{prefix} {p} {suffix}".split()) for p in [name, *parts[1:]]]
