@@ -12,6 +12,8 @@ from cad_stepfiles import Node, Use, box, cylinder, translation, write_step
 from yellowiron.cad import part21, read_cad
 from yellowiron.model.errors import CadError
 
+pytestmark = pytest.mark.slow  # each reads in a child process of its own
+
 OLE = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1" + bytes(504)
 
 

@@ -92,6 +92,7 @@ def test_what_is_no_usd_is_one_sentence(tmp_path: Path, name: str, content: byte
     assert caught.value.hint
 
 
+@pytest.mark.slow
 def test_values_of_a_wrong_type_are_findings_too(tmp_path: Path) -> None:
     """Every attribute of the sound machine, once with a value that it cannot have."""
     from pxr import Sdf, Usd

@@ -95,6 +95,7 @@ def poses(linkage: ModuleType) -> list[Any]:
     return [k.pose(float(b), float(a), float(c)) for b in booms for a in arms for c in buckets]
 
 
+@pytest.mark.slow
 def test_ranges_are_the_work_spaces(poses: list[Any], values: ModuleType, linkage: ModuleType) -> None:
     """No pose on the grid goes beyond a range, and the nearest comes close to it."""
     tips = np.array([p.T for p in poses])

@@ -116,6 +116,7 @@ def test_an_encrypted_sheet_says_so(tmp_path: Path) -> None:
         extract(ASKED, [path])
 
 
+@pytest.mark.slow
 def test_flipped_bytes_give_the_truth_or_a_sentence(tmp_path: Path) -> None:
     whole = bytearray(good(tmp_path / "whole.pdf").read_bytes())
     for position in range(40, len(whole), len(whole) // 12):
@@ -222,6 +223,7 @@ def test_exponents_of_their_own_and_footnotes(tmp_path: Path) -> None:
     ]
 
 
+@pytest.mark.slow
 def test_a_crowded_page_ends_in_time(tmp_path: Path) -> None:
     c = canvas(tmp_path / "crowd.pdf")
     for row in range(120):

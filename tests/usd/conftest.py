@@ -247,36 +247,3 @@ def written(write: Callable[..., tuple[Path, ...]], tmp_path_factory: pytest.Tem
     folder = tmp_path_factory.mktemp("machine") / "out"
     write(folder)
     return folder
-
-
-@pytest.fixture(scope="session")
-def large() -> Machine:
-    """A chain of 21 bodies with 26 joints and 252 parts of 60 shapes, some 3000 triangles each."""
-    shapes = []
-    for index in range(60):
-        ring = trimesh.creation.annulus(0.1, 0.2 + 0.001 * index, 0.1, sections=380)
-        shapes.append(make_shape(f"shape {index}", ring, normals=True))
-    tokens = ("analytic", "convexHull", "none", "none", "none", "convexDecomposition")
-    parts, bodies = [], []
-    for index in range(252):
-        shape, body = shapes[index % len(shapes)], index % 21
-        parts.append(Part(f"P/{index}", f"part {index}", ("P",), shape.key, at(0.5 * body, 0.01 * index, 1.0)))
-    for body in range(21):
-        mine = tuple(
-            BodyPart(p.id, None, "steel", tokens[i % len(tokens)], 5.0)
-            for i, p in enumerate(parts)
-            if int(p.id[2:]) % 21 == body
-        )
-        place = (0.5 * body, 0.0, 1.0)
-        hull = np.random.default_rng(body).normal(size=(3000, 3))
-        bodies.append(Body(f"body_{body}", place, 100.0, place, np.eye(3), mine, hull))
-    joints = [
-        Joint(f"joint_{i}", "revolute", f"body_{i}", f"body_{i + 1}", (0.5 * i, 0.0, 1.0), (0, 1, 0)) for i in range(20)
-    ]
-    joints += [
-        Joint(f"loop_{i}", "revolute", f"body_{i}", f"body_{i + 3}", (0.5 * i, 0, 1.2), (0, 1, 0), cut=True)
-        for i in range(6)
-    ]
-    materials = {"steel": Material("steel", 7850.0)}
-    mechanism = Mechanism("large", "test", "body_0", tuple(bodies), tuple(joints), materials=materials)
-    return Machine(mechanism, Assembly("P", "step", 1.0, tuple(parts), {s.key: s for s in shapes}), Path())
