@@ -143,3 +143,28 @@ def test_a_type_that_cannot_be_built_takes_no_value_by_hand() -> None:
         template = load_template(equipment_type, sheet_only=True)
         told = missing_values(template, from_sheets(template, [Sheet("a.pdf", 1, (), (), "point")]))
         assert told and all(bool(one["set"]) == by_hand for one in told)
+
+
+@pytest.mark.parametrize(
+    ("equipment_type", "label", "value", "name"),
+    [
+        ("wheel_loader", "操作用ポンプ流量", "27 L/min", None),  # the pilot circuit's pump
+        ("wheel_loader", "后轴到中心销", "2010 mm", "Rear Axle to Hitch"),
+        ("wheel_loader", "Machine width at tyres", "2670 mm", "Overall Width"),
+        ("wheel_loader", "Tipping load, straight (no tire squash)", "13650 kg", "Static Tipping Load Straight"),
+        ("wheel_loader", "Perno del cucharón, levantado", "3900 mm", "Hinge Pin Height at Maximum Lift"),
+        ("excavator", "Reach at grade, max.", "10690 mm", "Maximum Reach at Ground Line"),
+        ("excavator", "Deepest dig", "6700 mm", "Maximum Digging Depth"),
+        ("excavator", "Hinterer Drehradius", "2900 mm", "Tail Swing Radius"),
+        ("rigid_dump_truck", "Length over all", "9600 mm", "Overall Length"),
+        ("mobile_crane", "Boom extending ram, dia.", "120 mm", "Telescoping Cylinder Bore"),
+    ],
+)
+def test_other_wordings(equipment_type: str, label: str, value: str, name: str | None) -> None:
+    """Labels in words that no template lists as they stand: by concepts and the lexicon."""
+    template = load_template(equipment_type, sheet_only=True)
+    statement = Statement(1, 0, label, value, (10.0, 0.0, 90.0, 9.0), f"{label} {value}")
+    found = from_sheets(template, [Sheet("a.pdf", 1, (statement,), (), "point")])
+    assert [s.name for s in found if s.status == "ok"] == ([name] if name else [])
+    if not name:
+        assert all(s.status == "missing" for s in found)
