@@ -118,3 +118,17 @@ def test_parts_without_a_name_and_of_one_name(tmp_path: Path) -> None:
     assert isinstance(read, Assembly)
     assert len({p.id for p in read.parts}) == len(read.parts) == 3
     assert {p.name for p in read.parts} == {"PIN"}
+
+
+def test_entities_of_an_ifc_that_are_lost_are_told(tmp_path: Path) -> None:
+    """IfcOpenShell passes over an entity whose name is damaged; a `#` in a string is no reference."""
+    pytest.importorskip("ifcopenshell")
+    path = tmp_path / "machine.ifc"
+    WRITERS["IFC"][1](path, {item.shape: (BOX, FACES) for item in ITEMS})
+    sound = path.read_text().replace("'PIN'", "'PIN #4711'")
+    path.write_text(sound)
+    assert [f.code for f in read_cad(path).findings] == []
+    path.write_text(sound.replace("IFCBUILDINGELEMENTPROXY", "IFCBUILDINGELEMENTPRXY", 1))
+    read = read_cad(path)
+    assert len(read.parts) == len(ITEMS) - 1
+    assert "CAD001" in [f.code for f in read.findings]

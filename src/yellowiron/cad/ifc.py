@@ -5,6 +5,8 @@ IfcOpenShell (the extra `ifc`) tessellates; it delivers metres, whatever the fil
 
 from __future__ import annotations
 
+import re
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +17,7 @@ from yellowiron.cad.naming import decode_name
 from yellowiron.cad.placed import Occurrence
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import CadError
+from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Color, Mesh
 
 _DAMAGED = "Copy or export it again; the file is damaged."
@@ -34,7 +37,8 @@ def read_ifc(path: str) -> Assembly:
             where=path,
             hint='Install it with: pip install "yellowiron[ifc]"; or export the model as STEP.',
         ) from error
-    if b"END-ISO-10303-21" not in Path(path).read_bytes()[-4096:]:
+    text = Path(path).read_bytes()
+    if b"END-ISO-10303-21" not in text[-4096:]:
         raise CadError("The IFC file is truncated: its end is missing", where=path, hint=_DAMAGED)
     try:
         model = ifcopenshell.open(path)
@@ -57,9 +61,20 @@ def read_ifc(path: str) -> Assembly:
         place = np.array(made.transformation.matrix, dtype=np.float64).reshape(4, 4).T
         names = _names(product)
         occurrences.append(Occurrence(names[-1], names[:-1], mesh, place, color))
-    return placed.assemble(
+    assembly = placed.assemble(
         occurrences, name=Path(path).stem, format="IFC", unit=unit, path=path, declared=len(products),
     )  # fmt: skip
+    return replace(assembly, findings=(*assembly.findings, *_damage(text, model, path)))
+
+
+def _damage(text: bytes, model: Any, path: str) -> list[Finding]:
+    """Entities that the file numbers or refers to and that could not be read: IfcOpenShell says nothing of them."""
+    numbered = {int(n) for n in re.findall(rb"#(\d{1,18})", re.sub(rb"'(?:[^']|'')*'", b"", text))}
+    lost = len(numbered - {entity.id() for entity in model})
+    if not lost:
+        return []
+    words = f"{lost} entities of the file cannot be read: parts may be missing or incomplete"
+    return [Finding("CAD001", "warning", path, words, _DAMAGED)]
 
 
 def _left_out(product: Any) -> bool:
