@@ -95,7 +95,7 @@ CASES: dict[str, tuple[Prepare, str]] = {
     "not CAD": (cad("notes.step", b"Dear colleague, please find attached nothing."), "notes.step"),
     "STEP without a solid": (cad("hollow.step", (STEP_HEAD + "ENDSEC;\nEND-ISO-10303-21;\n").encode()), "hollow.step"),
     "SolidWorks": (cad("loader.sldasm", OLE), "STEP"),
-    "Revit": (cad("loader.rvt", OLE), "STEP"),
+    "Revit": (cad("loader.rvt", OLE), "IFC"),
     "encrypted PDF": (sheet("secret.pdf", encrypted_pdf), "secret.pdf"),
     "no PDF": (sheet("sheet.pdf", lambda p: p.write_text("stroke 764 mm")), "sheet.pdf"),
     "empty PDF": (sheet("empty.pdf", lambda p: p.write_bytes(b"")), "empty.pdf"),

@@ -76,7 +76,9 @@ def whole(found: Alignment, features: Features) -> None:
     assert {name: found.choices[name] for name in features.choices()} == features.choices()
     unplayed = {"boom_piston_rod_r_pin"} if features.through else set()
     assert set(found.missing) == unplayed
-    assert set(found.to_review) == unplayed
+    torn = set(found.to_review) - unplayed  # a hose that touches two bodies alike may be listed
+    assert unplayed <= set(found.to_review) and len(torn) <= features.hoses
+    assert all(p.reason.startswith("touches") for p in found.parts if p.part in torn)
 
 
 @pytest.mark.parametrize("kind", ["two_piece", "wide_blade"])
