@@ -7,10 +7,11 @@ from pathlib import Path
 import pytest
 from specs_layouts import canvas, put, template, wanted
 
+from yellowiron.specs.claims import claims_of
 from yellowiron.specs.extract import from_sheets
 from yellowiron.specs.numbers import decimal_style
 from yellowiron.specs.reader import read_sheet
-from yellowiron.specs.statement import is_unit
+from yellowiron.specs.statement import Statement, is_unit
 
 _TOP = 780.0
 _SIZES = (
@@ -204,3 +205,18 @@ def test_units_in_pairs() -> None:
     assert is_unit("km/h (mph)") == "km/h|mph"
     assert is_unit("mm / in") == "mm|in"
     assert is_unit("km/h") == "km/h"
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "value", "printed"),
+    [
+        ("858 33.8", "in", 858.0, "mm"),
+        ("26,380 58,158", "lb", 26380.0, "kg"),
+        ("2,820 (9-3)", "ft-in", 2820.0, "mm"),
+    ],
+)
+def test_two_numbers_under_an_imperial_unit(text: str, unit: str, value: float, printed: str) -> None:
+    """The metric one counts: both had the cell's one unit, and the inches were taken, a hundredth off."""
+    statement = Statement(1, 0, "Stroke", text, (0.0, 0.0, 1.0, 1.0), text, unit=unit)
+    (claim,) = claims_of([statement], "point")
+    assert (claim.quantity.value, claim.quantity.unit) == (value, printed) and claim.partner is not None

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 from yellowiron.specs.numbers import FEET_INCHES, DecimalStyle, Quantity, Reading, read, same
 from yellowiron.specs.statement import Statement
@@ -39,7 +40,7 @@ def claims_of(statements: Sequence[Statement], style: DecimalStyle) -> list[Clai
     claims: list[Claim] = []
     for statement in statements:
         claims.extend(_expand(statement, style))
-    return _joined_systems(_with_units(claims))
+    return _joined_systems(_with_units(_in_one_unit(claims)))
 
 
 _BARE = {
@@ -54,6 +55,41 @@ _BARE = {
     "torque": ("N·m",),
 }
 """Metric units that a column of numbers may leave unsaid, by dimension."""
+
+
+def _in_one_unit(claims: Sequence[Claim]) -> list[Claim]:
+    """Two numbers of one cell under an imperial unit ("858 33.8" under "in"): the first is metric, in the unit in which
+    the two agree; where they agree in none, both are in doubt."""
+    found: list[Claim | None] = list(claims)
+    for index, (first, second) in enumerate(pairwise(claims)):
+        printed = second.quantity.printed
+        if first.statement is not second.statement or not first.statement.unit or first.words != second.words:
+            continue
+        alone = sum(c.statement is first.statement for c in claims[max(0, index - 2) : index + 4]) == 2
+        if not alone or printed is None or printed.system != "imperial" or first.partner or second.partner:
+            continue
+        if re.search(r"[a-z×/]", first.statement.text.removeprefix("approx.")):
+            continue
+        own = first.quantity.printed
+        metric = _metric_readings(first.quantity, second.quantity)
+        if own is not None and own.system == "metric":
+            metric = [first.quantity] if same(first.quantity, second.quantity) else []
+        if len(metric) == 1:
+            found[index : index + 2] = (replace(first, quantity=metric[0], partner=second.quantity), None)
+        else:
+            why = f"the sheet prints '{first.quantity.text}' beside '{second.quantity.text}', and one unit for both"
+            found[index : index + 2] = (replace(first, doubt=why), replace(second, doubt=why))
+    return [claim for claim in found if claim is not None]
+
+
+def _metric_readings(bare: Quantity, imperial: Quantity) -> list[Quantity]:
+    """A number in the metric units in which it is what an imperial quantity says."""
+    return [
+        read_as
+        for unit in _BARE.get(imperial.dimension, ())
+        for value in (bare.value, bare.other)
+        if value is not None and same(read_as := replace(bare, value=value, unit=unit, other=None), imperial)
+    ]
 
 
 def _with_units(claims: Sequence[Claim]) -> list[Claim]:
@@ -73,13 +109,7 @@ def _with_units(claims: Sequence[Claim]) -> list[Claim]:
         if len(bare) != 1 or len(others) != 1:
             continue
         quantity = claims[bare[0]].quantity
-        fitting = [
-            read_as
-            for unit in _BARE.get(claim.quantity.dimension, ())
-            for value in (quantity.value, quantity.other)
-            if value is not None
-            and same(read_as := replace(quantity, value=value, unit=unit, other=None), claim.quantity)
-        ]
+        fitting = _metric_readings(quantity, claim.quantity)
         if len(fitting) == 1:
             found[bare[0]] = replace(claims[bare[0]], quantity=fitting[0])
         else:
