@@ -55,11 +55,7 @@ def declared_roles(assembly: Assembly, template: Template, found: Alignment) -> 
     body = {link: roles[_key(link)] for link in links if _key(link) in roles}
     if not body or {r.name for r in template.roles if r.rigid and not r.optional} - set(body.values()):
         return ()
-    welds = [j.bodies for j in assembly.joints if j.type == "fixed"]
-    for _ in welds:
-        for one, other in (*welds, *((b, a) for a, b in welds)):
-            if one in links and one not in body and other in body:
-                body[one] = body[other]
+    body = assembly.over_welds(body)
     wanted = {part.id: body[link] for link, parts in links.items() if link in body for part in parts}
     return tuple(
         PartAssignment(a.part, wanted[a.part], wanted[a.part], 1.0, "the file declares it as that body", source="data")

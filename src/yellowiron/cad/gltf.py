@@ -22,7 +22,7 @@ from typing import Any
 import numpy as np
 
 from yellowiron.cad import placed
-from yellowiron.cad.gltf_materials import Materials
+from yellowiron.cad.gltf_materials import STEPS, Materials
 from yellowiron.cad.looks import Dressed, Look, joined
 from yellowiron.cad.naming import decode_name, decode_text, is_generic
 from yellowiron.cad.placed import Occurrence
@@ -41,8 +41,6 @@ _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "
 _TRIANGLES = (4, 5, 6)
 """Modes of triangles: lists, strips, fans."""
 _FAN = 6
-_STEPS = {5120: 127.0, 5121: 255.0, 5122: 32767.0, 5123: 65535.0}
-"""What a normalised integer is divided by."""
 _NAMES = re.compile(rb'"name"\s*:\s*"([^"]*)"')
 _DEEPEST = 200
 
@@ -353,8 +351,8 @@ def _decoded(document: dict[str, Any], buffers: Sequence[bytes], primitives: Seq
         found = geometry[str(number)]
         points = np.asarray(found["vertices"], dtype=np.float64)
         entry = accessors[primitive["attributes"]["POSITION"]]
-        if entry.get("normalized") and entry["componentType"] in _STEPS:
-            points = np.maximum(points / _STEPS[entry["componentType"]], -1.0)
+        if entry.get("normalized") and entry["componentType"] in STEPS:
+            points = np.maximum(points / STEPS[entry["componentType"]], -1.0)
         triangles = np.asarray(found["faces"], dtype=np.int64)
         inside = np.asarray(((triangles >= 0) & (triangles < len(points))).all(axis=1))
         # A corner that is not there is a point that is not a number: the check behind finds and names it.

@@ -17,7 +17,7 @@ from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Color, Floats, Mesh
 
 _TYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5126: "<f4"}
-_STEPS = {5120: 127.0, 5121: 255.0, 5122: 32767.0, 5123: 65535.0}
+STEPS = {5120: 127.0, 5121: 255.0, 5122: 32767.0, 5123: 65535.0}
 """What a normalised integer is divided by."""
 _WIDTHS = {"VEC2": 2, "VEC3": 3, "VEC4": 4}
 _OLD = "KHR_materials_pbrSpecularGlossiness"
@@ -138,7 +138,7 @@ class Materials:
         raw = np.ndarray((count, width), dtype=kind, buffer=data, offset=start, strides=(stride, size // width))
         values = raw.astype(np.float64)
         if entry.get("normalized") or (name.startswith("COLOR") and kind != "<f4"):
-            values /= _STEPS.get(entry["componentType"], 1.0)
+            values /= STEPS.get(entry["componentType"], 1.0)
         return np.asarray(values[mesh.triangles])
 
     def _list(self, key: str) -> list[Mapping[str, Any]]:

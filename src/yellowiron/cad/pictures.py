@@ -13,12 +13,12 @@ from pathlib import Path
 import numpy as np
 
 from yellowiron.model.finding import Finding
-from yellowiron.model.geometry import Color, Finish, Texture
+from yellowiron.model.geometry import Color, Finish, Texture, linear_values
 
 _KEPT = {"PNG": ".png", "JPEG": ".jpg"}
 """Forms that every USD viewer opens; others are written anew as PNG."""
 _FORMATS = ("PNG", "JPEG", "BMP", "TGA", "TIFF", "WEBP", "GIF", "DDS")
-_LARGEST = 64 * 1024**2
+LARGEST = 64 * 1024**2
 """Bytes of one picture's file …"""
 _MOST = 256 * 1024**2
 """… of all of a model's …"""
@@ -98,7 +98,7 @@ class Pictures:
 
     def _read(self, file: Path, name: str) -> Picture | None:
         size = file.stat().st_size
-        if size > _LARGEST:
+        if size > LARGEST:
             self._faults[name] = f"its file has {size / 1024**2:.0f} MB"
             return None
         return self.inside(file.read_bytes(), name)
@@ -106,7 +106,7 @@ class Pictures:
     def _made(self, data: bytes, name: str) -> Picture | None:
         from PIL import Image, UnidentifiedImageError
 
-        if len(data) > _LARGEST or self._spent + len(data) > _MOST:
+        if len(data) > LARGEST or self._spent + len(data) > _MOST:
             self._faults[name] = "the model's pictures are too large"
             return None
         try:
@@ -148,8 +148,7 @@ def _means(data: bytes) -> tuple[Color, Color]:
         small = image.convert("RGBA").resize((64, 64), Image.Resampling.BOX)
     points = np.asarray(small, dtype=np.float64).reshape(-1, 4) / 255.0
     weight = points[:, 3:] if points[:, 3].sum() > 0.0 else np.ones((len(points), 1))
-    light = np.where(points[:, :3] <= 0.04045, points[:, :3] / 12.92, ((points[:, :3] + 0.055) / 1.055) ** 2.4)
-    mean, raw = ((v * weight).sum(axis=0) / weight.sum() for v in (light, points[:, :3]))
+    mean, raw = ((v * weight).sum(axis=0) / weight.sum() for v in (linear_values(points[:, :3]), points[:, :3]))
     return (float(mean[0]), float(mean[1]), float(mean[2])), (float(raw[0]), float(raw[1]), float(raw[2]))
 
 

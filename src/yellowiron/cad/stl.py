@@ -20,7 +20,7 @@ from yellowiron.cad.naming import decode_name, is_generic
 from yellowiron.cad.placed import Occurrence
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import CadError
-from yellowiron.model.geometry import Floats, Mesh
+from yellowiron.model.geometry import Floats, Mesh, linear_values
 
 _HEADER, _TRIANGLE = 84, 50
 _DAMAGED = "Copy or export it again; the file is damaged."
@@ -107,4 +107,4 @@ def _colors(data: bytes) -> Floats | None:
     else:
         channels = channels[:, ::-1]
     srgb = np.where(own[:, None], channels, rest)
-    return np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
+    return linear_values(srgb)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from pxr import Ar, Sdf, Usd, UsdGeom, UsdShade
 
 from yellowiron.cad.looks import Dressed, Look, dress
-from yellowiron.cad.pictures import Picture, Pictures, finish
+from yellowiron.cad.pictures import LARGEST, Picture, Pictures, finish
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Color, Floats, Mesh
 
@@ -19,7 +19,6 @@ _PICTURES = ("diffuse_texture", "base_color_texture")
 _METALLIC = ("metallic", "metallic_constant", "metalness")
 _ROUGHNESS = ("roughness", "reflection_roughness_constant", "specular_roughness")
 """Inputs of UsdPreviewSurface, OmniPBR and MaterialX's standard surface that say the same."""
-_LARGEST = 64 * 1024**2
 
 
 class Looks:
@@ -117,7 +116,7 @@ class Looks:
             self._pictures.fault(name, "it is in another package")
             return None
         opened = Ar.GetResolver().OpenAsset(Ar.ResolvedPath(resolved))
-        if not opened or opened.GetSize() > _LARGEST:
+        if not opened or opened.GetSize() > LARGEST:
             self._pictures.fault(name, "it is missing, or too large")
             return None
         return self._pictures.inside(bytes(opened.GetBuffer()), name)

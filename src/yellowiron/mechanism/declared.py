@@ -182,12 +182,7 @@ def _played(assembly: Assembly, alignment: Alignment) -> dict[str, str | None]:
             if body is not None:
                 area[body] = area.get(body, 0.0) + assembly.shape_of(part).area
         played[link] = max(sorted(area), key=lambda b: area[b]) if area else None
-    welds = [j.bodies for j in assembly.joints if j.type == "fixed" and "" not in j.bodies]
-    for _ in welds:
-        for one, other in (*welds, *((b, a) for a, b in welds)):
-            if one not in played and other in played:
-                played[one] = played[other]
-    return played
+    return assembly.over_welds(played)
 
 
 def _size(mechanism: Mechanism) -> float:

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Color, Floats, Shape
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,6 +96,16 @@ class Assembly:
             if link is not None:
                 found.setdefault(link, []).append(part)
         return {link: tuple(parts) for link, parts in found.items()}
+
+    def over_welds(self, known: Mapping[str, T]) -> dict[str, T]:
+        """What is known of declared bodies, and of those that fixed joints tie to them."""
+        spread = dict(known)
+        welds = [j.bodies for j in self.joints if j.type == "fixed" and "" not in j.bodies]
+        for _ in welds:
+            for one, other in (*welds, *((b, a) for a, b in welds)):
+                if one not in spread and other in spread:
+                    spread[one] = spread[other]
+        return spread
 
     def shape_of(self, part: Part) -> Shape:
         """The shape that a part is an occurrence of."""

@@ -15,8 +15,13 @@ Color = tuple[float, float, float]
 
 def linear(srgb: Sequence[float]) -> Color:
     """A colour as files write it, sRGB in [0, 1], as linear RGB (IEC 61966-2-1)."""
-    r, g, b = (v / 12.92 if v <= 0.04045 else ((v + 0.055) / 1.055) ** 2.4 for v in srgb)
+    r, g, b = linear_values(np.asarray(srgb, dtype=np.float64)).tolist()
     return r, g, b
+
+
+def linear_values(srgb: Floats) -> Floats:
+    """Numbers of sRGB colours in [0, 1], of any shape, as linear ones (IEC 61966-2-1)."""
+    return np.asarray(np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4))
 
 
 @dataclass(frozen=True)

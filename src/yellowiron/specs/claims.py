@@ -68,7 +68,8 @@ def _in_one_unit(claims: Sequence[Claim]) -> list[Claim]:
         alone = sum(c.statement is first.statement for c in claims[max(0, index - 2) : index + 4]) == 2
         if not alone or printed is None or printed.system != "imperial" or first.partner or second.partner:
             continue
-        if re.search(r"[a-z×/]", first.statement.text.removeprefix("approx.")):
+        text = spelled_out(first.statement.text, first.statement.unit)[0]
+        if text[first.quantity.end : second.quantity.start].strip(" ("):
             continue
         own = first.quantity.printed
         metric = _metric_readings(first.quantity, second.quantity)

@@ -92,7 +92,7 @@ def _with(look: Look, finish: Finish, mesh: Mesh) -> Look:
 
 def write_look(layer: Sdf.Layer, prototype: str, look: Look, textures: Mapping[str, str]) -> None:
     """UsdPreviewSurface materials under `prototype`/Looks: one, bound to the prototype; or as many as its triangles
-    number, each bound to a subset of the mesh (`write_subsets`).
+    number, each bound to a subset of the mesh by who writes that.
 
     They live inside the prototype: a binding that leaves it is silently dropped for every instance. `textures` maps a
     texture as written in its document to its path relative to this layer.
