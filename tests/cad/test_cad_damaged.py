@@ -6,11 +6,12 @@ import struct
 import zipfile
 from pathlib import Path
 
+import ezdxf
 import numpy as np
 import pytest
 from cad_exports import ITEMS, WRITERS
 
-from yellowiron.cad import read_cad
+from yellowiron.cad import dxf, read_cad
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import CadError
 
@@ -132,3 +133,103 @@ def test_entities_of_an_ifc_that_are_lost_are_told(tmp_path: Path) -> None:
     read = read_cad(path)
     assert len(read.parts) == len(ITEMS) - 1
     assert "CAD001" in [f.code for f in read.findings]
+
+
+@pytest.mark.parametrize("name", ["FBX (text)", "FBX (binary)"])
+def test_a_node_of_an_fbx_that_is_lost_is_told(name: str, tmp_path: Path) -> None:
+    """What hangs below it is still there."""
+    path = sound(name, tmp_path)
+    data = path.read_bytes()
+    mark = (
+        b'Model: 12,"Model::PIN","Mesh"'
+        if name == "FBX (text)"
+        else b"ModelL\x0c" + bytes(7) + b"S\n\0\0\0PIN\0\x01Model"
+    )
+    assert mark in data
+    path.write_bytes(data.replace(mark, mark.replace(b"Model", b"Modal"), 1))
+    assert "CAD001" in codes(path)
+
+
+def test_a_node_of_a_gltf_that_says_what_it_should_not(tmp_path: Path) -> None:
+    path = sound("glTF", tmp_path)
+    text = path.read_text()
+    path.write_text(text.replace('"mesh": 1', '"mash": 1', 1))
+    assert "CAD001" in codes(path)
+
+
+def test_a_usd_prim_whose_reference_brings_nothing(tmp_path: Path) -> None:
+    path = tmp_path / "machine.usda"
+    head = '#usda 1.0\n(metersPerUnit = 1)\ndef Cube "a" {}\n'
+    path.write_text(head + 'class "gone" {}\ndef Xform "b" (prepend references = </gone>) {}\n')
+    assert "CAD001" in codes(path)
+    path.write_text(head + 'def Xform "b" (references = None) {}\n')
+    assert not codes(path)
+
+
+def test_entities_of_a_dxf_that_are_lost_are_told(tmp_path: Path) -> None:
+    path = sound("DXF", tmp_path)
+    read, faults = dxf.opened(str(path), str(path))
+    assert not faults
+    # What ezdxf drops is taken out of the drawing here, and still in the file.
+    block = next(b for b in read.blocks if b.name == "FRONT")
+    text = path.read_bytes()
+    block.delete_entity(next(iter(block.query("INSERT"))))
+    read.saveas(path)
+    assert len(dxf._WRITTEN.findall(text)) == len(dxf._WRITTEN.findall(path.read_bytes())) + 1
+
+
+def test_a_binary_dxf(tmp_path: Path) -> None:
+    path = sound("DXF", tmp_path)
+    ezdxf.readfile(path).saveas(path, fmt="bin")
+    read = read_cad(path)
+    assert len(read.parts) == len(ITEMS) and not read.findings
+    data = path.read_bytes()
+    path.write_bytes(data[: len(data) // 2])
+    assert codes(path) == {"refused"}
+
+
+def stl_text(folder: Path) -> Path:
+    """Two boxes as the text of an STL file."""
+    text = ""
+    for number, name in enumerate(("BOOM", "PIN")):
+        facets = "".join(
+            "facet normal 0 0 0\nouter loop\n"
+            + "".join(f"vertex {x + number} {y} {z}\n" for x, y, z in BOX[face])
+            + "endloop\nendfacet\n"
+            for face in FACES
+        )
+        text += f"solid {name}\n{facets}endsolid {name}\n"
+    path = folder / "machine.stl"
+    path.write_text(text)
+    return path
+
+
+def test_an_stl_text_that_is_cut_short(tmp_path: Path) -> None:
+    """Its first solid has an end."""
+    path = stl_text(tmp_path)
+    text = path.read_text()
+    assert codes(path) == {"CAD009"}
+    path.write_text(text[: text.rindex("facet")])
+    assert codes(path) == {"refused"}
+    path.write_text(text.replace("endfacet", "endfcaet", 1))
+    assert codes(path) & {"CAD001", "refused"}
+
+
+def test_an_obj_that_is_cut_short(tmp_path: Path) -> None:
+    """The format has no end; points without faces show it."""
+    path = sound("OBJ", tmp_path)
+    text = path.read_text()
+    assert codes(path) == {"CAD009"}
+    head, _, tail = text.rpartition("\no ")
+    for short in (head + "\no PIN\n", head + "\no " + tail[: tail.index("\nf ")], text.replace("\nf ", "\nd ", 1)):
+        path.write_text(short)
+        assert "CAD001" in codes(path)
+
+
+def test_a_ply_that_has_other_lines_than_it_says(tmp_path: Path) -> None:
+    path = sound("PLY", tmp_path)
+    lines = path.read_text().splitlines(keepends=True)
+    assert codes(path) == {"CAD009"}
+    for damaged in (lines[:-5], [*lines[:20], *lines[19:]]):
+        path.write_text("".join(damaged))
+        assert "CAD001" in codes(path)

@@ -33,6 +33,13 @@ _DIFFUSE = 1
 """The library's number for textures of the diffuse colour."""
 _DRAWN = re.compile(rb'\x00\x01ModelS\x04\x00\x00\x00Mesh|\bModel:[^\n{]{0,300}?,\s*"Mesh"')
 """A node with a mesh in an FBX file, binary or text."""
+_GEOMETRY = re.compile(
+    rb'\x08GeometryL(.{8})S.{4}[^\0]{0,300}\0\x01\w+S\x04\0\0\0Mesh|\bGeometry:\s*(-?\d+)\s*,[^\n{]{0,300}?"Mesh"',
+    re.DOTALL,
+)
+"""A mesh in an FBX file, and its number (binary or text)."""
+_LINK = re.compile(rb'\x01CS\x02\0\0\0OOL(.{8})L(.{8})|\bC:\s*"OO"\s*,\s*(-?\d+)\s*,\s*(-?\d+)', re.DOTALL)
+"""What hangs below what in an FBX file, by their numbers (binary or text)."""
 _HELPER = "_$AssimpFbx$_"
 """Marks nodes that stand for one step of an FBX node's transform."""
 
@@ -60,9 +67,17 @@ def read_fbx(path: str) -> Assembly:
     data = Path(path).read_bytes()
     up, unit = _setting(data, b"UpAxis"), _setting(data, b"UnitScaleFactor")
     frame = _FROM_Y_UP["Z_UP"] if up == 2.0 else np.eye(4)
-    read = _read(path, "FBX", assimp_py.Process_GlobalScale, frame, {}, len(_DRAWN.findall(data)))
+    read = _read(path, "FBX", assimp_py.Process_GlobalScale, frame, {}, _declared(data))
     # The library has used the unit, centimetres by default, up.
     return replace(read, unit=0.01 * (unit or 1.0))
+
+
+def _declared(data: bytes) -> int:
+    """How many nodes with meshes an FBX file has: by what is called one, or by what has a mesh below it. A damaged name
+    is not in both."""
+    numbers = {binary or text for binary, text in _GEOMETRY.findall(data)}
+    links = ((below or low, above or high) for below, above, low, high in _LINK.findall(data))
+    return max(len(_DRAWN.findall(data)), len({above for below, above in links if below in numbers}))
 
 
 def _setting(data: bytes, name: bytes) -> float | None:

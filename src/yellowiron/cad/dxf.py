@@ -6,6 +6,8 @@ Read are meshes, polyfaces and 3D faces. Solids in ACIS's own form (3DSOLID, BOD
 
 from __future__ import annotations
 
+import re
+import struct
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -25,6 +27,13 @@ from yellowiron.model.geometry import Color, Floats, Mesh, linear
 _DAMAGED = "Copy or export it again; the file is damaged."
 _ACIS = ("3DSOLID", "BODY", "REGION", "SURFACE", "EXTRUDEDSURFACE", "LOFTEDSURFACE", "REVOLVEDSURFACE", "SWEPTSURFACE")
 _STEP = "Export the solids as STEP from the program that made the drawing; they are kept in a form that is not open."
+_BINARY = b"AutoCAD Binary DXF"
+_WRITTEN = re.compile(
+    rb"^[ \t]*0[ \t]*\r?\n[ \t]*(?:INSERT|3DFACE|MESH|POLYLINE)[ \t]*\r?$|\0\0(?:INSERT|3DFACE|MESH|POLYLINE)\0",
+    re.MULTILINE,
+)
+"""An entity that draws in space, or places what does, as a text or binary file starts it."""
+_DRAWN = ("INSERT", "3DFACE", "MESH", "POLYLINE")
 _DEEPEST = 20
 _MOST = 200_000
 
@@ -36,18 +45,27 @@ def read_dxf(path: str) -> Assembly:
 
 
 def opened(file: str, path: str) -> tuple[Any, int]:
-    """The drawing in a DXF file, and how many of its values were damaged; errors name `path`."""
+    """The drawing in a DXF file, text or binary, and how many of its values and entities were damaged; errors name
+    `path`."""
     import ezdxf.audit
     from ezdxf import recover
 
+    data = Path(file).read_bytes()
     try:
-        document, auditor = recover.readfile(file)
-    except (OSError, ezdxf.DXFError, ValueError) as error:
+        if data.startswith(_BINARY):
+            document = ezdxf.readfile(file)
+            auditor = document.audit()
+        else:
+            document, auditor = recover.readfile(file)
+    except (OSError, ezdxf.DXFError, ValueError, struct.error, IndexError) as error:
         raise CadError(f"The DXF file cannot be read: {error}", where=path, hint=_DAMAGED) from error
     # A letter in no known encoding is none: names are written in all kinds of them.
     codes = ezdxf.audit.AuditError
     lost = sum(entry.code == codes.UNDEFINED_BLOCK for entry in auditor.fixes)
-    return document, lost + sum(entry.code != codes.DECODING_ERROR for entry in auditor.errors)
+    lost += sum(entry.code != codes.DECODING_ERROR for entry in auditor.errors)
+    # Some damaged entities are dropped without a word.
+    held = sum(entity.dxftype() in _DRAWN for block in document.blocks for entity in block)
+    return document, max(lost, len(_WRITTEN.findall(data)) - held)
 
 
 def assembled(document: Any, path: str, format: str, faults: int = 0) -> Assembly:
@@ -89,7 +107,7 @@ def assembled(document: Any, path: str, format: str, faults: int = 0) -> Assembl
         words = f"{len(lost)} blocks are placed and hold nothing: {', '.join(sorted(set(lost))[:5])}"
         findings.append(Finding("CAD001", "warning", path, words, _DAMAGED))
     if faults:
-        words = f"{faults} values of the drawing are damaged: parts may be missing or misshapen"
+        words = f"{faults} values or entities of the drawing are damaged: parts may be missing or misshapen"
         findings.append(Finding("CAD001", "warning", path, words, _DAMAGED))
     if acis:
         words = f"{acis} ACIS solids of the drawing cannot be read"

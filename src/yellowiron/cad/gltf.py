@@ -43,6 +43,11 @@ _TRIANGLES = (4, 5, 6)
 _FAN = 6
 _NAMES = re.compile(rb'"name"\s*:\s*"([^"]*)"')
 _DEEPEST = 200
+_KNOWN = {
+    "nodes": {"name", "mesh", "children", "camera", "skin", "matrix", "rotation", "scale", "translation", "weights"},
+    "scenes": {"name", "nodes"},
+}
+"""What the standard has in a node and a scene, besides `extensions` and `extras`."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,6 +85,7 @@ def read_gltf(path: str) -> Assembly:
         words = f"{loose} nodes with meshes are not in the scene that is shown, and were left out"
         hint = "Put them into the scene, or export it again, if they are parts of the machine."
         findings.append(Finding("CAD001", "warning", path, words, hint))
+    findings += _strange(document, path)
     scene = _list(document, "scenes")[document.get("scene", 0)] if _list(document, "scenes") else {}
     name = str(scene.get("name") or "")
     return placed.assemble(
@@ -91,6 +97,16 @@ def read_gltf(path: str) -> Assembly:
         findings=findings,
         declared=sum(1 for n in nodes if n.mesh in found or n.mesh in broken),
     )
+
+
+def _strange(document: Mapping[str, Any], path: str) -> list[Finding]:
+    """A finding for nodes and scenes that say what the standard does not know: a damaged `mesh` is no mesh."""
+    known = {"extensions", "extras"}
+    keys = {k for kind, own in _KNOWN.items() for entry in _list(document, kind) for k in entry if k not in own | known}
+    if not keys:
+        return []
+    words = f"Its nodes say what glTF does not know ({', '.join(sorted(keys)[:5])}): parts may be missing"
+    return [Finding("CAD001", "warning", path, words, _DAMAGED)]
 
 
 # ---- the container ----

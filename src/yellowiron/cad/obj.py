@@ -24,6 +24,14 @@ from yellowiron.model.geometry import Color, Floats, Mesh
 
 _DAMAGED = "Copy or export it again; the file is damaged."
 _NAMES = re.compile(rb"^[ \t]*(?:o|g|usemtl|mtllib|newmtl)[ \t]+([^\r\n]*)", re.MULTILINE)
+_STATEMENTS = frozenset(
+    ("v", "vt", "vn", "vp", "f", "fo", "l", "p", "o", "g", "s", "mg", "usemtl", "mtllib", "usemap", "maplib", "cstype",
+     "deg", "bmat", "step", "curv", "curv2", "surf", "parm", "trim", "hole", "scrv", "sp", "end", "con", "bevel",
+     "c_interp", "d_interp", "lod", "shadow_obj", "trace_obj", "ctech", "stech", "call", "csh")
+)  # fmt: skip
+"""What a line may begin with, besides `#`."""
+_HEADS = ("o", "g", "usemtl")
+"""What something follows."""
 _OPTION = re.compile(r"\s*-(?:[a-z]+)(?:\s+(?:on|off|[lmrgbz]|[-+]?[\d.]+(?:e[-+]?\d+)?))*\s+", re.IGNORECASE)
 
 
@@ -49,6 +57,8 @@ class _File:
     groups: list[_Group]
     libraries: list[str]
     encoding: str
+    faults: list[str]
+    """What shows that something is missing."""
 
 
 def read_obj(path: str) -> Assembly:
@@ -76,6 +86,9 @@ def meshes_of(file: Path) -> list[tuple[str, Dressed]]:
 def _groups(path: str, findings: list[Finding]) -> list[tuple[str, Dressed]]:
     file = _parsed(path)
     findings += remark(file.encoding, path)
+    if file.faults:
+        words = f"{'; '.join(file.faults)}: parts may be missing or incomplete, as in a file that is cut short"
+        findings.append(Finding("CAD001", "warning", path, words, _DAMAGED))
     looks = _looks(file, path, findings)
     numbers = {name: number for number, name in enumerate(looks)}
     found = []
@@ -97,8 +110,9 @@ def _parsed(path: str) -> _File:
     coordinates: list[tuple[float, float]] = []
     groups: dict[tuple[int, str], _Group] = {}
     libraries: list[str] = []
-    above = group = material = ""
-    objects = 0
+    above = group = material = last = ""
+    objects = strange = 0
+    drawn: list[int] = []
     data = Path(path).read_bytes()
     text, encoding = decode_text(data, _NAMES.findall(data))
     for number, line in enumerate(text.replace("\\\n", " ").splitlines(), start=1):
@@ -135,15 +149,26 @@ def _parsed(path: str) -> _File:
                 material = rest.strip()
             elif word == "mtllib":
                 libraries.append(rest.strip())
+            elif word in ("l", "p"):
+                drawn += [_index(entry, len(points)) for entry in rest.split()]
+            elif word not in _STATEMENTS and not word.startswith("#"):
+                strange += bool(word)
+                continue
+            last = word if word and not word.startswith("#") else last
         except (ValueError, IndexError) as error:
             words = f"The OBJ file is broken in line {number}: '{line.strip()[:60]}'"
             raise CadError(words, where=path, hint=_DAMAGED) from error
     if not groups:
         raise CadError("The OBJ file holds no face", where=path, hint="Export the machine's parts with it.")
+    faces = [np.array(own.triangles, dtype=np.int64).reshape(-1) for own in groups.values()]
+    loose = len(points) - len(np.unique(np.concatenate([np.array(drawn, dtype=np.int64), *faces])))
+    faults = [f"{strange} lines begin with what OBJ does not know"] if strange else []
+    faults += [f"{loose} of its points are in no face"] if loose else []
+    faults += [f"it ends with '{last}', after which nothing comes"] if last in _HEADS else []
     colors = np.clip(np.array(paint, dtype=np.float64), 0.0, 1.0) if len(paint) == len(points) else None
     return _File(
         np.array(points, dtype=np.float64).reshape(-1, 3), colors,
-        np.array(coordinates, dtype=np.float64).reshape(-1, 2), list(groups.values()), libraries, encoding,
+        np.array(coordinates, dtype=np.float64).reshape(-1, 2), list(groups.values()), libraries, encoding, faults,
     )  # fmt: skip
 
 

@@ -5,6 +5,7 @@ PLY has no names, no tree and no unit; colours may stand at faces or points.
 
 from __future__ import annotations
 
+import re
 import struct
 from io import BytesIO
 from pathlib import Path
@@ -17,8 +18,11 @@ from yellowiron.cad.looks import repainted
 from yellowiron.cad.placed import Occurrence
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import CadError
+from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats, Mesh
 
+_ELEMENT = re.compile(rb"^element[ \t]+(\w+)[ \t]+(\d{1,18})[ \t]*\r?$", re.MULTILINE)
+_TEXT = re.compile(rb"^format[ \t]+ascii", re.MULTILINE)
 _DAMAGED = "Copy or export it again; the file is damaged."
 
 
@@ -26,6 +30,7 @@ def read_ply(path: str) -> Assembly:
     """The assembly in a PLY file, text or binary, in metres. `CadError` if it is damaged or holds no triangle."""
     raw = mesh_of(Path(path))
     unit, findings = placed.guessed_unit([raw.points], path)
+    findings += _damage(Path(path).read_bytes(), len(raw.triangles), path)
     mesh = Mesh(raw.points * unit, raw.triangles, None, raw.triangle_colors)
     pieces = placed.pieces(mesh) if np.isfinite(mesh.points).all() else [mesh]
     name = Path(path).stem
@@ -33,6 +38,19 @@ def read_ply(path: str) -> Assembly:
         [Occurrence(name, (), one.mesh, np.eye(4), one.color) for one in map(repainted, pieces)],
         name=name, format="PLY", unit=unit, path=path, findings=findings,
     )  # fmt: skip
+
+
+def _damage(data: bytes, read: int, path: str) -> list[Finding]:
+    """A finding where a file holds another number of lines or faces than its header says."""
+    head, _, body = data.partition(b"end_header")
+    counts = {name: int(count) for name, count in _ELEMENT.findall(head)}
+    held, stated = sum(map(bool, map(bytes.strip, body.split(b"\n")))), sum(counts.values())
+    words = ""
+    if _TEXT.search(head) and held != stated:
+        words = f"The header declares {stated} lines, and {held} follow"
+    elif read < counts.get(b"face", 0):
+        words = f"The header declares {counts[b'face']} faces, of which {read} were read"
+    return [Finding("CAD001", "warning", path, f"{words}: parts may be incomplete", _DAMAGED)] if words else []
 
 
 def mesh_of(file: Path) -> Mesh:

@@ -6,7 +6,9 @@ binary form has to spare.
 
 from __future__ import annotations
 
+import re
 import struct
+from collections import Counter
 from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
@@ -20,9 +22,12 @@ from yellowiron.cad.naming import decode_name, is_generic
 from yellowiron.cad.placed import Occurrence
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import CadError
+from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats, Mesh, linear_values
 
 _HEADER, _TRIANGLE = 84, 50
+_WORDS = re.compile(rb"^[ \t]*((?:end)?(?:solid|facet)|vertex)\b", re.MULTILINE)
+"""What lines of a text begin with."""
 _DAMAGED = "Copy or export it again; the file is damaged."
 
 
@@ -31,6 +36,7 @@ def read_stl(path: str) -> Assembly:
     of triangles than it says, or none."""
     solids = solids_of(Path(path))
     unit, findings = placed.guessed_unit([mesh.points for _, mesh in solids], path)
+    findings += _damage(Path(path).read_bytes(), sum(len(mesh.triangles) for _, mesh in solids), path)
     occurrences = []
     for name, mesh in solids:
         mesh = replace(mesh, points=mesh.points * unit)
@@ -58,13 +64,25 @@ def _check(data: bytes, path: str) -> None:
     if len(data) == length:
         return
     if data.lstrip()[:5].lower() == b"solid" and b"\0" not in data[:1024]:
-        if data.lower().count(b"endsolid") == 0:
+        if not data.rstrip().rpartition(b"\n")[2].lstrip().lower().startswith(b"endsolid"):
             words = "The STL file is truncated: its text has no 'endsolid'"
             raise CadError(words, where=path, hint=_DAMAGED)
         return
     held = (len(data) - _HEADER) // _TRIANGLE if len(data) >= _HEADER else 0
     words = f"The STL file declares {count} triangles and has room for {held}: it is truncated, or lies"
     raise CadError(words, where=path, hint=_DAMAGED)
+
+
+def _damage(data: bytes, read: int, path: str) -> list[Finding]:
+    """A finding where a text names another number of triangles than were read."""
+    if len(data) >= _HEADER and len(data) == _HEADER + struct.unpack_from("<I", data, 80)[0] * _TRIANGLE:
+        return []
+    counts = Counter(_WORDS.findall(data.lower()))
+    solids, facets, corners = (counts[w] for w in (b"solid", b"facet", b"vertex"))
+    if solids == counts[b"endsolid"] and facets == counts[b"endfacet"] == read and corners == 3 * read:
+        return []
+    words = f"Its text has {facets} facets with {corners} corners, of which {read} were read: parts may be incomplete"
+    return [Finding("CAD001", "warning", path, words, _DAMAGED)]
 
 
 def _solids(data: bytes, path: str) -> list[tuple[str, Mesh]]:

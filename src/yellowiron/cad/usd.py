@@ -91,12 +91,21 @@ def _unit(stage: Usd.Stage, path: str) -> tuple[float, list[Finding]]:
 
 
 def _hollow(stage: Usd.Stage) -> int:
-    """How many instances have nothing in them: what they were of is lost, without an error of USD's own."""
+    """How many instances and references have nothing in them: what they were of is lost, without an error of USD's
+    own."""
     below = Usd.TraverseInstanceProxies(Usd.PrimDefaultPredicate)
     return sum(
-        prim.IsInstanceable() and prim.GetTypeName() in ("", "Xform") and not prim.GetFilteredChildren(below)
+        (prim.IsInstanceable() or _refers(prim))
+        and prim.GetTypeName() in ("", "Xform")
+        and not prim.GetFilteredChildren(below)
         for prim in stage.Traverse()
     )
+
+
+def _refers(prim: Usd.Prim) -> bool:
+    """Whether a prim says what it refers to, and has not been made to refer to nothing."""
+    stated = [prim.GetMetadata(key) for key in ("references", "payload") if prim.HasAuthoredMetadata(key)]
+    return any(not listed.isExplicit or listed.explicitItems for listed in stated)
 
 
 def _drawn(stage: Usd.Stage) -> Iterator[tuple[Usd.Prim, Floats]]:
