@@ -8,11 +8,12 @@ every time). Readers run in a child process as they do behind `read_cad`, but on
 is forked from a process that has their libraries loaded. Counted are:
 
 - `read`: mutants that are still readable; `refused`: an error in one sentence;
-- `child died`: a crash or a bomb in the child, which the guard makes an error of;
-- `hung`: no answer in the limit, which the guard ends, too;
+- `crashed`: in the child, of which the guard makes an error;
+- `ended`: what came to no end, by the reader's own limit of processor time (`guard.must_end`), which is an error, too;
+- `hung`: no answer after the benchmark's limit of processor time; in the product the guard's limit ends them, late;
 - `said`: read with fewer parts than the sound file has, and a finding says so;
-- `unsaid`: with fewer parts and no finding. Only for truncated mutants is that a defect for sure (`half`): a change in
-  the tree's own text may take a part out of it without a trace;
+- `fewer`: with fewer parts, as the mutant itself declares fewer (`fuzz_declared` counts them without a reader);
+- `silent`: with fewer parts, and neither a finding nor the file says so; `half` of them cut short;
 - `main`: what would have ended the program itself: looking at the file before it is read, or at what is left after;
 - `strays`: files left anywhere but where the mutant was; `MB`: the most memory a child held; `slowest`: one mutant, s.
 """
@@ -43,8 +44,23 @@ from typing import Any
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "tests" / "cad")]
-LIMIT_S = 30.0
+LIMIT_S, WALL_S = 60.0, 600.0
+"""Seconds of the processor, and on the clock, for one mutant."""
 MEMORY = 4 * 1024**3
+TELLING = frozenset({"CAD001", "CAD003", "CAD006", "CAD008"})
+"""Findings that say that something is missing."""
+EPOCH = b"\x00\x00\x21\x00"
+"""1980-01-01, as archives write it."""
+
+
+def settled(data: bytes) -> bytes:
+    """A file without the time when it was written: of the same length."""
+    if data.startswith(b"PK"):
+        for mark, at in ((b"PK\x03\x04", 10), (b"PK\x01\x02", 12)):
+            data = re.sub(re.escape(mark) + b"(.{%d}).{4}" % (at - 4), mark + rb"\g<1>" + EPOCH, data, flags=re.DOTALL)
+        return data
+    data = re.sub(rb"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d", b"2000-01-01T00:00:00", data)
+    return re.sub(rb"15H\d{8}\.\d{6}", b"15H20000101.000000", data)
 
 
 def mutant(sound: bytes, seed: int) -> tuple[str, bytes]:
@@ -58,7 +74,7 @@ def mutant(sound: bytes, seed: int) -> tuple[str, bytes]:
         packed = io.BytesIO()
         with zipfile.ZipFile(packed, "w") as archive:
             for name, content in members.items():
-                archive.writestr(name, content)
+                archive.writestr(zipfile.ZipInfo(name), content)
         return kind, packed.getvalue()
     data = bytearray(sound)
     kind = rng.choice(("flip", "flip", "cut", "out", "twice", "zero", "number", "number"))
@@ -146,12 +162,14 @@ def nursery(target: str, file: Path, last: int) -> None:
             os.write(1, json.dumps({"child": os.getpid()}).encode() + b"\n")
             work(target, file, int(line), last)
             os._exit(0)
-        usage = os.wait4(child, 0)[2]
-        os.write(1, b"\n" + json.dumps({"ended": child, "kb": usage.ru_maxrss}).encode() + b"\n")
+        _, status, usage = os.wait4(child, 0)
+        killed = os.WTERMSIG(status) if os.WIFSIGNALED(status) else 0
+        end = {"ended": child, "kb": usage.ru_maxrss, "signal": killed}
+        os.write(1, b"\n" + json.dumps(end).encode() + b"\n")
 
 
 def run(target: str, file: Path, count: int) -> tuple[list[dict[str, Any]], list[tuple[int, str]], float]:
-    """Every mutant's answer, those that gave none: (seed, "died" or "hung"), and the most memory, MB."""
+    """Every mutant's answer, those that gave none: (seed, how it ended), and the most memory, MB."""
     sound = file.read_bytes()
     answers: list[dict[str, Any]] = []
     lost: list[tuple[int, str]] = []
@@ -166,17 +184,21 @@ def run(target: str, file: Path, count: int) -> tuple[list[dict[str, Any]], list
             file.write_bytes(sound)
             source.stdin.write(f"{seed}\n".encode())
             source.stdin.flush()
-            child, end = int(next(lines)["child"]), "died"
+            child, end = int(next(lines)["child"]), "crashed"
+            since, clock = 0.0, time.monotonic()
             for line in lines:
                 if line is None:
-                    end = "hung"
-                    os.kill(child, signal.SIGKILL)
+                    if _spent(child) - since > LIMIT_S or time.monotonic() - clock > WALL_S:
+                        end = "hung"
+                        os.kill(child, signal.SIGKILL)
                 elif "ended" in line:
                     peak = max(peak, line["kb"] / 1024.0)
+                    end = "ended" if line["signal"] == signal.SIGXCPU else end
                     break
                 else:
                     answers.append(line)
                     seed += 1
+                    since, clock = _spent(child), time.monotonic()
             if seed < count:
                 lost.append((seed, end))
                 seed += 1
@@ -185,16 +207,24 @@ def run(target: str, file: Path, count: int) -> tuple[list[dict[str, Any]], list
     return answers, lost, peak
 
 
+def _spent(process: int) -> float:
+    """Seconds of the processor that a process has used; 0 for one that is gone."""
+    try:
+        fields = Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()
+    except OSError:
+        return 0.0
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
 def _lines(stream: int) -> Iterator[Any]:
-    """The JSON of every whole line; None after a limit without one."""
-    rest, limit = b"", 10 * LIMIT_S
+    """The JSON of every whole line; None for every while without one."""
+    rest = b""
     with selectors.DefaultSelector() as streams:
         streams.register(stream, selectors.EVENT_READ)
         while True:
-            if not streams.select(limit):
+            if not streams.select(5.0):
                 yield None
                 continue
-            limit = LIMIT_S
             data = os.read(stream, 65536)
             if not data:
                 return
@@ -205,25 +235,84 @@ def _lines(stream: int) -> Iterator[Any]:
                     yield json.loads(line)
 
 
+def writers() -> dict[str, tuple[str, Any]]:
+    """Format → the file's name and what writes it: the tests' small machine, and the other forms that formats have."""
+    import cad_blend
+    from cad_exports import WRITERS
+
+    from fuzz_forms import FORMS
+
+    found: dict[str, tuple[str, Any]] = {**WRITERS, **FORMS}
+    if cad_blend.is_here():
+        found["Blender"] = ("machine.blend", cad_blend.blend)
+    return found
+
+
+def report(name: str, path: Path, own: Path, options: argparse.Namespace) -> list[str]:
+    """The table's cells for a format, whose sound file is at `path`, all that it may write being in `own`."""
+    from cad_exports import ITEMS
+
+    import fuzz_declared
+    from yellowiron.cad import part21, read_cad
+    from yellowiron.cad.read import _READERS
+    from yellowiron.cad.sniff import format_of
+
+    whole = read_cad(path)
+    assert len(whole.parts) == len(ITEMS) and not TELLING & {f.code for f in whole.findings}
+    kind, sound, before = format_of(path), path.read_bytes(), set(own.rglob("*"))
+    start = time.perf_counter()
+    answers, lost, peak = run(_READERS[kind], path, options.mutants)
+    seconds = time.perf_counter() - start
+    # After a crash the program itself looks at the text.
+    if kind == "STEP":
+        for seed, _ in lost:
+            part21.diagnose(mutant(sound, seed)[1])
+    counted = Counter("refused" if "error" in a else "read" for a in answers)
+    ends = Counter(end for _, end in lost)
+    fewer = [a for a in answers if "error" not in a and a["parts"] < len(ITEMS)]
+    unsaid = [a for a in fewer if not TELLING & set(a["codes"])]
+    silent = [a for a in unsaid if fuzz_declared.count(kind, mutant(sound, a["seed"])[1]) != a["parts"]]
+    half = [a for a in unsaid if a["kind"] == "cut"]
+    main = [a for a in answers if "main" in a]
+    # A child that was ended cannot tidy up its folder for temporary files; the guard's parent does.
+    strays = [p for p in set(own.rglob("*")) - before if own / "spare" not in p.parents]
+    if options.notes:
+        options.notes.mkdir(parents=True, exist_ok=True)
+        notes = [*answers, *({"seed": seed, "lost": end} for seed, end in lost)]
+        text = "".join(json.dumps(note) + "\n" for note in notes)
+        (options.notes / f"{own.name}.jsonl").write_text(text, encoding="utf-8")
+        (options.notes / f"{own.name}{path.suffix}").write_bytes(sound)
+    for entry in (lost, silent, half, main, strays):
+        if entry:
+            sys.stderr.write(f"{name}: {entry[:8]}\n")
+    numbers = (
+        len(answers) + len(lost), counted["read"], counted["refused"], ends["crashed"], ends["ended"], ends["hung"],
+        len(fewer) - len(unsaid), len(unsaid) - len(silent), len(silent), len(half), len(main), len(strays),
+    )  # fmt: skip
+    slowest = max((a["s"] for a in answers), default=0.0)
+    return [name, *map(str, numbers), f"{peak:.0f}", f"{slowest:.1f}", f"{seconds:.0f}"]
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--mutants", type=int, default=2000)
-    parser.add_argument("--notes", type=Path, help="a folder for what came of every mutant, a file a format")
+    parser.add_argument("--notes", type=Path, help="a folder for what came of every mutant and the sound file")
     parser.add_argument("--work", nargs=3, help=argparse.SUPPRESS)
-    parser.add_argument("formats", nargs="*", metavar="FORMAT")
+    parser.add_argument("formats", nargs="*", metavar="FORMAT", help="in this order; all without")
     options = parser.parse_args()
     if options.work:
         target, file, last = options.work
         nursery(target, Path(file), int(last))
         return
+    if os.environ.get("PYTHONHASHSEED") != "0":
+        # Some libraries write their sets as they come.
+        os.execve(sys.executable, [sys.executable, *sys.argv], {**os.environ, "PYTHONHASHSEED": "0"})
     from cad_exports import ITEMS, WRITERS
 
-    from yellowiron.cad import part21, read_cad
-    from yellowiron.cad.read import _READERS
-    from yellowiron.cad.sniff import format_of
+    from yellowiron.cad import read_cad
 
-    heads = ("format", "mutants", "read", "refused", "child died", "hung", "said", "unsaid", "half", "main", "strays")
-    heads += ("MB", "slowest", "s")
+    heads = ("format", "mutants", "read", "refused", "crashed", "ended", "hung", "said", "fewer", "silent", "half")
+    heads += ("main", "strays", "MB", "slowest", "s")
     sys.stdout.write("| " + " | ".join(heads) + " |\n|" + "---|" * len(heads) + "\n")
     with tempfile.TemporaryDirectory() as folder:
         truth = Path(folder, "truth.step")
@@ -231,9 +320,9 @@ def main() -> None:
         drawn = read_cad(truth)
         solids = {i.shape: drawn.shape_of(part).mesh for i, part in zip(ITEMS, drawn.parts, strict=True)}
         meshes = {key: (mesh.points, mesh.triangles) for key, mesh in solids.items()}
-        for name, (file, write) in WRITERS.items():
-            if options.formats and name not in options.formats:
-                continue
+        known = writers()
+        for name in options.formats or known:
+            file, write = known[name]
             # Deep down, and with the folder for temporary files inside: what a file makes its reader write is seen.
             own = Path(folder, re.sub(r"\W", "", name))
             path, spare = own / "a" / "b" / "c" / file, own / "spare"
@@ -241,37 +330,9 @@ def main() -> None:
             spare.mkdir()
             os.environ["TMPDIR"] = str(spare)
             write(path, meshes)
-            before = set(own.rglob("*"))
-            start = time.perf_counter()
-            answers, lost, peak = run(_READERS[format_of(path)], path, options.mutants)
-            seconds = time.perf_counter() - start
-            # After a crash the program itself looks at the text.
-            if format_of(path) == "STEP":
-                for seed, _ in lost:
-                    part21.diagnose(mutant(path.read_bytes(), seed)[1])
-            counted = Counter("refused" if "error" in a else "read" for a in answers)
-            ends = Counter(end for _, end in lost)
-            fewer = [a for a in answers if "error" not in a and a["parts"] < len(ITEMS)]
-            unsaid = [a for a in fewer if not a["codes"]]
-            half = [a for a in unsaid if a["kind"] == "cut"]
-            main = [a for a in answers if "main" in a]
-            # A child that was ended cannot tidy up its folder for temporary files; the guard's parent does.
-            strays = [p for p in set(own.rglob("*")) - before if spare not in p.parents]
-            cells = (
-                name, len(answers) + len(lost), counted["read"], counted["refused"], ends["died"], ends["hung"],
-                len(fewer) - len(unsaid), len(unsaid), len(half), len(main), len(strays), f"{peak:.0f}",
-                f"{max((a['s'] for a in answers), default=0.0):.1f}", f"{seconds:.0f}",
-            )  # fmt: skip
-            sys.stdout.write("| " + " | ".join(str(c) for c in cells) + " |\n")
+            path.write_bytes(settled(path.read_bytes()))
+            sys.stdout.write("| " + " | ".join(report(name, path, own, options)) + " |\n")
             sys.stdout.flush()
-            if options.notes:
-                options.notes.mkdir(parents=True, exist_ok=True)
-                notes = [*answers, *({"seed": seed, "lost": end} for seed, end in lost)]
-                text = "".join(json.dumps(note) + "\n" for note in notes)
-                (options.notes / f"{own.name}.jsonl").write_text(text, encoding="utf-8")
-            for entry in (lost, half, main, strays):
-                if entry:
-                    sys.stderr.write(f"{name}: {entry[:8]}\n")
 
 
 if __name__ == "__main__":

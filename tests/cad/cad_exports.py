@@ -3,6 +3,7 @@ has a bore, two pins of one shape (one of them turned), and a wedge with a Chine
 
 from __future__ import annotations
 
+import itertools
 import json
 import struct
 import zipfile
@@ -492,6 +493,8 @@ def dxf(path: Path, meshes: Meshes) -> None:
     from ezdxf.math import Matrix44
     from ezdxf.render import MeshBuilder
 
+    # No random numbers, and not the time: the same file every time.
+    ezdxf.options.write_fixed_meta_data_for_testing = True
     document = ezdxf.new("R2018", units=units.MM)
     blocks = {}
     for key, (points, triangles) in meshes.items():
@@ -515,6 +518,11 @@ def ifc(path: Path, meshes: Meshes) -> None:
     import ifcopenshell
     import ifcopenshell.guid
 
+    numbers = itertools.count(1)
+
+    def guid() -> str:
+        return str(ifcopenshell.guid.compress(f"{next(numbers):032x}"))
+
     f = ifcopenshell.file(schema="IFC4")
 
     def new(kind: str, *values: Any) -> Any:
@@ -528,7 +536,6 @@ def ifc(path: Path, meshes: Meshes) -> None:
     origin = placed(np.eye(4))
     context = new("IfcGeometricRepresentationContext", None, "Model", 3, 1e-5, origin.RelativePlacement)
     unit = new("IfcSIUnit", None, "LENGTHUNIT", "MILLI", "METRE")
-    guid = ifcopenshell.guid.new
     project = new(
         "IfcProject", guid(), None, "P", None, None, None, None, (context,), new("IfcUnitAssignment", (unit,))
     )
