@@ -2,9 +2,9 @@
 
 Run from the repository's root: `python benchmarks/bench_extract.py [--by] [--faults F] [--manual PAGES]
 [--sets tuned,held,final,last,fresh,fresh2,fresh3,fresh4,fresh5]`. `--by` adds a line for each layout and language (and
-type, in the sets of all types), `--faults` writes each value that did not come back as it should, `--manual` reads a manual
-of so many pages in the guarded child and prints its time and peak memory (default: no manual). Seconds are processor
-time.
+type, in the sets of all types), `--faults` writes each value that did not come back as it should, `--manual` reads a
+manual of so many pages in the guarded child and prints its time and peak memory (default: no manual). Seconds are
+processor time.
 """
 
 from __future__ import annotations
