@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 import struct
+import subprocess
+import sys
+import time
 import zipfile
 from pathlib import Path
 
+import cad_blend
 import ezdxf
 import numpy as np
 import pytest
 from cad_exports import ITEMS, WRITERS
 
 from yellowiron.cad import dxf, read_cad
+from yellowiron.guard import run_guarded
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import CadError
 
@@ -233,3 +238,99 @@ def test_a_ply_that_has_other_lines_than_it_says(tmp_path: Path) -> None:
     for damaged in (lines[:-5], [*lines[:20], *lines[19:]]):
         path.write_text("".join(damaged))
         assert "CAD001" in codes(path)
+
+
+@pytest.mark.parametrize(
+    ("name", "target"),
+    [("IGES", "iges:read_iges"), ("BREP", "occt:read_brep"), ("FreeCAD", "occt:read_freecad")],
+)
+def test_what_is_worked_on_for_ever_is_ended(name: str, target: str, tmp_path: Path) -> None:
+    """By processor time, long before the guard's own limit: one sentence with a hint."""
+    path = sound(name, tmp_path)
+    module, function = target.split(":")
+    code = (
+        f"from yellowiron.cad import {module}\n"
+        f"{module}._PATIENCE = {module}._PATIENCE_AFTER = 1.0\n"
+        f"{module}._SLOWEST_AFTER = 1e9\n"
+        "def go_on(*_, **__):\n    while True: pass\n"
+        f"{module}.products.assemble = go_on\n"
+        f"{module}.{function}({str(path)!r})\n"
+    )
+    start = time.monotonic()
+    with pytest.raises(CadError, match="came to no end") as caught:
+        run_guarded("builtins:exec", code, where=str(path), error=CadError, timeout_s=120.0)
+    assert time.monotonic() - start < 60.0
+    assert caught.value.hint and caught.value.where == str(path)
+
+
+@pytest.mark.parametrize(
+    ("part", "mark", "damage"),
+    [
+        ("Document.xml", '<Link value="Boom"/>', '<Link value="Bo0m"/>'),
+        ("Document.xml", '<Object name="Boom"><', '<Object name="Bo0m"><'),
+        ("Document.xml", '"Shape"><Part file="Boom.brp"', '"Shap"><Part file="Boom.brp"'),
+        ("Document.xml", '<XLink name="Pin"/>', '<XLink name="Pim"/>'),
+        ("GuiDocument.xml", '<Bool value="true"/>', '<Bool value="trve"/>'),
+    ],
+)  # fmt: skip
+def test_objects_of_a_freecad_file_that_are_lost_are_told(part: str, mark: str, damage: str, tmp_path: Path) -> None:
+    path = sound("FreeCAD", tmp_path)
+    with zipfile.ZipFile(path) as archive:
+        members = {name: archive.read(name) for name in archive.namelist()}
+    assert mark.encode() in members[part]
+    members[part] = members[part].replace(mark.encode(), damage.encode(), 1)
+    with zipfile.ZipFile(path, "w") as archive:
+        for name, content in members.items():
+            archive.writestr(name, content)
+    assert "CAD001" in codes(path)
+
+
+def test_a_group_of_an_unknown_kind_holds_what_it_holds(tmp_path: Path) -> None:
+    path = sound("FreeCAD", tmp_path)
+    data = path.read_bytes()
+    assert data.count(b'type="App::Part"') == 1
+    with zipfile.ZipFile(path) as archive:
+        members = {name: archive.read(name) for name in archive.namelist()}
+    members["Document.xml"] = members["Document.xml"].replace(b"App::Part", b"App::Stock")
+    with zipfile.ZipFile(path, "w") as archive:
+        for name, content in members.items():
+            archive.writestr(name, content)
+    read = read_cad(path)
+    assert len(read.parts) == len(ITEMS) and not read.findings
+
+
+def test_what_a_blender_file_links_to_and_is_not_there(tmp_path: Path) -> None:
+    if not cad_blend.is_here():
+        pytest.skip("bpy (the extra blender) is not here")
+    script = (
+        "import bpy, sys\n"
+        "bpy.ops.wm.read_factory_settings(use_empty=True)\n"
+        "bpy.ops.mesh.primitive_cube_add(); bpy.context.object.name = 'BOOM'\n"
+        "bpy.ops.wm.save_as_mainfile(filepath=sys.argv[1] + '/library.blend')\n"
+        "bpy.ops.wm.read_factory_settings(use_empty=True)\n"
+        "bpy.ops.mesh.primitive_cube_add(); bpy.context.object.name = 'FRAME'\n"
+        "with bpy.data.libraries.load(sys.argv[1] + '/library.blend', link=True) as (_, linked):\n"
+        "    linked.objects = ['BOOM']\n"
+        "bpy.context.scene.collection.objects.link(linked.objects[0])\n"
+        "bpy.ops.wm.save_as_mainfile(filepath=sys.argv[1] + '/machine.blend')\n"
+    )
+    subprocess.run([sys.executable, "-c", script, str(tmp_path)], check=True, capture_output=True)
+    path = tmp_path / "machine.blend"
+    assert sorted(p.name for p in read_cad(path).parts) == ["BOOM", "FRAME"] and not codes(path)
+    (tmp_path / "library.blend").unlink()
+    assert codes(path) == {"CAD008"}
+
+
+def test_a_blender_file_that_is_damaged(tmp_path: Path) -> None:
+    """What Blender passes over, it says only in its log."""
+    if not cad_blend.is_here():
+        pytest.skip("bpy (the extra blender) is not here")
+    path = tmp_path / "machine.blend"
+    cad_blend.blend(path, {item.shape: (BOX, FACES) for item in ITEMS})
+    data = path.read_bytes()
+    assert len(read_cad(path).parts) == len(ITEMS) and not codes(path)
+    # Two blocks of one address.
+    first = data.index(b"DATA", 5000)
+    second = data.index(b"DATA", first + 4)
+    path.write_bytes(data[: second + 8] + data[first + 8 : first + 16] + data[second + 16 :])
+    assert codes(path) & {"CAD001", "refused"}

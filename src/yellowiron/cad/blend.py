@@ -5,8 +5,14 @@ Blender itself (the extra `blender`) opens the file, its scripts left asleep, an
 
 from __future__ import annotations
 
+import ctypes
+import os
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from tempfile import TemporaryFile
+from typing import IO, Any
 
 import numpy as np
 
@@ -17,8 +23,12 @@ from yellowiron.cad.pictures import Picture, Pictures, finish
 from yellowiron.cad.placed import Occurrence
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import CadError
+from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Color, Mesh
 
+_HINT = "Open it in Blender and export it as GLB."
+_PASSED = re.compile(r"\bERROR\b\s+(.*)")
+"""A line of Blender's about what it passes over."""
 _SOLID = {"MESH", "CURVE", "SURFACE", "META", "FONT"}
 
 
@@ -33,11 +43,15 @@ def read_blend(path: str) -> Assembly:
             hint='Install it with: pip install "yellowiron[blender]"; or export the model from Blender as GLB.',
         ) from error
     try:
-        bpy.ops.wm.open_mainfile(filepath=str(Path(path).absolute()), load_ui=False, use_scripts=False)
+        with TemporaryFile() as log:
+            with _written_to(log):
+                bpy.ops.wm.open_mainfile(filepath=str(Path(path).absolute()), load_ui=False, use_scripts=False)
+            log.seek(0)
+            findings = _damage(log.read().decode(errors="replace"), path)
     except RuntimeError as error:
         words = " ".join(str(error).split())[:200]
-        hint = "Open it in Blender and export it as GLB."
-        raise CadError(f"Blender cannot open the file: {words}", where=path, hint=hint) from error
+        raise CadError(f"Blender cannot open the file: {words}", where=path, hint=_HINT) from error
+    findings += _missing(path)
     scene = bpy.context.scene
     unit = float(scene.unit_settings.scale_length) if scene.unit_settings.system != "NONE" else 1.0
     graph = bpy.context.evaluated_depsgraph_get()
@@ -53,7 +67,7 @@ def read_blend(path: str) -> Assembly:
         own = shown.original
         key = own.name_full
         if key not in meshes:
-            meshes[key] = _mesh(shown, unit, pictures)
+            meshes[key] = _mesh(shown, unit, pictures, findings)
         found = meshes[key]
         if found is None:
             continue
@@ -63,9 +77,46 @@ def read_blend(path: str) -> Assembly:
         name = decode_name(own.name, "utf-8")
         occurrences.append(Occurrence(name, _above(own, above), found.mesh, place, found.color, found.finishes))
     return placed.assemble(
-        occurrences, name=Path(path).stem, format="Blender", unit=unit, path=path, findings=pictures.findings(),
-        declared=declared,
+        occurrences, name=Path(path).stem, format="Blender", unit=unit, path=path,
+        findings=[*findings, *pictures.findings()], declared=declared,
     )  # fmt: skip
+
+
+@contextmanager
+def _written_to(log: IO[bytes]) -> Iterator[None]:
+    """What the process writes to its outputs goes to a file: Blender says only there what it passes over."""
+    kept = [os.dup(stream) for stream in (1, 2)]
+    try:
+        for stream in (1, 2):
+            os.dup2(log.fileno(), stream)
+        yield
+    finally:
+        # What the C library holds back belongs to the log, too.
+        ctypes.CDLL(None).fflush(None)
+        for stream, own in zip((1, 2), kept, strict=True):
+            os.dup2(own, stream)
+            os.close(own)
+
+
+def _damage(log: str, path: str) -> list[Finding]:
+    """A finding for the errors that Blender passed over while it opened the file."""
+    said = list(dict.fromkeys(" ".join(line.split()) for line in _PASSED.findall(log)))
+    if not said:
+        return []
+    words = f"Blender has passed over damage ({said[0][:120]}): parts may be missing"
+    return [Finding("CAD001", "warning", path, words, _HINT)]
+
+
+def _missing(path: str) -> list[Finding]:
+    """A finding for libraries, and what is linked from them, that are not there."""
+    import bpy
+
+    gone = [entry.filepath for entry in bpy.data.libraries if not Path(bpy.path.abspath(entry.filepath)).is_file()]
+    gone += [entry.name for entry in bpy.data.objects if getattr(entry, "is_missing", False)]
+    if not gone:
+        return []
+    words = f"What the file links to is missing: {', '.join(sorted(gone)[:5])}"
+    return [Finding("CAD008", "error", path, words, "Put the libraries where the file names them.")]
 
 
 def _above(own: Any, instancer: Any) -> tuple[str, ...]:
@@ -80,8 +131,8 @@ def _above(own: Any, instancer: Any) -> tuple[str, ...]:
     return tuple(reversed(names))
 
 
-def _mesh(shown: Any, unit: float, pictures: Pictures) -> Dressed | None:
-    """An evaluated object's triangles, in metres, with its looks; None without any."""
+def _mesh(shown: Any, unit: float, pictures: Pictures, findings: list[Finding]) -> Dressed | None:
+    """An evaluated object's triangles, in metres, with its looks; None without any, or where they are damaged."""
     data = shown.to_mesh()
     if data is None:
         return None
@@ -98,10 +149,15 @@ def _mesh(shown: Any, unit: float, pictures: Pictures) -> Dressed | None:
         data.loop_triangles.foreach_get("loops", corners)
         flat = np.empty(2 * len(data.loops), dtype=np.float32)
         data.uv_layers.active.data.foreach_get("uv", flat)
-        uvs = flat.astype(np.float64).reshape(-1, 2)[corners].reshape(-1, 3, 2)
+        sound = 0 <= corners.min(initial=0) <= corners.max(initial=0) < len(data.loops)
+        uvs = flat.astype(np.float64).reshape(-1, 2)[corners].reshape(-1, 3, 2) if sound else None
     looks = [_look(slot.material, pictures) for slot in shown.original.material_slots]
     shown.to_mesh_clear()
     if not len(triangles):
+        return None
+    if not 0 <= triangles.min() <= triangles.max() < len(points) // 3:
+        name = decode_name(shown.original.name, "utf-8")
+        findings.append(Finding("CAD003", "error", name, "Left out: its faces name points that are not there", _HINT))
         return None
     mesh = Mesh(points.reshape(-1, 3) * unit, triangles.reshape(-1, 3))
     return dress(mesh, looks, rows.astype(np.int64), uvs=uvs)

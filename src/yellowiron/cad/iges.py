@@ -60,16 +60,20 @@ _PATIENCE, _SLOWEST = 20.0, 2e4
 
 def read_iges(path: str) -> Assembly:
     """The assembly in an IGES file, in metres. `CadError` if it is damaged or holds no surface."""
+    # Some damaged surfaces are worked on for ever.
+    with must_end(_PATIENCE + Path(path).stat().st_size / _SLOWEST):
+        return _read(path)
+
+
+def _read(path: str) -> Assembly:
     IGESControl_Controller.Init_s()
     Interface_Static.SetCVal_s("xstep.cascade.unit", "MM")
     reader = IGESControl_Reader()
     if reader.ReadFile(path) != IFSelect_ReturnStatus.IFSelect_RetDone:
         raise CadError("The IGES file cannot be read: its syntax is broken", where=path, hint=EXPORT_AGAIN)
     document = new_document()
-    # Some damaged surfaces are worked on for ever.
-    with must_end(_PATIENCE + Path(path).stat().st_size / _SLOWEST):
-        model = _Model(reader, path)
-        add_products(document, model.products())
+    model = _Model(reader, path)
+    add_products(document, model.products())
     tree = Tree(document, "utf-8")
     if not tree.roots:
         raise CadError("The IGES file holds nothing that can be read as a part", where=path, hint=EXPORT_AGAIN)

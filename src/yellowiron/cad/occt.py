@@ -38,6 +38,7 @@ from yellowiron.model.geometry import Color, linear
 _DAMAGED = "Copy or save it again; the file is damaged."
 _GROUPS = ("App::Part", "App::DocumentObjectGroup", "Assembly::AssemblyObject", "App::LinkGroup")
 _LINKS = ("App::Link", "App::LinkElement")
+_SOLID = ("Part::Feature", "PartDesign::Body")
 _LARGEST = 1024**3
 """Bytes of one file of an archive when unpacked."""
 _LARGEST_PALETTE = 64 * 1024**2
@@ -47,15 +48,19 @@ _DEEPEST = 50
 _NO_NUMBER = re.compile(rb"[\s+-](?:nan|inf)", re.IGNORECASE)
 _PATIENCE, _SLOWEST = 2.0, 1e6
 """Seconds, and bytes a second: a fiftieth of what is usual."""
+_PATIENCE_AFTER, _SLOWEST_AFTER = 20.0, 2e4
+"""The same for what is made of the shapes: some damaged surfaces are measured for ever."""
 
 
 def read_brep(path: str) -> Assembly:
     """The assembly in a BREP file, text or binary, taken to be in millimetres. `CadError` if it is damaged."""
-    document = new_document()
-    add_product(document, Path(path).stem, _shape(path, path))
+    shape = _shape(path, path)
     words = "The format has no unit of length: millimetres assumed, as Open CASCADE's programs have it"
     unit = Finding("CAD009", "info", path, words)
-    return products.assemble(Tree(document, "utf-8"), path=path, format="BREP", unit=1e-3, findings=[unit])
+    with must_end(_PATIENCE_AFTER + Path(path).stat().st_size / _SLOWEST_AFTER):
+        document = new_document()
+        add_product(document, Path(path).stem, shape)
+        return products.assemble(Tree(document, "utf-8"), path=path, format="BREP", unit=1e-3, findings=[unit])
 
 
 def _shape(file: str, path: str) -> Any:
@@ -87,6 +92,10 @@ class _Object:
     linked: str = ""
     shown: bool = True
     color: Color | None = None
+    stated: bool = False
+    """Whether it says that it has a shape."""
+    doubtful: bool = False
+    """Whether what says that it is shown is damaged."""
     palette: list[Color] = field(default_factory=list)
     """A colour for every face of its shape."""
 
@@ -95,7 +104,8 @@ def read_freecad(path: str) -> Assembly:
     """The assembly in a FreeCAD file, in metres. `CadError` if it is damaged or shows no shape."""
     try:
         with zipfile.ZipFile(path) as archive:
-            objects = _objects(ElementTree.fromstring(archive.read("Document.xml")))
+            root = ElementTree.fromstring(archive.read("Document.xml"))
+            objects = _objects(root)
             if "GuiDocument.xml" in archive.namelist():
                 _looks(ElementTree.fromstring(archive.read("GuiDocument.xml")), objects, archive)
             shapes = _shapes(archive, objects, path)
@@ -107,8 +117,10 @@ def read_freecad(path: str) -> Assembly:
     for name in objects:
         if name not in owned:
             _add(roots, name, TopLoc_Location(), objects, shapes, path, 0)
-    add_products(document, [_at(product, place) for product, place in roots])
-    return products.assemble(Tree(document, "utf-8"), path=path, format="FreeCAD", unit=1e-3)
+    with must_end(_PATIENCE_AFTER + Path(path).stat().st_size / _SLOWEST_AFTER):
+        add_products(document, [_at(product, place) for product, place in roots])
+        tree = Tree(document, "utf-8")
+        return products.assemble(tree, path=path, format="FreeCAD", unit=1e-3, findings=_damage(root, objects, path))
 
 
 def _at(product: Product, place: Any) -> Product:
@@ -136,13 +148,14 @@ def _add(
     if depth > _DEEPEST:
         raise CadError("The FreeCAD file is broken: an object holds itself", where=path, hint=_DAMAGED)
     place = outer if one.place is None else outer * one.place
-    if one.kind in _GROUPS:
+    # Types of groups and links are many, and a damaged one holds what it held.
+    if one.kind in _GROUPS or (one.members and not one.file):
         inner: list[tuple[Product, Any]] = []
         for member in one.members:
             _add(inner, member, place, objects, shapes, path, depth + 1)
         if inner:
             held.append((Product(label or one.label, None, inner), TopLoc_Location()))
-    elif one.kind in _LINKS:
+    elif one.kind in _LINKS or (one.linked and not one.file):
         target = objects.get(one.linked)
         if target is not None:
             # A link has a place of its own instead of its target's.
@@ -160,6 +173,21 @@ def _is_used(one: _Object, objects: Mapping[str, _Object]) -> bool:
     return any(one.name in other.uses and other.file for other in objects.values())
 
 
+def _damage(root: ElementTree.Element, objects: Mapping[str, _Object], path: str) -> list[Finding]:
+    """A finding for what shows that an object is lost: names that lead nowhere, shapes that nothing says."""
+    listed = {e.get("name", "") for e in root.iterfind("./Objects/Object")}
+    named = {n for o in objects.values() for n in (*o.members, o.linked) if n}
+    gone = sorted((listed | named) - set(objects) | set(objects) - listed)
+    words = [f"objects are named that are not there ({', '.join(gone[:5])})"] if gone else []
+    bare = sorted(o.label for o in objects.values() if o.kind in _SOLID and o.shown and not o.stated)
+    words += [f"objects have no shape ({', '.join(bare[:5])})"] if bare else []
+    hidden = sorted(o.label for o in objects.values() if o.doubtful)
+    words += [f"whether objects are shown cannot be read ({', '.join(hidden[:5])})"] if hidden else []
+    if not words:
+        return []
+    return [Finding("CAD001", "warning", path, f"{'; '.join(words)}: parts may be missing", _DAMAGED)]
+
+
 def _objects(root: ElementTree.Element) -> dict[str, _Object]:
     kinds = {e.get("name", ""): e.get("type", "") for e in root.iterfind("./Objects/Object")}
     found: dict[str, _Object] = {}
@@ -172,6 +200,7 @@ def _objects(root: ElementTree.Element) -> dict[str, _Object]:
             if key == "Label":
                 one.label = decode_name(next((e.get("value", "") for e in item.iter("String")), name), "utf-8")
             elif key == "Shape":
+                one.stated = True
                 one.file = next((e.get("file", "") for e in item.iter("Part")), "")
             elif key in ("Placement", "LinkPlacement") and one.place is None:
                 one.place = next((_location(e) for e in item.iter("PropertyPlacement")), None)
@@ -209,7 +238,8 @@ def _looks(root: ElementTree.Element, objects: Mapping[str, _Object], archive: z
         for item in entry.iterfind("./Properties/Property"):
             key = item.get("name", "")
             if key == "Visibility":
-                one.shown = any(e.get("value") == "true" for e in item.iter("Bool"))
+                said = [e.get("value") for e in item.iter("Bool")]
+                one.shown, one.doubtful = "true" in said, said not in (["true"], ["false"])
             elif key == "ShapeColor":
                 packed = next((int(e.get("value", "0")) for e in item.iter("PropertyColor")), None)
                 one.color = None if packed is None else _unpacked(packed)
