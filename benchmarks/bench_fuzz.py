@@ -49,6 +49,8 @@ LIMIT_S, WALL_S = 60.0, 600.0
 MEMORY = 4 * 1024**3
 TELLING = frozenset({"CAD001", "CAD003", "CAD006", "CAD008"})
 """Findings that say that something is missing."""
+ALONE = ("Blender",)
+"""Formats whose library keeps something of a file that it has read: a child for every mutant."""
 EPOCH = b"\x00\x00\x21\x00"
 """1980-01-01, as archives write it."""
 
@@ -137,8 +139,9 @@ def work(target: str, file: Path, first: int, last: int) -> None:
     file.write_bytes(sound)
 
 
-def nursery(target: str, file: Path, last: int) -> None:
-    """Loads what the reader loads, then for every number on the standard input a child that reads from there on."""
+def nursery(target: str, file: Path) -> None:
+    """Loads what the reader loads, then for every two numbers on the standard input a child that reads the mutants from
+    the first one to before the second."""
     learned, told = os.pipe()
     if (child := os.fork()) == 0:
         module, name = target.split(":")
@@ -160,7 +163,7 @@ def nursery(target: str, file: Path, last: int) -> None:
     for line in sys.stdin:
         if (child := os.fork()) == 0:
             os.write(1, json.dumps({"child": os.getpid()}).encode() + b"\n")
-            work(target, file, int(line), last)
+            work(target, file, *map(int, line.split()))
             os._exit(0)
         _, status, usage = os.wait4(child, 0)
         killed = os.WTERMSIG(status) if os.WIFSIGNALED(status) else 0
@@ -168,13 +171,15 @@ def nursery(target: str, file: Path, last: int) -> None:
         os.write(1, b"\n" + json.dumps(end).encode() + b"\n")
 
 
-def run(target: str, file: Path, count: int) -> tuple[list[dict[str, Any]], list[tuple[int, str]], float]:
+def run(
+    target: str, file: Path, count: int, *, alone: bool
+) -> tuple[list[dict[str, Any]], list[tuple[int, str]], float]:
     """Every mutant's answer, those that gave none: (seed, how it ended), and the most memory, MB."""
     sound = file.read_bytes()
     answers: list[dict[str, Any]] = []
     lost: list[tuple[int, str]] = []
     peak = 0.0
-    command = [sys.executable, __file__, "--work", target, str(file), str(count)]
+    command = [sys.executable, __file__, "--work", target, str(file)]
     pipe = subprocess.PIPE
     with subprocess.Popen(command, stdin=pipe, stdout=pipe, stderr=subprocess.DEVNULL, cwd=file.parent) as source:
         assert source.stdin is not None and source.stdout is not None
@@ -182,9 +187,10 @@ def run(target: str, file: Path, count: int) -> tuple[list[dict[str, Any]], list
         seed = 0
         while seed < count:
             file.write_bytes(sound)
-            source.stdin.write(f"{seed}\n".encode())
+            last = seed + 1 if alone else count
+            source.stdin.write(f"{seed} {last}\n".encode())
             source.stdin.flush()
-            child, end = int(next(lines)["child"]), "crashed"
+            child, end = next(int(line["child"]) for line in lines if line is not None), "crashed"
             since, clock = 0.0, time.monotonic()
             for line in lines:
                 if line is None:
@@ -199,7 +205,7 @@ def run(target: str, file: Path, count: int) -> tuple[list[dict[str, Any]], list
                     answers.append(line)
                     seed += 1
                     since, clock = _spent(child), time.monotonic()
-            if seed < count:
+            if seed < last:
                 lost.append((seed, end))
                 seed += 1
         source.stdin.close()
@@ -261,7 +267,7 @@ def report(name: str, path: Path, own: Path, options: argparse.Namespace) -> lis
     assert len(whole.parts) == len(ITEMS) and not TELLING & {f.code for f in whole.findings}
     kind, sound, before = format_of(path), path.read_bytes(), set(own.rglob("*"))
     start = time.perf_counter()
-    answers, lost, peak = run(_READERS[kind], path, options.mutants)
+    answers, lost, peak = run(_READERS[kind], path, options.mutants, alone=kind in ALONE)
     seconds = time.perf_counter() - start
     # After a crash the program itself looks at the text.
     if kind == "STEP":
@@ -297,12 +303,12 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--mutants", type=int, default=2000)
     parser.add_argument("--notes", type=Path, help="a folder for what came of every mutant and the sound file")
-    parser.add_argument("--work", nargs=3, help=argparse.SUPPRESS)
+    parser.add_argument("--work", nargs=2, help=argparse.SUPPRESS)
     parser.add_argument("formats", nargs="*", metavar="FORMAT", help="in this order; all without")
     options = parser.parse_args()
     if options.work:
-        target, file, last = options.work
-        nursery(target, Path(file), int(last))
+        target, file = options.work
+        nursery(target, Path(file))
         return
     if os.environ.get("PYTHONHASHSEED") != "0":
         # Some libraries write their sets as they come.

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import re
 import struct
+import tempfile
 
 import numpy as np
 
@@ -64,4 +65,28 @@ def _pieces(corners: np.ndarray) -> int:
     return sum(top(k) == k for k in range(len(root)))
 
 
-_COUNTS = {"STL": _stl, "PLY": _ply, "OBJ": _obj}
+def _brep(data: bytes) -> int:
+    """Solids, in whatever compounds."""
+    from OCP.BinTools import BinTools
+    from OCP.BRep import BRep_Builder
+    from OCP.BRepTools import BRepTools
+    from OCP.TopAbs import TopAbs_SOLID
+    from OCP.TopExp import TopExp_Explorer
+    from OCP.TopoDS import TopoDS_Shape
+
+    shape = TopoDS_Shape()
+    with tempfile.NamedTemporaryFile() as file:
+        file.write(data)
+        file.flush()
+        if data.lstrip(b"\n").startswith(b"Open CASCADE Topology V"):
+            BinTools.Read_s(shape, file.name)
+        else:
+            BRepTools.Read_s(shape, file.name, BRep_Builder())
+    solids, found = TopExp_Explorer(shape, TopAbs_SOLID), 0
+    while solids.More():
+        found += 1
+        solids.Next()
+    return found
+
+
+_COUNTS = {"STL": _stl, "PLY": _ply, "OBJ": _obj, "BREP": _brep}
