@@ -71,6 +71,23 @@ def test_an_iges_with_a_damaged_entity(tmp_path: Path) -> None:
     assert "CAD001" in codes(path)
 
 
+@pytest.mark.parametrize(
+    ("mark", "damage", "says"),
+    [
+        ("T0000001", "", "truncated"),
+        ("\n110,", "\n1\0\0,", "is no text"),
+        (",7.874015748,", ",7.8740e308,", "no coordinate"),
+    ],
+)
+def test_an_iges_that_open_cascade_would_not_survive(mark: str, damage: str, says: str, tmp_path: Path) -> None:
+    path = sound("IGES", tmp_path)
+    text = path.read_text()
+    assert mark in text
+    path.write_text(text.replace(mark, damage, 1))
+    found = outcome(path)
+    assert isinstance(found, CadError) and says in found.message
+
+
 @pytest.mark.parametrize("name", ["OBJ", "PLY", "3MF", "COLLADA"])
 def test_points_that_are_no_numbers(name: str, tmp_path: Path) -> None:
     path = sound(name, tmp_path)

@@ -7,6 +7,7 @@ is one product with several instances. Names are those of the property 406, form
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -54,15 +55,33 @@ _SURFACES = frozenset({108, 114, 118, 120, 122, 128, 140, 143, 144, 190, 192, 19
 _WHOLE = frozenset({143, 144, _SOLID})
 """Solids and trimmed surfaces, which are nothing else's geometry."""
 _DEEPEST = 50
+_END = re.compile(rb"^.{72}T[ \d]{7}", re.MULTILINE)
+"""The line that ends the file."""
+_NO_NUMBER = re.compile(rb"[,;][-+]?(?:\d+\.?\d*[EeDd]\+?(?:1[5-9]|[2-9]\d)\d\b|(?:nan|inf)[,;])", re.IGNORECASE)
+"""From 1e150 on: what stands for infinity is less."""
 _PATIENCE, _SLOWEST = 20.0, 2e4
 """Seconds, and bytes a second: far less than is usual."""
 
 
 def read_iges(path: str) -> Assembly:
     """The assembly in an IGES file, in metres. `CadError` if it is damaged or holds no surface."""
+    _check(Path(path).read_bytes(), path)
     # Some damaged surfaces are worked on for ever.
     with must_end(_PATIENCE + Path(path).stat().st_size / _SLOWEST):
         return _read(path)
+
+
+def _check(data: bytes, path: str) -> None:
+    """`CadError` for damage on which Open CASCADE crashes, or goes on for ever: no end, no text, no numbers."""
+    fault, data = "", data.rstrip(b"\0\x1a")
+    if not _END.search(data[-4096:]):
+        fault = "is truncated: its last section is missing"
+    elif b"\0" in data:
+        fault = f"is broken: byte {data.index(0) + 1} is no text"
+    elif number := _NO_NUMBER.search(data):
+        fault = f"is broken: {number.group().decode(errors='replace')} is no coordinate"
+    if fault:
+        raise CadError(f"The IGES file {fault}", where=path, hint=EXPORT_AGAIN)
 
 
 def _read(path: str) -> Assembly:
