@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import struct
 import subprocess
 import sys
@@ -15,7 +16,10 @@ import numpy as np
 import pytest
 from cad_exports import ITEMS, WRITERS
 
+import yellowiron.cad
+from yellowiron import cli
 from yellowiron.cad import dxf, read_cad
+from yellowiron.cad import read as cad_reading
 from yellowiron.guard import run_guarded
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import CadError
@@ -351,3 +355,33 @@ def test_a_blender_file_that_is_damaged(tmp_path: Path) -> None:
     second = data.index(b"DATA", first + 4)
     path.write_bytes(data[: second + 8] + data[first + 8 : first + 16] + data[second + 16 :])
     assert codes(path) & {"CAD001", "refused"}
+
+
+@pytest.mark.parametrize(
+    ("body", "says", "limit"),
+    [("with must_end(1.0):\n        work()", "no end", 120.0), ("work()", "more than 2 s", 2.0)],
+)
+def test_a_reader_that_goes_on_for_ever_is_one_sentence(
+    body: str,
+    says: str,
+    limit: float,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    """By its own limit or by the guard's: the program ends with code 2."""
+    work = "def work():\n    while True: pass\n"
+    text = f"from yellowiron.guard import must_end\n\n{work}\ndef read(path):\n    {body}\n"
+    (tmp_path / "reader_without_end.py").write_text(text)
+    monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.setitem(cad_reading._READERS, "OBJ", "reader_without_end:read")
+    monkeypatch.setattr(yellowiron.cad, "read_cad", functools.partial(read_cad, timeout_s=limit))
+    path = sound("OBJ", tmp_path)
+    monkeypatch.setattr(sys, "argv", ["yellowiron", "convert", str(path), "--out", str(tmp_path / "machine.usda")])
+    monkeypatch.setattr("signal.signal", lambda *_: None)
+    with pytest.raises(SystemExit) as ended:
+        cli.main()
+    assert ended.value.code == 2
+    said = " ".join(capsys.readouterr().err.split())
+    assert says in said and "hint:" in said and "Traceback" not in said
+    assert not (tmp_path / "machine.usda").exists()
