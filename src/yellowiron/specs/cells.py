@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from itertools import pairwise
 
 from yellowiron.specs.lines import Line
-from yellowiron.specs.numbers import read
+from yellowiron.specs.numbers import FEET_DASH, read
 from yellowiron.specs.statement import (
     EXAMPLE,
     Piece,
@@ -54,7 +54,8 @@ def statement_of(
             label, text = inline
     column = [h for h in heads if not is_unit(h.bare)]
     unit = next((u for h in reversed(heads) if (u := is_unit(h.bare) or unit_in_label(h.bare)[1])), "")
-    label, label_unit = unit_in_label(without_key(label))
+    bare = not cell.unit and not unit and not any(q.unit for r in read(text) for q in r.numbers)
+    label, label_unit = unit_in_label(without_key(label), bare=bare)
     box = join_boxes(p.box for p in cell.values)
     return Statement(
         page=page.number,
@@ -104,7 +105,10 @@ def cells_of(row: Sequence[Line]) -> list[ValueCell]:
         if not label and cells:
             label = cells[-1].label
         unit = is_unit(units[-1].bare) if units else (cells[-1].unit if cells and label is cells[-1].label else "")
-        cells.append(ValueCell(label, sorted(column, key=lambda p: (p.words[0].baseline, p.x0)), unit=unit))
+        stacked = sorted(column, key=lambda p: (p.words[0].baseline, p.x0))
+        if len(stacked) > 1 and (beside := _beside(stacked, units)):
+            stacked, unit = beside, ""
+        cells.append(ValueCell(label, stacked, unit=unit))
         left_edge = x1
     if cells:
         last = [p for p in others if p.x0 >= left_edge]
@@ -121,6 +125,18 @@ def cells_of(row: Sequence[Line]) -> list[ValueCell]:
             if kinds[id(note)] == "text" and len(note.words) <= 8:
                 cells[-1].values.append(note)
     return cells
+
+
+def _beside(values: Sequence[Piece], units: Sequence[Piece]) -> list[Piece]:
+    """Values one below the other, each with the unit on its own line behind it; [] where no unit or several stand on a
+    line, or a unit on none."""
+    found: list[Piece] = []
+    for value in values:
+        level = [u for u in units if abs(u.words[0].baseline - value.words[0].baseline) < 0.3 * value.size]
+        if len(level) > 1 or not (level or _has_unit(ValueCell([], [value])) or FEET_DASH.fullmatch(value.bare)):
+            return []
+        found += [value, *level]
+    return found if len(found) == len(values) + len(units) else []
 
 
 def _has_unit(cell: ValueCell) -> bool:
@@ -213,7 +229,9 @@ def _quote(row: Sequence[Line], context: Sequence[Piece], cell: ValueCell, heads
     for line in row:
         mine = [i for i, p in enumerate(line.pieces) if any(p is q for q in chosen)]
         if mine:
-            parts.append(" ".join(p.printed for p in line.pieces[mine[0] : mine[-1] + 1]))
+            # A file may hold the lines of a broken label one after the other, before the value beside them.
+            between = " … " if len(row) > 1 else " "
+            parts.append(between.join(p.printed for p in line.pieces[mine[0] : mine[-1] + 1]))
     return " … ".join(dict.fromkeys(parts))
 
 

@@ -9,6 +9,7 @@ from itertools import pairwise
 
 from yellowiron.specs.numbers import FEET_INCHES, DecimalStyle, Quantity, Reading, read, same
 from yellowiron.specs.statement import Statement
+from yellowiron.specs.vocabulary import tokens
 
 _CROSS = re.compile(r"\s+[x×✕*/]\s+|\s*[×✕]\s*|\s+(?:and|und|et|y)\s+(?=stroke|rod|Hub|course|carrera)", re.IGNORECASE)
 _COUNTED = re.compile(
@@ -141,6 +142,7 @@ def _bare(text: str) -> str:
 
 def _expand(statement: Statement, style: DecimalStyle) -> Iterator[Claim]:
     text, unit = spelled_out(statement.text, statement.unit)
+    text = _feet_spelled_out(text, unit)
     readings = [r for r in read(text, unit=unit, style=style) if not r.condition]
     label = _without_conditions(statement.label)
     kept: list[Reading] = []
@@ -171,6 +173,19 @@ def spelled_out(text: str, unit: str) -> tuple[str, str]:
     return re.sub(r"\(([^()]*)\)", inside, text), first
 
 
+def _feet_spelled_out(text: str, unit: str) -> str:
+    """Feet and inches written with a dash behind a metric length that says the same, with their signs: "1,616 mm 5-4" →
+    "1,616 mm 5'4\""."""
+    match = re.search(r"(?<=\s)[(\[]?(\d+)\s?[-–]\s?(\d+(?:\.\d+)?)[)\]]?$", text)
+    before = read(text[: match.start()], unit=unit) if match else ()
+    if match is None or len(before) != 1 or len(before[0].numbers) != 1:
+        return text
+    spelled = re.sub(_FEET_DASH, _feet_and_inches, match.group(0))
+    feet = read(spelled)
+    agrees = len(feet) == 1 and same(before[0].numbers[0], feet[0].numbers[0])
+    return f"{text[: match.start()]}{spelled}" if agrees else text
+
+
 def _feet_and_inches(match: re.Match[str]) -> str:
     return f"{match.group(1)}'{match.group(2)}\""
 
@@ -188,8 +203,9 @@ def _restates(a: Reading, b: Reading) -> bool:
 
 
 def _claims_of_reading(statement: Statement, label: str, reading: Reading) -> Iterator[Claim]:
-    sign = " ±" if reading.numbers[0].sign == "±" else ""
-    words = f"{label} {reading.qualifier}{sign}".strip()
+    words = f"{label} {reading.qualifier}".strip()
+    if reading.numbers[0].sign == "±" and "each" not in tokens(words):
+        words = f"{words} ±"
     head = " ".join(statement.column)
     if reading.kind == "product":
         yield from _factors(statement, label, reading)
@@ -227,6 +243,8 @@ def _factors(statement: Statement, label: str, reading: Reading) -> Iterator[Cla
         return
 
 
+_SIZES = {"LWH", "LBH", "LlH", "LAH", "LAhA", "LAnAl", "lwh", "lbh", "长宽高", "長幅高"}
+"""What makers call length × width × height."""
 _NAME = r"(?:(?:length|longueur|longitud|di[aá]m\w+|diamètre) (?:of|de|du|del) \S+|\S+(?:\s+(?:diameter|dia\.?))?)"
 """What one factor of a product is called: "bore", "rod diameter", "length of stroke"."""
 
@@ -248,6 +266,8 @@ def enumerated(label: str, count: int) -> list[str]:
     last = re.match(rf"^({_NAME})(.*)$", parts[-1])
     suffix = last.group(2).strip() if last else ""
     parts[-1] = last.group(1) if last else parts[-1]
+    if "".join([name, *parts[1:]]) in _SIZES:
+        name, parts = "length", ["length", "width", "height"]
     return [" ".join(f"{prefix} {p} {suffix}".split()) for p in [name, *parts[1:]]]
 
 

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 
 from yellowiron.specs.boxed import read_boxes
 from yellowiron.specs.cells import legend_of
+from yellowiron.specs.headings import Heading, body_size
 from yellowiron.specs.keyed import key_legend, labelled, spelled
 from yellowiron.specs.lattice import Grid, columns_of, grids_of, read_grid
 from yellowiron.specs.lines import Line, blocks_of, lines_of
 from yellowiron.specs.margin import without_keys
 from yellowiron.specs.opened import heads_above
-from yellowiron.specs.rows import Heading, read_block
+from yellowiron.specs.rows import read_block
 from yellowiron.specs.statement import Statement, kind_of
 from yellowiron.specs.strokes import Box
 from yellowiron.specs.words import Page
@@ -26,6 +28,8 @@ def statements_of(page: Page) -> list[Statement]:
     """
     lines = lines_of(page.words)
     keys = key_legend(lines)
+    notes = _footnotes(lines, body_size(page.words))
+    page = replace(page, words=tuple(w for w in page.words if id(w) not in notes))
     page = replace(spelled(page, keys), legend=legend_of(lines))
     grids = grids_of(page)
     outside = [
@@ -59,6 +63,21 @@ def statements_of(page: Page) -> list[Statement]:
         found.extend(read_grid(page, filled.grid, row, title, above))
         row += grid.rows + 1
     return labelled(found, keys)
+
+
+_NOTE = re.compile(r"[\u00b9\u00b2\u00b3\u2070-\u2079*†‡§]+[)]?|[(\[]?\d[)\]]")
+
+
+def _footnotes(lines: Sequence[Line], size: float) -> frozenset[int]:
+    """The words of footnotes, by identity: small print behind a sign. They tell circumstances, and no values."""
+    found: set[int] = set()
+    for line in lines:
+        first = next(
+            (i for i, p in enumerate(line.pieces) if _NOTE.fullmatch(p.words[0].text) and len(p.words) > 3), None
+        )
+        if first is not None and all(w.size < 0.92 * size for p in line.pieces[first:] for w in p.words):
+            found.update(id(w) for p in line.pieces[first:] for w in p.words)
+    return frozenset(found)
 
 
 def _within(inner: Box, outer: Box) -> bool:

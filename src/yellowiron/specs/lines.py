@@ -141,6 +141,7 @@ def _gutter(lines: Sequence[Line], bars: Sequence[Box], across: Sequence[Box]) -
             # headings may hang out to the left of their rows
             hanging = {p.x0 for line in lines for p in line.pieces if label - _HANGING <= p.x0 < label - 2}
             candidates.extend(sorted(hanging)[:3])
+    candidates += _of_right_set_labels(lines)
     by_bars = sorted({b[0] for b in bars if any(a[2] <= b[0] and a[1] < b[3] and b[1] < a[3] for a in bars)})
     candidates += by_bars
     best: tuple[int, float, int, int] | None = None
@@ -155,6 +156,22 @@ def _gutter(lines: Sequence[Line], bars: Sequence[Box], across: Sequence[Box]) -
         if weight >= 3 and parts and (best is None or weight > best[0]):
             best = (weight, x, first, last)
     return best[1:] if best else None
+
+
+def _of_right_set_labels(lines: Sequence[Line]) -> list[float]:
+    """Where the longest of labels begins that are set against their values: they end level with each other."""
+    ends: dict[int, list[Piece]] = {}
+    for line in lines:
+        for label, value in zip(line.pieces, line.pieces[1:], strict=False):
+            if kind_of(label) == "text" and kind_of(value) == "value":
+                ends.setdefault(round(label.x1 / 2), []).append(label)
+    found = []
+    for key in sorted(ends):
+        near = ends[key] + ends.get(key + 1, [])
+        starts = {round(label.x0 / 3) for label in near}
+        if len(near) >= 4 and len(starts) > 0.6 * len(near):
+            found.append(min(label.x0 for label in near))
+    return found
 
 
 def _folded(lines: Sequence[Line], number: int, index: int) -> bool:

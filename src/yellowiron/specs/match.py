@@ -12,12 +12,14 @@ from yellowiron.specs.claims import Claim
 from yellowiron.specs.numbers import read
 from yellowiron.specs.vocabulary import (
     CIRCUITS,
+    GENERAL,
     HARMLESS,
     KNOWN,
     NEUTRAL,
     OPPOSITES,
     REVERSING,
     TELLING,
+    ends,
     has_cjk,
     squeezed,
     tokens,
@@ -33,6 +35,8 @@ _RATED = {"flow", "pressure", "force", "torque"}
 """Dimensions of values that are printed for their maximum, whether the label says so or not."""
 _BY_CIRCUIT = {"pressure", "flow"}
 """Dimensions of which every hydraulic circuit has its own value."""
+_UNSAID = 0.2
+"""What it costs that a label does not say "maximum" where the greatest value and another one are asked for."""
 _REMARK = 0.02
 """What a word costs that is left over and says nothing else: enough to prefer a value that it does speak of."""
 
@@ -70,9 +74,12 @@ def match(claims: Sequence[Claim], wanted: Sequence[Wanted]) -> dict[str, list[M
             matches = [m for m in matches if m.by_label]
         matches = [m for m in matches if _possible(m)] or matches
         best = max((m.score, _specific(m)) for m in matches)
-        for found_one in matches:
-            if found_one.score >= best[0] - 1e-9 and (found_one.score > 0.999 or _specific(found_one) >= best[1]):
-                found[found_one.wanted.name].append(found_one)
+        kept = [m for m in matches if m.score >= best[0] - 1e-9 and (m.score > 0.999 or _specific(m) >= best[1])]
+        for one in kept:
+            # Both the angle and the greatest one are asked for: a label that does not say "maximum" is the latter only
+            # where no other label does.
+            unsaid = len(kept) > 1 and (_EXTREME & set(tokens(one.wanted.name))) - said.label - said.head - said.context
+            found[one.wanted.name].append(replace(one, score=one.score - _UNSAID) if unsaid else one)
     return found
 
 
@@ -121,6 +128,7 @@ class _Said:
     section: frozenset[str]
     naming: tuple[frozenset[str], ...]
     text: str
+    ends: tuple[frozenset[str], ...]
 
     @property
     def context(self) -> frozenset[str]:
@@ -164,6 +172,7 @@ def _said(claim: Claim) -> _Said:
         section=frozenset(tokens(statement.section)),
         naming=tuple(frozenset(tokens(h)) for h in heads),
         text=" ".join([claim.words, *heads]).casefold(),
+        ends=ends(label) or (),
     )
 
 
@@ -183,7 +192,12 @@ def _match(asked_for: _Asked, claim: Claim, said: _Said) -> Match | None:
         return None
     supported = _supports(asked_for, section)
     above = [words for words in said.contexts if not _supports(asked_for, words)]
-    if _forbidden(asked_for, claim, said.text, [label, *said.naming, *above, *([] if supported else [section])]):
+    if _forbidden(
+        asked_for,
+        claim,
+        said.text,
+        [label, *said.naming, *above, *([] if supported or section <= GENERAL else [section])],
+    ):
         return None
     circuits = label.union(*said.naming) | context | section
     if wanted.dimension in _BY_CIRCUIT and (circuits & CIRCUITS) - asked_for.words:
@@ -203,6 +217,8 @@ def _match(asked_for: _Asked, claim: Claim, said: _Said) -> Match | None:
             continue  # the label says it without its column's head
         if not words or not words <= everything or not _anchored(words, label, head, context | section):
             continue
+        if any(words & end for end in said.ends) and not all(words & end for end in said.ends):
+            continue  # a distance from the same place to another one
         if len(words) == 1 and not supported and label - words - NEUTRAL - _WHOLE - remarks:
             continue
         explained |= words
@@ -215,7 +231,8 @@ def _match(asked_for: _Asked, claim: Claim, said: _Said) -> Match | None:
         return None
     primary = (label if explained & label else set()) | (head if from_head else set()) or context | section
     # A word of the value's own name makes the label mean nothing else.
-    left = {t for t in primary - explained - NEUTRAL - _EXTREME - asked_for.name if not _is_number(t)}
+    left = {t for t in primary - explained - _EXTREME - asked_for.name if not _is_number(t)}
+    left = {t for t in left if t not in NEUTRAL or _is_telling(t, asked_for, explained | left, claim, said, KNOWN)}
     if not from_head:
         left -= _WHOLE
     known = frozenset() if borrowed else KNOWN  # a heading that must help names other properties too
@@ -242,7 +259,9 @@ def _is_telling(
     for other, phrase in asked_for.others.get(word, ()) if word not in asked_for.words else ():
         if phrase <= words and not _forbidden(other, claim, said.text, [said.label, *said.naming, *said.contexts]):
             return True
-    return word not in HARMLESS and word not in known
+    if word in HARMLESS or word in NEUTRAL:
+        return False
+    return not (word in known and word in asked_for.words)
 
 
 @functools.lru_cache(maxsize=1024)

@@ -34,7 +34,7 @@ _FEET = re.compile(
     + _FRACTION.format("i")
     + r"?\s*(?:\"|″|”|''|′′|in\.?(?![a-z])|inch(?:es)?)",
 )
-_FEET_DASH = re.compile(r"(?P<feet>\d+)\s*-\s*(?P<inches>\d+(?:\.\d+)?)(?:\s+" + _FRACTION.format("i") + r")?(?![\d-])")
+FEET_DASH = re.compile(r"(?P<feet>\d+)\s*-\s*(?P<inches>\d+(?:\.\d+)?)(?:\s+" + _FRACTION.format("i") + r")?(?![\d-])")
 _MIXED = re.compile(r"(?P<whole>\d+)?\s*[- ]?\s*" + _FRACTION.format("i"))
 _PLUS_MINUS = re.compile(r"(?:±|\+\s?/\s?[-–−]|\+-)\s*$")
 _MINUS = re.compile(r"(?:^|[\s(])[-−]$")
@@ -218,9 +218,20 @@ def _quantities(text: str, unit: str, style: DecimalStyle) -> list[Quantity]:
         if quantity is None:
             position = _end_of_word(text, at)
             continue
-        found.append(_signed(text, quantity, found))
+        quantity = _signed(text, quantity, found)
         position = quantity.end
+        if quantity.sign == "±" and found and _is_tolerance(text, found[-1], quantity):
+            first = found[-1]
+            whole = text[first.start : quantity.end]
+            found[-1] = replace(first, unit=first.unit or quantity.unit, text=whole, end=quantity.end)
+        else:
+            found.append(quantity)
     return found
+
+
+def _is_tolerance(text: str, before: Quantity, quantity: Quantity) -> bool:
+    """Whether a number with ± right behind another is how far that one may be off: "2,820 ± 50 mm"."""
+    return not text[before.end : quantity.start].strip("( ") and quantity.value < before.value
 
 
 _LONGEST_WORD = 30
@@ -267,7 +278,7 @@ def _end_of_word(text: str, at: int) -> int:
 def _feet(text: str, at: int, unit: str) -> Quantity | None:
     match = _FEET.match(text, at)
     if match is None and unit == FEET_INCHES:
-        match = _FEET_DASH.match(text, at)
+        match = FEET_DASH.match(text, at)
     if match is None or (match["inches"] is None and _ratio(match) is None):
         return None
     inches = float(match["inches"] or 0)

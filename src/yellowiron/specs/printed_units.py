@@ -75,7 +75,7 @@ millimeter/second   | speed         | metric   | mm/s(?:ec)?\\.?
 foot/minute         | speed         | imperial | ft/min\\.?|fpm|ft\\./min\\.?
 foot/second         | speed         | imperial | ft/s(?:ec)?\\.?|fps
 mile/hour           | speed         | imperial | mph|MPH|mi/h
-revolution/minute   | angular_speed | both     | rpm|RPM|r/min|rev/min|min-1|min⁻¹|U/min|tr/min
+revolution/minute   | angular_speed | both     | rpm|RPM|r/min|rev/min|min-1|min⁻¹|1/min|U/min|tr/min
 second              | time          | both     | s|secs?\\.?|seconds?
 minute              | time          | both     | mins?\\.?|minutes?
 degree              | angle         | both     | °|º|˚|deg\\.?|degrees?|Grad

@@ -3,14 +3,25 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 
 from yellowiron.specs.cells import ValueCell, add_continuation, cells_of, continues, heads_over, statement_of
 from yellowiron.specs.folded import unfolded
+from yellowiron.specs.headings import (
+    LARGER,
+    Heading,
+    bar_under,
+    bars_of,
+    body_size,
+    inside,
+    is_heading,
+    is_title,
+    labels_reach,
+)
 from yellowiron.specs.lines import Block, Line, bands
 from yellowiron.specs.margin import Beside, parted_margin, without_keys
-from yellowiron.specs.numbers import read
+from yellowiron.specs.numbers import read, same
 from yellowiron.specs.sentences import paragraphs_of, read_paragraph
 from yellowiron.specs.statement import (
     EXAMPLE,
@@ -26,28 +37,15 @@ from yellowiron.specs.statement import (
     unit_of_heading,
     words_beside_numbers,
 )
-from yellowiron.specs.strokes import Box
 from yellowiron.specs.vocabulary import has_cjk
-from yellowiron.specs.words import Page, Word
+from yellowiron.specs.words import Page
 
 _LONGEST_LABEL = 12
 """Words; more are prose."""
 
 
-_LARGER = 1.12
-"""A heading is set larger than its rows by this at least, or in capitals."""
 _INDENT = 4.0
 """Points by which a row stands in under its sub-heading."""
-
-
-@dataclass(frozen=True)
-class Heading:
-    """A section's heading: where it ends, its column's extent, its words."""
-
-    bottom: float
-    x0: float
-    x1: float
-    text: str
 
 
 @dataclass
@@ -104,9 +102,9 @@ def read_block(page: Page, block: Block, first_row: int, section: str = "") -> t
     """The statements of a column of text, and its headings. `first_row` numbers its rows."""
     state = _State(section=section)
     found: list[Statement] = []
-    size = _body_size(w for line in block.lines for p in line.pieces for w in p.words)
+    size = body_size(w for line in block.lines for p in line.pieces for w in p.words)
     if not any(kind_of(p) == "value" for line in block.lines for p in line.pieces):
-        size = min(size, _body_size(page.words))  # headings alone
+        size = min(size, body_size(page.words))  # headings alone
     paragraphs = paragraphs_of(block.lines)
     running = {id(piece) for paragraph in paragraphs for line in paragraph for piece in line.pieces}
     kept = [tuple(p for p in line.pieces if id(p) not in running) for line in block.lines]
@@ -116,7 +114,7 @@ def read_block(page: Page, block: Block, first_row: int, section: str = "") -> t
         if len(rest) < len(line.pieces)
     }
     lines, margin = parted_margin(without_keys([Line(pieces) for pieces in kept if pieces]), page.rules)
-    rows = unfolded([r for band in bands(lines, page.rules, _bars_of(page, block), block.x0, block.x1)
+    rows = unfolded([r for band in bands(lines, page.rules, bars_of(page, block), block.x0, block.x1)
                      for r in _split_if_separate(band)])  # fmt: skip
     for index, row in enumerate(rows):
         _enter_margin(block, row, margin, state)
@@ -229,9 +227,9 @@ def _continue_label(
     for index in own:
         statement = found[index]
         words, unit = unit_in_label(joined([statement.label, more.bare]))
-        found[index] = replace(
-            statement, label=words, unit=statement.unit or unit, quote=f"{statement.quote} … {more.text}"
-        )
+        rest = statement.quote.removeprefix(first).removeprefix(" … ").strip()
+        quote = " … ".join(part for part in (first, rest, more.text) if part)
+        found[index] = replace(statement, label=words, unit=statement.unit or unit, quote=quote)
     if own:
         state.last = (row, indices, first)
     return bool(own)
@@ -281,13 +279,15 @@ def _read_words(page: Page, block: Block, line: Line, state: _State, size: float
         return
     labels_end = block.x0 + 0.12 * (block.x1 - block.x0) + 4
     at_label = texts[0].x0 < labels_end
-    bar = _bar_under(page, texts[0], size) if at_label or len(texts) < 2 else None
-    if bar is not None or (len(texts) == 1 and at_label and _is_heading(texts[0], size)):
-        on_bar = [p.text for p in line.pieces if bar is None or _inside(p.box, bar)]
+    if len(texts) == 1 == len(line.pieces) and texts[0].size > LARGER * size and texts[0].x0 < labels_reach(block):
+        at_label = True  # a heading in the middle
+    bar = bar_under(page, texts[0], size) if at_label or len(texts) < 2 else None
+    if bar is not None or (len(texts) == 1 and at_label and is_heading(texts[0], size)):
+        on_bar = [p.text for p in line.pieces if bar is None or inside(p.box, bar)]
         heads = tuple(texts[1:])
         section = texts[0].text if heads else " ".join(on_bar)
         state.open_section(Heading(line.bottom, block.x0, block.x1, section), heads)
-    elif len(texts) == 2 and at_label and _is_title(texts[0], size) and (unit := is_unit(texts[1].bare)):
+    elif len(texts) == 2 and at_label and is_title(texts[0], size) and (unit := is_unit(texts[1].bare)):
         words = f"{texts[0].text} {unit.replace('|', ' (')})" if "|" in unit else f"{texts[0].text} ({unit})"
         state.open_section(Heading(line.bottom, block.x0, block.x1, words), ())
     elif _are_column_heads(texts, labels_end, state):
@@ -323,53 +323,8 @@ def _is_prose(piece: Piece) -> bool:
     return len(piece.words) > _LONGEST_LABEL or (piece.text.endswith(".") and len(piece.words) > 3)
 
 
-def _is_heading(piece: Piece, size: float) -> bool:
-    return len(EXAMPLE.sub("", piece.text).split()) <= 9 and (
-        piece.size > _LARGER * size or (_in_capitals(piece) and (piece.bold or len(piece.text) > 5))
-    )
-
-
-def _is_title(piece: Piece, size: float) -> bool:
-    """Whether words with a unit at the right end of their line head a section, whose bare numbers have that unit."""
-    return piece.bold or _is_heading(piece, size)
-
-
-def _in_capitals(piece: Piece) -> bool:
-    letters = [c for c in EXAMPLE.sub("", piece.text) if c.isalpha()]
-    return len(letters) >= 4 and sum(c.isupper() for c in letters) > 0.85 * len(letters)
-
-
-def _bar_under(page: Page, piece: Piece, size: float) -> Box | None:
-    """The filled bar an emphasised piece is printed on, if that is no higher than a heading needs; shaded rows of a
-    table are none."""
-    if not (piece.bold or piece.size > 1.05 * size or _in_capitals(piece)):
-        return None
-    for bar in page.bars:
-        if bar[3] - bar[1] < 3.2 * piece.size and bar[2] - bar[0] > 6 * piece.size and _inside(piece.box, bar):
-            return bar
-    return None
-
-
-def _inside(box: Box, outer: Box) -> bool:
-    return outer[0] - 2 <= box[0] and box[2] <= outer[2] + 2 and outer[1] - 2 <= (box[1] + box[3]) / 2 <= outer[3] + 2
-
-
 def _stacked(a: Piece, b: Piece) -> bool:
     return abs(a.x0 - b.x0) < 2 * a.size and 0 < b.box[1] - a.box[3] < 0.9 * a.size
-
-
-def _bars_of(page: Page, block: Block) -> list[Box]:
-    """The filled bars that stand in a block and are no higher than a heading."""
-    return [b for b in page.bars if b[0] < block.x1 and block.x0 < b[2] and b[3] - b[1] < 40]
-
-
-def _body_size(words: Iterable[Word]) -> float:
-    """The type size that most characters have."""
-    sizes: dict[float, int] = {}
-    for word in words:
-        key = round(word.size, 1)
-        sizes[key] = sizes.get(key, 0) + len(word.text)
-    return max(sizes, key=lambda s: (sizes[s], -s)) if sizes else 8.0
 
 
 # ---- rows with values ----------------------------------------------------------------------------------------------
@@ -381,7 +336,7 @@ def _split_if_separate(row: Sequence[Line]) -> Iterator[Sequence[Line]]:
     first, rest = ordered[0], ordered[1:]
     if rest and len(first.pieces) == 1 and kind_of(first.pieces[0]) == "text":
         largest = max(p.size for line in rest for p in line.pieces)
-        if first.pieces[0].size > _LARGER * largest and first.bottom <= min(line.top for line in rest) + 1:
+        if first.pieces[0].size > LARGER * largest and first.bottom <= min(line.top for line in rest) + 1:
             yield (first,)
             yield from _split_if_separate(rest)
             return
@@ -392,7 +347,7 @@ def _split_if_separate(row: Sequence[Line]) -> Iterator[Sequence[Line]]:
     last, before = ordered[-1], ordered[:-1]
     if before and len(last.pieces) == 1 and kind_of(last.pieces[0]) == "text":
         largest = max(p.size for line in before for p in line.pieces)
-        if last.pieces[0].size > _LARGER * largest and last.top >= max(line.bottom for line in before) - 1:
+        if last.pieces[0].size > LARGER * largest and last.top >= max(line.bottom for line in before) - 1:
             yield from _split_if_separate(before)
             yield (last,)
             return
@@ -401,11 +356,28 @@ def _split_if_separate(row: Sequence[Line]) -> Iterator[Sequence[Line]]:
         kinds = [kind_of(p) for p in line.pieces]
         if kinds[0] == "text" and "value" in kinds[1:]:
             labelled += 1
-    if labelled >= 2:
+    if labelled >= 2 and not _in_two_systems(ordered):
         for line in row:
             yield (line,)
     else:
         yield row
+
+
+def _in_two_systems(lines: Sequence[Line]) -> bool:
+    """Whether two lines with labels are one row, its label broken in two: their values are the same, metric and
+    imperial."""
+    both = [cells_of((line,)) for line in lines]
+    if len(lines) != 2 or any(len(cells) != 1 or not cells[0].label for cells in both):
+        return False
+    if abs(lines[0].pieces[0].x0 - lines[1].pieces[0].x0) > 1.5 * lines[0].pieces[0].size:
+        return False
+    values = [read(" ".join(p.text for p in c.values), unit=c.unit or unit_in_label(c.label[-1].bare)[1])
+              for cells in both for c in cells]  # fmt: skip
+    if any(len(v) != 1 or len(v[0].numbers) != 1 for v in values):
+        return False
+    first, second = (v[0].numbers[0] for v in values)
+    systems = {q.printed.system for q in (first, second) if q.printed}
+    return systems == {"metric", "imperial"} and same(first, second)
 
 
 def _read_values(page: Page, row: Sequence[Line], state: _State, number: int, found: list[Statement]) -> None:

@@ -153,18 +153,31 @@ def is_unit(text: str) -> str:
     return bare if bare and re.fullmatch(unit_pattern(), bare) and printed_unit(bare) else ""
 
 
-def unit_in_label(text: str) -> tuple[str, str]:
-    """A label without the unit at its end, and that unit: "Boom length (m)" → ("Boom length", "m")."""
-    pair = re.search(r"^(.*?\w)[\s,]+(\S+\s*[(/\[]\s*[^()\[\]]+[)\]])$", text)
+def unit_in_label(text: str, *, bare: bool = False) -> tuple[str, str]:
+    """A label without the unit at its end, and that unit: "Boom length (m)" → ("Boom length", "m"). `bare`: the value
+    has no unit of its own, so that a unit of one letter is no key of a drawing ("Longueur de flèche m")."""
+    pair = re.search(r"^(.*?[\w)°.])[\s,]+(\S+\s*[(/\[]\s*[^()\[\]]+[)\]])$", text)
     if pair and "|" in (unit := is_unit(pair.group(2))):
         return pair.group(1), unit
-    match = re.search(r"^(.*?)\s*[(\[]\s*([^()\[\]]+?)\s*[)\]]\s*:?$", text) or re.search(
-        r"^(.*?)\s*,\s*([^,]+?)\s*:?$", text
-    )
-    match = match or re.search(r"^(.*[^\W\d])\s+(mm|cm|kg|kPa|MPa|kN|l/min|L/min|m³|m3|km/h)$", text)
-    if match and (unit := is_unit(match.group(2))) and unit.rstrip(".") != "min":  # the least, not minutes
-        return match.group(1), unit
+    for pattern in _UNIT_AT_END:
+        match = pattern.search(text)
+        if match and (unit := is_unit(match.group(2))) and unit.rstrip(".") != "min":  # the least, not minutes
+            plain = pattern is _UNIT_AT_END[-1]
+            if not plain or unit in _ENDS_LABELS or (bare and unit in _ENDS_LABELS_OF_BARE):
+                return match.group(1), unit
     return text, ""
+
+
+_UNIT_AT_END = (
+    re.compile(r"^(.*?)\s*[(\[]\s*([^()\[\]]+?)\s*[)\]]\s*:?$"),
+    re.compile(r"^(.*?)\s*,\s*([^,]+?)\s*:?$"),
+    re.compile(r"^(.*[^\W\d](?:.*[^\d\s])?)\s+(\S+)$"),  # behind a number it is that one's unit
+)
+_ENDS_LABELS = frozenset(["mm", "cm", "kg", "kPa", "MPa", "kN", "l/min", "L/min", "m³", "m3", "km/h"])
+"""Units that no key of a drawing looks like."""
+_ENDS_LABELS_OF_BARE = frozenset(
+    "m t s sec l ° kW PS CV hp bar psi kNm Nm kN·m N·m in lb lbf mph rpm r/min 1/min min-1 min⁻¹ U/min tr/min".split()  # noqa: SIM905
+)
 
 
 _HEADED_BY_UNIT = re.compile(
@@ -194,7 +207,8 @@ def kind_of(piece: Piece) -> str:
 
 
 _VALUE_START = re.compile(
-    r"^(?:(?:approx\.?|approximately|about|ca\.?|max\.?|min\.?|up to|bis|env\.?)\s*)?"
+    r"^(?:(?:appr(?:ox)?\.?|approximately|about|abt\.?|circa|ca?\.|ca|etwa|env(?:iron)?\.?|aprox(?:imadamente)?\.?|"
+    r"max(?:imum|imal)?\.?|min(?:imum|imal)?\.?|up to|bis(?: zu)?|jusqu'à|hasta|[约約]|およそ|大约|最大|最小|最高)\s*)*"
     r"[(\[]?\s*[<>≤≥~≈±Øø⌀+\-–−]*\s*(?:[\d½¼¾⅛⅜⅝⅞]|[.,]\d)",
     re.IGNORECASE,
 )

@@ -30,6 +30,10 @@ REVERSING = _words(_DATA["reversing"])
 """Words that make a label mean something else than the words around them."""
 HARMLESS = _words(_DATA["harmless"])
 """Places, parts and remarks that a maker may add to a label without meaning another property."""
+GENERAL = _words(_DATA["general"])
+"""Words of headings under which anything may stand."""
+_ENDS = _words(_DATA["ends"])
+"""What makers measure distances from and to."""
 TELLING = _words(_DATA["telling"])
 """Conditions and other bodies: beside the words of a property they may make it another one."""
 CIRCUITS = _words(_DATA["circuits"])
@@ -42,8 +46,9 @@ OPPOSITES = {
 
 _CJK = re.compile(r"[\u3040-\u30ff\u3400-\u9fff\uac00-\ud7af]")
 _TOKEN = re.compile(
-    r"[\u3040-\u30ff\u3400-\u9fff\uac00-\ud7af々]+|[^\W_\u3040-\u30ff\u3400-\u9fff\uac00-\ud7af々]+(?:[.,]\d+)?|±"
+    r"[\u3040-\u30ff\u3400-\u9fff\uac00-\ud7af々]+|[^\W_\u3040-\u30ff\u3400-\u9fff\uac00-\ud7af々]+(?:[.,]\d+)?"
 )
+_WITHOUT = re.compile(r"\b[wW]/[oO]\b\.?")
 _LINKS = ("", "s", "n", "en", "es", "e", "er")
 """What German puts between the parts of a compound."""
 _INFLECTED = re.compile(r"(?:e[snmr]?|a|o|n)$")
@@ -204,6 +209,7 @@ def tokens(text: str) -> tuple[str, ...]:
     latin: list[str] = []
     if _CJK.search(text):
         text = unicodedata.normalize("NFKC", text)
+    text = _WITHOUT.sub("without ", text).replace("±", " each side ")
     for word in _TOKEN.findall(text.replace("°", " ").replace("º", " ")):
         if not _CJK.match(word):
             latin.append(word)
@@ -226,6 +232,22 @@ def _terms(text: str) -> list[str]:
             found.extend(_TERMS[match.group(0)])
             end = match.end()
     return found
+
+
+_TO = re.compile(
+    r"\s(?:to|bis(?: zu[rm]?)?|à|au|jusqu'(?:à|au)|al?|hasta)\s(?:l[ae]s?\s|l')?|至|到|から|～|〜", re.IGNORECASE
+)
+
+
+@functools.lru_cache(maxsize=8192)
+def ends(text: str) -> tuple[frozenset[str], frozenset[str]] | None:
+    """What a distance goes from and to: "rear axle to edge of counterweight" → ({"axle"}, {"edge", "counterweight"});
+    None for a label that says no two such things."""
+    parts = _TO.split(text)
+    if len(parts) != 2:
+        return None
+    first, second = (frozenset(tokens(part)) & _ENDS for part in parts)
+    return (first, second) if first and second else None
 
 
 _TERMS = {term: tuple(_english(meant.split())) for meant, terms in _DATA["cjk"].items() for term in terms.split()}

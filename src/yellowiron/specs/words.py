@@ -13,7 +13,9 @@ from typing import Any
 
 from yellowiron.specs.strokes import Box, Place, Rule, strokes_of
 
-_SUPERSCRIPT_UNITS = re.compile(r"(?:^|[\d\s(/])(?:m|cm|mm|dm|in|ft|yd)$")
+_SUPERSCRIPT_UNITS = re.compile(r"(?:^|[\d\s(/\[.])(?:m|cm|mm|dm|in|ft|yd)$|[-⁻]$")
+_SIGNS = re.compile(r"[\u00b9\u00b2\u00b3\u2070-\u2079]+(?:[,)\u207e][\u00b9\u00b2\u00b3\u2070-\u2079]+)*[)\u207e]?$")
+"""Raised digits that are characters of their own."""
 _LEADER = re.compile(r"[.·•_…]{3,}|^[.·•_…]+$")
 
 
@@ -222,8 +224,12 @@ def _words(glyphs: list[_Glyph]) -> tuple[list[Word], list[Box]]:
 
 
 def _word(run: list[_Glyph]) -> Word:
-    first = run[0]
-    return Word("".join(g.text for g in run), first.x0, run[-1].x1, first.baseline, first.size, first.bold)
+    first, text = run[0], "".join(g.text for g in run)
+    signs = _SIGNS.search(text)
+    host = text[: signs.start()] if signs else ""
+    # "Ground clearance²" has a note, "4.2 m³" has not.
+    marks = text[len(host) :] if host and not _SUPERSCRIPT_UNITS.search(host) else ""
+    return Word(host if marks else text, first.x0, run[-1].x1, first.baseline, first.size, first.bold, marks)
 
 
 def _with_superscripts(words: list[Word]) -> list[Word]:
