@@ -223,6 +223,12 @@ def test_declared_occurrences(good: bytes) -> None:
     assert part21.scan(cyclic).occurrences is None
 
 
+def test_names_of_solids_are_seen(good: bytes) -> None:
+    assert not part21.scan(good).named
+    for entity in (b"MANIFOLD_SOLID_BREP", b"CLOSED_SHELL"):
+        assert part21.scan(good.replace(entity + b"(''", entity + b"('BOOM'", 1)).named
+
+
 def test_diagnosis(good: bytes) -> None:
     assert part21.diagnose(good) == ""
     assert "does not have, such as #999999" in part21.diagnose(good.replace(b"#11,", b"#999999,"))

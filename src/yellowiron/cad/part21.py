@@ -14,6 +14,8 @@ _ONE_STRING = re.compile(rb"\s*\(\s*(" + _STRING + rb")")
 _TWO_STRINGS = re.compile(_ONE_STRING.pattern + _COMMA + rb"(" + _STRING + rb")")
 _SHAPED = re.compile(_TWO_STRINGS.pattern + _COMMA + rb"#(\d+)")
 _USE = re.compile(_TWO_STRINGS.pattern + _COMMA + _STRING + _COMMA + rb"#(\d+)" + _COMMA + rb"#(\d+)")
+_SOLIDS = (b"MANIFOLD_SOLID_BREP", b"BREP_WITH_VOIDS", b"FACETED_BREP")
+_SHELLS = (b"CLOSED_SHELL", b"OPEN_SHELL", b"SHELL_BASED_SURFACE_MODEL")
 _DEEPEST = 200
 
 
@@ -23,20 +25,23 @@ class Part21:
 
     `names` are the raw bytes of every product, instance and solid name; `occurrences` the number of leaf products
     that the assembly structure declares, expanded from the roots (None if it is cyclic); `documents` the raw names
-    of the files it refers to; `complete` whether its sections are closed and its end is marked.
+    of the files it refers to; `complete` whether its sections are closed and its end is marked; `named` whether any
+    solid or shell has a name of its own.
     """
 
     names: tuple[bytes, ...]
     occurrences: int | None
     documents: tuple[bytes, ...]
     complete: bool
+    named: bool
 
 
 def scan(data: bytes) -> Part21:
     """The facts of a STEP file from its bytes."""
     names = [name for _, match in _entities(data, b"PRODUCT", _TWO_STRINGS) for name in match.groups()]
-    for solid in (b"MANIFOLD_SOLID_BREP", b"BREP_WITH_VOIDS", b"FACETED_BREP"):
-        names += [match.group(1) for _, match in _entities(data, solid, _ONE_STRING)]
+    solids = [match.group(1) for kind in _SOLIDS for _, match in _entities(data, kind, _ONE_STRING)]
+    shells = [match.group(1) for kind in _SHELLS for _, match in _entities(data, kind, _ONE_STRING)]
+    names += solids
     uses: list[tuple[int, int]] = []
     occurrences: set[int] = set()
     for number, match in _entities(data, b"NEXT_ASSEMBLY_USAGE_OCCURRENCE", _USE):
@@ -49,6 +54,7 @@ def scan(data: bytes) -> Part21:
         occurrences=_expand(shaped, uses, occurrences),
         documents=tuple(match.group(1).strip(b"'") for _, match in _entities(data, b"DOCUMENT_FILE", _ONE_STRING)),
         complete=data.rfind(b"END-ISO-10303-21") > data.rfind(b"ENDSEC") > data.rfind(b"DATA;"),
+        named=any(len(name.strip(b"'$")) > 0 for name in (*solids, *shells)),
     )
 
 

@@ -50,7 +50,8 @@ def read_step(path: str) -> Assembly:
         )
     encoding = sniff_encoding(facts.names)
     findings = remark(encoding, path)
-    tree, unit_names = open_step(path, encoding)
+    # Names inside of products are slow to look for; those of other files were not seen.
+    tree, unit_names = open_step(path, encoding, inner_names=facts.named or bool(facts.documents))
     unit, unit_findings = _unit(unit_names, path)
     findings += unit_findings
     return products.assemble(

@@ -52,13 +52,17 @@ class Leaf:
     inherited: Color | None = None
 
 
-def open_step(path: str, encoding: str) -> tuple[Tree, list[str]]:
-    """The product tree of a STEP file, and the names of the units of length in it. `CadError` if it has no content."""
+def open_step(path: str, encoding: str, *, inner_names: bool = True) -> tuple[Tree, list[str]]:
+    """The product tree of a STEP file, and the names of the units of length in it. `CadError` if it has no content.
+
+    `inner_names`: those of the solids inside of products are kept, too.
+    """
     STEPCAFControl_Controller.Init_s()
     # Bytes that are not UTF-8 pass through as they are, one character each; `decode_name` knows what they mean.
     Interface_Static.SetCVal_s("read.step.codepage", "UTF8" if encoding == "utf-8" else "iso8859-1")
     Interface_Static.SetCVal_s("xstep.cascade.unit", "MM")
-    Interface_Static.SetCVal_s("read.stepcaf.subshapes.name", "On")
+    Interface_Static.SetCVal_s("read.stepcaf.subshapes.name", "On" if inner_names else "Off")
+    Interface_Static.SetRVal_s("read.encoderegularity.angle", 0.0)  # which edges are smooth is of no use here
     reader = STEPCAFControl_Reader()
     reader.SetNameMode(True)
     reader.SetColorMode(True)
@@ -72,7 +76,7 @@ def open_step(path: str, encoding: str) -> tuple[Tree, list[str]]:
         raise CadError("The STEP file holds nothing that can be read as a part", where=path, hint=EXPORT_AGAIN)
     lengths, angles, solid_angles = (Sequence_TCollection_AsciiString() for _ in range(3))
     reader.ChangeReader().FileUnits(lengths, angles, solid_angles)
-    names = [lengths.Value(i).ToCString() for i in range(1, lengths.Length() + 1)]
+    names = [lengths.Value(i).ToCString() for i in range(1, len(lengths) + 1)]
     unit, root = XCAFDoc_LengthUnit(), document.Main().Root()
     stated = root.IsAttribute(XCAFDoc_LengthUnit.GetID_s()) and root.FindAttribute(XCAFDoc_LengthUnit.GetID_s(), unit)
     # Whatever the file's unit, the geometry must arrive in the unit that was asked for.
@@ -203,7 +207,8 @@ def label_entry(label: Any) -> str:
 
 def labels(sequence: Any) -> list[Any]:
     """An Open CASCADE sequence of labels as a list."""
-    return [sequence.Value(i) for i in range(1, sequence.Length() + 1)]
+    # The binding's `Length` takes 0.2 ms.
+    return [sequence.Value(i) for i in range(1, len(sequence) + 1)]
 
 
 def label_color(label: Any) -> Color | None:
