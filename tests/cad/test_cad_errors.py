@@ -7,9 +7,10 @@ import zipfile
 from pathlib import Path
 
 import pytest
-from cad_stepfiles import Node, Use, box, cylinder, translation, write_step
+from cad_stepfiles import Node, Use, box, cylinder, moved, translation, write_step
 
 from yellowiron.cad import part21, read_cad
+from yellowiron.cad.brep_text import fault
 from yellowiron.model.errors import CadError
 
 pytestmark = pytest.mark.slow  # each reads in a child process of its own
@@ -254,7 +255,49 @@ def test_a_shape_that_is_nowhere_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "block.brep"
     BRepTools.Write_s(box(10, 20, 30), str(path))
     path.write_text(path.read_text().replace(" 20 ", " nan.5 ", 1))
-    assert "not numbers" in fail(path).message
+    assert "neither a number" in fail(path).message
+
+
+@pytest.mark.parametrize(
+    ("mark", "damage", "says"),
+    [
+        ("\nCurves ", "\nCurves 4294967", "declares more than it has: Curves"),
+        ("\nSurfaces ", "\nSurfaces x", "in line"),
+        ("\nTriangulations 0", "", "not all of its sections"),
+        ("\nSo\n", "\n7\n", "other shapes"),
+        ("\n+1 0", "", "other shapes"),
+    ],
+)
+def test_a_shape_that_would_be_read_for_ever_is_refused(mark: str, damage: str, says: str, tmp_path: Path) -> None:
+    from OCP.BRepTools import BRepTools
+
+    path = tmp_path / "block.brep"
+    BRepTools.Write_s(cylinder(10, 30), str(path))
+    text = path.read_text()
+    assert mark in text and fault(text.encode()) == ""
+    path.write_text(text.replace(mark, damage, 1))
+    assert says in fail(path).message
+
+
+def test_sound_shapes_have_no_fault(tmp_path: Path) -> None:
+    """With triangles, splines and places, in every version of the text."""
+    from OCP.BRepBuilderAPI import BRepBuilderAPI_NurbsConvert
+    from OCP.BRepMesh import BRepMesh_IncrementalMesh
+    from OCP.BRepTools import BRepTools
+    from OCP.Message import Message_ProgressRange
+    from OCP.TopTools import TopTools_FormatVersion
+
+    path = tmp_path / "shape.brep"
+    for number in (1, 2, 3):
+        version = getattr(TopTools_FormatVersion, f"TopTools_FormatVersion_VERSION_{number}")
+        for shape in (cylinder(10, 30), BRepBuilderAPI_NurbsConvert(cylinder(10, 30)).Shape()):
+            for meshed in (False, True):
+                if meshed:
+                    BRepMesh_IncrementalMesh(shape, 0.5)
+                BRepTools.Write_s(
+                    moved(shape, translation(1, 2, 3)), str(path), True, True, version, Message_ProgressRange()
+                )
+                assert fault(path.read_bytes()) == ""
 
 
 def test_warnings_leave_no_file_behind(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

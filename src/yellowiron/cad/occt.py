@@ -7,7 +7,6 @@ colours; the shapes are files beside it. Objects that others are made from are h
 
 from __future__ import annotations
 
-import re
 import struct
 import zipfile
 from collections.abc import Mapping
@@ -25,7 +24,7 @@ from OCP.TopAbs import TopAbs_FACE
 from OCP.TopLoc import TopLoc_Location
 from OCP.TopoDS import TopoDS_Shape
 
-from yellowiron.cad import products
+from yellowiron.cad import brep_text, products
 from yellowiron.cad.brep import subshapes
 from yellowiron.cad.naming import decode_name
 from yellowiron.cad.xcaf import Product, Tree, add_product, add_products, new_document
@@ -45,7 +44,6 @@ _LARGEST_PALETTE = 64 * 1024**2
 _PALETTES = {"DiffuseColor": ("ColorList", 4, 0), "ShapeAppearance": ("MaterialList", 24, 4)}
 """Lists of colours: their element, the bytes of an entry, and where its diffuse colour is."""
 _DEEPEST = 50
-_NO_NUMBER = re.compile(rb"[\s+-](?:nan|inf)", re.IGNORECASE)
 _PATIENCE, _SLOWEST = 2.0, 1e6
 """Seconds, and bytes a second: a fiftieth of what is usual."""
 _PATIENCE_AFTER, _SLOWEST_AFTER = 20.0, 2e4
@@ -68,9 +66,9 @@ def _shape(file: str, path: str) -> Any:
     shape = TopoDS_Shape()
     data = Path(file).read_bytes()
     binary = data[:64].lstrip(b"\n").startswith(b"Open CASCADE Topology V")
-    if not binary and _NO_NUMBER.search(data):
-        raise CadError("The shape has coordinates that are not numbers", where=path, hint=_DAMAGED)
-    # A text that is cut short, or has letters where a number should be, is read on for ever.
+    if not binary and (fault := brep_text.fault(data)):
+        raise CadError(f"The shape {fault}", where=path, hint=_DAMAGED)
+    # Some damage is read on for ever.
     with must_end(_PATIENCE + len(data) / _SLOWEST):
         read = BinTools.Read_s(shape, file) if binary else BRepTools.Read_s(shape, file, BRep_Builder())
     if not read or shape.IsNull():

@@ -6,7 +6,7 @@ Findings:
 
 | code   | severity | says                                                                                       |
 |--------|----------|--------------------------------------------------------------------------------------------|
-| CAD001 | warning  | fewer occurrences were read than the file declares                                         |
+| CAD001 | warning  | fewer occurrences were read than the file declares, or damage that may have cost some      |
 | CAD002 | info     | products without usable geometry                                                           |
 | CAD003 | error    | a body left out: not finite, too large, or broken                                          |
 | CAD004 | warning  | a model too small or too large to be a machine                                             |
