@@ -143,6 +143,32 @@ def test_block_in_any_pose(size: Any, at: Any, axis: Any, angle: float) -> None:
 
 
 @pytest.mark.parametrize("convert", [lambda shape: shape, to_nurbs], ids=["analytic", "freeform"])
+@pytest.mark.parametrize("far", [0.0, 5000.0])
+def test_faces_have_open_cascades_area_and_centre(convert: Any, far: float) -> None:
+    from OCP.BRepGProp import BRepGProp
+    from OCP.GProp import GProp_GProps
+
+    # Planes and cylinders around and beside the widest bore, a plane through the middle, a cone's worth of a turn.
+    body = cut(
+        box(200, 100, 60),
+        cylinder(30, 60, (50, 50, 0)),
+        cylinder(8, 100, (50, 0, 30), (0, 1, 0)),
+        cylinder(10, 60, (150, 50, 0), turn=2.0),
+        box(60, 50, 40, (140, 50, 30)),
+    )
+    measured = brep.measure("x", moved(convert(body), translation(far, -far, far) @ rotation((1, 2, 3), 0.7)))
+    assert len(measured.survey) == len(measured.faces)
+    for face, found in zip(measured.faces, measured.survey, strict=True):
+        properties = GProp_GProps()
+        if found.freeform:
+            BRepGProp.SurfaceProperties_s(face, properties, 1e-10, False)
+        else:
+            BRepGProp.SurfaceProperties_s(face, properties)
+        assert found.area == pytest.approx(properties.Mass(), rel=1e-6 if found.freeform else 1e-10)
+        assert np.allclose(found.center, properties.CentreOfMass().Coord(), atol=1e-4 if found.freeform else 1e-8)
+
+
+@pytest.mark.parametrize("convert", [lambda shape: shape, to_nurbs], ids=["analytic", "freeform"])
 def test_crossed_bores_to_the_formula(convert: Any) -> None:
     # Two equal bores that cross remove 2πr²L − 16/3 r³ (the Steinmetz solid is counted twice).
     body = cut(box(100, 100, 100), cylinder(10, 100, (50, 50, 0)), cylinder(10, 100, (0, 50, 50), (1, 0, 0)))

@@ -15,7 +15,6 @@ from OCP.BRep import BRep_Tool
 from OCP.BRepBndLib import BRepBndLib
 from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeSolid
 from OCP.BRepGProp import BRepGProp
-from OCP.gp import gp_Pnt
 from OCP.GProp import GProp_GProps
 from OCP.Standard import Standard_Failure
 from OCP.TopAbs import TopAbs_FACE, TopAbs_SHELL, TopAbs_SOLID
@@ -87,19 +86,16 @@ def _measure(name: str, shape: Any, color: Color | None, face_colors: Sequence[C
     _check_size(shape)
     box = _box(shape, optimal=True)
     faces = subshapes(shape, TopAbs_FACE)
-    surveyed = features.survey(faces)
+    surveyed, volume = features.survey(faces, box)
     colors = None if face_colors is None else list(face_colors)
     if colors is not None and len(set(colors)) == 1:
         color, colors = colors[0] or color, None
     if not surveyed:
         return _tessellated(name, shape, faces, color, colors)
     if closed:
-        properties = _integrate(shape, box, surveyed)
+        properties = volume if len(surveyed) == len(faces) else _integrate(shape)
         if properties.Mass() < 0.0:
-            shape = shape.Reversed()
-            faces = subshapes(shape, TopAbs_FACE)
-            surveyed = features.survey(faces)
-            properties = _integrate(shape, box, surveyed)
+            return _measure(name, shape.Reversed(), color, face_colors)
     area = sum(face.area for face in surveyed)
     if closed:
         centroid = np.array(properties.CentreOfMass().Coord())
@@ -156,13 +152,10 @@ def _tessellated(
     )
 
 
-def _integrate(shape: Any, box: Floats, surveyed: Sequence[features.Face]) -> Any:
-    """Volume properties about the middle of the box: far from the origin, inertia would drown in rounding."""
-    properties = GProp_GProps(gp_Pnt(*box.mean(axis=0)))
-    if any(face.freeform for face in surveyed):
-        BRepGProp.VolumeProperties_s(shape, properties, features.INTEGRATION, False, False)
-    else:
-        BRepGProp.VolumeProperties_s(shape, properties)
+def _integrate(shape: Any) -> Any:
+    """Volume properties of a shape that has triangles for some of its faces."""
+    properties = GProp_GProps()
+    BRepGProp.VolumeProperties_s(shape, properties, features.INTEGRATION, False, False)
     return properties
 
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from OCP.BRep import BRep_Tool
 from OCP.BRepAdaptor import BRepAdaptor_Curve, BRepAdaptor_Surface
-from OCP.BRepGProp import BRepGProp
+from OCP.BRepGProp import BRepGProp, BRepGProp_Domain, BRepGProp_Face, BRepGProp_Vinert
 from OCP.BRepTools import BRepTools
 from OCP.GeomAbs import (
     GeomAbs_Cone,
@@ -19,10 +19,10 @@ from OCP.GeomAbs import (
     GeomAbs_Sphere,
     GeomAbs_Torus,
 )
-from OCP.gp import gp_Cylinder, gp_Pln, gp_Pnt, gp_Vec
+from OCP.gp import gp_Cylinder, gp_Lin, gp_Pln, gp_Pnt, gp_Vec
 from OCP.GProp import GProp_GProps
 from OCP.ShapeAnalysis import ShapeAnalysis_CanonicalRecognition
-from OCP.TopAbs import TopAbs_EDGE, TopAbs_REVERSED
+from OCP.TopAbs import TopAbs_EDGE, TopAbs_FORWARD, TopAbs_REVERSED
 from OCP.TopExp import TopExp_Explorer
 from OCP.TopLoc import TopLoc_Location
 from OCP.TopoDS import TopoDS
@@ -38,6 +38,13 @@ INTEGRATION = 1e-8
 """Relative error asked of integrals over free-form faces: the default rule is off by up to 1 % there (measured)."""
 ABUT = 1e-2
 """Two faces on one cylinder are one feature if the gap between them along the axis is no more than this, mm."""
+
+LEAST_HEIGHT = 1e-3
+"""Where a cone is lower than this share of the shape's diagonal, its face's area does not follow from its volume."""
+ON_AXIS = 1e-9
+"""A point is on a cylinder's axis if it is off by no more than this share of the radius."""
+
+Triple = tuple[float, float, float]
 
 _PLANE, _CYLINDER, _CONE, _SPHERE, _TORUS, _FREE = range(6)
 _KINDS = {GeomAbs_Plane: _PLANE, GeomAbs_Cylinder: _CYLINDER, GeomAbs_Cone: _CONE, GeomAbs_Sphere: _SPHERE}
@@ -81,20 +88,32 @@ class Face:
     freeform: bool = False
 
 
-def survey(faces: Sequence[Any]) -> list[Face]:
-    """Every face that has a surface, measured and recognised, in the order given."""
-    return [_survey_face(face) for face in faces if BRep_Tool.Surface_s(face, TopLoc_Location()) is not None]
+def survey(faces: Sequence[Any], box: Floats) -> tuple[list[Face], Any]:
+    """Every face that has a surface, measured and recognised, in the order given; and the properties (`GProp_GProps`)
+    of the volume that these faces enclose. `box` (2, 3): the bounds of them all.
+
+    The volume is that of the cones from one apex over every face.
+    """
+    surfaces = [
+        (face, BRepAdaptor_Surface(face, False))  # without the face's bounds, which take long to find
+        for face in faces
+        if BRep_Tool.Surface_s(face, TopLoc_Location()) is not None
+    ]
+    kinds = [_KINDS.get(surface.GetType(), _FREE) for _, surface in surfaces]
+    apex = _apex([surface for (_, surface), kind in zip(surfaces, kinds, strict=True) if kind == _CYLINDER], box)
+    least = LEAST_HEIGHT * float(np.linalg.norm(box[1] - box[0]))
+    found, volume = [], GProp_GProps(apex)
+    for (face, surface), kind in zip(surfaces, kinds, strict=True):
+        cone = _cone(face, apex, precisely=_FREE in kinds)
+        if face.Orientation() in (TopAbs_FORWARD, TopAbs_REVERSED):
+            volume.Add(cone)
+        height = _height(surface, kind, apex)
+        area, center = _area_under(cone, apex, height) if height > least else _area(face, kind)
+        found.append(_face(face, surface, kind, area, center))
+    return found, volume
 
 
-def _survey_face(face: Any) -> Face:
-    surface = BRepAdaptor_Surface(face)
-    kind = _KINDS.get(surface.GetType(), _FREE)
-    properties = GProp_GProps()
-    if kind == _FREE:
-        BRepGProp.SurfaceProperties_s(face, properties, INTEGRATION, False)
-    else:
-        BRepGProp.SurfaceProperties_s(face, properties)
-    area, center = properties.Mass(), properties.CentreOfMass().Coord()
+def _face(face: Any, surface: Any, kind: int, area: float, center: Triple) -> Face:
     if kind == _PLANE:
         return Face(kind, area, center, normal=_plane_normal(face, surface))
     if kind == _CYLINDER:
@@ -102,6 +121,52 @@ def _survey_face(face: Any) -> Face:
     if kind == _FREE:
         return _recognise(face, surface, area, center)
     return Face(kind, area, center)
+
+
+def _apex(cylinders: Sequence[Any], box: Floats) -> Any:
+    """The middle of a box, or the point nearest to it on the axis of the widest cylinder, if that is near."""
+    middle = box.mean(axis=0)
+    if not cylinders:
+        return gp_Pnt(*middle)
+    position = max((surface.Cylinder() for surface in cylinders), key=lambda cylinder: cylinder.Radius()).Position()
+    origin, axis = np.array(position.Location().Coord()), np.array(position.Direction().Coord())
+    point = origin + axis * ((middle - origin) @ axis)
+    near = float(np.linalg.norm(point - middle)) <= float(np.linalg.norm(box[1] - box[0]))
+    return gp_Pnt(*(point if near else middle))
+
+
+def _cone(face: Any, apex: Any, *, precisely: bool) -> Any:
+    """Properties of the cone from an apex over a face; negative where the face looks at the apex."""
+    edges = [BRepGProp_Domain(face)] if face.NbChildren() else []
+    return BRepGProp_Vinert(BRepGProp_Face(face), *edges, apex, *([INTEGRATION] if precisely else []))
+
+
+def _height(surface: Any, kind: int, apex: Any) -> float:
+    """The distance from an apex to a surface's tangent planes where it is the same for all of them; else 0."""
+    if kind == _PLANE:
+        return float(surface.Plane().Distance(apex))
+    if kind == _CYLINDER:
+        cylinder = surface.Cylinder()
+        radius = float(cylinder.Radius())
+        return radius if gp_Lin(cylinder.Axis()).Distance(apex) <= ON_AXIS * radius else 0.0
+    return 0.0
+
+
+def _area_under(cone: Any, apex: Any, height: float) -> tuple[float, Triple]:
+    """Area and centre of a face from its cone: the volume is a third of area times height, and the centre of that is at
+    three quarters of the way from the apex to the face's."""
+    x, y, z = (a + (c - a) / 0.75 for a, c in zip(apex.Coord(), cone.CentreOfMass().Coord(), strict=True))
+    return 3.0 * abs(cone.Mass()) / height, (x, y, z)
+
+
+def _area(face: Any, kind: int) -> tuple[float, Triple]:
+    """Area and centre of any face."""
+    properties = GProp_GProps()
+    if kind == _FREE:
+        BRepGProp.SurfaceProperties_s(face, properties, INTEGRATION, False)
+    else:
+        BRepGProp.SurfaceProperties_s(face, properties)
+    return properties.Mass(), properties.CentreOfMass().Coord()
 
 
 def _recognise(face: Any, surface: Any, area: float, center: tuple[float, float, float]) -> Face:
