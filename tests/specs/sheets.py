@@ -195,11 +195,11 @@ def proven(value: Specification, pages: dict[int, str]) -> bool:
 
 
 def _bare(text: str) -> str:
-    return re.sub(r"\.(?!\d)|(?<!\d)\.", "", "".join(text.split()))
+    return re.sub(r"\.(?!\d)|(?<!\d)\.|_", "", "".join(text.split()))
 
 
 def page_texts(path: Path) -> dict[int, str]:
-    """The text of each page (1 = first) as PDFium gives it, without spaces and dotted leaders."""
+    """The text of each page (1 = first) as PDFium gives it, without spaces and leaders."""
     import pypdfium2
 
     document = pypdfium2.PdfDocument(path)

@@ -1,4 +1,4 @@
-"""Sheets in a set's own wordings, for machines of all ten types: what "fresh", "fresh2" and "fresh3" are drawn with.
+"""Sheets in a set's own wordings, for machines of all ten types: what "fresh" to "fresh5" are drawn with.
 
 A set has a file of words (its head says how it is written), layouts, ways of writing, and a plan. " > " in a label
 parts a group from its item: a layout may draw the group as a cell over its rows, or print the two one after the other.
@@ -148,7 +148,15 @@ class Wording(Sheet):
                     number = f"{float(number) * factor:g}"
                 said = Said(self.spelled(number), unit) if unit[:1].isalpha() or unit == "°" else Said(value, "")
                 found.append(Row(self.of(one), said))
+                if unit == "mm" and number.isdigit():
+                    self.note_level_cut(found[-1].label, float(number) / 1e3)
         return found
+
+    def note_level_cut(self, label: str, depth: float) -> None:
+        """A depth over 2.44 m of level bottom is no "maximum digging depth", but asked for by its own name."""
+        if re.search(r"(?<!\d)(?:2[.,]44|2440|8 ft)", label):
+            self.allowed["Maximum Digging Depth 2.44 m Level Bottom"] = Truth(depth, 0.006)
+            self.allowed["Level Bottom Length"] = Truth(2.44, 0.006)
 
     def spelled(self, text: str) -> str:
         """A distractor's number in the sheet's format."""

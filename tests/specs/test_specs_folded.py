@@ -6,7 +6,7 @@ from pathlib import Path
 
 from specs_layouts import canvas, lattice, put
 
-from yellowiron.specs.claims import enumerated
+from yellowiron.specs.listed import enumerated
 from yellowiron.specs.reader import read_sheet
 from yellowiron.specs.statement import Statement
 

@@ -9,7 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from yellowiron.model.errors import YellowironError
-from yellowiron.specs.claims import enumerated, spelled_out
+from yellowiron.specs.claims import spelled_out
+from yellowiron.specs.listed import enumerated
 from yellowiron.specs.numbers import DecimalStyle, decimal_style, parse_one, read, same
 from yellowiron.specs.printed_units import printed_unit
 from yellowiron.specs.statement import is_unit, looks_like_value, split_inline, unit_in_label, without_key

@@ -7,16 +7,11 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
+from yellowiron.specs.listed import COUNTED_PARTS, alternatives, enumerated
 from yellowiron.specs.numbers import FEET_INCHES, DecimalStyle, Quantity, Reading, read, same
 from yellowiron.specs.statement import Statement
 from yellowiron.specs.vocabulary import tokens
 
-_CROSS = re.compile(r"\s+[x×✕*/]\s+|\s*[×✕]\s*|\s+(?:and|und|et|y)\s+(?=stroke|rod|Hub|course|carrera)", re.IGNORECASE)
-_COUNTED = re.compile(
-    r"(?:\b(?:number|no\.?|quantity|qty\.?) of (?:cylinders?|units)\b|\bAnzahl(?: der)? \w+\b|\bnombre de \w+\b|"
-    r"\bnúmero de \w+\b)\s*(?:[-–—,:/x×]\s*)?",
-    re.IGNORECASE,
-)
 _TIMES = re.compile(r"(?<![\d.,])([2-9])\s*[x×](?![\w])|[x×]\s*([2-9])(?![\d.,])", re.IGNORECASE)
 
 
@@ -150,8 +145,20 @@ def _expand(statement: Statement, style: DecimalStyle) -> Iterator[Claim]:
         if any(_restates(earlier, reading) for earlier in kept):
             continue
         kept.append(reading)
-    for reading in kept:
-        yield from _claims_of_reading(statement, label, reading)
+    labels = _labels_of_each(text, label, readings, kept)
+    for reading, own in zip(kept, labels, strict=True):
+        yield from _claims_of_reading(statement, own, reading)
+
+
+def _labels_of_each(text: str, label: str, readings: Sequence[Reading], kept: Sequence[Reading]) -> list[str]:
+    """The label of each reading: parts of one that names alternatives, for numbers with slashes between them."""
+    whole = [label] * len(kept)
+    if len(kept) < 2 or len(kept) != len(readings) or any(len(r.numbers) != 1 or r.partner for r in kept):
+        return whole
+    between = [text[a.numbers[0].end : b.numbers[0].start] for a, b in pairwise(kept)]
+    if any(part.strip() not in ("/", "／") for part in between):
+        return whole
+    return alternatives(label, len(kept)) or whole
 
 
 def spelled_out(text: str, unit: str) -> tuple[str, str]:
@@ -210,7 +217,7 @@ def _claims_of_reading(statement: Statement, label: str, reading: Reading) -> It
     if reading.kind == "product":
         yield from _factors(statement, label, reading)
         return
-    words = _COUNTED.sub(" ", words) if reading.count is not None else words
+    words = COUNTED_PARTS.sub(" ", words) if reading.count is not None else words
     several = _several(label, reading)
     partner = reading.partner[0] if reading.partner else None
     for index, quantity in enumerate(reading.numbers):
@@ -241,34 +248,6 @@ def _factors(statement: Statement, label: str, reading: Reading) -> Iterator[Cla
             head = " ".join(h for h in statement.column if h != text)
             yield _checked(Claim(statement, " ".join([*others, name]), head, quantity, partner))
         return
-
-
-_SIZES = {"LWH", "LBH", "LlH", "LAH", "LAhA", "LAnAl", "lwh", "lbh", "长宽高", "長幅高"}
-"""What makers call length × width × height."""
-_NAME = r"(?:(?:length|longueur|longitud|di[aá]m\w+|diamètre) (?:of|de|du|del) \S+|\S+(?:\s+(?:diameter|dia\.?))?)"
-"""What one factor of a product is called: "bore", "rod diameter", "length of stroke"."""
-
-
-def enumerated(label: str, count: int) -> list[str]:
-    """The properties a label lists for a product of `count` factors, each with the words before the list.
-
-    ("Lift cylinders – bore x stroke", 2) → ["Lift cylinders bore", "Lift cylinders stroke"]; [] if it lists others.
-    """
-    bare = _COUNTED.sub(" ", label).strip()
-    parts = [p.strip(" ()[]") for p in _CROSS.split(bare)]
-    if len(parts) != count or not all(re.search(r"[^\W\d_]", p) for p in parts):
-        return []
-    first = re.match(rf"^(.*[-–—,:(]|.*?)\s*({_NAME})$", parts[0])
-    prefix, name = (first.group(1), first.group(2)) if first else ("", parts[0])
-    if re.search(r"[-–—,:(]$", prefix.strip()):
-        name = re.split(r"[-–—,:(]\s*", parts[0])[-1] or name
-    prefix = prefix.strip(" -–—,:(")
-    last = re.match(rf"^({_NAME})(.*)$", parts[-1])
-    suffix = last.group(2).strip() if last else ""
-    parts[-1] = last.group(1) if last else parts[-1]
-    if "".join([name, *parts[1:]]) in _SIZES:
-        name, parts = "length", ["length", "width", "height"]
-    return [" ".join(f"{prefix} {p} {suffix}".split()) for p in [name, *parts[1:]]]
 
 
 def _without_conditions(label: str) -> str:

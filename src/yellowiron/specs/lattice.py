@@ -13,6 +13,7 @@ from yellowiron.specs.cells import marked_by_legend
 from yellowiron.specs.lines import Line, lines_of
 from yellowiron.specs.opened import side_walls
 from yellowiron.specs.statement import (
+    COUNTED,
     EXAMPLE,
     Piece,
     Statement,
@@ -77,7 +78,7 @@ def grids_of(page: Page) -> list[Grid]:
         return []
     from pdfplumber.table import cells_to_tables, edges_to_intersections, intersections_to_cells, merge_edges
 
-    level = [r for r in page.rules if r.horizontal]
+    level = [*(r for r in page.rules if r.horizontal), *_closing_bars(page, walls)]
     walls += side_walls(level, walls, page.words)
     edges = merge_edges([_edge(r) for r in (*level, *walls)], _SNAP, _SNAP, _SNAP, _SNAP)
     if not 4 <= len(edges) <= 3000:
@@ -90,6 +91,16 @@ def grids_of(page: Page) -> list[Grid]:
     tables = [g for g in grids if g.rows >= 2 and sum(bool(c.lines) for c in g.cells) >= 3]
     found = [g for g in grids if any(g is t or (g.rows == 1 and _are_level(g, t)) for t in tables)]
     return sorted(found, key=lambda g: (g.box[1], g.box[0]))
+
+
+def _closing_bars(page: Page, walls: Sequence[Rule]) -> list[Rule]:
+    """The lower edges of headings' bars on which walls stand: the table's first row has no other rule above it."""
+    found = []
+    for bar in page.bars:
+        on = [w.x0 for w in walls if abs(w.top - bar[3]) <= _SNAP and bar[0] - _SNAP <= w.x0 <= bar[2] + _SNAP]
+        if bar[3] - bar[1] < 40 and len(set(map(round, on))) >= 2:
+            found.append(Rule(min(on), bar[3], max(on), bar[3]))
+    return found
 
 
 def _are_level(row: Grid, table: Grid) -> bool:
@@ -415,7 +426,7 @@ def _statement(
         context=tuple(c.text for c in groups),
         section=unit_of_heading(EXAMPLE.sub("", section).strip())[0],
         column=tuple(unit_in_label(c.text)[0] for c in column if c.text),
-        unit=unit or label_unit or head_unit or unit_of_heading(section)[1],
+        unit=unit or label_unit or head_unit or ("" if COUNTED.search(label) else unit_of_heading(section)[1]),
         example=marked or bool(EXAMPLE.search(section)) or marked_by_legend(page, pieces),
         x0=value.box[0],
         heads=tuple(line.text for c in column for line in c.lines) if labels else (),

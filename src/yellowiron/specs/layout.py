@@ -15,7 +15,7 @@ from yellowiron.specs.lines import Line, blocks_of, lines_of
 from yellowiron.specs.margin import without_keys
 from yellowiron.specs.opened import heads_above
 from yellowiron.specs.rows import read_block
-from yellowiron.specs.statement import Statement, kind_of
+from yellowiron.specs.statement import Statement, kind_of, unit_said
 from yellowiron.specs.strokes import Box
 from yellowiron.specs.words import Page
 
@@ -56,6 +56,8 @@ def statements_of(page: Page) -> list[Statement]:
     free, boxes = lines_of(outside) if grids else [], [g.box for g in grids]
     for grid in grids:
         title = _title(free, grid) or _heading_above(headings, grid.box[1], grid.box[0], grid.box[2])
+        if unit := _unit_above(free, grid):
+            title = f"{title} ({unit})".strip()
         filled = read_boxes(page, grid, row, title)
         row += len(filled.statements)
         found.extend(filled.statements)
@@ -101,6 +103,13 @@ def _title(lines: Sequence[Line], grid: Grid) -> str:
         ):
             return piece.text
     return ""
+
+
+def _unit_above(lines: Sequence[Line], grid: Grid) -> str:
+    """The unit that a line right above a table gives for its bare numbers."""
+    box = grid.box
+    over = [p for line in lines for p in line.pieces if 0 <= box[1] - p.box[3] < 1.5 * p.size]
+    return next((u for p in over if p.x1 > box[0] and p.x0 < box[2] and (u := unit_said(p.bare))), "")
 
 
 def _heading_above(headings: list[Heading], top: float, x0: float, x1: float) -> str:

@@ -21,6 +21,7 @@ from yellowiron.specs.vocabulary import (
     TELLING,
     ends,
     has_cjk,
+    is_one_place,
     squeezed,
     tokens,
 )
@@ -35,6 +36,8 @@ _RATED = {"flow", "pressure", "force", "torque"}
 """Dimensions of values that are printed for their maximum, whether the label says so or not."""
 _BY_CIRCUIT = {"pressure", "flow"}
 """Dimensions of which every hydraulic circuit has its own value."""
+_BORROWED = 0.1
+"""The most that words cost that are borrowed from headings."""
 _UNSAID = 0.2
 """What it costs that a label does not say "maximum" where the greatest value and another one are asked for."""
 _REMARK = 0.02
@@ -149,6 +152,8 @@ def _asked(wanted: Sequence[Wanted]) -> list[_Asked]:
 
 def _alone(wanted: Wanted) -> _Asked:
     said = tuple((p, words) for p in phrases(wanted) if (words := frozenset(tokens(p))))
+    if wanted.dimension == "length":
+        said = tuple((p, words) for p, words in said if not is_one_place(words))
     return _Asked(
         wanted=wanted,
         phrases=said,
@@ -224,7 +229,7 @@ def _match(asked_for: _Asked, claim: Claim, said: _Said) -> Match | None:
         explained |= words
         from_head |= words - label - context - section
         lent = words - label - head
-        borrowed = min(borrowed, 0.05 * bool(lent) + 0.05 * bool(lent - context))
+        borrowed = min(borrowed, 0.5 * _BORROWED * (bool(lent) + bool(lent - context)))
         if len(words) > most:
             best, most = phrase, len(words)
     if not explained:

@@ -24,6 +24,7 @@ from yellowiron.specs.margin import Beside, parted_margin, without_keys
 from yellowiron.specs.numbers import read, same
 from yellowiron.specs.sentences import paragraphs_of, read_paragraph
 from yellowiron.specs.statement import (
+    COUNTED,
     EXAMPLE,
     Piece,
     Statement,
@@ -35,6 +36,7 @@ from yellowiron.specs.statement import (
     split_inline,
     unit_in_label,
     unit_of_heading,
+    unit_said,
     words_beside_numbers,
 )
 from yellowiron.specs.vocabulary import has_cjk
@@ -53,6 +55,7 @@ class _State:
     """What the rows above say about the rows below."""
 
     section: str = ""
+    unit: str = ""
     context: list[Piece] = field(default_factory=list)
     pending: list[Piece] = field(default_factory=list)
     heads: list[tuple[Piece, ...]] = field(default_factory=list)
@@ -71,7 +74,7 @@ class _State:
             self.kept = []
         elif self.heads and not self.data_since_heads and all(len(line) > 1 for line in self.heads):
             self.kept = list(self.heads)  # a table's own heads, above its first section
-        self.section = heading.text
+        self.section, self.unit = heading.text, ""
         self.headings.append(heading)
         self.context, self.pending, self.heads = [], [], [heads] if heads else list(self.kept)
         self.indented = self.data_since_heads = False
@@ -200,7 +203,8 @@ def _read_captions(page: Page, labels: Line, values: Line, state: _State, number
 
 def _in_section(statement: Statement, state: _State, *, marked: bool) -> Statement:
     section, unit = unit_of_heading(EXAMPLE.sub("", state.section).strip())
-    return replace(statement, section=section, unit=statement.unit or unit, example=marked or statement.example)
+    unit = statement.unit or ("" if COUNTED.search(statement.label) else unit or state.unit)
+    return replace(statement, section=section, unit=unit, example=marked or statement.example)
 
 
 def _continue_label(
@@ -278,14 +282,19 @@ def _read_words(page: Page, block: Block, line: Line, state: _State, size: float
             state.heads.append(line.pieces)
         return
     labels_end = block.x0 + 0.12 * (block.x1 - block.x0) + 4
+    if len(texts) == 1 and (unit := unit_said(texts[0].bare)):
+        state.unit = unit
+        return
     at_label = texts[0].x0 < labels_end
     if len(texts) == 1 == len(line.pieces) and texts[0].size > LARGER * size and texts[0].x0 < labels_reach(block):
         at_label = True  # a heading in the middle
     bar = bar_under(page, texts[0], size) if at_label or len(texts) < 2 else None
     if bar is not None or (len(texts) == 1 and at_label and is_heading(texts[0], size)):
         on_bar = [p.text for p in line.pieces if bar is None or inside(p.box, bar)]
-        heads = tuple(texts[1:])
-        section = texts[0].text if heads else " ".join(on_bar)
+        heads = tuple(p for p in texts[1:] if not unit_said(p.bare))
+        unit = next((u for p in texts[1:] if (u := unit_said(p.bare))), "")
+        section = texts[0].text if heads or unit else " ".join(on_bar)
+        section += f" ({unit})" if unit else ""
         state.open_section(Heading(line.bottom, block.x0, block.x1, section), heads)
     elif len(texts) == 2 and at_label and is_title(texts[0], size) and (unit := is_unit(texts[1].bare)):
         words = f"{texts[0].text} {unit.replace('|', ' (')})" if "|" in unit else f"{texts[0].text} ({unit})"

@@ -18,6 +18,12 @@ EXAMPLE = re.compile(
     re.IGNORECASE,
 )
 """How a sheet marks a value as its publisher's own example."""
+COUNTED = re.compile(
+    r"\b(?:number|quantity|qty|no\.|nos\.|count|anzahl|stückzahl|nombre|número|cantidad|n[º°])(?!\w)|"
+    r"\b(?:rollers|shoes)\b.*\b(?:each|per) (?:side|track)\b|数量|数目|个数|片数|本数|枚数|段数|节数",
+    re.IGNORECASE,
+)
+"""Labels whose bare numbers count things, whatever unit the heading gives to the others."""
 _MARK = re.compile(r"(?<=[\w)\"'°³²%])\s*[*†‡§¤◊]+$|^[*†‡§¤◊]+|(?<=[^\W\d])\d\)$|(?<=\s)\d\)$")
 _FEET_HEAD = re.compile(r"\(?\s*(?:ft\.?|feet|′|')\s*[-·.,&/ ]*\s*(?:in\.?|inch(?:es)?|″|\")\s*\)?", re.IGNORECASE)
 
@@ -194,6 +200,12 @@ def unit_of_heading(text: str) -> tuple[str, str]:
     return (match.group(1), unit) if match and (unit := is_unit(match.group(2))) else (text, "")
 
 
+def unit_said(text: str) -> str:
+    """The unit that words give to all the numbers under them, and nothing else: "Unit: mm" → "mm"; "" otherwise."""
+    label, unit = unit_of_heading(text.strip("()[]（）【】 "))
+    return unit if not label.strip("()[] ") else ""
+
+
 def kind_of(piece: Piece) -> str:
     """`value`, `unit`, `mark` (an example mark, or a dash for "none", alone) or `text`."""
     bare = piece.bare
@@ -228,6 +240,8 @@ def looks_like_value(text: str) -> bool:
     first = readings[0].numbers[0]
     if not first.unit and re.match(r"[.):]?\s+(?!(?:to|bis|up)\b)[^\W\d_]{2,}", text[first.end :]):
         return False  # "10 Wheelbase", "4.2 No. of shoes": a drawing's key or an outline's number, and a label
+    if re.match(r"[\u3040-\u30ff\u3400-\u9fff]{4}", text[first.end :]):
+        return False  # "45°卸料时斗刃高度": a label that begins with its circumstance
     return len(words_beside_numbers(text, readings)) <= 8
 
 

@@ -1,0 +1,64 @@
+"""Labels that list several properties: "bore x stroke" for a product, "laden / unladen" for numbers with a slash."""
+
+from __future__ import annotations
+
+import re
+
+_CROSS = re.compile(r"\s+[x×✕*/]\s+|\s*[×✕]\s*|\s+(?:and|und|et|y)\s+(?=stroke|rod|Hub|course|carrera)", re.IGNORECASE)
+COUNTED_PARTS = re.compile(
+    r"(?:\b(?:number|no\.?|quantity|qty\.?) of (?:cylinders?|units)\b|\bAnzahl(?: der)? \w+\b|\bnombre de \w+\b|"
+    r"\bnúmero de \w+\b)\s*(?:[-–—,:/x×]\s*)?",
+    re.IGNORECASE,
+)
+_SIZES = {"LWH", "LBH", "LlH", "LAH", "LAhA", "LAnAl", "lwh", "lbh", "长宽高", "長幅高"}
+"""What makers call length × width × height."""
+_NAME = r"(?:(?:length|longueur|longitud|di[aá]m\w+|diamètre) (?:of|de|du|del) \S+|\S+(?:\s+(?:diameter|dia\.?))?)"
+"""What one factor of a product is called: "bore", "rod diameter", "length of stroke"."""
+
+
+def enumerated(label: str, count: int) -> list[str]:
+    """The properties a label lists for a product of `count` factors, each with the words before the list.
+
+    ("Lift cylinders – bore x stroke", 2) → ["Lift cylinders bore", "Lift cylinders stroke"]; [] if it lists others.
+    """
+    bare = COUNTED_PARTS.sub(" ", label).strip()
+    parts = [p.strip(" ()[]") for p in _CROSS.split(bare)]
+    if len(parts) != count or not all(re.search(r"[^\W\d_]", p) for p in parts):
+        return []
+    first = re.match(rf"^(.*[-–—,:(]|.*?)\s*({_NAME})$", parts[0])
+    prefix, name = (first.group(1), first.group(2)) if first else ("", parts[0])
+    if re.search(r"[-–—,:(]$", prefix.strip()):
+        name = re.split(r"[-–—,:(]\s*", parts[0])[-1] or name
+    prefix = prefix.strip(" -–—,:(")
+    last = re.match(rf"^({_NAME})(.*)$", parts[-1])
+    suffix = last.group(2).strip() if last else ""
+    parts[-1] = last.group(1) if last else parts[-1]
+    if "".join([name, *parts[1:]]) in _SIZES:
+        name, parts = "length", ["length", "width", "height"]
+    return [" ".join(f"{prefix} {p} {suffix}".split()) for p in [name, *parts[1:]]]
+
+
+def alternatives(label: str, count: int) -> list[str]:
+    """The labels of `count` numbers with slashes between them, from one that names them alike; [] if it does not.
+
+    ("Axle load, front/rear", 2) → ["Axle load, front", "Axle load, rear"]; the list may stand in brackets, behind the
+    last comma, or be a word of the label.
+    """
+    for pattern in _LISTS:
+        for match in pattern.finditer(label):
+            parts = [part.strip() for part in re.split(r"[/／]", match.group(1))]
+            if len(parts) != count or not all(re.search(r"[^\W\d]", part) for part in parts):
+                continue
+            names = _LETTERS.get("".join(parts), parts)
+            return [f"{label[: match.start(1)]}{name}{label[match.end(1) :]}" for name in names]
+    return []
+
+
+_LETTERS = {"sel": ["thickness", "width", "length"], "se": ["thickness", "width"]}
+"""A fork's measures as VDI 2198 abbreviates them."""
+_LISTS = (
+    re.compile(r"[(（\[]([^()（）\[\]]*[/／][^()（）\[\]]*)[)）\]]"),
+    re.compile(r"[,:：–—-]\s*([^,:：–—]*[/／][^,:：–—]*)$"),
+    re.compile(r"(?<!\S)(\S+(?:[/／]\S+)+)"),
+    re.compile(r"(?<!\S)(\S+(?:\s[/／]\s\S+)+)"),
+)
