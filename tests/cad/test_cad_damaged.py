@@ -384,3 +384,19 @@ def test_a_reader_that_goes_on_for_ever_is_one_sentence(
     said = " ".join(capsys.readouterr().err.split())
     assert says in said and "hint:" in said and "Traceback" not in said
     assert not (tmp_path / "machine.usda").exists()
+
+
+def test_what_is_lost_of_a_robot_s_mesh_and_of_a_folder_s_file_is_told(tmp_path: Path) -> None:
+    """The files are read through another one."""
+    path = sound("OBJ", tmp_path)
+    robot = tmp_path / "machine.urdf"
+    robot.write_text(
+        '<robot name="machine"><link name="frame"><visual><geometry>'
+        '<mesh filename="machine.obj" scale="1e-3 1e-3 1e-3"/></geometry></visual></link></robot>'
+    )
+    assert not codes(robot) & {"CAD001", "refused"}
+    text = path.read_text()
+    path.write_text(text[: text.index("\nf ", text.rindex("\no "))])
+    assert "CAD001" in codes(robot)
+    robot.unlink()
+    assert "CAD001" in codes(tmp_path)

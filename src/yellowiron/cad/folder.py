@@ -91,14 +91,19 @@ def _names(file: Path, folder: Path) -> tuple[str, ...]:
 def _loose(files: Sequence[Path], folder: Path) -> Assembly:
     """Files of triangles without a unit, each piece a part."""
     raw: list[tuple[tuple[str, ...], str, Dressed]] = []
+    findings: list[Finding] = []
     for file in files:
         names = _names(file, folder)
         if file.suffix.lower() == ".obj":
-            raw += [(names, name, one) for name, one in obj.meshes_of(file)]
+            raw += [(names, name, one) for name, one in obj.meshes_of(file, findings)]
             continue
-        meshes = [m for _, m in stl.solids_of(file)] if file.suffix.lower() == ".stl" else [ply.mesh_of(file)]
+        if file.suffix.lower() == ".stl":
+            meshes = [mesh for _, mesh in stl.solids_of(file, findings)]
+        else:
+            meshes = [ply.mesh_of(file, findings)]
         raw += [(names, "", repainted(mesh)) for mesh in meshes]
-    unit, findings = placed.guessed_unit([one.mesh.points for _, _, one in raw], str(folder))
+    unit, remarks = placed.guessed_unit([one.mesh.points for _, _, one in raw], str(folder))
+    findings += remarks
     occurrences = []
     for names, name, one in raw:
         scaled = replace(one.mesh, points=one.mesh.points * unit)

@@ -78,9 +78,10 @@ def read_obj(path: str) -> Assembly:
     )  # fmt: skip
 
 
-def meshes_of(file: Path) -> list[tuple[str, Dressed]]:
-    """Name and mesh (in the file's unit) of every object or group. `CadError` as for `read_obj`."""
-    return _groups(str(file), [])
+def meshes_of(file: Path, findings: list[Finding]) -> list[tuple[str, Dressed]]:
+    """Name and mesh (in the file's unit) of every object or group; what is amiss goes to `findings`. `CadError` as for
+    `read_obj`."""
+    return _groups(str(file), findings)
 
 
 def _groups(path: str, findings: list[Finding]) -> list[tuple[str, Dressed]]:

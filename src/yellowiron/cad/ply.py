@@ -28,9 +28,10 @@ _DAMAGED = "Copy or export it again; the file is damaged."
 
 def read_ply(path: str) -> Assembly:
     """The assembly in a PLY file, text or binary, in metres. `CadError` if it is damaged or holds no triangle."""
-    raw = mesh_of(Path(path))
-    unit, findings = placed.guessed_unit([raw.points], path)
-    findings += _damage(Path(path).read_bytes(), len(raw.triangles), path)
+    findings: list[Finding] = []
+    raw = mesh_of(Path(path), findings)
+    unit, remarks = placed.guessed_unit([raw.points], path)
+    findings += remarks
     mesh = Mesh(raw.points * unit, raw.triangles, None, raw.triangle_colors)
     pieces = placed.pieces(mesh) if np.isfinite(mesh.points).all() else [mesh]
     name = Path(path).stem
@@ -53,8 +54,9 @@ def _damage(data: bytes, read: int, path: str) -> list[Finding]:
     return [Finding("CAD001", "warning", path, f"{words}: parts may be incomplete", _DAMAGED)] if words else []
 
 
-def mesh_of(file: Path) -> Mesh:
-    """The triangles of a PLY file, in the file's unit. `CadError` as for `read_ply`."""
+def mesh_of(file: Path, findings: list[Finding]) -> Mesh:
+    """The triangles of a PLY file, in the file's unit; what is amiss goes to `findings`. `CadError` as for
+    `read_ply`."""
     from trimesh.exchange.ply import load_ply
 
     path, data = str(file), file.read_bytes()
@@ -70,6 +72,7 @@ def mesh_of(file: Path) -> Mesh:
         raise CadError("The PLY file holds no triangle", where=path, hint="Export surfaces, not a cloud of points.")
     if not 0 <= triangles.min() <= triangles.max() < len(points):
         raise CadError("The PLY file is broken: its faces name points that are not there", where=path, hint=_DAMAGED)
+    findings += _damage(data, len(triangles), path)
     return Mesh(points, triangles.astype(np.int32), None, _colors(loaded, triangles))
 
 

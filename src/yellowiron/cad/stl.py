@@ -34,9 +34,10 @@ _DAMAGED = "Copy or export it again; the file is damaged."
 def read_stl(path: str) -> Assembly:
     """The assembly in an STL file, binary or text, in metres. `CadError` if it is cut short, if it holds another number
     of triangles than it says, or none."""
-    solids = solids_of(Path(path))
-    unit, findings = placed.guessed_unit([mesh.points for _, mesh in solids], path)
-    findings += _damage(Path(path).read_bytes(), sum(len(mesh.triangles) for _, mesh in solids), path)
+    findings: list[Finding] = []
+    solids = solids_of(Path(path), findings)
+    unit, remarks = placed.guessed_unit([mesh.points for _, mesh in solids], path)
+    findings += remarks
     occurrences = []
     for name, mesh in solids:
         mesh = replace(mesh, points=mesh.points * unit)
@@ -50,11 +51,14 @@ def read_stl(path: str) -> Assembly:
     )  # fmt: skip
 
 
-def solids_of(file: Path) -> list[tuple[str, Mesh]]:
-    """Name and triangles of every solid, in the file's unit. `CadError` as for `read_stl`."""
+def solids_of(file: Path, findings: list[Finding]) -> list[tuple[str, Mesh]]:
+    """Name and triangles of every solid, in the file's unit; what is amiss goes to `findings`. `CadError` as for
+    `read_stl`."""
     data = file.read_bytes()
     _check(data, str(file))
-    return _solids(data, str(file))
+    solids = _solids(data, str(file))
+    findings += _damage(data, sum(len(mesh.triangles) for _, mesh in solids), str(file))
+    return solids
 
 
 def _check(data: bytes, path: str) -> None:

@@ -133,7 +133,7 @@ def _geometry(
             return
         scale = _numbers(entry, "scale", path) if entry.get("scale") else np.ones(3)
         if file not in known:
-            known[file] = loose_meshes(file)
+            known[file] = loose_meshes(file, findings)
         for title, mesh, color in known[file]:
             yield title, _scaled(mesh, scale), color
 
