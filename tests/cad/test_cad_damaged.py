@@ -92,6 +92,15 @@ def test_an_iges_that_open_cascade_would_not_survive(mark: str, damage: str, say
     assert isinstance(found, CadError) and says in found.message
 
 
+def test_indices_that_are_no_numbers(tmp_path: Path) -> None:
+    path = sound("COLLADA", tmp_path)
+    text = path.read_text()
+    assert "<p>0 " in text
+    path.write_text(text.replace("<p>0 ", "<p>x ", 1))
+    found = outcome(path)
+    assert isinstance(found, CadError) and "no whole number" in found.message
+
+
 @pytest.mark.parametrize("name", ["OBJ", "PLY", "3MF", "COLLADA"])
 def test_points_that_are_no_numbers(name: str, tmp_path: Path) -> None:
     path = sound(name, tmp_path)

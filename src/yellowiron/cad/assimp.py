@@ -27,6 +27,9 @@ from yellowiron.model.geometry import Color, Floats, Mesh
 
 _HINT = "Export the file again, as GLB or, better, as STEP."
 _UP = re.compile(rb"<up_axis>\s*([XYZ]_UP)\s*</up_axis>")
+_INDICES = re.compile(r"(?:^|\})(?:p|h|v|vcount)$")
+"""Elements that hold indices and counts."""
+_NO_INDEX = re.compile(r"[^\s\d+-]")
 _FROM_Y_UP = {"Z_UP": np.array([[1.0, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1]])}
 """The library turns what has another axis up to Y up; this turns it back."""
 _DIFFUSE = 1
@@ -51,10 +54,13 @@ def read_collada(path: str) -> Assembly:
     up = _UP.search(data)
     frame = _FROM_Y_UP.get(up.group(1).decode() if up else "Y_UP", np.eye(4))
     try:
-        entries = ElementTree.fromstring(data).iter()
+        entries = list(ElementTree.fromstring(data).iter())
         nodes = [e.attrib for e in entries if str(e.tag).endswith(("}node", "}visual_scene"))]
     except ElementTree.ParseError as error:
         raise CadError(f"The COLLADA file is broken: {error}", where=path, hint=_HINT) from error
+    # On such the library takes all the memory that there is.
+    if any(_INDICES.search(str(e.tag)) and _NO_INDEX.search(e.text or "") for e in entries):
+        raise CadError("The COLLADA file is broken: an index in it is no whole number", where=path, hint=_HINT)
     # The library calls nodes by their ids.
     return _read(path, "COLLADA", 0, frame, {n["id"]: n["name"] for n in nodes if n.get("id") and n.get("name")})
 
