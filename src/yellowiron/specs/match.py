@@ -19,6 +19,7 @@ from yellowiron.specs.vocabulary import (
     OPPOSITES,
     REVERSING,
     TELLING,
+    VAGUE,
     ends,
     has_cjk,
     is_one_place,
@@ -214,6 +215,7 @@ def _match(asked_for: _Asked, claim: Claim, said: _Said) -> Match | None:
     best, most = "", 0
     by_itself = any(words <= label for _, words in asked_for.phrases)
     optional = (_EXTREME if wanted.dimension in _RATED else set()) - everything
+    vague = VAGUE if wanted.dimension != "time" else frozenset[str]()  # "Raise 5.2 s" is a time to raise
     # One word alone is little: beside it only what no other value's words have passes for a remark.
     remarks = HARMLESS - asked_for.others.keys()
     for phrase, words in asked_for.phrases:
@@ -224,7 +226,7 @@ def _match(asked_for: _Asked, claim: Claim, said: _Said) -> Match | None:
             continue
         if any(words & end for end in said.ends) and not all(words & end for end in said.ends):
             continue  # a distance from the same place to another one
-        if len(words) == 1 and not supported and label - words - NEUTRAL - _WHOLE - remarks:
+        if len(words) == 1 and not supported and (words <= vague or label - words - NEUTRAL - _WHOLE - remarks):
             continue
         explained |= words
         from_head |= words - label - context - section

@@ -202,8 +202,8 @@ def unit_of_heading(text: str) -> tuple[str, str]:
 
 def unit_said(text: str) -> str:
     """The unit that words give to all the numbers under them, and nothing else: "Unit: mm" → "mm"; "" otherwise."""
-    label, unit = unit_of_heading(text.strip("()[]（）【】 "))
-    return unit if not label.strip("()[] ") else ""
+    match = _HEADED_BY_UNIT.search(text.strip("()[]（）【】 "))
+    return is_unit(match.group(2)) if match and not match.group(1) else ""
 
 
 def kind_of(piece: Piece) -> str:

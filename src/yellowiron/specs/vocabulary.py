@@ -34,6 +34,8 @@ GENERAL = _words(_DATA["general"])
 """Words of headings under which anything may stand."""
 _ENDS = _words(_DATA["ends"])
 """What makers measure distances from and to."""
+VAGUE = _words(_DATA["vague"])
+"""Words that name a property only under a heading of its part."""
 TELLING = _words(_DATA["telling"])
 """Conditions and other bodies: beside the words of a property they may make it another one."""
 CIRCUITS = _words(_DATA["circuits"])
@@ -252,7 +254,7 @@ def ends(text: str) -> tuple[frozenset[str], frozenset[str]] | None:
 
 def is_one_place(words: frozenset[str]) -> bool:
     """Whether words name a single place of a machine and none of its properties: "rear axle"."""
-    return words <= _ENDS | _SIDES and len(words & _ENDS) == 1
+    return words <= _ENDS | _SIDES and len(words & _ENDS) == 1 and not {"front", "rear"} <= words
 
 
 _SIDES = frozenset(["front", "rear", "left", "right", "center", "centerline"])
