@@ -62,6 +62,17 @@ def test_flipped_bytes(seed: int, tmp_path: Path) -> None:
     assert codes(path)
 
 
+def test_a_step_file_with_bytes_that_are_no_text(tmp_path: Path) -> None:
+    """What they have overwritten may have been a part's place in the tree."""
+    path = sound("STEP", tmp_path)
+    data = path.read_bytes()
+    at = data.rindex(b"= NEXT_ASSEMBLY_USAGE_OCCURRENCE")
+    path.write_bytes(data[:at] + bytes(20) + data[at + 20 :])
+    assert codes(path) & {"CAD001", "refused"}
+    path.write_bytes(data + bytes(20))
+    assert not codes(path)
+
+
 def test_an_ifc_that_is_cut_short(tmp_path: Path) -> None:
     pytest.importorskip("ifcopenshell")
     path = sound("IFC", tmp_path)

@@ -41,6 +41,8 @@ def read_step(path: str) -> Assembly:
     """The assembly in a STEP file. `CadError` if there is nothing in it that is a part."""
     data = Path(path).read_bytes()
     facts = part21.scan(data)
+    at = data.find(b"\0")
+    blank = at if at >= 0 and data[at:].strip(b"\0\x1a\r\n ") else -1
     del data
     if not facts.complete:
         raise CadError(
@@ -50,6 +52,9 @@ def read_step(path: str) -> Assembly:
         )
     encoding = sniff_encoding(facts.names)
     findings = remark(encoding, path)
+    if blank >= 0:
+        words = f"Byte {blank + 1} of the file is no text: parts may be missing or incomplete"
+        findings.append(Finding("CAD001", "warning", path, words, "Copy or export it again; the file is damaged."))
     # Names inside of products are slow to look for; those of other files were not seen.
     tree, unit_names = open_step(path, encoding, inner_names=facts.named or bool(facts.documents))
     unit, unit_findings = _unit(unit_names, path)
