@@ -215,7 +215,8 @@ def _match(asked_for: _Asked, claim: Claim, said: _Said) -> Match | None:
     best, most = "", 0
     by_itself = any(words <= label for _, words in asked_for.phrases)
     optional = (_EXTREME if wanted.dimension in _RATED else set()) - everything
-    vague = VAGUE if wanted.dimension != "time" else frozenset[str]()  # "Raise 5.2 s" is a time to raise
+    headed = bool(wanted.sections) and not section <= GENERAL and wanted.dimension != "time"
+    vague = VAGUE if headed else frozenset[str]()
     # One word alone is little: beside it only what no other value's words have passes for a remark.
     remarks = HARMLESS - asked_for.others.keys()
     for phrase, words in asked_for.phrases:
