@@ -282,7 +282,12 @@ def test_a_ply_that_has_other_lines_than_it_says(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("name", "target"),
-    [("IGES", "iges:read_iges"), ("BREP", "occt:read_brep"), ("FreeCAD", "occt:read_freecad")],
+    [
+        ("STEP", "step:read_step"),
+        ("IGES", "iges:read_iges"),
+        ("BREP", "occt:read_brep"),
+        ("FreeCAD", "occt:read_freecad"),
+    ],
 )
 def test_what_is_worked_on_for_ever_is_ended(name: str, target: str, tmp_path: Path) -> None:
     """By processor time, long before the guard's own limit: one sentence with a hint."""

@@ -9,6 +9,7 @@ from yellowiron.cad import part21, products
 from yellowiron.cad.naming import remark, sniff_encoding
 from yellowiron.cad.products import Piece, listed
 from yellowiron.cad.xcaf import Leaf, open_step
+from yellowiron.guard import must_end
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import CadError
 from yellowiron.model.finding import Finding
@@ -35,10 +36,18 @@ UNITS = {
     "mile": 1609.344,
 }
 """Unit names of STEP files, lower case, to metres."""
+_PATIENCE, _SLOWEST = 20.0, 2e4
+"""Seconds of the processor, and bytes a second: far less than is usual."""
 
 
 def read_step(path: str) -> Assembly:
     """The assembly in a STEP file. `CadError` if there is nothing in it that is a part."""
+    # On some damage Open CASCADE goes on for ever.
+    with must_end(_PATIENCE + Path(path).stat().st_size / _SLOWEST):
+        return _read(path)
+
+
+def _read(path: str) -> Assembly:
     data = Path(path).read_bytes()
     facts = part21.scan(data)
     at = data.find(b"\0")
