@@ -98,10 +98,10 @@ def _rows(s: Wording, section: str, *, pairs: bool = False, rams: str = "rows") 
         if one.name == section and kind == s.machine.kind and s.prints(base) and s.of(one) != "-":
             value = rounded(kind, base, s.machine.values[base] * float(factor))
             rows.insert(s.dice.randrange(len(rows) + 1), Row(s.of(one), s.say(base, value, note=False), "*"))
-            s.note_level_cut(s.of(one), value)
+            s.note_level_cut(s.of(one), value / 1e3)
     if section == "engine" and not s.prints("Net Power") and s.machine.kind != "forklift":
         power = float(round(s.machine.values["Net Power"] * 1.04))
-        s.allowed["Engine Power"] = Truth(power * 1e3, power * 1e-3)
+        s.allowed |= dict.fromkeys(("Engine Power", "Gross Power"), Truth(power * 1e3, power * 1e-3))
         rows.insert(0, Row(_word(s, "gross"), s.say("Net Power", power, note=False), "*"))
     rows = [replace(row, said=_local(s, row.said, row.name)) for row in rows]
     for names, label, mark in _pairs(s) if pairs else []:

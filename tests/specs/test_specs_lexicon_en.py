@@ -43,7 +43,7 @@ WORDINGS = {
         stroke | Backhoe Bucket Cylinder Stroke = Backhoe bucket ram stroke | Swing Cylinder Stroke = Swing
         cylinders - stroke | Operating Weight = Operating weight with cab | Main Relief Pressure = Loader
         relief pressure | Main Pump Flow = Pump flow at 2,200 rpm | Maximum Travel Speed = Travel speed 4th |
-        Overall Length = Overall length, road travel | Overall Height = Height - to top of cab | Overall Width
+        Overall Length = Overall length, road travel | Overall Height = Overall travel height | Overall Width
         = Overall width over tyres | Wheelbase = Wheelbase (four-wheel drive) | Ground Clearance = Ground
         clearance under chassis | Turning Radius = Outside tyre turning radius | Loader Hinge Pin Height =
         Bucket hinge pin height | Loader Dump Height = Dump clearance, max. | Loader Dump Reach = Reach at

@@ -41,8 +41,8 @@ WORDINGS = {
         Cilindro de la pluma, carrera | Dipper Cylinder Stroke = Cilindro del brazo, carrera | Swing Cylinder
         Stroke = Cilindro de giro, carrera | Operating Weight = Peso de operación con cabina 4x4 | Main Relief
         Pressure = Presión de trabajo | Main Pump Flow = Caudal de bomba a 2200 rpm | Maximum Travel Speed =
-        Velocidad en carretera | Overall Length = Longitud total de transporte | Overall Height = Altura al
-        techo de la cabina | Overall Width = Ancho total sin cucharón | Wheelbase = Distancia entre los ejes |
+        Velocidad en carretera | Overall Length = Longitud total de transporte | Overall Height = Altura de
+        transporte | Overall Width = Ancho total sin cucharón | Wheelbase = Distancia entre los ejes |
         Ground Clearance = Despeje sobre el suelo | Turning Radius = Radio de giro sobre neumáticos | Loader
         Hinge Pin Height = Altura máxima al pasador de articulación | Loader Dump Height = Altura de vuelco |
         Loader Dump Reach = Alcance de descarga a altura máxima | Loader Dump Angle = Ángulo de vuelco |

@@ -180,7 +180,6 @@ Main Relief Pressure: Pression du circuit hydraulique
 Main Pump Flow: Débit pompe à 2200 tr/min
 Maximum Travel Speed: Vitesse maximale sur route
 Overall Length: Longueur hors tout en position route
-Overall Height: Hauteur au sommet de la cabine
 Overall Width: Largeur hors tout sans godet
 Wheelbase: Distance entre essieux
 Ground Clearance: Garde au sol minimale
@@ -418,7 +417,7 @@ Lift Speed Unladen: Vitesse d'élévation, sans charge
 Lowering Speed Laden: Vitesse d'abaissement avec charge
 Lowering Speed Unladen: Vitesse d'abaissement sans charge
 Drawbar Pull: Effort de traction maxi en charge
-Engine Power: Puissance du moteur selon ISO 1585
+Net Power: Puissance du moteur selon ISO 1585
 -12 kW: Moteur de traction; Moteur de levage; Moteur de traction S2 60 min; Moteur de levage S3 15 %
 -1500 kg: Charge par essieu en charge arrière; Charge par essieu à vide arrière; Poids du mât; Poids des fourches
 -1500 mm: Largeur intérieure; Écartement extérieur des fourches; Écartement des fourches; Longueur batterie

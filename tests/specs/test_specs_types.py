@@ -80,7 +80,7 @@ MACHINES: Mapping[str, Mapping[str, str]] = {
     "jcb-3cx": {
         "Total travel length": "Overall Length", "Axle centreline distance": "Wheelbase",
         "Slew centre to rear axle centre": "Swing Pivot to Rear Axle", "Kingpost clearance": "Kingpost Clearance",
-        "Cab roof height": "Overall Height", "Shovel width": "Loader Bucket Width",
+        "Travel height": "Overall Height", "Shovel width": "Loader Bucket Width",
         "SAE dig depth": "Maximum Digging Depth", "Reach @ ground level": "Maximum Reach at Ground Line",
         "Loading height": "Backhoe Loading Height", "Bucket breakout": "Bucket Digging Force",
         "Dipper breakout": "Dipper Digging Force", "Loader dump height": "Loader Dump Height",

@@ -63,7 +63,7 @@ def statement_of(
         label=label,
         text=EXAMPLE.sub("", text).strip(),
         box=box,
-        quote=_quote(row, above, cell, column if not cell.label else []),
+        quote=_quote(page, row, above, cell, column if not cell.label else []),
         context=tuple(p.bare for p in context),
         column=tuple(unit_in_label(h.bare)[0] for h in column if h.bare),
         unit=cell.unit or label_unit or unit,
@@ -222,17 +222,29 @@ def add_continuation(found: list[Statement], cells: Sequence[ValueCell]) -> None
             )
 
 
-def _quote(row: Sequence[Line], context: Sequence[Piece], cell: ValueCell, heads: Sequence[Piece]) -> str:
-    """What the page prints: sub-heading or head, then each line of the row from the label to the value."""
+def _quote(page: Page, row: Sequence[Line], context: Sequence[Piece], cell: ValueCell, heads: Sequence[Piece]) -> str:
+    """What the page prints: sub-heading or head, then each line of the row from the label to the value. Pieces that do
+    not follow each other on the page are parted: a drawing's key may stand between them, or, in the file, the second
+    line of a broken label."""
     parts = [p.printed for p in [*heads, *context]]
     chosen = [*cell.label, *cell.values]
     for line in row:
         mine = [i for i, p in enumerate(line.pieces) if any(p is q for q in chosen)]
-        if mine:
-            # A file may hold the lines of a broken label one after the other, before the value beside them.
-            between = " … " if len(row) > 1 else " "
-            parts.append(between.join(p.printed for p in line.pieces[mine[0] : mine[-1] + 1]))
+        if not mine:
+            continue
+        pieces = line.pieces[mine[0] : mine[-1] + 1]
+        text = pieces[0].printed
+        for before, piece in pairwise(pieces):
+            parted = len(row) > 1 or _any_between(page, before, piece)
+            text += f"{' … ' if parted else ' '}{piece.printed}"
+        parts.append(text)
     return " … ".join(dict.fromkeys(parts))
+
+
+def _any_between(page: Page, a: Piece, b: Piece) -> bool:
+    """Whether the page prints a word between two pieces of a line."""
+    base = a.words[0].baseline
+    return any(abs(w.baseline - base) < 0.3 * w.size and a.x1 < w.x0 and w.x1 < b.x0 for w in page.words)
 
 
 def marked_by_legend(page: Page, pieces: Sequence[Piece]) -> bool:

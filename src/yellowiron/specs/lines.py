@@ -12,6 +12,8 @@ from yellowiron.specs.words import Word
 
 _HANGING = 20.0
 """Points by which a heading may stand out to the left of the labels under it."""
+_PANEL = 60.0
+"""Points; what is filled higher than this lies behind many rows, and is no heading's bar."""
 _GAP = 0.75
 """A gap wider than this times the type size parts a label from a value."""
 
@@ -175,7 +177,7 @@ def _of_right_set_labels(lines: Sequence[Line]) -> list[float]:
 
 
 def _folded(lines: Sequence[Line], number: int, index: int) -> bool:
-    """Whether the value of a label stands on the line under it, further right: a row folded in two."""
+    """Whether the value of a label stands on the line under it: a row folded in two, or a label over its value."""
     piece = lines[number].pieces[index]
     after = lines[number].pieces[index + 1 : index + 2]
     end = after[0].x0 if after else float("inf")
@@ -184,7 +186,7 @@ def _folded(lines: Sequence[Line], number: int, index: int) -> bool:
         if line.top - lines[number].bottom > 0.8 * piece.size:
             return False
         if under and line.bottom > lines[number].bottom + 0.5 * piece.size:
-            return kind_of(under[0]) == "value" and under[0].x0 > piece.x0 + 2
+            return kind_of(under[0]) == "value"
     return False
 
 
@@ -198,7 +200,7 @@ def _run(lines: Sequence[Line], across: Sequence[Box], x: float) -> tuple[int, i
     """The longest run of lines that nothing crosses at `x`, and how many of them stand on the thinner side."""
     crossing = [b for b in across if b[0] < x - 6 and b[2] > x + 6]
     heights = sorted((b[1] + b[3]) / 2 for b in crossing if b[3] - b[1] <= 6)
-    covers = [b for b in crossing if b[3] - b[1] > 6]
+    covers = [b for b in crossing if 6 < b[3] - b[1] <= _PANEL]
     best = (0, 0, 0)
     start = 0
     for index in range(len(lines) + 1):

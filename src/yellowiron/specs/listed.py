@@ -10,8 +10,11 @@ COUNTED_PARTS = re.compile(
     r"\bnúmero de \w+\b)\s*(?:[-–—,:/x×]\s*)?",
     re.IGNORECASE,
 )
-_SIZES = {"LWH", "LBH", "LlH", "LAH", "LAhA", "LAnAl", "lwh", "lbh", "长宽高", "長幅高"}
-"""What makers call length × width × height."""
+_LWH, _SEL = ("length", "width", "height"), ("thickness", "width", "length")
+_SIZES = dict.fromkeys(("LWH", "LBH", "LlH", "LAH", "LAhA", "LAnAl", "lwh", "lbh", "长宽高", "長幅高"), _LWH) | {
+    "sel": _SEL
+}
+"""What makers call length × width × height, and VDI 2198 a fork's measures."""
 _NAME = r"(?:(?:length|longueur|longitud|di[aá]m\w+|diamètre) (?:of|de|du|del) \S+|\S+(?:\s+(?:diameter|dia\.?))?)"
 """What one factor of a product is called: "bore", "rod diameter", "length of stroke"."""
 
@@ -33,8 +36,8 @@ def enumerated(label: str, count: int) -> list[str]:
     last = re.match(rf"^({_NAME})(.*)$", parts[-1])
     suffix = last.group(2).strip() if last else ""
     parts[-1] = last.group(1) if last else parts[-1]
-    if "".join([name, *parts[1:]]) in _SIZES:
-        name, parts = "length", ["length", "width", "height"]
+    if sizes := _SIZES.get("".join([name, *parts[1:]])):
+        name, parts = sizes[0], list(sizes)
     return [" ".join(f"{prefix} {p} {suffix}".split()) for p in [name, *parts[1:]]]
 
 
@@ -54,11 +57,11 @@ def alternatives(label: str, count: int) -> list[str]:
     return []
 
 
-_LETTERS = {"sel": ["thickness", "width", "length"], "se": ["thickness", "width"]}
-"""A fork's measures as VDI 2198 abbreviates them."""
+_LETTERS = {"sel": list(_SEL), "se": list(_SEL[:2])}
 _LISTS = (
     re.compile(r"[(（\[]([^()（）\[\]]*[/／][^()（）\[\]]*)[)）\]]"),
     re.compile(r"[,:：–—-]\s*([^,:：–—]*[/／][^,:：–—]*)$"),
+    re.compile(r"([前後后左右上下]{1,2}(?:[/／][前後后左右上下]{1,2})+)$"),
     re.compile(r"(?<!\S)(\S+(?:[/／]\S+)+)"),
     re.compile(r"(?<!\S)(\S+(?:\s[/／]\s\S+)+)"),
 )

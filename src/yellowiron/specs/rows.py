@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
+from yellowiron.specs.banded import split_if_separate
 from yellowiron.specs.cells import ValueCell, add_continuation, cells_of, continues, heads_over, statement_of
 from yellowiron.specs.folded import unfolded
 from yellowiron.specs.headings import (
@@ -21,7 +22,7 @@ from yellowiron.specs.headings import (
 )
 from yellowiron.specs.lines import Block, Line, bands
 from yellowiron.specs.margin import Beside, parted_margin, without_keys
-from yellowiron.specs.numbers import read, same
+from yellowiron.specs.numbers import read
 from yellowiron.specs.sentences import paragraphs_of, read_paragraph
 from yellowiron.specs.statement import (
     COUNTED,
@@ -118,7 +119,7 @@ def read_block(page: Page, block: Block, first_row: int, section: str = "") -> t
     }
     lines, margin = parted_margin(without_keys([Line(pieces) for pieces in kept if pieces]), page.rules)
     rows = unfolded([r for band in bands(lines, page.rules, bars_of(page, block), block.x0, block.x1)
-                     for r in _split_if_separate(band)])  # fmt: skip
+                     for r in split_if_separate(band)])  # fmt: skip
     for index, row in enumerate(rows):
         _enter_margin(block, row, margin, state)
         if _continue_label(row, rows[index + 1] if index + 1 < len(rows) else None, state, found):
@@ -129,13 +130,14 @@ def read_block(page: Page, block: Block, first_row: int, section: str = "") -> t
             _read_captions(page, ordered[0], ordered[1], state, first_row + before + index, found)
             continue
         if index and _captioned(rows[index - 1], row, rows[index + 1 : index + 2]):
-            _read_captions(page, rows[index - 1][0], row[0], state, first_row + before + index, found)
+            above = _broken_caption(rows[:index])
+            _read_captions(page, rows[index - 1][0], row[0], state, first_row + before + index, found, above)
             continue
         _read_row(page, block, row, state, size, first_row + len(found) + index, found)
         state.last = (row, range(before, len(found)), row[0].pieces[0].text) if len(found) > before else None
     for paragraph in paragraphs:
-        above = [h for h in state.headings if h.bottom <= paragraph[0].top + 2]
-        heading = beside[id(paragraph[0].pieces[-1])] or (above[-1].text if above else section)
+        headings = [h for h in state.headings if h.bottom <= paragraph[0].top + 2]
+        heading = beside[id(paragraph[0].pieces[-1])] or (headings[-1].text if headings else section)
         found.extend(read_paragraph(page.number, paragraph, first_row + len(found) + len(block.lines), heading))
     return found, state.headings
 
@@ -192,12 +194,37 @@ def _captioned(above: Sequence[Line], row: Sequence[Line], following: Sequence[S
     return not (following and all(kind_of(p) == "value" for line in following[0] for p in line.pieces))
 
 
-def _read_captions(page: Page, labels: Line, values: Line, state: _State, number: int, found: list[Statement]) -> None:
+def _broken_caption(rows: Sequence[Sequence[Line]]) -> list[Piece]:
+    """The lines of a label over its value that stand above the last one, set like it and close to it."""
+    found: list[Piece] = []
+    below = rows[-1][0].pieces[0]
+    for row in reversed(rows[:-1]):
+        piece = row[0].pieces[0]
+        alike = abs(piece.x0 - below.x0) < 1 and piece.bold == below.bold and abs(piece.size - below.size) < 0.1
+        close = 0 < below.box[1] - piece.box[3] < 0.45 * below.size
+        if len(row) != 1 or len(row[0].pieces) != 1 or not alike or not close or kind_of(piece) != "text":
+            break
+        found.insert(0, piece)
+        below = piece
+    return found
+
+
+def _read_captions(
+    page: Page,
+    labels: Line,
+    values: Line,
+    state: _State,
+    number: int,
+    found: list[Statement],
+    above: Sequence[Piece] = (),
+) -> None:
     state.heads, state.pending, state.last = [], [], None
+    lines = [*(Line((p,)) for p in above), labels, values]
+    context = [p for p in state.context if p not in (*above, *labels.pieces)]
     for label, value in zip(labels.pieces, values.pieces, strict=True):
-        cell = ValueCell([label], [value])
+        cell = ValueCell([*above, label], [value])
         marked = any(EXAMPLE.search(text) for text in (state.section, label.text, value.text))
-        statement = statement_of(page, (labels, values), cell, (), state.context, (), number)
+        statement = statement_of(page, lines, cell, (), context, (), number)
         found.append(_in_section(statement, state, marked=marked))
 
 
@@ -337,56 +364,6 @@ def _stacked(a: Piece, b: Piece) -> bool:
 
 
 # ---- rows with values ----------------------------------------------------------------------------------------------
-
-
-def _split_if_separate(row: Sequence[Line]) -> Iterator[Sequence[Line]]:
-    """A band that holds several labelled values of its own is several rows; a heading over a row is none of it."""
-    ordered = sorted(row, key=lambda line: line.top)
-    first, rest = ordered[0], ordered[1:]
-    if rest and len(first.pieces) == 1 and kind_of(first.pieces[0]) == "text":
-        largest = max(p.size for line in rest for p in line.pieces)
-        if first.pieces[0].size > LARGER * largest and first.bottom <= min(line.top for line in rest) + 1:
-            yield (first,)
-            yield from _split_if_separate(rest)
-            return
-    if rest and all(kind_of(p) == "unit" for p in first.pieces) and first.bottom <= min(line.top for line in rest) + 1:
-        yield (first,)  # units over the columns of the first row
-        yield from _split_if_separate(rest)
-        return
-    last, before = ordered[-1], ordered[:-1]
-    if before and len(last.pieces) == 1 and kind_of(last.pieces[0]) == "text":
-        largest = max(p.size for line in before for p in line.pieces)
-        if last.pieces[0].size > LARGER * largest and last.top >= max(line.bottom for line in before) - 1:
-            yield from _split_if_separate(before)
-            yield (last,)
-            return
-    labelled = 0
-    for line in row:
-        kinds = [kind_of(p) for p in line.pieces]
-        if kinds[0] == "text" and "value" in kinds[1:]:
-            labelled += 1
-    if labelled >= 2 and not _in_two_systems(ordered):
-        for line in row:
-            yield (line,)
-    else:
-        yield row
-
-
-def _in_two_systems(lines: Sequence[Line]) -> bool:
-    """Whether two lines with labels are one row, its label broken in two: their values are the same, metric and
-    imperial."""
-    both = [cells_of((line,)) for line in lines]
-    if len(lines) != 2 or any(len(cells) != 1 or not cells[0].label for cells in both):
-        return False
-    if abs(lines[0].pieces[0].x0 - lines[1].pieces[0].x0) > 1.5 * lines[0].pieces[0].size:
-        return False
-    values = [read(" ".join(p.text for p in c.values), unit=c.unit or unit_in_label(c.label[-1].bare)[1])
-              for cells in both for c in cells]  # fmt: skip
-    if any(len(v) != 1 or len(v[0].numbers) != 1 for v in values):
-        return False
-    first, second = (v[0].numbers[0] for v in values)
-    systems = {q.printed.system for q in (first, second) if q.printed}
-    return systems == {"metric", "imperial"} and same(first, second)
 
 
 def _read_values(page: Page, row: Sequence[Line], state: _State, number: int, found: list[Statement]) -> None:

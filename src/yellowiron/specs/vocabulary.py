@@ -50,6 +50,12 @@ _CJK = re.compile(r"[\u3040-\u30ff\u3400-\u9fff\uac00-\ud7af]")
 _TOKEN = re.compile(
     r"[\u3040-\u30ff\u3400-\u9fff\uac00-\ud7af々]+|[^\W_\u3040-\u30ff\u3400-\u9fff\uac00-\ud7af々]+(?:[.,]\d+)?"
 )
+_NET_BY = re.compile(
+    r"\b(?:ISO\s*(?:9249|1585)|SAE\s*J\s?1349|(?:EEC|EWG|CEE)?\s*80/1269(?:/(?:EEC|EWG|CEE))?)\b", re.IGNORECASE
+)
+_GROSS_BY = re.compile(r"\bSAE\s*J\s?1995\b", re.IGNORECASE)
+"""Standards by which an engine's net power is measured, and its gross one."""
+_PER_MINUTE = re.compile(r"\bmin\s?[-⁻]\s?[1¹](?!\d)")
 _WITHOUT = re.compile(r"\b[wW]/[oO]\b\.?")
 _LINKS = ("", "s", "n", "en", "es", "e", "er")
 """What German puts between the parts of a compound."""
@@ -212,6 +218,7 @@ def tokens(text: str) -> tuple[str, ...]:
     if _CJK.search(text):
         text = unicodedata.normalize("NFKC", text)
     text = _WITHOUT.sub("without ", text).replace("±", " each side ")
+    text = _PER_MINUTE.sub(" rpm ", _GROSS_BY.sub(" gross ", _NET_BY.sub(" net ", text)))
     for word in _TOKEN.findall(text.replace("°", " ").replace("º", " ")):
         if not _CJK.match(word):
             latin.append(word)
