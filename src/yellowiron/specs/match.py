@@ -208,35 +208,11 @@ def _match(asked_for: _Asked, claim: Claim, said: _Said) -> Match | None:
     circuits = label.union(*said.naming) | context | section
     if wanted.dimension in _BY_CIRCUIT and (circuits & CIRCUITS) - asked_for.words:
         return None
-    everything = label | head | context | section
-    explained: set[str] = set()
-    from_head: set[str] = set()
-    borrowed = 1.0
-    best, most = "", 0
-    by_itself = any(words <= label for _, words in asked_for.phrases)
-    optional = (_EXTREME if wanted.dimension in _RATED else set()) - everything
-    headed = bool(wanted.sections) and not section <= GENERAL and wanted.dimension != "time"
-    vague = VAGUE if headed else frozenset[str]()
-    # One word alone is little: beside it only what no other value's words have passes for a remark.
-    remarks = HARMLESS - asked_for.others.keys()
-    for phrase, words in asked_for.phrases:
-        words = words - optional if optional else words
-        if by_itself and words & head - label - context - section:
-            continue  # the label says it without its column's head
-        if not words or not words <= everything or not _anchored(words, label, head, context | section):
-            continue
-        if any(words & end for end in said.ends) and not all(words & end for end in said.ends):
-            continue  # a distance from the same place to another one
-        if len(words) == 1 and not supported and (words <= vague or label - words - NEUTRAL - _WHOLE - remarks):
-            continue
-        explained |= words
-        from_head |= words - label - context - section
-        lent = words - label - head
-        borrowed = min(borrowed, 0.5 * _BORROWED * (bool(lent) + bool(lent - context)))
-        if len(words) > most:
-            best, most = phrase, len(words)
-    if not explained:
+    found = _explanation(asked_for, said, supported=supported)
+    if found is None:
         return None
+    explained, from_head, borrowed, best = found.words, found.from_head, found.borrowed, found.phrase
+    everything = label | head | context | section
     primary = (label if explained & label else set()) | (head if from_head else set()) or context | section
     # A word of the value's own name makes the label mean nothing else.
     left = {t for t in primary - explained - _EXTREME - asked_for.name if not _is_number(t)}
@@ -255,6 +231,51 @@ def _match(asked_for: _Asked, claim: Claim, said: _Said) -> Match | None:
     return Match(
         wanted, claim, max(score, 0.0), best, tuple(sorted(rest)), lost, bool(explained & label), bool(from_head)
     )
+
+
+@dataclass(frozen=True)
+class _Explanation:
+    """What a value's phrases explain of a claim: the words, those of them that only heads say, what is taken off for
+    headings that had to help, and the longest phrase."""
+
+    words: frozenset[str]
+    from_head: frozenset[str]
+    borrowed: float
+    phrase: str
+
+
+def _explanation(asked_for: _Asked, said: _Said, *, supported: bool) -> _Explanation | None:
+    """The phrases of a value that a claim says in full, taken together; None where it says none. `supported`: its
+    section is one under which makers print the value."""
+    wanted, label, head, context, section = asked_for.wanted, said.label, said.head, said.context, said.section
+    everything = label | head | context | section
+    by_itself = any(words <= label for _, words in asked_for.phrases)
+    optional = (_EXTREME if wanted.dimension in _RATED else set()) - everything
+    headed = bool(wanted.sections) and not section <= GENERAL and wanted.dimension != "time"
+    vague = VAGUE if headed else frozenset[str]()
+    # One word alone is little: beside it only what no other value's words have passes for a remark.
+    remarks = HARMLESS - asked_for.others.keys()
+    explained: frozenset[str] = frozenset()
+    from_head: frozenset[str] = frozenset()
+    borrowed = 1.0
+    best, most = "", 0
+    for phrase, words in asked_for.phrases:
+        words = words - optional if optional else words
+        if by_itself and words & head - label - context - section:
+            continue  # the label says it without its column's head
+        if not words or not words <= everything or not _anchored(words, label, head, context | section):
+            continue
+        if any(words & end for end in said.ends) and not all(words & end for end in said.ends):
+            continue  # a distance from the same place to another one
+        if len(words) == 1 and not supported and (words <= vague or label - words - NEUTRAL - _WHOLE - remarks):
+            continue
+        explained |= words
+        from_head |= words - label - context - section
+        lent = words - label - head
+        borrowed = min(borrowed, 0.5 * _BORROWED * (bool(lent) + bool(lent - context)))
+        if len(words) > most:
+            best, most = phrase, len(words)
+    return _Explanation(explained, from_head, borrowed, best) if explained else None
 
 
 def _is_telling(
