@@ -345,9 +345,10 @@ def _supports(asked_for: _Asked, heading: frozenset[str]) -> bool:
 def _forbidden(asked_for: _Asked, claim: Claim, text: str, places: Sequence[frozenset[str]]) -> bool:
     """Whether the label, a head or a heading says a forbidden phrase; its words must stand in one of them."""
     for phrase, parts in asked_for.forbidden:
-        if has_cjk(phrase) and squeezed(phrase) in squeezed(text + claim.statement.section):
-            return True
-        if (parts and any(parts <= words for words in places)) or (not parts and phrase.casefold() in text):
+        if has_cjk(phrase):  # as it stands: in words it would forbid the labels of other languages
+            if squeezed(phrase) in squeezed(text + claim.statement.section):
+                return True
+        elif (parts and any(parts <= words for words in places)) or (not parts and phrase.casefold() in text):
             return True
     return False
 
