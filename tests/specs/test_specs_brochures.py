@@ -95,6 +95,27 @@ def test_a_table_may_be_closed_by_the_bar_of_its_heading(tmp_path: Path) -> None
     assert lengths(tmp_path / "a.pdf") == _ALL_OK
 
 
+def test_a_label_and_its_value_may_share_a_ruled_cell(tmp_path: Path) -> None:
+    """A label that holds a quantity of its own is no value."""
+    rows = (("A", "Overall length", "8,120 mm"), ("B", "Digging depth (2.44 m level)", "6,510 mm"),
+            ("C", "Wheelbase", "3,300 mm"), ("D", "Overall height", "3,350 mm"))  # fmt: skip
+    c = canvas(tmp_path / "a.pdf")
+    for i in range(len(rows) + 1):
+        c.line(40, _TOP + 10 - 14 * i, 300, _TOP + 10 - 14 * i)
+    for x in (40, 60, 300):
+        c.line(x, _TOP + 10, x, _TOP + 10 - 14 * len(rows))
+    for i, (key, label, value) in enumerate(rows):
+        put(c, 46, _TOP - 14 * i, key)
+        put(c, 64, _TOP - 14 * i, label)
+        put(c, 296, _TOP - 14 * i, value, right=True)
+    c.save()
+    names = {"Overall Length": "length", "Wheelbase": "length", "Overall Height": "length", "Digging Depth": "length"}
+    values = found(tmp_path / "a.pdf", names)
+    assert {n: v[1] for n, v in values.items() if v[0] == "ok" and n != "Digging Depth"} == {
+        "Overall Length": 8.12, "Wheelbase": 3.3, "Overall Height": 3.35}  # fmt: skip
+    assert values["Digging Depth"][1] in (6.51, None)
+
+
 def test_labels_set_against_their_values_in_two_columns_with_headings_in_the_middle(tmp_path: Path) -> None:
     others = (("Fuel tank", "315", "L"), ("Hydraulic oil tank", "148", "L"), ("Engine oil", "23", "L"),
               ("Coolant", "38", "L"), ("Final drives", "12", "L"))  # fmt: skip
@@ -133,6 +154,9 @@ def test_footnotes_and_their_signs_are_no_values_and_no_words(tmp_path: Path) ->
         ("Max. engine power (net) kW (hp)", True, ("Max. engine power (net)", "kW|hp")),
         ("Longueur de flèche m", True, ("Longueur de flèche", "m")),
         ("Longueur de flèche m", False, ("Longueur de flèche m", "")),
+        ("额定净功率（kW）", False, ("额定净功率", "kW")),
+        ("铲斗容量（平装）（m³）", False, ("铲斗容量（平装）", "m³")),
+        ("铲斗容量（平装）", False, ("铲斗容量（平装）", "")),
         ("Gesamtlänge L", True, ("Gesamtlänge L", "")),
         ("Grabtiefe bei Sohle von 2.240 mm", True, ("Grabtiefe bei Sohle von 2.240 mm", "")),
     ],

@@ -22,6 +22,7 @@ from yellowiron.specs.statement import (
     is_unit,
     join_boxes,
     joined,
+    kind_of,
     looks_like_value,
     split_inline,
     unit_in_label,
@@ -172,7 +173,7 @@ def read_grid(
     """The statements of a table: a value's label is the words to its left, its column the heads above; `above` are
     heads that stand over the table, outside of it."""
     found: list[Statement] = []
-    grid = _without_keys(grid)
+    grid = _parted(_without_keys(grid))
     heads = _head_rows(page, grid)
     naming = frozenset(heads)
     titles = _titles(grid)
@@ -200,6 +201,42 @@ def read_grid(
             read = [_headed(f, above) for f in read]
         found.extend(read)
     return found
+
+
+def _parted(grid: Grid) -> Grid:
+    """The table with the column parted whose cells hold a label and, set apart, its value, as if a rule stood there."""
+    for column in range(grid.columns):
+        own = [c for c in grid.cells if c.columns == (column, column + 1) and c.lines]
+        both = [c for c in own if _label_and_value(c)]
+        if len(both) < 3 or len(both) < 0.8 * len(own):
+            continue
+        if max(c.lines[0].pieces[0].x1 for c in both) >= min(c.lines[0].pieces[1].x0 for c in both):
+            continue
+        return _with_column(grid, column, min(c.lines[0].pieces[1].x0 for c in both) - 1)
+    return grid
+
+
+def _label_and_value(cell: Cell) -> bool:
+    if len(cell.lines) != 1 or len(cell.lines[0].pieces) != 2:
+        return False
+    label, value = cell.lines[0].pieces
+    return kind_of(label) == "text" and kind_of(value) == "value"
+
+
+def _with_column(grid: Grid, column: int, x: float) -> Grid:
+    """The table with a column parted at `x`; what spans it spans both parts."""
+    cells: list[Cell] = []
+    for cell in grid.cells:
+        (left, top, right, bottom), (first, last) = cell.box, cell.columns
+        if (first, last) == (column, column + 1):
+            sides = ((left, top, x, bottom), (first, first + 1)), ((x, top, right, bottom), (last, last + 1))
+            for box, columns in sides:
+                words = [w for p in cell.pieces for w in p.words if box[0] <= (w.x0 + w.x1) / 2 < box[2]]
+                cells.append(replace(cell, box=box, columns=columns, lines=tuple(lines_of(words))))
+        else:
+            cells.append(replace(cell, columns=(first + (first > column), last + (last > column))))
+    places = {place: c for c in cells for place in itertools.product(range(*c.rows), range(*c.columns))}
+    return replace(grid, cells=tuple(cells), columns=grid.columns + 1, places=places)
 
 
 def columns_of(grid: Grid) -> list[tuple[float, float]]:

@@ -158,7 +158,7 @@ def is_unit(text: str) -> str:
             return f"{pair.group(1)}|{second}"
     if _FEET_HEAD.fullmatch(bare):
         return FEET_INCHES
-    bare = bare.strip("()[]{}: ")
+    bare = bare.strip("()[]{}: （）［］【】：")
     return bare if bare and re.fullmatch(unit_pattern(), bare) and printed_unit(bare) else ""
 
 
@@ -178,7 +178,8 @@ def unit_in_label(text: str, *, bare: bool = False) -> tuple[str, str]:
 
 
 _UNIT_AT_END = (
-    re.compile(r"^(.*?)\s*[(\[]\s*([^()\[\]]+?)\s*[)\]]\s*:?$"),
+    re.compile(r"^(.*?)\s*[(\[（［【]\s*([^()\[\]（）［］【】]+?)\s*[)\]）］】]\s*:?$"),
+    re.compile(r"^(.*?)\s*[（【]\s*([^()\[\]（）［］【】]+?)$"),  # PDFium overlooks a bracket alone in a font it lacks
     re.compile(r"^(.*?)\s*,\s*([^,]+?)\s*:?$"),
     re.compile(r"^(.*[^\W\d](?:.*[^\d\s])?)\s+(\S+)$"),  # behind a number it is that one's unit
 )
