@@ -256,3 +256,10 @@ def test_a_word_that_nothing_explains_makes_a_value_one_to_review() -> None:
     )
     values = from_sheets(asked, [Sheet("a.pdf", 1, (row,), (), "point")]).values
     assert values["Bucket Weight"].status != "ok"
+
+
+def test_a_model_over_a_column_reverses_nothing() -> None:
+    asked = template(wanted("Wheelbase", "length", "wheelbase"))
+    for head, status in (("VS 135", "ok"), ("Option", "missing")):
+        row = Statement(1, 0, "Wheelbase", "1.515 m", (0, 0, 9, 9), "Wheelbase 1.515 m", column=(head,))
+        assert from_sheets(asked, [Sheet("a.pdf", 1, (row,), (), "point")]).values["Wheelbase"].status == status

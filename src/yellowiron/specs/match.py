@@ -212,7 +212,6 @@ def _match(asked_for: _Asked, claim: Claim, said: _Said) -> Match | None:
     if found is None:
         return None
     explained, from_head, borrowed, best = found.words, found.from_head, found.borrowed, found.phrase
-    everything = label | head | context | section
     primary = (label if explained & label else set()) | (head if from_head else set()) or context | section
     # A word of the value's own name makes the label mean nothing else.
     left = {t for t in primary - explained - _EXTREME - asked_for.name if not _is_number(t)}
@@ -221,7 +220,8 @@ def _match(asked_for: _Asked, claim: Claim, said: _Said) -> Match | None:
         left -= _WHOLE
     known = frozenset() if borrowed else KNOWN  # a heading that must help names other properties too
     rest = {t for t in left if _is_telling(t, asked_for, explained | left, claim, said, known)}
-    if (everything - explained) & REVERSING:
+    worded = frozenset[str]().union(*(words for words in said.naming if not any(map(_is_number, words))))
+    if ((label | context | section | worded) - explained) & REVERSING:  # the head "VS 135" is a model
         return None
     asked = {t for p in (wanted.name, best) for t in tokens(p)}
     if any(_contradicts(group - explained, asked - group) for group in (label, head, context, section)):
