@@ -3,12 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from test_specs_languages import printed
-
-from yellowiron.library import load_template
-from yellowiron.specs.extract import from_sheets
-from yellowiron.specs.reader import Sheet
-from yellowiron.specs.statement import Statement
+from specs_lexicon import misread
 
 # By type, rows of "name = label ; label @ heading above it | name = …".
 WORDINGS = {
@@ -304,17 +299,9 @@ WORDINGS = {
 
 @pytest.mark.parametrize("kind", WORDINGS)
 def test_labels(kind: str) -> None:
-    template = load_template(kind, sheet_only=True)
-    wanted = {w.name: w for w in template.wanted}
-    wrong = []
-    for row in " ".join(WORDINGS[kind].split()).split(" | "):
-        name, labels = row.split(" = ")
-        text = printed(wanted[name], list(wanted).index(name))[0] if name in wanted else name.removeprefix("- ")
-        for entry in labels.split(" ; "):
-            label, _, section = entry.partition(" @ ")
-            said = Statement(1, 0, label, text, (10.0, 0.0, 90.0, 9.0), f"{label} {text}", section=section)
-            found = from_sheets(template, [Sheet("a.pdf", 1, (said,), (), "point")])
-            came = [(s.name, s.status) for s in found if s.value is not None or s.status == "conflict"]
-            if came != ([(name, "ok")] if name in wanted else []):
-                wrong.append((label, name, came))
-    assert not wrong
+    rows = []
+    for line in " ".join(WORDINGS[kind].split()).split(" | "):
+        name, labels = line.split(" = ")
+        entries = (entry.partition(" @ ") for entry in labels.split(" ; "))
+        rows += [(name.removeprefix("- "), label, section) for label, _, section in entries]
+    assert misread(kind, rows, strict=True) == []

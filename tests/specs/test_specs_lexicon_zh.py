@@ -2,16 +2,8 @@
 
 from __future__ import annotations
 
-import functools
-
 import pytest
-from test_specs_languages import printed
-
-from yellowiron.library import load_template
-from yellowiron.model.template import Template
-from yellowiron.specs.extract import from_sheets
-from yellowiron.specs.reader import Sheet
-from yellowiron.specs.statement import Statement
+from specs_lexicon import misread
 
 # By type, rows of "name = label ; label @ heading above it | name = …".
 WORDINGS = {
@@ -363,22 +355,8 @@ OTHERS = {
 }
 
 
-@functools.cache
-def asked_for(equipment_type: str) -> Template:
-    return load_template(equipment_type, sheet_only=True)
-
-
-def read(equipment_type: str, label: str, section: str, text: str) -> dict[str, str]:
-    """What comes back of one label: the statuses by name, without those of what the label itself says in numbers."""
-    template = asked_for(equipment_type)
-    asked = {w.name for w in template.wanted if w.in_label_of is None}
-    statement = Statement(1, 0, label, text, (10.0, 0.0, 90.0, 9.0), f"{label} {text}", section=section)
-    found = from_sheets(template, [Sheet("a.pdf", 1, (statement,), (), "point")])
-    return {s.name: s.status for s in found if s.name in asked and s.status != "missing"}
-
-
 def rows(table: dict[str, str], equipment_type: str) -> list[tuple[str, str, str]]:
-    """(name, label, section) of a type."""
+    """(name or value, label, section) of a type."""
     found = []
     for line in table[equipment_type].strip().splitlines():
         for item in line.split(" | "):
@@ -391,22 +369,9 @@ def rows(table: dict[str, str], equipment_type: str) -> list[tuple[str, str, str
 
 @pytest.mark.parametrize("equipment_type", WORDINGS)
 def test_a_label_is_its_value(equipment_type: str) -> None:
-    wanted = asked_for(equipment_type).wanted
-    texts = {w.name: printed(w, n)[0] for n, w in enumerate(wanted)}
-    wrong = [
-        (name, label, came)
-        for name, label, section in rows(WORDINGS, equipment_type)
-        if (came := read(equipment_type, label, section, texts[name])) != {name: "ok"}
-        and (came.get(name) != "ok" or list(came.values()).count("ok") > 1)
-    ]
-    assert not wrong
+    assert misread(equipment_type, rows(WORDINGS, equipment_type)) == []
 
 
 @pytest.mark.parametrize("equipment_type", OTHERS)
 def test_what_is_nobodys_value(equipment_type: str) -> None:
-    taken = [
-        (text, label, came)
-        for text, label, section in rows(OTHERS, equipment_type)
-        if "ok" in (came := read(equipment_type, label, section, text)).values()
-    ]
-    assert not taken
+    assert misread(equipment_type, rows(OTHERS, equipment_type)) == []

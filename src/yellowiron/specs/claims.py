@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from yellowiron.specs.listed import COUNTED_PARTS, alternatives, enumerated
-from yellowiron.specs.numbers import FEET_INCHES, DecimalStyle, Quantity, Reading, read, same
+from yellowiron.specs.numbers import FEET_DASH, FEET_INCHES, DecimalStyle, Quantity, Reading, read, same
 from yellowiron.specs.statement import Statement
 from yellowiron.specs.vocabulary import tokens
 
@@ -171,7 +171,7 @@ def spelled_out(text: str, unit: str) -> tuple[str, str]:
     def inside(match: re.Match[str]) -> str:
         words = match.group(1)
         if second == FEET_INCHES:
-            return f"({re.sub(_FEET_DASH, _feet_and_inches, words)})"
+            return f"({re.sub(FEET_DASH, _feet_and_inches, words)})"
         return f"({words} {second})" if read(words) else match.group(0)
 
     apart = re.fullmatch(r"(.*\d\S*)\s*(?:[/|]|\[)\s*([^\[\]/|()]*\d[^\[\]/|()]*)\]?", text)
@@ -187,17 +187,14 @@ def _feet_spelled_out(text: str, unit: str) -> str:
     before = read(text[: match.start()], unit=unit) if match else ()
     if match is None or len(before) != 1 or len(before[0].numbers) != 1:
         return text
-    spelled = re.sub(_FEET_DASH, _feet_and_inches, match.group(0))
+    spelled = re.sub(FEET_DASH, _feet_and_inches, match.group(0))
     feet = read(spelled)
     agrees = len(feet) == 1 and same(before[0].numbers[0], feet[0].numbers[0])
     return f"{text[: match.start()]}{spelled}" if agrees else text
 
 
 def _feet_and_inches(match: re.Match[str]) -> str:
-    return f"{match.group(1)}'{match.group(2)}\""
-
-
-_FEET_DASH = re.compile(r"(\d+)\s*[-–]\s*(\d+(?:\.\d+)?)")
+    return f"{match['feet']}'{match['inches']}\""
 
 
 def _restates(a: Reading, b: Reading) -> bool:

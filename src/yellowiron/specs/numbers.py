@@ -34,7 +34,10 @@ _FEET = re.compile(
     + _FRACTION.format("i")
     + r"?\s*(?:\"|″|”|''|′′|in\.?(?![a-z])|inch(?:es)?)",
 )
-FEET_DASH = re.compile(r"(?P<feet>\d+)\s*-\s*(?P<inches>\d+(?:\.\d+)?)(?:\s+" + _FRACTION.format("i") + r")?(?![\d-])")
+FEET_DASH = re.compile(
+    r"(?P<feet>\d+)\s*[-–]\s*(?P<inches>\d+(?:\.\d+)?)(?:\s+" + _FRACTION.format("i") + r")?(?![\d-])"
+)
+"""Feet and inches with a dash between them, as a column headed by both prints them."""
 _MIXED = re.compile(r"(?P<whole>\d+)?\s*[- ]?\s*" + _FRACTION.format("i"))
 _PLUS_MINUS = re.compile(r"(?:±|\+\s?/\s?[-–−]|\+-)\s*$")
 _MINUS = re.compile(r"(?:^|[\s(])[-−]$")
