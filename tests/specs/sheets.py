@@ -2,7 +2,7 @@
 
 `tuned`: what the rules were made on. `held`: read when that was done, then mended for; `final` after it the same way.
 `last`: read once, when all that was done. Labels differ too: the tuned sheets print each name's first wording, `held`
-and `final` the second and (in English) the third, `last` others again. `fresh` to `fresh6`: all ten types,
+and `final` the second and (in English) the third, `last` others again. `fresh` to `fresh8`: all ten types,
 each in words of its own.
 """
 
@@ -22,6 +22,7 @@ from sheets_fresh3 import FRESH3
 from sheets_fresh4 import FRESH4
 from sheets_fresh5 import FRESH5
 from sheets_fresh6 import FRESH6
+from sheets_fresh8 import FRESH8
 from sheets_held import FINAL, HELD
 from sheets_last import LAST
 from sheets_machines import Machine, machines
@@ -31,7 +32,7 @@ from sheets_worded import Worded, Wording
 
 from yellowiron.model.specification import Specification, Specifications
 
-Split = Literal["tuned", "held", "final", "last", "fresh", "fresh2", "fresh3", "fresh4", "fresh5", "fresh6"]
+Split = Literal["tuned", "held", "final", "last", "fresh", "fresh2", "fresh3", "fresh4", "fresh5", "fresh6", "fresh8"]
 KINDS = ("wheel_loader", "excavator")
 LAYOUTS = {"tuned": TUNED, "held": HELD, "final": FINAL, "last": LAST}
 WORDED: dict[str, Worded] = {
@@ -41,6 +42,7 @@ WORDED: dict[str, Worded] = {
     "fresh4": FRESH4,
     "fresh5": FRESH5,
     "fresh6": FRESH6,
+    "fresh8": FRESH8,
 }
 _WORDING = {"tuned": 0, "held": 1, "final": 2, "last": 3}
 _SIXTH = {"tuned": (0, 1, 2), "held": (4,), "final": (5,), "last": (3,)}
