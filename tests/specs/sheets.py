@@ -22,6 +22,7 @@ from sheets_fresh3 import FRESH3
 from sheets_fresh4 import FRESH4
 from sheets_fresh5 import FRESH5
 from sheets_fresh6 import FRESH6
+from sheets_fresh7 import FRESH7
 from sheets_fresh8 import FRESH8
 from sheets_held import FINAL, HELD
 from sheets_last import LAST
@@ -32,7 +33,9 @@ from sheets_worded import Worded, Wording
 
 from yellowiron.model.specification import Specification, Specifications
 
-Split = Literal["tuned", "held", "final", "last", "fresh", "fresh2", "fresh3", "fresh4", "fresh5", "fresh6", "fresh8"]
+Split = Literal[
+    "tuned", "held", "final", "last", "fresh", "fresh2", "fresh3", "fresh4", "fresh5", "fresh6", "fresh7", "fresh8"
+]
 KINDS = ("wheel_loader", "excavator")
 LAYOUTS = {"tuned": TUNED, "held": HELD, "final": FINAL, "last": LAST}
 WORDED: dict[str, Worded] = {
@@ -42,6 +45,7 @@ WORDED: dict[str, Worded] = {
     "fresh4": FRESH4,
     "fresh5": FRESH5,
     "fresh6": FRESH6,
+    "fresh7": FRESH7,
     "fresh8": FRESH8,
 }
 _WORDING = {"tuned": 0, "held": 1, "final": 2, "last": 3}
