@@ -11,11 +11,10 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import replace
-from itertools import groupby
 
 from sheets_fresh5 import _figure
 from sheets_machines import rounded
-from sheets_make import _CJK, Style
+from sheets_make import _CJK, HEIGHT, WIDTH, Style
 from sheets_worded import Flow, Row, Said, Truth, Worded, Wording, lines
 
 _NET = re.compile(r"(?i)\bnet|ネット|净")
@@ -33,17 +32,14 @@ _SECOND = {"L": (0.264172, 1, "gal"), "N·m": (0.737562, 0, "lb ft"), "kg": (2.2
 _KGF = {"kN": (101.97, -1, "kgf"), "MPa": (10.197, 0, "kgf/cm²"), "kPa": (0.010197, 2, "kgf/cm²")}
 _PS = {"de": "PS", "fr": "ch", "es": "CV", "ja": "PS", "en": "PS"}
 _KEYS = ("Net Power", "Operating Weight", "Rated Payload", "Bucket Capacity Heaped", "Bucket Capacity",
-         "Rated Operating Capacity", "Moldboard Length", "Body Capacity Heaped", "Blade Capacity",
-         "Maximum Digging Depth", "Rated Capacity", "Maximum Lifting Capacity")  # fmt: skip
-_POINTS = ("Breakout Force", "Bucket Digging Force", "Maximum Travel Speed", "Drawbar Pull", "Overall Width",
-           "Turning Radius", "Maximum Digging Height", "Dumping Clearance", "Main Pump Flow", "Body Dump Angle",
-           "Loader Dump Height")  # fmt: skip
+         "Moldboard Length", "Body Capacity Heaped", "Blade Capacity", "Maximum Digging Depth")  # fmt: skip
+_POINTS = ("Breakout Force", "Bucket Digging Force", "Maximum Travel Speed", "Drawbar Pull", "Turning Radius",
+           "Maximum Digging Height", "Dumping Clearance", "Body Dump Angle", "Loader Dump Height")  # fmt: skip
 _SAME = {"°", "s", "km/h", "MPa", "bar", "m/s", "min-1", "r/min", ""}
 _THREE = (358.0, 427.0, 496.0, 565.0)  # the edges of three models' columns
 _LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
 
 
-# ---- what is printed -------------------------------------------------------------------------------------------------
 def _word(s: Wording, key: str) -> str:
     """A text of this set that is no label."""
     return next(s.of(one) for one in lines(s.file)["texts"] if one.name == key)
@@ -51,12 +47,11 @@ def _word(s: Wording, key: str) -> str:
 
 def _title(s: Wording, ink: str) -> float:
     """The model on a band, and what the page is; the note at the foot; the edge below."""
-    width, height = s.size
-    s.fill(0, height - 46, width, 46, ink)
-    s.put(30, height - 32, s.machine.name, size=19, bold=True, ink="#ffffff")
-    s.put(width - 30, height - 30, _word(s, "specs"), size=12, align="r", ink="#ffffff")
+    s.fill(0, HEIGHT - 46, WIDTH, 46, ink)
+    s.put(30, HEIGHT - 32, s.machine.name, size=19, bold=True, ink="#ffffff")
+    s.put(WIDTH - 30, HEIGHT - 30, _word(s, "specs"), size=12, align="r", ink="#ffffff")
     s.put(30, 20, _word(s, "note"), size=5.6, ink="#777777")
-    return float(height) - 58
+    return float(HEIGHT) - 58
 
 
 def _local(s: Wording, row: Row) -> Row:
@@ -122,6 +117,11 @@ def _blocks(s: Wording, form: str = "") -> list[tuple[str, list[Row]]]:
     found = []
     for section in s.sections():
         rows = _rams(s, form) if form and section == "cylinders" else s.rows(section)
+        for one in lines(s.file)["derived"]:
+            kind, base, factor = one.place.split(", ")
+            if (one.name, kind) == (section, s.machine.kind):
+                value = rounded(kind, base, s.machine.values[base] * float(factor))
+                rows.append(Row(s.of(one), s.say(base, value, note=False), "*"))
         rows = [_local(s, row) for row in (_power(s, rows) if section == "engine" else rows)]
         found += [(section, rows)] if rows else []
     return found
@@ -129,10 +129,11 @@ def _blocks(s: Wording, form: str = "") -> list[tuple[str, list[Row]]]:
 
 def _groups(rows: list[Row]) -> list[tuple[str, list[Row]]]:
     """Rows by their group ("" for none), labels without it."""
-    found = []
-    for group, own in groupby(rows, key=lambda row: row.label.partition(" > ")[0] if " > " in row.label else ""):
-        found.append((group, [replace(row, label=row.label.rpartition(" > ")[2]) for row in own]))
-    return found
+    found: dict[str, tuple[str, list[Row]]] = {}
+    for row in rows:
+        group, mark, item = row.label.partition(" > ")
+        found.setdefault(group, (group if mark else "", []))[1].append(replace(row, label=item or group))
+    return list(found.values())
 
 
 def _text(s: Wording, row: Row, form: str = "{} ({})", *, at: bool = False) -> str:
@@ -176,7 +177,6 @@ def _leader(s: Wording, flow: Flow, label: str, value: str, size: float, indent:
         s.line(x0, y - high + 0.4, x1, weight=0.2)
 
 
-# ---- layouts ---------------------------------------------------------------------------------------------------------
 def komatsu(s: Wording) -> None:
     """Three columns: section in capitals over a rule, leaders, items indented under subheads; then lettered tables."""
     top, size = _title(s, "#140a9a"), 7.0
