@@ -39,7 +39,7 @@ def claims_of(statements: Sequence[Statement], style: DecimalStyle) -> list[Clai
     return _joined_systems(_with_units(_in_one_unit(claims)))
 
 
-_BARE = {
+BARE_UNITS = {
     "length": ("mm", "cm", "m"),
     "mass": ("kg", "t"),
     "volume": ("L", "m³"),
@@ -83,7 +83,7 @@ def _metric_readings(bare: Quantity, imperial: Quantity) -> list[Quantity]:
     """A number in the metric units in which it is what an imperial quantity says."""
     return [
         read_as
-        for unit in _BARE.get(imperial.dimension, ())
+        for unit in BARE_UNITS.get(imperial.dimension, ())
         for value in (bare.value, bare.other)
         if value is not None and same(read_as := replace(bare, value=value, unit=unit, other=None), imperial)
     ]

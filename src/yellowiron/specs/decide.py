@@ -49,7 +49,7 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
         return _conflict(wanted, groups, sheets, config)
     group = groups[0]
     top = max(group, key=_preference)
-    quantity, doubt = _settled(wanted, top.claim)
+    quantity, doubt = settled(wanted, top.claim)
     if top.rest:
         doubt = doubt or f"the label also says {', '.join(repr(word) for word in top.rest)}"
     elif top.score < _SURE:
@@ -63,7 +63,7 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
         unit=SI_UNIT[wanted.dimension],
         status="review" if doubt else "ok",
         evidence=evidence_of(top, sheets),
-        text=_printed(quantity),
+        text=printed(quantity),
         example=all(m.claim.statement.example for m in group),
         confidence=round(min(top.score, 0.5 if doubt else 1.0), 3),
         reason=doubt or _reason(top, group) + (f"; page {said.page} says: “{said.sentence}”" if said else ""),
@@ -235,18 +235,18 @@ def _config_words(claim: Claim, sheets: Sheets) -> set[str]:
 
 def _groups(wanted: Wanted, matches: Sequence[Match]) -> list[list[Match]]:
     """By value; those outside what is usual have no say where others are inside."""
-    usual = [m for m in matches if _in_range(wanted, _settled(wanted, m.claim)[0].si_value)] or matches
-    best = max(m.score for m in usual)
-    return _by_value(wanted, [m for m in usual if m.score >= best - _NEAR])
+    inside = [m for m in matches if usual(wanted, settled(wanted, m.claim)[0].si_value)] or matches
+    best = max(m.score for m in inside)
+    return _by_value(wanted, [m for m in inside if m.score >= best - _NEAR])
 
 
 def _by_value(wanted: Wanted, matches: Sequence[Match]) -> list[list[Match]]:
     """Matches grouped by value, the best-scored group first; equal within their printed digits."""
     groups: list[list[Match]] = []
     for one in sorted(matches, key=_preference, reverse=True):
-        quantity, _ = _settled(wanted, one.claim)
+        quantity, _ = settled(wanted, one.claim)
         for group in groups:
-            first, _ = _settled(wanted, group[0].claim)
+            first, _ = settled(wanted, group[0].claim)
             slack = 1e-9 * abs(first.si_value)
             if quantity.unit != first.unit:
                 slack += max(quantity.si_digit, first.si_digit)
@@ -258,7 +258,7 @@ def _by_value(wanted: Wanted, matches: Sequence[Match]) -> list[list[Match]]:
     return groups
 
 
-def _settled(wanted: Wanted, claim: Claim) -> tuple[Quantity, str]:
+def settled(wanted: Wanted, claim: Claim) -> tuple[Quantity, str]:
     """The claim's quantity, metric where both are printed, and what is doubtful about it."""
     quantity, doubt = claim.quantity, claim.doubt
     may_be_negative = wanted.dimension == "angle" and (wanted.minimum is None or wanted.minimum < 0)
@@ -267,19 +267,19 @@ def _settled(wanted: Wanted, claim: Claim) -> tuple[Quantity, str]:
     if quantity.other is not None:
         readings = [quantity.value, quantity.other]
         scale = quantity.printed.scale if quantity.printed else 1.0
-        inside = [r for r in readings if _in_range(wanted, r * scale)]
+        inside = [r for r in readings if usual(wanted, r * scale)]
         if len(inside) == 1 and (wanted.minimum is not None or wanted.maximum is not None):
             half = quantity.half if inside[0] == quantity.value else 0.5
             return Quantity(inside[0], quantity.unit, half, quantity.text, quantity.start, quantity.end), doubt
         doubt = doubt or f"'{quantity.text}' may be {quantity.value:g} or {quantity.other:g}"
     elif claim.partner is not None and not doubt and _is_imperial(quantity):
         quantity = claim.partner
-    if not _in_range(wanted, quantity.si_value):
+    if not usual(wanted, quantity.si_value):
         doubt = doubt or f"'{quantity.text}' is outside what is usual for {wanted.name}"
     return quantity, doubt
 
 
-def _printed(quantity: Quantity) -> str:
+def printed(quantity: Quantity) -> str:
     """A quantity as printed, with the unit that its column or product gives it."""
     bare = quantity.text.lstrip("±+-−–/ ").replace(",", "").replace(".", "").replace(" ", "").isdigit()
     return f"{quantity.text} {quantity.unit}".strip() if bare else quantity.text
@@ -289,7 +289,8 @@ def _is_imperial(quantity: Quantity) -> bool:
     return quantity.printed is not None and quantity.printed.system == "imperial"
 
 
-def _in_range(wanted: Wanted, value: float) -> bool:
+def usual(wanted: Wanted, value: float) -> bool:
+    """Whether a value, in SI, lies where the wanted one can lie."""
     low = wanted.minimum if wanted.minimum is not None else float("-inf")
     high = wanted.maximum if wanted.maximum is not None else float("inf")
     return low <= value <= high
@@ -308,11 +309,11 @@ def _candidate(found: Match, sheets: Sheets, value: float) -> Candidate:
 
 def _conflict(wanted: Wanted, groups: Sequence[Sequence[Match]], sheets: Sheets, config: str) -> Specification:
     candidates = tuple(
-        _candidate(one, sheets, _settled(wanted, one.claim)[0].si_value)
+        _candidate(one, sheets, settled(wanted, one.claim)[0].si_value)
         for one in (max(group, key=_preference) for group in groups)
     )
     names = [c.configuration for c in candidates if c.configuration]
-    texts = [_printed(_settled(wanted, max(group, key=_preference).claim)[0]) for group in groups]
+    texts = [printed(settled(wanted, max(group, key=_preference).claim)[0]) for group in groups]
     hint = f'Give the value with --set "{wanted.name}=VALUE UNIT"'
     if len(set(names)) > 1:
         hint = (

@@ -22,8 +22,10 @@ from yellowiron.specs.decide import Sheets, decide, quantity_words, unmatched, u
 from yellowiron.specs.endpoint import Endpoint, EndpointError, ModelOptions
 from yellowiron.specs.labels import in_label
 from yellowiron.specs.match import match
+from yellowiron.specs.nearest import Near
 from yellowiron.specs.numbers import DecimalStyle, decimal_style
 from yellowiron.specs.reader import MEMORY_MB, TIMEOUT_S, Sheet, check_file
+from yellowiron.specs.second import second_reading, stands_in
 
 Extractor = Literal["rules", "llm", "both"]
 _INSTALL = "Install the program tesseract (tesseract-ocr) to have it read"
@@ -121,15 +123,22 @@ def from_sheets(
     guessed: list[Claim] = []
     files: dict[int, str] = {}
     columns: dict[int, frozenset[str]] = {}
+    near: list[tuple[list[Near], DecimalStyle]] = []
     for sheet in sheets:
-        for claim in configured(claims_of(sheet.statements, sheet.style), config):
+        every = claims_of(sheet.statements, sheet.style)
+        meant = configured(every, config)
+        for claim in meant:
             (guessed if claim.statement.page in sheet.recognised else claims).append(claim)
-        files.update((id(s), sheet.file) for s in sheet.statements)
+        kept = {id(claim.statement) for claim in meant}
+        others = [claim.statement for claim in every if id(claim.statement) not in kept]
+        near.append(([n for n in sheet.near if not any(stands_in(n.statement, s) for s in others)], sheet.style))
+        files.update((id(s), sheet.file) for s in (*sheet.statements, *(n.statement for n in sheet.near)))
         columns.update(_columns(sheet))
     stated = tuple(one for sheet in sheets for one in sheet.stated)
     known = Sheets(files, columns, stated)
     style = sheets[0].style if sheets else "point"
     values = _by_rules(wanted, claims, known, config, style)
+    values = second_reading(wanted, values, near, known)
     if guessed:
         # Words read from a picture have a say only where no text has.
         open_ = [w for w in wanted if values[w.name].status == "missing"]

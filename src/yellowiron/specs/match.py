@@ -167,17 +167,22 @@ def _alone(wanted: Wanted) -> _Asked:
 
 def _said(claim: Claim) -> _Said:
     statement = claim.statement
-    heads = [h for h in statement.column if not _names_configuration(h)]
-    label, context = claim.words, statement.context
+    return _cut(claim.words, claim.head, statement.column, statement.context, statement.section)
+
+
+@functools.lru_cache(maxsize=4096)
+def _cut(words: str, head: str, column: tuple[str, ...], context: tuple[str, ...], section: str) -> _Said:
+    heads = [h for h in column if not _names_configuration(h)]
+    label = words
     if context and tokens(whole := f"{context[-1]} {label}") != tokens(context[-1]) + tokens(label):
         label, context = whole, context[:-1]  # an expression goes on from the line above: "rod" over "diameter"
     return _Said(
         label=frozenset(tokens(label)),
-        head=frozenset(tokens(claim.head)),
+        head=frozenset(tokens(head)),
         contexts=tuple(frozenset(tokens(c)) for c in context),
-        section=frozenset(tokens(statement.section)),
+        section=frozenset(tokens(section)),
         naming=tuple(frozenset(tokens(h)) for h in heads),
-        text=" ".join([claim.words, *heads]).casefold(),
+        text=" ".join([words, *heads]).casefold(),
         ends=ends(label) or (),
     )
 

@@ -9,6 +9,7 @@ from pathlib import Path
 from yellowiron.guard import beat
 from yellowiron.model.errors import SheetError
 from yellowiron.specs.layout import statements_of
+from yellowiron.specs.nearest import Near, nearest_of
 from yellowiron.specs.numbers import DecimalStyle, decimal_style
 from yellowiron.specs.stated import Stated, stated_in
 from yellowiron.specs.statement import Statement
@@ -27,7 +28,8 @@ _MOST_BYTES = 512 * 1024 * 1024
 class Sheet:
     """A read PDF. `silent` pages have pictures or marks but no readable text; `style`: how it writes decimals;
     `stated`: sentences that may say which configuration its figures are for. `recognised`: pages whose words are a
-    program's guess from their picture; `unrecognised` says why that program failed."""
+    program's guess from their picture; `unrecognised` says why that program failed. `near`: its values again, each with
+    the words around it."""
 
     file: str
     pages: int
@@ -37,6 +39,7 @@ class Sheet:
     stated: tuple[Stated, ...] = ()
     recognised: tuple[int, ...] = ()
     unrecognised: str = ""
+    near: tuple[Near, ...] = ()
 
 
 def read_sheet(path: Path) -> Sheet:
@@ -60,6 +63,7 @@ def read_sheet(path: Path) -> Sheet:
         silent: list[int] = []
         texts: list[str] = []
         stated: list[Stated] = []
+        near: list[Near] = []
         begin = time.monotonic()
         for number in range(1, len(document) + 1):
             beat(f"Reading page {number} of {len(document)} of {path.name}")
@@ -86,9 +90,18 @@ def read_sheet(path: Path) -> Sheet:
                 statements.extend(statements_of(page))
                 texts.append(" ".join(w.text for w in page.words))
                 stated.extend(stated_in(texts[-1], number))
+                near.extend(nearest_of(page))
             elif page.images or page.characters or page.rules:
                 silent.append(number)
-        return Sheet(path.name, len(document), tuple(statements), tuple(silent), decimal_style(texts), tuple(stated))
+        return Sheet(
+            file=path.name,
+            pages=len(document),
+            statements=tuple(statements),
+            silent=tuple(silent),
+            style=decimal_style(texts),
+            stated=tuple(stated),
+            near=tuple(near),
+        )
     finally:
         document.close()
 
