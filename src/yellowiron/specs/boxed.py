@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from yellowiron.specs.cells import ValueCell, statement_of
-from yellowiron.specs.lattice import Cell, Grid
+from yellowiron.specs.grid import Cell, Grid
 from yellowiron.specs.lines import Line, blocks_of
 from yellowiron.specs.rows import read_block
 from yellowiron.specs.statement import (

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import functools
 import itertools
 from bisect import bisect_right
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import replace
 from itertools import pairwise
 
 from yellowiron.specs.cells import marked_by_legend
-from yellowiron.specs.lines import Line, lines_of
+from yellowiron.specs.grid import Cell, Grid
+from yellowiron.specs.lines import lines_of
 from yellowiron.specs.opened import side_walls
 from yellowiron.specs.statement import (
     COUNTED,
@@ -21,8 +21,6 @@ from yellowiron.specs.statement import (
     is_key,
     is_unit,
     join_boxes,
-    joined,
-    kind_of,
     looks_like_value,
     split_inline,
     unit_in_label,
@@ -30,46 +28,12 @@ from yellowiron.specs.statement import (
     without_key,
 )
 from yellowiron.specs.strokes import Box, Rule
+from yellowiron.specs.unruled import with_columns, with_rows
 from yellowiron.specs.words import Page, Word
 
 _SNAP = 3.0
 _WALL = 6.0
 """A vertical rule shorter than this is a tick or part of a letter."""
-
-
-@dataclass(frozen=True)
-class Cell:
-    """A cell with the rows and columns of the grid that it covers (first, last + 1) and its words."""
-
-    box: Box
-    rows: tuple[int, int]
-    columns: tuple[int, int]
-    lines: tuple[Line, ...] = ()
-
-    @functools.cached_property
-    def pieces(self) -> tuple[Piece, ...]:
-        """All its pieces, line by line."""
-        return tuple(p for line in self.lines for p in line.pieces)
-
-    @functools.cached_property
-    def text(self) -> str:
-        """All its words without footnote signs and example marks."""
-        return EXAMPLE.sub("", joined(" ".join(p.bare for p in line.pieces) for line in self.lines)).strip()
-
-
-@dataclass(frozen=True)
-class Grid:
-    """A table: its cells on a grid of `rows` × `columns`."""
-
-    box: Box
-    cells: tuple[Cell, ...]
-    rows: int
-    columns: int
-    places: Mapping[tuple[int, int], Cell]
-
-    def at(self, row: int, column: int) -> Cell | None:
-        """The cell that covers a grid position."""
-        return self.places.get((row, column))
 
 
 def grids_of(page: Page) -> list[Grid]:
@@ -85,7 +49,7 @@ def grids_of(page: Page) -> list[Grid]:
     if not 4 <= len(edges) <= 3000:
         return []
     grids = [
-        _grid(boxes, page.words)
+        with_columns(with_rows(_grid(boxes, page.words)))
         for boxes in cells_to_tables(intersections_to_cells(edges_to_intersections(edges, _SNAP, _SNAP)))
     ]
     grids = [g for g in grids if g.columns >= 2 and sum(bool(c.lines) for c in g.cells) >= 2 and not _is_frame(g)]
@@ -99,8 +63,8 @@ def _closing_bars(page: Page, walls: Sequence[Rule]) -> list[Rule]:
     found = []
     for bar in page.bars:
         on = [w.x0 for w in walls if abs(w.top - bar[3]) <= _SNAP and bar[0] - _SNAP <= w.x0 <= bar[2] + _SNAP]
-        if bar[3] - bar[1] < 40 and len(set(map(round, on))) >= 2:
-            found.append(Rule(min(on), bar[3], max(on), bar[3]))
+        if bar[3] - bar[1] < 40 and on:
+            found.append(Rule(min(*on, bar[0]), bar[3], max(*on, bar[2]), bar[3]))
     return found
 
 
@@ -173,7 +137,7 @@ def read_grid(
     """The statements of a table: a value's label is the words to its left, its column the heads above; `above` are
     heads that stand over the table, outside of it."""
     found: list[Statement] = []
-    grid = _parted(_without_keys(grid))
+    grid = _without_keys(grid)
     heads = _head_rows(page, grid)
     naming = frozenset(heads)
     titles = _titles(grid)
@@ -201,42 +165,6 @@ def read_grid(
             read = [_headed(f, above) for f in read]
         found.extend(read)
     return found
-
-
-def _parted(grid: Grid) -> Grid:
-    """The table with the column parted whose cells hold a label and, set apart, its value, as if a rule stood there."""
-    for column in range(grid.columns):
-        own = [c for c in grid.cells if c.columns == (column, column + 1) and c.lines]
-        both = [c for c in own if _label_and_value(c)]
-        if len(both) < 3 or len(both) < 0.8 * len(own):
-            continue
-        if max(c.lines[0].pieces[0].x1 for c in both) >= min(c.lines[0].pieces[1].x0 for c in both):
-            continue
-        return _with_column(grid, column, min(c.lines[0].pieces[1].x0 for c in both) - 1)
-    return grid
-
-
-def _label_and_value(cell: Cell) -> bool:
-    if len(cell.lines) != 1 or len(cell.lines[0].pieces) != 2:
-        return False
-    label, value = cell.lines[0].pieces
-    return kind_of(label) == "text" and kind_of(value) == "value"
-
-
-def _with_column(grid: Grid, column: int, x: float) -> Grid:
-    """The table with a column parted at `x`; what spans it spans both parts."""
-    cells: list[Cell] = []
-    for cell in grid.cells:
-        (left, top, right, bottom), (first, last) = cell.box, cell.columns
-        if (first, last) == (column, column + 1):
-            sides = ((left, top, x, bottom), (first, first + 1)), ((x, top, right, bottom), (last, last + 1))
-            for box, columns in sides:
-                words = [w for p in cell.pieces for w in p.words if box[0] <= (w.x0 + w.x1) / 2 < box[2]]
-                cells.append(replace(cell, box=box, columns=columns, lines=tuple(lines_of(words))))
-        else:
-            cells.append(replace(cell, columns=(first + (first > column), last + (last > column))))
-    places = {place: c for c in cells for place in itertools.product(range(*c.rows), range(*c.columns))}
-    return replace(grid, cells=tuple(cells), columns=grid.columns + 1, places=places)
 
 
 def columns_of(grid: Grid) -> list[tuple[float, float]]:
@@ -324,7 +252,7 @@ def _head_rows(page: Page, grid: Grid) -> list[int]:
         if wide and len(values) == 1 and _labels(filled, values[0]) and values[0].columns[1] == grid.columns:
             break  # one value for all columns
         bold = all(_is_bold(c) for c in filled) and not all(_is_bold(c) for c in below)
-        shaded = all(_is_shaded(page, c) for c in filled) and not all(_is_shaded(page, c) for c in below)
+        shaded = all(_is_shaded(page, c) for c in filled) and not any(_is_shaded(page, c) for c in below)
         if not below or not (wide or bold or shaded):
             break
         found.append(row)
@@ -440,7 +368,7 @@ def _statement(
     names = [c for c in labels if not _is_key(c.text)]
     # cells that span more rows than the value are the sub-headings of theirs
     groups = [c for c in names[:-1] if c.rows[1] - c.rows[0] > value.rows[1] - value.rows[0] or _is_group(grid, c)]
-    label = " ".join(c.text for c in names if not any(c is g for g in groups))
+    label, own_unit = _label_of([c for c in names if not any(c is g for g in groups)])
     label, label_unit = unit_in_label(without_key(label))
     text = value.text
     if not label:
@@ -463,11 +391,23 @@ def _statement(
         context=tuple(c.text for c in groups),
         section=unit_of_heading(EXAMPLE.sub("", section).strip())[0],
         column=tuple(unit_in_label(c.text)[0] for c in column if c.text),
-        unit=unit or label_unit or head_unit or ("" if COUNTED.search(label) else unit_of_heading(section)[1]),
+        unit=unit
+        or own_unit
+        or label_unit
+        or head_unit
+        or ("" if COUNTED.search(label) else unit_of_heading(section)[1]),
         example=marked or bool(EXAMPLE.search(section)) or marked_by_legend(page, pieces),
         x0=value.box[0],
         heads=tuple(line.text for c in column for line in c.lines) if labels else (),
     )
+
+
+def _label_of(cells: Sequence[Cell]) -> tuple[str, str]:
+    """The words of label cells, and the unit that stands apart at the end of the last one's only line."""
+    last = cells[-1] if cells else None
+    if last is None or len(last.lines) != 1 or len(last.pieces) < 2 or not (unit := is_unit(last.pieces[-1].bare)):
+        return " ".join(c.text for c in cells), ""
+    return " ".join([*(c.text for c in cells[:-1]), *(p.bare for p in last.pieces[:-1])]), unit
 
 
 def _is_group(grid: Grid, cell: Cell) -> bool:

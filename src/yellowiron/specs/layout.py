@@ -8,9 +8,10 @@ from dataclasses import replace
 
 from yellowiron.specs.boxed import read_boxes
 from yellowiron.specs.cells import legend_of
+from yellowiron.specs.grid import Grid
 from yellowiron.specs.headings import Heading, body_size
 from yellowiron.specs.keyed import key_legend, labelled, spelled
-from yellowiron.specs.lattice import Grid, columns_of, grids_of, read_grid
+from yellowiron.specs.lattice import columns_of, grids_of, read_grid
 from yellowiron.specs.lines import Line, blocks_of, lines_of
 from yellowiron.specs.margin import without_keys
 from yellowiron.specs.opened import heads_above

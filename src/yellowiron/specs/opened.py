@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import pairwise
 
 from yellowiron.specs.lines import Line, lines_of
 from yellowiron.specs.statement import Piece, kind_of
@@ -18,26 +17,37 @@ _FAR = 40.0
 
 
 def side_walls(level: Sequence[Rule], walls: Sequence[Rule], words: Sequence[Word]) -> list[Rule]:
-    """The walls that a table lacks at its left and right: between two rules of the same extent that walls in between
-    join, with words but no value left of the first wall."""
+    """The walls that a table lacks at its left or right: between two rules that end level with each other and that
+    walls in between join, with words but no value left of the first wall, or with words right of the last one."""
     found: list[Rule] = []
-    for above, below in pairwise(_merged(level)):
-        height = below.top - above.top
-        if not _SNAP < height < _HIGHEST or abs(above.x0 - below.x0) > _SNAP or abs(above.x1 - below.x1) > _SNAP:
-            continue
-        joining = [w.x0 for w in walls if w.top <= above.top + _SNAP and w.bottom >= below.top - _SNAP
-                   and above.x0 - _SNAP <= w.x0 <= above.x1 + _SNAP]  # fmt: skip
-        inner = [x for x in joining if above.x0 + 10 < x < above.x1 - 10]
-        if not inner or (len(inner) < len(joining) and len(inner) + 2 == len(joining)):
-            continue
-        row = [w for w in words if above.top < (w.top + w.bottom) / 2 < below.top and above.x0 - 4 <= w.x0 <= above.x1]
-        kinds = {kind_of(p) for line in lines_of([w for w in row if w.x1 <= min(inner) + 1]) for p in line.pieces}
-        if "text" not in kinds or "value" in kinds:
-            continue
-        for x in (above.x0, above.x1):
-            if not any(abs(x - wall) <= _SNAP for wall in joining):
+    rules = _merged(level)
+    for edge in ("x0", "x1"):
+        for above in rules:
+            x = getattr(above, edge)
+            below = next((r for r in rules if r.top > above.top + _SNAP and abs(getattr(r, edge) - x) <= _SNAP), None)
+            if below is not None and _lacks_wall(above, below, x, walls, words):
                 found.append(Rule(x, above.top, x, below.top))
     return found
+
+
+def _lacks_wall(above: Rule, below: Rule, x: float, walls: Sequence[Rule], words: Sequence[Word]) -> bool:
+    """Whether a table's row between two rules, or several that no rule parts, has words beside its walls, at `x`."""
+    x0, x1 = max(above.x0, below.x0), min(above.x1, below.x1)
+    joining = [
+        w.x0
+        for w in walls
+        if w.top <= above.top + _SNAP and w.bottom >= below.top - _SNAP and x0 - _SNAP <= w.x0 <= x1 + _SNAP
+    ]
+    inner = [wall for wall in joining if x0 + 10 < wall < x1 - 10]
+    if not inner or any(abs(x - wall) <= _SNAP for wall in joining):
+        return False
+    high = below.top - above.top >= _HIGHEST
+    row = [w for w in words if above.top < (w.top + w.bottom) / 2 < below.top and x0 - 4 <= w.x0 <= x1]
+    left = {kind_of(p) for line in lines_of([w for w in row if w.x1 <= min(inner) + 1]) for p in line.pieces}
+    right = {kind_of(p) for line in lines_of([w for w in row if w.x0 >= max(inner) - 1]) for p in line.pieces}
+    if high:
+        return len(inner) > 1 and "value" in right if x > max(inner) else len(inner) > 1 and "text" in left
+    return bool(right) if x > max(inner) else "text" in left and "value" not in left
 
 
 def _merged(level: Sequence[Rule]) -> list[Rule]:
