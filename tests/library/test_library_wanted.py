@@ -78,7 +78,7 @@ def _forbids(wanted: Wanted, label: str) -> bool:
     words = set(tokens(label))
     for phrase in wanted.forbidden:
         parts = set(tokens(phrase))
-        if has_cjk(phrase):
+        if has_cjk(phrase) or phrase.startswith('"'):
             forbidden = squeezed(phrase) in squeezed(label)
         elif parts:
             forbidden = parts <= words

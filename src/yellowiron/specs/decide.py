@@ -105,9 +105,9 @@ def evidence_of(found: Match, sheets: Sheets) -> Evidence:
     return Evidence(sheets.files[id(statement)], statement.page, quote, (box[0], box[1], box[2], box[3]))
 
 
-def _preference(found: Match) -> tuple[float, bool, bool, float]:
-    claim = found.claim
-    return (found.score, not claim.statement.example, claim.partner is not None, -claim.statement.page)
+def _preference(found: Match) -> tuple[float, bool, bool, bool, float]:
+    claim, imperial = found.claim, _is_imperial(found.claim.quantity) and found.claim.partner is None
+    return (found.score, not claim.statement.example, claim.partner is not None, not imperial, -claim.statement.page)
 
 
 # ---- configurations ------------------------------------------------------------------------------------------------

@@ -68,7 +68,9 @@ def lines_of(words: Sequence[Word], walls: Sequence[Rule] = ()) -> list[Line]:
                 pieces.append([word])
             else:
                 pieces[-1].append(word)
-        lines.append(Line(tuple(Piece(tuple(p)) for p in pieces)))
+        found = tuple(Piece(tuple(p)) for p in pieces)
+        # a colon in a column of its own parts labels from values, and is neither
+        lines.append(Line(tuple(p for p in found if p.text not in (":", "：")) or found))
     return lines
 
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 
+from yellowiron.specs.statement import joined
+
 _CROSS = re.compile(r"\s+[x×✕*/]\s+|\s*[×✕]\s*|\s+(?:and|und|et|y)\s+(?=stroke|rod|Hub|course|carrera)", re.IGNORECASE)
 COUNTED_PARTS = re.compile(
     r"(?:\b(?:number|no\.?|quantity|qty\.?) of (?:cylinders?|units)\b|\bAnzahl(?: der)? \w+\b|\bnombre de \w+\b|"
@@ -50,6 +52,8 @@ def alternatives(label: str, count: int) -> list[str]:
     for pattern in _LISTS:
         for match in pattern.finditer(label):
             parts = [part.strip() for part in re.split(r"[/／]", match.group(1))]
+            if len(parts) == 2 and parts[0].casefold() in _WITH and (load := _LACKING.sub("", parts[1])) != parts[1]:
+                parts[0] = joined([parts[0], load.strip()])  # "with/without load"
             if len(parts) != count or not all(re.search(r"[^\W\d]", part) for part in parts):
                 continue
             names = _LETTERS.get("".join(parts), parts)
@@ -57,11 +61,14 @@ def alternatives(label: str, count: int) -> list[str]:
     return []
 
 
+_WITH = ("with", "mit", "avec", "con", "有", "带")
+_LACKING = re.compile(r"^(?:without\b|ohne\b|sans\b|sin\b|无|不带|w/o)", re.IGNORECASE)
 _LETTERS = {"sel": list(_SEL), "se": list(_SEL[:2])}
 _LISTS = (
     re.compile(r"[(（\[]([^()（）\[\]]*[/／][^()（）\[\]]*)[)）\]]"),
-    re.compile(r"[,:：–—-]\s*([^,:：–—]*[/／][^,:：–—]*)$"),
+    re.compile(r"[,，、:：–—-]\s*([^,，、:：–—]*[/／][^,，、:：–—]*)$"),
     re.compile(r"([前後后左右上下]{1,2}(?:[/／][前後后左右上下]{1,2})+)$"),
+    re.compile(r"((?<!\S)(?:with|mit|avec|con)[/／](?:without|ohne|sans|sin) \S+)$", re.IGNORECASE),
     re.compile(r"(?<!\S)(\S+(?:[/／]\S+)+)"),
     re.compile(r"(?<!\S)(\S+(?:\s[/／]\s\S+)+)"),
 )

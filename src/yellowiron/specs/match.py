@@ -350,7 +350,9 @@ def _supports(asked_for: _Asked, heading: frozenset[str]) -> bool:
 def _forbidden(asked_for: _Asked, claim: Claim, text: str, places: Sequence[frozenset[str]]) -> bool:
     """Whether the label, a head or a heading says a forbidden phrase; its words must stand in one of them."""
     for phrase, parts in asked_for.forbidden:
-        if has_cjk(phrase):  # as it stands: in words it would forbid the labels of other languages
+        # As it stands: in words a Chinese or Japanese phrase would forbid the labels of other languages, and one in
+        # quotes those of the same words in another order ("blade length" is not the length with the blade).
+        if has_cjk(phrase) or phrase.startswith('"'):
             if squeezed(phrase) in squeezed(text + claim.statement.section):
                 return True
         elif (parts and any(parts <= words for words in places)) or (not parts and phrase.casefold() in text):

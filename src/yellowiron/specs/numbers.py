@@ -38,6 +38,8 @@ FEET_DASH = re.compile(
     r"(?P<feet>\d+)\s*[-–]\s*(?P<inches>\d+(?:\.\d+)?)(?:\s+" + _FRACTION.format("i") + r")?(?![\d-])"
 )
 """Feet and inches with a dash between them, as a column headed by both prints them."""
+_FEET_POINT = re.compile(r"(?P<feet>\d+)\.(?P<inches>[01]?\d)\s*(?:ft\.?\s*[-/&]?\s*in\b\.?|feet\s*/\s*inch(?:es)?)")
+"""Feet and inches with a point between them under both units, as data bases of machines print them: "31.3 ft in"."""
 _MIXED = re.compile(r"(?P<whole>\d+)?\s*[- ]?\s*" + _FRACTION.format("i"))
 _PLUS_MINUS = re.compile(r"(?:±|\+\s?/\s?[-–−]|\+-)\s*$")
 _MINUS = re.compile(r"(?:^|[\s(])[-−]$")
@@ -279,6 +281,10 @@ def _end_of_word(text: str, at: int) -> int:
 
 
 def _feet(text: str, at: int, unit: str) -> Quantity | None:
+    pointed = _FEET_POINT.match(text, at)
+    if pointed and int(pointed["inches"]) < 12:
+        value = 12.0 * int(pointed["feet"]) + int(pointed["inches"])
+        return Quantity(value, "in", 0.5, pointed.group(0), at, pointed.end())
     match = _FEET.match(text, at)
     if match is None and unit == FEET_INCHES:
         match = FEET_DASH.match(text, at)
