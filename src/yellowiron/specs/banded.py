@@ -10,6 +10,9 @@ from yellowiron.specs.lines import Line
 from yellowiron.specs.numbers import read, same
 from yellowiron.specs.statement import kind_of, unit_in_label, words_beside_numbers
 
+INDENT = 4.0
+"""Points by which a row stands in under its sub-heading."""
+
 
 def split_if_separate(row: Sequence[Line]) -> Iterator[Sequence[Line]]:
     """A band that holds several labelled values of its own is several rows; a heading over a row is none of it."""
@@ -19,6 +22,12 @@ def split_if_separate(row: Sequence[Line]) -> Iterator[Sequence[Line]]:
         largest = max(p.size for line in rest for p in line.pieces)
         if first.pieces[0].size > LARGER * largest and first.bottom <= min(line.top for line in rest) + 1:
             yield (first,)
+            yield from split_if_separate(rest)
+            return
+        under = min(rest, key=lambda line: line.top)
+        stands_out = first.pieces[0].bold and not under.pieces[0].bold and under.x0 > first.x0 + INDENT
+        if stands_out and first.bottom <= under.top + 1 and kind_of(under.pieces[0]) == "text":
+            yield (first,)  # a sub-heading over its first row
             yield from split_if_separate(rest)
             return
     if rest and all(kind_of(p) == "unit" for p in first.pieces) and first.bottom <= min(line.top for line in rest) + 1:

@@ -21,6 +21,7 @@ from yellowiron.specs.statement import (
     split_inline,
     unit_in_label,
     without_key,
+    words_beside_numbers,
 )
 from yellowiron.specs.strokes import Box
 from yellowiron.specs.words import Page
@@ -78,6 +79,8 @@ def cells_of(row: Sequence[Line]) -> list[ValueCell]:
     """The row's values, each with the labels to its left back to the value before."""
     pieces = sorted((p for line in row for p in line.pieces), key=lambda p: (p.words[0].baseline, p.x0))
     kinds = {id(p): kind_of(p) for p in pieces}
+    if [kinds[id(p)] for p in pieces[:2]] == ["value", "value"] and _is_circumstance(pieces[0]):
+        kinds[id(pieces[0])] = "text"
     keys = _keys_of(pieces, kinds)
     pieces = [p for p in pieces if id(p) not in keys]
     values = [p for p in pieces if kinds[id(p)] == "value"]
@@ -127,6 +130,13 @@ def cells_of(row: Sequence[Line]) -> list[ValueCell]:
     return cells
 
 
+def _is_circumstance(piece: Piece) -> bool:
+    """Whether a piece that begins with an angle is the label of the value beside it: "40° full turn"."""
+    readings = read(piece.bare)
+    first = readings[0].numbers[0]
+    return len(readings) == 1 and first.dimension == "angle" and bool(words_beside_numbers(piece.bare, readings))
+
+
 def _beside(values: Sequence[Piece], units: Sequence[Piece]) -> list[Piece]:
     """Values one below the other, each with the unit on its own line behind it; [] where no unit or several stand on a
     line, or a unit on none."""
@@ -158,10 +168,13 @@ def _keys_of(pieces: Sequence[Piece], kinds: Mapping[int, str]) -> frozenset[int
     return frozenset(keys)
 
 
-def heads_over(heads: Sequence[tuple[Piece, ...]], box: Box) -> list[Piece]:
-    """The head of each head line that stands over a value: the one that overlaps it, else the nearest one."""
+def heads_over(heads: Sequence[tuple[Piece, ...]], box: Box, *, alone: bool = False) -> list[Piece]:
+    """The head of each head line that stands over a value: the one that overlaps it, else the nearest one; none over
+    one that is `alone` in its row and stands between the columns, as it holds for all of them."""
     over: list[Piece] = []
     for line in heads:
+        if alone and _is_between(line, box):
+            continue
         overlap = [(min(p.x1, box[2]) - max(p.x0, box[0]), p) for p in line]
         best = max(overlap, key=lambda pair: pair[0])
         if best[0] > 0:
@@ -171,6 +184,18 @@ def heads_over(heads: Sequence[tuple[Piece, ...]], box: Box) -> list[Piece]:
             if nearest[0] > -60:
                 over.append(nearest[1])
     return over
+
+
+def _is_between(heads: Sequence[Piece], box: Box) -> bool:
+    """Whether a value is level with none of the columns' heads, at the left, the middle or the right, but stands
+    between the first and the last."""
+    middle = (box[0] + box[2]) / 2
+    middles = [(h.x0 + h.x1) / 2 for h in heads]
+    level = any(
+        abs(h.x0 - box[0]) < 3 or abs(h.x1 - box[2]) < 3 or abs(m - middle) < 4
+        for h, m in zip(heads, middles, strict=True)
+    )
+    return len(heads) > 1 and not level and not is_unit(heads[-1].bare) and min(middles) < middle < max(middles)
 
 
 def continues(found: Sequence[Statement], cells: Sequence[ValueCell]) -> bool:

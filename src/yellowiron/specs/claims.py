@@ -9,7 +9,7 @@ from itertools import pairwise
 
 from yellowiron.specs.listed import COUNTED_PARTS, alternatives, enumerated
 from yellowiron.specs.numbers import FEET_DASH, FEET_INCHES, DecimalStyle, Quantity, Reading, read, same
-from yellowiron.specs.statement import Statement
+from yellowiron.specs.statement import GRAVITATIONAL, Statement
 from yellowiron.specs.vocabulary import tokens
 
 _TIMES = re.compile(r"(?<![\d.,])([2-9])\s*[x×](?![\w])|[x×]\s*([2-9])(?![\d.,])", re.IGNORECASE)
@@ -118,17 +118,23 @@ def _with_units(claims: Sequence[Claim]) -> list[Claim]:
 def configured(claims: Sequence[Claim], config: str) -> list[Claim]:
     """The claims without those of other columns than the one that a configuration names to the letter: columns that
     stand beside it in some row, whether or not it has a value in theirs."""
-    asked = {_bare(phrase) for phrase in re.split(r";|,(?!\d)|(?<!\d),", config) if phrase.strip()}
+    asked = _phrases(config)
     rows: dict[tuple[int, int], list[Statement]] = {}
     for claim in claims:
         if claim.statement.column:
             rows.setdefault((claim.statement.page, claim.statement.row), []).append(claim.statement)
     others: set[tuple[str, ...]] = set()
     for row in rows.values():
-        columns = {tuple(map(_bare, s.column)) for s in row}
-        if any(asked.intersection(column) for column in columns):
-            others.update(column for column in columns if not asked.intersection(column))
-    return [c for c in claims if tuple(map(_bare, c.statement.column)) not in others]
+        columns = {s.column for s in row}
+        named = {column for column in columns if any(len(_phrases(h)) > 0 and _phrases(h) <= asked for h in column)}
+        if named:
+            others.update(columns - named)
+    return [c for c in claims if c.statement.column not in others]
+
+
+def _phrases(text: str) -> set[str]:
+    """The phrases of a configuration or a head, without case and spaces; a comma between digits is a decimal one."""
+    return {_bare(phrase) for phrase in re.split(r";|,(?!\d)|(?<!\d),", text) if phrase.strip()}
 
 
 def _bare(text: str) -> str:
@@ -136,7 +142,7 @@ def _bare(text: str) -> str:
 
 
 def _expand(statement: Statement, style: DecimalStyle) -> Iterator[Claim]:
-    text, unit = spelled_out(statement.text, statement.unit)
+    text, unit = spelled_out(GRAVITATIONAL.sub("", statement.text), statement.unit)
     text = _feet_spelled_out(text, unit)
     readings = [r for r in read(text, unit=unit, style=style) if not r.condition]
     label = _without_conditions(statement.label)

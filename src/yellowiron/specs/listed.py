@@ -9,7 +9,8 @@ from yellowiron.specs.statement import joined
 _CROSS = re.compile(r"\s+[x×✕*/]\s+|\s*[×✕]\s*|\s+(?:and|und|et|y)\s+(?=stroke|rod|Hub|course|carrera)", re.IGNORECASE)
 COUNTED_PARTS = re.compile(
     r"(?:\b(?:number|no\.?|quantity|qty\.?) of (?:cylinders?|units)\b|\bAnzahl(?: der)? \w+\b|\bnombre de \w+\b|"
-    r"\bnúmero de \w+\b)\s*(?:[-–—,:/x×]\s*)?",
+    r"\bnúmero de \w+\b|\b(?:number|no\.|qty\.?|quantity|anzahl|nombre|número|n[º°])(?=\s*[-–—x×])|"
+    r"(?:本数|数量|个数)(?=\s*[-–—－x×]))\s*(?:[-–—－,:/x×]\s*)?",
     re.IGNORECASE,
 )
 _LWH, _SEL = ("length", "width", "height"), ("thickness", "width", "length")
@@ -50,11 +51,12 @@ def alternatives(label: str, count: int) -> list[str]:
     last comma, or be a word of the label.
     """
     for pattern in _LISTS:
-        for match in pattern.finditer(label):
+        for match in reversed(list(pattern.finditer(label))):  # "tilt of mast/carriage, forward/backward"
             parts = [part.strip() for part in re.split(r"[/／]", match.group(1))]
             if len(parts) == 2 and parts[0].casefold() in _WITH and (load := _LACKING.sub("", parts[1])) != parts[1]:
                 parts[0] = joined([parts[0], load.strip()])  # "with/without load"
-            if len(parts) != count or not all(re.search(r"[^\W\d]", part) for part in parts):
+            symbols = all(re.fullmatch(r"[α-ωa-z]\d{0,2}", part) for part in parts) and "".join(parts) not in _LETTERS
+            if len(parts) != count or symbols or not all(re.search(r"[^\W\d]", part) for part in parts):
                 continue
             names = _LETTERS.get("".join(parts), parts)
             return [f"{label[: match.start(1)]}{name}{label[match.end(1) :]}" for name in names]

@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
-from yellowiron.specs.banded import split_if_separate
+from yellowiron.specs.banded import INDENT, split_if_separate
 from yellowiron.specs.cells import ValueCell, add_continuation, cells_of, continues, heads_over, statement_of
 from yellowiron.specs.folded import unfolded
 from yellowiron.specs.headings import (
@@ -45,10 +45,6 @@ from yellowiron.specs.words import Page
 
 _LONGEST_LABEL = 12
 """Words; more are prose."""
-
-
-_INDENT = 4.0
-"""Points by which a row stands in under its sub-heading."""
 
 
 @dataclass
@@ -164,6 +160,10 @@ def _read_row(
 ) -> None:
     pieces = [p for line in row for p in line.pieces]
     kinds = [kind_of(p) for p in pieces]
+    if _heads_a_section(page, pieces, kinds, size):
+        heading = Heading(max(line.bottom for line in row), block.x0, block.x1, pieces[0].text)
+        state.open_section(heading, tuple(pieces[1:]))
+        return
     if "value" in kinds and _are_heads(pieces, kinds, state):
         state.heads.append(tuple(pieces))
         return
@@ -291,6 +291,15 @@ def _label_orphans(line: Line, state: _State, found: list[Statement]) -> bool:
     return True
 
 
+def _heads_a_section(page: Page, pieces: Sequence[Piece], kinds: Sequence[str], size: float) -> bool:
+    """Whether a row on a heading's bar names the section and its columns by numbers: "Dimensions   2.5-m arm   3-m
+    arm"."""
+    if len(pieces) < 3 or kinds[0] != "text" or not set(kinds[1:]) <= {"value"} or not all(p.bold for p in pieces):
+        return False
+    named = all(words_beside_numbers(p.bare, read(p.bare)) for p in pieces[1:])
+    return named and bar_under(page, pieces[0], size) is not None
+
+
 def _are_heads(pieces: Sequence[Piece], kinds: Sequence[str], state: _State) -> bool:
     """Whether a row without a label names columns by numbers: "3.4-m arm   3.9-m arm" above their values."""
     if state.data_since_heads or state.pending or len(pieces) < 2 or "text" in kinds:
@@ -385,7 +394,7 @@ def _read_values(page: Page, row: Sequence[Line], state: _State, number: int, fo
         EXAMPLE.search(p.text) for p in [*context, *(q for c in cells for q in [*c.notes, *c.label, *c.values])]
     )
     for cell in cells:
-        heads = heads_over(state.heads, join_boxes(p.box for p in cell.values))
+        heads = heads_over(state.heads, join_boxes(p.box for p in cell.values), alone=len(cells) == 1)
         above = context if not cell.label or pending else []
         statement = statement_of(page, row, cell, heads, context, above, number)
         found.append(_in_section(statement, state, marked=marked))
@@ -406,9 +415,9 @@ def _keep_sub_heading(cells: Sequence[ValueCell], pending: Sequence[Piece], stat
     labels = [c.label[0].x0 for c in cells if c.label]
     if not labels:
         return
-    if state.indented and labels[0] < state.context[-1].x0 + _INDENT:
+    if state.indented and labels[0] < state.context[-1].x0 + INDENT:
         state.context, state.indented = [], False
-    if pending and labels[0] >= pending[-1].x0 + _INDENT:
+    if pending and labels[0] >= pending[-1].x0 + INDENT:
         state.context, state.indented = list(pending), True
 
 

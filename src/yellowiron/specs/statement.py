@@ -127,6 +127,10 @@ def join_boxes(boxes: Iterable[Box]) -> Box:
     return (min(b[0] for b in every), min(b[1] for b in every), max(b[2] for b in every), max(b[3] for b in every))
 
 
+GRAVITATIONAL = re.compile(r"(?<=[^\s{｛])\s?[{｛][^{}｛｝]*[}｝]")
+"""The same in gravitational units, as Japanese sheets print it behind the SI one: "kN{kgf}", "200{20,400}"."""
+_AT_SPEED = re.compile(r"(\S+?)\s?[/@]\s?(?:min\s?[-⁻]\s?[1¹]|r/min|rpm|1/min|U/min|tr/min)", re.IGNORECASE)
+"""A power or torque over the speed that it is given at: "kW/min-1" for "175/2,000"."""
 _UNIT_PAIR = re.compile(r"(\S*[^\s(/\[|])\s*[(/\[|]\s*([^()\[\]]+?)\s*[)\]]?")
 _KEY = re.compile(
     r"[(\[]?(?:[a-zα-ω]\d{0,2}(?:/[a-zα-ω]\d{0,2})+|[α-ω]|"
@@ -150,7 +154,10 @@ def is_unit(text: str) -> str:
 
     Two of them, one for the number in brackets, are "m|ft-in" for "m (ft-in)".
     """
-    bare = text.strip()
+    bare = GRAVITATIONAL.sub("", text).strip() or text.strip()
+    power = _AT_SPEED.fullmatch(bare)
+    if power and (first := printed_unit(power.group(1))) and first.dimension in ("power", "torque"):
+        return f"{power.group(1)}|rpm"
     pair = _UNIT_PAIR.fullmatch(bare)
     if pair and (first := printed_unit(pair.group(1))) and (second := is_unit(pair.group(2))) and "|" not in second:
         other = printed_unit("in" if second == FEET_INCHES else second)
