@@ -54,6 +54,8 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
         doubt = doubt or f"the label also says {', '.join(repr(word) for word in top.rest)}"
     elif top.score < _SURE:
         doubt = doubt or f"only part of the label says {wanted.name}"
+    if not top.claim.statement.proven:
+        doubt = doubt or "its words do not stand together in the page's text"
     if top.claim.ranged:
         doubt = doubt or "the sheet prints a range"
     value = quantity.si_value

@@ -62,7 +62,9 @@ def _entry(pieces: Sequence[Piece], index: int) -> _Entry | None:
     words = pieces[index + 1]
     if _is_letter(words) or any(q.dimension != "angle" for r in read(words.bare) for q in r.numbers):
         return None
-    for piece in pieces[index + 2 :]:
+    for number, piece in enumerate(pieces[index + 2 :], start=index + 3):
+        if is_unit(piece.bare) and any(kind_of(p) == "value" for p in pieces[number : number + 1]):
+            return None  # "B  Width  m  3.91": a metre, no key
         if _is_letter(piece):
             break
         if kind_of(piece) != "text":

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import re
 from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import replace
@@ -403,11 +404,23 @@ def _statement(
 
 
 def _label_of(cells: Sequence[Cell]) -> tuple[str, str]:
-    """The words of label cells, and the unit that stands apart at the end of the last one's only line."""
+    """The words of label cells, and the unit that stands apart at the end of the last one, alone or behind the symbol
+    of a type sheet: "h1 (mm)", "Ast (mm)"; the symbol is no word, but where it lists a product's factors."""
+    texts = [c.text for c in cells]
     last = cells[-1] if cells else None
-    if last is None or len(last.lines) != 1 or len(last.pieces) < 2 or not (unit := is_unit(last.pieces[-1].bare)):
-        return " ".join(c.text for c in cells), ""
-    return " ".join([*(c.text for c in cells[:-1]), *(p.bare for p in last.pieces[:-1])]), unit
+    if last is None or len(last.lines) != 1:
+        return " ".join(texts), ""
+    if len(last.pieces) > 1 and (unit := is_unit(last.pieces[-1].bare)):
+        return " ".join([*texts[:-1], *(p.bare for p in last.pieces[:-1])]), unit
+    symbol, unit = unit_in_label(last.text)
+    lists = symbol == "s/e/l" and not _LISTED.search(" ".join(texts[:-1]))
+    if len(cells) > 1 and unit and not lists and (is_key(symbol) or _SYMBOL.fullmatch(symbol)):
+        return " ".join(texts[:-1]), unit
+    return " ".join(texts), ""
+
+
+_SYMBOL = re.compile(r"[A-Z][a-z]{1,2}\d?")
+_LISTED = re.compile(r"[^\W\d]\s?[/／×x]\s?[^\W\d]+\s?[/／×x]\s?[^\W\d]")
 
 
 def _is_group(grid: Grid, cell: Cell) -> bool:

@@ -148,6 +148,8 @@ def _gutter(lines: Sequence[Line], bars: Sequence[Box], across: Sequence[Box]) -
     candidates += _of_right_set_labels(lines)
     by_bars = sorted({b[0] for b in bars if any(a[2] <= b[0] and a[1] < b[3] and b[1] < a[3] for a in bars)})
     candidates += by_bars
+    by_rules = _of_broken_rules(lines, across)
+    candidates += by_rules
     best: tuple[int, float, int, int] | None = None
     for x in candidates:
         first, last, weight = _run(lines, across, x)
@@ -156,10 +158,22 @@ def _gutter(lines: Sequence[Line], bars: Sequence[Box], across: Sequence[Box]) -
             for line in lines[first:last]
         )
         begun = sum(any(abs(p.x0 - x) < 12 for p in line.pieces) for line in lines[first:last])
-        parts = left_values >= 2 or (x in by_bars and begun >= 3)
+        parts = left_values >= 2 or (x in (*by_bars, *by_rules) and begun >= 3)
         if weight >= 3 and parts and (best is None or weight > best[0]):
             best = (weight, x, first, last)
     return best[1:] if best else None
+
+
+def _of_broken_rules(lines: Sequence[Line], across: Sequence[Box]) -> list[float]:
+    """Where a rule begins beside another one at the same height, as under the headings of two columns, and words."""
+    thin = [b for b in across if b[3] - b[1] <= 6]
+    begins = {b[0] for b in thin if any(0 < b[0] - a[2] < 40 and abs(a[1] - b[1]) < 1.5 for a in thin)}
+    found = []
+    for x in sorted(begins):
+        kinds = [kind_of(p) for line in lines for p in line.pieces if abs(p.x0 - x) < 12]
+        if len(kinds) >= 3 and kinds.count("text") >= 0.6 * len(kinds):
+            found.append(x)
+    return found
 
 
 def _of_right_set_labels(lines: Sequence[Line]) -> list[float]:

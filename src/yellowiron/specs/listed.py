@@ -17,6 +17,7 @@ _LWH, _SEL = ("length", "width", "height"), ("thickness", "width", "length")
 _SIZES = dict.fromkeys(("LWH", "LBH", "LlH", "LAH", "LAhA", "LAnAl", "lwh", "lbh", "长宽高", "長幅高"), _LWH) | {
     "sel": _SEL
 }
+_FORK_SIZES = re.compile(r"(?<!\S)s\s?/\s?e\s?/\s?l(?!\S)")
 """What makers call length × width × height, and VDI 2198 a fork's measures."""
 _NAME = r"(?:(?:length|longueur|longitud|di[aá]m\w+|diamètre) (?:of|de|du|del) \S+|\S+(?:\s+(?:diameter|dia\.?))?)"
 """What one factor of a product is called: "bore", "rod diameter", "length of stroke"."""
@@ -27,7 +28,7 @@ def enumerated(label: str, count: int) -> list[str]:
 
     ("Lift cylinders – bore x stroke", 2) → ["Lift cylinders bore", "Lift cylinders stroke"]; [] if it lists others.
     """
-    bare = COUNTED_PARTS.sub(" ", label).strip()
+    bare = _FORK_SIZES.sub("s × e × l", COUNTED_PARTS.sub(" ", label)).strip()
     parts = [p.strip(" ()[]") for p in _CROSS.split(bare)]
     if len(parts) != count or not all(re.search(r"[^\W\d_]", p) for p in parts):
         return []

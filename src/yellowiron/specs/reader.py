@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 import time
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from yellowiron.guard import beat
@@ -87,7 +89,7 @@ def read_sheet(path: Path) -> Sheet:
                     hint="Get the file again, or print it to a new PDF.",
                 ) from error
             if page.readable:
-                statements.extend(statements_of(page))
+                statements.extend(_proven(statements_of(page), page.text))
                 texts.append(" ".join(w.text for w in page.words))
                 stated.extend(stated_in(texts[-1], number))
                 near.extend(nearest_of(page))
@@ -104,6 +106,21 @@ def read_sheet(path: Path) -> Sheet:
         )
     finally:
         document.close()
+
+
+def _proven(statements: Sequence[Statement], text: str) -> list[Statement]:
+    """The statements, each with whether the words of its quote stand together in a page's text: what was put together
+    across columns does not."""
+    whole = _squeezed(text)
+    return [
+        s if all(_squeezed(part) in whole for part in s.quote.split(" … ")) else replace(s, proven=False)
+        for s in statements
+    ]
+
+
+def _squeezed(text: str) -> str:
+    """A text without spaces and dotted leaders."""
+    return re.sub(r"\.(?!\d)|(?<!\d)\.|_", "", "".join(text.split()))
 
 
 def check_file(path: Path) -> None:

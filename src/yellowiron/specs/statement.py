@@ -90,7 +90,8 @@ class Statement:
 
     `variant` is what names the row where heads name the properties (a bucket's capacity beside its width). `row` groups
     the cells of one row. `quote` is what the page prints, pieces that stand apart joined by " … "; `heads`
-    are the lines over the column as printed, for a quote that needs them.
+    are the lines over the column as printed, for a quote that needs them. `proven`: whether each part of the quote
+    stands together in the file's own text.
     """
 
     page: int
@@ -107,6 +108,7 @@ class Statement:
     x0: float = 0.0
     heads: tuple[str, ...] = ()
     variant: tuple[str, ...] = ()
+    proven: bool = True
 
 
 def joined(texts: Iterable[str]) -> str:
@@ -161,7 +163,8 @@ def is_unit(text: str) -> str:
     pair = _UNIT_PAIR.fullmatch(bare)
     if pair and (first := printed_unit(pair.group(1))) and (second := is_unit(pair.group(2))) and "|" not in second:
         other = printed_unit("in" if second == FEET_INCHES else second)
-        if other and first.dimension == other.dimension and first.system != other.system:
+        other_name = other is not None and other.name != first.name  # "m (ft-in)", "kW (PS)"
+        if other and first.dimension == other.dimension and other_name:
             return f"{pair.group(1)}|{second}"
     if _FEET_HEAD.fullmatch(bare):
         return FEET_INCHES

@@ -50,7 +50,7 @@ class Word:
 @dataclass(frozen=True)
 class Page:
     """What stands on a page. `number` counts from 1; `leaders` are dotted lines from a label to its value; `unmapped`
-    characters have no Unicode meaning in the file."""
+    characters have no Unicode meaning in the file; `text` is what the file gives in its own order."""
 
     number: int
     width: float
@@ -63,6 +63,7 @@ class Page:
     unmapped: int = 0
     images: int = 0
     legend: dict[str, str] = field(default_factory=dict)
+    text: str = ""
 
     @property
     def readable(self) -> bool:
@@ -87,6 +88,7 @@ def read_page(page: Any, number: int) -> Page:
     textpage = page.get_textpage()
     try:
         glyphs, characters, unmapped = _glyphs(textpage, place)
+        text = textpage.get_text_range()
     finally:
         textpage.close()
     rules, bars, images = strokes_of(page, place)
@@ -102,6 +104,7 @@ def read_page(page: Any, number: int) -> Page:
         characters=characters,
         unmapped=unmapped,
         images=images,
+        text=text,
     )
 
 
