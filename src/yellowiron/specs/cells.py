@@ -79,7 +79,7 @@ def cells_of(row: Sequence[Line]) -> list[ValueCell]:
     """The row's values, each with the labels to its left back to the value before."""
     pieces = sorted((p for line in row for p in line.pieces), key=lambda p: (p.words[0].baseline, p.x0))
     kinds = {id(p): kind_of(p) for p in pieces}
-    if [kinds[id(p)] for p in pieces[:2]] == ["value", "value"] and _is_circumstance(pieces[0]):
+    if [kinds[id(p)] for p in pieces[:2]] == ["value", "value"] and is_circumstance(pieces[0]):
         kinds[id(pieces[0])] = "text"
     keys = _keys_of(pieces, kinds)
     pieces = [p for p in pieces if id(p) not in keys]
@@ -130,7 +130,7 @@ def cells_of(row: Sequence[Line]) -> list[ValueCell]:
     return cells
 
 
-def _is_circumstance(piece: Piece) -> bool:
+def is_circumstance(piece: Piece) -> bool:
     """Whether a piece that begins with an angle is the label of the value beside it: "40° full turn"."""
     readings = read(piece.bare)
     first = readings[0].numbers[0]

@@ -9,7 +9,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
 
-from yellowiron.specs.cells import marked_by_legend
+from yellowiron.specs.cells import is_circumstance, marked_by_legend
+from yellowiron.specs.fills import edges_of_fills
 from yellowiron.specs.grid import Cell, Grid
 from yellowiron.specs.lines import lines_of
 from yellowiron.specs.opened import side_walls
@@ -40,11 +41,13 @@ _WALL = 6.0
 def grids_of(page: Page) -> list[Grid]:
     """The tables of a page that have at least two rows, two columns and words in three cells."""
     walls = [r for r in page.rules if not r.horizontal and r.bottom - r.top >= _WALL]
+    filled = edges_of_fills(page.bars, walls)
+    walls += [r for r in filled if not r.horizontal]
     if len(walls) < 2:
         return []
     from pdfplumber.table import cells_to_tables, edges_to_intersections, intersections_to_cells, merge_edges
 
-    level = [*(r for r in page.rules if r.horizontal), *_closing_bars(page, walls)]
+    level = [*(r for r in (*page.rules, *filled) if r.horizontal), *_closing_bars(page, walls)]
     walls += side_walls(level, walls, page.words)
     edges = merge_edges([_edge(r) for r in (*level, *walls)], _SNAP, _SNAP, _SNAP, _SNAP)
     if not 4 <= len(edges) <= 3000:
@@ -146,6 +149,8 @@ def read_grid(
         cells = _row_cells(grid, row)
         filled = [c for c in cells if c.lines]
         values = [c for c in filled if looks_like_value(c.text)]
+        if len(values) == 2 and values[0] is not filled[-1] and all(is_circumstance(p) for p in values[0].pieces):
+            values = values[1:]
         if not values and all(split_inline(c.text)[0] for c in filled):
             values = filled
         if not values:

@@ -73,7 +73,7 @@ def nearest_of(page: Page) -> tuple[Near, ...]:
     first = (page.number + 1) * 1_000_000  # rows of their own, apart from those of the layout's statements
     for row, line in enumerate(lines):
         for index, value in enumerate(line.pieces):
-            if kind_of(value) != "value":
+            if kind_of(value) != "value" or _is_part(value):
                 continue
             before, between = _left_of(line, index)
             after = is_unit(line.pieces[index + 1].bare) if index + 1 < len(line.pieces) else ""
@@ -96,6 +96,11 @@ def nearest_of(page: Page) -> tuple[Near, ...]:
                 )
                 found.append(Near(side, _named(statement, label, headings)))
     return tuple(found)
+
+
+def _is_part(value: Piece) -> bool:
+    """Whether a piece is no value by itself: one digit alone, or the end of what begins in other brackets."""
+    return len(value.bare) < 2 or value.text.count("(") != value.text.count(")")
 
 
 def _named(statement: Statement, label: Sequence[Piece], headings: Sequence[_Placed]) -> Statement:

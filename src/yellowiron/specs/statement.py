@@ -201,17 +201,17 @@ _ENDS_LABELS_OF_BARE = frozenset(
 
 
 _HEADED_BY_UNIT = re.compile(
-    r"^(.*?)[\s:：,–-]*(?:\b(?:in|en|unit|units|einheit|unité|unidad)\b|单位|単位)\s*[:：]?\s*(\S+)$", re.IGNORECASE
+    r"^(.*?)[\s:：,–-]*(?:\b(?:in|en|unit|units|einheit|unité|unidad)\b|单位|単位)\s*[:：]?\s*(\S+(?:\s*[(（][^()（）]+[)）])?)$",
+    re.IGNORECASE,
 )
 
 
 def unit_of_heading(text: str) -> tuple[str, str]:
     """A heading without the unit that holds for the bare numbers under it, and that unit: "Dimensions (mm)"."""
-    label, unit = unit_in_label(text)
-    if unit:
-        return label, unit
     match = _HEADED_BY_UNIT.search(text)
-    return (match.group(1), unit) if match and (unit := is_unit(match.group(2))) else (text, "")
+    if match and (unit := is_unit(match.group(2))):
+        return match.group(1), unit
+    return unit_in_label(text)
 
 
 def unit_said(text: str) -> str:
