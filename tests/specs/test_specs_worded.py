@@ -14,7 +14,7 @@ from sheets_worded import lines
 def test_each_printed_number_stands_on_a_page(split: Split, tmp_path: Path) -> None:
     own = cases(split)
     assert len({case.kind for case in own}) == 10 and len({case.layout for case in own}) >= 6 and len(own) >= 40
-    assert all(sum(case.kind == kind for case in own) > 9 for kind in ("wheel_loader", "excavator"))
+    assert all(sum(case.kind == kind for case in own) >= 7 for kind in ("wheel_loader", "excavator"))
     printed = 0
     for case in own[::6]:
         sheet = make(case, tmp_path)
