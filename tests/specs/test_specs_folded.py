@@ -113,7 +113,7 @@ def test_heads_above_the_first_section_hold_for_the_next_ones(tmp_path: Path) ->
 
 def test_a_factor_of_a_product_may_be_called_length_of_stroke() -> None:
     assert enumerated("Dump cylinder, dia. x length of stroke", 2) == [
-        "Dump cylinder dia.",
+        "Dump cylinder bore",
         "Dump cylinder length of stroke",
     ]
     assert enumerated("Vérin de bras, diamètre de piston x longueur de course", 2) == [

@@ -8,7 +8,7 @@ from yellowiron.specs.cells import cells_of
 from yellowiron.specs.headings import LARGER
 from yellowiron.specs.lines import Line
 from yellowiron.specs.numbers import read, same
-from yellowiron.specs.statement import kind_of, unit_in_label, words_beside_numbers
+from yellowiron.specs.statement import Piece, kind_of, unit_in_label, words_beside_numbers
 
 INDENT = 4.0
 """Points by which a row stands in under its sub-heading."""
@@ -18,7 +18,7 @@ def split_if_separate(row: Sequence[Line]) -> Iterator[Sequence[Line]]:
     """A band that holds several labelled values of its own is several rows; a heading over a row is none of it."""
     ordered = sorted(row, key=lambda line: line.top)
     first, rest = ordered[0], ordered[1:]
-    if rest and len(first.pieces) == 1 and kind_of(first.pieces[0]) == "text":
+    if rest and len(_words(first)) == 1 and kind_of(first.pieces[0]) == "text":
         largest = max(p.size for line in rest for p in line.pieces)
         if first.pieces[0].size > LARGER * largest and first.bottom <= min(line.top for line in rest) + 1:
             yield (first,)
@@ -39,7 +39,7 @@ def split_if_separate(row: Sequence[Line]) -> Iterator[Sequence[Line]]:
         yield (rest[0],)
         return
     last, before = ordered[-1], ordered[:-1]
-    if before and len(last.pieces) == 1 and kind_of(last.pieces[0]) == "text":
+    if before and len(_words(last)) == 1 and kind_of(last.pieces[0]) == "text":
         largest = max(p.size for line in before for p in line.pieces)
         if last.pieces[0].size > LARGER * largest and last.top >= max(line.bottom for line in before) - 1:
             yield from split_if_separate(before)
@@ -55,6 +55,11 @@ def split_if_separate(row: Sequence[Line]) -> Iterator[Sequence[Line]]:
             yield (line,)
     else:
         yield row
+
+
+def _words(line: Line) -> list[Piece]:
+    """What a line says, without the sign at its end that folds a section of a web page."""
+    return [p for p in line.pieces if kind_of(p) != "mark"]
 
 
 def _are_heads_of(line: Line, row: Line) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 from yellowiron.specs.statement import joined
+from yellowiron.specs.vocabulary import tokens
 
 _CROSS = re.compile(r"\s+[x×✕*/]\s+|\s*[×✕]\s*|\s+(?:and|und|et|y)\s+(?=stroke|rod|Hub|course|carrera)", re.IGNORECASE)
 COUNTED_PARTS = re.compile(
@@ -42,7 +43,10 @@ def enumerated(label: str, count: int) -> list[str]:
     parts[-1] = last.group(1) if last else parts[-1]
     if sizes := _SIZES.get("".join([name, *parts[1:]])):
         name, parts = sizes[0], list(sizes)
-    return [" ".join(f"{prefix} {p} {suffix}".split()) for p in [name, *parts[1:]]]
+    names = [name, *parts[1:]]
+    if any("stroke" in tokens(n) for n in names):  # "diameter × stroke" of a cylinder
+        names = ["bore" if tokens(n) == ("diameter",) else n for n in names]
+    return [" ".join(f"{prefix} {n} {suffix}".split()) for n in names]
 
 
 def alternatives(label: str, count: int) -> list[str]:

@@ -152,7 +152,7 @@ def _asked(wanted: Sequence[Wanted]) -> list[_Asked]:
 
 
 def _alone(wanted: Wanted) -> _Asked:
-    said = tuple((p, words) for p in phrases(wanted) if (words := frozenset(tokens(p))))
+    said = tuple((p, words) for p, words in _with_words(phrases(wanted)) if words)
     if wanted.dimension == "length":
         said = tuple((p, words) for p, words in said if not is_one_place(words))
     return _Asked(
@@ -160,9 +160,14 @@ def _alone(wanted: Wanted) -> _Asked:
         phrases=said,
         words=frozenset[str]().union(*(words for _, words in said)),
         name=frozenset(tokens(wanted.name)),
-        sections=tuple(words for s in wanted.sections if (words := frozenset(tokens(s)))),
-        forbidden=tuple((p, frozenset(tokens(p))) for p in wanted.forbidden),
+        sections=tuple(words for _, words in _with_words(tuple(wanted.sections)) if words),
+        forbidden=_with_words(tuple(wanted.forbidden)),
     )
+
+
+@functools.lru_cache(maxsize=4096)
+def _with_words(texts: tuple[str, ...]) -> tuple[tuple[str, frozenset[str]], ...]:
+    return tuple((text, frozenset(tokens(text))) for text in texts)
 
 
 def _said(claim: Claim) -> _Said:

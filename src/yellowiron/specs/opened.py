@@ -20,7 +20,7 @@ def side_walls(level: Sequence[Rule], walls: Sequence[Rule], words: Sequence[Wor
     """The walls that a table lacks at its left or right: between two rules that end level with each other and that
     walls in between join, with words but no value left of the first wall, or with words right of the last one."""
     found: list[Rule] = []
-    rules = _merged(level)
+    rules, walls = _merged(level), _joined(walls)
     for edge in ("x0", "x1"):
         for above in rules:
             x = getattr(above, edge)
@@ -60,6 +60,18 @@ def _merged(level: Sequence[Rule]) -> list[Rule]:
         else:
             merged.append(rule)
     return sorted(merged, key=lambda r: (r.top, r.x0))
+
+
+def _joined(walls: Sequence[Rule]) -> list[Rule]:
+    """Walls at one place that touch are one, though drawn row by row."""
+    joined: list[Rule] = []
+    for wall in sorted(walls, key=lambda w: (round(w.x0), w.top)):
+        last = joined[-1] if joined else None
+        if last is not None and abs(last.x0 - wall.x0) <= 1 and wall.top <= last.bottom + 1:
+            joined[-1] = Rule(last.x0, last.top, last.x0, max(last.bottom, wall.bottom))
+        else:
+            joined.append(wall)
+    return joined
 
 
 def heads_above(

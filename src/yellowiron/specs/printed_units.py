@@ -66,7 +66,7 @@ foot*force_pound    | torque        | imperial | (?:lbf?|ft)[·.•*-](?:ft|lbf?
 kilowatt            | power         | metric   | kW
 watt                | power         | metric   | W
 horsepower          | power         | imperial | hp|HP|bhp
-metric_horsepower   | power         | metric   | PS|CV
+metric_horsepower   | power         | metric   | PS|CV|ch
 kilometer/hour      | speed         | metric   | km/h|kph|km/hr|kmh
 meter/second        | speed         | metric   | m/s(?:ec)?\\.?
 meter/minute        | speed         | metric   | m/min\\.?|mpm

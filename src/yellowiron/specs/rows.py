@@ -326,7 +326,7 @@ def _read_words(page: Page, block: Block, line: Line, state: _State, size: float
         at_label = True  # a heading in the middle
     bar = bar_under(page, texts[0], size) if at_label or len(texts) < 2 else None
     if bar is not None or (len(texts) == 1 and at_label and is_heading(texts[0], size)):
-        on_bar = [p.text for p in line.pieces if bar is None or inside(p.box, bar)]
+        on_bar = [p.text for p in line.pieces if kind_of(p) != "mark" and (bar is None or inside(p.box, bar))]
         heads = tuple(p for p in texts[1:] if not unit_said(p.bare))
         unit = next((u for p in texts[1:] if (u := unit_said(p.bare))), "")
         section = texts[0].text if heads or unit else " ".join(on_bar)

@@ -38,6 +38,8 @@ def second_reading(
     `near`: what each file prints, with how it writes decimals. On each side of the values the words speak for
     themselves: the side with the most matches first, as that is how the pages print their labels; a value counts once.
     """
+    if not any(own for own, _ in near):
+        return dict(values)
     asked = {w.name: w for w in wanted if w.in_label_of is None}
     taken = [seen for value in values.values() if value.status != "missing" for seen in _seen(value)]
     found = dict(values)
