@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from yellowiron.specs.lines import Block
 from yellowiron.specs.statement import EXAMPLE, Piece, kind_of
 from yellowiron.specs.strokes import Box
+from yellowiron.specs.vocabulary import tokens
 from yellowiron.specs.words import Page, Word
 
 LARGER = 1.12
@@ -39,6 +40,11 @@ def is_title(piece: Piece, size: float) -> bool:
 def _in_capitals(piece: Piece) -> bool:
     letters = [c for c in EXAMPLE.sub("", piece.text) if c.isalpha()]
     return len(letters) >= 4 and sum(c.isupper() for c in letters) > 0.85 * len(letters)
+
+
+def names_no_columns(row: Sequence[str]) -> bool:
+    """Whether a row of words, a label first, says nothing of its columns: the same in all, or the engine in each."""
+    return len(row) > 2 and (len(set(row[1:])) == 1 or "engine" in tokens(row[0]))
 
 
 def bar_under(page: Page, piece: Piece, size: float) -> Box | None:

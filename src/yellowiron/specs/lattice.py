@@ -12,6 +12,7 @@ from itertools import pairwise
 from yellowiron.specs.cells import is_circumstance, marked_by_legend
 from yellowiron.specs.fills import edges_of_fills
 from yellowiron.specs.grid import Cell, Grid
+from yellowiron.specs.headings import names_no_columns
 from yellowiron.specs.lines import lines_of
 from yellowiron.specs.opened import side_walls
 from yellowiron.specs.statement import (
@@ -31,7 +32,6 @@ from yellowiron.specs.statement import (
 )
 from yellowiron.specs.strokes import Box, Rule
 from yellowiron.specs.unruled import with_columns, with_rows
-from yellowiron.specs.vocabulary import tokens
 from yellowiron.specs.words import Page, Word
 
 _SNAP = 3.0
@@ -158,7 +158,7 @@ def read_grid(
             if len(filled) == 1 and filled[0].columns[1] - filled[0].columns[0] == grid.columns:
                 section = " ".join(p.text for p in filled[0].pieces)
                 continue
-            if not _says_nothing_of_columns(filled):
+            if not (filled and filled[0].columns[0] == 0 and names_no_columns([c.text for c in filled])):
                 heads.append(row)
             continue
         if not _labels(cells, values[0]) and (not heads or row in naming):
@@ -173,12 +173,6 @@ def read_grid(
             read = [_headed(f, above) for f in read]
         found.extend(read)
     return found
-
-
-def _says_nothing_of_columns(row: Sequence[Cell]) -> bool:
-    """Whether a row of words behind a label names no columns: the same in all of them, or the engine in each."""
-    texts = {c.text for c in row[1:]}
-    return len(row) > 2 and row[0].columns[0] == 0 and (len(texts) == 1 or "engine" in tokens(row[0].text))
 
 
 def columns_of(grid: Grid) -> list[tuple[float, float]]:

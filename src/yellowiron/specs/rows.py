@@ -19,6 +19,7 @@ from yellowiron.specs.headings import (
     is_heading,
     is_title,
     labels_reach,
+    names_no_columns,
 )
 from yellowiron.specs.lines import Block, Line, bands
 from yellowiron.specs.margin import Beside, parted_margin, without_keys
@@ -322,6 +323,9 @@ def _read_words(page: Page, block: Block, line: Line, state: _State, size: float
         state.unit = unit
         return
     at_label = texts[0].x0 < labels_end
+    if at_label and not texts[0].bold and names_no_columns([p.bare for p in texts]):
+        state.pending = []
+        return
     if len(texts) == 1 == len(line.pieces) and texts[0].size > LARGER * size and texts[0].x0 < labels_reach(block):
         at_label = True  # a heading in the middle
     bar = bar_under(page, texts[0], size) if at_label or len(texts) < 2 else None
