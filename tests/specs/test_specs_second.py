@@ -106,3 +106,18 @@ def test_words_that_do_not_stand_together_on_the_page_are_for_review(tmp_path: P
     assert asked(read).values["Wheelbase"].status == "ok"
     false = replace(read, statements=tuple(replace(s, proven=False) for s in read.statements))
     assert asked(false).values["Wheelbase"].status == "review"
+
+
+def test_a_configuration_chooses_the_value_under_its_name() -> None:
+    values = (said("Wheelbase", "3,300", "mm"), said("Wheelbase", "3,500", "mm", row=1))
+    near = tuple(
+        Near("left", s, over=("Dimensions", head)) for s, head in zip(values, ("MW 110", "MW 120"), strict=True)
+    )
+    misread = Sheet("a.pdf", 1, values, (), "point", near=near)
+    assert asked(misread).values["Wheelbase"].status == "conflict"
+    chosen = asked(misread, config="MW 120").values["Wheelbase"]
+    assert (chosen.status, chosen.value) == ("review", pytest.approx(3.5)), "the layout gave the columns no heads"
+    assert asked(misread, config="MW 130").values["Wheelbase"].status == "conflict"
+    words = (word("MW", 200, 80), word("120", 211, 80), word("Wheelbase", 40, 100), word("3,500", 200, 100))
+    (only,) = (n for n in nearest_of(Page(1, 600, 800, words)) if n.side == "left")
+    assert only.over == ("MW 120",)

@@ -118,7 +118,7 @@ def _with_units(claims: Sequence[Claim]) -> list[Claim]:
 def configured(claims: Sequence[Claim], config: str) -> list[Claim]:
     """The claims without those of other columns than the one that a configuration names to the letter: columns that
     stand beside it in some row, whether or not it has a value in theirs."""
-    asked = _phrases(config)
+    asked = phrases_in(config)
     rows: dict[tuple[int, int], list[Statement]] = {}
     for claim in claims:
         if claim.statement.column:
@@ -126,13 +126,13 @@ def configured(claims: Sequence[Claim], config: str) -> list[Claim]:
     others: set[tuple[str, ...]] = set()
     for row in rows.values():
         columns = {s.column for s in row}
-        named = {column for column in columns if any(len(_phrases(h)) > 0 and _phrases(h) <= asked for h in column)}
+        named = {column for column in columns if any(len(phrases_in(h)) > 0 and phrases_in(h) <= asked for h in column)}
         if named:
             others.update(columns - named)
     return [c for c in claims if c.statement.column not in others]
 
 
-def _phrases(text: str) -> set[str]:
+def phrases_in(text: str) -> set[str]:
     """The phrases of a configuration or a head, without case and spaces; a comma between digits is a decimal one."""
     return {_bare(phrase) for phrase in re.split(r";|,(?!\d)|(?<!\d),", text) if phrase.strip()}
 

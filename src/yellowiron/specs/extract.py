@@ -138,7 +138,7 @@ def from_sheets(
     known = Sheets(files, columns, stated)
     style = sheets[0].style if sheets else "point"
     values = _by_rules(wanted, claims, known, config, style)
-    values = second_reading(wanted, values, near, known)
+    values = second_reading(wanted, values, near, known, config)
     if guessed:
         # Words read from a picture have a say only where no text has.
         open_ = [w for w in wanted if values[w.name].status == "missing"]

@@ -13,6 +13,7 @@ from typing import Literal
 from yellowiron.specs.headings import body_size, is_heading
 from yellowiron.specs.keyed import key_legend, spelled
 from yellowiron.specs.lines import Line, lines_of
+from yellowiron.specs.numbers import read
 from yellowiron.specs.statement import (
     Piece,
     Statement,
@@ -23,6 +24,7 @@ from yellowiron.specs.statement import (
     unit_in_label,
     unit_of_heading,
     without_key,
+    words_beside_numbers,
 )
 from yellowiron.specs.strokes import Box
 from yellowiron.specs.words import Page
@@ -41,10 +43,11 @@ _INDENT = 60.0
 
 @dataclass(frozen=True)
 class Near:
-    """A value and the words on one side of it."""
+    """A value and the words on one side of it; `over` is what stands above it in its column, the nearest first."""
 
     side: Side
     statement: Statement
+    over: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -69,6 +72,8 @@ def nearest_of(page: Page) -> tuple[Near, ...]:
     size = body_size(page.words)
     headings = [t for t in texts if t.piece.bold or is_heading(t.piece, size)]
     alone = [t for t in texts if t.alone]
+    heads = [p for line in lines for p in line.pieces if _may_head(p)]
+    boxes = [p.box for p in heads]
     found: list[Near] = []
     first = (page.number + 1) * 1_000_000  # rows of their own, apart from those of the layout's statements
     for row, line in enumerate(lines):
@@ -79,6 +84,9 @@ def nearest_of(page: Page) -> tuple[Near, ...]:
             after = is_unit(line.pieces[index + 1].bare) if index + 1 < len(line.pieces) else ""
             sides: list[tuple[Side, list[Piece]]] = [("left", before)]
             sides += [("above", _stack(value, texts, up=True)), ("below", _stack(value, texts, up=False))]
+            box = value.box
+            over = tuple(h.bare for h, b in zip(reversed(heads), reversed(boxes), strict=True)
+                         if b[3] <= box[1] + 1 and b[0] < box[2] and box[0] < b[2])  # fmt: skip
             for number, (side, label) in enumerate(sides):
                 if not label:
                     continue
@@ -88,14 +96,20 @@ def nearest_of(page: Page) -> tuple[Near, ...]:
                     row=first + row if side == "left" else first + 1000 * row + 3 * index + number + 100_000,
                     label="",
                     text=value.text,
-                    box=value.box,
+                    box=box,
                     quote=_quote(side, label, value, after),
                     context=context,
                     unit=after or (between if side == "left" else ""),
                     x0=value.x0,
                 )
-                found.append(Near(side, _named(statement, label, headings)))
+                found.append(Near(side, _named(statement, label, headings), over))
     return tuple(found)
+
+
+def _may_head(piece: Piece) -> bool:
+    """Whether a piece may name a column: words, also with a number ("2.9 m arm")."""
+    kind = kind_of(piece)
+    return kind == "text" or (kind == "value" and bool(words_beside_numbers(piece.bare, read(piece.bare))))
 
 
 def _is_part(value: Piece) -> bool:

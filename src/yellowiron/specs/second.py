@@ -7,12 +7,13 @@ beside another value, too.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from collections.abc import Set as AbstractSet
 from dataclasses import replace
 
 from yellowiron.model.specification import Candidate, Evidence, Specification
 from yellowiron.model.template import Wanted
 from yellowiron.model.units import SI_UNIT
-from yellowiron.specs.claims import BARE_UNITS, Claim, claims_of
+from yellowiron.specs.claims import BARE_UNITS, Claim, claims_of, phrases_in
 from yellowiron.specs.decide import Sheets, evidence_of, printed, settled, usual
 from yellowiron.specs.match import Match, match
 from yellowiron.specs.nearest import Near, Side
@@ -32,18 +33,21 @@ def second_reading(
     values: Mapping[str, Specification],
     near: Sequence[tuple[Sequence[Near], DecimalStyle]],
     sheets: Sheets,
+    config: str = "",
 ) -> dict[str, Specification]:
     """The values with those that the words nearest to a value name, and doubts where they name another one.
 
-    `near`: what each file prints, with how it writes decimals. On each side of the values the words speak for
-    themselves: the side with the most matches first, as that is how the pages print their labels; a value counts once.
+    On each side of the values the words speak for themselves: the side with the most matches first, as that is how the
+    pages print their labels; a value counts once. Where one label has several values, `config` chooses the one that
+    stands under its name, also out of a conflict of the rules. `near`: what each file prints, with how it writes
+    decimals.
     """
     if not any(own for own, _ in near):
         return dict(values)
     asked = {w.name: w for w in wanted if w.in_label_of is None}
     taken = [seen for value in values.values() if value.status != "missing" for seen in _seen(value)]
     found = dict(values)
-    readings = _undisputed(list(asked.values()), near)
+    readings = _undisputed(list(asked.values()), near, config)
     for name, one in readings["left"].items():
         quantity, _ = settled(asked[name], one.claim)
         if values[name].status == "ok" and quantity.unit_printed and _differs(values[name], quantity):
@@ -51,6 +55,8 @@ def second_reading(
     for reading in sorted(readings.values(), key=len, reverse=True):  # stable: left before above before below
         for name, one in reading.items():
             evidence = evidence_of(one, sheets)
+            if found[name].status == "conflict" and reading is readings["left"] and _is_offered(values[name], one):
+                found[name] = _to_review(asked[name], one, settled(asked[name], one.claim)[0], sheets)
             if found[name].status == "missing" and not any(_is_there(evidence, seen) for seen in taken):
                 found[name] = _to_review(asked[name], one, settled(asked[name], one.claim)[0], sheets)
                 taken.append(evidence)
@@ -58,10 +64,11 @@ def second_reading(
 
 
 def _undisputed(
-    asked: Sequence[Wanted], near: Sequence[tuple[Sequence[Near], DecimalStyle]]
+    asked: Sequence[Wanted], near: Sequence[tuple[Sequence[Near], DecimalStyle]], config: str
 ) -> dict[Side, dict[str, Match]]:
     """By side, the wanted values of which the words there give one, and only one, that is usual."""
-    side_of = {id(n.statement): n.side for own, _ in near for n in own}
+    place_of = {id(n.statement): n for own, _ in near for n in own}
+    meant = phrases_in(config)
     claims = [
         claim
         for own, style in near
@@ -71,10 +78,26 @@ def _undisputed(
     found: dict[Side, dict[str, Match]] = {side: {} for side in _SIDES}
     for name, matches in match(claims, asked).items():
         for side in _SIDES:
-            sure = [m for m in matches if side_of[id(m.claim.statement)] == side and _is_sure(m)]
-            if sure and len({f"{_value(m):.9g}" for m in sure}) == 1:
+            sure = [m for m in matches if place_of[id(m.claim.statement)].side == side and _is_sure(m)]
+            if meant and _differ(sure):
+                sure = [m for m in sure if _stands_under(place_of[id(m.claim.statement)], meant)]
+            if sure and not _differ(sure):
                 found[side][name] = sure[0]
     return found
+
+
+def _differ(matches: Sequence[Match]) -> bool:
+    return len({f"{_value(m):.9g}" for m in matches}) > 1
+
+
+def _stands_under(near: Near, meant: AbstractSet[str]) -> bool:
+    """Whether a name of the configuration stands over a value."""
+    return any(own and own <= meant for own in map(phrases_in, near.over))
+
+
+def _is_offered(value: Specification, one: Match) -> bool:
+    """Whether a value is among a conflict's candidates."""
+    return any(abs(c.value - _value(one)) <= 1e-9 * abs(c.value) for c in value.candidates)
 
 
 def _is_sure(found: Match) -> bool:
