@@ -118,6 +118,10 @@ def test_a_configuration_chooses_the_value_under_its_name() -> None:
     chosen = asked(misread, config="MW 120").values["Wheelbase"]
     assert (chosen.status, chosen.value) == ("review", pytest.approx(3.5)), "the layout gave the columns no heads"
     assert asked(misread, config="MW 130").values["Wheelbase"].status == "conflict"
+    once = replace(misread, near=near[:1])
+    assert asked(once, config="MW 120").values["Wheelbase"].status == "conflict", (
+        "what one reading sees once settles none"
+    )
     words = (word("MW", 200, 80), word("120", 211, 80), word("Wheelbase", 40, 100), word("3,500", 200, 100))
     (only,) = (n for n in nearest_of(Page(1, 600, 800, words)) if n.side == "left")
     assert only.over == ("MW 120",)

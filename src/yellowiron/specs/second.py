@@ -47,7 +47,7 @@ def second_reading(
     asked = {w.name: w for w in wanted if w.in_label_of is None}
     taken = [seen for value in values.values() if value.status != "missing" for seen in _seen(value)]
     found = dict(values)
-    readings = _undisputed(list(asked.values()), near, config)
+    readings, chosen = _undisputed(list(asked.values()), near, config)
     for name, one in readings["left"].items():
         quantity, _ = settled(asked[name], one.claim)
         if values[name].status == "ok" and quantity.unit_printed and _differs(values[name], quantity):
@@ -55,7 +55,8 @@ def second_reading(
     for reading in sorted(readings.values(), key=len, reverse=True):  # stable: left before above before below
         for name, one in reading.items():
             evidence = evidence_of(one, sheets)
-            if found[name].status == "conflict" and reading is readings["left"] and _is_offered(values[name], one):
+            settles = reading is readings["left"] and name in chosen and _is_offered(values[name], one)
+            if found[name].status == "conflict" and settles:
                 found[name] = _to_review(asked[name], one, settled(asked[name], one.claim)[0], sheets)
             if found[name].status == "missing" and not any(_is_there(evidence, seen) for seen in taken):
                 found[name] = _to_review(asked[name], one, settled(asked[name], one.claim)[0], sheets)
@@ -65,8 +66,9 @@ def second_reading(
 
 def _undisputed(
     asked: Sequence[Wanted], near: Sequence[tuple[Sequence[Near], DecimalStyle]], config: str
-) -> dict[Side, dict[str, Match]]:
-    """By side, the wanted values of which the words there give one, and only one, that is usual."""
+) -> tuple[dict[Side, dict[str, Match]], AbstractSet[str]]:
+    """By side, the wanted values of which the words there give one, and only one, that is usual; those of them at the
+    left for which the configuration had to choose."""
     place_of = {id(n.statement): n for own, _ in near for n in own}
     meant = phrases_in(config)
     claims = [
@@ -76,14 +78,16 @@ def _undisputed(
         for claim in _in_any_unit(claims_of([n.statement for n in own if n.side == side], style))
     ]
     found: dict[Side, dict[str, Match]] = {side: {} for side in _SIDES}
+    chosen: set[str] = set()
     for name, matches in match(claims, asked).items():
         for side in _SIDES:
             sure = [m for m in matches if place_of[id(m.claim.statement)].side == side and _is_sure(m)]
             if meant and _differ(sure):
                 sure = [m for m in sure if _stands_under(place_of[id(m.claim.statement)], meant)]
+                chosen.update([name] if side == "left" else [])
             if sure and not _differ(sure):
                 found[side][name] = sure[0]
-    return found
+    return found, chosen
 
 
 def _differ(matches: Sequence[Match]) -> bool:
