@@ -2,7 +2,7 @@
 
 `tuned`: what the rules were made on. `held`: read when that was done, then mended for; `final` after it the same way.
 `last`: read once, when all that was done. Labels differ too: the tuned sheets print each name's first wording, `held`
-and `final` the second and (in English) the third, `last` others again. `fresh` to `fresh12`: all ten types,
+and `final` the second and (in English) the third, `last` others again. `fresh` to `fresh13`: all ten types,
 each in words of its own.
 """
 
@@ -28,6 +28,7 @@ from sheets_fresh9 import FRESH9
 from sheets_fresh10 import FRESH10
 from sheets_fresh11 import FRESH11
 from sheets_fresh12 import FRESH12
+from sheets_fresh13 import FRESH13
 from sheets_held import FINAL, HELD
 from sheets_last import LAST
 from sheets_machines import Machine, machines
@@ -54,6 +55,7 @@ Split = Literal[
     "fresh10",
     "fresh11",
     "fresh12",
+    "fresh13",
 ]
 KINDS = ("wheel_loader", "excavator")
 LAYOUTS = {"tuned": TUNED, "held": HELD, "final": FINAL, "last": LAST}
@@ -70,6 +72,7 @@ WORDED: dict[str, Worded] = {
     "fresh10": FRESH10,
     "fresh11": FRESH11,
     "fresh12": FRESH12,
+    "fresh13": FRESH13,
 }
 _WORDING = {"tuned": 0, "held": 1, "final": 2, "last": 3}
 _SIXTH = {"tuned": (0, 1, 2), "held": (4,), "final": (5,), "last": (3,)}
