@@ -57,7 +57,7 @@ def occ(path: Path) -> Callable[[], object]:
     from OCP.XCAFApp import XCAFApp_Application
     from OCP.XCAFDoc import XCAFDoc_DocumentTool, XCAFDoc_ShapeTool
 
-    from yellowiron.cad.tessellate import ANGLE
+    from yellowiron.cad.brep.tessellate import ANGLE
 
     def run() -> None:
         reader = STEPCAFControl_Reader()
@@ -77,7 +77,7 @@ def occ(path: Path) -> Callable[[], object]:
 
 def read(path: Path) -> Callable[[], object]:
     """Our reader alone."""
-    from yellowiron.cad.step import read_step
+    from yellowiron.cad.readers.exact.step import read_step
 
     return lambda: read_step(str(path))
 
@@ -86,7 +86,7 @@ def ours(path: Path) -> Callable[[], object]:
     """STEP to USD, in one process."""
     from pxr import Usd, UsdGeom, UsdShade  # noqa: F401 - loaded before the clock starts
 
-    from yellowiron.cad.step import read_step
+    from yellowiron.cad.readers.exact.step import read_step
     from yellowiron.usd import write_assembly
 
     return lambda: write_assembly(read_step(str(path)), path.with_suffix(".usdc"))
@@ -96,7 +96,7 @@ def cascadio(path: Path) -> Callable[[], object]:
     """STEP to GLB by cascadio, at our tolerances."""
     import cascadio as library
 
-    from yellowiron.cad.tessellate import ANGLE
+    from yellowiron.cad.brep.tessellate import ANGLE
 
     return lambda: library.step_to_glb(str(path), str(path.with_suffix(".glb")), 1.0, ANGLE)
 

@@ -26,7 +26,7 @@ from reportlab.pdfgen.canvas import Canvas  # noqa: E402
 from sheets import LAYOUTS, WORDED, Score, cases, make, page_texts, score  # noqa: E402
 
 from yellowiron.library import load_template  # noqa: E402
-from yellowiron.specs.extract import from_sheets, read  # noqa: E402
+from yellowiron.specs.extraction import from_sheets, read  # noqa: E402
 from yellowiron.specs.reader import read_sheet  # noqa: E402
 
 

@@ -22,10 +22,12 @@ import numpy as np
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "src"))
 
-from yellowiron.align.contacts import fits_of  # noqa: E402
-from yellowiron.align.solids import solids_of  # noqa: E402
-from yellowiron.cad import facets, meshed, tessellate  # noqa: E402
-from yellowiron.cad.step import read_step  # noqa: E402
+from yellowiron.alignment.features.contacts import fits_of  # noqa: E402
+from yellowiron.alignment.features.solids import solids_of  # noqa: E402
+from yellowiron.cad.brep import tessellate  # noqa: E402
+from yellowiron.cad.mesh import measures  # noqa: E402
+from yellowiron.cad.mesh.features import facets  # noqa: E402
+from yellowiron.cad.readers.exact.step import read_step  # noqa: E402
 from yellowiron.model.assembly import Assembly  # noqa: E402
 from yellowiron.model.geometry import CylinderFeature, Mesh  # noqa: E402
 
@@ -85,10 +87,10 @@ def measure(file: Path, segments: int | None, noise: float) -> None:
     angles, offs = [0.0], [0.0]
     seconds = 0.0
     for key, shape in sorted(assembly.shapes.items()):
-        number = meshed.welded(shape.mesh)
+        number = measures.welded(shape.mesh)
         moved = random.normal(size=(int(number.max()) + 1, 3))[number] * noise
         points = (shape.mesh.points + moved).astype(np.float32).astype(np.float64)
-        mesh = meshed.compacted(Mesh(points, shape.mesh.triangles))
+        mesh = measures.compacted(Mesh(points, shape.mesh.triangles))
         triangles += len(mesh.triangles)
         start = time.process_time()
         found = facets.find(mesh).cylinders

@@ -102,7 +102,7 @@ def mutant(sound: bytes, seed: int) -> tuple[str, bytes]:
 
 def work(target: str, file: Path, first: int, last: int) -> None:
     """The child: reads mutants, and says a line of JSON for each."""
-    from yellowiron.cad import sniff
+    from yellowiron.cad import formats
     from yellowiron.model.errors import YellowironError
 
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
@@ -119,7 +119,7 @@ def work(target: str, file: Path, first: int, last: int) -> None:
         start = time.perf_counter()
         answer: dict[str, object] = {"seed": seed, "kind": kind}
         try:
-            sniff.format_of(file)
+            formats.format_of(file)
         except YellowironError:
             pass
         except Exception as error:  # noqa: BLE001 - what would end the program
@@ -259,9 +259,10 @@ def report(name: str, path: Path, own: Path, options: argparse.Namespace) -> lis
     from cad_exports import ITEMS
 
     import fuzz_declared
-    from yellowiron.cad import part21, read_cad
+    from yellowiron.cad import read_cad
+    from yellowiron.cad.formats import format_of
     from yellowiron.cad.read import _READERS
-    from yellowiron.cad.sniff import format_of
+    from yellowiron.cad.readers.exact import part21
 
     whole = read_cad(path)
     assert len(whole.parts) == len(ITEMS) and not TELLING & {f.code for f in whole.findings}

@@ -28,14 +28,14 @@ from typing import Any
 import numpy as np
 
 ROOT = Path(__file__).resolve().parent.parent
-sys.path[:0] = [str(ROOT / "src"), str(ROOT / "tests"), str(ROOT / "tests" / "align")]
+sys.path[:0] = [str(ROOT / "src"), str(ROOT / "tests"), str(ROOT / "tests" / "alignment")]
 
 from defects import DEFECTS, crowded, spoiled  # noqa: E402
 from synthetic import Machine, disguise  # noqa: E402
 
-from yellowiron.align import align  # noqa: E402
-from yellowiron.cad.meshed import compacted  # noqa: E402
-from yellowiron.cad.placed import shape_of  # noqa: E402
+from yellowiron.alignment import align  # noqa: E402
+from yellowiron.cad.mesh.assembly import shape_of  # noqa: E402
+from yellowiron.cad.mesh.measures import compacted  # noqa: E402
 from yellowiron.library import load_template  # noqa: E402
 from yellowiron.model.alignment import Alignment  # noqa: E402
 from yellowiron.model.geometry import Mesh  # noqa: E402

@@ -21,9 +21,9 @@ sys.path.insert(0, str(ROOT / "src"))
 import numpy as np  # noqa: E402
 
 from yellowiron.kinematics import ClosedChain  # noqa: E402
-from yellowiron.simulate import rated_payload, simulate  # noqa: E402
-from yellowiron.simulate.engine import ENGINES, Setup, installed_engines, load_engine, standing_bodies  # noqa: E402
-from yellowiron.simulate.run import play  # noqa: E402
+from yellowiron.simulation import rated_payload, simulate  # noqa: E402
+from yellowiron.simulation.engine import ENGINES, Setup, installed_engines, load_engine, standing_bodies  # noqa: E402
+from yellowiron.simulation.strokes.run import play  # noqa: E402
 from yellowiron.usd import read_machine  # noqa: E402
 
 SWINGS = 12

@@ -13,7 +13,7 @@ from PIL import Image
 
 from yellowiron.cad import read_cad
 from yellowiron.kinematics import ClosedChain
-from yellowiron.report.pictures import contact_sheet, encode, look_at, machine_soup, render
+from yellowiron.report.html.pictures import contact_sheet, encode, look_at, machine_soup, render
 from yellowiron.usd import read_machine
 
 ROOT = Path(__file__).resolve().parent.parent

@@ -18,10 +18,10 @@ import numpy as np
 from PIL import Image
 
 from yellowiron.cad import read_cad
-from yellowiron.export import BodyGeometry, Geometry, actuator_names, export_mjcf, read_geometry
+from yellowiron.exporters import BodyGeometry, Geometry, actuator_names, export_mjcf, read_geometry
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Mechanism, chained, rolling
-from yellowiron.report.pictures import encode, look_at, machine_soup, posed, render
+from yellowiron.report.html.pictures import encode, look_at, machine_soup, posed, render
 from yellowiron.usd import read_machine
 
 ROOT = Path(__file__).resolve().parent.parent

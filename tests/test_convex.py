@@ -11,10 +11,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import small_machine
-from yellowiron import convex
-from yellowiron.cache import VARIABLE, cache_folder
-from yellowiron.convex import MOST, convex_pieces, hull
 from yellowiron.model.geometry import Mesh
+from yellowiron.support import convex
+from yellowiron.support.cache import VARIABLE, cache_folder
+from yellowiron.support.convex import MOST, convex_pieces, hull
 
 
 def as_mesh(mesh: trimesh.Trimesh) -> Mesh:

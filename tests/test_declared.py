@@ -15,7 +15,7 @@ import pytest
 
 import small_machine
 from yellowiron import cad, library
-from yellowiron.align.robot import robot
+from yellowiron.alignment.discovery.robot import robot
 from yellowiron.model.assembly import Assembly, DeclaredJoint
 from yellowiron.new import new_template
 
@@ -118,9 +118,10 @@ def test_a_robot_builds_with_its_own_axes_and_limits(drawn: Callable[[Assembly],
 @pytest.mark.slow
 def test_the_example_through_mjcf(example: Path, tmp_path: Path) -> None:
     """Exported as MJCF and read back: every joint agrees, a template from it is sound and builds."""
-    from yellowiron import align, kinematics, mechanism, usd
+    from yellowiron import kinematics, mechanism, usd
+    from yellowiron.alignment import discover_declared
     from yellowiron.build import aligned
-    from yellowiron.export import export_mjcf
+    from yellowiron.exporters import export_mjcf
     from yellowiron.model.rows import expand
     from yellowiron.model.specification import Specifications
     from yellowiron.model.template import choose
@@ -134,7 +135,7 @@ def test_the_example_through_mjcf(example: Path, tmp_path: Path) -> None:
     file = usd.write_machine(built, assembly, tmp_path / "usd", name="loader", frame=alignment.frame)[0]
     robot_file = export_mjcf(built, file, tmp_path / "mjcf")
     read = cad.read_cad(robot_file)
-    assert align.discover_declared(read).bodies[0].name == built.root
+    assert discover_declared(read).bodies[0].name == built.root
     new = new_template(robot_file, tmp_path / "new")
     assert {b["role"] for b in new["bodies"]} == {b.name for b in built.bodies}
     assert library.lint(library.load_template(tmp_path / "new")).sound

@@ -11,8 +11,8 @@ from pathlib import Path
 
 import pytest
 
-from yellowiron.guard import must_end, run_guarded
 from yellowiron.model.errors import CadError, SheetError
+from yellowiron.support.guard import must_end, run_guarded
 
 
 def test_a_result_comes_back() -> None:
@@ -77,7 +77,7 @@ def test_a_full_disk_is_not_the_file_s_fault() -> None:
 
 
 def test_the_child_ends_with_its_parent(tmp_path: Path) -> None:
-    script = "from yellowiron.guard import run_guarded; run_guarded('time:sleep', 60, where='x')"
+    script = "from yellowiron.support.guard import run_guarded; run_guarded('time:sleep', 60, where='x')"
     parent = subprocess.Popen([sys.executable, "-c", script])
     deadline = time.monotonic() + 20.0
     children: list[str] = []
@@ -94,7 +94,7 @@ def test_the_child_ends_with_its_parent(tmp_path: Path) -> None:
 
 
 def test_what_goes_round_in_a_circle_is_ended() -> None:
-    code = "from yellowiron.guard import must_end\nwith must_end(0.5):\n    while True: pass"
+    code = "from yellowiron.support.guard import must_end\nwith must_end(0.5):\n    while True: pass"
     start = time.monotonic()
     with pytest.raises(CadError, match="came to no end"):
         run_guarded("builtins:exec", code, where="bad.brep", error=CadError, timeout_s=60.0)

@@ -26,7 +26,7 @@ Drawn = Callable[[Assembly], None]
 @pytest.fixture
 def drawn(monkeypatch: pytest.MonkeyPatch, root: Path) -> Drawn:
     """Stands in for the CAD file."""
-    monkeypatch.syspath_prepend(str(root / "tests" / "align"))
+    monkeypatch.syspath_prepend(str(root / "tests" / "alignment"))
     return lambda assembly: monkeypatch.setattr(cad, "read_cad", lambda file: assembly)
 
 
@@ -112,7 +112,7 @@ def test_a_telescopic_crane_builds(drawn: Drawn, tmp_path: Path) -> None:
 @pytest.mark.slow
 def test_like_another_type(drawn: Drawn, tmp_path: Path, root: Path) -> None:
     """Bodies, joints, pins and actuators have the library's names where they match."""
-    sys.path.insert(0, str(root / "tests" / "align"))
+    sys.path.insert(0, str(root / "tests" / "alignment"))
     from synthetic import disguise, loader
 
     assembly, truth, _ = disguise(loader(2), 2)

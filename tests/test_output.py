@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from yellowiron.model.errors import OutputError
-from yellowiron.output import output_file, output_folder
+from yellowiron.support.output import output_file, output_folder
 
 
 def test_a_folder_appears_whole(tmp_path: Path) -> None:

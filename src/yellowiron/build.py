@@ -12,7 +12,9 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from yellowiron import align, cad, check, kinematics, library, mechanism, report, specs, usd
+from yellowiron import alignment as align
+from yellowiron import cad, kinematics, library, mechanism, report, specs, usd
+from yellowiron import checks as check
 from yellowiron.model.alignment import Alignment
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import MechanismError
@@ -22,11 +24,11 @@ from yellowiron.model.rows import expand
 from yellowiron.model.specification import Specifications
 from yellowiron.model.sweep import Sweep
 from yellowiron.model.template import Template, choose
-from yellowiron.output import output_folder
+from yellowiron.support.output import output_folder
 
 _LIBRARIES = (
     "mujoco", "ortools.sat.python.cp_model", "pxr.Usd", "pxr.UsdPhysics", "scipy.optimize", "scipy.spatial",
-    "yellowiron.kinematics.completion", "yellowiron.kinematics.measurement", "yellowiron.usd.write",
+    "yellowiron.kinematics.completion", "yellowiron.kinematics.measuring.measurement", "yellowiron.usd.write",
 )  # fmt: skip
 Progress = Callable[[str], None]
 
@@ -242,7 +244,7 @@ def _mechanism(
 def driven(machine_file: Path, engine: str, progress: Progress) -> tuple[dict[str, Any], tuple[Sweep, ...]]:
     """A machine in an engine: through all its strokes, on a fixed base, with its rated payload; driving; put to its
     template's tests. As a document, and what there is to look at."""
-    from yellowiron import simulate
+    from yellowiron import simulation as simulate
 
     load = simulate.rated_payload(usd.read_machine(machine_file))
     return simulate.examine(machine_file, engine=engine, payload=load, progress=progress)

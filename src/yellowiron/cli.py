@@ -81,7 +81,7 @@ def build(
     """Build a machine: the whole way."""
     engines: tuple[str, ...] = ()
     if simulate:
-        from yellowiron.simulate import installed_engines
+        from yellowiron.simulation import installed_engines
 
         engines = installed_engines()
     from yellowiron.build import build as build_machine
@@ -115,8 +115,8 @@ def extract(
 ) -> None:
     """Read the specifications a template asks for, each with its evidence."""
     from yellowiron import library, specs
-    from yellowiron.output import output_folder
     from yellowiron.report import missing_limits, specification_entry, specification_table
+    from yellowiron.support.output import output_folder
 
     with _progress(as_json) as progress:
         progress("Reading the specification sheets")
@@ -177,11 +177,12 @@ def align_parts(
     as_json: Json = False,
 ) -> None:
     """Find the part that plays each role; with a sheet, the model's scale is checked against it."""
-    from yellowiron import align, library, specs
+    from yellowiron import alignment as align
     from yellowiron import cad as readers
+    from yellowiron import library, specs
     from yellowiron.build import aligned, declared_findings
-    from yellowiron.output import output_file
     from yellowiron.report import alignment_entry, alignment_table
+    from yellowiron.support.output import output_file
 
     with _progress(as_json) as progress:
         template = library.load_template(equipment_type)
@@ -226,7 +227,7 @@ def check(
     file: Annotated[Path, typer.Argument(metavar="FILE.usd", help="Any UsdPhysics file.")], as_json: Json = False
 ) -> None:
     """Check any UsdPhysics file, ours or not."""
-    from yellowiron.check import check as check_file
+    from yellowiron.checks import check as check_file
     from yellowiron.report import finding_table
 
     with _progress(as_json) as progress:
@@ -254,7 +255,7 @@ def simulate(
 ) -> None:
     """Drive every actuator in an engine, compare every step with the kinematics; drive about; test the hydraulics."""
     from yellowiron.report import simulation_table
-    from yellowiron.simulate import examine, parse_payload
+    from yellowiron.simulation import examine, parse_payload
 
     load = parse_payload(payload, machine)
     with _progress(as_json) as progress:
@@ -272,8 +273,8 @@ def export(
 ) -> None:
     """Write the same machine for another simulator."""
     from yellowiron import usd
-    from yellowiron.export import export_mjcf
-    from yellowiron.output import output_folder
+    from yellowiron.exporters import export_mjcf
+    from yellowiron.support.output import output_folder
 
     if to != "mjcf":
         raise YellowironError(f"There is no export to '{to}'", where="--to", hint="This version writes mjcf.")

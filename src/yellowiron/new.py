@@ -8,11 +8,11 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from yellowiron import align, cad, library
+from yellowiron import alignment, cad, library
 from yellowiron.model.errors import OutputError
 from yellowiron.model.specification import Specifications
 from yellowiron.model.text import to_json
-from yellowiron.output import output_folder
+from yellowiron.support.output import output_folder
 
 
 def new_template(
@@ -43,11 +43,11 @@ def new_template(
     progress("Reading the CAD model")
     assembly = cad.read_cad(cad_file)
     progress("Finding bodies and joints")
-    machine = align.discover_declared(assembly) if assembly.joints else align.discover(assembly)
+    machine = alignment.discover_declared(assembly) if assembly.joints else alignment.discover(assembly)
     lent = None
     if like is not None:
         progress(f"Comparing with {like}")
-        lent = library.likeness(like, align.align(assembly, library.load_template(like), Specifications()))
+        lent = library.likeness(like, alignment.align(assembly, library.load_template(like), Specifications()))
     proposal = library.propose(machine, name=name, like=lent)
     with output_folder(folder) as temporary:
         for kind, document in proposal.documents.items():

@@ -11,7 +11,7 @@ import trimesh
 
 from align_solids import box, lathe, place, tube
 from yellowiron.cad import taken_apart
-from yellowiron.cad.placed import Occurrence, assemble
+from yellowiron.cad.mesh.assembly import Occurrence, assemble
 from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.geometry import Mesh
 

@@ -20,9 +20,9 @@ import yellowiron.cad
 from yellowiron import cli
 from yellowiron.cad import read as cad_reading
 from yellowiron.cad import read_cad
-from yellowiron.guard import run_guarded
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import CadError
+from yellowiron.support.guard import run_guarded
 
 BOX = np.array([[x, y, z] for x in (0.0, 0.4) for y in (0.0, 0.3) for z in (0.0, 0.2)])
 FACES = np.array([[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1], [2, 3, 7], [2, 7, 6], [0, 2, 6],
@@ -395,7 +395,7 @@ def test_a_reader_that_goes_on_for_ever_is_one_sentence(
 ) -> None:
     """By its own limit or by the guard's: the program ends with code 2."""
     work = "def work():\n    while True: pass\n"
-    text = f"from yellowiron.guard import must_end\n\n{work}\ndef read(path):\n    {body}\n"
+    text = f"from yellowiron.support.guard import must_end\n\n{work}\ndef read(path):\n    {body}\n"
     (tmp_path / "reader_without_end.py").write_text(text)
     monkeypatch.syspath_prepend(tmp_path)
     monkeypatch.setitem(cad_reading._READERS, "OBJ", "reader_without_end:read")

@@ -9,8 +9,9 @@ from pathlib import Path
 import pytest
 from cad_stepfiles import Node, Use, box, cylinder, moved, translation, write_step
 
-from yellowiron.cad import part21, read_cad
-from yellowiron.cad.brep_text import fault
+from yellowiron.cad import read_cad
+from yellowiron.cad.readers.exact import part21
+from yellowiron.cad.readers.exact.brep_text import fault
 from yellowiron.model.errors import CadError
 
 pytestmark = pytest.mark.slow  # each reads in a child process of its own

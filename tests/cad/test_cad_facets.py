@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from yellowiron.cad import facets
-from yellowiron.cad.meshed import compacted
+from yellowiron.cad.mesh.features import facets
+from yellowiron.cad.mesh.measures import compacted
 from yellowiron.model.geometry import CylinderFeature, Floats, Mesh
 
 

@@ -11,7 +11,7 @@ from cad_stepfiles import box, compound, cut, cylinder, faces_of, moved, pin_bra
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from yellowiron.cad import brep, tessellate
+from yellowiron.cad.brep import tessellate, to_shape
 from yellowiron.model.geometry import CylinderFeature, Shape
 
 TURN = 2 * math.pi
@@ -21,9 +21,9 @@ POINTS = st.tuples(*[st.floats(-3000, 3000)] * 3)
 
 def shape_of(body: Any) -> Shape:
     """The finished shape of a B-rep drawn in mm."""
-    measured = brep.measure("x", body)
+    measured = to_shape.measure("x", body)
     tessellate.mesh_shapes([(measured.shape, measured.diagonal)])
-    shape, missing = brep.finish(measured)
+    shape, missing = to_shape.finish(measured)
     assert missing == 0
     return shape
 
@@ -41,8 +41,8 @@ def check_axis(feature: CylinderFeature, origin: Any, direction: Any, tolerance:
 @given(at=POINTS, axis=AXES, radius=st.floats(1, 400), length=st.floats(1, 2000), freeform=st.booleans())
 def test_cylinder_in_any_pose(at: Any, axis: Any, radius: float, length: float, freeform: bool) -> None:
     body = cylinder(radius, length, at, axis)
-    measured = brep.measure("pin", to_nurbs(body) if freeform else body)
-    from yellowiron.cad import features
+    measured = to_shape.measure("pin", to_nurbs(body) if freeform else body)
+    from yellowiron.cad.brep import features
 
     (feature,) = features.cylinders(measured.survey)
     tolerance = 1e-7 if freeform else 1e-9
@@ -156,7 +156,7 @@ def test_faces_have_open_cascades_area_and_centre(convert: Any, far: float) -> N
         cylinder(10, 60, (150, 50, 0), turn=2.0),
         box(60, 50, 40, (140, 50, 30)),
     )
-    measured = brep.measure("x", moved(convert(body), translation(far, -far, far) @ rotation((1, 2, 3), 0.7)))
+    measured = to_shape.measure("x", moved(convert(body), translation(far, -far, far) @ rotation((1, 2, 3), 0.7)))
     assert len(measured.survey) == len(measured.faces)
     for face, found in zip(measured.faces, measured.survey, strict=True):
         properties = GProp_GProps()
@@ -193,4 +193,4 @@ def test_bounds_are_exact_though_the_mesh_is_inside() -> None:
 
 def test_what_cannot_be_a_part() -> None:
     with pytest.raises(ValueError, match="m large"):
-        brep.measure("x", box(1e8, 1, 1))
+        to_shape.measure("x", box(1e8, 1, 1))

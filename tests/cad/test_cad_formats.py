@@ -13,7 +13,7 @@ from cad_validators import errors_of
 from test_cad_looks import TEXTURED
 
 from yellowiron.cad import read_cad
-from yellowiron.cad.usd import read_usd
+from yellowiron.cad.readers.usd.stage import read_usd
 from yellowiron.model.assembly import Assembly, Part
 from yellowiron.usd import write_assembly
 

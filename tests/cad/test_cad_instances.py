@@ -14,7 +14,7 @@ import pytest
 from cad_stepfiles import box
 from test_cad_gltf import packed
 
-from yellowiron.cad import sniff
+from yellowiron.cad import formats
 from yellowiron.cad.read import _READERS
 from yellowiron.model.assembly import Assembly
 
@@ -32,7 +32,7 @@ PLACES = (np.eye(4), MIRROR, DOUBLE)
 
 def read(path: Path) -> Assembly:
     """Read in this process: the files are our own."""
-    module, function = _READERS[sniff.format_of(path)].split(":")
+    module, function = _READERS[formats.format_of(path)].split(":")
     return getattr(importlib.import_module(module), function)(str(path))
 
 
@@ -246,7 +246,7 @@ def test_colours_of_faces_in_iges(tmp_path: Path) -> None:
     from OCP.IGESControl import IGESControl_Controller
     from OCP.Interface import Interface_Static
 
-    from yellowiron.cad.xcaf import Product, add_products, new_document
+    from yellowiron.cad.brep.xcaf import Product, add_products, new_document
 
     shape = box(100.0, 200.0, 300.0)
     red, blue = (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)

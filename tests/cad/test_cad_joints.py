@@ -9,7 +9,7 @@ import pytest
 
 import small_machine
 from yellowiron.cad import read_cad
-from yellowiron.export import export_mjcf
+from yellowiron.exporters import export_mjcf
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.mechanism import Mechanism
 from yellowiron.usd import read_machine

@@ -7,7 +7,7 @@ import pytest
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from yellowiron.cad.linked import linked
+from yellowiron.cad.mesh.components import linked
 
 
 @pytest.mark.parametrize("seed", range(20))

@@ -18,7 +18,7 @@ from PIL import Image
 from pxr import Sdf, Usd, UsdGeom, UsdShade
 from test_cad_triangles import CORNERS, FACES, binary
 
-from yellowiron.cad import sniff
+from yellowiron.cad import formats
 from yellowiron.cad.read import _READERS
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.geometry import Mesh
@@ -30,7 +30,7 @@ UVS = np.tile([[0.0, 0.0], [1.0, 0.0], [1.0, 0.25]], (len(FACES), 1)).reshape(-1
 
 def read_cad(path: Path) -> Assembly:
     """Read in this process: the files are our own."""
-    module, function = _READERS[sniff.format_of(path)].split(":")
+    module, function = _READERS[formats.format_of(path)].split(":")
     return getattr(importlib.import_module(module), function)(str(path))
 
 
@@ -357,7 +357,7 @@ def test_freecads_colours_of_faces(key: str, tmp_path: Path) -> None:
 
 
 def test_a_triangle_that_is_turned_over_takes_its_coordinates_along() -> None:
-    from yellowiron.cad.placed import shape_of
+    from yellowiron.cad.mesh.assembly import shape_of
 
     corners = CORNERS[FACES[:, ::-1]].reshape(-1, 3)
     triangles = np.arange(36, dtype=np.int32).reshape(-1, 3)

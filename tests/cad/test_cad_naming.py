@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from yellowiron.cad.naming import decode_name, is_generic, occurrence_name, sniff_encoding, unique_ids
-from yellowiron.cad.step import read_step
+from yellowiron.cad.readers.exact.step import read_step
 
 NAMES = {
     "gb18030": ["动臂油缸", "轮式装载机", "铲斗", "前车架总成", "螺栓M24", "转向油缸(左)", "销轴", "摇臂"],

@@ -9,8 +9,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from align_solids import box, lathe, tube
-from yellowiron.cad import copies, shells
-from yellowiron.cad.meshed import compacted
+from yellowiron.cad.mesh import copies, shells
+from yellowiron.cad.mesh.measures import compacted
 from yellowiron.model.geometry import Floats, Mesh
 
 

@@ -23,7 +23,7 @@ from cad_stepfiles import (
 )
 
 from yellowiron.cad import read_cad
-from yellowiron.cad.step import read_step
+from yellowiron.cad.readers.exact.step import read_step
 from yellowiron.model.assembly import Assembly
 
 MIRROR = np.diag([1.0, -1.0, 1.0, 1.0])

@@ -12,12 +12,13 @@ from OCP.BRep import BRep_Tool
 from OCP.BRepLib import BRepLib_ToolTriangulatedShape
 from OCP.TopLoc import TopLoc_Location
 
-from yellowiron.cad import brep, meshed, tessellate
+from yellowiron.cad.brep import tessellate, to_shape
+from yellowiron.cad.mesh import measures
 from yellowiron.model.geometry import Mesh
 
 
 def mesh(body: Any) -> Mesh:
-    measured = brep.measure("x", body)
+    measured = to_shape.measure("x", body)
     tessellate.mesh_shapes([(measured.shape, measured.diagonal)])
     return tessellate.mesh_of(measured.faces)[0]
 
@@ -35,13 +36,13 @@ BODIES = {
 def test_mesh_encloses_the_body(name: str) -> None:
     body = BODIES[name]()
     result = mesh(body)
-    exact = brep.measure("x", body)
-    assert meshed.is_closed(result)
-    volume, centroid, inertia = meshed.volume_properties(result)
+    exact = to_shape.measure("x", body)
+    assert measures.is_closed(result)
+    volume, centroid, inertia = measures.volume_properties(result)
     assert volume * 1e9 == pytest.approx(exact.volume, rel=0.02)
     assert np.allclose(centroid * 1e3, exact.centroid, atol=exact.diagonal * 1e-3)
     assert np.allclose(inertia * 1e15, exact.inertia, atol=0.04 * np.abs(exact.inertia).max())
-    area, _ = meshed.area_properties(result)
+    area, _ = measures.area_properties(result)
     assert area * 1e6 == pytest.approx(exact.area, rel=0.02)
 
 
@@ -70,7 +71,7 @@ def test_deflection_follows_the_size() -> None:
 
 def test_mesh_does_not_depend_on_its_neighbours() -> None:
     alone = mesh(pin_bracket())
-    body, others = brep.measure("x", pin_bracket()), [brep.measure("y", cylinder(r, 300)) for r in (10, 20, 40)]
+    body, others = to_shape.measure("x", pin_bracket()), [to_shape.measure("y", cylinder(r, 300)) for r in (10, 20, 40)]
     tessellate.mesh_shapes([(b.shape, b.diagonal) for b in (*others, body)])
     together = tessellate.mesh_of(body.faces)[0]
     assert np.array_equal(alone.points, together.points)
@@ -78,7 +79,7 @@ def test_mesh_does_not_depend_on_its_neighbours() -> None:
 
 
 def test_pointer_and_loop_agree() -> None:
-    body = brep.measure("x", pin_bracket())
+    body = to_shape.measure("x", pin_bracket())
     tessellate.mesh_shapes([(body.shape, body.diagonal)])
     assert tessellate.pointer_works()
     for face in body.faces:
@@ -92,12 +93,12 @@ def test_pointer_and_loop_agree() -> None:
 
 def test_colours_a_face() -> None:
     faces = faces_of(box(10, 20, 30))
-    body = brep.measure("x", box(10, 20, 30), face_colors=[(1.0, 0.0, 0.0)] + [None] * (len(faces) - 1))
+    body = to_shape.measure("x", box(10, 20, 30), face_colors=[(1.0, 0.0, 0.0)] + [None] * (len(faces) - 1))
     tessellate.mesh_shapes([(body.shape, body.diagonal)])
-    colors = brep.finish(body)[0].mesh.triangle_colors
+    colors = to_shape.finish(body)[0].mesh.triangle_colors
     assert colors is not None
     assert np.array_equal(colors, [[1, 0, 0]] * 2 + [[0.5] * 3] * 10)
-    same = brep.measure("x", box(10, 20, 30), face_colors=[(1.0, 0.0, 0.0)] * len(faces))
+    same = to_shape.measure("x", box(10, 20, 30), face_colors=[(1.0, 0.0, 0.0)] * len(faces))
     assert (same.color, same.face_colors) == ((1.0, 0.0, 0.0), None)
 
 
@@ -105,9 +106,9 @@ def test_open_mesh_is_not_closed() -> None:
     points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], dtype=float)
     closed = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]], dtype=np.int32)
     tetrahedron = Mesh(points, closed)
-    assert meshed.is_closed(tetrahedron)
-    assert not meshed.is_closed(Mesh(points, closed[:3]))
-    volume, centroid, _ = meshed.volume_properties(tetrahedron)
+    assert measures.is_closed(tetrahedron)
+    assert not measures.is_closed(Mesh(points, closed[:3]))
+    volume, centroid, _ = measures.volume_properties(tetrahedron)
     assert volume == pytest.approx(1 / 6)
     assert np.allclose(centroid, 0.25)
-    assert meshed.content_key(tetrahedron) == meshed.content_key(Mesh(points * 1.0, closed.copy()))
+    assert measures.content_key(tetrahedron) == measures.content_key(Mesh(points * 1.0, closed.copy()))

@@ -10,7 +10,7 @@ from planar_zbar import direction, length, meet, point, side, turned, wrapped
 
 from yellowiron.kinematics import ClosedChain, complete, lever_table, measure
 from yellowiron.kinematics.completion import FREQUENCY
-from yellowiron.kinematics.quantities import wheels
+from yellowiron.kinematics.measuring.quantities import wheels
 from yellowiron.model.mechanism import Actuator, ActuatorJoint, Body, Cylinder, Drive, Joint, Loop, Mechanism, Site
 from yellowiron.model.template import MeasurementTemplate
 

@@ -13,9 +13,9 @@ from planar_arm import Arm, mechanism
 from scipy.optimize import brentq
 
 from yellowiron.kinematics import measure
-from yellowiron.kinematics.bench import Bench
-from yellowiron.kinematics.extremes import Strokes
-from yellowiron.kinematics.quantities import Unmeasurable
+from yellowiron.kinematics.measuring.bench import Bench
+from yellowiron.kinematics.measuring.extremes import Strokes
+from yellowiron.kinematics.measuring.quantities import Unmeasurable
 from yellowiron.model.template import MeasurementTemplate
 
 EQUIPMENT = ["boom", "arm", "bucket"]

@@ -12,7 +12,7 @@ from planar_zbar import direction, mechanism, sketch, strokes, with_measurements
 from scipy.optimize import brentq
 
 from yellowiron.kinematics import ClosedChain, calibrate, complete, key_poses, lever_table, measure
-from yellowiron.kinematics.quantities import KINDS, wheels
+from yellowiron.kinematics.measuring.quantities import KINDS, wheels
 from yellowiron.model.template import MeasurementTemplate
 from yellowiron.model.text import plain
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from yellowiron import library
-from yellowiron.library.mobility import blocks
+from yellowiron.library.linting.mobility import blocks
 from yellowiron.model.template import Template, choose
 
 DATA = Path(__file__).resolve().parent.parent / "data" / "templates"
@@ -94,7 +94,7 @@ def test_every_code_is_documented_and_tested(root: Path) -> None:
 
 def test_too_many_choices_are_said_to_be_unchecked(loader: Template, monkeypatch: pytest.MonkeyPatch) -> None:
     # The package's `lint` is the function; its module is found by name.
-    monkeypatch.setattr(importlib.import_module("yellowiron.library.lint"), "MOST_COMBINATIONS", 4)
+    monkeypatch.setattr(importlib.import_module("yellowiron.library.linting.lint"), "MOST_COMBINATIONS", 4)
     report = library.lint(loader)
     assert len(report.mobility) == 4
     assert [f.code for f in report.findings] == ["TPL015"]

@@ -16,7 +16,7 @@ from rich.console import Console
 
 from yellowiron import library
 from yellowiron.library.load import DOCUMENTS, library_folder
-from yellowiron.library.quantities import limit, number_text, quantity
+from yellowiron.library.parsing.quantities import limit, number_text, quantity
 from yellowiron.model.errors import OutputError
 from yellowiron.model.template import Template, choose
 from yellowiron.model.units import SI_UNIT

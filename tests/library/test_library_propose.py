@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from yellowiron import library
-from yellowiron.library.naming import proposed_names
+from yellowiron.library.proposal.naming import proposed_names
 from yellowiron.model.found import FoundBody, FoundJoint, FoundMachine
 from yellowiron.model.text import to_json
 

@@ -12,7 +12,7 @@ from yellowiron.cli import app
 from yellowiron.model.errors import TemplateError
 from yellowiron.model.template import Template, Wanted
 from yellowiron.model.units import SI_UNIT
-from yellowiron.specs.vocabulary import has_cjk, squeezed, tokens
+from yellowiron.specs.language.vocabulary import has_cjk, squeezed, tokens
 
 LANGUAGES = {"en", "de", "fr", "es", "zh", "ja"}
 TYPES = library.list_templates()

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from yellowiron.mechanism.axes import coaxial_groups, fit_line, machine_sense, on_line, symmetry_axis
+from yellowiron.mechanism.joints.axes import coaxial_groups, fit_line, machine_sense, on_line, symmetry_axis
 from yellowiron.mechanism.placement import Features
 
 coordinate = st.floats(-5.0, 5.0)

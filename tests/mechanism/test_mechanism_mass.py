@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 from mechanism_machine import box, machine, specifications, template
 
 from yellowiron.mechanism import build_mechanism
-from yellowiron.mechanism.choice import Choice
-from yellowiron.mechanism.mass import Moments, combine, shell_moments, solid_moments
+from yellowiron.mechanism.bodies.choice import Choice
+from yellowiron.mechanism.bodies.mass import Moments, combine, shell_moments, solid_moments
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Mechanism
 

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from yellowiron.mechanism.tree import Link, LinkKind, Tree, loop_groups, loose_bodies, span_tree
+from yellowiron.mechanism.joints.tree import Link, LinkKind, Tree, loop_groups, loose_bodies, span_tree
 
 
 def cylinder(name: str, base: str, tip: str, *, passive: bool = False) -> list[Link]:

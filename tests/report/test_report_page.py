@@ -11,12 +11,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from yellowiron.report.joints import joint_marks, joint_rows
-from yellowiron.report.marks import spread
-from yellowiron.report.plots import Line, plot
+from yellowiron.report.html.joints import joint_marks, joint_rows
+from yellowiron.report.html.marks import spread
+from yellowiron.report.html.plots import Line, plot
+from yellowiron.report.html.sensors import field_of_view, sensor_marks, sensor_rows, views
+from yellowiron.report.html.simulation import in_a_sentence, simulation_tables
 from yellowiron.report.rows import in_rows
-from yellowiron.report.sensors import field_of_view, sensor_marks, sensor_rows, views
-from yellowiron.report.simulation import in_a_sentence, simulation_tables
 from yellowiron.report.words import breakable, counted, sentence, shown, signed
 
 

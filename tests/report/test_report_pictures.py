@@ -10,7 +10,7 @@ import trimesh
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from yellowiron.report.pictures import Soup, encode, look_at, render
+from yellowiron.report.html.pictures import Soup, encode, look_at, render
 
 
 def soup_of(*meshes: trimesh.Trimesh, colors: list[tuple[float, float, float]]) -> Soup:

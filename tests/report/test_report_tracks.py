@@ -121,7 +121,7 @@ def test_rows_of_a_track_are_read_as_one(crawler: tuple[Mechanism, Assembly, Ali
 
 
 def test_only_what_a_person_would_set_has_a_slider(crawler: tuple[Mechanism, Assembly, Alignment]) -> None:
-    from yellowiron.report.viewer import _readouts, _sliders
+    from yellowiron.report.html.viewer import _readouts, _sliders
 
     mechanism, *_ = crawler
     names = tuple(joint.name for joint in mechanism.joints)

@@ -20,8 +20,8 @@ from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.geometry import Mesh, Shape
 from yellowiron.model.mechanism import Actuator, ActuatorJoint, Body, BodyPart, Cylinder, Joint, Mechanism
 from yellowiron.model.poses import PoseTable, PoseTables
-from yellowiron.report import viewer as module
-from yellowiron.report.viewer import viewer
+from yellowiron.report.html import viewer as module
+from yellowiron.report.html.viewer import viewer
 
 PLACE = np.array([[0, -1, 0, 1.0], [1, 0, 0, 2.0], [0, 0, 1, 0.5], [0, 0, 0, 1]])
 

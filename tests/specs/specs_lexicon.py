@@ -9,9 +9,9 @@ from test_specs_languages import printed
 
 from yellowiron.library import load_template
 from yellowiron.model.template import Template
-from yellowiron.specs.extract import from_sheets
+from yellowiron.specs.extraction import from_sheets
+from yellowiron.specs.layout.statement import Statement
 from yellowiron.specs.reader import Sheet
-from yellowiron.specs.statement import Statement
 
 
 @cache

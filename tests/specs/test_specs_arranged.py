@@ -7,11 +7,11 @@ from pathlib import Path
 import pytest
 from specs_layouts import canvas, put, template, wanted
 
-from yellowiron.specs.claims import claims_of
-from yellowiron.specs.extract import from_sheets
-from yellowiron.specs.numbers import decimal_style
+from yellowiron.specs.extraction import from_sheets
+from yellowiron.specs.language.numbers import decimal_style
+from yellowiron.specs.layout.statement import Statement, is_unit
 from yellowiron.specs.reader import read_sheet
-from yellowiron.specs.statement import Statement, is_unit
+from yellowiron.specs.values.claims import claims_of
 
 _TOP = 780.0
 _SIZES = (

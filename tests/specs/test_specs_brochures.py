@@ -7,14 +7,14 @@ from pathlib import Path
 import pytest
 from specs_layouts import canvas, put, template, wanted
 
-from yellowiron.specs.claims import claims_of
-from yellowiron.specs.extract import from_sheets
-from yellowiron.specs.listed import alternatives, enumerated
-from yellowiron.specs.match import match
-from yellowiron.specs.numbers import read
+from yellowiron.specs.extraction import from_sheets
+from yellowiron.specs.language.numbers import read
+from yellowiron.specs.language.vocabulary import ends, is_one_place, tokens
+from yellowiron.specs.layout.statement import Statement, looks_like_value, unit_in_label, unit_said
 from yellowiron.specs.reader import Sheet, read_sheet
-from yellowiron.specs.statement import Statement, looks_like_value, unit_in_label, unit_said
-from yellowiron.specs.vocabulary import ends, is_one_place, tokens
+from yellowiron.specs.values.claims import claims_of
+from yellowiron.specs.values.enumerations import alternatives, enumerated
+from yellowiron.specs.values.matching import match
 
 _TOP = 780.0
 _ROWS = (

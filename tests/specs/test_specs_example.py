@@ -18,7 +18,7 @@ from yellowiron.library import load_template
 from yellowiron.model.specification import Specifications, fold
 from yellowiron.model.template import Template
 from yellowiron.specs import draw_evidence, extract
-from yellowiron.specs.extract import from_sheets, read
+from yellowiron.specs.extraction import from_sheets, read
 
 CONFIG = "standard boom, stock-pile bucket with bolt-on edge"
 NAMES = {
@@ -228,8 +228,8 @@ def test_evidence_can_be_seen(found: Specifications, sheet: Path, tmp_path: Path
 def test_a_page_takes_little_time(sheet: Path) -> None:
     import pypdfium2
 
-    from yellowiron.specs.layout import statements_of
-    from yellowiron.specs.words import read_page
+    from yellowiron.specs.layout.router import statements_of
+    from yellowiron.specs.pages.words import read_page
 
     document = pypdfium2.PdfDocument(sheet)
     times = []

@@ -16,7 +16,7 @@ from yellowiron.library import load_template
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import Template
 from yellowiron.specs import extract
-from yellowiron.specs.extract import from_sheets, read
+from yellowiron.specs.extraction import from_sheets, read
 
 NAMES = {
     "Boom Cylinder Stroke": "BOOM_STROKE",

@@ -6,9 +6,9 @@ from pathlib import Path
 
 from specs_layouts import canvas, lattice, put
 
-from yellowiron.specs.listed import enumerated
+from yellowiron.specs.layout.statement import Statement
 from yellowiron.specs.reader import read_sheet
-from yellowiron.specs.statement import Statement
+from yellowiron.specs.values.enumerations import enumerated
 
 
 def said(path: Path) -> list[Statement]:

@@ -14,7 +14,7 @@ from specs_layouts import canvas, leaders, put, template, wanted
 from yellowiron.model.errors import SheetError
 from yellowiron.model.specification import Evidence, Specification, Specifications
 from yellowiron.specs import draw_evidence, extract
-from yellowiron.specs.extract import read
+from yellowiron.specs.extraction import read
 
 ASKED = template(wanted("Wheelbase", "length"), wanted("Operating Weight", "mass"))
 ROWS = [("Wheelbase", "3450 mm"), ("Operating weight", "25 510 kg")]
@@ -99,7 +99,7 @@ def test_forms_in_forms_and_arrays_in_arrays_end(tmp_path: Path, depth: int) -> 
 @pytest.mark.parametrize("kind", ["laughs", "bomb"])
 def test_what_never_ends_is_stopped(tmp_path: Path, kind: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Forms that draw the next one twice, forty deep; a stream of megabytes that unfolds to gigabytes."""
-    monkeypatch.setattr(sys.modules["yellowiron.specs.extract"], "TIMEOUT_S", 3.0)
+    monkeypatch.setattr(sys.modules["yellowiron.specs.extraction"], "TIMEOUT_S", 3.0)
     if kind == "laughs":
         forms = [form(n + 6, b"/X Do /X Do") for n in range(40)]
         path = page(tmp_path / "laughs.pdf", stream(b"/X Do"), *forms, form(5, b"0 0 m 9 9 l S"))

@@ -7,10 +7,10 @@ import pytest
 from yellowiron.library import list_templates, load_template
 from yellowiron.model.template import Wanted
 from yellowiron.specs import missing_values
-from yellowiron.specs.extract import from_sheets
+from yellowiron.specs.extraction import from_sheets
+from yellowiron.specs.language.vocabulary import tokens
+from yellowiron.specs.layout.statement import Statement
 from yellowiron.specs.reader import Sheet
-from yellowiron.specs.statement import Statement
-from yellowiron.specs.vocabulary import tokens
 
 UNIT = {
     "length": ("mm", 1e-3), "angle": ("°", 0.017453292519943295), "mass": ("kg", 1.0), "pressure": ("kPa", 1e3),

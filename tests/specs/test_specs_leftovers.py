@@ -5,10 +5,10 @@ from __future__ import annotations
 import pytest
 
 from yellowiron.library import load_template
-from yellowiron.specs.extract import from_sheets
-from yellowiron.specs.match import spelled_out
+from yellowiron.specs.extraction import from_sheets
+from yellowiron.specs.layout.statement import Statement
 from yellowiron.specs.reader import Sheet
-from yellowiron.specs.statement import Statement
+from yellowiron.specs.values.matching import spelled_out
 
 BOX = (10.0, 10.0, 90.0, 20.0)
 

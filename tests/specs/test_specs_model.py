@@ -32,9 +32,9 @@ from yellowiron.library import load_template
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import Template
 from yellowiron.specs import EndpointError, ModelOptions
-from yellowiron.specs.endpoint import parsed
-from yellowiron.specs.extract import from_sheets
-from yellowiron.specs.extract import read as read_pdf
+from yellowiron.specs.extraction import from_sheets
+from yellowiron.specs.extraction import read as read_pdf
+from yellowiron.specs.llm.endpoint import parsed
 
 TEMPLATE = template(
     wanted("Lift Cylinder Stroke", "length", "lift cylinder stroke"),

@@ -9,12 +9,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from yellowiron.model.errors import YellowironError
-from yellowiron.specs.claims import spelled_out
-from yellowiron.specs.listed import enumerated
-from yellowiron.specs.numbers import DecimalStyle, decimal_style, parse_one, read, same
-from yellowiron.specs.printed_units import printed_unit
-from yellowiron.specs.statement import is_unit, looks_like_value, split_inline, unit_in_label, without_key
-from yellowiron.specs.vocabulary import tokens
+from yellowiron.specs.language.numbers import DecimalStyle, decimal_style, parse_one, read, same
+from yellowiron.specs.language.units import printed_unit
+from yellowiron.specs.language.vocabulary import tokens
+from yellowiron.specs.layout.statement import is_unit, looks_like_value, split_inline, unit_in_label, without_key
+from yellowiron.specs.values.claims import spelled_out
+from yellowiron.specs.values.enumerations import enumerated
 
 
 def numbers(text: str, **options: str) -> list[tuple[float, str]]:

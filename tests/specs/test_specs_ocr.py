@@ -16,7 +16,7 @@ from specs_layouts import canvas, put, template, wanted
 
 from yellowiron.model.specification import Specification
 from yellowiron.specs import draw_evidence, extract
-from yellowiron.specs.extract import read
+from yellowiron.specs.extraction import read
 
 ASKED = template(wanted("Wheelbase", "length"), wanted("Operating Weight", "mass"), wanted("Tread", "length"))
 ROWS = [("Wheelbase", "3450 mm"), ("Operating weight", "25 510 kg")]

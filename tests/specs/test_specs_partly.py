@@ -8,12 +8,12 @@ import pytest
 from reportlab.pdfgen.canvas import Canvas
 from specs_layouts import canvas, put, template, wanted
 
-from yellowiron.specs.claims import claims_of, configured
-from yellowiron.specs.extract import from_sheets
-from yellowiron.specs.listed import alternatives, enumerated
-from yellowiron.specs.numbers import read
+from yellowiron.specs.extraction import from_sheets
+from yellowiron.specs.language.numbers import read
+from yellowiron.specs.layout.statement import Statement, is_unit, unit_of_heading
 from yellowiron.specs.reader import read_sheet
-from yellowiron.specs.statement import Statement, is_unit, unit_of_heading
+from yellowiron.specs.values.claims import claims_of, configured
+from yellowiron.specs.values.enumerations import alternatives, enumerated
 
 _ROWS = (("Overall length", "7,900", "8,120"), ("Wheelbase", "3,200", "3,300"), ("Overall width", "2,580", "2,680"),
          ("Overall height", "3,250", "3,350"), ("Ground clearance", "400", "420"))  # fmt: skip

@@ -14,7 +14,7 @@ from specs_layouts import canvas, leaders, put, ruled, template, wanted
 
 from yellowiron.model.errors import SheetError, YellowironError
 from yellowiron.specs import draw_evidence, extract, merge
-from yellowiron.specs.extract import read
+from yellowiron.specs.extraction import read
 
 ASKED = template(wanted("Wheelbase", "length"), wanted("Operating Weight", "mass"))
 ROWS = [("Wheelbase", "3450 mm"), ("Operating weight", "25 510 kg")]

@@ -9,11 +9,11 @@ import pytest
 from specs_layouts import canvas, put, template, wanted
 
 from yellowiron.model.specification import Specifications
-from yellowiron.specs.extract import from_sheets
-from yellowiron.specs.nearest import Near, nearest_of
+from yellowiron.specs.extraction import from_sheets
+from yellowiron.specs.layout.nearest import Near, nearest_of
+from yellowiron.specs.layout.statement import Statement
+from yellowiron.specs.pages.words import Page, Word
 from yellowiron.specs.reader import Sheet, read_sheet
-from yellowiron.specs.statement import Statement
-from yellowiron.specs.words import Page, Word
 
 _NAMES = ("Overall Length", "Wheelbase", "Overall Width")
 

@@ -12,7 +12,7 @@ from yellowiron.model.finding import Finding
 from yellowiron.model.specification import Specification, Specifications
 from yellowiron.model.template import JointTemplate, Variant
 from yellowiron.specs import merge, parse_settings, split_settings
-from yellowiron.specs.asked import asked
+from yellowiron.specs.values.requested import asked
 
 SLIDE = JointTemplate("slide", "prismatic", ("barrel", "rod"), 0.0, "Lift Cylinder Stroke")
 HINGE = JointTemplate("hinge", "revolute", ("front", "pin"), "-Maximum Steering Angle", "Maximum Steering Angle")

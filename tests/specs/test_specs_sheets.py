@@ -13,7 +13,7 @@ from sheets import LAYOUTS, Case, Score, Split, cases, make, page_texts, score
 
 from yellowiron.library import load_template
 from yellowiron.model.template import Template
-from yellowiron.specs.extract import from_sheets
+from yellowiron.specs.extraction import from_sheets
 from yellowiron.specs.reader import read_sheet
 
 

@@ -10,7 +10,7 @@ from reportlab.pdfgen import canvas
 
 from yellowiron.model.template import Template, Wanted
 from yellowiron.specs import extract
-from yellowiron.specs.stated import stated_in
+from yellowiron.specs.values.stated_configuration import stated_in
 
 TEMPLATE = Template(
     "loader", "", "", (), (),

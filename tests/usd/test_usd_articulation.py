@@ -9,8 +9,8 @@ import pytest
 from pxr import Usd, UsdPhysics
 
 import small_machine
-from yellowiron.usd.articulation import root_link
-from yellowiron.usd.physx import loops_last
+from yellowiron.usd.layers.articulation import root_link
+from yellowiron.usd.layers.physx import loops_last
 
 
 @pytest.fixture(scope="module")

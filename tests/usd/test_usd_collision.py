@@ -13,8 +13,8 @@ from pxr import Usd, UsdGeom, UsdPhysics, UsdShade
 
 from yellowiron.model.errors import MechanismError
 from yellowiron.model.geometry import CylinderFeature, Mesh, Shape
-from yellowiron.usd.collision import APPROXIMATIONS, approximation
-from yellowiron.usd.primitives import Primitive, fit_primitive
+from yellowiron.usd.planning.collision import APPROXIMATIONS, approximation
+from yellowiron.usd.planning.primitives import Primitive, fit_primitive
 
 
 @pytest.fixture(scope="module")

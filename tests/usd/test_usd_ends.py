@@ -10,10 +10,10 @@ import pytest
 from pxr import Gf, Usd, UsdGeom, UsdPhysics
 
 import small_machine
-from yellowiron.check import check
+from yellowiron.checks import check
 from yellowiron.model.mechanism import Mechanism
 from yellowiron.usd import read_machine, write_machine
-from yellowiron.usd.ends import SHARE, slewed_cuts
+from yellowiron.usd.planning.pin_links import SHARE, slewed_cuts
 
 
 @pytest.fixture(scope="module")

@@ -13,7 +13,7 @@ from pxr import Usd, UsdGeom
 from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.geometry import Mesh, Shape
 from yellowiron.usd import write_assembly
-from yellowiron.usd.geometry import creased_normals
+from yellowiron.usd.layers.geometry import creased_normals
 
 
 def split_box() -> Mesh:

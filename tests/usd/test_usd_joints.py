@@ -11,7 +11,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 from pxr import Gf, Usd, UsdGeom, UsdPhysics
 
-from yellowiron.usd.rotation import axis_of, principal_axes, quaternion_of, quaternion_to
+from yellowiron.usd.authoring.rotation import axis_of, principal_axes, quaternion_of, quaternion_to
 
 UNIT = st.tuples(*(st.floats(-1, 1) for _ in range(3))).filter(lambda v: np.linalg.norm(v) > 1e-3)
 

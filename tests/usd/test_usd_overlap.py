@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from yellowiron.usd.overlap import _boxes_overlap, overlapping_bodies
-from yellowiron.usd.plan import make_plan
+from yellowiron.usd.planning.overlap import _boxes_overlap, overlapping_bodies
+from yellowiron.usd.planning.plan import make_plan
 
 
 def test_boxes_against_fcl() -> None:

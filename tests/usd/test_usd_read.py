@@ -13,7 +13,7 @@ from pxr import Usd, UsdPhysics
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.mechanism import Mechanism
 from yellowiron.usd import read_machine
-from yellowiron.usd.metadata import to_json
+from yellowiron.usd.authoring.metadata import to_json
 
 
 def assert_same(found: Mechanism, expected: Mechanism) -> None:

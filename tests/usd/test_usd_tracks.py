@@ -14,14 +14,14 @@ from align_solids import box, lathe
 from crawler import crawler
 from tracked_template import write_tracked_template
 from yellowiron import kinematics, usd
-from yellowiron.export import export_mjcf
+from yellowiron.exporters import export_mjcf
 from yellowiron.library import load_template
 from yellowiron.mechanism import build_mechanism
 from yellowiron.model.mechanism import Mechanism
 from yellowiron.model.rows import expand
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import choose
-from yellowiron.usd.turned import turned_pieces
+from yellowiron.usd.planning.lathe_colliders import turned_pieces
 
 
 @pytest.fixture(scope="module")

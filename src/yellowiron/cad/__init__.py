@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from yellowiron.cad.read import read_cad
 
 if TYPE_CHECKING:
-    from yellowiron.cad.apart import taken_apart
+    from yellowiron.cad.mesh.split import taken_apart
 
 __all__ = ["read_cad", "taken_apart"]
 
@@ -15,7 +15,7 @@ __all__ = ["read_cad", "taken_apart"]
 def __getattr__(name: str) -> Any:
     """What needs scipy is loaded when it is asked for: most runs never do."""
     if name == "taken_apart":
-        from yellowiron.cad.apart import taken_apart
+        from yellowiron.cad.mesh.split import taken_apart
 
         return taken_apart
     raise AttributeError(f"module 'yellowiron.cad' has no attribute {name!r}")

@@ -1,6 +1,6 @@
 """`read_cad`: any CAD file to an `Assembly`, by what it holds and not by what it is called.
 
-The reader of third parties runs in a child process (`yellowiron.guard`).
+The reader of third parties runs in a child process (`yellowiron.support.guard`).
 
 Findings:
 
@@ -25,34 +25,35 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from yellowiron.cad import part21, sniff
-from yellowiron.guard import run_guarded
+from yellowiron.cad import formats
+from yellowiron.cad.readers.exact import part21
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import CadError
+from yellowiron.support.guard import run_guarded
 
 _READERS = {
-    "STEP": "yellowiron.cad.step:read_step",
-    "IGES": "yellowiron.cad.iges:read_iges",
-    "BREP": "yellowiron.cad.occt:read_brep",
-    "FreeCAD": "yellowiron.cad.occt:read_freecad",
-    "GLB": "yellowiron.cad.gltf:read_gltf",
-    "glTF": "yellowiron.cad.gltf:read_gltf",
-    "STL": "yellowiron.cad.stl:read_stl",
-    "OBJ": "yellowiron.cad.obj:read_obj",
-    "PLY": "yellowiron.cad.ply:read_ply",
-    "3MF": "yellowiron.cad.threemf:read_3mf",
-    "COLLADA": "yellowiron.cad.assimp:read_collada",
-    "FBX": "yellowiron.cad.assimp:read_fbx",
-    "USD": "yellowiron.cad.usd:read_usd",
-    "URDF": "yellowiron.cad.urdf:read_urdf",
-    "MJCF": "yellowiron.cad.mjcf:read_mjcf",
-    "IFC": "yellowiron.cad.ifc:read_ifc",
-    "DXF": "yellowiron.cad.dxf:read_dxf",
-    "DWG": "yellowiron.cad.dwg:read_dwg",
-    "Blender": "yellowiron.cad.blend:read_blend",
+    "STEP": "yellowiron.cad.readers.exact.step:read_step",
+    "IGES": "yellowiron.cad.readers.exact.iges:read_iges",
+    "BREP": "yellowiron.cad.readers.exact.occt:read_brep",
+    "FreeCAD": "yellowiron.cad.readers.exact.occt:read_freecad",
+    "GLB": "yellowiron.cad.readers.meshes.gltf:read_gltf",
+    "glTF": "yellowiron.cad.readers.meshes.gltf:read_gltf",
+    "STL": "yellowiron.cad.readers.meshes.stl:read_stl",
+    "OBJ": "yellowiron.cad.readers.meshes.obj:read_obj",
+    "PLY": "yellowiron.cad.readers.meshes.ply:read_ply",
+    "3MF": "yellowiron.cad.readers.meshes.threemf:read_3mf",
+    "COLLADA": "yellowiron.cad.readers.meshes.assimp:read_collada",
+    "FBX": "yellowiron.cad.readers.meshes.assimp:read_fbx",
+    "USD": "yellowiron.cad.readers.usd.stage:read_usd",
+    "URDF": "yellowiron.cad.readers.robots.urdf:read_urdf",
+    "MJCF": "yellowiron.cad.readers.robots.mjcf:read_mjcf",
+    "IFC": "yellowiron.cad.readers.ifc:read_ifc",
+    "DXF": "yellowiron.cad.readers.dxf:read_dxf",
+    "DWG": "yellowiron.cad.readers.dwg:read_dwg",
+    "Blender": "yellowiron.cad.readers.meshes.blend:read_blend",
 }
 """Format → the function that reads it, in the child process."""
-_FOLDER = "yellowiron.cad.folder:read_folder"
+_FOLDER = "yellowiron.cad.readers.folder:read_folder"
 
 
 def read_cad(path: str | Path, *, timeout_s: float = 600.0, memory_mb: int = 8192) -> Assembly:
@@ -63,7 +64,7 @@ def read_cad(path: str | Path, *, timeout_s: float = 600.0, memory_mb: int = 819
     of no or of an unreadable CAD format, or without a part in it.
     """
     source = Path(path)
-    kind = "folder" if source.is_dir() else sniff.format_of(source)
+    kind = "folder" if source.is_dir() else formats.format_of(source)
     target, arguments = (_FOLDER, (_READERS,)) if source.is_dir() else (_READERS[kind], ())
     try:
         assembly: Assembly = run_guarded(

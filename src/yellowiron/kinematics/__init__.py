@@ -28,29 +28,29 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from yellowiron.kinematics.branches import branch_pivots, branch_sine
-    from yellowiron.kinematics.calibration import calibrate
-    from yellowiron.kinematics.chain import ClosedChain, KinematicsError, State
     from yellowiron.kinematics.completion import complete
-    from yellowiron.kinematics.floating import attached
     from yellowiron.kinematics.levers import lever_table
-    from yellowiron.kinematics.measurement import key_poses, measure
+    from yellowiron.kinematics.measuring.calibration import calibrate
+    from yellowiron.kinematics.measuring.measurement import key_poses, measure
     from yellowiron.kinematics.poses import pose_tables
+    from yellowiron.kinematics.solver.branches import branch_pivots, branch_sine
+    from yellowiron.kinematics.solver.chain import ClosedChain, KinematicsError, State
+    from yellowiron.kinematics.solver.floating import attached
     from yellowiron.kinematics.start import legal_start, started
 
 _HOME = {
-    "ClosedChain": "chain",
-    "KinematicsError": "chain",
-    "State": "chain",
-    "attached": "floating",
-    "branch_pivots": "branches",
-    "branch_sine": "branches",
-    "calibrate": "calibration",
+    "ClosedChain": "solver.chain",
+    "KinematicsError": "solver.chain",
+    "State": "solver.chain",
+    "attached": "solver.floating",
+    "branch_pivots": "solver.branches",
+    "branch_sine": "solver.branches",
+    "calibrate": "measuring.calibration",
     "complete": "completion",
-    "key_poses": "measurement",
+    "key_poses": "measuring.measurement",
     "legal_start": "start",
     "lever_table": "levers",
-    "measure": "measurement",
+    "measure": "measuring.measurement",
     "pose_tables": "poses",
     "started": "start",
 }

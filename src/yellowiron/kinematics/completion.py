@@ -9,9 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from yellowiron.kinematics.branches import branch_pivots, branch_sines
-from yellowiron.kinematics.chain import ClosedChain, Component, State, independent_joints, suspects
-from yellowiron.kinematics.grid import Grid, explore, joint_values
+from yellowiron.kinematics.solver.branches import branch_pivots, branch_sines
+from yellowiron.kinematics.solver.chain import ClosedChain, Component, State, independent_joints, suspects
+from yellowiron.kinematics.solver.grid import Grid, explore, joint_values
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Drive, Joint, Mechanism, Mobility

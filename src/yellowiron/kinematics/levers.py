@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from yellowiron.kinematics.bench import Bench
-from yellowiron.kinematics.chain import ClosedChain
-from yellowiron.kinematics.quantities import Unmeasurable
+from yellowiron.kinematics.measuring.bench import Bench
+from yellowiron.kinematics.measuring.quantities import Unmeasurable
+from yellowiron.kinematics.solver.chain import ClosedChain
 from yellowiron.model.mechanism import Mechanism
 
 _STILL = 1e-9

@@ -6,10 +6,10 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from yellowiron.kinematics.bench import Bench
-from yellowiron.kinematics.chain import ClosedChain, Component, State
-from yellowiron.kinematics.grid import explore
-from yellowiron.kinematics.quantities import Unmeasurable
+from yellowiron.kinematics.measuring.bench import Bench
+from yellowiron.kinematics.measuring.quantities import Unmeasurable
+from yellowiron.kinematics.solver.chain import ClosedChain, Component, State
+from yellowiron.kinematics.solver.grid import explore
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Joint, Mechanism
 from yellowiron.model.poses import PoseTable, PoseTables

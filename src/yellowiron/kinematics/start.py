@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from yellowiron.kinematics.chain import ClosedChain
+from yellowiron.kinematics.solver.chain import ClosedChain
 from yellowiron.model.alignment import Alignment, Vector
 from yellowiron.model.assembly import Assembly, DeclaredJoint
 from yellowiron.model.finding import Finding

@@ -3,11 +3,11 @@
 from yellowiron.library.copying import copy_template
 from yellowiron.library.documents import Documents, apply_joints, apply_sensors, load_documents, with_relations
 from yellowiron.library.filled import filled_joints
-from yellowiron.library.likeness import Likeness, likeness
-from yellowiron.library.lint import LintReport, lint
+from yellowiron.library.linting.lint import LintReport, lint
 from yellowiron.library.load import is_sheet_only, list_templates, load_template
-from yellowiron.library.propose import propose
-from yellowiron.library.reading import template_schema
+from yellowiron.library.parsing.json_documents import template_schema
+from yellowiron.library.proposal.likeness import Likeness, likeness
+from yellowiron.library.proposal.propose import propose
 from yellowiron.library.show import tree
 
 __all__ = [

@@ -8,14 +8,14 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from yellowiron.library import details
-from yellowiron.library.hierarchy import read_hierarchy, read_relations, root_of
-from yellowiron.library.infer import infer_actuators, infer_roles
-from yellowiron.library.joints import check_bodies, read_joints, resolve_parts
-from yellowiron.library.machine_tests import read_tests
-from yellowiron.library.reading import Document, near, read_document
-from yellowiron.library.sensors import read_sensors
-from yellowiron.library.words import read_words
+from yellowiron.library.parsing import details
+from yellowiron.library.parsing.hierarchy import read_hierarchy, read_relations, root_of
+from yellowiron.library.parsing.implied_hierarchy import infer_actuators, infer_roles
+from yellowiron.library.parsing.joints import check_bodies, read_joints, resolve_parts
+from yellowiron.library.parsing.json_documents import Document, near, read_document
+from yellowiron.library.parsing.machine_tests import read_tests
+from yellowiron.library.parsing.sensors import read_sensors
+from yellowiron.library.parsing.words import read_words
 from yellowiron.model.errors import TemplateError
 from yellowiron.model.specification import fold
 from yellowiron.model.template import JointTemplate, Role, Template

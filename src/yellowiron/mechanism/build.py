@@ -9,15 +9,18 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from yellowiron.mechanism import body, chains, cylinders, drives, mass, sensors, sites, values
-from yellowiron.mechanism.body import vector
-from yellowiron.mechanism.cylinders import FittedCylinder
-from yellowiron.mechanism.direct import direct_drives, with_direct_hinges
-from yellowiron.mechanism.frames import JointFrame, joint_frames, weld
-from yellowiron.mechanism.hidden import hidden_wheels, with_wheels
+from yellowiron.mechanism import sensors, sites, values
+from yellowiron.mechanism.actuation import cylinders, drives
+from yellowiron.mechanism.actuation.cylinders import FittedCylinder
+from yellowiron.mechanism.actuation.direct_drives import direct_drives, with_direct_hinges
+from yellowiron.mechanism.bodies import body, mass
+from yellowiron.mechanism.bodies.body import vector
+from yellowiron.mechanism.bodies.hidden_wheels import hidden_wheels, with_wheels
+from yellowiron.mechanism.joints import chains
+from yellowiron.mechanism.joints.frames import JointFrame, joint_frames, weld
+from yellowiron.mechanism.joints.planarity import follow_first, make_parallel
+from yellowiron.mechanism.joints.tree import Tree, links, loop_groups, loose_bodies
 from yellowiron.mechanism.placement import Placement, ancestors, place
-from yellowiron.mechanism.planarity import follow_first, make_parallel
-from yellowiron.mechanism.tree import Tree, links, loop_groups, loose_bodies
 from yellowiron.model.alignment import Alignment
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import MechanismError

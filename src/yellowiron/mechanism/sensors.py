@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from yellowiron.mechanism.body import vector
+from yellowiron.mechanism.bodies.body import vector
 from yellowiron.mechanism.placement import Placement
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats

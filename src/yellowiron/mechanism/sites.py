@@ -9,9 +9,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
-from yellowiron.mechanism.axes import Line
-from yellowiron.mechanism.body import vector
-from yellowiron.mechanism.frames import JointFrame
+from yellowiron.mechanism.bodies.body import vector
+from yellowiron.mechanism.joints.axes import Line
+from yellowiron.mechanism.joints.frames import JointFrame
 from yellowiron.mechanism.placement import Placement, ancestors
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats

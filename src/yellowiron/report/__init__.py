@@ -19,7 +19,7 @@ from yellowiron.report.document import (
     within_tolerance,
     write_document,
 )
-from yellowiron.report.page import page
+from yellowiron.report.html.page import page
 
 __all__ = [
     "alignment_entry",

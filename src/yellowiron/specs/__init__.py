@@ -7,11 +7,11 @@ value stands; `missing_values` says what a person can still give.
 
 from __future__ import annotations
 
-from yellowiron.specs.asked import missing_values
-from yellowiron.specs.endpoint import EndpointError, ModelOptions
-from yellowiron.specs.extract import Extractor, extract
-from yellowiron.specs.picture import draw_evidence
-from yellowiron.specs.settings import merge, parse_settings, split_settings
+from yellowiron.specs.evidence_images import draw_evidence
+from yellowiron.specs.extraction import Extractor, extract
+from yellowiron.specs.llm.endpoint import EndpointError, ModelOptions
+from yellowiron.specs.values.overrides import merge, parse_settings, split_settings
+from yellowiron.specs.values.requested import missing_values
 
 __all__ = [
     "EndpointError",

@@ -16,12 +16,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from yellowiron.guard import beat
 from yellowiron.model.errors import SheetError
-from yellowiron.specs.layout import statements_of
-from yellowiron.specs.stated import Stated, stated_in
-from yellowiron.specs.statement import Statement
-from yellowiron.specs.words import Page, Word
+from yellowiron.specs.layout.router import statements_of
+from yellowiron.specs.layout.statement import Statement
+from yellowiron.specs.pages.words import Page, Word
+from yellowiron.specs.values.stated_configuration import Stated, stated_in
+from yellowiron.support.guard import beat
 
 MOST_PAGES = 40
 """Pages of one file that are recognised, the first ones: each takes seconds."""

@@ -8,14 +8,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from yellowiron.guard import beat
 from yellowiron.model.errors import SheetError
-from yellowiron.specs.layout import statements_of
-from yellowiron.specs.nearest import Near, nearest_of
-from yellowiron.specs.numbers import DecimalStyle, decimal_style
-from yellowiron.specs.stated import Stated, stated_in
-from yellowiron.specs.statement import Statement
-from yellowiron.specs.words import read_page
+from yellowiron.specs.language.numbers import DecimalStyle, decimal_style
+from yellowiron.specs.layout.nearest import Near, nearest_of
+from yellowiron.specs.layout.router import statements_of
+from yellowiron.specs.layout.statement import Statement
+from yellowiron.specs.pages.words import read_page
+from yellowiron.specs.values.stated_configuration import Stated, stated_in
+from yellowiron.support.guard import beat
 
 TIMEOUT_S = 60.0
 """For one page; the reader gives a sign of life at each."""

@@ -9,11 +9,19 @@ from pxr import Sdf
 
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import OutputError
-from yellowiron.usd.geometry import write_prototypes
-from yellowiron.usd.materials import Look, look_of, write_pictures
-from yellowiron.usd.metadata import set_custom
-from yellowiron.usd.plan import Prototypes
-from yellowiron.usd.stage import Names, add_reference, create_layer, define, save_layer, set_display_name, set_transform
+from yellowiron.usd.authoring.materials import Look, look_of, write_pictures
+from yellowiron.usd.authoring.metadata import set_custom
+from yellowiron.usd.authoring.stage import (
+    Names,
+    add_reference,
+    create_layer,
+    define,
+    save_layer,
+    set_display_name,
+    set_transform,
+)
+from yellowiron.usd.layers.geometry import write_prototypes
+from yellowiron.usd.planning.plan import Prototypes
 
 SUFFIXES = (".usd", ".usda", ".usdc")
 _SHAPES = "Shapes"

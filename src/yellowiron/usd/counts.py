@@ -6,7 +6,7 @@ from pathlib import Path
 
 from pxr import Usd, UsdPhysics
 
-from yellowiron.usd.metadata import KEY
+from yellowiron.usd.authoring.metadata import KEY
 from yellowiron.usd.read import open_stage
 
 _TYPES = {

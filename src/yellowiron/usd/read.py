@@ -19,12 +19,12 @@ from yellowiron.model.errors import YellowironError
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Body, BodyPart, BodyShape, Drive, Joint, Mechanism, Site, Vector
 from yellowiron.model.template import JointType
-from yellowiron.usd.drives import INSTANCES, per_usd_unit, to_usd_unit
-from yellowiron.usd.ends import KIND as END
-from yellowiron.usd.metadata import DOCUMENTS, FORMAT, KEY, from_json
-from yellowiron.usd.plan import HULL, JOINTS, VISUALS
-from yellowiron.usd.rotation import axis_of, principal_axes
-from yellowiron.usd.sensors import read_sensors
+from yellowiron.usd.authoring.metadata import DOCUMENTS, FORMAT, KEY, from_json
+from yellowiron.usd.authoring.rotation import axis_of, principal_axes
+from yellowiron.usd.layers.drives import INSTANCES, per_usd_unit, to_usd_unit
+from yellowiron.usd.layers.sensors import read_sensors
+from yellowiron.usd.planning.pin_links import KIND as END
+from yellowiron.usd.planning.plan import HULL, JOINTS, VISUALS
 
 _SUFFIXES = {".usd", ".usda", ".usdc", ".usdz"}
 _BUILD_HINT = "Give the machine file or the scene.usda that `yellowiron build` wrote."

@@ -12,17 +12,17 @@ from pxr import Sdf
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import OutputError
 from yellowiron.model.mechanism import Mechanism
-from yellowiron.usd.bodies import is_mirrored, write_bodies
-from yellowiron.usd.geometry import write_hulls, write_mirrored, write_pieces, write_prototypes
-from yellowiron.usd.materials import copy_textures, write_pictures
-from yellowiron.usd.mujoco import write_mujoco
-from yellowiron.usd.physics import write_physics
-from yellowiron.usd.physx import write_physx
-from yellowiron.usd.plan import GEOMETRY_FILE, HULLS, PROTOTYPES, Plan, make_plan
-from yellowiron.usd.scene import PAYLOAD_FOLDER, write_machine_layer, write_scene_layer
-from yellowiron.usd.sensors import FILE as SENSOR_FILE
-from yellowiron.usd.sensors import write_contact_reports, write_sensors
-from yellowiron.usd.stage import create_layer, define, save_layer
+from yellowiron.usd.authoring.materials import copy_textures, write_pictures
+from yellowiron.usd.authoring.stage import create_layer, define, save_layer
+from yellowiron.usd.layers.base import is_mirrored, write_bodies
+from yellowiron.usd.layers.geometry import write_hulls, write_mirrored, write_pieces, write_prototypes
+from yellowiron.usd.layers.mujoco import write_mujoco
+from yellowiron.usd.layers.physics import write_physics
+from yellowiron.usd.layers.physx import write_physx
+from yellowiron.usd.layers.scene import PAYLOAD_FOLDER, write_machine_layer, write_scene_layer
+from yellowiron.usd.layers.sensors import FILE as SENSOR_FILE
+from yellowiron.usd.layers.sensors import write_contact_reports, write_sensors
+from yellowiron.usd.planning.plan import GEOMETRY_FILE, HULLS, PROTOTYPES, Plan, make_plan
 
 SCENE_FILE = "scene.usda"
 TEXTURE_FOLDER = "textures"

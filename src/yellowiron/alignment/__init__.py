@@ -1,0 +1,27 @@
+"""Alignment: Assembly × Template × Specifications → which part plays which role, by geometry first, names as evidence.
+
+Findings: `ALN001` no part plays a required role · `ALN002` a joint is found but no part of its own plays its pin ·
+`ALN003` the machine's frame is partly a guess · `ALN004` the search was cut short · `ALN005` an edited role exists only
+under another choice of a variant · `ALN006` a hydraulic cylinder is not drawn as the sheet has it ·
+`ALN007` no body is left for parts that could move · `ALN008` a cylinder is to one side · `ALN009` parts stand apart and
+are left out · `ALN010` there seems to be more than one machine · `ALN011` the wheels have no tyres.
+"""
+
+from yellowiron.alignment.assignment.unit_scale import to_scale
+from yellowiron.alignment.discovery.discover import discover
+from yellowiron.alignment.discovery.robot import declared_roles, discover_declared
+from yellowiron.alignment.files.alignment_json import explain, read_alignment, write_alignment
+from yellowiron.alignment.labelling.confidence import REVIEW
+from yellowiron.alignment.pipeline import align
+
+__all__ = [
+    "REVIEW",
+    "align",
+    "declared_roles",
+    "discover",
+    "discover_declared",
+    "explain",
+    "read_alignment",
+    "to_scale",
+    "write_alignment",
+]

@@ -1,0 +1,230 @@
+"""The machine's frame from the solved roles: +X forward, +Y left, +Z up, z = 0 under the wheels (DESIGN: frames)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from yellowiron.alignment.assignment.cp_sat import Solution
+from yellowiron.alignment.features.contacts import Line
+from yellowiron.alignment.features.solids import Solid
+from yellowiron.alignment.features.tracks import Track
+from yellowiron.alignment.features.wheels import Wheel
+from yellowiron.alignment.structure.clusters import Structure
+from yellowiron.model.geometry import Floats
+from yellowiron.model.template import JointTemplate, Template
+
+RUN = 0.05
+"""Shoes this near to the lowest, as a share of the track's height, are on the ground."""
+SNAP = 1e-6
+"""A rotation this near to a signed permutation of the axes is that permutation."""
+
+
+@dataclass(frozen=True, eq=False)
+class MachineFrame:
+    """`matrix` (4, 4) takes CAD metres to the machine frame; `doubts` says what had to be guessed."""
+
+    matrix: Floats
+    doubts: tuple[str, ...] = ()
+
+
+def machine_frame(
+    solids: tuple[Solid, ...], structure: Structure, solution: Solution, wheels: list[Wheel], template: Template,
+    tracks: Sequence[Track] = (),
+) -> MachineFrame:  # fmt: skip
+    """The frame: up along the axis about which the machine turns or bends, left along the root's wheels or across its
+    tracks, forward towards the working arms. What is not there is guessed and said so."""
+    doubts: list[str] = []
+    lines = {j: structure.lines[structure.hinges[h].line] for j, h in solution.hinge_of.items()}
+    cluster_of = {b: c for c, b in solution.body_of.items()}
+    kinds = {r.name: r.kind for r in template.roles}
+    rolling = [
+        wheels[structure.clusters[c].number]
+        for b, c in sorted(cluster_of.items())
+        if structure.clusters[c].kind == "wheel"
+    ]
+    flat = _ground_normal(rolling) if not tracks else np.cross(tracks[0].axis, tracks[0].along)
+    swing = _swing(template, lines, kinds, flat)
+    if swing is not None:
+        up = lines[swing].direction
+    elif flat is not None:
+        up = flat
+        doubts.append("up is the normal of the wheels' plane")
+    else:
+        pitch = _common_direction(list(lines.values()))
+        up = _up_guess(pitch)
+        if lines:
+            doubts.append("up is guessed: no wheels and no swing axis were found")
+    if rolling or tracks:
+        below = np.mean([*(w.center for w in rolling), *(t.center for t in tracks)], axis=0)
+        above = _middle([s for s in solids if all(s.index not in w.members for w in wheels)])
+        if float((above - below) @ up) < 0:
+            up = -up
+    elif lines and "wheel" in kinds.values():
+        doubts.append("no wheels were found, so the ground is taken under the lowest part")
+    left = tracks[0].axis if tracks else _left(template, structure, cluster_of, wheels, lines, swing, up)
+    if left is None:
+        if not lines and not rolling:
+            return MachineFrame(np.eye(4), ("no joints and no wheels were found: the CAD file's own axes are taken",))
+        left = np.eye(3)[int(np.argmin(np.abs(up)))]
+        doubts.append("left is guessed: no wheel or pitch axis was found")
+    left = _unit(left - (left @ up) * up)
+    forward = np.cross(left, up)
+    sense = _forward_sense(solids, structure, cluster_of, template, kinds, forward)
+    if sense == 0:
+        doubts.append("forward is guessed: no arm and no other body tells it")
+    elif sense < 0:
+        forward, left = -forward, -left
+    rotation = _snapped(np.array([forward, left, up]))
+    origin = _origin(solids, structure, cluster_of, template, lines[swing] if swing else None, rolling, up, tracks)
+    matrix = np.eye(4)
+    matrix[:3, :3] = rotation
+    matrix[:3, 3] = np.round(-rotation @ origin, 12) + 0.0
+    return MachineFrame(matrix, tuple(doubts))
+
+
+def _unit(v: Floats) -> Floats:
+    return np.asarray(v / np.linalg.norm(v), dtype=np.float64)
+
+
+def _middle(solids: list[Solid]) -> Floats:
+    if not solids:
+        return np.zeros(3)
+    weights = np.array([max(s.volume, 1e-12) for s in solids])
+    return np.asarray(weights @ np.array([s.center for s in solids]) / weights.sum(), dtype=np.float64)
+
+
+def _ground_normal(wheels: list[Wheel]) -> Floats | None:
+    if len(wheels) < 3:
+        return None
+    centres = np.array([w.center for w in wheels])
+    _, spread, axes = np.linalg.svd(centres - centres.mean(axis=0))
+    return np.asarray(axes[2], dtype=np.float64) if spread[1] > 0.2 * spread[0] else None
+
+
+def _swing(template: Template, lines: dict[str, Line], kinds: dict[str, str], flat: Floats | None) -> str | None:
+    """The root's joint about the vertical: the one along the wheels' plane's normal, else the one to another frame."""
+    best: tuple[float, str] | None = None
+    for name in sorted(lines):
+        joint = template.joint(name)
+        bodies = template.bodies_of(joint)
+        if template.root not in bodies:
+            continue
+        other = bodies[1] if bodies[0] == template.root else bodies[0]
+        if other is None or kinds[other] in ("barrel", "rod", "wheel"):
+            continue
+        score = abs(float(lines[name].direction @ flat)) if flat is not None else float(kinds[other] == "frame")
+        if score > 0.8 and (best is None or score > best[0]):
+            best = (score, name)
+    return best[1] if best is not None else None
+
+
+def _common_direction(lines: list[Line]) -> Floats | None:
+    if not lines:
+        return None
+    directions = np.array([ln.direction for ln in lines])
+    alike = (np.abs(directions @ directions.T) > 0.999).sum(axis=1)
+    return np.asarray(directions[int(np.argmax(alike))], dtype=np.float64)
+
+
+def _up_guess(pitch: Floats | None) -> Floats:
+    """CAD's z, unless the joints turn about it; then y."""
+    z = np.array([0.0, 0.0, 1.0])
+    if pitch is None or abs(float(pitch @ z)) < 0.7:
+        return z if pitch is None else _unit(z - (z @ pitch) * pitch)
+    y = np.array([0.0, 1.0, 0.0])
+    return _unit(y - (y @ pitch) * pitch)
+
+
+def _left(
+    template: Template, structure: Structure, cluster_of: dict[str, int], wheels: list[Wheel],
+    lines: dict[str, Line], swing: str | None, up: Floats,
+) -> Floats | None:  # fmt: skip
+    """The axis of the wheels on the root's side of the swing, else the commonest joint axis across `up`."""
+    reached = {template.root}
+    joints: list[JointTemplate] = [j for j in template.joints if j.type != "prismatic" and j.name != swing]
+    kinds = {r.name: r.kind for r in template.roles}
+    grown = True
+    while grown:
+        grown = False
+        for joint in joints:
+            a, b = template.bodies_of(joint)
+            if a is None or b is None or (a in reached) == (b in reached) or kinds[a] == "rod" or kinds[b] == "rod":
+                continue
+            reached |= {a, b}
+            grown = True
+    found = [
+        wheels[structure.clusters[cluster_of[b]].number]
+        for b in sorted(reached)
+        if b in cluster_of and structure.clusters[cluster_of[b]].kind == "wheel"
+    ]
+    if found:
+        first = found[0].direction
+        total = np.sum([w.direction if w.direction @ first > 0 else -w.direction for w in found], axis=0)
+        return np.asarray(total, dtype=np.float64)
+    across = [ln for ln in lines.values() if abs(float(ln.direction @ up)) < 0.3]
+    return _common_direction(across)
+
+
+def _forward_sense(
+    solids: tuple[Solid, ...], structure: Structure, cluster_of: dict[str, int], template: Template,
+    kinds: dict[str, str], forward: Floats,
+) -> int:  # fmt: skip
+    """Whether the arms lie ahead of the root (+1) or behind it (−1); without arms, the names `front` and `rear`."""
+
+    def centre(bodies: list[str]) -> Floats | None:
+        members = [i for b in bodies if b in cluster_of for i in structure.clusters[cluster_of[b]].members]
+        return _middle([solids[i] for i in sorted(members)]) if members else None
+
+    root = centre([template.root])
+    arms = centre([b for b in kinds if kinds[b] == "arm" and template.role(b).rigid])
+    front = centre([b for b in kinds if "front" in b.split("_")])
+    rear = centre([b for b in kinds if "rear" in b.split("_")])
+    for ahead, behind in ((arms, root), (front, rear)):
+        if ahead is not None and behind is not None and abs(float((ahead - behind) @ forward)) > 1e-6:
+            return 1 if float((ahead - behind) @ forward) > 0 else -1
+    return 0
+
+
+def _snapped(rotation: Floats) -> Floats:
+    nearest = np.round(rotation)
+    if np.abs(rotation - nearest).max() < SNAP and np.allclose(nearest @ nearest.T, np.eye(3)):
+        return np.asarray(nearest + 0.0, dtype=np.float64)
+    return rotation
+
+
+def _origin(
+    solids: tuple[Solid, ...], structure: Structure, cluster_of: dict[str, int], template: Template,
+    axis: Line | None, wheels: list[Wheel], up: Floats, tracks: Sequence[Track],
+) -> Floats:  # fmt: skip
+    """The ground under the swing axis, else under the root's centre."""
+    if axis is not None:
+        point = axis.origin
+    else:
+        root = (
+            structure.clusters[cluster_of[template.root]].members if template.root in cluster_of else range(len(solids))
+        )
+        low = np.min([solids[i].low for i in root], axis=0)
+        high = np.max([solids[i].high for i in root], axis=0)
+        point = 0.5 * (low + high)
+    heights = [_lowest(w, up) for w in wheels] + [_level(t, up) for t in tracks] or [
+        float((s.points @ up).min()) for s in solids
+    ]
+    ground = min(heights)
+    return np.asarray(point + (ground - float(point @ up)) * up, dtype=np.float64)
+
+
+def _lowest(wheel: Wheel, up: Floats) -> float:
+    tilt = abs(float(wheel.direction @ up))
+    return (
+        float(wheel.center @ up) - wheel.radius * float(np.sqrt(max(0.0, 1 - tilt * tilt))) - 0.5 * wheel.width * tilt
+    )
+
+
+def _level(track: Track, up: Floats) -> float:
+    """Where a track lies on the ground: the height of its lower run's shoes, of which one at an end may dip deeper."""
+    lowest = np.array([float((points @ up).min()) for points in track.points])
+    height = float(lowest.max() - lowest.min())
+    return float(np.median(lowest[lowest < lowest.min() + RUN * height]))

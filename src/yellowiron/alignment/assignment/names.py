@@ -1,0 +1,243 @@
+"""Names as evidence: part and assembly names in several languages, with typos and truncation, against role names.
+
+Names add weight to what geometry allows; they never overrule it. What a word means is data: words of any machine in
+`data/words.json`, those of a type's bodies in its template's `words.json`, and the role names themselves.
+"""
+
+from __future__ import annotations
+
+import functools
+import json
+import re
+import unicodedata
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from importlib import resources
+
+from rapidfuzz.distance import DamerauLevenshtein
+
+from yellowiron.model.assembly import Part
+from yellowiron.model.specification import fold
+from yellowiron.model.template import Role, Template
+
+ABOVE = 0.55
+"""What the assembly right above a part counts against the part's own name; each further one again."""
+CLEAR = 0.3
+"""Names that speak less of a body say nothing of it."""
+EXACT = 1.5
+"""What a part counts for a body if it bears the very name of one of the body's roles."""
+ALIKE = 0.79
+"""Words less alike than this are different words, not typos."""
+_SPLIT = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+")
+_CJK = re.compile(r"[぀-ヿ㐀-鿿]")
+_HIGH = re.compile(r"[\x80-\xff\u0152-\u2122]{2,}")
+_COUNT = re.compile(r"[\s_#.-]*\d*$")
+_SIDES = {"l": "left", "r": "right"}
+_OPPOSED = (("left", "right"), ("front", "rear"), ("barrel", "rod"))
+_PLACES = frozenset({"left", "right", "front", "rear"})
+"""They tell one body from another, and are no name of any."""
+_SMALL = frozenset(
+    ("a", "an", "and", "d", "da", "das", "de", "del", "den", "der", "des", "die", "du", "e", "el", "et", "for", "l",
+     "la", "las", "le", "les", "los", "of", "the", "und", "y")
+)  # fmt: skip
+_CODECS = (("latin-1", "utf-8"), ("cp1252", "utf-8"), ("latin-1", "gb18030"), ("cp1252", "gb18030"),
+           ("latin-1", "shift_jis"), ("cp1252", "shift_jis"))  # fmt: skip
+"""How a name was misread and what it was written in."""
+
+Words = Mapping[str, Mapping[str, tuple[str, ...]]]
+
+
+@dataclass(frozen=True, eq=False)
+class Vocabulary:
+    """What words mean: `phrases` of tokens, and words of `scripts` without spaces, to concepts (words of role names).
+    `known` remembers what was asked before."""
+
+    phrases: dict[tuple[str, ...], frozenset[str]]
+    scripts: dict[str, frozenset[str]]
+    known: dict[object, frozenset[str]] = field(default_factory=dict)
+
+
+@functools.cache
+def _common() -> Words:
+    text = resources.files("yellowiron.alignment").joinpath("data/words.json").read_text(encoding="utf-8")
+    return {key: {lang: tuple(words) for lang, words in entry.items()} for key, entry in json.loads(text).items()}
+
+
+def vocabulary(template: Template) -> Vocabulary:
+    """The words of a template: its own first, then those in its role names, then those of any machine."""
+    phrases: dict[tuple[str, ...], frozenset[str]] = {}
+    scripts: dict[str, frozenset[str]] = {}
+    own = {t: {"en": (t,)} for r in template.roles for t in r.name.split("_") if t not in _SIDES and t != "piston"}
+    for table in (template.words, own, _common()):
+        for key, entry in table.items():
+            for word in (w for words in entry.values() for w in words):
+                if _CJK.search(word):
+                    scripts.setdefault(unicodedata.normalize("NFKC", word), frozenset(key.split()))
+                    continue
+                for spelled in (word, _spelled_out(word)):
+                    phrases.setdefault(tuple(tokens(spelled)), frozenset(key.split()))
+    return Vocabulary(phrases, scripts)
+
+
+def _spelled_out(word: str) -> str:
+    """German without its umlauts: `Löffel` is also written `Loeffel`."""
+    letters: dict[str, str | int | None] = {"ä": "ae", "ö": "oe", "ü": "ue", "Ä": "Ae", "Ö": "Oe", "Ü": "Ue", "ß": "ss"}
+    return word.translate(str.maketrans(letters))
+
+
+def tokens(text: str) -> list[str]:
+    """Lower-case words of a name: split at case changes, digits and punctuation, without accents; numbers and small
+    words (de, la, of) dropped."""
+    plain = "".join(c for c in unicodedata.normalize("NFKD", text.replace("ß", "ss")) if not unicodedata.combining(c))
+    return [t for t in (t.casefold() for t in _SPLIT.findall(plain)) if not t.isdigit() and t not in _SMALL]
+
+
+def concepts(text: str, words: Vocabulary) -> frozenset[str]:
+    """What a name speaks of: "HYDRUALIC_CYL_LIFT_LH" has cylinder, boom and left."""
+    if text not in words.known:
+        words.known[text] = _concepts(unicodedata.normalize("NFKC", mended(text, words)), words)
+    return words.known[text]
+
+
+def _concepts(text: str, words: Vocabulary) -> frozenset[str]:
+    found: set[str] = set()
+    for word in sorted((w for w in words.scripts if w in text), key=lambda w: (-len(w), w)):
+        if word in text:
+            found |= words.scripts[word]
+            text = text.replace(word, " ")
+    said = tokens(text)
+    used = [False] * len(said)
+    for size in (4, 3, 2, 1):
+        for start in range(len(said) - size + 1):
+            if any(used[start : start + size]):
+                continue
+            meant = _meaning(tuple(said[start : start + size]), words)
+            if meant:
+                found |= meant
+                used[start : start + size] = [True] * size
+    return frozenset(found)
+
+
+def mended(text: str, words: Vocabulary) -> str:
+    """A name whose bytes were read in the wrong code (`¶¯±Û` is 动臂), where that gives words that are known."""
+    if not _HIGH.search(text):
+        return text
+    for misread, written in _CODECS:
+        try:
+            other = text.encode(misread).decode(written)
+        except UnicodeError:
+            continue
+        if any(w in other for w in words.scripts) or (written == "utf-8" and other != text):
+            return other
+    return text
+
+
+def _meaning(said: tuple[str, ...], words: Vocabulary) -> frozenset[str]:
+    """What a word, or some in a row, mean: as they stand, as a plural, joined (`Löffelstiel`), or with typos."""
+    if said in words.known:
+        return words.known[said]
+    found = words.phrases.get(said) or words.phrases.get((*said[:-1], said[-1].removesuffix("s")))
+    if not found and len(said) == 1:
+        found = _joined(said[0], words)
+    if not found:
+        best = ALIKE
+        for phrase, meant in words.phrases.items():
+            if len(phrase) == len(said):
+                likeness = min(_alike(a, b) for a, b in zip(said, phrase, strict=True))
+                if likeness > best:
+                    best, found = likeness, meant
+    words.known[said] = found or frozenset()
+    return words.known[said]
+
+
+def _joined(word: str, words: Vocabulary) -> frozenset[str] | None:
+    """The meaning of a compound of known words, longest first; None if it is none."""
+    for cut in range(len(word) - 3, 2, -1):
+        head = words.phrases.get((word[:cut],))
+        if not head or cut < 3:
+            continue
+        for rest in (word[cut:], word[cut:].removeprefix("s")):
+            tail = words.phrases.get((rest,)) or (_joined(rest, words) if len(rest) > 6 else None)
+            if tail and len(rest) > 2:
+                return head | tail
+    return None
+
+
+def _alike(word: str, known: str) -> float:
+    """1 for equal words, less for typos and for a word cut short; 0 where it could be anything."""
+    if word == known:
+        return 1.0
+    if len(word) >= 4 and len(word) < len(known) <= 2 * len(word) and known.startswith(word):
+        return 0.9
+    if len(word) == len(known) == 4:  # two letters in each other's place
+        return 0.8 if DamerauLevenshtein.distance(word, known) == 1 and sorted(word) == sorted(known) else 0.0
+    if min(len(word), len(known)) < 5 or word[0] != known[0]:  # light is no right
+        return 0.0
+    return DamerauLevenshtein.normalized_similarity(word, known)
+
+
+def role_concepts(role: Role) -> frozenset[str]:
+    """What a name of the role would speak of: the words of its own name; a barrel or rod is of a cylinder."""
+    found = {_SIDES.get(t, t) for t in role.name.split("_") if t != "piston"}
+    return frozenset(found | ({"cylinder", role.kind} if role.kind in ("barrel", "rod") else set()))
+
+
+def exact_roles(template: Template) -> dict[str, str]:
+    """Folded role name → role."""
+    return {fold(r.name): r.name for r in template.roles}
+
+
+def exact_role(part: Part, roles: Mapping[str, str]) -> str | None:
+    """The role whose name the part bears, as it stands or with a running number behind."""
+    name = fold(part.name)
+    return roles.get(name) or roles.get(fold(_COUNT.sub("", part.name)))
+
+
+def likeness(said: Mapping[str, float], role: frozenset[str]) -> float:
+    """How well names speak of a role: 0 (not at all, or of another) to 1. `said`: concept → weight (`spoken`)."""
+    for a, b in _OPPOSED:
+        if (a in role and b in said and a not in said and b not in role) or (
+            b in role and a in said and b not in said and a not in role
+        ):
+            return 0.0
+    shared = [c for c in said if c in role]
+    if not set(shared) - _PLACES:
+        return 0.0
+    common = sum(said[c] for c in shared)
+    recall = common / len(role)
+    precision = common / sum(said.values())
+    return 2 * recall * precision / (recall + precision)
+
+
+def spoken(names: Iterable[str], words: Vocabulary) -> dict[str, float]:
+    """What names speak of, the part's own first, then its assemblies' from the inside out: concept → weight."""
+    weights: dict[str, float] = {}
+    for depth, text in enumerate(names):
+        for concept in sorted(concepts(text, words)):
+            weights[concept] = max(weights.get(concept, 0.0), ABOVE**depth)
+    return weights
+
+
+def name_scores(parts: tuple[Part, ...], template: Template) -> list[dict[str, float]]:
+    """For every part: body → how well its names speak of it (`EXACT` where it bears the exact name of one of its
+    roles). Names of assemblies that hold all parts say nothing."""
+    words = vocabulary(template)
+    roles = exact_roles(template)
+    shared = 0
+    while len({p.path[: shared + 1] for p in parts}) == 1 and all(len(p.path) > shared for p in parts):
+        shared += 1
+    bodies: dict[str, list[frozenset[str]]] = {}
+    for role in template.roles:
+        body = template.body_of(role.name)
+        if body is not None and role.kind != "pin":
+            bodies.setdefault(body, []).append(role_concepts(role))
+    scores = []
+    for part in parts:
+        said = spoken((part.name, *reversed(part.path[shared:])), words)
+        found = {b: s for b, wanted in bodies.items() if (s := max(likeness(said, w) for w in wanted)) > CLEAR}
+        named = exact_role(part, roles)
+        body = template.body_of(named) if named is not None else None
+        if body is not None:
+            found[body] = EXACT
+        scores.append(found)
+    return scores

@@ -1,0 +1,26 @@
+"""The root, where nothing that was found plays it: a machine without its base would be no machine at all."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from yellowiron.alignment.assignment.cp_sat import Solution
+from yellowiron.alignment.features.solids import Solid
+from yellowiron.alignment.structure.clusters import Structure
+from yellowiron.model.template import Template
+
+
+def grounded(solution: Solution, structure: Structure, solids: tuple[Solid, ...], template: Template) -> Solution:
+    """The solution, with the largest cluster that nothing else is played by as the template's root where that has none.
+    No joint speaks for it, so that it comes out as doubtful."""
+    root = template.role(template.root)
+    if root.name in solution.body_of.values():
+        return solution
+    left = [
+        (round(sum(solids[i].shape.area for i in cluster.members), 9), -c)
+        for c, cluster in enumerate(structure.clusters)
+        if c not in solution.body_of and not cluster.kind
+    ]
+    if not left:
+        return solution
+    return replace(solution, body_of={**solution.body_of, -max(left)[1]: root.name})

@@ -1,0 +1,153 @@
+"""The unit of a CAD model, checked against the sheet: a machine of 300 "metres" was drawn in inches."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+from scipy.spatial import ConvexHull, QhullError
+from scipy.spatial.distance import pdist
+
+from yellowiron.alignment.features.cylinders import rams_of
+from yellowiron.alignment.features.separate_parts import islands
+from yellowiron.alignment.features.solids import solids_of
+from yellowiron.alignment.structure.observation import CONTACT
+from yellowiron.model.assembly import Assembly, DeclaredJoint
+from yellowiron.model.finding import Finding
+from yellowiron.model.geometry import CylinderFeature, PlaneFeature, Shape
+from yellowiron.model.specification import Specifications
+from yellowiron.model.template import Template
+
+POSES = (0.55, 1.9)
+"""The longest extent, which is a diagonal, as a share of the overall length: the sheet's machine has its arms folded,
+the drawn one may have them anywhere."""
+UNITS = {"millimetres": 1e-3, "centimetres": 1e-2, "inches": 0.0254, "feet": 0.3048, "metres": 1.0}
+AGREE = 0.01
+"""Two diameters agree within this share."""
+ENOUGH = 3
+"""So many diameters of hydraulic cylinders that agree with the sheet's give the scale of a model without a unit."""
+
+
+def to_scale(assembly: Assembly, template: Template, specifications: Specifications) -> Assembly:
+    """The model in metres, by the sheet's overall length (the template's value that is `length_of` the whole machine),
+    with a finding (ALN014) if that changed it.
+
+    A length that is off by more than a pose can explain means a wrong unit: that unit is taken with which the length
+    comes out. If there is none, the diameters of the hydraulic cylinders give the scale; without these the length
+    itself does, which is told as a guess.
+    """
+    wanted = next((w.name for w in template.wanted if w.length_of == "*"), None)
+    length = specifications.number(wanted) if wanted is not None else None
+    drawn = _extent(assembly)
+    if length is None or length <= 0.0 or drawn <= 0.0 or POSES[0] <= drawn / length <= POSES[1]:
+        return assembly
+    read = f"The CAD model is {drawn:.4g} m long, the sheet's machine {length:.4g} m"
+    fitting = {name: unit / assembly.unit for name, unit in UNITS.items()}
+    fitting = {name: f for name, f in fitting.items() if POSES[0] <= f * drawn / length <= POSES[1]}
+    by_diameters = _by_diameters(assembly, template, specifications, length / drawn)
+    if fitting:
+        true, factor = min(fitting.items(), key=lambda item: abs(math.log(item[1] * drawn / length)))
+        if by_diameters is None or abs(factor / by_diameters - 1) < AGREE:
+            return _told(assembly, factor, f"{read}: its numbers are {true}; scaled by {factor:.6g}")
+    if by_diameters is not None:
+        words = f"{read}: scaled by {by_diameters:.6g}, with which its hydraulic cylinders are the sheet's"
+        return _told(assembly, by_diameters, words)
+    factor = length / drawn
+    return _told(assembly, factor, f"{read}, and no unit explains that: scaled by {factor:.4g}, which is a guess")
+
+
+def _told(assembly: Assembly, factor: float, words: str) -> Assembly:
+    hint = "Check the unit that the model was exported in, and the sheet's overall length."
+    finding = Finding("ALN014", "warning", assembly.name, words, hint)
+    return replace(scaled(assembly, factor), findings=(*assembly.findings, finding))
+
+
+def _extent(assembly: Assembly) -> float:
+    """Metres between the two points of the machine that are farthest apart; what stands apart does not count."""
+    apart = islands(assembly)
+    clouds = [assembly.points_of(p) for p in assembly.parts if p.id not in apart]
+    clouds = [c for c in clouds if len(c)]
+    if not clouds:
+        return 0.0
+    points = np.concatenate(clouds)
+    try:
+        points = points[ConvexHull(points).vertices]
+    except QhullError:
+        points = np.array([points.min(axis=0), points.max(axis=0)])
+    return float(pdist(points[:: max(1, len(points) // 2000)]).max())
+
+
+def _by_diameters(assembly: Assembly, template: Template, specifications: Specifications, near: float) -> float | None:
+    """The scale with which the most diameters of hydraulic cylinders are the sheet's, if enough are and the length
+    `near` suggests it too."""
+    values = sorted(set(_diameters(template, specifications)))
+    solids = solids_of(assembly)
+    if not values or not solids:
+        return None
+    size = float(np.linalg.norm(np.max([s.high for s in solids], axis=0) - np.min([s.low for s in solids], axis=0)))
+    drawn = sorted({2 * r for ram in rams_of(solids, CONTACT[0] * size) for r in (ram.bore, ram.rod_radius)})
+    best: tuple[int, float, float] | None = None
+    for first in (v / d for v in values for d in drawn if POSES[0] < v / d / near < POSES[1]):
+        pairs = [v / d for v in values for d in drawn if abs(v / d / first - 1) < AGREE]
+        met = len({v for v in values for d in drawn if abs(v / d / first - 1) < AGREE})
+        rank = (met, -abs(math.log(first / near)), float(np.median(pairs)))
+        best = rank if best is None or rank > best else best
+    return best[2] if best is not None and best[0] >= ENOUGH else None
+
+
+def _diameters(template: Template, specifications: Specifications) -> Iterator[float]:
+    for actuator in template.actuators:
+        for quantity in ("bore", "rod_diameter"):
+            name = actuator.specifications.get(quantity)
+            value = specifications.number(name) if name is not None else None
+            if value is not None and value > 0:
+                yield value
+
+
+def scaled(assembly: Assembly, factor: float) -> Assembly:
+    """The model `factor` times as large, about the CAD file's origin."""
+    mark = f"x{factor:.9g}"
+    shapes = {key + mark: _larger(shape, factor, shape.key + mark) for key, shape in assembly.shapes.items()}
+    parts = []
+    for part in assembly.parts:
+        matrix = part.transform.copy()
+        matrix[:3, 3] *= factor
+        parts.append(replace(part, transform=matrix, shape=part.shape + mark))
+    joints = tuple(_joint(joint, factor) for joint in assembly.joints)
+    return replace(assembly, parts=tuple(parts), shapes=shapes, unit=assembly.unit * factor, joints=joints)
+
+
+def _joint(joint: DeclaredJoint, factor: float) -> DeclaredJoint:
+    along = factor if joint.type == "prismatic" else 1.0
+    lower, upper = (None if v is None else v * along for v in (joint.lower, joint.upper))
+    return replace(joint, anchor=_triple(joint.anchor, factor), lower=lower, upper=upper)
+
+
+def _larger(shape: Shape, factor: float, key: str) -> Shape:
+    mesh = shape.mesh
+    return replace(
+        shape,
+        key=key,
+        mesh=replace(mesh, points=mesh.points * factor),
+        volume=shape.volume * factor**3,
+        area=shape.area * factor**2,
+        centroid=shape.centroid * factor,
+        inertia=shape.inertia * factor**5,
+        cylinders=tuple(_cylinder(c, factor) for c in shape.cylinders),
+        planes=tuple(PlaneFeature(_triple(p.point, factor), p.normal, p.area * factor**2) for p in shape.planes),
+        bounds=shape.bounds * factor,
+        knuckles=tuple(_cylinder(c, factor) for c in shape.knuckles),
+    )
+
+
+def _cylinder(c: CylinderFeature, factor: float) -> CylinderFeature:
+    return replace(
+        c, point=_triple(c.point, factor), radius=c.radius * factor, lower=c.lower * factor, upper=c.upper * factor,
+        area=c.area * factor**2,
+    )  # fmt: skip
+
+
+def _triple(v: tuple[float, float, float], factor: float) -> tuple[float, float, float]:
+    return (v[0] * factor, v[1] * factor, v[2] * factor)

@@ -1,0 +1,137 @@
+"""What speaks for a cluster being a body besides its joints: names, a person's word, and the side it is on.
+
+A found joint counts `solve.JOINT_WEIGHT`; everything here counts less, save a person's word.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+
+import numpy as np
+
+from yellowiron.alignment.assignment.cp_sat import Solution
+from yellowiron.alignment.assignment.machine_frame import MachineFrame
+from yellowiron.alignment.features.solids import Solid
+from yellowiron.alignment.structure.clusters import Structure
+from yellowiron.model.template import Template
+
+Weights = dict[tuple[int, str], int]
+"""(cluster, body) → weight."""
+NAME_WEIGHT = 40
+EXACT_WEIGHT = 70
+EDIT_WEIGHT = 250
+SIDE_WEIGHT = 80
+SIZE_WEIGHT = 12
+AS_GOOD = 0.1
+"""Bodies that a name speaks of this nearly as much as of the one it speaks of most are meant as well."""
+TRUSTING = 6
+"""So many parts must contradict their names as clearly as if so many more agreed: names are mostly right."""
+_SIDE = re.compile(r"(?<=_)([lr])(?=_|$)")
+
+
+def name_weights(
+    solids: tuple[Solid, ...],
+    structure: Structure,
+    template: Template,
+    scores: list[dict[str, float]],
+    edited: Mapping[str, str],
+) -> Weights:
+    """Weights from what the parts are called (`scores`, by solid) and from what a person said (part id → role)."""
+    unary: Weights = {}
+    bodies = {r.name for r in template.roles if r.rigid}
+    known = {r.name for r in template.roles}
+    for c, cluster in enumerate(structure.clusters):
+        members = sorted(cluster.members)
+        telling = [i for i in members if scores[i]]
+        votes: dict[str, float] = {}
+        for i in telling:
+            for body, score in scores[i].items():
+                votes[body] = votes.get(body, 0.0) + score / len(telling)
+        for body in sorted(votes):
+            if body in bodies:
+                exact = votes[body] > 1
+                unary[c, body] = round(EXACT_WEIGHT if exact else NAME_WEIGHT * votes[body])
+        for i in members:
+            role = edited.get(solids[i].part.id)
+            body_said = template.body_of(role) if role in known and role is not None else None
+            if body_said is not None:
+                unary[c, body_said] = unary.get((c, body_said), 0) + EDIT_WEIGHT
+    return unary
+
+
+def heed(structure: Structure, solution: Solution, scores: list[dict[str, float]]) -> float:
+    """How far the names of a machine are to be believed, 0 to 1: Cohen's kappa of what the parts are called and what
+    the joints make of them, their agreement beyond that of names dealt out at random (Cohen 1960)."""
+    pairs: list[tuple[frozenset[str], str]] = []
+    for c, body in sorted(solution.body_of.items()):
+        for i in sorted(structure.clusters[c].members):
+            if scores[i]:
+                best = max(scores[i].values())
+                pairs.append((frozenset(b for b, s in scores[i].items() if s >= best - AS_GOOD), body))
+    if not pairs:
+        return 1.0
+    share = {body: 1 / len(pairs) * sum(1 for _, b in pairs if b == body) for _, body in pairs}
+    agreed = sum(body in said for said, body in pairs) / len(pairs)
+    chance = sum(share.get(b, 0.0) for said, _ in pairs for b in said) / len(pairs)
+    kappa = (agreed - chance) / (1 - chance) if chance < 1 else 1.0
+    return max(0.0, (len(pairs) * kappa + TRUSTING) / (len(pairs) + TRUSTING))
+
+
+def size_weights(solids: tuple[Solid, ...], structure: Structure, template: Template) -> Weights:
+    """Weights for the machine's frames, which are its largest things, and for the tool, which is larger than links."""
+    sizes = [sum(float(solids[i].shape.area) for i in sorted(c.members)) for c in structure.clusters]
+    ranked = sorted(sizes)
+    frames = [r.name for r in template.roles if r.rigid and r.kind == "frame"]
+    tools = {template.body_of(r.name) for r in template.roles if r.kind == "edge"} - {None, *frames}
+    largest = ranked[-1] if ranked else 0.0
+    others = ranked[-1 - len(frames)] if len(ranked) > len(frames) else 0.0
+    found: Weights = {}
+    for c, size in enumerate(sizes):
+        if structure.clusters[c].kind or largest <= 0.0:
+            continue
+        for name in frames:
+            found[c, name] = round(SIZE_WEIGHT * size / largest)
+        for tool in sorted(str(t) for t in tools):
+            found[c, tool] = round(0.5 * SIZE_WEIGHT * min(1.0, size / others)) if others > 0.0 else 0
+    return found
+
+
+def twin_role(name: str) -> str | None:
+    """The mirrored name: `boom_piston_rod_l_pin` → `boom_piston_rod_r_pin`; None without a side."""
+    swapped = _SIDE.sub(lambda m: "r" if m.group(1) == "l" else "l", name)
+    return swapped if swapped != name else None
+
+
+def side_weights(
+    solids: tuple[Solid, ...],
+    structure: Structure,
+    template: Template,
+    solution: Solution,
+    frame: MachineFrame,
+    unary: Weights,
+) -> Weights:
+    """Weights that put the left one of each mirrored pair on +Y."""
+    sided = dict(unary)
+    cluster_of = {b: c for c, b in solution.body_of.items()}
+
+    def y(cluster: int) -> float:
+        members = [solids[i] for i in sorted(structure.clusters[cluster].members)]
+        middle = np.mean([0.5 * (s.low + s.high) for s in members], axis=0)
+        return float(frame.matrix[1, :3] @ middle + frame.matrix[1, 3])
+
+    for name in sorted(cluster_of):
+        match = _SIDE.search(name)
+        twin = twin_role(name)
+        if match is None or twin is None or not any(r.name == twin for r in template.roles):
+            continue
+        own = cluster_of[name]
+        other = cluster_of.get(twin)
+        ahead = y(own) - (y(other) if other is not None else 0.0)
+        is_left = ahead > 0
+        left, right = (name, twin) if match.group(1) == "l" else (twin, name)
+        key = (own, left if is_left else right)
+        sided[key] = sided.get(key, 0) + SIDE_WEIGHT
+        wrong = (own, right if is_left else left)
+        sided[wrong] = sided.get(wrong, 0) - SIDE_WEIGHT
+    return sided

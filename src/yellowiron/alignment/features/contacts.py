@@ -1,0 +1,311 @@
+"""What touches what: shafts in bores, the lines they share, and flat faces that lie on each other.
+
+Facets of cylindrical faces never count as flat contact (a bore would look like a weld): only the planes that the CAD
+reader found do, and only over the area that both really cover.
+"""
+
+from __future__ import annotations
+
+import functools
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from yellowiron.alignment.features.solids import Cyl, Patch, Solid, patch
+from yellowiron.model.geometry import Floats
+
+PARALLEL = 1 - 2e-5
+"""Cosine beyond which two lines are parallel (0.36°)."""
+BESIDE = 1.5
+"""Two bores that a pin is missing in are this many radii apart at most (or half as far as the longer one is long)."""
+LOOSEST = 0.84
+"""Shaft radius over bore radius: a clearance hole of a small bolt."""
+
+
+@dataclass(frozen=True, eq=False)
+class Fit:
+    """A shaft of solid `inner` in a bore of solid `outer`, coaxial within `gap` metres, over `overlap` metres."""
+
+    inner: int
+    outer: int
+    shaft: Cyl
+    bore: Cyl
+    overlap: float
+    gap: float
+
+
+@dataclass(frozen=True, eq=False)
+class Line:
+    """An axis that fits share: `fits` are indices into the list of fits."""
+
+    origin: Floats
+    direction: Floats
+    radius: float
+    fits: tuple[int, ...]
+
+    def off(self, point: Floats) -> float:
+        """Distance of a point from the line, metres."""
+        delta = point - self.origin
+        return float(np.linalg.norm(delta - (delta @ self.direction) * self.direction))
+
+
+@dataclass(frozen=True, eq=False)
+class Flat:
+    """Flat faces of solids `a` < `b` lying on each other: unit normal out of `a`, centre, area (m²) and width of the
+    overlap."""
+
+    a: int
+    b: int
+    normal: Floats
+    center: Floats
+    area: float
+    width: float
+
+
+def neighbours(solids: tuple[Solid, ...], slack: float) -> list[tuple[int, int]]:
+    """Index pairs (a < b) whose boxes come within `slack` metres, by a sweep along the longest side."""
+    if not solids:
+        return []
+    low = np.array([s.low for s in solids]) - 0.5 * slack
+    high = np.array([s.high for s in solids]) + 0.5 * slack
+    along = int(np.argmax(np.ptp(np.concatenate([low, high]), axis=0)))
+    order = np.lexsort((np.arange(len(solids)), low[:, along]))
+    starts = low[order, along]
+    pairs = []
+    for k, a in enumerate(order):
+        last = int(np.searchsorted(starts, high[a, along], side="right"))
+        others = order[k + 1 : last]
+        touching = others[(low[others] <= high[a]).all(axis=1) & (high[others] >= low[a]).all(axis=1)]
+        pairs += [(int(min(a, b)), int(max(a, b))) for b in touching]
+    return sorted(pairs)
+
+
+def fits_of(solids: tuple[Solid, ...], tolerance: float) -> list[Fit]:
+    """Every shaft in a bore of another part: parallel, concentric, of like radius, overlapping along the axis."""
+    shafts = [(s.index, c) for s in solids for c in s.cylinders if c.full and not c.inner]
+    bores = [(s.index, c) for s in solids for c in s.cylinders if c.inner and c.arc > 2.0]
+    if not shafts or not bores:
+        return []
+    size = float(np.linalg.norm(np.max([s.high for s in solids], axis=0) - np.min([s.low for s in solids], axis=0)))
+    origin = np.mean([s.center for s in solids], axis=0)
+    tree = cKDTree(_coordinates([c for _, c in bores], origin, size))
+    ahead = _coordinates([c for _, c in shafts], origin, size)
+    behind = ahead * np.array([-1, -1, -1, 1, 1, 1])
+    near = 0.008 * size
+    fits = []
+    for k, (inner, shaft) in enumerate(shafts):
+        found = set(tree.query_ball_point(ahead[k], near)) | set(tree.query_ball_point(behind[k], near))
+        for j in sorted(found):
+            outer, bore = bores[j]
+            if outer != inner and (fit := _fit(inner, shaft, outer, bore, tolerance)) is not None:
+                fits.append(fit)
+    return _strongest(fits)
+
+
+def bare_fits_of(solids: tuple[Solid, ...], fits: list[Fit], tolerance: float) -> list[Fit]:
+    """Bores of two parts side by side on one axis, of one size and with nothing in them: where a pin is not drawn.
+
+    `inner` and `shaft` are one of the two, `outer` and `bore` the other.
+    """
+    filled = {id(f.bore) for f in fits}
+    bores = [(s.index, c) for s in solids for c in s.cylinders if c.inner and c.full and id(c) not in filled]
+    if len(bores) < 2:
+        return []
+    centres = np.array([c.center for _, c in bores])
+    tree = cKDTree(centres)
+    longest = max(c.half for _, c in bores)
+    found = []
+    for k, (a, one) in enumerate(bores):
+        room = max(one.half, BESIDE * one.radius)
+        for j in sorted(tree.query_ball_point(centres[k], one.half + room + longest + tolerance)):
+            b, other = bores[j]
+            if a == b or (other.half, j) < (one.half, k) or abs(float(one.direction @ other.direction)) < PARALLEL:
+                continue
+            alike = abs(one.radius - other.radius) < max(tolerance, 0.03 * one.radius)
+            near = other.interval(one.center, one.direction)
+            apart = max(near[0] - one.half, -one.half - near[1])
+            gap = other.off(one.center)
+            if alike and -0.1 * one.half < apart < room + tolerance and gap < max(tolerance, 0.02 * one.radius):
+                found.append(Fit(a, b, one, other, 0.0, gap))
+    return found
+
+
+def _coordinates(cylinders: list[Cyl], origin: Floats, size: float) -> Floats:
+    """(n, 6) per axis: direction times size, and the foot of the perpendicular from the origin."""
+    d = np.array([c.direction for c in cylinders])
+    p = np.array([c.center for c in cylinders]) - origin
+    foot = p - np.einsum("ij,ij->i", p, d)[:, None] * d
+    return np.concatenate([d * size, foot], axis=1)
+
+
+def _fit(inner: int, shaft: Cyl, outer: int, bore: Cyl, tolerance: float) -> Fit | None:
+    slack = max(tolerance, 0.02 * shaft.radius)
+    if not LOOSEST * bore.radius <= shaft.radius <= bore.radius * 1.004 + 0.2 * tolerance:
+        return None
+    if abs(float(shaft.direction @ bore.direction)) < PARALLEL:
+        return None
+    gap = bore.off(
+        shaft.center
+        + np.clip((bore.center - shaft.center) @ shaft.direction, -shaft.half, shaft.half) * shaft.direction
+    )
+    if gap > slack:
+        return None
+    a, b = bore.interval(shaft.center, shaft.direction)
+    overlap = min(b, shaft.half) - max(a, -shaft.half)
+    if overlap <= max(tolerance, 0.05 * min(2 * bore.half, 2 * shaft.half)):
+        return None
+    return Fit(inner, outer, shaft, bore, overlap, gap)
+
+
+def _strongest(fits: list[Fit]) -> list[Fit]:
+    """One fit for each pair of parts and line: the longest."""
+    kept: list[Fit] = []
+    by_pair: dict[tuple[int, int], list[Fit]] = {}
+    for fit in sorted(fits, key=lambda f: (f.inner, f.outer, -round(f.overlap, 7), round(f.gap, 7))):
+        rivals = by_pair.setdefault((fit.inner, fit.outer), [])
+        if all(r.shaft.off(fit.shaft.center) > 0.5 * r.shaft.radius or _skew(r.shaft, fit.shaft) for r in rivals):
+            rivals.append(fit)
+            kept.append(fit)
+    return kept
+
+
+def _skew(a: Cyl, b: Cyl) -> bool:
+    return abs(float(a.direction @ b.direction)) < PARALLEL
+
+
+def lines_of(fits: list[Fit], tolerance: float) -> list[Line]:
+    """The distinct axes of fits: parallel and within a few per cent of a radius of each other."""
+    origins: list[Floats] = []
+    directions: list[Floats] = []
+    radii: list[float] = []
+    members: list[list[int]] = []
+    for k in sorted(range(len(fits)), key=lambda k: (-fits[k].shaft.half, k)):
+        shaft = fits[k].shaft
+        found = -1
+        if origins:
+            d = np.array(directions)
+            delta = shaft.center - np.array(origins)
+            across = delta - np.einsum("ij,ij->i", delta, d)[:, None] * d
+            off = np.linalg.norm(across, axis=1)
+            good = (np.abs(d @ shaft.direction) > PARALLEL) & (off < np.maximum(tolerance, 0.04 * shaft.radius))
+            if good.any():
+                found = int(np.argmin(np.where(good, off, np.inf)))
+        if found < 0:
+            origins.append(shaft.center)
+            directions.append(shaft.direction)
+            radii.append(shaft.radius)
+            members.append([k])
+        else:
+            members[found].append(k)
+            radii[found] = max(radii[found], shaft.radius)
+    return [Line(o, d, r, tuple(sorted(m))) for o, d, r, m in zip(origins, directions, radii, members, strict=True)]
+
+
+class Patches:
+    """Triangles on the planes of shapes, found once for each shape."""
+
+    def __init__(self, tolerance: float) -> None:
+        self.tolerance = tolerance
+        self._of = functools.cache(self._find)
+
+    def _find(self, solid: Solid, plane: int) -> Patch:
+        if not solid.shape.planes:
+            from yellowiron.alignment.features.solids import flat_faces
+
+            return patch(solid.shape, flat_faces(solid.shape)[plane], self.tolerance)
+        return patch(solid.shape, solid.shape.planes[plane], self.tolerance)
+
+    def world(self, solid: Solid, plane: int) -> Floats:
+        """(m, 3, 3) corners in the CAD frame."""
+        corners = self._of(solid, plane).corners
+        moved = corners.reshape(-1, 3) @ solid.part.transform[:3, :3].T + solid.part.transform[:3, 3]
+        return np.asarray(moved.reshape(-1, 3, 3), dtype=np.float64)
+
+
+def flats_of(solids: tuple[Solid, ...], pairs: list[tuple[int, int]], tolerance: float) -> list[Flat]:
+    """Where flat faces of two parts lie on each other."""
+    patches = Patches(0.5 * tolerance)
+    flats = []
+    for a, b in pairs:
+        sa, sb = solids[a], solids[b]
+        if not len(sa.plane_points) or not len(sb.plane_points):
+            continue
+        low = np.maximum(sa.low, sb.low) - tolerance
+        high = np.minimum(sa.high, sb.high) + tolerance
+        ka = _crossing(sa, low, high)
+        kb = _crossing(sb, low, high)
+        if not len(ka) or not len(kb):
+            continue
+        opposed = sa.plane_normals[ka] @ sb.plane_normals[kb].T < -0.99995
+        apart = np.abs(
+            np.einsum("ij,ij->i", sa.plane_normals[ka], sa.plane_points[ka])[:, None]
+            - sa.plane_normals[ka] @ sb.plane_points[kb].T
+        )
+        best: Flat | None = None
+        for i, j in np.argwhere(opposed & (apart < tolerance)):
+            flat = _overlap(sa, sb, int(ka[i]), int(kb[j]), patches)
+            if flat is not None:
+                flats.append(flat)
+                best = flat if best is None or flat.area > best.area else best
+    return flats
+
+
+def _crossing(solid: Solid, low: Floats, high: Floats) -> NDArray[np.intp]:
+    """Indices of planes that pass through a box."""
+    middle, half = 0.5 * (low + high), 0.5 * (high - low)
+    reach = np.abs(solid.plane_normals) @ np.maximum(half, 0)
+    off = np.abs(np.einsum("ij,ij->i", solid.plane_normals, middle - solid.plane_points))
+    return np.flatnonzero(off <= reach + 1e-9)
+
+
+def _overlap(sa: Solid, sb: Solid, i: int, j: int, patches: Patches) -> Flat | None:
+    normal = sa.plane_normals[i]
+    ta, tb = patches.world(sa, i), patches.world(sb, j)
+    if not len(ta) or not len(tb):
+        return None
+    basis = np.linalg.svd(normal[None, :])[2][1:]
+    fa, fb = ta @ basis.T, tb @ basis.T
+    la, ha = fa.reshape(-1, 2).min(axis=0), fa.reshape(-1, 2).max(axis=0)
+    lb, hb = fb.reshape(-1, 2).min(axis=0), fb.reshape(-1, 2).max(axis=0)
+    low, high = np.maximum(la, lb), np.minimum(ha, hb)
+    if (high <= low).any():
+        return None
+    area, middle, width = covered(fa, fb, low, high)
+    if area <= 0:
+        return None
+    height = float(normal @ sa.plane_points[i])
+    return Flat(sa.index, sb.index, normal, middle @ basis + height * normal, area, width)
+
+
+def covered(fa: Floats, fb: Floats, low: Floats, high: Floats, count: int = 24) -> tuple[float, Floats, float]:
+    """Area, centre and extent of what two sets of triangles (m, 3, 2) both cover, on a grid over [low, high]."""
+    steps = (np.arange(count) + 0.5) / count
+    gx, gy = np.meshgrid(low[0] + steps * (high[0] - low[0]), low[1] + steps * (high[1] - low[1]))
+    samples = np.c_[gx.ravel(), gy.ravel()]
+    few, many = sorted((fa, fb), key=len)
+    chosen = samples[inside(samples, few, low, high)]
+    chosen = chosen[inside(chosen, many, low, high)]
+    if not len(chosen):
+        return 0.0, low, 0.0
+    area = float(len(chosen) / len(samples) * np.prod(high - low))
+    return area, chosen.mean(axis=0), float(np.linalg.norm(np.ptp(chosen, axis=0)))
+
+
+def inside(samples: Floats, triangles: Floats, low: Floats, high: Floats) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+    """Which samples (n, 2) lie in any of the triangles (m, 3, 2) that reach the box [low, high]."""
+    near = (triangles.max(axis=1) >= low).all(axis=1) & (triangles.min(axis=1) <= high).all(axis=1)
+    tri = triangles[near]
+    if not len(tri) or not len(samples):
+        return np.zeros(len(samples), dtype=np.bool_)
+    hit = np.ones((len(samples), len(tri)), dtype=np.bool_)
+    edge = tri[:, 1] - tri[:, 0]
+    other = tri[:, 2] - tri[:, 0]
+    sign = np.where(edge[:, 0] * other[:, 1] - edge[:, 1] * other[:, 0] >= 0, 1.0, -1.0)
+    for k in range(3):
+        p, q = tri[:, k], tri[:, (k + 1) % 3]
+        e = q - p
+        cross = e[:, 0] * (samples[:, 1, None] - p[:, 1]) - e[:, 1] * (samples[:, 0, None] - p[:, 0])
+        hit &= cross * sign >= -1e-12
+    return np.asarray(hit.any(axis=1), dtype=np.bool_)

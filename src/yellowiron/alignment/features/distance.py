@@ -1,0 +1,79 @@
+"""Distances between meshes, asked only where a decision hangs on them."""
+
+from __future__ import annotations
+
+import functools
+from typing import Any
+
+import fcl
+import numpy as np
+
+from yellowiron.alignment.features.solids import Cyl, Solid
+from yellowiron.model.geometry import Floats
+
+SAMPLES = 12
+"""Points of a part that are asked whether they are inside of another."""
+
+
+class Touch:
+    """Mesh distances of one assembly, remembered. `tolerance` metres counts as touching."""
+
+    def __init__(self, solids: tuple[Solid, ...], tolerance: float) -> None:
+        self._solids = solids
+        self._tolerance = tolerance
+        self._low = np.array([s.low for s in solids]).reshape(-1, 3)
+        self._high = np.array([s.high for s in solids]).reshape(-1, 3)
+        self._object = functools.cache(self._build)
+        self.distance = functools.cache(self._distance)
+        self.sunk = functools.cache(self._sunk)
+
+    def _build(self, index: int) -> Any:
+        solid = self._solids[index]
+        model = fcl.BVHModel()
+        triangles = solid.shape.mesh.triangles
+        model.beginModel(len(solid.points), len(triangles))
+        model.addSubModel(np.ascontiguousarray(solid.points), np.ascontiguousarray(triangles))
+        model.endModel()
+        return fcl.CollisionObject(model)
+
+    def _distance(self, a: int, b: int) -> float:
+        """Metres between two solids; 0 where they cut each other."""
+        first, second = self._object(min(a, b)), self._object(max(a, b))
+        if fcl.collide(first, second, fcl.CollisionRequest(), fcl.CollisionResult()):
+            return 0.0
+        return max(0.0, float(fcl.distance(first, second, fcl.DistanceRequest(), fcl.DistanceResult())))
+
+    def _sunk(self, a: int, b: int) -> float:
+        """The share of solid `a` that is inside of solid `b`, by some of its points; 0 where `b` is open."""
+        inner, outer = self._solids[a], self._solids[b]
+        if not outer.shape.closed:
+            return 0.0
+        points = np.concatenate([inner.center[None], inner.points[:: max(1, len(inner.points) // SAMPLES)]])
+        within = [abs(_winding(outer.points[outer.shape.mesh.triangles] - point)) for point in points]
+        return float(np.mean(np.minimum(within, 1.0)))
+
+    def reaching(self, low: Floats, high: Floats) -> list[int]:
+        """The solids whose boxes reach a box, (3,) corners."""
+        return np.flatnonzero((self._low <= high).all(axis=1) & (self._high >= low).all(axis=1)).tolist()
+
+    def pierced(self, index: int, bar: Cyl, radius: float) -> bool:
+        """True if a solid's mesh comes within a radius of the axis of a bar, between its ends."""
+        u = np.linalg.svd(bar.direction[None, :])[2][1]
+        turn = np.stack([u, np.cross(bar.direction, u), bar.direction], axis=1)
+        core = fcl.CollisionObject(fcl.Cylinder(radius, 2.0 * bar.half), fcl.Transform(turn, bar.center))
+        return bool(fcl.collide(self._object(index), core, fcl.CollisionRequest(), fcl.CollisionResult()))
+
+    def touching(self, a: int, b: int) -> bool:
+        """True within the tolerance (boxes first)."""
+        sa, sb = self._solids[a], self._solids[b]
+        apart = np.maximum(sa.low - sb.high, sb.low - sa.high).max()
+        return bool(apart <= self._tolerance) and self.distance(min(a, b), max(a, b)) <= self._tolerance
+
+
+def _winding(corners: Floats) -> float:
+    """How often triangles (m, 3, 3) go around the origin: their solid angles over 4π (van Oosterom, 1983)."""
+    a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
+    la, lb, lc = (np.linalg.norm(v, axis=1) for v in (a, b, c))
+    over = np.einsum("ij,ij->i", a, np.cross(b, c))
+    below = la * lb * lc + (a * b).sum(axis=1) * lc + (b * c).sum(axis=1) * la + (c * a).sum(axis=1) * lb
+    return float(np.arctan2(over, below).sum() / (2.0 * np.pi))

@@ -1,0 +1,78 @@
+"""Wheels by shape: the largest equal rings, and what turns with each."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from yellowiron.alignment.features.solids import Cyl, Solid, coaxial
+from yellowiron.model.geometry import Floats
+
+
+@dataclass(frozen=True, eq=False)
+class Wheel:
+    """One wheel: its solids, the outermost ring among them, its axis and radius (metres, CAD frame)."""
+
+    members: frozenset[int]
+    tyre: int
+    center: Floats
+    direction: Floats
+    radius: float
+    width: float
+
+
+LEAST = 0.025
+"""The least radius of a wheel, in sizes of the whole."""
+
+
+def wheels_of(solids: tuple[Solid, ...], count: int, taken: set[int], tolerance: float) -> list[Wheel]:
+    """Up to `count` wheels: the largest round things of at least half the largest's radius, equal ones together.
+
+    `taken` solids (hydraulics) are left alone. Nothing is returned where no two equal rings are found.
+    """
+    if count == 0:
+        return []
+    size = float(np.linalg.norm(np.max([s.high for s in solids], axis=0) - np.min([s.low for s in solids], axis=0)))
+    round_ones = [s for s in solids if s.axis is not None and s.index not in taken and s.reach > LEAST * size]
+    round_ones.sort(key=lambda s: (-round(s.reach, 5), s.index))
+    found: list[Wheel] = []
+    for s in round_ones:
+        assert s.axis is not None
+        width = s.end - s.start
+        flat = width < 2.2 * s.reach
+        centre = s.axis.center + 0.5 * (s.start + s.end) * s.axis.direction
+        if not flat or any(_same_place(w, s.axis, centre) for w in found):
+            continue
+        if found and s.reach < 0.45 * found[0].radius:
+            break
+        found.append(Wheel(frozenset({s.index}), s.index, centre, s.axis.direction, s.reach, width))
+    equal = [w for w in found if any(v is not w and abs(v.radius - w.radius) < 0.02 * w.radius for v in found)]
+    return [_grown(w, solids, taken, tolerance) for w in equal[:count]] if len(equal) >= 2 else []
+
+
+def _same_place(wheel: Wheel, axis: Cyl, centre: Floats) -> bool:
+    if abs(float(axis.direction @ wheel.direction)) < 0.999:
+        return False
+    delta = centre - wheel.center
+    along = abs(float(delta @ wheel.direction))
+    off = float(np.linalg.norm(delta - (delta @ wheel.direction) * wheel.direction))
+    return off < 0.1 * wheel.radius and along < wheel.width
+
+
+def _grown(wheel: Wheel, solids: tuple[Solid, ...], taken: set[int], tolerance: float) -> Wheel:
+    """Everything round about the wheel's axis that is mostly between its sides."""
+    axis = solids[wheel.tyre].axis
+    assert axis is not None
+    members = set(wheel.members)
+    half = 0.5 * wheel.width
+    for s in solids:
+        if s.axis is None or s.index in taken or s.index in members or s.reach > 1.01 * wheel.radius:
+            continue
+        if not coaxial(s.axis, axis, 0.05, tolerance):
+            continue
+        low, high = s.span(wheel.center, wheel.direction)
+        inside = min(high, 1.15 * half) - max(low, -1.15 * half)
+        if inside > 0.5 * (high - low):
+            members.add(s.index)
+    return Wheel(frozenset(members), wheel.tyre, wheel.center, wheel.direction, wheel.radius, wheel.width)

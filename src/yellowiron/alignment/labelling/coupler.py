@@ -1,0 +1,111 @@
+"""A quick coupler, told by shape alone: what stands between a tool's hinges and the tool, which hangs in it on pins of
+its own.
+
+It moves with the tool, so that it is no body; its parts carry the bores of the hinges, and two or more other bores
+across the machine, as wide, that go on in parts that have none of the hinges' bores. An ear that is welded to its tool
+shares no bore with it, and what is bolted on shares narrow ones.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from yellowiron.alignment.assignment.cp_sat import Solution
+from yellowiron.alignment.features.contacts import Line
+from yellowiron.alignment.features.solids import Cyl, Solid, coaxial
+from yellowiron.alignment.labelling.propagation import Place
+from yellowiron.alignment.structure.clusters import Structure
+from yellowiron.model.geometry import Floats
+from yellowiron.model.template import Template
+
+SLACK = 0.1
+"""Two bores on one pin are off each other by this share of a radius at most."""
+WIDE = 0.6
+"""Least radius of a grip's bore by that of the hinges' narrowest."""
+_REASON = "between the hinges and the tool, which hangs in it on pins of its own"
+_LEAST = 0.6
+"""How strong that evidence is."""
+
+
+def coupled(
+    places: Mapping[int, Place], solids: Sequence[Solid], structure: Structure, solution: Solution, template: Template
+) -> dict[int, Place]:
+    """The places of all parts, those of couplers among them; as they were where a name has told a coupler already."""
+    found = dict(places)
+    for role in template.roles:
+        body = template.body_of(role.parent) if role.kind == "coupler" and role.parent is not None else None
+        if body is None or any(place.role == role.name for place in places.values()):
+            continue
+        own = [i for i, place in sorted(places.items()) if place.body == body and place.role == body]
+        for i in _coupler(own, [solids[i] for i in own], _hinges(body, structure, solution)):
+            old = found[i]
+            found[i] = replace(old, role=role.name, confidence=min(old.confidence, _LEAST), reason=_REASON, how="bores")
+    return found
+
+
+def _hinges(body: str, structure: Structure, solution: Solution) -> list[Line]:
+    """The distinct axes on which a body hangs."""
+    numbers = set()
+    for number in solution.hinge_of.values():
+        hinge = structure.hinges[number]
+        if body in (solution.body_of.get(hinge.a), solution.body_of.get(hinge.b)):
+            numbers.add(hinge.line)
+    return [structure.lines[number] for number in sorted(numbers)]
+
+
+def _coupler(numbers: Sequence[int], solids: Sequence[Solid], hinges: Sequence[Line]) -> list[int]:
+    """Which of a tool's parts are its coupler's; none where it has none."""
+    if len(hinges) < 2:
+        return []
+    across = hinges[0].direction
+    lines = [_hole(line) for line in hinges]
+    narrow = WIDE * min(line.radius for line in lines)
+    holes = [
+        [c for c in s.cylinders if c.inner and c.full and c.radius >= narrow and abs(c.direction @ across) > 0.999]
+        for s in solids
+    ]
+    hung = [{k for k, line in enumerate(lines) if any(_on(c, line) for c in own)} for own in holes]
+    carriers = [n for n, met in enumerate(hung) if met]
+    rest = [n for n, met in enumerate(hung) if not met]
+    if len(set().union(*hung)) < 2:
+        return []
+    grips: list[Cyl] = []
+    for n in carriers:
+        for hole in holes[n]:
+            if any(_on(hole, line) for line in (*lines, *grips)):
+                continue
+            if any(_on(hole, other) for m in rest for other in holes[m]):
+                grips.append(hole)
+    if len(grips) < 2:
+        return []
+    held = [n for n in rest if any(_on(c, grip) for c in solids[n].cylinders for grip in grips)]
+    room = np.array([_flat(c.center, across) for n in carriers for c in holes[n]])
+    inside = [n for n in rest if n not in held and _within(_flat(solids[n].points, across), room)]
+    return [numbers[n] for n in sorted({*carriers, *inside})]
+
+
+def _hole(line: Line) -> Cyl:
+    return Cyl(line.origin, line.direction, line.radius, 0.0, 2.0 * np.pi, True)
+
+
+def _on(one: Cyl, other: Cyl) -> bool:
+    return coaxial(one, other, SLACK)
+
+
+def _flat(points: Floats, across: Floats) -> Floats:
+    """Points (n, 3) as seen along an axis (n, 2)."""
+    plane = np.linalg.svd(across[None, :])[2][1:]
+    return np.asarray(points @ plane.T)
+
+
+def _within(points: Floats, room: Floats) -> bool:
+    """Whether the middle of points (n, 2) lies in the convex hull of others (m, 2)."""
+    from scipy.spatial import Delaunay, QhullError
+
+    try:
+        return bool((Delaunay(room).find_simplex(points.mean(axis=0)[None]) >= 0).all())
+    except QhullError:
+        return False

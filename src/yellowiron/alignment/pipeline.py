@@ -1,0 +1,216 @@
+"""Alignment: which part plays which role. Reads as a method section; each step is a module of its own.
+
+1. solids and their features
+2. tracks: closed rows of equal parts, with what belongs to them; the rest goes on
+3. contacts: shafts in bores, flat faces on each other
+4. hydraulic cylinders
+5. wheels
+6. what each contact means
+7. rigid clusters and the hinges between them
+8. names, and the sheet's diameters, as weights
+9. clusters to bodies by CP-SAT, one variant against the other
+10. the machine's frame, then left and right
+11. pins, hardware and all the rest
+12. what a person said before
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from yellowiron.alignment.assignment.cp_sat import Solution, solve
+from yellowiron.alignment.assignment.machine_frame import MachineFrame, machine_frame
+from yellowiron.alignment.assignment.root_fallback import grounded
+from yellowiron.alignment.assignment.search import BELIEVED, Search, is_whole, rivals_of
+from yellowiron.alignment.assignment.sheet_weights import sheet_findings
+from yellowiron.alignment.assignment.weights import side_weights
+from yellowiron.alignment.features.distance import Touch
+from yellowiron.alignment.features.separate_parts import islands
+from yellowiron.alignment.features.solids import solids_of
+from yellowiron.alignment.features.telescopes import Nest
+from yellowiron.alignment.features.tracks import Track, on_tracks, track_places, tracks_of, without_tracks
+from yellowiron.alignment.labelling.coupler import coupled
+from yellowiron.alignment.labelling.propagation import Spreader
+from yellowiron.alignment.labelling.result import reported
+from yellowiron.alignment.labelling.review import doubts, name_doubts
+from yellowiron.alignment.labelling.suspects import shaken
+from yellowiron.alignment.structure.clusters import Structure
+from yellowiron.alignment.structure.observation import CONTACT, Seen, see
+from yellowiron.model.alignment import Alignment, Vector
+from yellowiron.model.assembly import Assembly
+from yellowiron.model.errors import AlignmentError
+from yellowiron.model.geometry import Floats
+from yellowiron.model.specification import Specifications
+from yellowiron.model.template import Template, choose
+
+
+def align(
+    assembly: Assembly,
+    template: Template,
+    specifications: Specifications,
+    *,
+    edits: Alignment | None = None,
+    choices: Mapping[str, str] | None = None,
+) -> Alignment:
+    """Roles for the parts of a CAD model.
+
+    `template` may carry variants: those `decided_by` geometry are tried and the best is taken, unless `choices` fixes
+    them. `edits` is an earlier alignment, as a person left it (`read_alignment`): its parts with source `edited` keep
+    their role, and so do those with source `data`, which a document of the user's placed. `AlignmentError` for an
+    assembly without parts, for an unknown choice, and for edits that name parts or roles that do not exist. The
+    result does not depend on the order, names (beyond their weight) or frame of the parts.
+    """
+    if not assembly.parts:
+        raise AlignmentError(
+            "The CAD model has no parts", where=assembly.name, hint="Check that the file holds solids."
+        )
+    edited = _edited(assembly, template, edits)
+    apart = islands(assembly, [part for part, role in edited.items() if role])
+    machine = replace(assembly, parts=tuple(p for p in assembly.parts if p.id not in apart))
+    tracking = machine
+    tracked, tracks = _tracked(tracking, template)
+    of_tracks = set(tracked.values())
+    machine = replace(machine, parts=tuple(p for p in machine.parts if p.id not in of_tracks))
+    plain = without_tracks(template)
+    up = _upright(tracks)
+    search = Search(
+        lambda contact: replace(see(machine, plain, contact), up=up), plain, specifications, choices or {}, edited
+    )
+    answer, seen, scores = search.run()
+    structure, resolved, solution = answer.structure, answer.template, answer.solution
+    frame = machine_frame(seen.solids, structure, solution, seen.wheels, resolved, tracks) if seen.solids else None
+    if frame is not None and solution.body_of:
+        sided = side_weights(seen.solids, structure, resolved, solution, frame, answer.unary)
+        if sided != answer.unary:
+            solution = solve(structure, resolved, unary=sided, barred=answer.barred) or solution
+            frame = machine_frame(seen.solids, structure, solution, seen.wheels, resolved, tracks)
+    solution = grounded(solution, structure, seen.solids, resolved)
+    answer = replace(answer, solution=solution)
+    rivals = {} if is_whole(answer) else rivals_of(answer)
+    spreader = Spreader(
+        seen.solids,
+        structure,
+        solution,
+        resolved,
+        seen.flats,
+        seen.near,
+        seen.touch,
+        scores,
+        seen.size,
+        frame.matrix[2, :3] if frame is not None else np.array([0.0, 0.0, 1.0]),
+        rivals,
+        shaken(solution, resolved, _surfaces(seen, structure, solution)),
+    )
+    places = coupled(spreader.run(seen.wheels), seen.solids, structure, solution, resolved)
+    apart |= {seen.solids[i].part.id: metres for i, metres in spreader.apart.items()}
+    by_id = {seen.solids[i].part.id: place for i, place in places.items()}
+    whole = choose(template, answer.choices)
+    if tracks and frame is not None:
+        rows = track_places(tracks, tracked, frame.matrix, whole)
+        all_solids = solids_of(tracking)
+        by_id |= on_tracks(by_id, rows, all_solids, Touch(all_solids, answer.contact * seen.size)) | rows
+    documents = {item.part: item.reason for item in edits.parts if item.source == "data"} if edits is not None else {}
+    return reported(
+        assembly,
+        whole,
+        solution,
+        by_id,
+        edited,
+        answer.choices,
+        frame or MachineFrame(np.eye(4)),
+        documents=documents,
+        apart=apart,
+        axes=_axes(structure, solution, seen),
+        whole=is_whole(answer),
+        rung=CONTACT.index(answer.contact),
+        remarks=[
+            # What reading the file found; the rest was of an earlier model.
+            *(f for f in (edits.findings if edits is not None else ()) if f.code in ("ALN012", "ALN013")),
+            *name_doubts(search.heed, BELIEVED, template.equipment_type),
+            *sheet_findings(structure, seen.rams, resolved, specifications, solution),
+            *doubts(
+                seen.solids,
+                structure,
+                solution,
+                resolved,
+                answer.sided,
+                spreader.loose,
+                {part: metres for part, metres in apart.items() if part not in edited},
+                frozenset(p.role for p in places.values()) | frozenset(edited.values()),
+                frozenset(edited),
+            ),
+        ],
+    )
+
+
+def _surfaces(seen: Seen, structure: Structure, solution: Solution) -> dict[str, float]:
+    """Body → the surface of its cluster, m²."""
+    return {
+        b: sum(seen.solids[i].surface for i in sorted(structure.clusters[c].members))
+        for c, b in solution.body_of.items()
+    }
+
+
+def _axes(structure: Structure, solution: Solution, seen: Seen) -> dict[str, tuple[Vector, Vector]]:
+    """Joint → its axis, for the joints that no pin is drawn for and that no wheel turns on, for the slides whose rod is
+    not drawn in its barrel, and for sections in each other."""
+    found = {}
+    for joint, slide in sorted(solution.slide_of.items()):
+        number = structure.slides[slide][2]
+        drawn = seen.rams[number] if number < len(seen.rams) else seen.nests[number - len(seen.rams)]
+        if isinstance(drawn, Nest) or drawn.apart:
+            found[joint] = (_vector(drawn.origin), _vector(drawn.direction))
+    for joint, number in sorted(solution.hinge_of.items()):
+        hinge = structure.hinges[number]
+        if not hinge.pins and not any(structure.clusters[c].kind == "wheel" for c in (hinge.a, hinge.b)):
+            line = structure.lines[hinge.line]
+            found[joint] = (_vector(line.origin), _vector(line.direction))
+    return found
+
+
+def _vector(values: Floats) -> Vector:
+    x, y, z = (float(v) for v in values)
+    return (x, y, z)
+
+
+def _upright(tracks: list[Track]) -> Floats | None:
+    """The direction across the tracks and their length."""
+    return np.asarray(np.cross(tracks[0].axis, tracks[0].along), dtype=np.float64) if tracks else None
+
+
+def _tracked(assembly: Assembly, template: Template) -> tuple[dict[int, str], list[Track]]:
+    """The parts of tracks, solid → id, and the tracks, where the template has any."""
+    if not any(r.kind == "shoe" for r in template.roles):
+        return {}, []
+    solids = solids_of(assembly)
+    tracks = tracks_of(solids)
+    inside = {i for t in tracks for group in (*t.shoes, *(w.members for w in t.wheels)) for i in group}
+    return {i: solids[i].part.id for i in sorted(inside)}, tracks
+
+
+def _edited(assembly: Assembly, template: Template, edits: Alignment | None) -> dict[str, str]:
+    """Part id → role, for the parts a person set, in the alignment or in a document of theirs."""
+    if edits is None:
+        return {}
+    parts = {p.id for p in assembly.parts}
+    found = {}
+    for item in edits.parts:
+        if item.source not in ("edited", "data"):
+            continue
+        if item.part not in parts:
+            raise AlignmentError(
+                f"The alignment names a part that is not in the CAD model: '{item.part}'",
+                where=item.part,
+                hint="Remove that entry, or align the CAD model it was made for.",
+            )
+        if item.role is not None and not template.knows(item.role):
+            raise AlignmentError(
+                f"'{item.role}' is no role of the template {template.equipment_type}",
+                where=item.part,
+                hint="`yellowiron templates show TYPE` lists the roles.",
+            )
+        found[item.part] = item.role or ""
+    return found

@@ -1,0 +1,251 @@
+"""Rigid clusters and the hinges between them.
+
+What welds: flat contact, a ring in a bore, and two distinct pin lines in common. What never welds alone: contact across
+a shared pin line (it may turn). A barrel, a rod or a wheel is never welded to another of these. Parts that only touch,
+or are drawn into each other, are joined where the machine is not whole without (`weak`); a weld that would leave a pin
+with nothing to turn is refused (`careful`) as long as the machine is whole without.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from yellowiron.alignment.features.contacts import PARALLEL, Fit, Line
+from yellowiron.alignment.features.solids import Solid
+from yellowiron.alignment.features.wheels import Wheel
+from yellowiron.alignment.structure.contact_evidence import Evidence, crosses
+from yellowiron.alignment.structure.min_cut import false_welds, strength
+from yellowiron.alignment.structure.rigid_groups import Groups
+from yellowiron.alignment.structure.welds import Pairs, join_doubly_pinned, lines_by_group, weld
+
+ROUNDS = 4
+"""How often a careful reading starts again without the false welds it found."""
+LONG = 6.0
+"""A part that reaches this many pin radii from the pin's axis is no ring, boss or keeper."""
+
+
+@dataclass(frozen=True)
+class Cluster:
+    """Solids that move as one. `kind`: `wheel`, `barrel`, `rod` or ""; `number` of that wheel or cylinder."""
+
+    members: frozenset[int]
+    kind: str = ""
+    number: int = -1
+
+
+@dataclass(frozen=True)
+class Hinge:
+    """Clusters `a` < `b` turn against each other about line `line`; `pins` are the solids through both."""
+
+    a: int
+    b: int
+    line: int
+    pins: tuple[int, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Structure:
+    """What geometry alone says: clusters, hinges between them, slides (barrel, rod, number of the hydraulic
+    cylinder; then sections in each other, numbered on),
+    lines (the wheels' axes behind those of the evidence), for each pin and bolt its hosts, and the pairs of solids that
+    touch but were not welded, since a pin would have nothing to turn on, with the strength of their contact;
+    and the hoses and such that hold nothing; and line → the races of a slewing bearing on it."""
+
+    clusters: tuple[Cluster, ...] = ()
+    hinges: tuple[Hinge, ...] = ()
+    slides: tuple[tuple[int, int, int], ...] = ()
+    lines: tuple[Line, ...] = ()
+    hosts: dict[int, tuple[Fit, ...]] = field(default_factory=dict)
+    refused: tuple[tuple[int, int, float], ...] = ()
+    slight: frozenset[int] = frozenset()
+    races: dict[int, tuple[int, ...]] = field(default_factory=dict)
+
+
+def structure_of(evidence: Evidence, *, leaves: bool, weak: bool, careful: bool) -> Structure:
+    """Clusters and hinges. `leaves`: the template has bodies that hang on a single hinge, so that a spacer on one pin
+    may be one. A careful reading looks for false welds and starts again without them."""
+    flat = list(dict.fromkeys((f.a, f.b) for f in evidence.welds))
+    apart: set[tuple[int, int]] = set()
+    for _ in range(ROUNDS if careful else 1):
+        groups = _tagged(evidence)
+        pairs = [p for p in flat if p not in apart]
+        refused = weld(groups, evidence, pairs, careful=careful)
+        _attach_eyes(groups, evidence)
+        join_doubly_pinned(groups, evidence)
+        if weak:
+            touching = [p for p in _touching(groups, evidence) if p not in apart]
+            refused = weld(groups, evidence, [*refused, *touching], careful=careful)
+            pairs += touching
+        found = false_welds(groups, evidence, list(dict.fromkeys(pairs)), refused) if refused else set()
+        if not found:
+            break
+        apart |= found
+    _absorb_leaves(groups, evidence, leaves=leaves)
+    if weak:
+        _absorb_bosses(groups, evidence)
+    return _collected(groups, evidence, [*refused, *sorted(apart)])
+
+
+def _tagged(evidence: Evidence) -> Groups:
+    """Groups of what is certain: barrels, rods, wheels, rings in their bores."""
+    groups = Groups(len(evidence.solids))
+    for k, ram in enumerate(evidence.rams):
+        groups.tag(ram.barrel, ("barrel", k))
+        groups.tag(ram.rod, ("rod", k))
+    for k, wheel in enumerate(evidence.wheels):
+        groups.tag(wheel.members, ("wheel", k))
+    for ring, around in evidence.pressed:
+        groups.join(ring, around)
+    join_doubly_pinned(groups, evidence)
+    return groups
+
+
+def loose_ends(structure: Structure) -> int:
+    """How many clusters take part in hinges or slides: far more than the template has bodies means broken welds."""
+    return len({i for h in structure.hinges for i in (h.a, h.b)} | {i for s in structure.slides for i in s[:2]})
+
+
+def _touching(groups: Groups, evidence: Evidence) -> list[tuple[int, int]]:
+    """Pairs in different groups whose meshes touch and that lie about no common line."""
+    sliding = {(min(n.outer, n.inner), max(n.outer, n.inner)) for n in evidence.nests}
+    return [
+        (a, b)
+        for a, b in evidence.near
+        if groups.find(a) != groups.find(b)
+        and groups.may_join(a, b)
+        and not evidence.about[a] & evidence.about[b]
+        and not {a, b} & (evidence.fasteners | (evidence.slight - evidence.sheets))
+        and (a, b) not in sliding
+        and evidence.touching(a, b)
+    ]
+
+
+def _attach_eyes(groups: Groups, evidence: Evidence) -> None:
+    """A barrel or rod without a pin line across it takes the touching group that has one."""
+    for ram in evidence.rams:
+        for part in (ram.barrel,) if ram.apart else (ram.barrel, ram.rod):
+            root = groups.find(min(part))
+            mine = {s.index for s in evidence.solids if groups.find(s.index) == root}
+            if any(crosses(evidence.lines[k], ram) for i in mine for k in evidence.pinned[i]):
+                continue
+            beside = {(a, b) if b in mine else (b, a) for a, b in evidence.near if (a in mine) != (b in mine)}
+            for other, own in sorted(beside):
+                if other in evidence.fasteners or not any(
+                    crosses(evidence.lines[k], ram) for k in evidence.pinned[other]
+                ):
+                    continue
+                if groups.may_join(own, other) and evidence.touching(own, other) and groups.join(own, other):
+                    break
+
+
+def _beside(s: Solid, wheel: Wheel) -> bool:
+    """True if a part has a cylinder about a wheel's axis, near that wheel."""
+    for c in s.cylinders:
+        if c.arc < 2.0 or abs(float(c.direction @ wheel.direction)) < PARALLEL:
+            continue
+        low, high = c.interval(wheel.center, wheel.direction)
+        if low < wheel.width and high > -wheel.width and c.off(wheel.center) < 0.02 * wheel.radius:
+            return True
+    return False
+
+
+def _absorb_leaves(groups: Groups, evidence: Evidence, *, leaves: bool) -> None:
+    """Rings and spacers on a single line go with the only group they lie against."""
+    on = lines_by_group(groups, evidence)
+    partners: dict[int, set[int]] = {}
+    members: dict[int, list[int]] = {}
+    wheel_axes: dict[int, set[int]] = {}
+    for s in evidence.solids:
+        group = groups.find(s.index)
+        members.setdefault(group, []).append(s.index)
+        if groups.kind(group) != "wheel" and s.index not in evidence.fasteners:
+            wheel_axes.setdefault(group, set()).update(k for k, w in enumerate(evidence.wheels) if _beside(s, w))
+    for flat in evidence.turning:
+        a, b = groups.find(flat.a), groups.find(flat.b)
+        if a != b and "wheel" not in (groups.kind(a), groups.kind(b)):
+            partners.setdefault(a, set()).add(b)
+            partners.setdefault(b, set()).add(a)
+    slewing = {k for k, _ in evidence.races}
+    for group in sorted(partners):
+        if groups.kind(group) or groups.find(group) != group:
+            continue
+        axes = wheel_axes.get(group, set())
+        rings = all(evidence.solids[i].axis is not None for i in members[group])
+        if on.get(group, set()) & slewing and not rings:
+            continue  # what stands on a slewing bearing reaches no further than it, and turns
+        found = {groups.find(p) for p in partners[group]} - {group}
+        lines = [evidence.lines[k] for k in on.get(group, set())]
+        if any(hangs(evidence.solids, members[group], line) for line in lines):
+            continue
+        if len(on.get(group, set())) + len(axes) <= 1 and (rings or (not leaves and not axes)) and len(found) == 1:
+            groups.join(group, found.pop())
+
+
+def _absorb_bosses(groups: Groups, evidence: Evidence) -> None:
+    """A ring on a single pin line that is drawn into another part, and touches one group only, goes with it."""
+    on = lines_by_group(groups, evidence)
+    beside: dict[int, set[int]] = {}
+    for a, b in evidence.near:
+        if groups.find(a) != groups.find(b) and not {a, b} & (evidence.fasteners | evidence.slight):
+            beside.setdefault(a, set()).add(b)
+            beside.setdefault(b, set()).add(a)
+    for s in evidence.solids:
+        group = groups.find(s.index)
+        alone = s.axis is not None and not groups.kind(group) and len(on.get(group, ())) == 1
+        if not alone or any(groups.find(o.index) == group for o in evidence.solids if o is not s):
+            continue
+        found = {groups.find(j) for j in sorted(beside.get(s.index, ())) if evidence.touching(s.index, j)} - {group}
+        if len(found) == 1:
+            groups.join(group, found.pop())
+
+
+def hangs(solids: tuple[Solid, ...], members: Iterable[int], line: Line) -> bool:
+    """True for solids that reach far out from a pin's line: no rings and spacers on it, but something that turns."""
+    points = np.concatenate([solids[i].points for i in sorted(members)]) - line.origin
+    off = np.linalg.norm(points - np.outer(points @ line.direction, line.direction), axis=1)
+    return float(off.max()) > LONG * line.radius
+
+
+def _collected(groups: Groups, evidence: Evidence, refused: Pairs) -> Structure:
+    gathered: dict[int, set[int]] = {}
+    for s in evidence.solids:
+        if s.index not in evidence.fasteners:
+            gathered.setdefault(groups.find(s.index), set()).add(s.index)
+    roots = sorted(gathered)
+    number = {root: k for k, root in enumerate(roots)}
+    clusters = tuple(Cluster(frozenset(gathered[r]), *groups.label(r)) for r in roots)
+
+    def cluster(i: int) -> int:
+        return number[groups.find(i)]
+
+    pins: dict[tuple[int, int, int], set[int]] = {}
+    for pin, around in evidence.hosts.items():
+        found = sorted({cluster(f.outer) for f in around if f.outer not in evidence.fasteners})
+        for k in evidence.line_of[pin]:
+            for x, a in enumerate(found):
+                for b in found[x + 1 :]:
+                    pins.setdefault((a, b, k), set()).add(pin)
+    for k, fit in evidence.direct:
+        a, b = sorted((cluster(fit.inner), cluster(fit.outer)))
+        if a != b:
+            pins.setdefault((a, b, k), set())
+    lines = list(evidence.lines)
+    for wheel in evidence.wheels:
+        own = cluster(wheel.tyre)
+        beside = {cluster(s.index) for s in evidence.solids if s.index not in evidence.fasteners and _beside(s, wheel)}
+        for other in sorted(beside - {own}):
+            if clusters[other].kind != "wheel":
+                pins.setdefault((min(own, other), max(own, other), len(lines)), set())
+        lines.append(Line(wheel.center, wheel.direction, wheel.radius, ()))
+    hinges = tuple(Hinge(a, b, k, tuple(sorted(p))) for (a, b, k), p in sorted(pins.items()))
+    slides = tuple((cluster(min(r.barrel)), cluster(min(r.rod)), k) for k, r in enumerate(evidence.rams))
+    sections = [(cluster(n.outer), cluster(n.inner)) for n in evidence.nests]
+    slides += tuple((a, b, len(slides) + k) for k, (a, b) in enumerate(sections) if a != b)
+    apart = tuple((a, b, strength(evidence, a, b)) for a, b in refused if groups.find(a) != groups.find(b))
+    races: dict[int, tuple[int, ...]] = {}
+    for k, fit in evidence.races:
+        races[k] = (*races.get(k, ()), fit.inner, fit.outer)
+    return Structure(clusters, hinges, slides, tuple(lines), dict(evidence.hosts), apart, evidence.slight, races)

@@ -1,0 +1,86 @@
+"""Finding the false weld: the weakest set of contacts that ties together what a pin says must turn."""
+
+from __future__ import annotations
+
+from collections import deque
+
+import numpy as np
+from scipy.sparse import csr_array
+from scipy.sparse.csgraph import maximum_flow
+
+from yellowiron.alignment.structure.contact_evidence import Evidence
+from yellowiron.alignment.structure.rigid_groups import Groups
+from yellowiron.alignment.structure.welds import Pairs, lines_by_group
+
+FIRM = 20_000_000
+SCALE = 1e6
+"""Capacity of a square metre of contact: square millimetres."""
+LIGHTER = 0.8
+"""A cut must be this much weaker than what was kept back."""
+
+
+def strength(evidence: Evidence, a: int, b: int) -> float:
+    """Square metres over which two solids can hold each other: their flat contact, or the larger face of the box that
+    both fill."""
+    flat = evidence.area.get((a, b), 0.0)
+    if flat > 0:
+        return flat
+    sa, sb = evidence.solids[a], evidence.solids[b]
+    sides = np.sort(np.maximum(0.0, np.minimum(sa.high, sb.high) - np.maximum(sa.low, sb.low)))
+    return float(sides[1] * sides[2])
+
+
+def false_welds(groups: Groups, evidence: Evidence, pairs: Pairs, refused: Pairs) -> set[tuple[int, int]]:
+    """Pairs to leave apart, so that what careful welding kept back can hold.
+
+    A kept-back pair would have joined all that turns about some line. Then two of the parts on that line are of
+    different bodies, and the cheapest cut between any two of them is the false weld, unless the pair itself is cheaper.
+    """
+    on = lines_by_group(groups, evidence, without=evidence.bolted)
+    result: set[tuple[int, int]] = set()
+    done: set[tuple[int, int, int]] = set()
+    graph = _graph(evidence, pairs)
+    for a, b in refused:
+        ga, gb = sorted((groups.find(a), groups.find(b)))
+        if ga == gb or groups.kind(ga) or groups.kind(gb):
+            continue
+        own = [p for p in refused if sorted((groups.find(p[0]), groups.find(p[1]))) == [ga, gb]]
+        limit = LIGHTER * sum(strength(evidence, *p) for p in own)
+        for k in sorted(on.get(ga, set()) & on.get(gb, set())):
+            if (ga, gb, k) in done:
+                continue
+            done.add((ga, gb, k))
+            sides = [
+                [i for i, lines in evidence.pinned.items() if k in lines and groups.find(i) == g] for g in (ga, gb)
+            ]
+            cuts = [_cut(graph, pairs, i, j) for i in sides[0] for j in sides[1]]
+            cuts = [c for c in cuts if c and sum(strength(evidence, *p) for p in c) < limit]
+            if cuts:
+                result |= min(cuts, key=lambda c: (sum(strength(evidence, *p) for p in c), sorted(c)))
+    return result
+
+
+def _graph(evidence: Evidence, pairs: Pairs) -> csr_array:
+    """Capacities between solids, both ways."""
+    capacity = {p: max(1, min(FIRM, round(SCALE * strength(evidence, *p)))) for p in pairs}
+    capacity |= {(min(p), max(p)): FIRM for p in evidence.pressed}
+    rows = [a for a, _ in capacity] + [b for _, b in capacity]
+    columns = [b for _, b in capacity] + [a for a, _ in capacity]
+    values = np.array([*capacity.values(), *capacity.values()], dtype=np.int32)
+    count = len(evidence.solids)
+    return csr_array((values, (rows, columns)), shape=(count, count))
+
+
+def _cut(graph: csr_array, pairs: Pairs, start: int, end: int) -> set[tuple[int, int]]:
+    """The minimum cut between two solids over the contacts that weld."""
+    residual = csr_array(graph - maximum_flow(graph, start, end).flow)
+    reached = {start}
+    queue = deque([start])
+    while queue:
+        node = queue.popleft()
+        for at in range(residual.indptr[node], residual.indptr[node + 1]):
+            other = int(residual.indices[at])
+            if residual.data[at] > 0 and other not in reached:
+                reached.add(other)
+                queue.append(other)
+    return set() if end in reached else {(a, b) for a, b in pairs if (a in reached) != (b in reached)}

@@ -1,0 +1,123 @@
+"""Joining what holds together, and being careful about it: one false weld between two bodies sinks a whole machine.
+
+A pin that nothing turns on is a contradiction, and so are two bodies with two hinges between them. Careful welding
+joins first what raises no suspicion, then the least suspicious, and keeps back what would end in such a contradiction.
+"""
+
+from __future__ import annotations
+
+from yellowiron.alignment.features.contacts import Line
+from yellowiron.alignment.features.solids import Solid
+from yellowiron.alignment.structure.contact_evidence import Evidence
+from yellowiron.alignment.structure.rigid_groups import Groups
+
+Pairs = list[tuple[int, int]]
+Lines = dict[int, set[int]]
+"""Group → the pin lines it is on."""
+
+
+def lines_by_group(groups: Groups, evidence: Evidence, *, without: frozenset[int] = frozenset()) -> Lines:
+    """Group → the lines that its members share with pins and bolts, save those `without`."""
+    result: Lines = {}
+    for i, on in evidence.pinned.items():
+        if i not in evidence.fasteners and on - without:
+            result.setdefault(groups.find(i), set()).update(on - without)
+    return result
+
+
+def join_doubly_pinned(groups: Groups, evidence: Evidence) -> None:
+    """Two distinct lines in common weld, again and again until nothing changes."""
+    changed = True
+    while changed:
+        changed = False
+        on = lines_by_group(groups, evidence)
+        pairs = {(a, b) for found in _by_line(on).values() for a in found for b in found if a < b}
+        for a, b in sorted(pairs):
+            if groups.find(a) != groups.find(b) and len(on[a] & on[b]) >= 2 and groups.join(a, b):
+                changed = True
+
+
+def weld(groups: Groups, evidence: Evidence, pairs: Pairs, *, careful: bool) -> Pairs:
+    """Joins pairs of solids, strongest first as given; returns those that a careful one kept back."""
+    if not careful:
+        for a, b in pairs:
+            groups.join(a, b)
+        join_doubly_pinned(groups, evidence)
+        return []
+    waiting = pairs
+    while True:
+        before = len(waiting)
+        waiting = _plain(groups, evidence, waiting)
+        join_doubly_pinned(groups, evidence)
+        if len(waiting) < before:
+            continue
+        pair = _least_suspicious(groups, evidence, waiting)
+        if pair is None:
+            return waiting
+        groups.join(*pair)
+        join_doubly_pinned(groups, evidence)
+
+
+def _by_line(on: Lines) -> dict[int, list[int]]:
+    result: dict[int, list[int]] = {}
+    for group in sorted(on):
+        for k in on[group]:
+            result.setdefault(k, []).append(group)
+    return result
+
+
+def _plain(groups: Groups, evidence: Evidence, pairs: Pairs) -> Pairs:
+    """Joins the pairs whose groups share no pin line and hinge on no common third; returns the others."""
+    on = lines_by_group(groups, evidence, without=evidence.bolted)
+    by_line = _by_line(on)
+    rest: Pairs = []
+    for a, b in pairs:
+        ga, gb = groups.find(a), groups.find(b)
+        if ga == gb or not groups.may_join(ga, gb):
+            continue
+        la, lb = on.get(ga, set()), on.get(gb, set())
+        beside_a = {groups.find(g) for k in la for g in by_line[k]}
+        beside_b = {groups.find(g) for k in lb for g in by_line[k]}
+        if la and lb and (la & lb or (beside_a & beside_b) - {ga, gb}):
+            rest.append((a, b))
+            continue
+        groups.join(ga, gb)
+        on.pop(ga, None)
+        on.pop(gb, None)
+        on[groups.find(ga)] = la | lb
+    return rest
+
+
+def _least_suspicious(groups: Groups, evidence: Evidence, pairs: Pairs) -> tuple[int, int] | None:
+    """The pair whose smaller group is on the fewest lines, among those that leave something turning on each line."""
+    on = lines_by_group(groups, evidence, without=evidence.bolted)
+    by_line = _by_line(on)
+    members: dict[int, list[Solid]] = {}
+    for s in evidence.solids:
+        members.setdefault(groups.find(s.index), []).append(s)
+    loose = {k: {g for g in found if _loose(members.get(g, []), evidence.lines[k])} for k, found in by_line.items()}
+    best: tuple[tuple[int, int, int], tuple[int, int]] | None = None
+    for order, (a, b) in enumerate(pairs):
+        ga, gb = groups.find(a), groups.find(b)
+        if ga == gb or not groups.may_join(ga, gb) or ga not in members or gb not in members:
+            continue
+        la, lb = on.get(ga, set()), on.get(gb, set())
+        common = la & lb
+        if len(common) != 1 or groups.kind(ga) or groups.kind(gb):
+            continue
+        k = next(iter(common))
+        if not set(by_line[k]) - {ga, gb} - loose[k]:
+            continue
+        key = (min(len(la), len(lb)), len(la) + len(lb), order)
+        if best is None or key < best[0]:
+            best = (key, (a, b))
+    return best[1] if best is not None else None
+
+
+def _loose(members: list[Solid], line: Line) -> bool:
+    """True for washers and spacers: groups of nothing but rings about the line."""
+    return all(_turned_about(s, line) for s in members)
+
+
+def _turned_about(s: Solid, line: Line) -> bool:
+    return s.axis is not None and line.off(s.axis.center) < 0.1 * line.radius

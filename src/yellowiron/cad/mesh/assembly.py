@@ -1,0 +1,239 @@
+"""Meshes at their places to an `Assembly`: what every reader of a triangle format ends with."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from yellowiron.cad.mesh import copies, measures, shells
+from yellowiron.cad.mesh.features import facets
+from yellowiron.cad.naming import unique_ids
+from yellowiron.model.assembly import Assembly, Part
+from yellowiron.model.errors import CadError
+from yellowiron.model.finding import Finding
+from yellowiron.model.geometry import Color, Finish, Floats, Mesh, Shape
+
+LARGEST = 1e3
+"""Metres. Nothing in a machine is larger: a wrong unit, or a coordinate that is damaged."""
+_AGAIN = "Export the file again."
+
+
+@dataclass(frozen=True, eq=False)
+class Occurrence:
+    """A mesh at a place: its name, those of the assemblies above, the mesh (shared by all occurrences of it), the
+    (4, 4) transform into the file's frame (metres), the colour and the finish (or those that its triangles number)."""
+
+    name: str
+    path: tuple[str, ...]
+    mesh: Mesh
+    transform: Floats
+    color: Color | None = None
+    finishes: tuple[Finish, ...] = ()
+
+
+def assemble(
+    occurrences: Sequence[Occurrence],
+    *,
+    name: str,
+    format: str,
+    unit: float,
+    path: str,
+    findings: Sequence[Finding] = (),
+    declared: int | None = None,
+) -> Assembly:
+    """The assembly of placed meshes; those that cannot be parts are left out, with a finding. `CadError` if none can.
+
+    Shapes of equal meshes are one, whatever the file calls them, and wherever it has written them out.
+    """
+    occurrences = _shared(occurrences)
+    remarks = list(findings)
+    shapes: dict[str, Shape] = {}
+    known: dict[tuple[int, Color | None, tuple[Finish, ...]], Shape | None] = {}
+    found: list[tuple[Occurrence, Shape]] = []
+    empty: list[str] = []
+    for item in occurrences:
+        key = (id(item.mesh), item.color, item.finishes)
+        if key not in known:
+            known[key] = _shape(item, remarks)
+        shape = known[key]
+        if shape is None:
+            empty.append("/".join((*item.path, item.name)))
+            continue
+        fault = _misplaced(shape, item.transform)
+        if fault:
+            remarks.append(Finding("CAD003", "error", item.name, f"Left out: {fault}", _AGAIN))
+            continue
+        found.append((item, shapes.setdefault(shape.key, shape)))
+    if declared is not None and len(found) < declared:
+        words = f"The file declares {declared} occurrences of parts and {len(found)} were read"
+        remarks.append(Finding("CAD001", "warning", path, words, "Open the file in its own program and compare."))
+    if not found:
+        for finding in remarks:
+            if finding.severity == "error":
+                raise CadError(f"Nothing can be read: {finding.message}", where=finding.where, hint=finding.hint)
+        raise CadError("The file holds no triangles", where=path, hint="Export the machine's parts with it.")
+    if empty:
+        remarks.append(Finding("CAD002", "info", path, f"Without usable geometry: {_listed(empty)}"))
+    ids = unique_ids((*item.path, item.name) for item, _ in found)
+    parts = tuple(
+        Part(id, item.name, item.path, shape.key, item.transform, item.color)
+        for id, (item, shape) in zip(ids, found, strict=True)
+    )
+    remarks += _plausibility(parts, shapes, path)
+    return Assembly(name, format, unit, parts, shapes, tuple(remarks), declared)
+
+
+def _shared(occurrences: Sequence[Occurrence]) -> list[Occurrence]:
+    """The occurrences, those of a mesh that is another's copy with that other's."""
+    meshes = list({id(item.mesh): item.mesh for item in occurrences}.values())
+    found = dict(zip(map(id, meshes), copies.originals(meshes), strict=True))
+    shared = []
+    for item in occurrences:
+        first, moved = found[id(item.mesh)]
+        place = item.transform if moved is None else item.transform @ moved
+        shared.append(replace(item, mesh=meshes[first], transform=place))
+    return shared
+
+
+def shape_of(mesh: Mesh, name: str, color: Color | None = None, finishes: tuple[Finish, ...] = ()) -> Shape:
+    """The shape of a mesh of triangles: measured, turned right side out, with the cylinders and planes that fit it.
+
+    A closed mesh has its volume, centre and inertia; one that is open anywhere counts as a sheet, whose centre is
+    that of its area and whose volume is that of its closed pieces. `mesh` has no triangle without an area.
+    """
+    number = measures.welded(mesh)
+    turned, volume, closed = shells.right_side_out(mesh, number)
+    mesh = _dressed(turned, mesh)
+    area, centroid = measures.area_properties(mesh)
+    inertia = np.zeros((3, 3))
+    if closed:
+        volume, centroid, inertia = measures.volume_properties(mesh)
+    found = facets.find(mesh, number)
+    return Shape(
+        key=_painted(measures.content_key(mesh), mesh, color, finishes),
+        name=name,
+        mesh=mesh,
+        volume=volume,
+        area=area,
+        centroid=centroid,
+        inertia=inertia,
+        closed=closed,
+        exact=False,
+        color=color,
+        cylinders=found.cylinders,
+        planes=found.planes,
+        bounds=measures.bounds(mesh),
+        knuckles=found.knuckles,
+        finishes=finishes,
+    )
+
+
+def _dressed(turned: Mesh, mesh: Mesh) -> Mesh:
+    """A mesh, some triangles of which were turned over, with what belongs to the corners and triangles."""
+    uvs = mesh.uvs
+    if uvs is not None:
+        over = (turned.triangles != mesh.triangles).any(axis=1)
+        uvs = np.where(over[:, None, None], uvs[:, ::-1], uvs)
+    return replace(turned, uvs=uvs, triangle_finishes=mesh.triangle_finishes)
+
+
+def _shape(item: Occurrence, remarks: list[Finding]) -> Shape | None:
+    """The shape of an occurrence's mesh; None where nothing is left of it, which is a finding unless it is empty."""
+    mesh = item.mesh
+    if not len(mesh.triangles):
+        return None
+    used = np.unique(mesh.triangles)
+    if not np.isfinite(mesh.points[used]).all():
+        words = "Left out: its coordinates are not finite numbers"
+        remarks.append(Finding("CAD003", "error", item.name, words, _AGAIN))
+        return None
+    size = float(np.abs(mesh.points[used]).max())
+    if size > 1e9:
+        remarks.append(Finding("CAD003", "error", item.name, f"Left out: it would be {size:.3g} large", _AGAIN))
+        return None
+    mesh = measures.compacted(mesh)
+    return shape_of(mesh, item.name, item.color, item.finishes) if len(mesh.triangles) else None
+
+
+def _misplaced(shape: Shape, transform: Floats) -> str:
+    """Why a shape cannot be where a transform puts it; '' if it can."""
+    if not np.isfinite(transform).all():
+        return "its place is not a finite number"
+    if abs(float(np.linalg.det(transform[:3, :3]))) < 1e-30:
+        return "it is squeezed flat"
+    corners = shape.bounds @ transform[:3, :3].T + transform[:3, 3]
+    size = float(np.abs(corners).max())
+    return f"it would be {size:.3g} m large, or away" if size > LARGEST else ""
+
+
+def _painted(key: str, mesh: Mesh, color: Color | None, finishes: tuple[Finish, ...]) -> str:
+    """A key with the colours and finishes, if there are any: one key is one look."""
+    if color is None and mesh.triangle_colors is None and not finishes:
+        return key
+    paint = "" if color is None else repr(tuple(round(v, 4) for v in color))
+    digest = hashlib.sha256(paint.encode())
+    if mesh.triangle_colors is not None:
+        digest.update(np.round(mesh.triangle_colors * 1e4).astype("<i4").tobytes())
+    if finishes:
+        digest.update(repr(finishes).encode())
+    if mesh.uvs is not None:
+        digest.update(mesh.uvs.astype("<f4").tobytes())
+    if mesh.triangle_finishes is not None:
+        digest.update(mesh.triangle_finishes.astype("<i4").tobytes())
+    return f"{key}-{digest.hexdigest()[:8]}"
+
+
+def _plausibility(parts: Sequence[Part], shapes: dict[str, Shape], path: str) -> list[Finding]:
+    findings = []
+    sheets = list(dict.fromkeys(p.name for p in parts if not shapes[p.shape].closed))
+    if sheets:
+        words = f"Not closed, so they weigh as sheets: {_listed(sheets)}"
+        findings.append(Finding("CAD005", "info", path, words))
+    corners = np.concatenate(
+        [_corners(shapes[p.shape].bounds) @ p.transform[:3, :3].T + p.transform[:3, 3] for p in parts]
+    )
+    size = float(np.linalg.norm(np.ptp(corners, axis=0)))
+    if size < 1e-3:
+        words = f"The model is {size:.3g} m large: check the unit it was exported in"
+        findings.append(Finding("CAD004", "warning", path, words))
+    return findings
+
+
+def _corners(bounds: Floats) -> Floats:
+    x, y, z = np.meshgrid(*bounds.T, indexing="ij")
+    return np.stack([x.ravel(), y.ravel(), z.ravel()], axis=1)
+
+
+def _listed(names: Sequence[str], most: int = 5) -> str:
+    more = f" and {len(names) - most} more" if len(names) > most else ""
+    return ", ".join(names[:most]) + more
+
+
+MILLIMETRES = 60.0
+"""A model without a unit that is larger than this is in millimetres: no machine is 60 m long, nor 60 mm."""
+
+
+def guessed_unit(points: Sequence[Floats], path: str) -> tuple[float, list[Finding]]:
+    """The unit, in metres, of a format that states none, by the model's size; and the remark that it was guessed."""
+    finite = [p[np.isfinite(p).all(axis=1)] for p in points]
+    stacked = np.concatenate([np.zeros((0, 3)), *finite])
+    size = float(np.ptp(stacked, axis=0).max()) if len(stacked) else 0.0
+    unit, name = (1e-3, "millimetres") if size > MILLIMETRES else (1.0, "metres")
+    words = f"The format has no unit of length: {size:.4g} units long, so {name} assumed"
+    hint = "Check the machine's size against the sheet's; else export it as GLB or STEP, which have units."
+    return unit, [Finding("CAD009", "warning", path, words, hint)]
+
+
+def pieces(mesh: Mesh) -> list[Mesh]:
+    """The solids and sheets of a mesh, in the order of their first triangles."""
+    if not len(mesh.triangles):
+        return []
+    label = shells.solids(mesh)
+    order = np.argsort(label, kind="stable")
+    found = []
+    for rows in np.split(order, np.flatnonzero(np.diff(label[order])) + 1):
+        found.append(measures.chosen(mesh, rows))
+    return found

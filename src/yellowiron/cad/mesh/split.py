@@ -1,0 +1,175 @@
+"""Merged meshes taken apart: a machine that was exported as one mesh, or a mesh for every colour; and a hydraulic
+cylinder whose barrel and rod are one solid, cut where the rod comes out."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from yellowiron.cad.mesh import copies, measures
+from yellowiron.cad.mesh.assembly import pieces, shape_of
+from yellowiron.model.assembly import Assembly, Part
+from yellowiron.model.finding import Finding
+from yellowiron.model.geometry import CylinderFeature, Floats, Mesh, Shape
+
+ROUND = 1.2 * np.pi
+"""Radians around: a bar goes further."""
+SLENDER, SHORT = 2.0, 0.5
+"""A barrel is longer than this many of its radii, what is seen of a rod than this many of its own."""
+EYE = 0.6 * np.pi
+"""Radians around: an eye goes further …"""
+WIDE = 6.0
+"""… and is no further to one side than this many radii of the barrel."""
+Eyes = tuple[Floats, Floats]
+"""Centres and unit directions, (n, 3) each."""
+THIN, THICK = 0.2, 0.95
+"""A rod's radius over its barrel's, least and most."""
+
+
+def taken_apart(assembly: Assembly) -> Assembly:
+    """The assembly with a part for every solid of its meshes, where surfaces do not say what is one part, and with
+    hydraulic cylinders that are one solid cut into barrel and rod. A part of one solid stays as it is; of others the
+    pieces have the part's name, and its id with a number."""
+    first = {part.shape: part for part in reversed(assembly.parts)}
+    eyes = _eyes(assembly)
+    found = {key: _solids(assembly.shapes[key], _moved(eyes, part.transform)) for key, part in sorted(first.items())}
+    found = {key: meshes for key, meshes in found.items() if len(meshes) > 1}
+    if not found:
+        return assembly
+    order = [(key, mesh) for key, meshes in found.items() for mesh in meshes]
+    same = copies.originals([mesh for _, mesh in order])
+    own: dict[int, Shape] = {}
+    places: dict[str, list[tuple[str, Floats]]] = {}
+    for (key, mesh), (original, moved) in zip(order, same, strict=True):
+        if original not in own:
+            whole = assembly.shapes[key]
+            own[original] = shape_of(mesh, whole.name, whole.color, whole.finishes)
+        places.setdefault(key, []).append((own[original].key, np.eye(4) if moved is None else moved))
+    shapes = {key: shape for key, shape in assembly.shapes.items() if key not in found}
+    shapes |= {shape.key: shape for shape in own.values()}
+    parts: list[Part] = []
+    for part in assembly.parts:
+        if part.shape not in found:
+            parts.append(part)
+            continue
+        for number, (key, moved) in enumerate(places[part.shape], start=1):
+            id, path = f"{part.id}/{number}", (*part.path, part.name)
+            parts.append(replace(part, id=id, path=path, shape=key, transform=part.transform @ moved))
+    count = sum(part.shape in found for part in assembly.parts)
+    words = f"{count} parts hold several solids each, or a barrel with its rod: taken apart, the model has {len(parts)}"
+    finding = Finding("CAD013", "info", assembly.name, words, "Export every part as an object of its own.")
+    return replace(assembly, parts=tuple(parts), shapes=shapes, findings=(*assembly.findings, finding))
+
+
+def _eyes(assembly: Assembly) -> Eyes:
+    """The round things of a model that a hydraulic cylinder may hang on, CAD frame."""
+    centers, directions = [np.zeros((0, 3))], [np.zeros((0, 3))]
+    for part in assembly.parts:
+        bores = [c for c in assembly.shape_of(part).cylinders if c.arc > EYE]
+        if bores:
+            centers.append(np.array([c.center for c in bores]) @ part.transform[:3, :3].T + part.transform[:3, 3])
+            directions.append(np.array([c.direction for c in bores]) @ part.transform[:3, :3].T)
+    whole = np.concatenate(directions)
+    return np.concatenate(centers), whole / np.maximum(np.linalg.norm(whole, axis=1), 1e-300)[:, None]
+
+
+def _moved(eyes: Eyes, transform: Floats) -> Callable[[], Eyes]:
+    """The eyes in the frame of a part, when they are asked for."""
+
+    def moved() -> Eyes:
+        back = np.linalg.inv(transform)
+        directions = eyes[1] @ back[:3, :3].T
+        return eyes[0] @ back[:3, :3].T + back[:3, 3], directions / np.linalg.norm(directions, axis=1)[:, None]
+
+    return functools.cache(moved)
+
+
+def _solids(shape: Shape, eyes: Callable[[], Eyes]) -> list[Mesh]:
+    """The meshes of a shape's solids, barrels and rods apart; where surfaces say what is one part, only these."""
+    found = [shape.mesh] if shape.exact else pieces(shape.mesh)
+    cut = []
+    for mesh in found:
+        bars = shape.cylinders if len(found) == 1 else _within(shape.cylinders, mesh)
+        cut += _cut(mesh, bars, eyes)
+    return cut
+
+
+def _within(cylinders: tuple[CylinderFeature, ...], mesh: Mesh) -> tuple[CylinderFeature, ...]:
+    """The cylinders whose both ends are in a mesh's box."""
+    low, high = measures.bounds(mesh)
+    slack = 1e-3 * float(np.linalg.norm(high - low))
+    inside = []
+    for one in cylinders:
+        ends = np.array(one.point) + np.outer((one.lower, one.upper), one.direction)
+        if (ends > low - slack).all() and (ends < high + slack).all():
+            inside.append(one)
+    return tuple(inside)
+
+
+def _cut(mesh: Mesh, bars: tuple[CylinderFeature, ...], eyes: Callable[[], Eyes]) -> list[Mesh]:
+    """A mesh, or two where it is a barrel with its rod: cut at the step between two bars in line that have an eye
+    beyond each of them, and closed with flat ends."""
+    for thick, thin in ((a, b) for a in bars for b in bars):
+        place = _step(thick, thin, eyes)
+        if place is None:
+            continue
+        point, direction = place
+        beyond = ((mesh.points - point) @ direction)[mesh.triangles].mean(axis=1) > 0.0
+        if 4 <= int(beyond.sum()) <= len(beyond) - 4:
+            return [_closed(mesh, ~beyond), _closed(mesh, beyond)]
+    return [mesh]
+
+
+def _step(thick: CylinderFeature, thin: CylinderFeature, eyes: Callable[[], Eyes]) -> tuple[Floats, Floats] | None:
+    """Where a rod comes out of its barrel, and the direction in which it does; None where two cylinders are no ram."""
+    if thick.inner or thin.inner or not THIN * thick.radius < thin.radius < THICK * thick.radius:
+        return None
+    if min(thick.arc, thin.arc) < ROUND or thick.length < SLENDER * thick.radius or thin.length < SHORT * thin.radius:
+        return None
+    axis, start = np.array(thick.direction), np.array(thick.center)
+    across = np.array(thin.center) - start
+    ahead = float(across @ axis)
+    if abs(float(axis @ np.array(thin.direction))) < 0.9999:
+        return None
+    if float(np.linalg.norm(across - ahead * axis)) > 0.05 * thick.radius:
+        return None
+    axis, ahead = (axis, ahead) if ahead > 0.0 else (-axis, -ahead)
+    root, end = ahead - 0.5 * thin.length, ahead + 0.5 * thin.length
+    if not -0.1 * thick.radius < root - 0.5 * thick.length < 1.5 * thick.radius:
+        return None
+    centers, directions = eyes()
+    across_it = np.abs(directions @ axis) < 0.02
+    offset = centers[across_it] - start
+    offset -= np.einsum("ij,ij->i", offset, directions[across_it])[:, None] * directions[across_it]
+    along = offset @ axis
+    aside = np.linalg.norm(centers[across_it] - start - along[:, None] * axis, axis=1)
+    off = np.linalg.norm(offset - along[:, None] * axis, axis=1)
+    crossing = along[(off < thick.radius) & (aside < WIDE * thick.radius)]
+    reach = 6.0 * thick.radius
+    behind = any(-0.5 * thick.length - reach < a < 0.0 for a in crossing)
+    beyond = any(end - reach < a < end + reach and a > root for a in crossing)
+    return (start + (root + 1e-6 * thick.radius) * axis, axis) if behind and beyond else None
+
+
+def _closed(mesh: Mesh, rows: np.ndarray[tuple[int], np.dtype[np.bool_]]) -> Mesh:
+    """Some triangles of a closed mesh, the hole that is left filled from its middle."""
+    number = measures.welded(mesh)
+    chosen = number[mesh.triangles[rows]]
+    points = np.zeros((int(number.max()) + 1, 3))
+    points[number[::-1]] = mesh.points[::-1]
+    edges = np.concatenate([chosen[:, [0, 1]], chosen[:, [1, 2]], chosen[:, [2, 0]]])
+    edges = edges[edges[:, 0] != edges[:, 1]]
+    there = {(int(a), int(b)) for a, b in edges}
+    rim = np.array(sorted((b, a) for a, b in there if (b, a) not in there), dtype=np.int64).reshape(-1, 2)
+    if not len(rim):
+        return Mesh(points, chosen.astype(np.int32))
+    middle = points[rim[:, 0]].mean(axis=0)
+    triangles = np.concatenate([chosen, np.column_stack([rim, np.full(len(rim), len(points))])])
+    colors = mesh.triangle_colors
+    if colors is not None:
+        colors = np.concatenate([colors[rows], np.repeat(colors[rows][:1], len(rim), axis=0)])
+    whole = Mesh(np.concatenate([points, middle[None]]), triangles.astype(np.int32), None, colors)
+    return measures.compacted(whole)

@@ -1,0 +1,117 @@
+"""Collision: that bodies have shapes, and shapes that engines take."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from yellowiron.checks.graph import Island
+from yellowiron.checks.rule import Remarks, rule
+from yellowiron.checks.view import Body, View
+
+_TOKENS = (
+    "none",
+    "convexDecomposition",
+    "convexHull",
+    "boundingSphere",
+    "boundingCube",
+    "meshSimplification",
+    "sdf",
+    "sphereFill",
+)
+"""UsdPhysics' approximations, and the two that PhysX adds."""
+_OVERLAP = 1e-3
+
+
+@rule(
+    "CHK100",
+    "warning",
+    "Give it one, if anything shall touch it: without it everything falls through.",
+)
+def no_collider(view: View) -> Remarks:
+    """A body has no collider, nor has one that it is welded to."""
+    welds = [joint.bodies for joint in view.joints if joint.enabled and joint.type == "fixed"]
+    solid = {path for path, body in view.bodies.items() if body.has_collider}
+    solid |= {path for weld in welds if solid.intersection(weld) for path in weld}
+    for body in view.bodies.values():
+        if body.enabled and body.path not in solid and body.mass:
+            yield body.path, "No collider is at or under it."
+
+
+@rule(
+    "CHK101",
+    "warning",
+    "Choose convexHull or convexDecomposition: PhysX takes an exact mesh on static bodies only.",
+)
+def exact_mesh(view: View) -> Remarks:
+    """A moving mesh collides as it is."""
+    for collider in view.colliders:
+        body = view.bodies.get(collider.body)
+        if body is None or body.kinematic or collider.shape != "Mesh":
+            continue
+        if collider.approximation in (None, "none"):
+            said = "says 'none'" if collider.approximation else "is not given"
+            yield collider.path, f"Its approximation {said}, on a body that moves."
+
+
+@rule(
+    "CHK102",
+    "warning",
+    "Use none, convexHull, convexDecomposition, boundingCube, boundingSphere or meshSimplification; PhysX also "
+    "knows sdf and sphereFill.",
+)
+def unknown_token(view: View) -> Remarks:
+    """A collision approximation is unknown."""
+    for collider in view.colliders:
+        if collider.approximation is not None and collider.approximation not in _TOKENS:
+            yield collider.path, f"'{collider.approximation}' is no approximation."
+
+
+@rule(
+    "CHK103",
+    "error",
+    "Give it a size above 0, or points and faces; or remove it.",
+)
+def empty(view: View) -> Remarks:
+    """A collider has no volume."""
+    for collider in view.colliders:
+        if collider.empty:
+            yield collider.path, f"This {collider.shape or 'shape'} is empty."
+
+
+@rule(
+    "CHK104",
+    "info",
+    "Filter the pair (PhysicsFilteredPairsAPI), or switch the articulation's self-collision off.",
+)
+def overlapping(view: View) -> Remarks:
+    """Bodies overlap and may collide."""
+    for island in view.islands:
+        if not island.roots or not all(view.self_collision.get(r, True) for r in island.roots):
+            continue
+        pairs = list(_overlaps(island))
+        if pairs:
+            names = [f"{a.path.rsplit('/', 1)[-1]}–{b.path.rsplit('/', 1)[-1]}" for a, b in pairs[:3]]
+            yield (
+                pairs[0][0].path,
+                f"Boxes of {len(pairs)} unjointed pair(s) overlap in the drawn pose: {', '.join(names)}.",
+            )
+
+
+def _overlaps(island: Island) -> list[tuple[Body, Body]]:
+    """Pairs of bodies, neither jointed nor filtered, whose collider boxes interpenetrate."""
+    joined = {frozenset(j.bodies) for j in island.joints}
+    solid = [b for b in island.bodies if b.solid is not None]
+    found = []
+    for index, first in enumerate(solid):
+        for second in solid[index + 1 :]:
+            if frozenset((first.path, second.path)) in joined:
+                continue
+            if second.path in first.filtered or first.path in second.filtered:
+                continue
+            a, b = first.solid, second.solid
+            if a is not None and b is not None and (np.minimum(a[1], b[1]) - np.maximum(a[0], b[0])).min() > _OVERLAP:
+                found.append((first, second))
+    return found
+
+
+RULES = (no_collider, exact_mesh, unknown_token, empty, overlapping)

@@ -1,0 +1,231 @@
+"""A machine that yellowiron built, against what its build recorded in the file (`customData`, key `yellowiron`)."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+
+from yellowiron.checks.graph import KINDS
+from yellowiron.checks.rule import Remarks, rule
+from yellowiron.checks.view import WORLD, Joint, View, direction
+from yellowiron.model.geometry import Floats
+
+_MOVED = 1e-4
+_TURNED = math.radians(0.01)
+_EDITED = 1e-4
+"""Relative: what is written in single precision differs by less."""
+
+
+def _document(view: View, name: str) -> Any:
+    """One of the machine's JSON texts, or nothing where it is absent or damaged."""
+    try:
+        return json.loads(view.record.get(name, ""))
+    except (json.JSONDecodeError, TypeError):
+        return None
+
+
+def _entries(view: View, name: str) -> list[Mapping[str, Any]]:
+    found = _document(view, name)
+    return [e for e in found if isinstance(e, dict)] if isinstance(found, list) else []
+
+
+def _list(value: Any) -> list[Any]:
+    return value if isinstance(value, list) else []
+
+
+def _number(value: Any) -> float | None:
+    return float(value) if isinstance(value, int | float) and math.isfinite(value) else None
+
+
+def _vector(value: Any) -> Floats | None:
+    """A recorded vector (3,), or None where it is none."""
+    try:
+        found = np.asarray(value, dtype=np.float64)
+    except (TypeError, ValueError):
+        return None
+    return found if found.shape == (3,) and np.isfinite(found).all() else None
+
+
+def _recorded(view: View) -> Iterator[tuple[Joint, Mapping[str, Any]]]:
+    for joint in view.joints:
+        if joint.record.get("kind") == "joint":
+            yield joint, joint.record
+
+
+@rule(
+    "CHK120",
+    "error",
+    "Build again, or put the joint back: its loop is open.",
+)
+def gone(view: View) -> Remarks:
+    """A joint that the build made is gone."""
+    if not view.bodies:  # Physics=off: CHK027
+        return
+    named: dict[str, None] = {}
+    for loop in _entries(view, "loops"):
+        named.update(dict.fromkeys(str(j) for j in _list(loop.get("joints"))))
+    for cylinder in _entries(view, "cylinders"):
+        named.update(dict.fromkeys(str(cylinder[k]) for k in ("slide", "barrel_joint", "rod_joint") if k in cylinder))
+    for actuator in _entries(view, "actuators"):
+        moved = (j.get("joint") for j in _list(actuator.get("joints")) if isinstance(j, dict))
+        named.update(dict.fromkeys(str(j) for j in moved if j))
+    there = {str(j.record.get("name")) for j in view.joints if j.enabled}
+    for name in named:
+        if name not in there:
+            yield view.machine, f"The build recorded the joint '{name}', and it is not there or is switched off."
+
+
+@rule(
+    "CHK121",
+    "error",
+    "Build again, or give it its type and bodies back.",
+)
+def changed(view: View) -> Remarks:
+    """A joint is another one than the build made."""
+    names = {p: str(b.record.get("name")) for p, b in view.bodies.items() if "name" in b.record}
+    for joint, record in _recorded(view):
+        kind = str(record.get("type"))
+        closing = record.get("cut") and kind == "revolute"
+        if joint.type != kind and not (closing and joint.type == "spherical"):
+            yield joint.path, f"It is {joint.type}, and was built as {kind}."
+        # The joints of a ring of shoes are excluded from the articulation too, and no cuts.
+        if bool(record.get("cut") or record.get("floating")) != joint.cut:
+            yield joint.path, f"It is {'cut' if joint.cut else 'not cut'}, and was built the other way."
+        built = (str(record.get("body0")), str(record.get("body1")))
+        found = tuple(names.get(b, "") for b in joint.bodies)
+        lost = [name for name, there in zip(built, found, strict=True) if not there]
+        if "body0" in record and lost:
+            yield joint.path, f"It joins {built[0]} and {built[1]}, and {lost[0]} is no rigid body any more."
+        elif "body0" in record and found != built:
+            yield joint.path, f"It joins {found[0]} and {found[1]}, and was built to join {built[0]} and {built[1]}."
+
+
+@rule(
+    "CHK122",
+    "error",
+    "Build again, or move its frames back: the record says where the CAD model has the pin.",
+)
+def moved(view: View) -> Remarks:
+    """A joint is not on the pin that the build found."""
+    for joint, record in _recorded(view):
+        where, along = _vector(record.get("anchor")), _vector(record.get("axis"))
+        if where is None or along is None:
+            continue
+        anchor = view.frame[:3, :3] @ where + view.frame[:3, 3]
+        axis = view.frame[:3, :3] @ along
+        for end, side in enumerate(joint.sides):
+            if side.missing or not np.isfinite(side.position).all() or not np.isfinite(side.rotation).all():
+                continue
+            distance = float(np.linalg.norm(side.position - anchor))
+            found = direction(side.rotation, joint.freedoms[0]) if len(joint.freedoms) == 1 else side.rotation[:, 0]
+            angle = math.atan2(float(np.linalg.norm(np.cross(found, axis))), float(found @ axis))
+            if distance > _MOVED * max(1.0, float(np.abs(anchor).max()) / 10.0):
+                yield joint.path, f"Its frame on body{end} is {1e3 * distance:.4g} mm from there."
+            elif angle > _TURNED and joint.type != "fixed":
+                yield joint.path, f"Its axis on body{end} is {math.degrees(angle):.4g}° off."
+            elif joint.type == "revolute" and end and abs(joint.coordinate) > _TURNED:
+                yield joint.path, f"Its frames are turned {math.degrees(joint.coordinate):.4g}° about its axis."
+
+
+@rule(
+    "CHK123",
+    "warning",
+    "Nothing to do if they were edited on purpose; the record says where the built ones came from.",
+)
+def edited_limits(view: View) -> Remarks:
+    """A joint's limits are not those of the build."""
+    for joint, record in _recorded(view):
+        if joint.type not in ("revolute", "prismatic"):
+            continue
+        for name, value in (("lower", joint.lower), ("upper", joint.upper)):
+            built = _number(record.get(name))
+            if not _same(value, built):
+                yield joint.path, f"Its {name} limit is {_say(value)}, and was built as {_say(built)} (m or rad)."
+
+
+@rule(
+    "CHK124",
+    "warning",
+    "Nothing to do if it was edited on purpose; the record says where the built one came from.",
+)
+def edited_drive(view: View) -> Remarks:
+    """A joint's drive is not that of the build."""
+    for joint, record in _recorded(view):
+        if joint.cut:
+            continue
+        try:
+            built = json.loads(record.get("drive", "null"))
+        except (json.JSONDecodeError, TypeError):
+            continue
+        if (built is None) != (not joint.drives):
+            yield (
+                joint.path,
+                f"It {'has' if joint.drives else 'has no'} drive, and was built {'with' if built else 'without'} one.",
+            )
+        elif isinstance(built, dict):
+            drive = joint.drives[0]
+            pairs = {
+                "stiffness": (drive.stiffness, built.get("stiffness") if built.get("kind") == "position" else 0.0),
+                "damping": (drive.damping, built.get("damping")),
+                "maxForce": (drive.max_force, built.get("max_force")),
+            }
+            for name, (value, before) in pairs.items():
+                given = _number(before)
+                if given is not None and not _same(value, given):
+                    yield joint.path, f"Its {name} is {value:.5g}, and was built as {given:.5g} (SI)."
+
+
+@rule(
+    "CHK125",
+    "warning",
+    "Nothing to do if it was edited on purpose; otherwise build again.",
+)
+def edited_mass(view: View) -> Remarks:
+    """A body's mass is not that of the build."""
+    for body in view.bodies.values():
+        built = _number(body.record.get("mass"))
+        if built is not None and not _same(body.mass, built):
+            yield body.path, f"It is {_say(body.mass)} kg, and was built as {built:.5g} kg."
+
+
+@rule(
+    "CHK126",
+    "error",
+    "A joint is missing, added or turned: see the other findings, or build again.",
+)
+def mobility(view: View) -> Remarks:
+    """The machine moves in more or fewer ways than the build found."""
+    built = _document(view, "mobility")
+    if not view.bodies or not isinstance(built, dict) or not isinstance(built.get("computed"), int):
+        return
+    freedoms = 0
+    for island in view.islands:
+        if (
+            island.floating
+            or island.motion is None
+            or not any(b.path.startswith(f"{view.machine}/") for b in island.bodies)
+        ):
+            continue
+        tree = [j for j in island.joints if j.path not in island.in_loops and j.type in KINDS]
+        loose = [j for j in tree if WORLD not in j.bodies]
+        one_way = [j for j in island.joints if j.type in ("revolute", "prismatic")]
+        freedoms += sum(len(j.freedoms) for j in loose) + island.motion.rank(one_way)
+    if freedoms != built["computed"]:
+        yield view.machine, f"It moves in {freedoms} way(s), and was built to move in {built['computed']}."
+
+
+def _same(value: float | None, built: float | None) -> bool:
+    if value is None or built is None:
+        return value is None and built is None
+    return abs(value - built) <= _EDITED * max(abs(built), 1e-3)
+
+
+def _say(value: float | None) -> str:
+    return "none" if value is None else f"{value:.5g}"
+
+
+RULES = (gone, changed, moved, edited_limits, edited_drive, edited_mass, mobility)

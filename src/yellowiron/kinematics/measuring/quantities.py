@@ -1,0 +1,247 @@
+"""What can be measured on a posed machine: one function a kind (`docs/measurements.md`)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from fnmatch import fnmatchcase
+from typing import Any
+
+import numpy as np
+
+from yellowiron.kinematics.solver.chain import ClosedChain, State
+from yellowiron.model.geometry import Floats
+from yellowiron.model.mechanism import Body, Joint, Mechanism, Site
+
+_AXES = {"x": 0, "y": 1, "z": 2}
+
+
+class Unmeasurable(Exception):  # noqa: N818 - it ends one measurement with a reason, it is no error of the program
+    """Why one measurement has no value, as one sentence."""
+
+
+@dataclass(frozen=True, eq=False)
+class Posed:
+    """A machine in a pose. `straight` gives a joint's coordinate in the straight machine; `rolling`: its wheels."""
+
+    chain: ClosedChain
+    mechanism: Mechanism
+    state: State
+    straight: Callable[[str], float]
+    rolling: Sequence[tuple[Joint, float]]
+
+    def point(self, body: str, position: Sequence[float]) -> Floats:
+        """A point of a body, given in the drawn pose, where it is now: machine frame (3,)."""
+        moved = self.chain.displacement(self.state, body) @ np.array([*position, 1.0])
+        return np.asarray(moved[:3], dtype=np.float64)
+
+    def direction(self, body: str, vector: Sequence[float]) -> Floats:
+        """A direction of a body, given in the drawn pose, as it points now (3,)."""
+        turned = self.chain.displacement(self.state, body)[:3, :3] @ np.array(vector)
+        return np.asarray(turned, dtype=np.float64)
+
+    def hull(self, body: Body) -> Floats:
+        """Corners (n, 3) of a body's hulls where they are now."""
+        pose = self.chain.displacement(self.state, body.name)
+        return np.asarray(body.hull @ pose[:3, :3].T + pose[:3, 3], dtype=np.float64)
+
+
+def evaluate(quantity: Mapping[str, Any], posed: Posed) -> float:
+    """A quantity's value in SI in a posed machine; `Unmeasurable` where the machine lacks what it names."""
+    kind = str(quantity.get("kind", ""))
+    if kind not in _KINDS:
+        raise Unmeasurable(f"there is no quantity of kind '{kind}'")
+    return float(quantity.get("factor", 1)) * _KINDS[kind](quantity, posed)
+
+
+def wheels(mechanism: Mechanism) -> tuple[tuple[Joint, float], ...]:
+    """Wheel joints with their tyres' radius (metres): tree pivots outside all loops that turn without limit about a
+    level crosswise axis. The radius is that of the hull's farthest corner, which lies on the tread; its front-most
+    corner need not."""
+    looped = {name for loop in mechanism.loops for name in loop.joints}
+    found = []
+    for joint in mechanism.joints:
+        unlimited = joint.lower is None and joint.upper is None and joint.name not in looped
+        if joint.type != "revolute" or joint.cut or not unlimited or abs(joint.axis[1]) < 0.9:
+            continue
+        hull = np.asarray(mechanism.body(joint.body1).hull, dtype=np.float64).reshape(-1, 3)
+        if len(hull):
+            away = hull - np.array(joint.anchor)
+            axis = np.array(joint.axis) / np.linalg.norm(joint.axis)
+            away -= np.outer(away @ axis, axis)
+            found.append((joint, float(np.linalg.norm(away, axis=1).max())))
+    return tuple(found)
+
+
+def _site(quantity: Mapping[str, Any], posed: Posed) -> Site:
+    for site in posed.mechanism.sites:
+        if site.name == quantity.get("site"):
+            return site
+    raise Unmeasurable(f"the machine has no site '{quantity.get('site', '')}'")
+
+
+def _joint(name: object, posed: Posed) -> Joint:
+    for joint in posed.mechanism.joints:
+        if joint.name == name:
+            return joint
+    raise Unmeasurable(f"the machine has no joint '{name}'")
+
+
+def _place(quantity: Mapping[str, Any], posed: Posed) -> Floats:
+    if "site" in quantity:
+        site = _site(quantity, posed)
+        return posed.point(site.body, site.position)
+    joint = _joint(quantity.get("joint"), posed)
+    return posed.point(joint.body0, joint.anchor)
+
+
+def _height(quantity: Mapping[str, Any], posed: Posed) -> float:
+    """z of a site or of a joint's anchor above the ground, which is z = 0 of the machine frame."""
+    return float(_place(quantity, posed)[2])
+
+
+def _angle(quantity: Mapping[str, Any], posed: Posed) -> float:
+    """Pitch of a site's x axis: 0 level, positive where it points up; ±π where it points back."""
+    site = _site(quantity, posed)
+    x = posed.direction(site.body, site.x_axis)
+    return math.atan2(float(x[2]), math.copysign(math.hypot(x[0], x[1]), x[0]))
+
+
+def _reach(quantity: Mapping[str, Any], posed: Posed) -> float:
+    """Level distance along x to a site or joint, positive ahead, from the anchor of the joint `from` (a swing axis),
+    else from the front of the front-most tyres (of `bodies`, where named)."""
+    if "from" in quantity:
+        return float(_place(quantity, posed)[0] - _place({"joint": quantity["from"]}, posed)[0])
+    rolling = [each for each in posed.rolling if each[0].body1 in quantity.get("bodies", each[0].body1)]
+    if not rolling:
+        raise Unmeasurable("the machine has no wheels to measure the reach from")
+    front = max(float(posed.point(j.body0, j.anchor)[0]) + radius for j, radius in rolling)
+    return float(_place(quantity, posed)[0]) - front
+
+
+def _joint_angle(quantity: Mapping[str, Any], posed: Posed) -> float:
+    """A joint's coordinate from the straight machine, cut joints included."""
+    joint = _joint(quantity.get("joint"), posed)
+    return posed.chain.coordinate(posed.state, joint.name) - posed.straight(joint.name)
+
+
+def _joint_range(quantity: Mapping[str, Any], posed: Posed) -> float:
+    """Upper less lower limit of a joint."""
+    joint = _joint(quantity.get("joint"), posed)
+    if joint.lower is None or joint.upper is None:
+        raise Unmeasurable(f"the joint '{joint.name}' has no limits")
+    return joint.upper - joint.lower
+
+
+def _bodies(quantity: Mapping[str, Any], posed: Posed) -> list[Body]:
+    wanted = quantity.get("bodies", "*")
+    names = [wanted] if isinstance(wanted, str) else list(wanted)
+    found = [b for b in posed.mechanism.bodies if len(b.hull) and any(fnmatchcase(b.name, name) for name in names)]
+    if not found:
+        raise Unmeasurable(f"none of these bodies has a shape: {', '.join(map(str, names))}")
+    return found
+
+
+def _extent(quantity: Mapping[str, Any], posed: Posed) -> float:
+    """Length, largest or smallest coordinate along an axis of the machine frame, over bodies' hulls, or over what of
+    them is in a `zone`."""
+    axis = _AXES[str(quantity.get("axis", "x"))]
+    values = _zone(quantity, np.concatenate([posed.hull(body) for body in _bodies(quantity, posed)]))[:, axis]
+    low, high = float(values.min()), float(values.max())
+    return {"length": high - low, "max": high, "min": low}[str(quantity.get("of", "length"))]
+
+
+def _zone(quantity: Mapping[str, Any], corners: Floats) -> Floats:
+    """The corners within a zone: axis → shares, 0 to 1, of their own extent along it."""
+    inside = np.ones(len(corners), dtype=bool)
+    for name, shares in quantity.get("zone", {}).items():
+        along = corners[:, _AXES[str(name)]]
+        low, high = along.min() + (along.max() - along.min()) * np.array(shares, dtype=np.float64)
+        inside &= (along >= low) & (along <= high)
+    if not inside.any():
+        raise Unmeasurable("nothing of these bodies is in that zone")
+    return np.asarray(corners[inside], dtype=np.float64)
+
+
+def _radius(quantity: Mapping[str, Any], posed: Posed) -> float:
+    """Largest distance of bodies' corners, or of a site, from a joint's axis; of `front` or `rear` only those ahead of
+    it or behind."""
+    joint = _joint(quantity.get("joint"), posed)
+    if "site" in quantity:
+        corners = _place({"site": quantity["site"]}, posed)[None]
+    else:
+        corners = np.concatenate([posed.hull(body) for body in _bodies(quantity, posed)])
+    away = corners - posed.point(joint.body0, joint.anchor)
+    side = {"front": 1.0, "rear": -1.0}.get(str(quantity.get("of", "")), 0.0)
+    away = away[side * away[:, 0] >= 0.0]
+    if not len(away):
+        raise Unmeasurable("nothing of these bodies is on that side of the axis")
+    axis = posed.direction(joint.body0, joint.axis)
+    away = away - np.outer(away @ axis, axis) / (axis @ axis)
+    return float(np.linalg.norm(away, axis=1).max())
+
+
+def _distance(quantity: Mapping[str, Any], posed: Posed) -> float:
+    """Distance of two joints' anchors or two sites, along an axis where one is named."""
+    ends = [{"joint": n} for n in quantity.get("joints", ())] + [{"site": n} for n in quantity.get("sites", ())]
+    if len(ends) != 2:
+        raise Unmeasurable("a distance needs two joints or sites")
+    one, two = (_place(end, posed) for end in ends)
+    if "axis" in quantity:
+        return float(abs(two - one)[_AXES[str(quantity["axis"])]])
+    return float(np.linalg.norm(two - one))
+
+
+def _approach_angle(quantity: Mapping[str, Any], posed: Posed) -> float:
+    """Steepest ramp (from level) that touches the front-most tyres and that no corner of the bodies ahead of them
+    reaches into: the least angle between the ground and the tangent from a corner to the tyres. Wheels do not count
+    among the bodies."""
+    if not posed.rolling:
+        raise Unmeasurable("the machine has no wheels to approach a ramp with")
+    centre, radius = max(
+        ((posed.point(j.body0, j.anchor), r) for j, r in posed.rolling), key=lambda each: float(each[0][0])
+    )
+    turning = {joint.body1 for joint, _ in posed.rolling}
+    hulls = [posed.hull(body) for body in _bodies(quantity, posed) if body.name not in turning]
+    corners = np.concatenate([np.zeros((0, 3)), *hulls])[:, [0, 2]] - centre[[0, 2]]
+    far = np.hypot(corners[:, 0], corners[:, 1])
+    ahead = (corners[:, 0] > 0.0) & (far > radius)
+    if not ahead.any():
+        raise Unmeasurable("nothing of these bodies is ahead of the tyres")
+    # The line from the corner that passes below the wheel's centre at the distance of the tread.
+    angles = np.arctan2(corners[ahead, 1], corners[ahead, 0]) + np.arcsin(radius / far[ahead])
+    return float(angles.min())
+
+
+def _overhang(quantity: Mapping[str, Any], posed: Posed) -> float:
+    """Along an axis from a joint's anchor to the farthest corner of bodies: `of` `max` in its sense, `min` against
+    it."""
+    axis, of = _AXES[str(quantity.get("axis", "x"))], str(quantity.get("of", "max"))
+    start = float(_place({"joint": quantity.get("joint")}, posed)[axis])
+    end = _extent({**quantity, "of": of}, posed)
+    return end - start if of == "max" else start - end
+
+
+def _tyre_diameter(quantity: Mapping[str, Any], posed: Posed) -> float:
+    """Twice the radius of the largest wheel (of `bodies`, where named)."""
+    radii = [radius for joint, radius in posed.rolling if joint.body1 in quantity.get("bodies", joint.body1)]
+    if not radii:
+        raise Unmeasurable("the machine has no such wheels")
+    return 2.0 * max(radii)
+
+
+_KINDS: Mapping[str, Callable[[Mapping[str, Any], Posed], float]] = {
+    "height": _height,
+    "angle": _angle,
+    "reach": _reach,
+    "joint_angle": _joint_angle,
+    "joint_range": _joint_range,
+    "extent": _extent,
+    "distance": _distance,
+    "radius": _radius,
+    "approach_angle": _approach_angle,
+    "overhang": _overhang,
+    "tyre_diameter": _tyre_diameter,
+}
+KINDS = tuple(_KINDS)

@@ -1,0 +1,158 @@
+"""Joint entries: the journal paper's Fig. A1, with the conference paper's JSON-4 as further keys."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from typing import Any, cast
+
+from yellowiron.library.parsing.hierarchy import choices_of, yes
+from yellowiron.library.parsing.json_documents import Document, near
+from yellowiron.library.parsing.quantities import limit
+from yellowiron.model.errors import TemplateError
+from yellowiron.model.rows import split_index
+from yellowiron.model.specification import fold
+from yellowiron.model.template import DriveType, JointTemplate, JointType, Role
+
+DIMENSION: Mapping[str, str] = {
+    "prismatic": "length",
+    "distance": "length",
+    "revolute": "angle",
+    "spherical": "angle",
+    "fixed": "length",
+}
+"""Joint type → the dimension of its limits."""
+GAINS = ("stiffness", "damping", "max_force", "max_velocity")
+"""The keys of JSON-4, all in SI units."""
+_DRIVABLE: Mapping[str, str] = {"linear": "prismatic", "angular": "revolute"}
+
+
+def read_joints(document: Document) -> tuple[JointTemplate, ...]:
+    """The joints of a `joints.json`, their parts still as written. `TemplateError` for limits or drives that do not fit
+    the joint's type."""
+    return tuple(
+        replace(read_joint(document, name, entry, None), name=" ".join(name.split()))
+        for name, entry in document.data.items()
+    )
+
+
+def read_joint(document: Document, name: str, entry: Mapping[str, Any], base: JointTemplate | None) -> JointTemplate:
+    """One entry; what it does not state is taken from `base`."""
+    if base is None:
+        for key in ("joint_type", "Body"):
+            if key not in entry:
+                raise TemplateError(
+                    f"'{key}' is missing",
+                    where=document.at(name),
+                    hint="Only a joint of the template may leave it out.",
+                )
+        base = JointTemplate(name=name, type="fixed", parts=("", ""))
+    kind = cast(JointType, entry["joint_type"].lower()) if "joint_type" in entry else base.type
+    lower, upper = _limits(document, name, entry["Limit"], kind) if "Limit" in entry else (base.lower, base.upper)
+    body = entry.get("Body", base.parts)
+    gains = {key: float(entry[key]) for key in GAINS if key in entry}
+    joint = replace(
+        base,
+        type=kind,
+        parts=(body[0].strip(), body[1].strip()),
+        lower=lower,
+        upper=upper,
+        drive=_drive(document, name, entry["Drive"], kind) if "Drive" in entry else base.drive,
+        free=yes(entry["free"]) if "free" in entry else base.free,
+        when=choices_of(entry, "when") if "when" in entry else base.when,
+        drive_when=choices_of(entry, "drive_when") if "drive_when" in entry else base.drive_when,
+        ring=yes(entry["ring"]) if "ring" in entry else base.ring,
+    )
+    if joint.ring and [split_index(part)[1] for part in joint.parts] != ["i", "i+1"]:
+        raise TemplateError(
+            f"Joint '{name}' closes a ring, but does not run along a row",
+            where=document.at(name, "Body"),
+            hint="Its Body is [name[i], name[i+1]].",
+        )
+    return replace(
+        joint,
+        stiffness=gains.get("stiffness", base.stiffness),
+        damping=gains.get("damping", base.damping),
+        max_force=gains.get("max_force", base.max_force),
+        max_velocity=gains.get("max_velocity", base.max_velocity),
+    )
+
+
+def stated_gains(joint: JointTemplate) -> Iterator[tuple[str, float]]:
+    """The gains that a joint entry states, SI."""
+    for key in GAINS:
+        value = getattr(joint, key)
+        if value is not None:
+            yield key, value
+
+
+def resolve_parts(joint: JointTemplate, roles: Mapping[str, Role], where: str) -> JointTemplate:
+    """The joint with its parts spelled as in the hierarchy (`roles`: by folded name). `TemplateError` for a part that
+    is not there."""
+    parts = []
+    for part in joint.parts:
+        name, index = split_index(part)
+        role = roles.get(fold(name))
+        if role is None:
+            raise TemplateError(
+                f"Joint '{joint.name}' names a part '{part}' that the hierarchy does not have",
+                where=where,
+                hint=near(name, (r.name for r in roles.values())) or "Add it to hierarchy.json.",
+            )
+        if bool(index) != role.many:
+            raise TemplateError(
+                f"Part '{part}' of joint '{joint.name}' "
+                + ("has an index, but is one part" if index else "is a row of parts and needs an index"),
+                where=where,
+                hint="A row is written name[*] in the hierarchy, and name[i], name[i+1] in joints.",
+            )
+        parts.append(f"{role.name}[{index}]" if index else role.name)
+    return replace(joint, parts=(parts[0], parts[1]))
+
+
+def check_bodies(joint: JointTemplate, bodies: tuple[str | None, str | None], where: str) -> None:
+    """`TemplateError` unless a joint joins two different bodies."""
+    for part, body in zip(joint.parts, bodies, strict=True):
+        if body is None:
+            raise TemplateError(
+                f"Part '{part}' of joint '{joint.name}' moves with no body",
+                where=where,
+                hint='Mark it or one of its parents "rigid body": "Y".',
+            )
+    row = [split_index(part)[1] for part in joint.parts]
+    if bodies[0] == bodies[1] and row[0] == row[1]:
+        raise TemplateError(
+            f"Joint '{joint.name}' joins '{bodies[0]}' with itself",
+            where=where,
+            hint=f"'{joint.parts[0]}' and '{joint.parts[1]}' move together; name a part of the other body.",
+        )
+
+
+def _limits(
+    document: Document, name: str, value: list[Any], kind: str
+) -> tuple[float | str | None, float | str | None]:
+    place = document.at(name, "Limit")
+    lower, upper = (limit(v, DIMENSION[kind], where=place) for v in value)
+    if isinstance(lower, float) and isinstance(upper, float) and lower >= upper:
+        raise TemplateError(
+            f"The lower limit of joint '{name}' is not below its upper limit",
+            where=place,
+            hint="Limit is [lower, upper]; a joint that cannot move is Fixed.",
+        )
+    if kind == "fixed" and (lower is not None or upper is not None):
+        raise TemplateError(f"The fixed joint '{name}' has limits", where=place, hint="Remove Limit.")
+    return lower, upper
+
+
+def _drive(document: Document, name: str, value: Any, kind: str) -> DriveType | None:
+    word = (value[0] if value else None) if isinstance(value, list) else value
+    if not word:
+        return None
+    drive: DriveType = "linear" if word.lower().startswith("linear") else "angular"
+    if _DRIVABLE[drive] != kind:
+        raise TemplateError(
+            f"Joint '{name}' is {kind} and cannot have a drive that is {drive}",
+            where=document.at(name, "Drive"),
+            hint="Linear Drive goes with Prismatic, Angular Drive with Revolute.",
+        )
+    return drive

@@ -1,0 +1,92 @@
+"""`tests.json`: the payload, and what the machine is put to in an engine."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from yellowiron.library.parsing.details import in_si
+from yellowiron.library.parsing.hierarchy import yes
+from yellowiron.library.parsing.json_documents import Document, near
+from yellowiron.library.parsing.quantities import quantity
+from yellowiron.model.errors import TemplateError
+from yellowiron.model.finding import Finding
+from yellowiron.model.machine_tests import MachineTest, PayloadTemplate, RatedLoad
+from yellowiron.model.specification import fold
+from yellowiron.model.template import Template
+
+_NEEDED: Mapping[str, tuple[str, ...]] = {
+    "tipping": ("site",),
+    "force": ("site", "actuator"),
+    "time": ("actuator",),
+    "lift": ("actuator",),
+}
+"""Kind → the keys that a test of it cannot do without."""
+
+
+def read_tests(document: Document) -> tuple[PayloadTemplate | None, tuple[MachineTest, ...]]:
+    """The payload and the tests of a `tests.json`; texts with a unit become SI numbers. `TemplateError` for a test that
+    lacks what its kind needs, and for a name that is there twice."""
+    entry = document.data.get("payload")
+    payload = None
+    if entry is not None:
+        rated = (RatedLoad(r["specification"], float(r["factor"]), r.get("source", "")) for r in entry.get("rated", ()))
+        payload = PayloadTemplate(entry["site"], tuple(rated))
+    tests: list[MachineTest] = []
+    for i, entry in enumerate(document.data.get("tests", ())):
+        place = document.at("tests", i)
+        for key in _NEEDED[entry["kind"]]:
+            if key not in entry:
+                raise TemplateError(
+                    f"A test of kind '{entry['kind']}' needs '{key}'",
+                    where=place,
+                    hint="docs/template-format.md says what.",
+                )
+        if any(fold(entry["name"]) == fold(test.name) for test in tests):
+            raise TemplateError(f"There are two tests '{entry['name']}'", where=place, hint="Give one another name.")
+        given = {k: entry[k] for k in ("site", "direction", "actuator", "to", "flow", "base") if k in entry}
+        tests.append(
+            MachineTest(
+                name=entry["name"],
+                kind=entry["kind"],
+                specification=entry.get("specification", entry["name"]),
+                steps=tuple(in_si(step, place) for step in entry.get("steps", ())),
+                offset=quantity(entry.get("offset", 0.0), "length", where=place),
+                payload=float(entry.get("payload", 0.0)),
+                expected=yes(entry.get("expected", True)),
+                best=tuple(entry.get("best", ())),
+                inputs=tuple(entry.get("inputs", ())),
+                definition=entry.get("definition", ""),
+                **given,
+            )
+        )
+    return payload, tuple(tests)
+
+
+def lint_tests(template: Template) -> Iterator[Finding]:
+    """TPL019 for every name in the tests that the template does not have, TPL020 for what a sheet is not asked for."""
+    sites = {site.name for site in template.sites}
+    actuators = {actuator.name for actuator in template.actuators}
+    wanted = {fold(w.name): w.name for w in template.wanted}
+
+    def missing(where: str, kind: str, name: str, known: set[str]) -> Iterator[Finding]:
+        if name and name not in known:
+            yield Finding("TPL019", "error", where, f"There is no {kind} '{name}'.", near(name, sorted(known)))
+
+    def unasked(where: str, name: str) -> Iterator[Finding]:
+        if name and fold(name) not in wanted:
+            words = f"'{name}' is not in wanted.json: no sheet gives it."
+            yield Finding("TPL020", "warning", where, words, near(name, wanted.values()))
+
+    if template.payload is not None:
+        yield from missing("payload", "site", template.payload.site, sites)
+        for rated in template.payload.rated:
+            yield from unasked("payload", rated.specification)
+    for test in template.tests:
+        yield from missing(test.name, "site", test.site, sites)
+        named = [test.actuator, *test.best, *(name for step in test.steps for name in step.get("set", {}))]
+        named += [goal["actuator"] for step in test.steps for goal in step.get("solve", ())]
+        named += [name for step in test.steps for name in step.get("extreme", {}).get("actuators", ())]
+        for name in dict.fromkeys(named):
+            yield from missing(test.name, "actuator", name, actuators)
+        for name in dict.fromkeys((test.specification, test.flow, *test.inputs)):
+            yield from unasked(test.name, name)

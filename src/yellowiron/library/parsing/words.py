@@ -1,0 +1,28 @@
+"""What part names call the bodies of a template, language by language: `words.json`."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from yellowiron.library.parsing.json_documents import Document, near
+from yellowiron.model.errors import TemplateError
+from yellowiron.model.specification import fold
+from yellowiron.model.template import Role
+
+
+def read_words(document: Document, roles: tuple[Role, ...]) -> Mapping[str, Mapping[str, tuple[str, ...]]]:
+    """Words of role names, joined by spaces (`boom cylinder`) → language → what parts are called there.
+    `TemplateError` for a key with a word that no role's name has."""
+    known = {word for role in roles for word in role.name.split("_")}
+    found = {}
+    for key, entry in document.data.items():
+        words = key.replace("_", " ").casefold().split()
+        for word in words:
+            if word not in known:
+                raise TemplateError(
+                    f"'{word}' is in no role's name",
+                    where=document.at(key),
+                    hint=near(fold(word), known) or "Write words of the role names, as in `rear frame`.",
+                )
+        found[" ".join(words)] = {language: tuple(names) for language, names in entry.items()}
+    return found

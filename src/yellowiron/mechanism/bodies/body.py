@@ -1,0 +1,101 @@
+"""Bodies: mass, centre and inertia of the parts that move together, and the corners of their convex hulls."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from yellowiron.mechanism.bodies.choice import Choice
+from yellowiron.mechanism.bodies.mass import Factor, Moments, PartMaterial, combine
+from yellowiron.mechanism.placement import Placement
+from yellowiron.model.finding import Finding
+from yellowiron.model.geometry import Floats, Mesh
+from yellowiron.model.mechanism import Body, BodyPart, Vector
+from yellowiron.model.template import Template
+
+COLLISION = "convexHull"
+"""The collision approximation of a part that neither document nor template names."""
+
+
+def bodies(
+    names: Sequence[str],
+    origins: Mapping[str, Vector],
+    placement: Placement,
+    template: Template,
+    materials: Sequence[PartMaterial],
+    moments: Sequence[Moments],
+    factors: Mapping[str, Factor],
+    collision: Mapping[str, str],
+    findings: list[Finding],
+) -> tuple[Body, ...]:
+    """The bodies of those names, in that order, machine frame. `collision` are the documents' tokens by part or
+    role."""
+    hulls = _Hulls()
+    tokens = Choice(template, collision, template.collision)
+    result = []
+    for name in names:
+        rows = placement.rows_of_body(name)
+        factor = factors[name]
+        whole = combine(moments[row] for row in rows).scaled(factor.value)
+        if whole.mass <= 0.0:
+            whole = Moments(1.0, placement.points_of(rows).mean(axis=0), np.zeros((3, 3)))
+            words = "The body has neither volume nor area: it weighs 1 kg."
+            findings.append(Finding("MEC034", "warning", name, words, "Check its parts in the CAD model."))
+        parts = []
+        for row in rows:
+            part, role = placement.parts[row], placement.roles[row]
+            token, told = tokens.of(part.name, role) or (COLLISION, "default")
+            parts.append(
+                BodyPart(
+                    part=part.id,
+                    role=role,
+                    material=materials[row].key,
+                    collision=token,
+                    mass=moments[row].mass * factor.value,
+                    source=f"material {materials[row].source}; collision {told}",
+                )
+            )
+        result.append(
+            Body(
+                name=name,
+                origin=origins[name],
+                mass=whole.mass,
+                center_of_mass=vector(whole.center),
+                inertia=whole.inertia,
+                parts=tuple(parts),
+                hull=np.concatenate([hulls.placed(placement, row) for row in rows]),
+                source=factor.source,
+            )
+        )
+    return tuple(result)
+
+
+def vector(values: Floats) -> Vector:
+    """(3,) array as a tuple, without negative zeros."""
+    x, y, z = (float(v) + 0.0 for v in values)
+    return (x, y, z)
+
+
+def hull_corners(mesh: Mesh) -> Floats:
+    """(n, 3) corners of a mesh's convex hull, in the mesh's order; of a flat or tiny one its distinct points."""
+    from scipy.spatial import ConvexHull, QhullError  # a tenth of a second that not every command needs
+
+    try:
+        return np.asarray(mesh.points[np.sort(ConvexHull(mesh.points).vertices)], dtype=np.float64)
+    except (QhullError, ValueError):
+        return np.unique(mesh.points, axis=0)
+
+
+class _Hulls:
+    """Hull corners by shape: instances share them, and a hull's image under a linear map is the image's hull."""
+
+    def __init__(self) -> None:
+        self._corners: dict[str, Floats] = {}
+
+    def placed(self, placement: Placement, row: int) -> Floats:
+        """(n, 3) hull corners of one placed part."""
+        shape, matrix = placement.shapes[row], placement.transforms[row]
+        if shape.key not in self._corners:
+            self._corners[shape.key] = hull_corners(shape.mesh)
+        return np.asarray(self._corners[shape.key] @ matrix[:3, :3].T + matrix[:3, 3], dtype=np.float64)

@@ -1,0 +1,247 @@
+"""`report.html`: one self-contained page that opens from disk with no network."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from importlib import resources
+from typing import Any
+
+import numpy as np
+
+from yellowiron.model.alignment import Alignment, PartAssignment
+from yellowiron.model.assembly import Assembly
+from yellowiron.model.geometry import Floats
+from yellowiron.model.mechanism import Measurement, Mechanism
+from yellowiron.model.poses import PoseTables
+from yellowiron.report.document import fell_short, within_tolerance
+from yellowiron.report.html.joints import joint_marks, joint_rows
+from yellowiron.report.html.marks import overlay
+from yellowiron.report.html.pictures import Soup, data_uri, look_at, machine_soup, outline, posed, render
+from yellowiron.report.html.sensors import sensor_marks, sensor_rows, view_svg, views
+from yellowiron.report.html.simulation import engine_name, in_a_sentence, simulation_tables
+from yellowiron.report.html.sweeps import Sweeps, sweep_entries
+from yellowiron.report.html.viewer import viewer
+from yellowiron.report.rows import in_rows
+from yellowiron.report.words import breakable, counted, sentence, shown, signed
+
+Poses = Mapping[str, Mapping[str, Floats]]
+"""Caption → body → (4, 4) displacement from the drawn pose, machine frame."""
+SIZE = (1120, 600)
+"""Pixels of a picture of the whole machine."""
+_KINDS = ("missing: ", "no part plays ", "to review: ", "review: ", "conflict: ", "unreadable: ", "off the sheet: ")
+ALIKE = 6
+"""Reasons of one kind that are one line."""
+REASONS = 8
+"""What is left to a person that stands open; the rest unfolds."""
+
+
+def page(
+    document: Mapping[str, Any],
+    mechanism: Mechanism,
+    assembly: Assembly,
+    alignment: Alignment,
+    *,
+    poses: Poses | None = None,
+    tables: PoseTables | None = None,
+    sweeps: Sweeps | None = None,
+) -> str:
+    """The page as text; with `tables` it has a 3D view to move the machine in, with `sweeps` what engines did with it.
+    Deterministic: no time, no path of this machine."""
+    import jinja2
+
+    environment = jinja2.Environment(autoescape=True, trim_blocks=True, undefined=jinja2.StrictUndefined)
+    environment.filters |= {
+        "sentence": sentence,
+        "breakable": breakable,
+        "counted": counted,
+        "engine_name": engine_name,
+    }
+    folder = resources.files("yellowiron.report").joinpath("data")
+    source, style = (folder.joinpath(name).read_text(encoding="utf-8") for name in ("page.html.j2", "page.css"))
+    frame = np.asarray(alignment.frame, dtype=np.float64)
+    soup = machine_soup(mechanism, assembly, frame)
+    reasons = _in_short(fell_short(document))
+    joints = joint_rows(document)
+    return environment.from_string(source).render(
+        d=document,
+        style=style,
+        reasons=reasons[:REASONS],
+        more_reasons=reasons[REASONS:],
+        left=len(fell_short(document)),
+        ready=_ready(document),
+        driven=in_a_sentence(document["simulation"]),
+        figures=_figures(document),
+        machine=_machine(mechanism, soup),
+        poses=[(caption, _pose(mechanism, soup, moved)) for caption, moved in (poses or {}).items()],
+        viewer=viewer(mechanism, assembly, alignment, tables, poses=poses) if tables is not None else None,
+        measurements=[_measurement(m) for m in document["measurements"]],
+        simulation=simulation_tables(document["simulation"]),
+        sweeps=sweep_entries(sweeps or {}, document, mechanism, soup),
+        sensors=sensor_rows(document),
+        sensor_svg=_sensor_svg(document, mechanism, soup) if document["sensors"] else "",
+        joints=joints,
+        joint_svg=_joint_svg(joints, mechanism, soup),
+        cylinders=[_cylinder(c) for c in document["cylinders"]],
+        specifications=[s for s in map(_specification, document["specifications"]) if s["status"] != "missing"],
+        not_given=[s for s in map(_specification, document["specifications"]) if s["status"] == "missing"],
+        bodies=_bodies(document, alignment),
+    )
+
+
+def _machine(mechanism: Mechanism, soup: Soup) -> str:
+    camera = look_at(outline(mechanism), azimuth=-0.75, elevation=0.3, width=SIZE[0], height=SIZE[1])
+    return data_uri(render(soup, camera))
+
+
+def _pose(mechanism: Mechanism, soup: Soup, moved: Mapping[str, Floats]) -> str:
+    camera = look_at(outline(mechanism, moved), azimuth=-1.1, elevation=0.2, width=480, height=360)
+    return data_uri(render(posed(soup, moved), camera))
+
+
+def _joint_svg(rows: Sequence[Mapping[str, Any]], mechanism: Mechanism, soup: Soup) -> Any:
+    camera = look_at(outline(mechanism), azimuth=-math.pi / 2 + 0.12, elevation=0.18, width=SIZE[0], height=SIZE[1])
+    picture = data_uri(render(soup, camera, colors=soup.by_body(mechanism)))
+    return overlay(camera, picture, joint_marks(rows), alt="Joints on the machine")
+
+
+def _sensor_svg(document: Mapping[str, Any], mechanism: Mechanism, soup: Soup) -> Any:
+    corners = outline(mechanism)
+    size = float(np.linalg.norm(np.ptp(corners, axis=0))) if len(corners) else 1.0
+    outlines = views(document["sensors"], size)
+    camera = look_at(
+        np.concatenate([corners, *(points for _, points in outlines)]),
+        azimuth=-0.95,
+        elevation=0.42,
+        width=SIZE[0],
+        height=SIZE[1],
+    )
+    picture = data_uri(render(soup, camera))
+    under = view_svg(outlines, camera)
+    return overlay(camera, picture, sensor_marks(document), alt="Sensors on the machine", under=under)
+
+
+def _in_short(reasons: Sequence[str]) -> list[str]:
+    """Reasons of one kind as one line, where there are many: what is left is seen at a glance."""
+    kinds: dict[str, list[str]] = {}
+    for reason in reasons:
+        kind = next((words for words in _KINDS if reason.startswith(words)), "")
+        kinds.setdefault(kind or reason, []).append(reason.removeprefix(kind))
+    lines = []
+    for kind, items in kinds.items():
+        if kind not in _KINDS:
+            lines.append(kind)
+        elif len(items) < ALIKE:
+            lines += [f"{kind}{item}" for item in items]
+        else:
+            more = f" and {len(items) - ALIKE} more" if len(items) > ALIKE else ""
+            lines.append(f"{kind}{', '.join(items[:ALIKE])}{more}")
+    return [line[:1].upper() + line[1:] for line in lines]
+
+
+def _ready(document: Mapping[str, Any]) -> str:
+    """What there is to say of a machine that leaves nothing to do."""
+    parts = document["alignment"]
+    left = parts["parts"] - parts["assigned"]
+    words = ["every part has its body" if not left else f"every role has its part ({counted(left, 'part')} left out)"]
+    words.append("every joint its pin")
+    if _held(document):
+        words.append("every published value that can be measured holds")
+    return ", ".join(words[:-1]) + " and " + words[-1]
+
+
+def _held(document: Mapping[str, Any]) -> list[bool]:
+    """Of every published value that could be measured, whether it holds."""
+    checked = [within_tolerance(Measurement(**m)) for m in document["measurements"] if m["role"] == "checked"]
+    return [held for held in checked if held is not None]
+
+
+def _figures(document: Mapping[str, Any]) -> list[tuple[str, str]]:
+    """Ten figures that say what was built."""
+    counts, mobility, alignment = document["counts"], document["mobility"], document["alignment"]
+    held = _held(document)
+    pivots = counts["revolute"] + counts["spherical"]
+    mass = sum(b["mass"] for b in document["bodies"])
+    runs = document["simulation"].values()
+    worst = max((run["pin_error_mm"] for run in runs), default=None)
+    return [
+        (f"{alignment['assigned']} / {alignment['parts']}", "parts have a body"),
+        (str(len(alignment["to_review"])), "to review"),
+        (f"{sum(held)} / {len(held)}" if held else "–", "published values met"),
+        (f"{mobility['computed']} / {mobility['expected']}" if mobility else "–", "mobility, found / expected"),
+        ("not run" if worst is None else f"{worst:.3f} mm", "worst pin when driven"),
+        (str(counts["bodies"]), "bodies"),
+        (f"{pivots} + {counts['prismatic']}", "pivots + slides"),
+        (f"{counts['linear_drives']} + {counts['angular_drives']}", "linear + angular drives"),
+        (str(counts["loops"]), "closed loops"),
+        (f"{mass / 1000:.2f} t", "mass"),
+    ]
+
+
+def _measurement(entry: Mapping[str, Any]) -> dict[str, Any]:
+    held = within_tolerance(Measurement(**entry))
+    error = ""
+    if entry["spec"] is not None and entry["model"] is not None:
+        gap = entry["model"] - entry["spec"]
+        error = signed(math.degrees(gap), 3, "°") if entry["unit"] == "rad" else signed(entry["error_percent"], 3, " %")
+    return {
+        **entry,
+        "spec_text": shown(entry["spec"], entry["unit"]),
+        "model_text": shown(entry["model"], entry["unit"], digits=6),
+        "error_text": error,
+        "mark": {True: "ok", False: "error", None: "info"}[held],
+    }
+
+
+def _cylinder(entry: Mapping[str, Any]) -> dict[str, Any]:
+    lengths = [("bore", "bore"), ("rod", "rod_diameter"), ("stroke", "stroke"), ("closed", "closed_length"),
+               ("drawn out", "extension")]  # fmt: skip
+    cells = [(label, shown(entry[key], "m")) for label, key in lengths]
+    cells += [(label, shown(entry[f"{label}_force"], "N", digits=4)) for label in ("push", "pull")]
+    return {
+        **entry,
+        "cells": [*cells, ("speed", f"{entry['speed']:.3g} m/s")],
+        "sources_text": "; ".join(f"{key.replace('_', ' ')}: {value}" for key, value in entry["sources"].items()),
+    }
+
+
+def _specification(entry: Mapping[str, Any]) -> dict[str, Any]:
+    candidates = entry["candidates"] if entry["status"] in ("conflict", "review") else []
+    return {
+        **entry,
+        "value_text": shown(entry["value"], entry["unit"]),
+        "candidates_text": [
+            f"{shown(c['value'], c['unit'])} {c['configuration']} (page {c['page']}: “{c['quote']}”)"
+            for c in candidates
+        ],
+    }
+
+
+def _bodies(document: Mapping[str, Any], alignment: Alignment) -> list[dict[str, Any]]:
+    """One entry a body or counted row of bodies, and one for what is left out."""
+    review = set(alignment.to_review)
+    masses = {b["name"]: b["mass"] for b in document["bodies"]}
+    names = list(masses)
+    parts: dict[str | None, list[PartAssignment]] = {}
+    for each in alignment.parts:
+        parts.setdefault(each.body if each.body in masses else None, []).append(each)
+    rows = []
+    for row, places in in_rows(names).items():
+        members = [names[place] for place in places]
+        mass = sum(masses[m] for m in members)
+        rows.append(_body(row, [p for m in members for p in parts.get(m, ())], review, mass=mass, count=len(members)))
+    if None in parts:
+        rows.append(_body("left out of the machine", parts[None], review))
+    return rows
+
+
+def _body(
+    name: str, parts: Sequence[PartAssignment], review: set[str], *, mass: float | None = None, count: int = 1
+) -> dict[str, Any]:
+    words = [counted(count, "body", "bodies")] if count > 1 else []
+    words.append(counted(len(parts), "part"))
+    if mass is not None:
+        words.append(shown(mass, "kg", digits=4))
+    doubtful = [part for part in parts if part.part in review]
+    sure = [part for part in parts if part.part not in review]
+    return {"name": name, "doubtful": doubtful, "sure": sure, "words": ", ".join(words)}

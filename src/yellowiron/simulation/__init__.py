@@ -1,0 +1,83 @@
+"""Simulation in real engines: every actuator driven, and every body's pose held against the closed-chain kinematics.
+
+A layer above the stages, like `build`: it may import `model`, `kinematics`, `usd` and `export`, and no stage imports
+it. Engines are imported only where they are used.
+
+One concept a module: `engine` (what an engine must do, and which there are), one module an engine, `payload`,
+`commands` (what the levers do), `loads` (what their drives must bear), `comparison` (engine against kinematics),
+`result`, `run`; `driving`; `hydraulics` (the template's tests), `rig` (a machine posed and pushed), `statics` (what it
+bears by calculation), `figures` (what came out); `suite` (all of it).
+
+Findings:
+
+======  ========================================================================================================
+SIM001  the simulation broke down: a pose is not finite, or the linkage left every pose that its strokes allow
+SIM002  a pin stood farther from its place than the engine's bar
+SIM003  a body was turned farther from its pose than the engine's bar
+SIM004  a loop flipped to its other branch
+SIM005  a cylinder or motor ended away from its target
+SIM006  a test's figure is farther from the published one than its bar
+SIM007  the rated payload was not lifted, or a load was that should not be
+SIM008  engine and statics differ by more than 5 %
+SIM009  driving: a distance, turning radius, turn on the spot or swing is off by its bar, or a wheel left the ground
+======  ========================================================================================================
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from yellowiron.simulation.driving.wheeled import DrivingResult, drive, driving_document
+    from yellowiron.simulation.engine import ENGINES, Engine, Setup, installed_engines
+    from yellowiron.simulation.machine_tests.figures import Figure, figures_document
+    from yellowiron.simulation.machine_tests.hydraulics import run_tests
+    from yellowiron.simulation.payload import parse_payload, rated_payload
+    from yellowiron.simulation.strokes.result import SimulationResult, simulation_document
+    from yellowiron.simulation.strokes.run import simulate
+    from yellowiron.simulation.suite import examine
+
+_HOMES = {
+    "DrivingResult": "driving.wheeled",
+    "drive": "driving.wheeled",
+    "driving_document": "driving.wheeled",
+    "examine": "suite",
+    "ENGINES": "engine",
+    "Engine": "engine",
+    "Figure": "machine_tests.figures",
+    "Setup": "engine",
+    "SimulationResult": "strokes.result",
+    "installed_engines": "engine",
+    "parse_payload": "payload",
+    "rated_payload": "payload",
+    "run_tests": "machine_tests.hydraulics",
+    "simulate": "strokes.run",
+    "simulation_document": "strokes.result",
+    "figures_document": "machine_tests.figures",
+}
+
+__all__ = [
+    "ENGINES",
+    "DrivingResult",
+    "Engine",
+    "Figure",
+    "Setup",
+    "SimulationResult",
+    "drive",
+    "driving_document",
+    "examine",
+    "figures_document",
+    "installed_engines",
+    "parse_payload",
+    "rated_payload",
+    "run_tests",
+    "simulate",
+    "simulation_document",
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(importlib.import_module(f"{__name__}.{_HOMES[name]}"), name)

@@ -1,0 +1,126 @@
+"""What a machine does that steers by its two sides' speeds: it turns on the spot, and its slewing body swings."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from yellowiron.kinematics import ClosedChain
+from yellowiron.model.geometry import Floats
+from yellowiron.model.mechanism import Joint, Mechanism, chained
+from yellowiron.simulation.commands import motions
+from yellowiron.simulation.engine import GROUND_FRICTION, UPRIGHT, Engine, poses, tell
+from yellowiron.simulation.loads import GRAVITY, SPARE, paces
+
+if TYPE_CHECKING:
+    from yellowiron.simulation.driving.wheeled import Wheel
+
+DISTANCE, SPIN, SWING = 2.0, math.radians(45.0), math.radians(90.0)
+"""What it does, at the speeds of its motors: metres forward and back, radians on the spot and of its slewing body."""
+SPIN_BAR, SWING_BAR = 0.1 * SPIN, math.radians(1.0)
+_RAMP = 1.0
+_REST = 1.0
+
+
+def sides(found: Sequence[Wheel]) -> tuple[tuple[Wheel, ...], ...]:
+    """The wheels of the left and of the right where each side has an actuator of its own, else none."""
+    each = [tuple(w for w in found if w.actuator == name) for name in dict.fromkeys(w.actuator for w in found)]
+    places = [float(np.mean([w.middle[1] for w in side])) for side in each]
+    if len(each) != 2 or places[0] * places[1] >= 0.0:
+        return ()
+    return tuple(each) if places[0] > 0.0 else (each[1], each[0])
+
+
+def pitch_radius(mechanism: Mechanism, sprocket: Joint) -> float | None:
+    """Radius on which the pins of a ring of track shoes run around a sprocket's axis; None where there is no ring on
+    its side."""
+    loose = chained(mechanism)
+    anchor, axis = np.asarray(sprocket.anchor), np.asarray(sprocket.axis)
+    pins = np.array([j.anchor for j in mechanism.joints if j.body1 in loose and j.anchor[1] * anchor[1] > 0.0])
+    if not len(pins):
+        return None
+    return float(np.linalg.norm(np.cross(pins - anchor, axis), axis=1).min())
+
+
+def top_speed(found: Sequence[Wheel], otherwise: float) -> float:
+    """Speed at the ground of the slowest wheel's motor, m/s."""
+    speeds = [w.joint.drive.max_velocity * w.radius for w in found if w.joint.drive is not None]
+    return min(speed if math.isfinite(speed) else otherwise for speed in speeds)
+
+
+def spin(
+    engine: Engine, mechanism: Mechanism, both: Sequence[Sequence[Wheel]], top: float, timestep: float
+) -> dict[str, float]:
+    """The two sides against each other at up to `top` (m/s): how far the root turned to the left.
+
+    It gains speed as fast as `SPARE` of what motors and ground give can turn the machine as drawn.
+    """
+    left, right = both
+    half = 0.5 * float(np.mean([w.middle[1] for w in left]) - np.mean([w.middle[1] for w in right]))
+    limit = SPARE * _push(mechanism, [*left, *right]) * half / _inertia(mechanism)
+    root = [body.name for body in mechanism.bodies].index(mechanism.root)
+    rims = {w.joint.name: sign * w.sign / w.radius for side, sign in ((left, -1.0), (right, 1.0)) for w in side}
+    turned = 0.0
+    for speed in (*course(SPIN, top / half, limit, timestep).tolist(), *_rest(timestep)):
+        turned += _turned(engine, {joint: rim * speed * half for joint, rim in rims.items()}, root)
+    return {"spin": turned, "spin_geometry": SPIN}
+
+
+def swing(
+    engine: Engine, chain: ClosedChain, mechanism: Mechanism, found: Sequence[Wheel], timestep: float
+) -> dict[str, float]:
+    """The body that a motor turns about the vertical, to the left; nothing where there is none."""
+    driving = {w.joint.name for w in found}
+    for motion in motions(mechanism):
+        joint = mechanism.joint(motion.joint)
+        if motion.position or motion.joint in driving or abs(joint.axis[2]) < UPRIGHT:
+            continue
+        limit = float(paces(chain, (motion,))[motion.joint].limits.min())
+        body, left = [b.name for b in mechanism.bodies].index(joint.body1), math.copysign(1.0, joint.axis[2])
+        turned = 0.0
+        for speed in (*course(SWING, motion.speed, limit, timestep).tolist(), *_rest(timestep)):
+            turned += _turned(engine, {motion.joint: left * speed}, body)
+        return {"swing": turned, "swing_geometry": SWING}
+    return {}
+
+
+def course(amount: float, speed: float, limit: float, timestep: float) -> Floats:
+    """Speeds (n,), one a step, that together go by `amount`, from rest to rest, at no more than `speed` and gaining it
+    no faster than `limit`, nor in less than a second."""
+    limit = min(limit, speed / _RAMP)
+    top = min(speed, math.sqrt(amount * limit))
+    ramp, time = top / limit, amount / top + top / limit
+    now = (np.arange(math.ceil(time / timestep)) + 0.5) * timestep
+    speeds = top * np.clip(np.minimum(now, time - now) / ramp, 0.0, 1.0)
+    return np.asarray(speeds * amount / (speeds.sum() * timestep))
+
+
+def _rest(timestep: float) -> list[float]:
+    return [0.0] * round(_REST / timestep)
+
+
+def _turned(engine: Engine, targets: Mapping[str, float], body: int) -> float:
+    """One step; by how much a body's heading turned to the left."""
+    before = poses(engine)[0][body]
+    tell(engine, targets)
+    engine.step()
+    across = poses(engine)[0][body] @ before.T
+    return math.atan2(across[1, 0], across[0, 0])
+
+
+def _push(mechanism: Mechanism, found: Sequence[Wheel]) -> float:
+    """Newtons with which the wheels together can push: their motors', at most the ground's friction."""
+    forces = [w.joint.drive.max_force / w.radius for w in found if w.joint.drive is not None]
+    return min(sum(forces), GROUND_FRICTION * GRAVITY * sum(body.mass for body in mechanism.bodies))
+
+
+def _inertia(mechanism: Mechanism) -> float:
+    """kg·m² of the machine as drawn about the vertical through its root's origin."""
+    origin, total = np.asarray(mechanism.body(mechanism.root).origin), 0.0
+    for body in mechanism.bodies:
+        arm = (np.asarray(body.center_of_mass) - origin)[:2]
+        total += float(np.asarray(body.inertia)[2, 2]) + body.mass * float(arm @ arm)
+    return total

@@ -1,0 +1,445 @@
+"""Driving: the machine stands on its wheels, drives straight, turns at full lock, and climbs a block with one wheel.
+
+Every wheel with a motor turns at the speed of its own circle, as differentials let it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from yellowiron.kinematics import ClosedChain
+from yellowiron.model.errors import YellowironError
+from yellowiron.model.finding import Finding
+from yellowiron.model.geometry import Floats
+from yellowiron.model.mechanism import Body, Joint, Mechanism
+from yellowiron.simulation.commands import SHARE, Motion, motions, travel
+from yellowiron.simulation.driving import tracked
+from yellowiron.simulation.engine import (
+    Block,
+    Engine,
+    Setup,
+    coordinates,
+    find_engine,
+    load_engine,
+    poses,
+    standing_bodies,
+    tell,
+)
+from yellowiron.simulation.loads import paces
+from yellowiron.simulation.payload import with_payload
+from yellowiron.usd import read_machine
+
+DISTANCE = 5.0
+SPEED = 1.0
+"""m/s at the machine's middle."""
+BLOCK_HEIGHT = 0.15
+DISTANCE_BAR, RADIUS_BAR, LIFTED = 0.03, 0.05, 0.02
+"""Shares by which a distance and the turning radius may be off, and metres that a wheel may rise."""
+_SETTLE = 2.0
+_RAMP = 1.0
+_TURN = math.radians(120.0)
+_RUN = 2.0
+"""Length of the block's ramps by its height: 27°."""
+_LOCK = 0.998
+"""Share of the steering stroke that is full lock."""
+_ROOM = 0.05
+
+
+@dataclass(frozen=True)
+class DrivingResult:
+    """Metres, radians, seconds. `sunk` and `creep`: how far the root came down and its speed after settling. Travel is
+    the root's; `turning_radius` is that of the outermost wheel's middle, `geometry_radius` where the axles' lines meet
+    at the measured lock. `spin`: the turn on the spot of a machine that steers by its two sides' speeds, against
+    `spin_geometry`, that of wheels which do not slip; tracks do. `swing`: by how much the slewing body's heading, seen
+    from the ground, changed, against what its motor was told. `axle_angle`: the free axle's coordinate with one
+    wheel on a block, `axle_geometry` what block and tread make of it; `highest_wheel`: the most that a wheel ever rose
+    from what it stood on. None: not driven."""
+
+    engine: str
+    dt: float
+    payload: float
+    sunk: float
+    creep: float
+    forward: float
+    backward: float
+    sideways: float
+    distance: float = DISTANCE
+    lock: float | None = None
+    turning_radius: float | None = None
+    geometry_radius: float | None = None
+    spin: float | None = None
+    spin_geometry: float | None = None
+    swing: float | None = None
+    swing_geometry: float | None = None
+    axle_angle: float | None = None
+    axle_geometry: float | None = None
+    highest_wheel: float | None = None
+
+
+def driving_document(result: DrivingResult) -> dict[str, Any]:
+    """The result as JSON: metres, degrees where the name says so, percentages against the geometry."""
+    radius = None
+    if result.turning_radius is not None and result.geometry_radius:
+        radius = 100.0 * (result.turning_radius / result.geometry_radius - 1.0)
+    return {
+        "payload_kg": result.payload,
+        "sunk_mm": 1e3 * result.sunk,
+        "creep_mm_s": 1e3 * result.creep,
+        "distance_m": result.distance,
+        "forward_m": result.forward,
+        "forward_error_percent": 100.0 * (result.forward / result.distance - 1.0),
+        "backward_m": result.backward,
+        "backward_error_percent": 100.0 * (result.backward / result.distance - 1.0),
+        "sideways_m": result.sideways,
+        "lock_deg": None if result.lock is None else math.degrees(result.lock),
+        "turning_radius_m": result.turning_radius,
+        "geometry_radius_m": result.geometry_radius,
+        "radius_error_percent": radius,
+        "spin_deg": None if result.spin is None else math.degrees(result.spin),
+        "spin_geometry_deg": None if result.spin_geometry is None else math.degrees(result.spin_geometry),
+        "swing_deg": None if result.swing is None else math.degrees(result.swing),
+        "swing_geometry_deg": None if result.swing_geometry is None else math.degrees(result.swing_geometry),
+        "block_m": BLOCK_HEIGHT,
+        "axle_angle_deg": None if result.axle_angle is None else math.degrees(result.axle_angle),
+        "axle_geometry_deg": None if result.axle_geometry is None else math.degrees(result.axle_geometry),
+        "highest_wheel_mm": None if result.highest_wheel is None else 1e3 * result.highest_wheel,
+    }
+
+
+def driving_findings(result: DrivingResult) -> Iterator[Finding]:
+    """SIM009 for what is off by more than its bar."""
+    figures = [
+        ("forward", result.forward, result.distance, DISTANCE_BAR),
+        ("backward", result.backward, result.distance, DISTANCE_BAR),
+    ]
+    if result.turning_radius is not None and result.geometry_radius is not None:
+        figures.append(("turning radius", result.turning_radius, result.geometry_radius, RADIUS_BAR))
+    for what, value, wanted, bar in figures:
+        if not abs(value / wanted - 1.0) <= bar:
+            words = f"{value:.3f} m against {wanted:.3f} m, more than {100.0 * bar:g} % off"
+            yield Finding("SIM009", "warning", what, words, "Check wheels, their torque and the ground's friction.")
+    for what, turned, meant, bar in (
+        ("turn on the spot", result.spin, result.spin_geometry, tracked.SPIN_BAR),
+        ("swing", result.swing, result.swing_geometry, tracked.SWING_BAR),
+    ):
+        if turned is not None and meant is not None and not abs(turned - meant) <= bar:
+            words = (
+                f"{math.degrees(turned):.1f}° against {math.degrees(meant):.1f}°, more than {math.degrees(bar):g}° off"
+            )
+            yield Finding("SIM009", "warning", what, words, "Check torques and the ground's friction.")
+    if result.highest_wheel is not None and result.highest_wheel > LIFTED:
+        words = f"a wheel rose {1e3 * result.highest_wheel:.0f} mm from what it stood on"
+        yield Finding("SIM009", "warning", "block", words, "Check the axle's range and the machine's masses.")
+    if result.axle_angle is not None and result.axle_geometry and result.axle_angle < 0.5 * result.axle_geometry:
+        words = f"the axle turned {math.degrees(result.axle_angle):.1f}°, not {math.degrees(result.axle_geometry):.1f}°"
+        yield Finding("SIM009", "warning", "axle", words, "Check that the axle's joint is free.")
+
+
+@dataclass(frozen=True, eq=False)
+class Wheel:
+    """A driven wheel: its joint, its body's place among the bodies, middle and unit axis (machine frame, drawn pose),
+    radius and half its width, and the sign of its joint in the actuator's positive sense."""
+
+    joint: Joint
+    body: int
+    middle: Floats
+    axis: Floats
+    radius: float
+    half_width: float
+    sign: int
+    actuator: str
+
+
+def wheels(mechanism: Mechanism) -> tuple[Wheel, ...]:
+    """The wheels that motors drive, on the ground in the drawn pose.
+
+    `YellowironError` where there are fewer than three, but for one on either side with a motor of its own: what has
+    none (a crane) does not drive.
+    """
+    number = {body.name: index for index, body in enumerate(mechanism.bodies)}
+    standing = standing_bodies(mechanism)
+    found = []
+    for actuator in mechanism.actuators:
+        for entry in actuator.joints if actuator.kind == "motor" else ():
+            joint = mechanism.joint(entry.joint)
+            if joint.drive is None or joint.drive.kind != "velocity" or joint.body1 not in standing:
+                continue
+            axis = np.asarray(joint.axis, dtype=np.float64)
+            offset = np.asarray(mechanism.body(joint.body1).hull) - np.asarray(joint.anchor)
+            along = offset @ axis
+            reach = float(np.linalg.norm(offset - np.outer(along, axis), axis=1).max())
+            radius = tracked.pitch_radius(mechanism, joint) or reach
+            half, center = 0.5 * float(np.ptp(along)), 0.5 * (float(along.min()) + float(along.max()))
+            middle = np.asarray(joint.anchor) + center * axis
+            found.append(Wheel(joint, number[joint.body1], middle, axis, radius, half, entry.sign, actuator.name))
+    if len(found) < 3 and not tracked.sides(found):
+        raise YellowironError(
+            "The machine has no driven wheels to drive on",
+            where=mechanism.name,
+            hint="Driving needs a motor actuator whose joints lead to wheels on the ground.",
+        )
+    return tuple(found)
+
+
+def drive(usd_path: str | Path, *, engine: str, payload_kg: float = 0.0, dt: float | None = None) -> DrivingResult:
+    """Lets a wheeled machine settle, drive 5 m forward and back, turn at full lock, and climb a 150 mm block with one
+    wheel of its free axle, where it has one. One that steers by its two sides' speeds drives 2 m, turns on the spot by
+    45° and swings by 90°.
+
+    Raises `YellowironError` for an unknown engine, one that is not installed, and a machine without driven wheels.
+    """
+    entry = find_engine(engine)
+    read = read_machine(usd_path)
+    mechanism = with_payload(read, payload_kg)
+    heavier = tuple(b for b, old in zip(mechanism.bodies, read.bodies, strict=True) if b is not old)
+    trip = _Trip(engine, Path(usd_path), mechanism, heavier, entry.timestep if dt is None else dt)
+    values: dict[str, Any] = {**trip.straight(), **trip.over_block()}
+    return DrivingResult(engine=engine, dt=trip.timestep, payload=payload_kg, **values)
+
+
+@dataclass
+class _Trip:
+    """One machine to drive, in one engine."""
+
+    engine: str
+    usd_path: Path
+    mechanism: Mechanism
+    heavier: tuple[Body, ...]
+    timestep: float
+    chain: ClosedChain = field(init=False)
+    wheels: tuple[Wheel, ...] = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.wheels = wheels(self.mechanism)
+        self.chain = ClosedChain(self.mechanism)
+        names = [body.name for body in self.mechanism.bodies]
+        self._root = names.index(self.mechanism.root)
+        self._steer = self._steering()
+        self._sides = () if self._steer is not None else tracked.sides(self.wheels)
+        self._origin = np.asarray(self.mechanism.body(self.mechanism.root).origin)
+
+    def _load(self, *blocks: Block) -> Engine:
+        return load_engine(
+            self.engine,
+            Setup(
+                usd_path=self.usd_path,
+                mechanism=self.mechanism,
+                base="floating",
+                timestep=self.timestep,
+                measured=self.chain.independent,
+                heavier=self.heavier,
+                standing=standing_bodies(self.mechanism),
+                blocks=blocks,
+            ),
+        )
+
+    # ---- driving ----------------------------------------------------------------------------------------------------
+    def _steps(self, seconds: float) -> int:
+        return max(1, math.ceil(seconds / self.timestep))
+
+    def _speeds(self, speed: float, factors: Mapping[str, float] | None = None) -> dict[str, float]:
+        """Wheel targets, rad/s, for a speed of the machine's middle in m/s."""
+        share = factors or {}
+        return {w.joint.name: w.sign * speed * share.get(w.joint.name, 1.0) / w.radius for w in self.wheels}
+
+    def _middles(self, poses: tuple[Floats, Floats]) -> Floats:
+        """The wheels' middles (n, 3) in the world."""
+        rotations, origins = poses
+        return np.array(
+            [
+                origins[w.body] + rotations[w.body] @ (w.middle - np.asarray(self.mechanism.bodies[w.body].origin))
+                for w in self.wheels
+            ]
+        )
+
+    def _places(self, poses: tuple[Floats, Floats]) -> Floats:
+        """The wheels' middles and how far a unit along their axes rises (n, 4)."""
+        rises = [abs(float(poses[0][w.body][2] @ w.axis)) for w in self.wheels]
+        return np.column_stack([self._middles(poses), rises])
+
+    def _go(self, engine: Engine, distance: float, *, speed: float = SPEED, record: list[Floats] | None = None) -> None:
+        """Drives a distance (negative: backwards) and comes to rest; `record` takes the wheels' places."""
+        time = abs(distance) / speed + _RAMP
+        for number in range(self._steps(time + 1.0)):
+            now = (number + 1) * self.timestep
+            share = min(1.0, now / _RAMP, max(0.0, (time - now) / _RAMP))
+            tell(engine, self._speeds(math.copysign(speed * share, distance)))
+            engine.step()
+            if record is not None:
+                record.append(self._places(poses(engine)))
+
+    def _rest(self, engine: Engine, seconds: float) -> float:
+        """Waits; returns the root's speed at the end."""
+        tell(engine, self._speeds(0.0))
+        before = np.zeros(3)
+        for _ in range(self._steps(seconds)):
+            before = poses(engine)[1][self._root]
+            engine.step()
+        return float(np.linalg.norm(poses(engine)[1][self._root] - before)) / self.timestep
+
+    def straight(self) -> dict[str, float | None]:
+        """Settling, forward, back, and the turn."""
+        engine = self._load()
+        distance, speed = DISTANCE, SPEED
+        if self._sides:
+            distance, speed = tracked.DISTANCE, tracked.top_speed(self.wheels, SPEED)
+        try:
+            creep = self._rest(engine, _SETTLE)
+            rest = poses(engine)[1][self._root]
+            self._go(engine, distance, speed=speed)
+            ahead = poses(engine)[1][self._root]
+            self._go(engine, -distance, speed=speed)
+            back = poses(engine)[1][self._root]
+            turn = self._turn(engine)
+            if self._sides:
+                turn |= tracked.spin(engine, self.mechanism, self._sides, speed, self.timestep)
+                turn |= tracked.swing(engine, self.chain, self.mechanism, self.wheels, self.timestep)
+        finally:
+            engine.close()
+        return {
+            "sunk": float(self._origin[2] - rest[2]),
+            "creep": creep,
+            "forward": float(np.linalg.norm((ahead - rest)[:2])),
+            "backward": float(np.linalg.norm((back - ahead)[:2])),
+            "sideways": float(max(abs(ahead[1] - rest[1]), abs(back[1] - rest[1]))),
+            "distance": distance,
+            **turn,
+        }
+
+    # ---- turning ----------------------------------------------------------------------------------------------------
+    def _steering(self) -> Motion | None:
+        """The actuator that turns wheels' axes about the vertical."""
+        for motion in motions(self.mechanism):
+            if motion.position:
+                state, _ = self.chain.reach({motion.joint: motion.high})
+                turned = [
+                    abs(a[0] * w.axis[1] - a[1] * w.axis[0])
+                    for a, w in zip(self._axes(state), self.wheels, strict=True)
+                ]
+                if max(turned) > 0.1:
+                    return motion
+        return None
+
+    def _axes(self, state: Any) -> list[Floats]:
+        return [self._apply(state, w)[:3, :3] @ w.axis for w in self.wheels]
+
+    def _apply(self, state: Any, wheel: Wheel) -> Floats:
+        return self.chain.displacement(state, wheel.joint.body0)
+
+    def _circles(self, coordinates: Mapping[str, float]) -> Floats:
+        """Radius of each wheel's middle about the point where all axles' lines (seen from above) come nearest."""
+        given = {n: v for n, v in coordinates.items() if not any(n == w.joint.name for w in self.wheels)}
+        state, _ = self.chain.reach(given)
+        places = np.array([(self._apply(state, w) @ np.append(w.middle, 1.0))[:2] for w in self.wheels])
+        axes = np.array([a[:2] / np.linalg.norm(a[:2]) for a in self._axes(state)])
+        normals = np.column_stack([-axes[:, 1], axes[:, 0]])
+        center, *_ = np.linalg.lstsq(normals, np.sum(normals * places, axis=1), rcond=None)
+        return np.asarray(np.linalg.norm(places - center, axis=1))
+
+    def _turn(self, engine: Engine) -> dict[str, float | None]:
+        motion = self._steer
+        if motion is None:
+            return {}
+        measured = self.chain.independent
+        pace = paces(self.chain, (motion,))[motion.joint]
+        lock = motion.high + (_LOCK - 1.0 + SHARE) * motion.stroke
+        for target in travel(0.0, lock, motion.speed, self.timestep, pace).tolist():
+            circles = self._circles({motion.joint: target}) if abs(target) > 0.1 * lock else None
+            tell(engine, {motion.joint: target, **self._speeds(0.5 * SPEED, self._factors(circles))})
+            engine.step()
+        circles = self._circles({motion.joint: lock})
+        factors, mean = self._factors(circles), float(circles.mean())
+        path, locks = [], []
+        for number in range(self._steps(_TURN * mean / SPEED + _RAMP)):
+            share = 0.5 + 0.5 * min(1.0, (number + 1) * self.timestep / _RAMP)
+            tell(engine, self._speeds(share * SPEED, factors))
+            engine.step()
+            if number * self.timestep > _RAMP:
+                path.append(self._middles(poses(engine)))
+                locks.append(coordinates(engine))
+        outer = int(np.argmax(circles))
+        geometry = self._circles(dict(zip(measured, np.mean(locks, axis=0).tolist(), strict=True)))
+        self._rest(engine, 1.0)
+        return {
+            "lock": self._lock(dict(zip(measured, np.mean(locks, axis=0).tolist(), strict=True))),
+            "turning_radius": circle_radius(np.array(path)[:, outer, :2]),
+            "geometry_radius": float(geometry[outer]),
+        }
+
+    def _lock(self, coordinates: Mapping[str, float]) -> float:
+        """The largest angle between two wheels' axes seen from above."""
+        given = {n: v for n, v in coordinates.items() if not any(n == w.joint.name for w in self.wheels)}
+        headings = [math.atan2(a[1], a[0]) for a in self._axes(self.chain.reach(given)[0])]
+        return max(headings) - min(headings)
+
+    def _factors(self, circles: Floats | None) -> dict[str, float]:
+        if circles is None:
+            return {}
+        shares = circles / circles.mean()
+        return {w.joint.name: float(share) for w, share in zip(self.wheels, shares, strict=True)}
+
+    # ---- the block --------------------------------------------------------------------------------------------------
+    def _axle(self) -> tuple[Joint, list[int]] | None:
+        """A free, undriven joint whose body carries a pair of wheels, and their places in `wheels`."""
+        for joint in self.mechanism.joints:
+            if joint.free and joint.drive is None and joint.type == "revolute":
+                pair = [i for i, w in enumerate(self.wheels) if w.joint.body0 == joint.body1]
+                if len(pair) == 2:
+                    return joint, pair
+        return None
+
+    def over_block(self) -> dict[str, float | None]:
+        """One wheel of the free axle onto a block: how the axle turns, and whether every wheel stays down."""
+        found = self._axle()
+        if found is None:
+            return {}
+        joint, pair = found
+        climbing = max((self.wheels[i] for i in pair), key=lambda w: float(w.middle[1]))
+        run = _RUN * BLOCK_HEIGHT
+        start = float(climbing.middle[0]) + climbing.radius + _ROOM
+        ahead = [w for w in self.wheels if w.middle[0] > climbing.middle[0] and w.middle[1] * climbing.middle[1] > 0]
+        end = min((float(w.middle[0]) - w.radius - _ROOM for w in ahead), default=start + 1.0 + 2.0 * run)
+        length = min(1.0, end - start - 2.0 * run)
+        if length <= 0.0:
+            return {}
+        middle = start + run + 0.5 * length
+        block = Block((middle, float(climbing.middle[1])), length, 1.2, BLOCK_HEIGHT, run)
+        engine = self._load(block)
+        record: list[Floats] = []
+        try:
+            self._rest(engine, _SETTLE)
+            self._go(engine, middle - float(climbing.middle[0]), speed=0.5 * SPEED, record=record)
+            axle = float(coordinates(engine)[self.chain.independent.index(joint.name)])
+        finally:
+            engine.close()
+        one, other = (self.wheels[i].middle for i in pair)
+        tread = float(np.linalg.norm((one - other)[1:]))
+        return {
+            "axle_angle": abs(axle),
+            "axle_geometry": math.asin(BLOCK_HEIGHT / tread),
+            "highest_wheel": max(0.0, float(self._lift(np.array(record), block).max())),
+        }
+
+    def _lift(self, record: Floats, block: Block) -> Floats:
+        """Height (steps, wheels) of every wheel, a leaning cylinder, over the place where it would just stand."""
+        lifts = []
+        for number, wheel in enumerate(self.wheels):
+            x, y, z, rise = record[:, number].T
+            along = np.linspace(-wheel.radius, wheel.radius, 61)
+            under = block.surface(x[:, None] + along, y[:, None]) + np.sqrt(wheel.radius**2 - along**2)
+            lean = np.sqrt(np.maximum(0.0, 1.0 - rise**2))
+            lifts.append(z - under.max(axis=1) + wheel.radius * (1.0 - lean) - wheel.half_width * rise)
+        return np.array(lifts).T
+
+
+def circle_radius(points: Floats) -> float:
+    """Radius of the circle through points (n, 2), least squares (Kåsa 1976)."""
+    rows = np.column_stack([2.0 * points, np.ones(len(points))])
+    x, y, rest = np.linalg.lstsq(rows, np.sum(points**2, axis=1), rcond=None)[0]
+    return float(math.sqrt(rest + x * x + y * y))

@@ -1,0 +1,90 @@
+"""What a drive has to do: the weight and the mass that it feels through the linkage. SI."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from yellowiron.kinematics import ClosedChain, State
+from yellowiron.model.geometry import Floats
+from yellowiron.simulation.commands import Motion, Pace
+
+GRAVITY = 9.81
+SPARE = 0.8
+"""Share of a drive's force, less the weight it holds, that the targets' acceleration may ask for."""
+_POINTS = 13
+_SAMPLE = 0.05
+_STEP = 1e-4
+
+
+def weight(chain: ClosedChain, state: State, joint: str) -> float:
+    """Force (N) or torque (N·m) along a joint's coordinate that holds the machine's weight: the potential energy's
+    slope, the root upright."""
+    place = chain.coordinate(state, joint)
+    ends = [chain.reach({joint: place + step}, start=state)[0] for step in (-_STEP, _STEP)]
+    way = chain.coordinate(ends[1], joint) - chain.coordinate(ends[0], joint)
+    if way <= 0.0:
+        return 0.0
+    rotations, origins = chain.placements(ends)
+    energy = np.zeros(2)
+    for body in chain.mechanism.bodies:
+        index = chain.body_index(body.name)
+        arm = np.asarray(body.center_of_mass) - np.asarray(body.origin)
+        energy += GRAVITY * body.mass * (origins[:, index, 2] + rotations[:, index, 2] @ arm)
+    return float(energy[1] - energy[0]) / way
+
+
+def carried(
+    chain: ClosedChain, moves: Sequence[Motion], targets: Mapping[str, Floats], timestep: float
+) -> dict[str, Floats]:
+    """The targets, and what a drive must be told so that its slide goes there with the machine's weight on it.
+
+    A position drive is a spring: it holds a weight only some way short of its target, so it is sent that much further,
+    as an operator does, but never past its joint's limits. Cylinders that no target is given for hold the drawn pose.
+    Weights are those of the target pose, sampled every `_SAMPLE` seconds.
+    """
+    count = max((len(values) for values in targets.values()), default=0)
+    told = dict(targets)
+    held = [motion for motion in moves if motion.position]
+    if not held or not count:
+        return told
+    wanted = {m.joint: targets.get(m.joint, np.zeros(count)) for m in held}
+    sampled = np.unique(np.append(np.arange(0, count, max(1, round(_SAMPLE / timestep))), count - 1))
+    states = chain.sweep({joint: values[sampled] for joint, values in wanted.items()})
+    for motion in held if states else ():
+        joint = chain.mechanism.joint(motion.joint)
+        if joint.drive is None or joint.drive.stiffness <= 0.0:
+            continue
+        sags = [weight(chain, state, motion.joint) / joint.drive.stiffness for state in states]
+        further = np.interp(np.arange(count), sampled[: len(sags)], sags)
+        told[motion.joint] = np.clip(wanted[motion.joint] + further, joint.lower, joint.upper)
+    return told
+
+
+def paces(chain: ClosedChain, moves: tuple[Motion, ...]) -> Mapping[str, Pace]:
+    """How fast each cylinder's target may gain speed along its stroke, and each motor's, the other actuators as drawn
+    and the root held."""
+    return {motion.joint: _pace(chain, motion) if motion.position else _motor(chain, motion) for motion in moves}
+
+
+def _motor(chain: ClosedChain, motion: Motion) -> Pace:
+    drive = chain.mechanism.joint(motion.joint).drive
+    force = drive.max_force if drive is not None else math.inf
+    limit = SPARE * force / chain.effective_mass(chain.drawn, motion.joint) if math.isfinite(force) else math.inf
+    return Pace(np.zeros(1), np.array([limit]))
+
+
+def _pace(chain: ClosedChain, motion: Motion) -> Pace:
+    drive = chain.mechanism.joint(motion.joint).drive
+    force = drive.max_force if drive is not None else math.inf
+    places: Floats = np.linspace(motion.low, motion.high, _POINTS)
+    limits = np.full(_POINTS, math.inf)
+    state = chain.drawn
+    for number, place in enumerate(places.tolist()):
+        state, fraction = chain.reach({motion.joint: place}, start=state)
+        if fraction == 1.0 and math.isfinite(force):
+            spare = max(0.1 * force, force - abs(weight(chain, state, motion.joint)))
+            limits[number] = SPARE * spare / chain.effective_mass(state, motion.joint)
+    return Pace(places, limits)

@@ -1,0 +1,114 @@
+"""All that a machine is put to in one engine, as one document: strokes, driving, the template's tests."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Callable, Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any, Literal
+
+from yellowiron import usd
+from yellowiron.model.errors import YellowironError
+from yellowiron.model.finding import Finding
+from yellowiron.model.sweep import Sweep
+from yellowiron.simulation.driving.wheeled import drive, driving_document, driving_findings, wheels
+from yellowiron.simulation.engine import Base, find_engine, import_engine
+from yellowiron.simulation.machine_tests.figures import figure_findings, figures_document
+from yellowiron.simulation.machine_tests.hydraulics import run_tests
+from yellowiron.simulation.payload import RatedPayload
+from yellowiron.simulation.strokes.result import simulation_document
+from yellowiron.simulation.strokes.run import simulate
+from yellowiron.support.guard import beat, run_guarded
+
+PATIENCE = "YELLOWIRON_PATIENCE"
+_PATIENCE = 300.0
+"""Seconds. Not for the whole run: how long that takes hangs on steps, machine and computer."""
+
+Suite = Literal["strokes", "drive", "hydraulics", "all"]
+
+
+def examine(
+    usd_path: str | Path,
+    *,
+    engine: str,
+    test: Suite = "all",
+    base: Base = "fixed",
+    payload: RatedPayload | None = None,
+    dt: float | None = None,
+    progress: Callable[[str], None] = lambda words: None,
+) -> tuple[dict[str, Any], tuple[Sweep, ...]]:
+    """What `test` names, as a document (docs: simulate), and what the strokes leave to be looked at.
+
+    In a child process, so that an engine which crashes, or takes no step for `patience` seconds, is a
+    `YellowironError`. `base` and `payload` are for the strokes; driving is empty, the template's tests say their own.
+    Errors as in `simulate`, `drive` and `run_tests`; a machine that has nothing to drive on is no error but a reason.
+    """
+    made: tuple[dict[str, Any], tuple[Sweep, ...]] = run_guarded(
+        "yellowiron.simulation.suite:examined",
+        usd_path, engine, test, base, payload, dt,
+        where=str(usd_path),
+        timeout_s=patience(),
+        memory_mb=None,  # engines reserve address space that they never use: PhysX 3.8 GB for 0.4
+        who=f"The engine '{engine}'",
+        late=f"The engine '{engine}' took no step for",
+        hint=f"Try another engine or a smaller time step; {PATIENCE} allows more seconds without a step.",
+        progress=progress,
+    )  # fmt: skip
+    return made
+
+
+def patience() -> float:
+    """Seconds that an engine may go without a step, from the environment; `YellowironError` where that is no time."""
+    given = os.environ.get(PATIENCE, "")
+    try:
+        seconds = float(given) if given else _PATIENCE
+    except ValueError:
+        seconds = 0.0
+    if not 0.0 < seconds < math.inf:
+        raise YellowironError(f"'{given}' is no number of seconds", where=PATIENCE, hint=f"Default: {_PATIENCE:g}.")
+    return seconds
+
+
+def examined(
+    usd_path: str | Path, engine: str, test: Suite, base: Base, payload: RatedPayload | None, dt: float | None
+) -> tuple[dict[str, Any], tuple[Sweep, ...]]:
+    """`examine` in this process."""
+    progress = beat
+    step = find_engine(engine).timestep if dt is None else dt
+    import_engine(engine)
+    load = payload or RatedPayload(0.0, "none")
+    document: dict[str, Any] = {"engine": engine, "dt_s": step}
+    findings: list[Finding] = []
+    sweeps: tuple[Sweep, ...] = ()
+    if test in ("strokes", "all"):
+        result = simulate(
+            usd_path, engine=engine, base=base, payload_kg=load.mass, payload_source=load.source, dt=dt,
+            progress=progress,
+        )  # fmt: skip
+        document |= simulation_document(result)
+        findings += result.findings
+        sweeps = result.sweeps
+    if test in ("drive", "all"):
+        driving, more = _driven(usd_path, engine, dt, progress)
+        document |= driving
+        findings += more
+    if test in ("hydraulics", "all"):
+        figures = run_tests(usd_path, engine=engine, dt=dt, progress=progress)
+        document["tests"] = figures_document(figures)
+        findings += figure_findings(figures)
+    document["findings"] = [asdict(finding) for finding in findings]
+    return document, sweeps
+
+
+def _driven(
+    usd_path: str | Path, engine: str, dt: float | None, progress: Callable[[str], None]
+) -> tuple[dict[str, Any], Sequence[Finding]]:
+    try:
+        wheels(usd.read_machine(usd_path))
+    except YellowironError as error:
+        return {"driving": None, "driving_reason": error.message}, ()
+    progress(f"Driving in {engine}")
+    result = drive(usd_path, engine=engine, dt=dt)
+    return {"driving": driving_document(result)}, tuple(driving_findings(result))

@@ -1,0 +1,118 @@
+"""Pictures of a sheet's pages with a box around every value that was read, for a person who checks."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from yellowiron.model.errors import OutputError, SheetError
+from yellowiron.model.specification import Evidence, Specifications
+from yellowiron.specs.reader import MEMORY_MB, TIMEOUT_S, check_file
+from yellowiron.support.guard import beat, run_guarded
+
+_SCALE = 1.6
+"""Pixels a point, less on a page that would be more than this many pixels:"""
+_MOST_PIXELS = 12_000_000
+_MARGIN = 330
+_COLORS = {"ok": (24, 128, 56), "example": (32, 96, 190), "review": (214, 118, 0), "conflict": (200, 30, 30)}
+Mark = tuple[int, tuple[float, float, float, float], str, str]
+"""Page, box in points, kind (a key of the colours), caption."""
+
+
+def draw_evidence(pdfs: Sequence[Path], specifications: Specifications, folder: Path) -> tuple[Path, ...]:
+    """Writes a PNG of each page that gave evidence into `folder`, with a captioned box around each value.
+
+    Green: `ok`; blue: an example value; orange: to review; red: one candidate of a conflict. Returns the paths written.
+    `SheetError` for a PDF that cannot be read, `OutputError` for a folder that cannot be written.
+    """
+    folder = Path(folder)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OutputError(
+            f"{folder.name} cannot be made: {error.strerror or error}", where=str(folder), hint="Choose another folder."
+        ) from error
+    written: list[Path] = []
+    for pdf in pdfs:
+        marks = _marks(specifications, Path(pdf).name)
+        if not marks:
+            continue
+        check_file(Path(pdf))
+        pages = run_guarded(
+            "yellowiron.specs.evidence_images:draw_pages",
+            Path(pdf).resolve(),
+            marks,
+            folder.resolve(),
+            where=str(pdf),
+            error=SheetError,
+            timeout_s=TIMEOUT_S,
+            memory_mb=MEMORY_MB,
+        )
+        written.extend(folder / name for name in pages)
+    return tuple(written)
+
+
+def _marks(specifications: Specifications, file: str) -> list[Mark]:
+    marks: list[Mark] = []
+    for specification in specifications:
+        kind = "example" if specification.example and specification.status == "ok" else specification.status
+        if specification.status == "conflict":
+            shown: list[Evidence | None] = [c.evidence for c in specification.candidates]
+        else:
+            shown = [specification.evidence]
+        for evidence in shown:
+            if evidence is not None and evidence.box is not None and evidence.file == file and kind in _COLORS:
+                marks.append((evidence.page, evidence.box, kind, specification.name))
+    return marks
+
+
+def draw_pages(pdf: Path, marks: Sequence[Mark], folder: Path) -> list[str]:
+    """Draws the marked pages of one PDF (runs in the guarded child); the names of the files written."""
+    import pypdfium2
+    from PIL import Image, ImageDraw
+
+    names: list[str] = []
+    document = pypdfium2.PdfDocument(pdf)
+    try:
+        for number in sorted({mark[0] for mark in marks}):
+            beat(f"Drawing page {number} of {pdf.name}")
+            opened = document[number - 1]
+            width, height = opened.get_size()
+            scale = min(_SCALE, (_MOST_PIXELS / max(width * height, 1.0)) ** 0.5)
+            page = opened.render(scale=scale).to_pil().convert("RGB")
+            opened.close()
+            image = Image.new("RGB", (page.width + 2 * _MARGIN, page.height), (250, 250, 250))
+            image.paste(page, (_MARGIN, 0))
+            _draw(ImageDraw.Draw(image, "RGBA"), page.width, scale, [m for m in marks if m[0] == number])
+            name = f"{pdf.stem}-page-{number}.png"
+            image.save(folder / name)
+            names.append(name)
+    finally:
+        document.close()
+    return names
+
+
+def _draw(draw: Any, width: int, scale: float, marks: Sequence[Mark]) -> None:
+    """A box around each value; its names in the nearer margin at its height, below each other, with a line between
+    that runs under the row's words."""
+    from PIL import ImageFont
+
+    font = ImageFont.load_default(size=11)
+    captions: dict[tuple[tuple[float, float, float, float], str], list[str]] = {}
+    for _, box, kind, name in marks:
+        captions.setdefault((box, kind), []).append(name)
+    free = {True: 6.0, False: 6.0}
+    for (box, kind), names in sorted(captions.items(), key=lambda item: (item[0][0][1], item[0][0][0])):
+        color = _COLORS[kind]
+        x0, top, x1, bottom = (v * scale for v in box)
+        left = x0 + x1 < width
+        x0, top, x1, bottom = x0 + _MARGIN - 3, top - 3, x1 + _MARGIN + 3, bottom + 3
+        draw.rectangle((x0, top, x1, bottom), outline=(*color, 255), fill=(*color, 24), width=2)
+        words = ", ".join(names)
+        y = max((top + bottom) / 2 - 7, free[left])
+        turn, out, end = (_MARGIN, -16, x0) if left else (_MARGIN + width, 16, x1)
+        draw.line((end, bottom - 1, turn, bottom - 1, turn + out, y + 7), fill=(*color, 110), width=1)
+        at = turn + out - 4 - draw.textlength(words, font=font) if left else turn + out + 4
+        draw.text((at, y), words, fill=(*color, 255), font=font)
+        free[left] = y + 15

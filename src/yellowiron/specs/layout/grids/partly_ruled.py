@@ -1,0 +1,136 @@
+"""Tables that are ruled in part: rows that no rule parts, a line for each in every cell, and columns without walls."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import pairwise
+
+from yellowiron.specs.language.numbers import read, same
+from yellowiron.specs.layout.grids.grid import Cell, Grid
+from yellowiron.specs.layout.rows.lines import Line, lines_of
+from yellowiron.specs.layout.statement import is_unit, kind_of, looks_like_value
+
+_LEVEL = 2.5
+"""Points within which the lines of a row lie."""
+_FEWEST = 3
+"""Cells with a label and its value; fewer may be values with words before them."""
+
+
+def with_rows(grid: Grid) -> Grid:
+    """The table with the rows parted that hold several lines of values, each level with a line of the labels."""
+    edges = {row: _edges(grid, row) for row in range(grid.rows)}
+    if not any(edges.values()):
+        return grid
+    first = [0, *itertools.accumulate(1 + len(edges[row]) for row in range(grid.rows))]
+    cells: list[Cell] = []
+    for cell in grid.cells:
+        a, b = cell.rows
+        inner = edges[a] if b == a + 1 else []
+        if not inner or (len(cell.lines) == 1 and not _is_valued(cell)):
+            cells.append(replace(cell, rows=(first[a], first[b])))
+            continue
+        stops = [cell.box[1], *inner, cell.box[3]]
+        for index, (top, bottom) in enumerate(pairwise(stops)):
+            lines = tuple(line for line in cell.lines if top <= (line.top + line.bottom) / 2 < bottom)
+            box = (cell.box[0], top, cell.box[2], bottom)
+            cells.append(replace(cell, box=box, rows=(first[a] + index, first[a] + index + 1), lines=lines))
+    places = {place: c for c in cells for place in itertools.product(range(*c.rows), range(*c.columns))}
+    return replace(grid, cells=tuple(cells), rows=first[-1], places=places)
+
+
+def _edges(grid: Grid, row: int) -> list[float]:
+    """The heights at which a row is to be parted; [] if it is one."""
+    cells = [c for c in grid.cells if c.rows == (row, row + 1) and c.lines]
+    valued = [c for c in cells if len(c.lines) > 1 and _is_valued(c)]
+    labels = [c for c in cells if any(kind_of(p) == "text" for p in c.pieces) and not any(c is v for v in valued)]
+    most = max((len(c.lines) for c in valued), default=0)
+    if not labels or most < 2 or (most == 2 and len(valued) < 2) or any(map(_in_two_systems, valued)):
+        return []
+    full = next(c for c in valued if len(c.lines) == most)
+    label = max(labels, key=lambda c: sum(_is_level(line, c) for line in full.lines))
+    if not all(_is_level(line, label) for c in valued for line in c.lines):
+        return []
+    levels = [line for line in full.lines if _is_level(line, label)]
+    return [min(line.top for c in cells for line in c.lines if abs(line.bottom - at.bottom) <= _LEVEL) - 0.5
+            for at in levels[1:]]  # fmt: skip
+
+
+def _is_valued(cell: Cell) -> bool:
+    """Whether every line of a cell is a value, or a dash for none; outline numbers and units are none."""
+    texts = [" ".join(p.bare for p in line.pieces) for line in cell.lines]
+    kinds = {kind_of(line.pieces[0]) for line in cell.lines}
+    return kinds <= {"value", "mark"} and any(map(looks_like_value, texts)) and not any(map(is_unit, texts))
+
+
+def _is_level(line: Line, cell: Cell) -> bool:
+    return any(abs(line.bottom - other.bottom) <= _LEVEL for other in cell.lines)
+
+
+def _in_two_systems(cell: Cell) -> bool:
+    """Whether a line of values is the one above it again, in the other system of measurement."""
+    return any(_restated(a, b) for a, b in pairwise(cell.lines))
+
+
+def _restated(a: Line, b: Line) -> bool:
+    first, second = read(a.text), read(b.text.strip("()"))
+    if len(first) != 1 or len(second) != 1:
+        return False
+    one, other = first[0].numbers[0], second[0].numbers[0]
+    systems = {q.printed.system for q in (one, other) if q.printed}
+    return len(systems) == 2 and same(one, other)
+
+
+# ---- columns -------------------------------------------------------------------------------------------------------
+
+
+def with_columns(grid: Grid) -> Grid:
+    """The table with the columns parted in whose cells values stand side by side, or a label and its value, as if a
+    wall stood between them; what crosses that place spans both parts."""
+    column = 0
+    while column < grid.columns:
+        x = _gap(grid, column)
+        if x is None:
+            column += 1
+        else:
+            grid = _with_wall(grid, column, x)  # its left part has one piece to a cell, unless it has a gap itself
+    return grid
+
+
+def _gap(grid: Grid, column: int) -> float | None:
+    """Where the cells of a column are to be parted."""
+    own = [c for c in grid.cells if c.columns == (column, column + 1) and c.lines]
+    several = [c for c in own if len(c.lines) == 1 and len(c.pieces) > 1]
+    labelled = [c for c in several if _label_and_value(c)]
+    valued = [c for c in several if all(kind_of(p) in ("value", "mark") for p in c.pieces)]
+    if len(labelled) >= _FEWEST and len(labelled) >= 0.8 * len(own):
+        return _between(labelled)
+    if valued and len(valued) >= 0.5 * sum(_is_valued(c) for c in own):
+        return _between(valued)
+    return None
+
+
+def _label_and_value(cell: Cell) -> bool:
+    return len(cell.pieces) == 2 and kind_of(cell.pieces[0]) == "text" and kind_of(cell.pieces[1]) == "value"
+
+
+def _between(cells: Sequence[Cell]) -> float | None:
+    """The middle of the gap between the first and the second piece of cells, which they all leave free."""
+    left, right = max(c.pieces[0].x1 for c in cells), min(c.pieces[1].x0 for c in cells)
+    return (left + right) / 2 if left < right else None
+
+
+def _with_wall(grid: Grid, column: int, x: float) -> Grid:
+    cells: list[Cell] = []
+    for cell in grid.cells:
+        (left, top, right, bottom), (first, last) = cell.box, cell.columns
+        if (first, last) == (column, column + 1) and not any(p.x0 < x < p.x1 for p in cell.pieces):
+            sides = ((left, top, x, bottom), (first, first + 1)), ((x, top, right, bottom), (last, last + 1))
+            for box, columns in sides:
+                words = [w for p in cell.pieces for w in p.words if box[0] <= (w.x0 + w.x1) / 2 < box[2]]
+                cells.append(replace(cell, box=box, columns=columns, lines=tuple(lines_of(words))))
+        else:
+            cells.append(replace(cell, columns=(first + (first > column), last + (last > column))))
+    places = {place: c for c in cells for place in itertools.product(range(*c.rows), range(*c.columns))}
+    return replace(grid, cells=tuple(cells), columns=grid.columns + 1, places=places)

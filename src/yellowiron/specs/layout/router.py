@@ -1,0 +1,119 @@
+"""The router: which part of a page is a drawn table, which a column of rows, and their statements in reading order."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import replace
+
+from yellowiron.specs.layout.grids.grid import Grid
+from yellowiron.specs.layout.grids.lattice import columns_of, grids_of, read_grid
+from yellowiron.specs.layout.grids.nested_rows import read_boxes
+from yellowiron.specs.layout.grids.open_sided import heads_above
+from yellowiron.specs.layout.rows.cells import legend_of
+from yellowiron.specs.layout.rows.headings import Heading, body_size
+from yellowiron.specs.layout.rows.legends import key_legend, labelled, spelled
+from yellowiron.specs.layout.rows.lines import Line, blocks_of, lines_of
+from yellowiron.specs.layout.rows.margin import without_keys
+from yellowiron.specs.layout.rows.row_reader import read_block
+from yellowiron.specs.layout.statement import Statement, kind_of, unit_said
+from yellowiron.specs.pages.strokes import Box
+from yellowiron.specs.pages.words import Page
+
+
+def statements_of(page: Page) -> list[Statement]:
+    """Every value that a page prints, with the words that say what it is.
+
+    Vertical rules: the cells of the drawn grid. Horizontal rules only: what stands between two of them is a row. No
+    rules: rows by gaps and overlap.
+    """
+    lines = lines_of(page.words)
+    keys = key_legend(lines)
+    notes = _footnotes(lines, body_size(page.words))
+    page = replace(page, words=tuple(w for w in page.words if id(w) not in notes))
+    page = replace(spelled(page, keys), legend=legend_of(lines))
+    grids = grids_of(page)
+    outside = [
+        w
+        for w in page.words
+        if not any(
+            g.box[0] - 1 <= (w.x0 + w.x1) / 2 <= g.box[2] + 1 and g.box[1] - 1 <= (w.top + w.bottom) / 2 <= g.box[3] + 1
+            for g in grids
+        )
+    ]
+    found: list[Statement] = []
+    row = 1000 * page.number
+    walls = [r for r in page.rules if not r.horizontal]
+    headings: list[Heading] = []
+    across = [*page.leaders, *((r.x0, r.top, r.x1, r.bottom) for r in page.rules if r.horizontal)]
+    bars = [b for b in page.bars if not any(_within(b, g.box) for g in grids)]
+    for block in blocks_of(without_keys(lines_of(outside, walls)), bars, across):
+        statements, more = read_block(
+            page, block, row, _heading_above(headings, block.lines[0].top, block.x0, block.x1)
+        )
+        headings.extend(more)
+        row += len(statements) + len(block.lines) + 1
+        found.extend(statements)
+    free, boxes = lines_of(outside) if grids else [], [g.box for g in grids]
+    for grid in grids:
+        title = _title(free, grid) or _heading_above(headings, grid.box[1], grid.box[0], grid.box[2])
+        if unit := _unit_above(free, grid):
+            title = f"{title} ({unit})".strip()
+        filled = read_boxes(page, grid, row, title)
+        row += len(filled.statements)
+        found.extend(filled.statements)
+        above = heads_above(free, grid.box, columns_of(grid), boxes)
+        found.extend(read_grid(page, filled.grid, row, title, above))
+        row += grid.rows + 1
+    return labelled(found, keys)
+
+
+_NOTE = re.compile(r"[\u00b9\u00b2\u00b3\u2070-\u2079*†‡§]+[)]?|[(\[]?\d[)\]]")
+
+
+def _footnotes(lines: Sequence[Line], size: float) -> frozenset[int]:
+    """The words of footnotes, by identity: small print behind a sign. They tell circumstances, and no values."""
+    found: set[int] = set()
+    for line in lines:
+        first = next(
+            (i for i, p in enumerate(line.pieces) if _NOTE.fullmatch(p.words[0].text) and len(p.words) > 3), None
+        )
+        if first is not None and all(w.size < 0.92 * size for p in line.pieces[first:] for w in p.words):
+            found.update(id(w) for p in line.pieces[first:] for w in p.words)
+    return frozenset(found)
+
+
+def _within(inner: Box, outer: Box) -> bool:
+    return all(a >= b - 1 for a, b in zip(inner[:2], outer[:2], strict=True)) and all(
+        a <= b + 1 for a, b in zip(inner[2:], outer[2:], strict=True)
+    )
+
+
+def _title(lines: Sequence[Line], grid: Grid) -> str:
+    """The words right above a table: one bold or larger piece over its left part."""
+    box = grid.box
+    sizes = sorted(p.size for c in grid.cells for p in c.pieces)
+    over = [line for line in lines if 0 <= box[1] - line.bottom < 1.2 * line.pieces[0].size]
+    for line in over:
+        piece = line.pieces[0]
+        if (
+            len(line.pieces) == 1
+            and (piece.bold or piece.size > 1.1 * sizes[len(sizes) // 2])
+            and box[0] - 4 <= piece.x0 < (box[0] + box[2]) / 2
+            and kind_of(piece) == "text"
+        ):
+            return piece.text
+    return ""
+
+
+def _unit_above(lines: Sequence[Line], grid: Grid) -> str:
+    """The unit that a line right above a table gives for its bare numbers."""
+    box = grid.box
+    over = [p for line in lines for p in line.pieces if 0 <= box[1] - p.box[3] < 1.5 * p.size]
+    return next((u for p in over if p.x1 > box[0] and p.x0 < box[2] and (u := unit_said(p.bare))), "")
+
+
+def _heading_above(headings: list[Heading], top: float, x0: float, x1: float) -> str:
+    """The nearest heading above a place, in a column of text that it overlaps."""
+    above = [h for h in headings if h.bottom <= top + 2 and h.x0 < x1 and x0 < h.x1]
+    return max(above, key=lambda h: h.bottom).text if above else ""

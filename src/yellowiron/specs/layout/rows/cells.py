@@ -1,0 +1,290 @@
+"""The value cells of a row without a grid: their labels, the heads over them, their statements."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from itertools import pairwise
+
+from yellowiron.specs.language.numbers import FEET_DASH, read
+from yellowiron.specs.layout.rows.lines import Line
+from yellowiron.specs.layout.statement import (
+    EXAMPLE,
+    Piece,
+    Statement,
+    is_key,
+    is_unit,
+    join_boxes,
+    joined,
+    kind_of,
+    split_inline,
+    unit_in_label,
+    without_key,
+    words_beside_numbers,
+)
+from yellowiron.specs.pages.strokes import Box
+from yellowiron.specs.pages.words import Page
+
+
+@dataclass
+class ValueCell:
+    """The pieces of one value: its label's, its own (one below the other: metric, imperial), the words after the last
+    value of the row; `unit` where a piece of its own gives it."""
+
+    label: list[Piece]
+    values: list[Piece]
+    notes: list[Piece] = field(default_factory=list)
+    unit: str = ""
+
+
+def statement_of(
+    page: Page,
+    row: Sequence[Line],
+    cell: ValueCell,
+    heads: Sequence[Piece],
+    context: Sequence[Piece],
+    above: Sequence[Piece],
+    number: int,
+) -> Statement:
+    """The statement of a cell: `heads` stand over it, `context` are its sub-headings, `above` those the quote needs."""
+    label, text = joined(p.bare for p in cell.label), " ".join(p.text for p in cell.values)
+    if not cell.label:
+        inline = split_inline(" ".join(p.bare for p in cell.values))
+        if inline[0]:
+            label, text = inline
+    column = [h for h in heads if not is_unit(h.bare)]
+    unit = next((u for h in reversed(heads) if (u := is_unit(h.bare) or unit_in_label(h.bare)[1])), "")
+    bare = not cell.unit and not unit and not any(q.unit for r in read(text) for q in r.numbers)
+    label, label_unit = unit_in_label(without_key(label), bare=bare)
+    box = join_boxes(p.box for p in cell.values)
+    return Statement(
+        page=page.number,
+        row=number,
+        label=label,
+        text=EXAMPLE.sub("", text).strip(),
+        box=box,
+        quote=_quote(page, row, above, cell, column if not cell.label else []),
+        context=tuple(p.bare for p in context),
+        column=tuple(unit_in_label(h.bare)[0] for h in column if h.bare),
+        unit=cell.unit or label_unit or unit,
+        example=any(EXAMPLE.search(h.text) for h in heads)
+        or marked_by_legend(page, [*cell.label, *cell.values, *heads]),
+        x0=box[0],
+        heads=tuple(h.text for h in column) if cell.label else (),
+    )
+
+
+def cells_of(row: Sequence[Line]) -> list[ValueCell]:
+    """The row's values, each with the labels to its left back to the value before."""
+    pieces = sorted((p for line in row for p in line.pieces), key=lambda p: (p.words[0].baseline, p.x0))
+    kinds = {id(p): kind_of(p) for p in pieces}
+    if [kinds[id(p)] for p in pieces[:2]] == ["value", "value"] and is_circumstance(pieces[0]):
+        kinds[id(pieces[0])] = "text"
+    keys = _keys_of(pieces, kinds)
+    pieces = [p for p in pieces if id(p) not in keys]
+    values = [p for p in pieces if kinds[id(p)] == "value"]
+    if not values:
+        values = [p for p in pieces if split_inline(p.bare)[0]]
+    columns: list[list[Piece]] = []
+    for piece in sorted(values, key=lambda p: (p.x0, p.box[1])):
+        if columns and any(p.x0 < piece.x1 and piece.x0 < p.x1 for p in columns[-1]):
+            columns[-1].append(piece)
+        else:
+            columns.append([piece])
+    cells: list[ValueCell] = []
+    others = [p for p in pieces if not any(p is v for v in values)]
+    left_edge = float("-inf")
+    for column in columns:
+        x0 = min(p.x0 for p in column)
+        x1 = max(p.x1 for p in column)
+        between = [p for p in others if left_edge <= p.x0 < x0]
+        label = [p for p in between if kinds[id(p)] == "text"]
+        units = [p for p in between if kinds[id(p)] == "unit"]
+        if cells and units and not _has_unit(cells[-1]) and (not label or units[0].x0 < label[0].x0):
+            cells[-1].values.append(units.pop(0))  # the unit after a number, in a column of its own
+        if cells and label:
+            units = [u for u in units if u.x0 > label[0].x0]
+        if not label and cells:
+            label = cells[-1].label
+        unit = is_unit(units[-1].bare) if units else (cells[-1].unit if cells and label is cells[-1].label else "")
+        stacked = sorted(column, key=lambda p: (p.words[0].baseline, p.x0))
+        if len(stacked) > 1 and (beside := _beside(stacked, units)):
+            stacked, unit = beside, ""
+        cells.append(ValueCell(label, stacked, unit=unit))
+        left_edge = x1
+    if cells:
+        last = [p for p in others if p.x0 >= left_edge]
+        cells[-1].notes = last
+        trailing = [p for p in last if kinds[id(p)] == "unit"]
+        if trailing and any(kinds[id(p)] == "unit" for c in cells for p in c.values):
+            if not _has_unit(cells[-1]):
+                cells[-1].values.append(trailing[0])
+        elif trailing and all(not c.unit for c in cells):
+            cells = [replace(c, unit=is_unit(trailing[0].bare)) for c in cells]
+        for note in last:  # the words after a value may say which it is
+            if is_key(note.bare) and kinds[id(note)] == "text":
+                break  # another table's key
+            if kinds[id(note)] == "text" and len(note.words) <= 8:
+                cells[-1].values.append(note)
+    return cells
+
+
+def is_circumstance(piece: Piece) -> bool:
+    """Whether a piece that begins with an angle is the label of the value beside it: "40° full turn"."""
+    readings = read(piece.bare)
+    first = readings[0].numbers[0]
+    return len(readings) == 1 and first.dimension == "angle" and bool(words_beside_numbers(piece.bare, readings))
+
+
+def _beside(values: Sequence[Piece], units: Sequence[Piece]) -> list[Piece]:
+    """Values one below the other, each with the unit on its own line behind it; [] where no unit or several stand on a
+    line, or a unit on none."""
+    found: list[Piece] = []
+    for value in values:
+        level = [u for u in units if abs(u.words[0].baseline - value.words[0].baseline) < 0.3 * value.size]
+        if len(level) > 1 or not (level or _has_unit(ValueCell([], [value])) or FEET_DASH.fullmatch(value.bare)):
+            return []
+        found += [value, *level]
+    return found if len(found) == len(values) + len(units) else []
+
+
+def _has_unit(cell: ValueCell) -> bool:
+    """Whether a value has its unit: before it in a column of its own, or at its last number."""
+    readings = read(" ".join(p.text for p in cell.values))
+    return bool(cell.unit) or not readings or bool((readings[-1].partner or readings[-1].numbers)[-1].unit)
+
+
+def _keys_of(pieces: Sequence[Piece], kinds: Mapping[int, str]) -> frozenset[int]:
+    """The keys of a drawing before a row's labels, by identity: letters or numbers that words follow, and a value after
+    them. A key may look like a unit (L, N, m) or a value (7): the row begins with it, or another key does."""
+    ordered = sorted(pieces, key=lambda p: p.x0)
+    keys: set[int] = set()
+    for index, (piece, following) in enumerate(pairwise(ordered)):
+        begins = index == 0 or (bool(keys) and kinds[id(ordered[index - 1])] != "text")
+        valued = any(kinds[id(p)] == "value" for p in ordered[index + 2 :])
+        if begins and valued and is_key(piece.bare) and kinds[id(following)] == "text" and not is_key(following.bare):
+            keys.add(id(piece))
+    return frozenset(keys)
+
+
+def heads_over(heads: Sequence[tuple[Piece, ...]], box: Box, *, alone: bool = False) -> list[Piece]:
+    """The head of each head line that stands over a value: the one that overlaps it, else the nearest one; none over
+    one that is `alone` in its row and stands between the columns, as it holds for all of them."""
+    over: list[Piece] = []
+    for line in heads:
+        if alone and _is_between(line, box):
+            continue
+        overlap = [(min(p.x1, box[2]) - max(p.x0, box[0]), p) for p in line]
+        best = max(overlap, key=lambda pair: pair[0])
+        if best[0] > 0:
+            over.extend(p for _, p in overlap if p is best[1])
+        elif len(line) >= 2 or best[0] > -40:
+            nearest = max(overlap, key=lambda pair: pair[0])
+            if nearest[0] > -60:
+                over.append(nearest[1])
+    return over
+
+
+def _is_between(heads: Sequence[Piece], box: Box) -> bool:
+    """Whether a value is level with none of the columns' heads, at the left, the middle or the right, but stands
+    between the first and the last."""
+    middle = (box[0] + box[2]) / 2
+    middles = [(h.x0 + h.x1) / 2 for h in heads]
+    level = any(
+        abs(h.x0 - box[0]) < 3 or abs(h.x1 - box[2]) < 3 or abs(m - middle) < 4
+        for h, m in zip(heads, middles, strict=True)
+    )
+    return len(heads) > 1 and not level and not is_unit(heads[-1].bare) and min(middles) < middle < max(middles)
+
+
+def continues(found: Sequence[Statement], cells: Sequence[ValueCell]) -> bool:
+    """Whether values without a label stand under those of the statements before (their imperial line)."""
+    return all(_above(found, c) is not None for c in cells)
+
+
+def _above(found: Sequence[Statement], cell: ValueCell) -> int | None:
+    box = join_boxes(p.box for p in cell.values)
+    last = found[-1].row
+    for index in range(len(found) - 1, -1, -1):
+        statement = found[index]
+        if statement.row != last:
+            return None
+        under = statement.x0 < box[2] and box[0] < statement.box[2] and 0 <= box[1] - statement.box[3] < box[3] - box[1]
+        if under and _other_system(statement, cell):
+            return index
+    return None
+
+
+def _other_system(statement: Statement, cell: ValueCell) -> bool:
+    """Whether a value is in another system of measurement than the one above it."""
+    above = read(statement.text, unit=statement.unit)
+    below = read(" ".join(p.text for p in cell.values), unit=cell.unit or statement.unit)
+    if not above or not below or any(r.partner for r in above):
+        return False
+    first, second = above[-1].numbers[-1].printed, below[0].numbers[-1].printed
+    if first is None or second is None:
+        return False
+    return first.dimension == second.dimension and first.system != second.system
+
+
+def add_continuation(found: list[Statement], cells: Sequence[ValueCell]) -> None:
+    """Adds values to those right above them, of which they are the other system\'s."""
+    for cell in cells:
+        index = _above(found, cell)
+        if index is not None:
+            text = " ".join(p.text for p in cell.values)
+            statement = found[index]
+            first, second = statement.text, EXAMPLE.sub("", text).strip()
+            if cell.unit and cell.unit != statement.unit:
+                first, second = f"{first} {statement.unit}".strip(), f"{second} {cell.unit}"
+            found[index] = replace(
+                statement,
+                text=f"{first} {second}",
+                unit="" if cell.unit and cell.unit != statement.unit else statement.unit,
+                quote=f"{statement.quote} … {text}",
+                box=join_boxes([statement.box, *(p.box for p in cell.values)]),
+            )
+
+
+def _quote(page: Page, row: Sequence[Line], context: Sequence[Piece], cell: ValueCell, heads: Sequence[Piece]) -> str:
+    """What the page prints: sub-heading or head, then each line of the row from the label to the value. Pieces that do
+    not follow each other on the page are parted: a drawing's key may stand between them, or, in the file, the second
+    line of a broken label."""
+    parts = [p.printed for p in [*heads, *context]]
+    chosen = [*cell.label, *cell.values]
+    for line in row:
+        mine = [i for i, p in enumerate(line.pieces) if any(p is q for q in chosen)]
+        if not mine:
+            continue
+        pieces = line.pieces[mine[0] : mine[-1] + 1]
+        text = pieces[0].printed
+        for before, piece in pairwise(pieces):
+            parted = len(row) > 1 or _any_between(page, before, piece)
+            text += f"{' … ' if parted else ' '}{piece.printed}"
+        parts.append(text)
+    return " … ".join(dict.fromkeys(parts))
+
+
+def _any_between(page: Page, a: Piece, b: Piece) -> bool:
+    """Whether the page prints a word between two pieces of a line."""
+    base = a.words[0].baseline
+    return any(abs(w.baseline - base) < 0.3 * w.size and a.x1 < w.x0 and w.x1 < b.x0 for w in page.words)
+
+
+def marked_by_legend(page: Page, pieces: Sequence[Piece]) -> bool:
+    """Whether a footnote sign at one of the pieces stands for "example value" at the foot of the page."""
+    marks = "".join(p.marks for p in pieces)
+    return any(mark in marks and EXAMPLE.search(text) for mark, text in page.legend.items())
+
+
+def legend_of(lines: Sequence[Line]) -> dict[str, str]:
+    """Footnote signs and what they mean: lines that begin with one."""
+    found: dict[str, str] = {}
+    for line in lines:
+        match = re.match(r"^([*†‡§¤◊]+|\d\))\s*(\S.*)$", line.text)
+        if match:
+            found.setdefault(match.group(1), match.group(2))
+        elif line.pieces[0].words[0].marks and len(line.text.split()) > 1:
+            found.setdefault(line.pieces[0].words[0].marks, line.text)
+    return found

@@ -1,0 +1,114 @@
+"""A drawing's legend, "A  Height to hinge pin", with the values in a table headed by its letters alone."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from yellowiron.specs.language.numbers import read
+from yellowiron.specs.layout.rows.lines import Line, lines_of
+from yellowiron.specs.layout.statement import Piece, Statement, is_key, is_unit, kind_of
+from yellowiron.specs.pages.words import Page, Word
+
+_FEWEST = 4
+"""Keys of a legend."""
+
+
+@dataclass(frozen=True)
+class Legend:
+    """The words of each key, by the height at which their legend begins, and the words that print the legends."""
+
+    parts: tuple[tuple[float, Mapping[str, str]], ...]
+    words: frozenset[int]
+
+    def label(self, piece: Piece) -> str:
+        """What a key stands for: in the nearest legend that begins above it, or in the only one of the page."""
+        above = [labels for top, labels in self.parts if top < piece.box[1] or len(self.parts) == 1]
+        return above[-1].get(_key_of(piece), "") if above and _is_letter(piece) else ""
+
+
+_NONE = Legend((), frozenset())
+_Entry = tuple[Piece, Piece]
+
+
+def key_legend(lines: Sequence[Line]) -> Legend:
+    """The legends of a page: keys, no two alike in one legend, each right before words without a value of their own.
+    Most of the keys stand once more, alone."""
+    groups: list[list[_Entry]] = []
+    alone: set[str] = set()
+    for line in lines:
+        entries = [e for i in range(len(line.pieces)) if (e := _entry(line.pieces, i)) is not None]
+        alone.update(_key_of(p) for i, p in enumerate(line.pieces) if _is_letter(p) and _stands_alone(line.pieces, i))
+        if entries and groups and line.top - groups[-1][-1][1].box[3] < 3 * entries[0][1].size:
+            groups[-1].extend(entries)
+        elif entries:
+            groups.append(entries)
+    groups = [g for g in groups if _is_legend([_key_of(key) for key, _ in g], alone)]
+    if not groups:
+        return _NONE
+    parts = tuple((min(k.box[1] for k, _ in g), {_key_of(k): words.bare for k, words in g}) for g in groups)
+    return Legend(parts, frozenset(id(w) for g in groups for entry in g for part in entry for w in part.words))
+
+
+def _is_legend(keys: Sequence[str], alone: set[str]) -> bool:
+    named = sum(k in alone for k in keys)
+    return len(set(keys)) == len(keys) and named >= _FEWEST and named >= 0.6 * len(keys)
+
+
+def _entry(pieces: Sequence[Piece], index: int) -> _Entry | None:
+    """A key and its words; None where a value follows them."""
+    if index + 1 >= len(pieces) or not _is_letter(pieces[index]) or kind_of(pieces[index + 1]) != "text":
+        return None
+    words = pieces[index + 1]
+    if _is_letter(words) or any(q.dimension != "angle" for r in read(words.bare) for q in r.numbers):
+        return None
+    for number, piece in enumerate(pieces[index + 2 :], start=index + 3):
+        if is_unit(piece.bare) and any(kind_of(p) == "value" for p in pieces[number : number + 1]):
+            return None  # "B  Width  m  3.91": a metre, no key
+        if _is_letter(piece):
+            break
+        if kind_of(piece) != "text":
+            return None
+    return pieces[index], words
+
+
+def _is_letter(piece: Piece) -> bool:
+    return is_key(piece.bare) and not piece.bare.strip("()")[:1].isdigit()
+
+
+def _key_of(piece: Piece) -> str:
+    return piece.bare.strip("().:")
+
+
+def _stands_alone(pieces: Sequence[Piece], index: int) -> bool:
+    """Whether a key heads a column among others, or a value follows it."""
+    following = pieces[index + 1 : index + 2]
+    return not following or _is_letter(following[0]) or kind_of(following[0]) == "value"
+
+
+def spelled(page: Page, legend: Legend) -> Page:
+    """The page without its legend, whose words stand in the place of the keys that are alone."""
+    if not legend.parts:
+        return page
+    words: list[Word] = []
+    for line in lines_of([w for w in page.words if id(w) not in legend.words]):
+        for index, piece in enumerate(line.pieces):
+            label = legend.label(piece)
+            if label and _stands_alone(line.pieces, index):
+                words.append(replace(piece.words[0], text=label, x1=piece.x1))
+            else:
+                words.extend(piece.words)
+    return replace(page, words=tuple(words))
+
+
+def labelled(statements: Sequence[Statement], legend: Legend) -> list[Statement]:
+    """The statements whose only name is a key's, with it as their label."""
+    names = {label for _, labels in legend.parts for label in labels.values()}
+    return [_labelled(s, names) for s in statements] if names else list(statements)
+
+
+def _labelled(statement: Statement, names: set[str]) -> Statement:
+    own = [c for c in statement.column if c in names]
+    if len(own) != 1 or (statement.label and not is_unit(statement.label)):
+        return statement
+    return replace(statement, label=own[0], column=tuple(c for c in statement.column if c != own[0]), variant=())

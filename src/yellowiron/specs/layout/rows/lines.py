@@ -1,0 +1,286 @@
+"""Words → pieces → visual rows, and the columns of text that stand side by side on a page."""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from yellowiron.specs.layout.statement import Piece, kind_of, split_inline
+from yellowiron.specs.pages.strokes import Box, Rule
+from yellowiron.specs.pages.words import Word
+
+_HANGING = 20.0
+"""Points by which a heading may stand out to the left of the labels under it."""
+_PANEL = 60.0
+"""Points; what is filled higher than this lies behind many rows, and is no heading's bar."""
+_GAP = 0.75
+"""A gap wider than this times the type size parts a label from a value."""
+
+
+@dataclass(frozen=True)
+class Line:
+    """Pieces on one baseline, from left to right."""
+
+    pieces: tuple[Piece, ...]
+
+    @property
+    def top(self) -> float:
+        """Top of its highest word."""
+        return min(p.box[1] for p in self.pieces)
+
+    @property
+    def bottom(self) -> float:
+        """Bottom of its lowest word."""
+        return max(p.box[3] for p in self.pieces)
+
+    @property
+    def x0(self) -> float:
+        """Left edge."""
+        return self.pieces[0].x0
+
+    @property
+    def x1(self) -> float:
+        """Right edge."""
+        return max(p.x1 for p in self.pieces)
+
+    @property
+    def text(self) -> str:
+        """All its words."""
+        return " ".join(p.text for p in self.pieces)
+
+
+def lines_of(words: Sequence[Word], walls: Sequence[Rule] = ()) -> list[Line]:
+    """Words by baseline, parted where a wide gap or a vertical rule is between them; from top to bottom."""
+    rows: list[list[Word]] = []
+    for word in sorted(words, key=lambda w: (w.baseline, w.x0)):
+        if rows and abs(rows[-1][0].baseline - word.baseline) <= 0.25 * min(rows[-1][0].size, word.size):
+            rows[-1].append(word)
+        else:
+            rows.append([word])
+    lines = []
+    for row in rows:
+        row.sort(key=lambda w: w.x0)
+        pieces: list[list[Word]] = []
+        for word in row:
+            last = pieces[-1][-1] if pieces else None
+            if last is None or word.x0 - last.x1 > _GAP * max(word.size, last.size) or _walled(last, word, walls):
+                pieces.append([word])
+            else:
+                pieces[-1].append(word)
+        found = tuple(Piece(tuple(p)) for p in pieces)
+        # a colon in a column of its own parts labels from values, and is neither
+        lines.append(Line(tuple(p for p in found if p.text not in (":", "：")) or found))
+    return lines
+
+
+def _walled(a: Word, b: Word, walls: Sequence[Rule]) -> bool:
+    return any(
+        not w.horizontal
+        and a.x1 - 1 <= w.x0 <= b.x0 + 1
+        and w.top < a.baseline
+        and w.bottom > a.baseline - 0.5 * a.size
+        for w in walls
+    )
+
+
+@dataclass(frozen=True)
+class Block:
+    """Lines that belong to one column of text, `x0` to `x1`."""
+
+    lines: tuple[Line, ...]
+    x0: float
+    x1: float
+
+
+def blocks_of(lines: Sequence[Line], bars: Sequence[Box] = (), across: Sequence[Box] = ()) -> list[Block]:
+    """The columns of text, in reading order: what is above a pair of columns, the left one, the right one, the rest.
+
+    A gutter is an x at which several lines begin a label anew, each with a value to its right, and which no piece
+    crosses; or at which a filled bar begins beside another. `across` are leaders and rules, which do not cross a gutter
+    either.
+    """
+    if not lines:
+        return []
+    found = _gutter(lines, bars, [*across, *bars])
+    x0, x1 = min(line.x0 for line in lines), max(line.x1 for line in lines)
+    if found is None:
+        return [Block(tuple(lines), x0, x1)]
+    x, first, last = found
+    left: list[Line] = []
+    right: list[Line] = []
+    for line in lines[first:last]:
+        a = tuple(p for p in line.pieces if p.x0 < x - 2)
+        b = tuple(p for p in line.pieces if p.x0 >= x - 2)
+        if a:
+            left.append(Line(a))
+        if b:
+            right.append(Line(b))
+    return [
+        *blocks_of(lines[:first], bars, across),
+        *blocks_of(left, bars, across),
+        *blocks_of(right, bars, across),
+        *blocks_of(lines[last:], bars, across),
+    ]
+
+
+def _gutter(lines: Sequence[Line], bars: Sequence[Box], across: Sequence[Box]) -> tuple[float, int, int] | None:
+    """The best gutter: its x and the range of lines that it parts."""
+    starts: dict[int, list[tuple[float, bool]]] = {}
+    left_edge = min(line.x0 for line in lines)
+    for number, line in enumerate(lines):
+        for index, piece in enumerate(line.pieces):
+            # The rows of two columns need not be level with each other: a label may stand alone on its line.
+            if kind_of(piece) != "text" or (index == 0 and piece.x0 < left_edge + _HANGING):
+                continue
+            paired = any(kind_of(p) == "value" for p in line.pieces[index + 1 : index + 4]) or _says_all(line, index)
+            paired = paired or _folded(lines, number, index)
+            starts.setdefault(round(piece.x0 / 3), []).append((piece.x0, paired))
+    candidates: list[float] = []
+    for key in sorted(starts):
+        near = starts[key] + starts.get(key + 1, [])
+        if len(near) >= 4 and sum(paired for _, paired in near) >= max(3, 0.5 * len(near)):
+            label = min(x for x, _ in near)
+            candidates.append(label)
+            # headings may hang out to the left of their rows
+            hanging = {p.x0 for line in lines for p in line.pieces if label - _HANGING <= p.x0 < label - 2}
+            candidates.extend(sorted(hanging)[:3])
+    candidates += _of_right_set_labels(lines)
+    by_bars = sorted({b[0] for b in bars if any(a[2] <= b[0] and a[1] < b[3] and b[1] < a[3] for a in bars)})
+    candidates += by_bars
+    by_rules = _of_broken_rules(lines, across)
+    candidates += by_rules
+    best: tuple[int, float, int, int] | None = None
+    for x in candidates:
+        first, last, weight = _run(lines, across, x)
+        left_values = sum(
+            any(p.x0 < x - 2 and (kind_of(p) == "value" or _says_all(line, i)) for i, p in enumerate(line.pieces))
+            for line in lines[first:last]
+        )
+        begun = sum(any(abs(p.x0 - x) < 12 for p in line.pieces) for line in lines[first:last])
+        parts = left_values >= 2 or (x in (*by_bars, *by_rules) and begun >= 3)
+        if weight >= 3 and parts and (best is None or weight > best[0]):
+            best = (weight, x, first, last)
+    return best[1:] if best else None
+
+
+def _of_broken_rules(lines: Sequence[Line], across: Sequence[Box]) -> list[float]:
+    """Where a rule begins beside another one at the same height, as under the headings of two columns, and words."""
+    thin = [b for b in across if b[3] - b[1] <= 6]
+    begins = {b[0] for b in thin if any(0 < b[0] - a[2] < 40 and abs(a[1] - b[1]) < 1.5 for a in thin)}
+    found = []
+    for x in sorted(begins):
+        kinds = [kind_of(p) for line in lines for p in line.pieces if abs(p.x0 - x) < 12]
+        if len(kinds) >= 3 and kinds.count("text") >= 0.6 * len(kinds):
+            found.append(x)
+    return found
+
+
+def _of_right_set_labels(lines: Sequence[Line]) -> list[float]:
+    """Where the longest of labels begins that are set against their values: they end level with each other."""
+    ends: dict[int, list[Piece]] = {}
+    for line in lines:
+        for label, value in zip(line.pieces, line.pieces[1:], strict=False):
+            if kind_of(label) == "text" and kind_of(value) == "value":
+                ends.setdefault(round(label.x1 / 2), []).append(label)
+    found = []
+    for key in sorted(ends):
+        near = ends[key] + ends.get(key + 1, [])
+        starts = {round(label.x0 / 3) for label in near}
+        if len(near) >= 4 and len(starts) > 0.6 * len(near):
+            found.append(min(label.x0 for label in near))
+    return found
+
+
+def _folded(lines: Sequence[Line], number: int, index: int) -> bool:
+    """Whether the value of a label stands on the line under it: a row folded in two, or a label over its value."""
+    piece = lines[number].pieces[index]
+    after = lines[number].pieces[index + 1 : index + 2]
+    end = after[0].x0 if after else float("inf")
+    for line in lines[number + 1 : number + 6]:
+        under = [p for p in line.pieces if piece.x0 - 2 <= p.x0 < end]
+        if line.top - lines[number].bottom > 0.8 * piece.size:
+            return False
+        if under and line.bottom > lines[number].bottom + 0.5 * piece.size:
+            return kind_of(under[0]) == "value"
+    return False
+
+
+def _says_all(line: Line, index: int) -> bool:
+    """Whether a piece holds both a label and its value ("Wheelbase: 3450 mm"), and no other value follows it."""
+    after = line.pieces[index + 1 : index + 2]
+    return bool(split_inline(line.pieces[index].bare)[0]) and not any(kind_of(p) == "value" for p in after)
+
+
+def _run(lines: Sequence[Line], across: Sequence[Box], x: float) -> tuple[int, int, int]:
+    """The longest run of lines that nothing crosses at `x`, and how many of them stand on the thinner side."""
+    crossing = [b for b in across if b[0] < x - 6 and b[2] > x + 6]
+    heights = sorted((b[1] + b[3]) / 2 for b in crossing if b[3] - b[1] <= 6)
+    covers = [b for b in crossing if 6 < b[3] - b[1] <= _PANEL]
+    best = (0, 0, 0)
+    start = 0
+    for index in range(len(lines) + 1):
+        ends = index == len(lines)
+        crossed = ends or any(p.x0 < x - 2 and p.x1 > x - 2 for p in lines[index].pieces)
+        if not crossed:
+            middle = (lines[index].top + lines[index].bottom) / 2
+            crossed = any(b[1] <= middle <= b[3] for b in covers)
+        parted = not crossed and index > start and _any_between(heights, lines[index - 1].top, lines[index].bottom)
+        if not (crossed or parted):
+            continue
+        part = lines[start:index]
+        left = sum(any(p.x1 <= x - 2 for p in line.pieces) for line in part)
+        right = sum(any(p.x0 >= x - 2 for p in line.pieces) for line in part)
+        weight = min(left, right)
+        if weight > best[2]:
+            best = (start, index, weight)
+        start = index if parted else index + 1
+    return best
+
+
+def _any_between(heights: Sequence[float], top: float, bottom: float) -> bool:
+    index = bisect_left(heights, top)
+    return index < len(heights) and heights[index] < bottom
+
+
+def visual_rows(lines: Sequence[Line]) -> list[tuple[Line, ...]]:
+    """Lines that overlap in height are one row: a label beside the two lines of its value."""
+    rows: list[list[Line]] = []
+    for line in sorted(lines, key=lambda one: one.top):
+        if rows:
+            bottom = max(one.bottom for one in rows[-1])
+            height = min(line.bottom - line.top, min(one.bottom - one.top for one in rows[-1]))
+            last = rows[-1][-1]
+            if bottom - line.top > 0.25 * height and not _same_columns(last, line):
+                rows[-1].append(line)
+                continue
+        rows.append([line])
+    return [tuple(row) for row in rows]
+
+
+def _same_columns(a: Line, b: Line) -> bool:
+    """Whether two lines overlapping in height are yet stacked: one has a piece right above the other's."""
+    return any(p.x0 < q.x1 and q.x0 < p.x1 and q.box[1] - p.box[1] < 0.5 * p.size for p in a.pieces for q in b.pieces)
+
+
+def bands(
+    lines: Sequence[Line], rules: Sequence[Rule], bars: Sequence[Box], x0: float, x1: float
+) -> list[tuple[Line, ...]]:
+    """Lines between two neighbouring horizontal rules that run along (most of) the block are one row.
+
+    Lines outside such a pair of rules are grouped by overlap alone; a line on a filled bar stands alone.
+    """
+    ys = sorted({round(r.top, 1) for r in rules if r.horizontal and min(r.x1, x1) - max(r.x0, x0) > 0.6 * (x1 - x0)})
+    edges = sorted({*ys, *(b[1] for b in bars), *(b[3] for b in bars)})
+    groups: dict[tuple[float, float], list[Line]] = {}
+    free: list[Line] = []
+    for line in lines:
+        middle = (line.top + line.bottom) / 2
+        above = max((y for y in edges if y < middle), default=None)
+        below = min((y for y in edges if y >= middle), default=None)
+        if above is None or below is None or below not in ys or below - above > 6.5 * line.pieces[0].size:
+            free.append(line)
+        else:
+            groups.setdefault((above, below), []).append(line)
+    rows = [tuple(group) for group in groups.values()] + visual_rows(free)
+    return sorted(rows, key=lambda row: (min(line.top for line in row), row[0].x0))

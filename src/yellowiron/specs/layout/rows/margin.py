@@ -1,0 +1,173 @@
+"""What stands beside the rows of a column of text and is none of their labels: keys of drawings, headings in the
+margin."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+from yellowiron.specs.layout.rows.lines import Line
+from yellowiron.specs.layout.statement import Piece, ascending, is_key, is_unit, kind_of
+from yellowiron.specs.pages.strokes import Rule
+
+_LEVEL = 2.0
+"""Points within which the left edges of labels lie."""
+_FEWEST = 4
+"""Rows that a margin stands beside at least."""
+
+
+@dataclass(frozen=True)
+class Beside:
+    """Words in the margin that hold for the rows from `top` to `bottom`; `heading`: set apart from the labels."""
+
+    top: float
+    bottom: float
+    pieces: tuple[Piece, ...]
+    heading: bool
+
+
+def without_keys(lines: Sequence[Line]) -> list[Line]:
+    """The lines without a drawing's keys: a column of letters or outline numbers, no two alike, beside the rows'
+    labels. A letter may look like a unit (L, N, m), and units repeat."""
+    columns: list[list[tuple[Piece, bool]]] = []
+    for line in lines:
+        for index, piece in enumerate(line.pieces):
+            if not is_key(piece.bare):
+                continue
+            words = [kind_of(p) == "text" and not is_key(p.bare) for p in line.pieces]
+            values = [kind_of(p) == "value" for p in line.pieces[index + 1 :]]
+            begins = not any(words[:index]) or kind_of(line.pieces[index - 1]) == "value"
+            if piece.bare[0].isdigit() and not (begins and words[index + 1 : index + 2] == [True]):
+                continue  # a number: only right before a label
+            middle = (piece.x0 + piece.x1) / 2
+            near = [c for c in columns if abs((c[0][0].x0 + c[0][0].x1) / 2 - middle) < 0.8 * piece.size
+                    or abs(c[0][0].x0 - piece.x0) < 1]  # fmt: skip
+            column = near[0] if near else []
+            if not near:
+                columns.append(column)
+            column.append((piece, any(words) and any(values)))
+    keys: set[int] = set()
+    for column in columns:
+        texts = [piece.bare for piece, _ in column]
+        if (
+            len(column) >= 3
+            and len(set(texts)) == len(texts)
+            and sum(beside for _, beside in column) >= 0.6 * len(column)
+            and not all(is_unit(t) for t in texts)
+            and _counts([piece for piece, _ in column if piece.bare[0].isdigit()], lines)
+        ):
+            keys.update(id(piece) for piece, beside in column if beside)
+    if not keys:
+        return list(lines)
+    kept = [tuple(p for p in line.pieces if id(p) not in keys) for line in lines]
+    return [Line(pieces) for pieces in kept if pieces]
+
+
+def _counts(numbers: Sequence[Piece], lines: Sequence[Line]) -> bool:
+    """Whether numbers count rows: they go up; those behind another row's value, one by one."""
+    texts = [piece.bare for piece in numbers]
+    first = {id(line.pieces[0]) for line in lines}
+    if all(id(piece) in first for piece in numbers):
+        return ascending(texts)
+    counted = [int(t) if t.isdigit() else 0 for t in (text.strip("()[].:") for text in texts)]
+    return all(b == a + 1 for a, b in pairwise(counted))
+
+
+def parted_margin(lines: Sequence[Line], rules: Sequence[Rule]) -> tuple[list[Line], list[Beside]]:
+    """The lines without what stands in the margin beside their labels, and that, from top to bottom.
+
+    A margin: left of where nearly all rows with values begin their labels, level with some of them and empty beside
+    others. Its words hold from rule to rule where rules part the groups, else from their own height to the next.
+    """
+    found = _margin(lines)
+    if found is None:
+        return list(lines), []
+    start, first, last = found
+    own = [p for line in lines[first:last] for p in line.pieces if p.x0 < start - _LEVEL]
+    left = min(p.x0 for p in own)
+    top, bottom = lines[first].top, lines[last - 1].bottom
+    across = sorted(r.top for r in rules if r.horizontal and r.x0 <= left + 4 and r.x1 >= start + 4)
+    groups: list[list[Piece]] = []
+    for piece in own:
+        before = groups[-1][-1] if groups else None
+        near = before is not None and piece.box[1] - before.box[3] < 0.7 * piece.size and before.bold == piece.bold
+        if before is not None and near and not any(before.box[3] - 2 <= y <= piece.box[1] + 2 for y in across):
+            groups[-1].append(piece)
+        else:
+            groups.append([piece])
+    edges = [y for y in across if top - 12 <= y <= bottom + 12]
+    ruled = bool(edges) and all(
+        sum(_cell_of(g, edges) == _cell_of(other, edges) for other in groups) == 1 for g in groups
+    )
+    labels = [p for line in lines[first:last] for p in line.pieces if abs(p.x0 - start) <= _LEVEL]
+    beside = []
+    for index, group in enumerate(groups):
+        above, below = group[0].box[1] - 0.5 * group[0].size, bottom + 1
+        if ruled:
+            above, below = _cell_of(group, edges)
+            above, below = max(above, top - 1), min(below, bottom + 1)
+        elif index + 1 < len(groups):
+            below = groups[index + 1][0].box[1] - 0.5 * group[0].size
+        marked = all(p.bold or p.size > 1.1 * max(q.size for q in labels) for p in group)
+        heading = marked and not all(p.bold for p in labels)
+        beside.append(Beside(above, below, tuple(group), heading))
+    inner = [tuple(p for p in line.pieces if p.x0 >= start - _LEVEL) for line in lines[first:last]]
+    return [*lines[:first], *(Line(pieces) for pieces in inner if pieces), *lines[last:]], beside
+
+
+def _cell_of(group: Sequence[Piece], edges: Sequence[float]) -> tuple[float, float]:
+    """The rules above and below some words."""
+    middle = (group[0].box[1] + group[-1].box[3]) / 2
+    above = max((y for y in edges if y < middle), default=float("-inf"))
+    return above, min((y for y in edges if y >= middle), default=float("inf"))
+
+
+def _margin(lines: Sequence[Line]) -> tuple[float, int, int] | None:
+    """Where labels begin right of a margin, and the range of lines that have it; None if there is no margin."""
+    starts: dict[int, int] = {}
+    for line in lines:
+        for piece, after in zip(line.pieces, line.pieces[1:], strict=False):
+            if kind_of(piece) == "text" and kind_of(after) in ("value", "unit"):
+                starts[round(piece.x0)] = starts.get(round(piece.x0), 0) + 1
+    for start in sorted(starts, key=lambda x: (-starts[x], x))[:2]:
+        best = _run(lines, float(start))
+        if best is not None:
+            return float(start), *best
+    return None
+
+
+def _run(lines: Sequence[Line], start: float) -> tuple[int, int] | None:
+    """The first run of lines in which every row with a value begins its label at `start` and only words stand left of
+    that, level with some of the labels, absent beside at least as many."""
+    first = 0
+    while first < len(lines):
+        last = first
+        while last < len(lines) and _fits(lines[last], start):
+            last += 1
+        while last > first and not _at(lines[last - 1], start):
+            last -= 1
+        rows = [line for line in lines[first:last] if _at(line, start) and _has_value(line)]
+        level = [line for line in rows if line.x0 < start - _LEVEL]
+        alone = [line for line in lines[first:last] if not _at(line, start)]
+        if len(rows) >= _FEWEST and level and len(rows) - len(level) >= len(level) and len(alone) <= 2 * len(level):
+            while not _at(lines[first], start):
+                first += 1
+            return first, last
+        first = max(last, first) + 1
+    return None
+
+
+def _fits(line: Line, start: float) -> bool:
+    left = [p for p in line.pieces if p.x0 < start - _LEVEL]
+    if any(kind_of(p) != "text" or p.x1 > start - 2 for p in left) or len(left) > 1:
+        return False
+    return _at(line, start) or not _has_value(line)
+
+
+def _at(line: Line, start: float) -> bool:
+    return any(abs(p.x0 - start) <= _LEVEL and kind_of(p) == "text" for p in line.pieces)
+
+
+def _has_value(line: Line) -> bool:
+    return any(kind_of(p) == "value" for p in line.pieces)

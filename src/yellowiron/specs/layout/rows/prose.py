@@ -1,0 +1,141 @@
+"""Running text → statements: "The wheelbase is 3450 mm." says of a property what a row of a table says."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+
+from yellowiron.specs.language.numbers import read
+from yellowiron.specs.language.vocabulary import has_cjk
+from yellowiron.specs.layout.rows.lines import Line
+from yellowiron.specs.layout.statement import EXAMPLE, Statement, join_boxes
+from yellowiron.specs.pages.words import Word
+
+_END = re.compile(r"[.;!?](?=\s|$)|[。；！？]")
+_ABBREVIATION = re.compile(
+    r"(?:^|[\s(])(?:max|min|approx|ca|env|aprox|máx|mín|no|nr|n|incl|excl|resp|bzw|vs|std|opt|fig|e\.g|i\.e|z\.b|"
+    r"cu|sq|gal|in|ft|lb|lbs|yd|\d{1,2})$",
+    re.IGNORECASE,
+)
+"""What a full stop belongs to without ending a sentence; a unit with one ends it only before a capital."""
+_PITCH = 1.9
+"""Lines of a paragraph follow each other within this many type sizes."""
+_FULL = 0.72
+"""Of a paragraph's width: shorter lines end it."""
+_LONGEST = 16
+"""Words before a value; more are about something else."""
+
+
+def paragraphs_of(lines: Sequence[Line]) -> list[tuple[Line, ...]]:
+    """Running text: pieces set flush left under each other, each the last of its line and, from the second on, alone on
+    it, with the ends of two sentences (or of one inside the text)."""
+    groups: list[list[Line]] = []
+    for line in lines:
+        last = groups[-1][-1] if groups else None
+        if last is not None and len(line.pieces) == 1 and _follows(last, line):
+            groups[-1].append(line)
+        else:
+            groups.append([Line(line.pieces[-1:])])
+    return [tuple(g) for g in groups if _is_running(g)]
+
+
+def _follows(last: Line, line: Line) -> bool:
+    a, b = last.pieces[0], line.pieces[0]
+    size = max(a.size, b.size)
+    return (
+        abs(a.size - b.size) < 0.1 * size
+        and abs(a.x0 - b.x0) < size
+        and 0 < line.bottom - last.bottom < _PITCH * size
+        and a.bold == b.bold
+        and last.x1 - last.x0 > _FULL * (line.x1 - line.x0)
+    )
+
+
+def _is_running(lines: Sequence[Line]) -> bool:
+    text, _ = _text_of(lines)
+    number = re.search(r"\d", text)
+    ends = _ends(text)
+    inside = [e for e in ends if number and number.start() < e < len(text.rstrip())]
+    return bool(inside) or (len(lines) > 1 and len(text) > 60 and len(ends) >= 1)
+
+
+def _text_of(lines: Sequence[Line]) -> tuple[str, list[tuple[int, int, Word]]]:
+    """The text of a paragraph, and where each of its words stands in it."""
+    text = ""
+    places: list[tuple[int, int, Word]] = []
+    for line in lines:
+        for index, word in enumerate(line.pieces[0].words):
+            begins_line = index == 0
+            glued = not text or (
+                begins_line and (has_cjk(text[-1]) or text[-1] in "。；，、）" or has_cjk(word.text[0]))
+            )
+            text += "" if glued else " "
+            places.append((len(text), len(text) + len(word.text), word))
+            text += word.text
+    return text, places
+
+
+def _ends(text: str) -> list[int]:
+    found = []
+    for match in _END.finditer(text):
+        if match.group(0) == "." and _ABBREVIATION.search(text[max(0, match.start() - 8) : match.start()]):
+            following = text[match.end() :].lstrip()[:1]
+            if not (following.isupper() and re.search(r"\d\s*\w+$", text[: match.start()])):
+                continue
+        found.append(match.end())
+    return found
+
+
+def read_paragraph(page: int, lines: Sequence[Line], first_row: int, section: str) -> Iterator[Statement]:
+    """The statements of a paragraph: for each quantity of a sentence the words before it, back to the one before."""
+    text, places = _text_of(lines)
+    start = 0
+    for end in [*_ends(text), len(text)]:
+        sentence = text[start:end]
+        offset, start = start, end
+        edge = before = 0
+        owner = ""
+        for reading in read(sentence):
+            quantities = (*reading.numbers, *reading.partner)
+            begin, stop = min(q.start for q in quantities), max(q.end for q in quantities)
+            label = _label(sentence[edge:begin])
+            if not label and quantities[0].dimension != "angle":  # "Dump height at 45°: 2.9 m"
+                label = _label(sentence[before:begin])
+            elif edge == 0 and (
+                listed := re.match(r"^(.*?)[:：]\s*(.+)$", label)
+            ):  # "Arm cylinder: bore 9, stroke 20 mm"
+                owner, label = listed.group(1), f"{listed.group(1)} {listed.group(2)}"
+            elif owner and label and re.match(r"[\s)]*[,，、]", sentence[edge:begin]):
+                label = f"{owner} {label}"
+            if label and not reading.condition and len(label.split()) <= _LONGEST:
+                boxes = [w.box for a, b, w in places if a < offset + stop and b > offset + begin]
+                yield Statement(
+                    page=page,
+                    row=first_row,
+                    label=label,
+                    text=EXAMPLE.sub("", sentence[begin:stop]).strip() + ")" * _opened(sentence[begin:stop]),
+                    box=join_boxes(boxes),
+                    quote=sentence.strip(),
+                    section=section,
+                    example=bool(EXAMPLE.search(sentence)),
+                    x0=boxes[0][0],
+                )
+                before, edge = edge, stop
+            first_row += 1
+
+
+def _opened(text: str) -> int:
+    return max(0, text.count("(") - text.count(")"))
+
+
+_LINK = re.compile(
+    r"^[\s,;:)\]–-]*(?:(?:and|or|with|a|an|the|und|oder|mit|et|avec|y|con|e)\s+)*|"
+    r"[\s:=(–-]*(?:\s(?:is|are|of|up to|about|equals?|beträgt|ist|sind|von|bis zu|est de|est|sont|de|es de|es|son|"
+    r"hasta|atteint|alcanza|reaches|measures|at)|为|是|は|が|：)?[\s:=(]*$",
+    re.IGNORECASE,
+)
+
+
+def _label(text: str) -> str:
+    """The words before a quantity without what links them to it."""
+    return _LINK.sub("", _LINK.sub("", text.strip())).strip(" ,;:")

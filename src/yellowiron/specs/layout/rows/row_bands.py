@@ -1,0 +1,91 @@
+"""What a band between two rules holds: one row, several rows, or a heading over a row."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from yellowiron.specs.language.numbers import read, same
+from yellowiron.specs.layout.rows.cells import cells_of
+from yellowiron.specs.layout.rows.headings import LARGER
+from yellowiron.specs.layout.rows.lines import Line
+from yellowiron.specs.layout.statement import Piece, kind_of, unit_in_label, words_beside_numbers
+
+INDENT = 4.0
+"""Points by which a row stands in under its sub-heading."""
+
+
+def split_if_separate(row: Sequence[Line]) -> Iterator[Sequence[Line]]:
+    """A band that holds several labelled values of its own is several rows; a heading over a row is none of it."""
+    ordered = sorted(row, key=lambda line: line.top)
+    first, rest = ordered[0], ordered[1:]
+    if rest and len(_words(first)) == 1 and kind_of(first.pieces[0]) == "text":
+        largest = max(p.size for line in rest for p in line.pieces)
+        if first.pieces[0].size > LARGER * largest and first.bottom <= min(line.top for line in rest) + 1:
+            yield (first,)
+            yield from split_if_separate(rest)
+            return
+        under = min(rest, key=lambda line: line.top)
+        stands_out = first.pieces[0].bold and not under.pieces[0].bold and under.x0 > first.x0 + INDENT
+        if stands_out and first.bottom <= under.top + 1 and kind_of(under.pieces[0]) == "text":
+            yield (first,)  # a sub-heading over its first row
+            yield from split_if_separate(rest)
+            return
+    if rest and all(kind_of(p) == "unit" for p in first.pieces) and first.bottom <= min(line.top for line in rest) + 1:
+        yield (first,)  # units over the columns of the first row
+        yield from split_if_separate(rest)
+        return
+    if len(rest) == 1 and _are_heads_of(first, rest[0]):
+        yield (first,)
+        yield (rest[0],)
+        return
+    last, before = ordered[-1], ordered[:-1]
+    if before and len(_words(last)) == 1 and kind_of(last.pieces[0]) == "text":
+        largest = max(p.size for line in before for p in line.pieces)
+        if last.pieces[0].size > LARGER * largest and last.top >= max(line.bottom for line in before) - 1:
+            yield from split_if_separate(before)
+            yield (last,)
+            return
+    labelled = 0
+    for line in row:
+        kinds = [kind_of(p) for p in line.pieces]
+        if kinds[0] == "text" and "value" in kinds[1:]:
+            labelled += 1
+    if labelled >= 2 and not _in_two_systems(ordered):
+        for line in row:
+            yield (line,)
+    else:
+        yield row
+
+
+def _words(line: Line) -> list[Piece]:
+    """What a line says, without the sign at its end that folds a section of a web page."""
+    return [p for p in line.pieces if kind_of(p) != "mark"]
+
+
+def _are_heads_of(line: Line, row: Line) -> bool:
+    """Whether a line names the columns of the row under it: words with numbers ("Arm 2.4 m"), one over each of its two
+    or more bare values, and none over its label."""
+    values = [p for p in row.pieces if kind_of(p) == "value"]
+    if len(line.pieces) < 2 or len(values) != len(line.pieces) or kind_of(row.pieces[0]) != "text":
+        return False
+    over = all(h.x0 < v.x1 + 4 and v.x0 - 4 < h.x1 for h, v in zip(line.pieces, values, strict=True))
+    named = all(words_beside_numbers(h.bare, read(h.bare)) for h in line.pieces)
+    bare = not any(words_beside_numbers(v.bare, read(v.bare)) for v in values)
+    return over and named and bare and line.bottom <= row.top + 2 and line.x0 > row.x0 + 2 * line.pieces[0].size
+
+
+def _in_two_systems(lines: Sequence[Line]) -> bool:
+    """Whether two lines with labels are one row, its label broken in two: their values are the same, metric and
+    imperial."""
+    both = [cells_of((line,)) for line in lines]
+    if len(lines) != 2 or any(len(cells) != 1 or not cells[0].label for cells in both):
+        return False
+    if abs(lines[0].pieces[0].x0 - lines[1].pieces[0].x0) > 1.5 * lines[0].pieces[0].size:
+        return False
+    values = [read(" ".join(p.text for p in c.values), unit=c.unit or unit_in_label(c.label[-1].bare)[1])
+              for cells in both for c in cells]  # fmt: skip
+    if any(len(v) != 1 or len(v[0].numbers) != 1 for v in values):
+        return False
+    first, second = (v[0].numbers[0] for v in values)
+    systems = {q.printed.system for q in (first, second) if q.printed}
+    return systems == {"metric", "imperial"} and same(first, second)

@@ -1,0 +1,298 @@
+"""The unit of a sheet: one value cell with the words that say what it is."""
+
+from __future__ import annotations
+
+import functools
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+from yellowiron.specs.language.numbers import FEET_INCHES, Reading, read
+from yellowiron.specs.language.units import printed_unit, unit_pattern
+from yellowiron.specs.pages.strokes import Box
+from yellowiron.specs.pages.words import Word
+
+EXAMPLE = re.compile(
+    r"[(\[]?\s*\b(?:example values?|beispielwerte?|valeurs? d'exemple|valor(?:es)? de ejemplo)\b\s*[)\]]?",
+    re.IGNORECASE,
+)
+"""How a sheet marks a value as its publisher's own example."""
+COUNTED = re.compile(
+    r"\b(?:number|quantity|qty|no\.|nos\.|count|anzahl|stückzahl|nombre|número|cantidad|n[º°])(?!\w)|"
+    r"\b(?:rollers|shoes)\b.*\b(?:each|per) (?:side|track)\b|数量|数目|个数|片数|本数|枚数|段数|节数",
+    re.IGNORECASE,
+)
+"""Labels whose bare numbers count things, whatever unit the heading gives to the others."""
+_MARK = re.compile(r"(?<=[\w)\"'°³²%])\s*[*†‡§¤◊]+$|^[*†‡§¤◊]+|(?<=[^\W\d])\d\)$|(?<=\s)\d\)$")
+_FEET_HEAD = re.compile(r"\(?\s*(?:ft\.?|feet|′|')\s*[-·.,&/ ]*\s*(?:in\.?|inch(?:es)?|″|\")\s*\)?", re.IGNORECASE)
+
+
+@dataclass(frozen=True)
+class Piece:
+    """Neighbouring words on one line without a wide gap: a label, a value, a head."""
+
+    words: tuple[Word, ...]
+
+    @property
+    def text(self) -> str:
+        """The words, a space between them."""
+        return " ".join(w.text for w in self.words)
+
+    @property
+    def printed(self) -> str:
+        """The words with their footnote signs, as the page prints them."""
+        return " ".join(w.text + w.marks for w in self.words)
+
+    @property
+    def box(self) -> Box:
+        """x0, top, x1, bottom."""
+        return join_boxes(w.box for w in self.words)
+
+    @property
+    def x0(self) -> float:
+        """Left edge."""
+        return self.words[0].x0
+
+    @property
+    def x1(self) -> float:
+        """Right edge."""
+        return max(w.x1 for w in self.words)
+
+    @property
+    def size(self) -> float:
+        """Size of its largest word."""
+        return max(w.size for w in self.words)
+
+    @property
+    def bold(self) -> bool:
+        """Whether every word is bold."""
+        return all(w.bold for w in self.words)
+
+    @property
+    def marks(self) -> str:
+        """Footnote signs at its words."""
+        found = "".join(w.marks for w in self.words)
+        match = _MARK.search(self.text)
+        return found + (match.group(0).strip() if match else "")
+
+    @property
+    def bare(self) -> str:
+        """The text without footnote signs and example marks."""
+        text = EXAMPLE.sub("", self.text).strip()
+        return _MARK.sub("", text).strip()
+
+
+@dataclass(frozen=True)
+class Statement:
+    """One value cell. `label` is its row's, `context` the sub-headings above it (nearest last), `section` the heading,
+    `column` the heads over it, `text` what it says; `unit` comes from its head or label, for numbers without one.
+
+    `variant` is what names the row where heads name the properties (a bucket's capacity beside its width). `row` groups
+    the cells of one row. `quote` is what the page prints, pieces that stand apart joined by " … "; `heads`
+    are the lines over the column as printed, for a quote that needs them. `proven`: whether each part of the quote
+    stands together in the file's own text.
+    """
+
+    page: int
+    row: int
+    label: str
+    text: str
+    box: Box
+    quote: str
+    context: tuple[str, ...] = ()
+    section: str = ""
+    column: tuple[str, ...] = ()
+    unit: str = ""
+    example: bool = False
+    x0: float = 0.0
+    heads: tuple[str, ...] = ()
+    variant: tuple[str, ...] = ()
+    proven: bool = True
+
+
+def joined(texts: Iterable[str]) -> str:
+    """Texts one after the other: a space between them, but none between two of a script without spaces."""
+    result = ""
+    for text in texts:
+        glued = not result or not text or (_SPACELESS.match(result[-1]) and _SPACELESS.match(text[0]))
+        result += text if glued else f" {text}"
+    return result
+
+
+_SPACELESS = re.compile(r"[\u3000-\u30ff\u3400-\u9fff\uff00-\uff60]")
+
+
+def join_boxes(boxes: Iterable[Box]) -> Box:
+    """The box around all."""
+    every = list(boxes)
+    return (min(b[0] for b in every), min(b[1] for b in every), max(b[2] for b in every), max(b[3] for b in every))
+
+
+GRAVITATIONAL = re.compile(r"(?<=[^\s{｛])\s?[{｛][^{}｛｝]*[}｝]")
+"""The same in gravitational units, as Japanese sheets print it behind the SI one: "kN{kgf}", "200{20,400}"."""
+_AT_SPEED = re.compile(r"(\S+?)\s?[/@]\s?(?:min\s?[-⁻]\s?[1¹]|r/min|rpm|1/min|U/min|tr/min)", re.IGNORECASE)
+"""A power or torque over the speed that it is given at: "kW/min-1" for "175/2,000"."""
+_UNIT_PAIR = re.compile(r"(\S*[^\s(/\[|])\s*[(/\[|]\s*([^()\[\]]+?)\s*[)\]]?")
+_KEY = re.compile(
+    r"[(\[]?(?:[a-zα-ω]\d{0,2}(?:/[a-zα-ω]\d{0,2})+|[α-ω]|"
+    r"[A-Z]{1,2}\d{0,2}|[a-z]\d{0,2}|\d{1,2}(?:\.\d{1,2})*|[\u2460-\u24ff])[′'\"]?[)\].:]{0,2}"
+)
+
+
+def is_key(text: str) -> bool:
+    """Whether a text may be a drawing's key or an outline's number, and no word: "A", "(b)", "h1", "2.3", "④"."""
+    return _KEY.fullmatch(text) is not None
+
+
+def ascending(keys: Sequence[str]) -> bool:
+    """Whether the numbers of an outline go up: "1.1", "1.2", "2.1"."""
+    numbers = [[int(n) for n in re.findall(r"\d+", key)] for key in keys]
+    return all(a < b for a, b in pairwise(numbers))
+
+
+def is_unit(text: str) -> str:
+    """The unit that a text is and nothing else ("mm", "(kg)", "ft in"); "" if it is not one.
+
+    Two of them, one for the number in brackets, are "m|ft-in" for "m (ft-in)".
+    """
+    bare = GRAVITATIONAL.sub("", text).strip() or text.strip()
+    power = _AT_SPEED.fullmatch(bare)
+    if power and (first := printed_unit(power.group(1))) and first.dimension in ("power", "torque"):
+        return f"{power.group(1)}|rpm"
+    pair = _UNIT_PAIR.fullmatch(bare)
+    if pair and (first := printed_unit(pair.group(1))) and (second := is_unit(pair.group(2))) and "|" not in second:
+        other = printed_unit("in" if second == FEET_INCHES else second)
+        other_name = other is not None and other.name != first.name  # "m (ft-in)", "kW (PS)"
+        if other and first.dimension == other.dimension and other_name:
+            return f"{pair.group(1)}|{second}"
+    if _FEET_HEAD.fullmatch(bare):
+        return FEET_INCHES
+    bare = bare.strip("()[]{}: （）［］【】：")
+    return bare if bare and re.fullmatch(unit_pattern(), bare) and printed_unit(bare) else ""
+
+
+def unit_in_label(text: str, *, bare: bool = False) -> tuple[str, str]:
+    """A label without the unit at its end, and that unit: "Boom length (m)" → ("Boom length", "m"). `bare`: the value
+    has no unit of its own, so that a unit of one letter is no key of a drawing ("Longueur de flèche m")."""
+    pair = re.search(r"^(.*?[\w)°.])[\s,]+(\S+\s*[(/\[]\s*[^()\[\]]+[)\]])$", text)
+    if pair and "|" in (unit := is_unit(pair.group(2))):
+        return pair.group(1), unit
+    for pattern in _UNIT_AT_END:
+        match = pattern.search(text)
+        if match and (unit := is_unit(match.group(2))) and unit.rstrip(".") != "min":  # the least, not minutes
+            plain = pattern is _UNIT_AT_END[-1]
+            if not plain or unit in _ENDS_LABELS or (bare and unit in _ENDS_LABELS_OF_BARE):
+                return match.group(1), unit
+    return text, ""
+
+
+_UNIT_AT_END = (
+    re.compile(r"^(.*?)\s*[(\[（［【]\s*([^()\[\]（）［］【】]+?)\s*[)\]）］】]\s*:?$"),
+    re.compile(r"^(.*?)\s*[（【]\s*([^()\[\]（）［］【】]+?)$"),  # PDFium overlooks a bracket alone in a font it lacks
+    re.compile(r"^(.*?)\s*,\s*([^,]+?)\s*:?$"),
+    re.compile(r"^(.*[^\W\d](?:.*[^\d\s])?)\s+(\S+)$"),  # behind a number it is that one's unit
+)
+_ENDS_LABELS = frozenset(["mm", "cm", "kg", "kPa", "MPa", "kN", "l/min", "L/min", "m³", "m3", "km/h"])
+"""Units that no key of a drawing looks like."""
+_ENDS_LABELS_OF_BARE = frozenset(
+    "m t s sec l ° kW PS CV hp bar psi kNm Nm kN·m N·m in lb lbf mph rpm r/min 1/min min-1 min⁻¹ U/min tr/min".split()  # noqa: SIM905
+)
+
+
+_HEADED_BY_UNIT = re.compile(
+    r"^(.*?)[\s:：,–-]*(?:\b(?:in|en|unit|units|einheit|unité|unidad)\b|单位|単位)\s*[:：]?\s*(\S+(?:\s*[(（][^()（）]+[)）])?)$",
+    re.IGNORECASE,
+)
+
+
+def unit_of_heading(text: str) -> tuple[str, str]:
+    """A heading without the unit that holds for the bare numbers under it, and that unit: "Dimensions (mm)"."""
+    match = _HEADED_BY_UNIT.search(text)
+    if match and (unit := is_unit(match.group(2))):
+        return match.group(1), unit
+    return unit_in_label(text)
+
+
+def unit_said(text: str) -> str:
+    """The unit that words give to all the numbers under them, and nothing else: "Unit: mm" → "mm"; "" otherwise."""
+    match = _HEADED_BY_UNIT.search(text.strip("()[]（）【】 "))
+    return is_unit(match.group(2)) if match and not match.group(1) else ""
+
+
+def kind_of(piece: Piece) -> str:
+    """`value`, `unit`, `mark` (an example mark, or a dash for "none", alone) or `text`."""
+    bare = piece.bare
+    if not bare:
+        return "mark"
+    if is_unit(bare):
+        return "unit"
+    if not bare.strip("-–—−/. "):
+        return "mark"
+    return "value" if looks_like_value(bare) else "text"
+
+
+_VALUE_START = re.compile(
+    r"^(?:(?:appr(?:ox)?\.?|approximately|about|abt\.?|circa|ca?\.|ca|etwa|env(?:iron)?\.?|aprox(?:imadamente)?\.?|"
+    r"max(?:imum|imal)?\.?|min(?:imum|imal)?\.?|up to|bis(?: zu)?|jusqu'à|hasta|[约約]|およそ|大约|最大|最小|最高)\s*)*"
+    r"[(\[]?\s*[<>≤≥~≈±Øø⌀+\-–−]*\s*(?:[\d½¼¾⅛⅜⅝⅞]|[.,]\d)",
+    re.IGNORECASE,
+)
+_NOT_A_VALUE = re.compile(
+    r"^\d+(?:st|nd|rd|th)\b|^\d+[A-Za-z]{2,}\d|^\d+(?:[.,/x]\d+)*\s?R\s?\d|^\d+[-/]?[A-Z]{2,}\b|^\d+-(?!\d)[A-Za-z]"
+)
+
+
+@functools.lru_cache(maxsize=65536)
+def looks_like_value(text: str) -> bool:
+    """Whether a piece of text is a value rather than a label: it begins with a number and is mostly numbers."""
+    if not _VALUE_START.match(text) or _NOT_A_VALUE.match(text):
+        return False
+    readings = read(text)
+    if not readings:
+        return False
+    first = readings[0].numbers[0]
+    if not first.unit and re.match(r"[.):]?\s+(?!(?:to|bis|up)\b)[^\W\d_]{2,}", text[first.end :]):
+        return False  # "10 Wheelbase", "4.2 No. of shoes": a drawing's key or an outline's number, and a label
+    if re.match(r"[\u3040-\u30ff\u3400-\u9fff]{4}", text[first.end :]):
+        return False  # "45°卸料时斗刃高度": a label that begins with its circumstance
+    return len(words_beside_numbers(text, readings)) <= 8
+
+
+def words_beside_numbers(text: str, readings: Sequence[Reading]) -> list[str]:
+    """The words of a text that belong to no quantity."""
+    rest = text
+    for quantity in sorted(
+        (q for r in readings for q in (*r.numbers, *r.partner)), key=lambda q: q.start, reverse=True
+    ):
+        rest = rest[: quantity.start] + " " + rest[quantity.end :]
+    return re.findall(r"[^\W\d_]{2,}", rest)
+
+
+@functools.lru_cache(maxsize=65536)
+def split_inline(text: str) -> tuple[str, str]:
+    """A piece that holds a label and its value: ("Wheelbase", "3,450 mm"); ("", "") if it does not.
+
+    The value is what follows a colon, or the quantities with units at the end.
+    """
+    colon = re.match(r"^(.*?[^\W\d].*?)\s*[:=]\s+(.+)$", text)
+    if colon and looks_like_value(colon.group(2)):
+        return colon.group(1), colon.group(2)
+    readings = [r for r in read(text) if not r.condition and all(q.unit for q in r.numbers)]
+    for reading in readings:
+        start = min(q.start for q in reading.numbers)
+        label, value = text[:start].rstrip(" (:-–"), text[start:]
+        if re.search(r"[^\W\d_]{2,}", label) and looks_like_value(value) and len(label.split()) <= 12:
+            tail = words_beside_numbers(value, read(value))
+            if len(tail) <= 4:
+                return label, value
+    return "", ""
+
+
+def without_key(label: str) -> str:
+    """A label without its drawing's letter key: "B Hinge pin height" → "Hinge pin height"."""
+    match = re.match(
+        r"^\(?(?:[A-Z]{1,2}[′'\"]?|\d{1,2}(?:\.\d{1,2})*)[.):]*\s+(?=[A-ZÀ-Ý(][^\W\d_]+|[\u3040-\u30ff\u3400-\u9fff])(.+)$",
+        label,
+    )
+    return match.group(1) if match else label

@@ -1,0 +1,272 @@
+"""A PDF page as words, rulings and filled bars. Points, origin at the page's top left, y down.
+
+Only reading is done here; what belongs together is decided in `layout`.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import math
+import re
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from yellowiron.specs.pages.strokes import Box, Place, Rule, strokes_of
+
+_SUPERSCRIPT_UNITS = re.compile(r"(?:^|[\d\s(/\[.])(?:m|cm|mm|dm|in|ft|yd)$|[-⁻]$")
+_SIGNS = re.compile(r"[\u00b9\u00b2\u00b3\u2070-\u2079]+(?:[,)\u207e][\u00b9\u00b2\u00b3\u2070-\u2079]+)*[)\u207e]?$")
+"""Raised digits that are characters of their own."""
+_LEADER = re.compile(r"[.·•_…]{3,}|^[.·•_…]+$")
+
+
+@dataclass(frozen=True)
+class Word:
+    """A run of characters without a gap. `size` in points, `baseline` its y; `marks` are raised footnote signs."""
+
+    text: str
+    x0: float
+    x1: float
+    baseline: float
+    size: float
+    bold: bool = False
+    marks: str = ""
+
+    @property
+    def top(self) -> float:
+        """About the height of a capital letter above the baseline."""
+        return self.baseline - 0.75 * self.size
+
+    @property
+    def bottom(self) -> float:
+        """About where descenders end."""
+        return self.baseline + 0.2 * self.size
+
+    @property
+    def box(self) -> Box:
+        """x0, top, x1, bottom."""
+        return (self.x0, self.top, self.x1, self.bottom)
+
+
+@dataclass(frozen=True)
+class Page:
+    """What stands on a page. `number` counts from 1; `leaders` are dotted lines from a label to its value; `unmapped`
+    characters have no Unicode meaning in the file; `text` is what the file gives in its own order."""
+
+    number: int
+    width: float
+    height: float
+    words: tuple[Word, ...] = ()
+    rules: tuple[Rule, ...] = ()
+    bars: tuple[Box, ...] = ()
+    leaders: tuple[Box, ...] = ()
+    characters: int = 0
+    unmapped: int = 0
+    images: int = 0
+    legend: dict[str, str] = field(default_factory=dict)
+    text: str = ""
+
+    @property
+    def readable(self) -> bool:
+        """Whether the page has a text layer that means something."""
+        return self.characters >= 3 and self.unmapped < 0.3 * self.characters
+
+
+@dataclass
+class _Glyph:
+    text: str
+    x0: float
+    x1: float
+    baseline: float
+    size: float
+    bold: bool
+
+
+def read_page(page: Any, number: int) -> Page:
+    """A pypdfium2 page as words, rules and bars. Text that is not horizontal is left out."""
+    width, height = page.get_size()
+    place = _placement(page)
+    textpage = page.get_textpage()
+    try:
+        glyphs, characters, unmapped = _glyphs(textpage, place)
+        text = textpage.get_text_range()
+    finally:
+        textpage.close()
+    rules, bars, images = strokes_of(page, place)
+    words, leaders = _words(glyphs)
+    return Page(
+        number=number,
+        width=width,
+        height=height,
+        words=tuple(words),
+        rules=tuple(rules),
+        bars=tuple(bars),
+        leaders=tuple(leaders),
+        characters=characters,
+        unmapped=unmapped,
+        images=images,
+        text=text,
+    )
+
+
+def _placement(page: Any) -> Place:
+    """PDF user space → points from the top left of the page as shown (its crop box and rotation applied)."""
+    left, bottom, right, top = page.get_bbox()
+    turns = (page.get_rotation() // 90) % 4
+
+    def place(x: float, y: float) -> tuple[float, float]:
+        if turns == 1:
+            return (y - bottom, x - left)
+        if turns == 2:
+            return (right - x, y - bottom)
+        if turns == 3:
+            return (top - y, right - x)
+        return (x - left, top - y)
+
+    return place
+
+
+def _glyphs(textpage: Any, place: Place) -> tuple[list[_Glyph], int, int]:
+    import pypdfium2.raw as pdfium
+
+    ox, oy = ctypes.c_double(), ctypes.c_double()
+    rect = pdfium.FS_RECTF()
+    matrix = pdfium.FS_MATRIX()
+    styles: dict[int, tuple[float, bool, bool]] = {}
+    found: list[_Glyph] = []
+    characters = unmapped = 0
+    for index in range(textpage.count_chars()):
+        code = pdfium.FPDFText_GetUnicode(textpage, index)
+        if code in (0x0D, 0x0A) or pdfium.FPDFText_IsGenerated(textpage, index) == 1:
+            continue
+        if code == 0x20 or code == 0xA0:
+            found.append(_Glyph(" ", 0, 0, 0, 0, False))
+            continue
+        characters += 1
+        if (
+            code in (0, 0xFFFD, 0xFFFE)
+            or 0xE000 <= code <= 0xF8FF
+            or pdfium.FPDFText_HasUnicodeMapError(textpage, index) == 1
+        ):
+            unmapped += 1
+            continue
+        if not pdfium.FPDFText_GetLooseCharBox(textpage, index, rect):
+            continue
+        pdfium.FPDFText_GetCharOrigin(textpage, index, ox, oy)
+        owner = pdfium.FPDFText_GetTextObject(textpage, index)
+        key = ctypes.cast(owner, ctypes.c_void_p).value or 0
+        if key not in styles:
+            pdfium.FPDFText_GetMatrix(textpage, index, matrix)
+            size = pdfium.FPDFText_GetFontSize(textpage, index) * math.hypot(matrix.c, matrix.d)
+            (xa, ya), (xb, yb) = place(0, 0), place(matrix.a, matrix.b)
+            styles[key] = (size, _bold(textpage, index), xb - xa > 5 * abs(yb - ya))
+        size, bold, level = styles[key]
+        if not level:  # text that runs up or down the page as shown
+            continue
+        (xa, ya), (xb, yb) = place(rect.left, rect.bottom), place(rect.right, rect.top)
+        x0, x1 = min(xa, xb), max(xa, xb)
+        _, baseline = place(ox.value, oy.value)
+        if x1 <= x0:
+            continue
+        text = _SPELLED.get(code) or chr(code)
+        found.append(_Glyph(text, x0, x1, baseline, size if size > 0.5 else abs(yb - ya), bold))
+    return found, characters, unmapped
+
+
+_SPELLED = {0x02: "-", 0xAD: "-", 0x2010: "-", 0x2011: "-"}
+"""Hyphens in their several codes (pdfium gives one at a line's end as U+0002)."""
+
+
+def _bold(textpage: Any, index: int) -> bool:
+    import pypdfium2.raw as pdfium
+
+    if pdfium.FPDFText_GetFontWeight(textpage, index) >= 600:
+        return True
+    buffer = ctypes.create_string_buffer(128)
+    flags = ctypes.c_int()
+    pdfium.FPDFText_GetFontInfo(textpage, index, buffer, 128, flags)
+    return re.search(rb"bold|black|heavy|demi", buffer.value, re.IGNORECASE) is not None
+
+
+def _words(glyphs: list[_Glyph]) -> tuple[list[Word], list[Box]]:
+    """Characters that follow each other without a gap, raised ones joined to the word before them; and the leaders."""
+    runs: list[list[_Glyph]] = []
+    broken = True
+    for glyph in glyphs:
+        if glyph.text == " ":
+            broken = True
+            continue
+        last = runs[-1][-1] if runs and not broken else None
+        if (
+            last is not None
+            and abs(last.baseline - glyph.baseline) < 0.1 * last.size
+            and abs(last.size - glyph.size) < 0.2 * last.size
+            and -0.5 * last.size < glyph.x0 - last.x1 < 0.22 * last.size
+        ):
+            runs[-1].append(glyph)
+        else:
+            runs.append([glyph])
+        broken = False
+    words: list[Word] = []
+    leaders: list[Box] = []
+    seen: set[tuple[str, int, int]] = set()
+    for run in runs:
+        text = "".join(g.text for g in run)
+        key = (text, round(run[0].x0), round(run[0].baseline))
+        if key in seen:  # printed twice to look bold
+            continue
+        seen.add(key)
+        start = 0
+        for match in [*_LEADER.finditer(text), None]:
+            end = match.start() if match else len(run)
+            if end > start:
+                words.append(_word(run[start:end]))
+            if match:
+                leaders.append(_word(run[match.start() : match.end()]).box)
+                start = match.end()
+    return _with_superscripts(words), leaders
+
+
+def _word(run: list[_Glyph]) -> Word:
+    first, text = run[0], "".join(g.text for g in run)
+    signs = _SIGNS.search(text)
+    host = text[: signs.start()] if signs else ""
+    # "Ground clearance²" has a note, "4.2 m³" has not.
+    marks = text[len(host) :] if host and not _SUPERSCRIPT_UNITS.search(host) else ""
+    return Word(host if marks else text, first.x0, run[-1].x1, first.baseline, first.size, first.bold, marks)
+
+
+def _with_superscripts(words: list[Word]) -> list[Word]:
+    """Raised small characters joined to the word they follow: an exponent of a unit, or a footnote's sign."""
+    small = [w for w in words if len(w.text) <= 4]
+    hosts: dict[int, int] = {}
+    rows: dict[int, list[int]] = {}
+    for index, word in enumerate(words):
+        rows.setdefault(int(word.baseline // 16), []).append(index)
+    for raised in small:
+        best: tuple[float, int] | None = None
+        row = int(raised.baseline // 16)
+        for index in (i for near in (row, row + 1) for i in rows.get(near, ())):
+            host = words[index]
+            gap = raised.x0 - host.x1
+            lift = host.baseline - raised.baseline
+            if (
+                host is not raised
+                and raised.size < 0.85 * host.size
+                and -0.3 * host.size < gap < 0.35 * host.size
+                and 0.12 * host.size < lift < 0.85 * host.size
+                and (best is None or abs(gap) < best[0])
+            ):
+                best = (abs(gap), index)
+        if best is not None:
+            hosts[id(raised)] = best[1]
+    joined = list(words)
+    for raised in small:
+        index = hosts.get(id(raised), -1)
+        if index < 0:
+            continue
+        host = joined[index]
+        if raised.text in ("2", "3") and _SUPERSCRIPT_UNITS.search(host.text):
+            joined[index] = replace(host, text=host.text + raised.text, x1=max(host.x1, raised.x1))
+        else:
+            joined[index] = replace(host, marks=host.marks + raised.text, x1=max(host.x1, raised.x1))
+    return [w for original, w in zip(words, joined, strict=True) if id(original) not in hosts]

@@ -1,0 +1,341 @@
+"""Statements → claims: one property, one quantity. Products are taken apart, both systems of measurement compared."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+from yellowiron.specs.language.numbers import FEET_DASH, FEET_INCHES, DecimalStyle, Quantity, Reading, read, same
+from yellowiron.specs.language.vocabulary import tokens
+from yellowiron.specs.layout.statement import GRAVITATIONAL, Statement
+from yellowiron.specs.values.enumerations import COUNTED_PARTS, alternatives, enumerated
+
+_TIMES = re.compile(r"(?<![\d.,])([2-9])\s*[x×](?![\w])|[x×]\s*([2-9])(?![\d.,])", re.IGNORECASE)
+
+
+@dataclass(frozen=True)
+class Claim:
+    """What a sheet says of one property. `words` name it (label and qualifier), `head` are its column's words.
+
+    `partner`: the same value in the other system; `doubt` says why a person should look.
+    """
+
+    statement: Statement
+    words: str
+    head: str
+    quantity: Quantity
+    partner: Quantity | None = None
+    ranged: bool = False
+    doubt: str = ""
+
+
+def claims_of(statements: Sequence[Statement], style: DecimalStyle) -> list[Claim]:
+    """The claims of all statements, in order; cells of one row and column in two systems become one claim."""
+    claims: list[Claim] = []
+    for statement in statements:
+        claims.extend(_expand(statement, style))
+    return _joined_systems(_with_units(_in_one_unit(claims)))
+
+
+BARE_UNITS = {
+    "length": ("mm", "cm", "m"),
+    "mass": ("kg", "t"),
+    "volume": ("L", "m³"),
+    "force": ("kN",),
+    "pressure": ("kPa", "bar", "MPa"),
+    "speed": ("km/h",),
+    "flow": ("L/min",),
+    "power": ("kW",),
+    "torque": ("N·m",),
+}
+"""Metric units that a column of numbers may leave unsaid, by dimension."""
+
+
+def _in_one_unit(claims: Sequence[Claim]) -> list[Claim]:
+    """Two numbers of one cell under an imperial unit ("858 33.8" under "in"): the first is metric, in the unit in which
+    the two agree; where they agree in none, both are in doubt."""
+    found: list[Claim | None] = list(claims)
+    for index, (first, second) in enumerate(pairwise(claims)):
+        printed = second.quantity.printed
+        if first.statement is not second.statement or not first.statement.unit or first.words != second.words:
+            continue
+        alone = sum(c.statement is first.statement for c in claims[max(0, index - 2) : index + 4]) == 2
+        if not alone or printed is None or printed.system != "imperial" or first.partner or second.partner:
+            continue
+        text = spelled_out(first.statement.text, first.statement.unit)[0]
+        if text[first.quantity.end : second.quantity.start].strip(" ("):
+            continue
+        own = first.quantity.printed
+        metric = _metric_readings(first.quantity, second.quantity)
+        if own is not None and own.system == "metric":
+            metric = [first.quantity] if same(first.quantity, second.quantity) else []
+        if len(metric) == 1:
+            found[index : index + 2] = (replace(first, quantity=metric[0], partner=second.quantity), None)
+        else:
+            why = f"the sheet prints '{first.quantity.text}' beside '{second.quantity.text}', and one unit for both"
+            found[index : index + 2] = (replace(first, doubt=why), replace(second, doubt=why))
+    return [claim for claim in found if claim is not None]
+
+
+def _metric_readings(bare: Quantity, imperial: Quantity) -> list[Quantity]:
+    """A number in the metric units in which it is what an imperial quantity says."""
+    return [
+        read_as
+        for unit in BARE_UNITS.get(imperial.dimension, ())
+        for value in (bare.value, bare.other)
+        if value is not None and same(read_as := replace(bare, value=value, unit=unit, other=None), imperial)
+    ]
+
+
+def _with_units(claims: Sequence[Claim]) -> list[Claim]:
+    """A number without a unit beside its imperial counterpart ("3,595 | 11'10\"") has the metric unit in which the two
+    agree; where they agree in none, the imperial one is in doubt."""
+    found = list(claims)
+    for index, claim in enumerate(claims):
+        if claim.quantity.printed is None or claim.quantity.printed.system != "imperial" or claim.partner is not None:
+            continue
+        row = [
+            i
+            for i in range(max(0, index - 4), min(len(claims), index + 5))
+            if claims[i].statement.row == claim.statement.row and claims[i].words == claim.words
+        ]
+        others = [i for i in row if i != index]
+        bare = [i for i in others if not claims[i].quantity.unit and claims[i].statement is not claim.statement]
+        if len(bare) != 1 or len(others) != 1:
+            continue
+        quantity = claims[bare[0]].quantity
+        fitting = _metric_readings(quantity, claim.quantity)
+        if len(fitting) == 1:
+            found[bare[0]] = replace(claims[bare[0]], quantity=fitting[0])
+        else:
+            why = f"the sheet prints '{quantity.text}' beside '{claim.quantity.text}', and not in which unit"
+            found[index] = replace(claim, doubt=claim.doubt or why)
+    return found
+
+
+def configured(claims: Sequence[Claim], config: str) -> list[Claim]:
+    """The claims without those of other columns than the one that a configuration names to the letter: columns that
+    stand beside it in some row, whether or not it has a value in theirs."""
+    asked = phrases_in(config)
+    rows: dict[tuple[int, int], list[Statement]] = {}
+    for claim in claims:
+        if claim.statement.column:
+            rows.setdefault((claim.statement.page, claim.statement.row), []).append(claim.statement)
+    others: set[tuple[str, ...]] = set()
+    for row in rows.values():
+        columns = {s.column for s in row}
+        named = {column for column in columns if any(len(phrases_in(h)) > 0 and phrases_in(h) <= asked for h in column)}
+        if named:
+            others.update(columns - named)
+    return [c for c in claims if c.statement.column not in others]
+
+
+def phrases_in(text: str) -> set[str]:
+    """The phrases of a configuration or a head, without case and spaces; a comma between digits is a decimal one."""
+    return {_bare(phrase) for phrase in re.split(r";|,(?!\d)|(?<!\d),", text) if phrase.strip()}
+
+
+def _bare(text: str) -> str:
+    return "".join(text.casefold().split())
+
+
+def _expand(statement: Statement, style: DecimalStyle) -> Iterator[Claim]:
+    text, unit = spelled_out(GRAVITATIONAL.sub("", statement.text), statement.unit)
+    text = _feet_spelled_out(text, unit)
+    readings = [r for r in read(text, unit=unit, style=style) if not r.condition]
+    label = _without_conditions(statement.label)
+    kept: list[Reading] = []
+    for reading in readings:
+        if any(_restates(earlier, reading) for earlier in kept):
+            continue
+        kept.append(reading)
+    labels = _labels_of_each(text, label, readings, kept)
+    for reading, own in zip(kept, labels, strict=True):
+        yield from _claims_of_reading(statement, own, reading)
+
+
+def _labels_of_each(text: str, label: str, readings: Sequence[Reading], kept: Sequence[Reading]) -> list[str]:
+    """The label of each reading: parts of one that names alternatives, for numbers with slashes between them."""
+    whole = [label] * len(kept)
+    if len(kept) < 2 or len(kept) != len(readings) or any(len(r.numbers) != 1 or r.partner for r in kept):
+        return whole
+    between = [text[a.numbers[0].end : b.numbers[0].start] for a, b in pairwise(kept)]
+    if any(part.strip() not in ("/", "／") for part in between):
+        return whole
+    return alternatives(label, len(kept)) or whole
+
+
+def spelled_out(text: str, unit: str) -> tuple[str, str]:
+    """A cell under a head of two units with both written out, and the first unit: ("5.62 (18-5)", "m|ft-in") →
+    ("5.62 (18'5\")", "m")."""
+    first, bar, second = unit.partition("|")
+    if not bar:
+        return text, unit
+
+    def inside(match: re.Match[str]) -> str:
+        words = match.group(1)
+        if second == FEET_INCHES:
+            return f"({re.sub(FEET_DASH, _feet_and_inches, words)})"
+        return f"({words} {second})" if read(words) else match.group(0)
+
+    apart = re.fullmatch(r"(.*\d\S*)\s*(?:[/|]|\[)\s*([^\[\]/|()]*\d[^\[\]/|()]*)\]?", text)
+    if apart and "(" not in text and len(read(apart.group(1))) == len(read(apart.group(2))) == 1:
+        text = f"{apart.group(1)} ({apart.group(2)})"
+    return re.sub(r"\(([^()]*)\)", inside, text), first
+
+
+def _feet_spelled_out(text: str, unit: str) -> str:
+    """Feet and inches written with a dash behind a metric length that says the same, with their signs: "1,616 mm 5-4" →
+    "1,616 mm 5'4\""."""
+    match = re.search(r"(?<=\s)[(\[]?(\d+)\s?[-–]\s?(\d+(?:\.\d+)?)[)\]]?$", text)
+    before = read(text[: match.start()], unit=unit) if match else ()
+    if match is None or len(before) != 1 or len(before[0].numbers) != 1:
+        return text
+    spelled = re.sub(FEET_DASH, _feet_and_inches, match.group(0))
+    feet = read(spelled)
+    agrees = len(feet) == 1 and same(before[0].numbers[0], feet[0].numbers[0])
+    return f"{text[: match.start()]}{spelled}" if agrees else text
+
+
+def _feet_and_inches(match: re.Match[str]) -> str:
+    return f"{match['feet']}'{match['inches']}\""
+
+
+def _restates(a: Reading, b: Reading) -> bool:
+    """Whether a reading gives an earlier one again in a third unit: "31.4 MPa (320 kgf/cm2; 4,554 psi)"."""
+    return (
+        not b.qualifier
+        and len(a.numbers) == len(b.numbers)
+        and all(x.unit != y.unit and same(x, y) for x, y in zip(a.numbers, b.numbers, strict=True))
+    )
+
+
+def _claims_of_reading(statement: Statement, label: str, reading: Reading) -> Iterator[Claim]:
+    words = f"{label} {reading.qualifier}".strip()
+    if reading.numbers[0].sign == "±" and "each" not in tokens(words):
+        words = f"{words} ±"
+    head = " ".join(statement.column)
+    if reading.kind == "product":
+        yield from _factors(statement, label, reading)
+        return
+    words = COUNTED_PARTS.sub(" ", words) if reading.count is not None else words
+    several = _several(label, reading)
+    partner = reading.partner[0] if reading.partner else None
+    for index, quantity in enumerate(reading.numbers):
+        other = reading.partner[index] if index < len(reading.partner) else partner
+        doubt = f"the sheet counts {several} of them, which together give more" if several > 1 else ""
+        yield _checked(Claim(statement, words, head, quantity, other, ranged=reading.kind == "range", doubt=doubt))
+
+
+def _several(label: str, reading: Reading) -> int:
+    """How many pumps a flow is that of one of: "Maximum flow (2x)", "2 x 235 L/min"; 1 if that is not said."""
+    if reading.numbers[0].dimension != "flow":
+        return 1
+    counted = _TIMES.search(label)
+    return int(counted.group(1) or counted.group(2)) if counted else reading.count or 1
+
+
+def _factors(statement: Statement, label: str, reading: Reading) -> Iterator[Claim]:
+    """A product's factors go to the properties that the label, a head or a sub-heading lists in the same order."""
+    places = [(label, "label"), *((h, "head") for h in reversed(statement.column))]
+    places += [(c, "context") for c in reversed(statement.context)]
+    for text, place in places:
+        names = enumerated(text, len(reading.numbers))
+        if not names:
+            continue
+        for index, (name, quantity) in enumerate(zip(names, reading.numbers, strict=True)):
+            partner = reading.partner[index] if len(reading.partner) == len(reading.numbers) else None
+            others = [label] if place != "label" else []
+            head = " ".join(h for h in statement.column if h != text)
+            yield _checked(Claim(statement, " ".join([*others, name]), head, quantity, partner))
+        return
+
+
+def _without_conditions(label: str) -> str:
+    """A label without its circumstances in numbers with units: "Pump flow at 2,000 rpm" → "Pump flow"."""
+    for reading in reversed(read(label)):
+        first, last = reading.numbers[0], reading.numbers[-1]
+        if reading.condition and first.printed is not None and first.dimension != "angle":
+            head = re.sub(r"(?:\bat|@|\bbei|\bà)\s*$", "", label[: first.start], flags=re.IGNORECASE)
+            label = f"{head.rstrip(' (')} {label[last.end :].lstrip(' )')}"
+    return " ".join(label.split())
+
+
+def _checked(claim: Claim) -> Claim:
+    """The claim with its separator's doubt settled by its partner, and a doubt where the two disagree."""
+    quantity, partner = claim.quantity, claim.partner
+    if partner is None:
+        return claim
+    if same(quantity, partner):
+        return replace(claim, quantity=replace(quantity, other=None))
+    if quantity.other is not None:
+        swapped = replace(quantity, value=quantity.other, half=0.5, other=None)
+        if same(swapped, partner):
+            return replace(claim, quantity=swapped)
+    repaired = _unglued(quantity, partner)
+    if repaired is not None:
+        why = f"printed '{quantity.text}', and '{partner.text}' says that its first digit belongs to the label"
+        return replace(claim, quantity=repaired, doubt=why)
+    return replace(claim, doubt=f"the sheet prints '{quantity.text}' beside '{partner.text}', which differ")
+
+
+def _unglued(quantity: Quantity, partner: Quantity) -> Quantity | None:
+    """ "Forward 16.4 km/h 4.0 mph" is gear 1 at 6.4 km/h: the value without the digits that the partner denies."""
+    digits = re.match(r"\d+", quantity.text)
+    if digits is None or quantity.sign:
+        return None
+    for cut in range(1, len(digits.group(0))):
+        rest = read(quantity.text[cut:])
+        if rest and same(rest[0].numbers[0], partner):
+            found = rest[0].numbers[0]
+            return replace(found, start=quantity.start + cut, end=quantity.end)
+    return None
+
+
+def _joined_systems(claims: Sequence[Claim]) -> list[Claim]:
+    """Neighbouring cells of one row under the same heads, metric and imperial, become one claim."""
+    joined: list[Claim] = []
+    for claim in claims:
+        for index in range(len(joined) - 1, max(-1, len(joined) - 7), -1):
+            before = joined[index]
+            if before.partner is None and claim.partner is None and _are_twins(before, claim):
+                joined[index] = _checked(_metric_first(before, claim))
+                break
+        else:
+            joined.append(claim)
+    return joined
+
+
+def _are_twins(a: Claim, b: Claim) -> bool:
+    if a.statement.row != b.statement.row or a.statement is b.statement or a.ranged or b.ranged:
+        return False
+    ua, ub = a.quantity.printed, b.quantity.printed
+    return (
+        a.words == b.words
+        and _without_system(a.statement.column) == _without_system(b.statement.column)
+        and ua is not None
+        and ub is not None
+        and ua.dimension == ub.dimension
+        and {ua.system, ub.system} == {"metric", "imperial"}
+    )
+
+
+_SYSTEM = re.compile(
+    r"(?:metric|si|imperial|english|us|u\.s\.|us customary|metrisch|métrique|métrico|公制|英制|メートル法)"
+    r"(?: (?:units?|system|measure))?",
+    re.IGNORECASE,
+)
+
+
+def _without_system(column: Sequence[str]) -> list[str]:
+    """A column's heads without those that name a system of measurement."""
+    return [head for head in column if not _SYSTEM.fullmatch(head.strip(" ()"))]
+
+
+def _metric_first(a: Claim, b: Claim) -> Claim:
+    unit = a.quantity.printed
+    if unit is not None and unit.system == "metric":
+        return replace(a, partner=b.quantity)
+    return replace(b, partner=a.quantity)

@@ -1,0 +1,185 @@
+"""What a plain reading of the pages (`nearest`) adds to the rules: values that they missed, and doubts.
+
+A value that only this reading finds is to be reviewed; one that the rules hold to be undisputed, but whose words stand
+beside another value, too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from collections.abc import Set as AbstractSet
+from dataclasses import replace
+
+from yellowiron.model.specification import Candidate, Evidence, Specification
+from yellowiron.model.template import Wanted
+from yellowiron.model.units import SI_UNIT
+from yellowiron.specs.language.numbers import DecimalStyle, Quantity
+from yellowiron.specs.layout.nearest import Near, Side
+from yellowiron.specs.layout.statement import Statement
+from yellowiron.specs.pages.strokes import Box
+from yellowiron.specs.values.claims import BARE_UNITS, Claim, claims_of, phrases_in
+from yellowiron.specs.values.decision import Sheets, evidence_of, printed, settled, usual
+from yellowiron.specs.values.matching import Match, match
+
+_SURE = 0.7
+"""Score that a label must have."""
+_UNITS = {**BARE_UNITS, "angle": ("°",), "time": ("s",)}
+_SIDES: tuple[Side, ...] = ("left", "above", "below")
+_CHECK = 'Check it on the page; settle it with --set "{}=VALUE UNIT".'
+
+
+def second_reading(
+    wanted: Sequence[Wanted],
+    values: Mapping[str, Specification],
+    near: Sequence[tuple[Sequence[Near], DecimalStyle]],
+    sheets: Sheets,
+    config: str = "",
+) -> dict[str, Specification]:
+    """The values with those that the words nearest to a value name, and doubts where they name another one.
+
+    On each side of the values the words speak for themselves: the side with the most matches first, as that is how the
+    pages print their labels; a value counts once. Where one label has several values, `config` chooses the one that
+    stands under its name, also out of a conflict of the rules. `near`: what each file prints, with how it writes
+    decimals.
+    """
+    if not any(own for own, _ in near):
+        return dict(values)
+    asked = {w.name: w for w in wanted if w.in_label_of is None}
+    taken = [seen for value in values.values() if value.status != "missing" for seen in _seen(value)]
+    found = dict(values)
+    readings, chosen = _undisputed(list(asked.values()), near, config)
+    for name, one in readings["left"].items():
+        quantity, _ = settled(asked[name], one.claim)
+        if values[name].status == "ok" and quantity.unit_printed and _differs(values[name], quantity):
+            found[name] = _doubted(values[name], one, quantity, sheets)
+    for reading in sorted(readings.values(), key=len, reverse=True):  # stable: left before above before below
+        for name, one in reading.items():
+            evidence = evidence_of(one, sheets)
+            settles = reading is readings["left"] and name in chosen and _is_offered(values[name], one)
+            if found[name].status == "conflict" and settles:
+                found[name] = _to_review(asked[name], one, settled(asked[name], one.claim)[0], sheets)
+            if found[name].status == "missing" and not any(_is_there(evidence, seen) for seen in taken):
+                found[name] = _to_review(asked[name], one, settled(asked[name], one.claim)[0], sheets)
+                taken.append(evidence)
+    return found
+
+
+def _undisputed(
+    asked: Sequence[Wanted], near: Sequence[tuple[Sequence[Near], DecimalStyle]], config: str
+) -> tuple[dict[Side, dict[str, Match]], AbstractSet[str]]:
+    """By side, the wanted values of which the words there give one, and only one, that is usual; those of them at the
+    left for which the configuration had to choose."""
+    place_of = {id(n.statement): n for own, _ in near for n in own}
+    meant = phrases_in(config)
+    claims = [
+        claim
+        for own, style in near
+        for side in _SIDES
+        for claim in _in_any_unit(claims_of([n.statement for n in own if n.side == side], style))
+    ]
+    found: dict[Side, dict[str, Match]] = {side: {} for side in _SIDES}
+    chosen: set[str] = set()
+    for name, matches in match(claims, asked).items():
+        for side in _SIDES:
+            sure = [m for m in matches if place_of[id(m.claim.statement)].side == side and _is_sure(m)]
+            if meant and _differ(sure):
+                sure = [m for m in sure if _stands_under(place_of[id(m.claim.statement)], meant)]
+                chosen.update([name] if side == "left" else [])
+            if sure and not _differ(sure):
+                found[side][name] = sure[0]
+    return found, chosen
+
+
+def _differ(matches: Sequence[Match]) -> bool:
+    return len({f"{_value(m):.9g}" for m in matches}) > 1
+
+
+def _stands_under(near: Near, meant: AbstractSet[str]) -> bool:
+    """Whether a name of the configuration stands over a value."""
+    return any(own and own <= meant for own in map(phrases_in, near.over))
+
+
+def _is_offered(value: Specification, one: Match) -> bool:
+    """Whether a value is among a conflict's candidates."""
+    return any(abs(c.value - _value(one)) <= 1e-9 * abs(c.value) for c in value.candidates)
+
+
+def _is_sure(found: Match) -> bool:
+    return found.score >= _SURE and not found.rest and not found.claim.doubt and usual(found.wanted, _value(found))
+
+
+def _in_any_unit(claims: Sequence[Claim]) -> list[Claim]:
+    """The claims, those of bare numbers in every unit that a sheet may leave unsaid: what is usual tells them apart."""
+    found: list[Claim] = []
+    for claim in claims:
+        found.append(claim)
+        if not claim.quantity.unit and not claim.quantity.sign:
+            units = [unit for group in _UNITS.values() for unit in group]
+            found += [replace(claim, quantity=replace(claim.quantity, unit=unit)) for unit in units]
+    return found
+
+
+def _value(found: Match) -> float:
+    return settled(found.wanted, found.claim)[0].si_value
+
+
+def _differs(value: Specification, quantity: Quantity) -> bool:
+    slack = max(1e-6 * abs(quantity.si_value), quantity.si_digit)
+    return value.value is None or abs(value.value - quantity.si_value) > slack
+
+
+def stands_in(value: Statement, cell: Statement) -> bool:
+    """Whether a value stands in the cell of a statement."""
+    return value.page == cell.page and _inside(value.box, cell.box)
+
+
+def _is_there(one: Evidence, other: Evidence) -> bool:
+    return (one.file, one.page) == (other.file, other.page) and bool(
+        one.box and other.box and _inside(one.box, other.box)
+    )
+
+
+def _inside(box: Box, outer: Box) -> bool:
+    x, y = (box[0] + box[2]) / 2, (box[1] + box[3]) / 2
+    return outer[0] <= x <= outer[2] and outer[1] <= y <= outer[3]
+
+
+def _seen(value: Specification) -> list[Evidence]:
+    return [one for one in (value.evidence, *(c.evidence for c in value.candidates)) if one is not None]
+
+
+def _to_review(wanted: Wanted, one: Match, quantity: Quantity, sheets: Sheets) -> Specification:
+    return Specification(
+        name=wanted.name,
+        value=quantity.si_value,
+        unit=SI_UNIT[wanted.dimension],
+        status="review",
+        evidence=evidence_of(one, sheets),
+        text=printed(quantity),
+        confidence=0.4,
+        reason=f"the layout was not understood there; the words nearest to it match '{one.phrase}'",
+        hint=_CHECK.format(wanted.name),
+        candidates=(_candidate(wanted, one, quantity, sheets),),
+    )
+
+
+def _doubted(value: Specification, one: Match, quantity: Quantity, sheets: Sheets) -> Specification:
+    return replace(
+        value,
+        status="review",
+        confidence=min(value.confidence, 0.5),
+        reason=f"the words of '{one.phrase}' stand beside '{quantity.text}', too; {value.reason}",
+        hint=_CHECK.format(value.name),
+        candidates=(*value.candidates, _candidate(one.wanted, one, quantity, sheets)),
+    )
+
+
+def _candidate(wanted: Wanted, one: Match, quantity: Quantity, sheets: Sheets) -> Candidate:
+    return Candidate(
+        value=quantity.si_value,
+        unit=SI_UNIT[wanted.dimension],
+        evidence=evidence_of(one, sheets),
+        configuration="",
+        confidence=0.4,
+        reason=f"the words nearest to it match '{one.phrase}'",
+    )

@@ -1,0 +1,346 @@
+"""Matches → one specification with a status. A wrong number is worse than none: whatever is in doubt says so."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from yellowiron.model.specification import Candidate, Evidence, Specification
+from yellowiron.model.template import Wanted
+from yellowiron.model.units import SI_UNIT
+from yellowiron.specs.language.numbers import DecimalStyle, Quantity, read
+from yellowiron.specs.language.vocabulary import tokens
+from yellowiron.specs.values.claims import Claim
+from yellowiron.specs.values.matching import Match
+from yellowiron.specs.values.requested import hint_for
+from yellowiron.specs.values.stated_configuration import Stated
+
+_SURE = 0.7
+"""Score from which one undisputed claim is `ok`."""
+_NEAR = 0.15
+"""Claims this much weaker than the best still have a say."""
+_SAID = 0.5
+"""A column says a phrase of the configuration if it says this share of its words."""
+
+
+@dataclass(frozen=True)
+class Sheets:
+    """What `decide` must know of the sheets. By statement identity: its file; the quantities of its column. `stated`:
+    sentences that may say which configuration is meant."""
+
+    files: Mapping[int, str]
+    columns: Mapping[int, frozenset[str]]
+    stated: tuple[Stated, ...] = ()
+
+
+def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str = "") -> Specification:
+    """The specification of a wanted value; `config` names the configuration that is meant ("standard boom, stock-pile
+    bucket"; a value of the column will do: "4.2 m3")."""
+    if not matches:
+        return missing(wanted)
+    chosen = _configured(matches, sheets, config)
+    groups = _groups(wanted, chosen)
+    said = None
+    if len(groups) > 1:
+        said, chosen = _as_stated(wanted, chosen, sheets)
+        groups = _groups(wanted, chosen)
+    if len(groups) > 1:
+        return _conflict(wanted, groups, sheets, config)
+    group = groups[0]
+    top = max(group, key=_preference)
+    quantity, doubt = settled(wanted, top.claim)
+    if top.rest:
+        doubt = doubt or f"the label also says {', '.join(repr(word) for word in top.rest)}"
+    elif top.score < _SURE:
+        doubt = doubt or f"only part of the label says {wanted.name}"
+    if not top.claim.statement.proven:
+        doubt = doubt or "its words do not stand together in the page's text"
+    if top.claim.ranged:
+        doubt = doubt or "the sheet prints a range"
+    value = quantity.si_value
+    return Specification(
+        name=wanted.name,
+        value=value,
+        unit=SI_UNIT[wanted.dimension],
+        status="review" if doubt else "ok",
+        evidence=evidence_of(top, sheets),
+        text=printed(quantity),
+        example=all(m.claim.statement.example for m in group),
+        confidence=round(min(top.score, 0.5 if doubt else 1.0), 3),
+        reason=doubt or _reason(top, group) + (f"; page {said.page} says: “{said.sentence}”" if said else ""),
+        hint=f'Check it on the page; settle it with --set "{wanted.name}=VALUE UNIT".' if doubt else "",
+        candidates=(_candidate(top, sheets, value),),
+    )
+
+
+def missing(wanted: Wanted) -> Specification:
+    """The specification of a value that no sheet gives."""
+    return Specification(
+        name=wanted.name,
+        value=None,
+        unit=SI_UNIT[wanted.dimension],
+        status="missing",
+        reason="no sheet says it",
+        hint=hint_for(wanted),
+    )
+
+
+def unreadable(wanted: Wanted, files: Sequence[str]) -> Specification:
+    """The specification of a value that may stand in a sheet without a text layer."""
+    return Specification(
+        name=wanted.name,
+        value=None,
+        unit=SI_UNIT[wanted.dimension],
+        status="unreadable",
+        reason=f"{', '.join(files)} has no text that can be read",
+        hint=hint_for(wanted),
+    )
+
+
+def evidence_of(found: Match, sheets: Sheets) -> Evidence:
+    """Where a match stands."""
+    statement = found.claim.statement
+    box = tuple(round(v, 2) for v in statement.box)
+    heads = statement.heads if found.by_head else ()
+    quote = " … ".join(dict.fromkeys([*heads, statement.quote]))
+    return Evidence(sheets.files[id(statement)], statement.page, quote, (box[0], box[1], box[2], box[3]))
+
+
+def _preference(found: Match) -> tuple[float, bool, bool, bool, float]:
+    claim, imperial = found.claim, _is_imperial(found.claim.quantity) and found.claim.partner is None
+    return (found.score, not claim.statement.example, claim.partner is not None, not imperial, -claim.statement.page)
+
+
+# ---- configurations ------------------------------------------------------------------------------------------------
+
+
+def configuration(found: Match) -> str:
+    """The column or variant that a match holds for, as the sheet words it."""
+    return ", ".join([*configured_by(found.claim), *found.rest])
+
+
+def _configured(matches: Sequence[Match], sheets: Sheets, config: str) -> list[Match]:
+    """The matches that fit the configuration asked for: each of its phrases keeps those whose column says it best. A
+    head that says the phrase and no more ("Teeth") beats one that says more ("Teeth and segments")."""
+    kept = list(matches)
+    for phrase, words in phrases_of(config).items():
+        named = [m for m in kept if any(_bare(phrase) == _bare(h) for h in configured_by(m.claim))]
+        if named:  # a head that is the phrase, to the letter: "M12-L" is not "M12"
+            kept = named
+            continue
+        shares = [_share(words, m.claim, sheets) for m in kept]
+        if max(shares) >= _SAID and max(shares) > min(shares):
+            kept = [m for m, share in zip(kept, shares, strict=True) if share == max(shares)]
+        heads = [[_words_of(head) for head in m.claim.statement.column] for m in kept]
+        if any(words in own for own in heads):
+            kept = [
+                m for m, own in zip(kept, heads, strict=True) if words in own or not any(words < head for head in own)
+            ]
+    return [_explained(m, set(tokens(config))) for m in kept]
+
+
+def _bare(text: str) -> str:
+    return "".join(text.casefold().split())
+
+
+def phrases_of(config: str) -> dict[str, set[str]]:
+    """The phrases of a configuration that say anything, with their words."""
+    # A comma between digits is a decimal one: "Stiel 5,5 m".
+    phrases = {phrase.strip(): _words_of(phrase) for phrase in re.split(r";|,(?!\d)|(?<!\d),", config)}
+    return {phrase: words for phrase, words in phrases.items() if words}
+
+
+def unmatched(config: str, claims: Sequence[Claim], sheets: Sheets) -> list[str]:
+    """The phrases of a configuration that no column, heading or label says."""
+    return [
+        phrase
+        for phrase, words in phrases_of(config).items()
+        if not any(_share(words, claim, sheets) >= _SAID for claim in claims)
+    ]
+
+
+def _share(words: set[str], claim: Claim, sheets: Sheets) -> float:
+    """The share of a phrase's words that a claim's column, headings or label say."""
+    return len(words & _config_words(claim, sheets)) / len(words)
+
+
+def _words_of(phrase: str) -> set[str]:
+    """A phrase's words, its quantities as words that can be compared."""
+    return set(tokens(_without_quantities(phrase))) | quantity_words(phrase)
+
+
+def _as_stated(wanted: Wanted, matches: Sequence[Match], sheets: Sheets) -> tuple[Stated | None, list[Match]]:
+    """The matches whose column (or row, where rows are the configurations) a sentence about the sheet's figures names
+    in full, those of no configuration that say the same, and that sentence."""
+    for stated in sheets.stated:
+        words = set(tokens(stated.sentence)) | quantity_words(stated.sentence)
+        kept = [m for m in matches if (names := configured_by(m.claim)) and all(_says(words, n) for n in names)]
+        if kept:
+            first = _by_value(wanted, kept)[0][0]
+            plain = [m for m in matches if not configured_by(m.claim)]
+            return stated, [*kept, *(m for m in plain if len(_by_value(wanted, [first, m])) == 1)]
+    return None, list(matches)
+
+
+def configured_by(claim: Claim) -> tuple[str, ...]:
+    """What names the configuration that a claim holds for."""
+    return claim.statement.variant or claim.statement.column
+
+
+def _says(words: set[str], name: str) -> bool:
+    """Whether these words say a name: its words, and of each quantity one of the two systems."""
+    readings = [r for r in read(name, style="point") if all(q.printed for q in r.numbers)]
+    said = [{f"{q.value:g} {q.printed.name}" for q in (*r.numbers, *r.partner) if q.printed} & words for r in readings]
+    rest = set(tokens(_without_quantities(name)))
+    return bool(readings or rest) and all(said) and rest <= words
+
+
+def _explained(found: Match, words: set[str]) -> Match:
+    """The match with the words of its label that the configuration explains taken off its doubt."""
+    rest = tuple(w for w in found.rest if w not in words)
+    if not found.rest or len(rest) == len(found.rest):
+        return found
+    lost = found.lost * (len(found.rest) - len(rest)) / len(found.rest)
+    return replace(found, score=found.score + lost, lost=found.lost - lost, rest=rest)
+
+
+def quantity_words(text: str, unit: str = "", style: DecimalStyle = "point") -> set[str]:
+    """The quantities of a text as words that can be compared: "4.2 m3" → {"4.2 meter**3"}."""
+    found = set()
+    for reading in read(text, unit=unit, style=style):
+        for quantity in (*reading.numbers, *reading.partner):
+            if quantity.printed is not None:
+                found.add(f"{quantity.value:g} {quantity.printed.name}")
+    return found
+
+
+def _without_quantities(text: str) -> str:
+    for reading in reversed(read(text, style="point")):
+        for quantity in reversed((*reading.numbers, *reading.partner)):
+            if quantity.printed is not None:
+                text = f"{text[: quantity.start]} {text[quantity.end :]}"
+    return text
+
+
+def _config_words(claim: Claim, sheets: Sheets) -> set[str]:
+    statement = claim.statement
+    texts = [*statement.column, *statement.variant, *statement.context, statement.section, claim.words]
+    words = {t for text in texts for t in tokens(text)}
+    for text in (*statement.column, *statement.variant):
+        words |= quantity_words(text)
+    return words | sheets.columns.get(id(statement), frozenset())
+
+
+# ---- values --------------------------------------------------------------------------------------------------------
+
+
+def _groups(wanted: Wanted, matches: Sequence[Match]) -> list[list[Match]]:
+    """By value; those outside what is usual have no say where others are inside."""
+    inside = [m for m in matches if usual(wanted, settled(wanted, m.claim)[0].si_value)] or matches
+    best = max(m.score for m in inside)
+    return _by_value(wanted, [m for m in inside if m.score >= best - _NEAR])
+
+
+def _by_value(wanted: Wanted, matches: Sequence[Match]) -> list[list[Match]]:
+    """Matches grouped by value, the best-scored group first; equal within their printed digits."""
+    groups: list[list[Match]] = []
+    for one in sorted(matches, key=_preference, reverse=True):
+        quantity, _ = settled(wanted, one.claim)
+        for group in groups:
+            first, _ = settled(wanted, group[0].claim)
+            slack = 1e-9 * abs(first.si_value)
+            if quantity.unit != first.unit:
+                slack += max(quantity.si_digit, first.si_digit)
+            if abs(quantity.si_value - first.si_value) <= slack:
+                group.append(one)
+                break
+        else:
+            groups.append([one])
+    return groups
+
+
+def settled(wanted: Wanted, claim: Claim) -> tuple[Quantity, str]:
+    """The claim's quantity, metric where both are printed, and what is doubtful about it."""
+    quantity, doubt = claim.quantity, claim.doubt
+    may_be_negative = wanted.dimension == "angle" and (wanted.minimum is None or wanted.minimum < 0)
+    if quantity.sign == "-" and not may_be_negative:
+        doubt = doubt or f"'{quantity.text}' is negative"
+    if quantity.other is not None:
+        readings = [quantity.value, quantity.other]
+        scale = quantity.printed.scale if quantity.printed else 1.0
+        inside = [r for r in readings if usual(wanted, r * scale)]
+        if len(inside) == 1 and (wanted.minimum is not None or wanted.maximum is not None):
+            half = quantity.half if inside[0] == quantity.value else 0.5
+            return Quantity(inside[0], quantity.unit, half, quantity.text, quantity.start, quantity.end), doubt
+        doubt = doubt or f"'{quantity.text}' may be {quantity.value:g} or {quantity.other:g}"
+    elif claim.partner is not None and not doubt and _is_imperial(quantity):
+        quantity = claim.partner
+    if not usual(wanted, quantity.si_value):
+        doubt = doubt or f"'{quantity.text}' is outside what is usual for {wanted.name}"
+    return quantity, doubt
+
+
+def printed(quantity: Quantity) -> str:
+    """A quantity as printed, with the unit that its column or product gives it."""
+    bare = quantity.text.lstrip("±+-−–/ ").replace(",", "").replace(".", "").replace(" ", "").isdigit()
+    return f"{quantity.text} {quantity.unit}".strip() if bare else quantity.text
+
+
+def _is_imperial(quantity: Quantity) -> bool:
+    return quantity.printed is not None and quantity.printed.system == "imperial"
+
+
+def usual(wanted: Wanted, value: float) -> bool:
+    """Whether a value, in SI, lies where the wanted one can lie."""
+    low = wanted.minimum if wanted.minimum is not None else float("-inf")
+    high = wanted.maximum if wanted.maximum is not None else float("inf")
+    return low <= value <= high
+
+
+def _candidate(found: Match, sheets: Sheets, value: float) -> Candidate:
+    return Candidate(
+        value=value,
+        unit=SI_UNIT[found.wanted.dimension],
+        evidence=evidence_of(found, sheets),
+        configuration=configuration(found),
+        confidence=round(found.score, 3),
+        reason=found.claim.doubt or f"matches '{found.phrase}'",
+    )
+
+
+def _conflict(wanted: Wanted, groups: Sequence[Sequence[Match]], sheets: Sheets, config: str) -> Specification:
+    candidates = tuple(
+        _candidate(one, sheets, settled(wanted, one.claim)[0].si_value)
+        for one in (max(group, key=_preference) for group in groups)
+    )
+    names = [c.configuration for c in candidates if c.configuration]
+    texts = [printed(settled(wanted, max(group, key=_preference).claim)[0]) for group in groups]
+    hint = f'Give the value with --set "{wanted.name}=VALUE UNIT"'
+    if len(set(names)) > 1:
+        hint = (
+            f'Choose a configuration with --config "{names[0]}" (or {" | ".join(names[1:4])}); or give the value with '
+        )
+        hint += f'--set "{wanted.name}=VALUE UNIT"'
+    return Specification(
+        name=wanted.name,
+        value=None,
+        unit=SI_UNIT[wanted.dimension],
+        status="conflict",
+        evidence=candidates[0].evidence,
+        text=" | ".join(texts),
+        reason=f"the sheet gives {len(groups)} values" + (f", and '{config}' does not choose" if config else ""),
+        hint=hint + ".",
+        candidates=candidates,
+    )
+
+
+def _reason(top: Match, group: Sequence[Match]) -> str:
+    parts = [f"matches '{top.phrase}'"]
+    if top.claim.partner is not None:
+        parts.append(f"'{top.claim.partner.text}' agrees")
+    if len(group) > 1:
+        parts.append(f"said {len(group)} times")
+    if configuration(top):
+        parts.append(f"column '{configuration(top)}'" if top.claim.statement.column else "")
+    return "; ".join(p for p in parts if p)

@@ -1,0 +1,81 @@
+"""Labels that list several properties: "bore x stroke" for a product, "laden / unladen" for numbers with a slash."""
+
+from __future__ import annotations
+
+import re
+
+from yellowiron.specs.language.vocabulary import tokens
+from yellowiron.specs.layout.statement import joined
+
+_CROSS = re.compile(r"\s+[x×✕*/]\s+|\s*[×✕]\s*|\s+(?:and|und|et|y)\s+(?=stroke|rod|Hub|course|carrera)", re.IGNORECASE)
+COUNTED_PARTS = re.compile(
+    r"(?:\b(?:number|no\.?|quantity|qty\.?) of (?:cylinders?|units)\b|\bAnzahl(?: der)? \w+\b|\bnombre de \w+\b|"
+    r"\bnúmero de \w+\b|\b(?:number|no\.|qty\.?|quantity|anzahl|nombre|número|n[º°])(?=\s*[-–—x×])|"
+    r"(?:本数|数量|个数)(?=\s*[-–—－x×]))\s*(?:[-–—－,:/x×]\s*)?",
+    re.IGNORECASE,
+)
+_LWH, _SEL = ("length", "width", "height"), ("thickness", "width", "length")
+_SIZES = dict.fromkeys(("LWH", "LBH", "LlH", "LAH", "LAhA", "LAnAl", "lwh", "lbh", "长宽高", "長幅高"), _LWH) | {
+    "sel": _SEL
+}
+_FORK_SIZES = re.compile(r"(?<!\S)s\s?/\s?e\s?/\s?l(?!\S)")
+"""What makers call length × width × height, and VDI 2198 a fork's measures."""
+_NAME = r"(?:(?:length|longueur|longitud|di[aá]m\w+|diamètre) (?:of|de|du|del) \S+|\S+(?:\s+(?:diameter|dia\.?))?)"
+"""What one factor of a product is called: "bore", "rod diameter", "length of stroke"."""
+
+
+def enumerated(label: str, count: int) -> list[str]:
+    """The properties a label lists for a product of `count` factors, each with the words before the list.
+
+    ("Lift cylinders – bore x stroke", 2) → ["Lift cylinders bore", "Lift cylinders stroke"]; [] if it lists others.
+    """
+    bare = _FORK_SIZES.sub("s × e × l", COUNTED_PARTS.sub(" ", label)).strip()
+    parts = [p.strip(" ()[]") for p in _CROSS.split(bare)]
+    if len(parts) != count or not all(re.search(r"[^\W\d_]", p) for p in parts):
+        return []
+    first = re.match(rf"^(.*[-–—,:(]|.*?)\s*({_NAME})$", parts[0])
+    prefix, name = (first.group(1), first.group(2)) if first else ("", parts[0])
+    if re.search(r"[-–—,:(]$", prefix.strip()):
+        name = re.split(r"[-–—,:(]\s*", parts[0])[-1] or name
+    prefix = prefix.strip(" -–—,:(")
+    last = re.match(rf"^({_NAME})(.*)$", parts[-1])
+    suffix = last.group(2).strip() if last else ""
+    parts[-1] = last.group(1) if last else parts[-1]
+    if sizes := _SIZES.get("".join([name, *parts[1:]])):
+        name, parts = sizes[0], list(sizes)
+    names = [name, *parts[1:]]
+    if any("stroke" in tokens(n) for n in names):  # "diameter × stroke" of a cylinder
+        names = ["bore" if tokens(n) == ("diameter",) else n for n in names]
+    return [" ".join(f"{prefix} {n} {suffix}".split()) for n in names]
+
+
+def alternatives(label: str, count: int) -> list[str]:
+    """The labels of `count` numbers with slashes between them, from one that names them alike; [] if it does not.
+
+    ("Axle load, front/rear", 2) → ["Axle load, front", "Axle load, rear"]; the list may stand in brackets, behind the
+    last comma, or be a word of the label.
+    """
+    for pattern in _LISTS:
+        for match in reversed(list(pattern.finditer(label))):  # "tilt of mast/carriage, forward/backward"
+            parts = [part.strip() for part in re.split(r"[/／]", match.group(1))]
+            if len(parts) == 2 and parts[0].casefold() in _WITH and (load := _LACKING.sub("", parts[1])) != parts[1]:
+                parts[0] = joined([parts[0], load.strip()])  # "with/without load"
+            symbols = all(re.fullmatch(r"[α-ωa-z]\d{0,2}", part) for part in parts) and "".join(parts) not in _LETTERS
+            if len(parts) != count or symbols or not all(re.search(r"[^\W\d]", part) for part in parts):
+                continue
+            names = _LETTERS.get("".join(parts), parts)
+            return [f"{label[: match.start(1)]}{name}{label[match.end(1) :]}" for name in names]
+    return []
+
+
+_WITH = ("with", "mit", "avec", "con", "有", "带")
+_LACKING = re.compile(r"^(?:without\b|ohne\b|sans\b|sin\b|无|不带|w/o)", re.IGNORECASE)
+_LETTERS = {"sel": list(_SEL), "se": list(_SEL[:2])}
+_LISTS = (
+    re.compile(r"[(（\[]([^()（）\[\]]*[/／][^()（）\[\]]*)[)）\]]"),
+    re.compile(r"[,，、:：–—-]\s*([^,，、:：–—]*[/／][^,，、:：–—]*)$"),
+    re.compile(r"([前後后左右上下]{1,2}(?:[/／][前後后左右上下]{1,2})+)$"),
+    re.compile(r"((?<!\S)(?:with|mit|avec|con)[/／](?:without|ohne|sans|sin) \S+)$", re.IGNORECASE),
+    re.compile(r"(?<!\S)(\S+(?:[/／]\S+)+)"),
+    re.compile(r"(?<!\S)(\S+(?:\s[/／]\s\S+)+)"),
+)

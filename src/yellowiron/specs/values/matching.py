@@ -1,0 +1,387 @@
+"""Claims × wanted values: which claim speaks of which wanted value, and how surely."""
+
+from __future__ import annotations
+
+import functools
+import itertools
+from collections.abc import Mapping, Sequence, Set
+from dataclasses import dataclass, field, replace
+
+from yellowiron.model.template import Wanted
+from yellowiron.specs.language.numbers import read
+from yellowiron.specs.language.vocabulary import (
+    CIRCUITS,
+    GENERAL,
+    HARMLESS,
+    KNOWN,
+    NEUTRAL,
+    OPPOSITES,
+    REVERSING,
+    TELLING,
+    VAGUE,
+    ends,
+    has_cjk,
+    is_one_place,
+    squeezed,
+    tokens,
+)
+from yellowiron.specs.values.claims import Claim
+
+LEAST = 0.55
+"""Score below which a claim does not speak of a wanted value at all."""
+_EXTREME = {"maximum"}
+"""Says of a label no more than makers mean without it; a value of which both are asked forbids it."""
+_WHOLE = {"overall"}
+"""Says of a part no more than makers mean without it: the overall width of a bucket is its width."""
+_RATED = {"flow", "pressure", "force", "torque"}
+"""Dimensions of values that are printed for their maximum, whether the label says so or not."""
+_BY_CIRCUIT = {"pressure", "flow"}
+"""Dimensions of which every hydraulic circuit has its own value."""
+_BORROWED = 0.1
+"""The most that words cost that are borrowed from headings."""
+_UNSAID = 0.2
+"""What it costs that a label does not say "maximum" where the greatest value and another one are asked for."""
+_REMARK = 0.02
+"""What a word costs that is left over and says nothing else: enough to prefer a value that it does speak of."""
+
+
+@dataclass(frozen=True)
+class Match:
+    """A claim that speaks of a wanted value. `score` 0…1: the share of its label that the wanted value's phrases
+    explain, less what is borrowed from headings. `rest` are its other words that may mean another property, `lost` what
+    they cost;
+    `by_label` is False where only headings or heads name the property, `by_head` True where heads are needed for it."""
+
+    wanted: Wanted
+    claim: Claim
+    score: float
+    phrase: str
+    rest: tuple[str, ...] = ()
+    lost: float = 0.0
+    by_label: bool = True
+    by_head: bool = False
+
+
+def match(claims: Sequence[Claim], wanted: Sequence[Wanted]) -> dict[str, list[Match]]:
+    """The matches by wanted name. A claim that one wanted value explains better does not count for another."""
+    found: dict[str, list[Match]] = {w.name: [] for w in wanted}
+    by_dimension: dict[str, list[_Asked]] = {}
+    for group in _by_dimension(wanted).values():
+        by_dimension[group[0].dimension] = _asked(group)
+    for claim in claims:
+        asked_for = by_dimension.get(claim.quantity.dimension, [])
+        said = _said(claim)
+        matches = [m for a in asked_for if (m := _match(a, claim, said)) is not None and m.score >= LEAST]
+        if not matches:
+            continue
+        if any(m.by_label for m in matches):
+            matches = [m for m in matches if m.by_label]
+        matches = [m for m in matches if _possible(m)] or matches
+        best = max((m.score, _specific(m)) for m in matches)
+        kept = [m for m in matches if m.score >= best[0] - 1e-9 and (m.score > 0.999 or _specific(m) >= best[1])]
+        for one in kept:
+            # Both the angle and the greatest one are asked for: a label that does not say "maximum" is the latter only
+            # where no other label does.
+            unsaid = len(kept) > 1 and (_EXTREME & set(tokens(one.wanted.name))) - said.label - said.head - said.context
+            found[one.wanted.name].append(replace(one, score=one.score - _UNSAID) if unsaid else one)
+    return found
+
+
+def _possible(found: Match) -> bool:
+    """Whether the value, in one of its readings, lies where the wanted value can lie."""
+    wanted, quantity = found.wanted, found.claim.quantity
+    scale = quantity.si_value / quantity.value if quantity.value else 1.0
+    readings = [quantity.si_value, *([quantity.other * scale] if quantity.other is not None else [])]
+    low = wanted.minimum if wanted.minimum is not None else float("-inf")
+    high = wanted.maximum if wanted.maximum is not None else float("inf")
+    return any(low <= reading <= high for reading in readings)
+
+
+def _by_dimension(wanted: Sequence[Wanted]) -> dict[str, list[Wanted]]:
+    groups: dict[str, list[Wanted]] = {}
+    for one in wanted:
+        groups.setdefault(one.dimension, []).append(one)
+    return groups
+
+
+def _specific(found: Match) -> int:
+    return len(tokens(found.phrase))
+
+
+@dataclass(frozen=True)
+class _Asked:
+    """A wanted value's words, cut once: its phrases, all their words, its name's; headings that support it, phrases
+    that forbid it. `others`: by word, the values of its dimension that have it, each with the words of its phrase."""
+
+    wanted: Wanted
+    phrases: tuple[tuple[str, frozenset[str]], ...]
+    words: frozenset[str]
+    name: frozenset[str]
+    sections: tuple[frozenset[str], ...]
+    forbidden: tuple[tuple[str, frozenset[str]], ...]
+    others: Mapping[str, Sequence[tuple[_Asked, frozenset[str]]]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class _Said:
+    """A claim's words, cut once. `naming` are the heads that name properties and not configurations."""
+
+    label: frozenset[str]
+    head: frozenset[str]
+    contexts: tuple[frozenset[str], ...]
+    section: frozenset[str]
+    naming: tuple[frozenset[str], ...]
+    text: str
+    ends: tuple[frozenset[str], ...]
+
+    @property
+    def context(self) -> frozenset[str]:
+        """The words of all sub-headings."""
+        return frozenset[str]().union(*self.contexts)
+
+
+def _asked(wanted: Sequence[Wanted]) -> list[_Asked]:
+    """Values of one dimension, each knowing the words of all."""
+    alone = [_alone(one) for one in wanted]
+    others: dict[str, list[tuple[_Asked, frozenset[str]]]] = {}
+    for one in alone:
+        for _, words in one.phrases:
+            for word in words:
+                others.setdefault(word, []).append((one, words))
+    return [replace(one, others=others) for one in alone]
+
+
+def _alone(wanted: Wanted) -> _Asked:
+    said = tuple((p, words) for p, words in _with_words(phrases(wanted)) if words)
+    if wanted.dimension == "length":
+        said = tuple((p, words) for p, words in said if not is_one_place(words))
+    return _Asked(
+        wanted=wanted,
+        phrases=said,
+        words=frozenset[str]().union(*(words for _, words in said)),
+        name=frozenset(tokens(wanted.name)),
+        sections=tuple(words for _, words in _with_words(tuple(wanted.sections)) if words),
+        forbidden=_with_words(tuple(wanted.forbidden)),
+    )
+
+
+@functools.lru_cache(maxsize=4096)
+def _with_words(texts: tuple[str, ...]) -> tuple[tuple[str, frozenset[str]], ...]:
+    return tuple((text, frozenset(tokens(text))) for text in texts)
+
+
+def _said(claim: Claim) -> _Said:
+    statement = claim.statement
+    return _cut(claim.words, claim.head, statement.column, statement.context, statement.section)
+
+
+@functools.lru_cache(maxsize=4096)
+def _cut(words: str, head: str, column: tuple[str, ...], context: tuple[str, ...], section: str) -> _Said:
+    heads = [h for h in column if not _names_configuration(h)]
+    label = words
+    if context and tokens(whole := f"{context[-1]} {label}") != tokens(context[-1]) + tokens(label):
+        label, context = whole, context[:-1]  # an expression goes on from the line above: "rod" over "diameter"
+    return _Said(
+        label=frozenset(tokens(label)),
+        head=frozenset(tokens(head)),
+        contexts=tuple(frozenset(tokens(c)) for c in context),
+        section=frozenset(tokens(section)),
+        naming=tuple(frozenset(tokens(h)) for h in heads),
+        text=" ".join([words, *heads]).casefold(),
+        ends=ends(label) or (),
+    )
+
+
+def match_one(wanted: Wanted, claim: Claim, among: Sequence[Wanted] = ()) -> Match | None:
+    """How well a claim speaks of a wanted value, `among` others; None where it cannot: dimension, forbidden words,
+    words that are missing."""
+    if claim.quantity.dimension != wanted.dimension:
+        return None
+    asked_for = _asked([wanted, *(w for w in among if w is not wanted and w.dimension == wanted.dimension)])
+    return _match(asked_for[0], claim, _said(claim))
+
+
+def _match(asked_for: _Asked, claim: Claim, said: _Said) -> Match | None:
+    wanted = asked_for.wanted
+    label, head, context, section = said.label, said.head, said.context, said.section
+    if not (label | head | context | section) & asked_for.words:
+        return None
+    supported = _supports(asked_for, section)
+    above = [words for words in said.contexts if not _supports(asked_for, words)]
+    if _forbidden(
+        asked_for,
+        claim,
+        said.text,
+        [label, *said.naming, *above, *([] if supported or section <= GENERAL else [section])],
+    ):
+        return None
+    circuits = label.union(*said.naming) | context | section
+    if wanted.dimension in _BY_CIRCUIT and (circuits & CIRCUITS) - asked_for.words:
+        return None
+    found = _explanation(asked_for, said, supported=supported)
+    if found is None:
+        return None
+    explained, from_head, borrowed, best = found.words, found.from_head, found.borrowed, found.phrase
+    primary = (label if explained & label else set()) | (head if from_head else set()) or context | section
+    # A word of the value's own name makes the label mean nothing else.
+    left = {t for t in primary - explained - _EXTREME - asked_for.name if not _is_number(t)}
+    left = {t for t in left if t not in NEUTRAL or _is_telling(t, asked_for, explained | left, claim, said, KNOWN)}
+    if not from_head:
+        left -= _WHOLE
+    known = frozenset() if borrowed else KNOWN  # a heading that must help names other properties too
+    rest = {t for t in left if _is_telling(t, asked_for, explained | left, claim, said, known)}
+    worded = frozenset[str]().union(*(words for words in said.naming if not any(map(_is_number, words))))
+    if ((label | context | section | worded) - explained) & REVERSING:  # the head "VS 135" is a model
+        return None
+    asked = {t for p in (wanted.name, best) for t in tokens(p)}
+    if any(_contradicts(group - explained, asked - group) for group in (label, head, context, section)):
+        return None
+    lost = len(rest) / max(len(primary - NEUTRAL - _WHOLE), 1) + _REMARK * len(left - rest)
+    score = 1.0 - lost - borrowed
+    return Match(
+        wanted, claim, max(score, 0.0), best, tuple(sorted(rest)), lost, bool(explained & label), bool(from_head)
+    )
+
+
+@dataclass(frozen=True)
+class _Explanation:
+    """What a value's phrases explain of a claim: the words, those of them that only heads say, what is taken off for
+    headings that had to help, and the longest phrase."""
+
+    words: frozenset[str]
+    from_head: frozenset[str]
+    borrowed: float
+    phrase: str
+
+
+def _explanation(asked_for: _Asked, said: _Said, *, supported: bool) -> _Explanation | None:
+    """The phrases of a value that a claim says in full, taken together; None where it says none. `supported`: its
+    section is one under which makers print the value."""
+    wanted, label, head, context, section = asked_for.wanted, said.label, said.head, said.context, said.section
+    everything = label | head | context | section
+    by_itself = any(words <= label for _, words in asked_for.phrases)
+    optional = (_EXTREME if wanted.dimension in _RATED else set()) - everything
+    headed = bool(wanted.sections) and not section <= GENERAL and wanted.dimension != "time"
+    vague = VAGUE if headed else frozenset[str]()
+    # One word alone is little: beside it only what no other value's words have passes for a remark.
+    remarks = HARMLESS - asked_for.others.keys()
+    explained: frozenset[str] = frozenset()
+    from_head: frozenset[str] = frozenset()
+    borrowed = 1.0
+    best, most = "", 0
+    for phrase, words in asked_for.phrases:
+        words = words - optional if optional else words
+        if by_itself and words & head - label - context - section:
+            continue  # the label says it without its column's head
+        if not words or not words <= everything or not _anchored(words, label, head, context | section):
+            continue
+        if any(words & end for end in said.ends) and not all(words & end for end in said.ends):
+            continue  # a distance from the same place to another one
+        if len(words) == 1 and not supported and (words <= vague or label - words - NEUTRAL - _WHOLE - remarks):
+            continue
+        explained |= words
+        from_head |= words - label - context - section
+        lent = words - label - head
+        borrowed = min(borrowed, 0.5 * _BORROWED * (bool(lent) + bool(lent - context)))
+        if len(words) > most:
+            best, most = phrase, len(words)
+    return _Explanation(explained, from_head, borrowed, best) if explained else None
+
+
+def _is_telling(
+    word: str, asked_for: _Asked, words: Set[str], claim: Claim, said: _Said, known: frozenset[str]
+) -> bool:
+    """Whether a word that is left over may make the label mean another property: a condition or another body; what
+    tells this value from another one of its dimension; a word that nothing is known of."""
+    if word in TELLING:
+        return True
+    for other, phrase in asked_for.others.get(word, ()) if word not in asked_for.words else ():
+        if phrase <= words and not _forbidden(other, claim, said.text, [said.label, *said.naming, *said.contexts]):
+            return True
+    if word in HARMLESS or word in NEUTRAL:
+        return False
+    return not (word in known and word in asked_for.words)
+
+
+@functools.lru_cache(maxsize=1024)
+def _phrases(name: str, synonyms: tuple[tuple[str, ...], ...], concepts: tuple[str, ...]) -> tuple[str, ...]:
+    spelled = [p for concept in concepts for p in spelled_out(concept)]
+    return tuple(dict.fromkeys([name, *(s for group in synonyms for s in group), *spelled]))
+
+
+def spelled_out(concept: str) -> list[str]:
+    """The phrases of a concept: ("lift/boom cylinder bore") → ["lift cylinder bore", "boom cylinder bore"]; `_` joins
+    the words of an alternative."""
+    choices = [part.split("/") for part in concept.split()]
+    return [" ".join(chosen).replace("_", " ") for chosen in itertools.product(*choices)]
+
+
+def phrases(wanted: Wanted) -> tuple[str, ...]:
+    """A wanted value's name, its synonyms in every language and its concepts."""
+    return _phrases(wanted.name, tuple(tuple(group) for group in wanted.synonyms.values()), wanted.concepts)
+
+
+def _anchored(words: Set[str], label: Set[str], head: Set[str], above: Set[str]) -> bool:
+    """Whether the statement's own label or head holds part of a phrase: headings alone name no property, unless the
+    value has no label at all."""
+    if words & label:
+        return True
+    if words & head:
+        return len(words & head) >= 1
+    return not label and not head and words <= above
+
+
+def _contradicts(words: Set[str], asked: Set[str]) -> bool:
+    """Whether one of the words is the opposite of one asked for: a front axle, where the rear one is meant."""
+    return any(OPPOSITES.get(word, frozenset()) & asked for word in words)
+
+
+def _is_number(token: str) -> bool:
+    """Whether a word names no property: a number, a standard ("J732"), a model."""
+    return any(c.isdigit() for c in token)
+
+
+@functools.lru_cache(maxsize=4096)
+def _names_configuration(head: str) -> bool:
+    """Whether a head says which machine a column is for, and not which property: "Reach boom 5.7 m"."""
+    return any(q.printed is not None for r in read(head) for q in r.numbers)
+
+
+def _supports(asked_for: _Asked, heading: frozenset[str]) -> bool:
+    """Whether a heading is one under which makers print the value."""
+    return any(words <= heading for words in asked_for.sections) if heading else False
+
+
+def _forbidden(asked_for: _Asked, claim: Claim, text: str, places: Sequence[frozenset[str]]) -> bool:
+    """Whether the label, a head or a heading says a forbidden phrase; its words must stand in one of them."""
+    for phrase, parts in asked_for.forbidden:
+        # As it stands: in words a Chinese or Japanese phrase would forbid the labels of other languages, and one in
+        # quotes those of the same words in another order ("blade length" is not the length with the blade).
+        if has_cjk(phrase) or phrase.startswith('"'):
+            if squeezed(phrase) in squeezed(text + claim.statement.section):
+                return True
+        elif (parts and any(parts <= words for words in places)) or (not parts and phrase.casefold() in text):
+            return True
+    return False
+
+
+def weakly(wanted: Wanted, claim: Claim) -> Match | None:
+    """A match too weak to stand alone, for a claim that something else points to: the same dimension, some of the
+    words that make the property what it is, none that forbids or contradicts it."""
+    statement = claim.statement
+    words = {t for text in (claim.words, claim.head, *statement.context, statement.section) for t in tokens(text)}
+    named = [set(tokens(p)) - NEUTRAL for p in phrases(wanted)]
+    asked = {t for own in named for t in own}
+    label = set(tokens(claim.words))
+    shared = max((len(own & words) / len(own) for own in named if own), default=0.0)
+    if claim.quantity.dimension != wanted.dimension or shared < 0.5 or not (label & asked):
+        return None
+    said = _said(claim)
+    if (
+        _forbidden(_alone(wanted), claim, said.text, [frozenset(words)])
+        or words & REVERSING
+        or _contradicts(words, asked - words)
+    ):
+        return None
+    rest = tuple(sorted(t for t in label - asked - NEUTRAL if not _is_number(t)))
+    return Match(wanted, claim, 0.5 * shared, "", rest, 1.0 - 0.5 * shared)

@@ -1,0 +1,171 @@
+"""Values given by a person: `--set "NAME=VALUE UNIT"`; and who wins where several sources give a value."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+
+from yellowiron.model.errors import YellowironError
+from yellowiron.model.finding import Finding
+from yellowiron.model.specification import Specification, Specifications, fold
+from yellowiron.model.template import Template, Variant, Wanted
+from yellowiron.model.text import display
+from yellowiron.model.units import SI_UNIT
+from yellowiron.specs.language.numbers import parse_one
+from yellowiron.specs.values.requested import asked, hint_for
+
+_WHERE = "--set"
+_SIGNED = {"angle", "count"}
+"""Dimensions whose values may be zero or negative where no range is stated."""
+_ROUNDING = 1e-9
+"""A value may be outside its range by this share: what a change of units rounds."""
+
+
+def split_settings(texts: Iterable[str], template: Template) -> tuple[tuple[str, ...], dict[str, str]]:
+    """`--set` texts as (values for `parse_settings`, variant choices by the variant's own name).
+
+    A text whose name is a variant of the template is a choice (`wheel_drive=rear`); one that starts with `--` comes
+    from an option of that name (`--tracks=shoes`) and is a choice or nothing. `YellowironError` for a text without "=",
+    for a choice that the variant does not have, and for an option whose variant the template does not have.
+    """
+    variants = {fold(v.name): v for v in template.variants}
+    values: list[str] = []
+    choices: dict[str, str] = {}
+    for text in texts:
+        name, value = _halves(text)
+        variant = variants.get(fold(name))
+        if variant is None and name.startswith("--"):
+            words = f"Machines of the type '{template.equipment_type}' have no {name.lstrip('-')} to choose"
+            raise YellowironError(words, where=name, hint="Leave the option out.")
+        if variant is None:
+            values.append(text)
+        else:
+            choices[variant.name] = _choice(variant, value)
+    return tuple(values), choices
+
+
+def parse_settings(texts: Iterable[str], template: Template) -> Specifications:
+    """`("Lift Cylinder Stroke=764 mm", …)` as specifications in SI with source `set`.
+
+    Names are those the template asks for, without regard to case, `_`, `-` or spaces. `YellowironError` for an unknown
+    name (with the nearest ones), a value that is no number with a unit, a unit of another dimension, one outside the
+    wanted entry's minimum and maximum (without them: not finite, or not positive), and a name given twice with
+    different values.
+    """
+    known = {fold(w.name): w for w in asked(template)}
+    found: dict[str, Specification] = {}
+    for text in texts:
+        name, value = _halves(text)
+        wanted = known.get(fold(name))
+        if wanted is None:
+            raise YellowironError(
+                f"No specification or variant is called '{name}'", where=_WHERE, hint=_nearest(name, template, known)
+            )
+        specification = _specification(wanted, value, text)
+        earlier = found.get(wanted.name)
+        if earlier is not None and earlier.value != specification.value:
+            raise YellowironError(
+                f"'{wanted.name}' is given twice: {earlier.text} and {specification.text}",
+                where=_WHERE,
+                hint="Keep one of the two.",
+            )
+        found[wanted.name] = specification
+    return Specifications(found)
+
+
+def merge(*weakest_first: Specifications) -> Specifications:
+    """One set of specifications out of several, the later ones stronger.
+
+    A stronger source that knows nothing of a name (`missing`, `unreadable`) leaves the weaker one's word; one that is
+    in doubt (`review`, `conflict`) does not, for a weaker source settles no doubt. Findings are kept, once each.
+    """
+    merged: dict[str, Specification] = {}
+    spelling: dict[str, str] = {}
+    findings: list[Finding] = []
+    for specifications in weakest_first:
+        for name, specification in specifications.values.items():
+            key = spelling.setdefault(fold(name), name)
+            if key not in merged or _rank(specification) >= _rank(merged[key]):
+                merged[key] = specification
+        findings += [f for f in specifications.findings if f not in findings]
+    return Specifications(merged, tuple(findings))
+
+
+def _rank(specification: Specification) -> int:
+    return {"missing": 0, "unreadable": 1}.get(specification.status, 2)
+
+
+def _halves(text: str) -> tuple[str, str]:
+    name, equals, value = text.partition("=")
+    if not equals or not name.strip() or not value.strip():
+        raise YellowironError(
+            f"'{text}' is not NAME=VALUE", where=_WHERE, hint='Write e.g. --set "Lift Cylinder Stroke=764 mm".'
+        )
+    return name.strip(), value.strip()
+
+
+def _choice(variant: Variant, value: str) -> str:
+    for choice in variant.choices:
+        if fold(choice) == fold(value):
+            return choice
+    raise YellowironError(
+        f"'{value}' is no choice of {variant.name}", where=_WHERE, hint=f"Choices: {', '.join(variant.choices)}."
+    )
+
+
+def _specification(wanted: Wanted, value: str, text: str) -> Specification:
+    unit = SI_UNIT[wanted.dimension]
+    quantity = parse_one(value, where=f"{_WHERE} {text}")
+    if quantity.unit == "" and unit != "1":
+        raise YellowironError(
+            f"'{value}' has no unit, and {wanted.name} is a {wanted.dimension}", where=_WHERE, hint=hint_for(wanted)
+        )
+    if quantity.unit != "" and quantity.si_unit != unit:
+        raise YellowironError(
+            f"'{value}' is not a {wanted.dimension}, as {wanted.name} is", where=_WHERE, hint=hint_for(wanted)
+        )
+    _check_range(wanted, quantity.si_value, value, text)
+    return Specification(
+        name=wanted.name,
+        value=quantity.si_value,
+        unit=unit,
+        status="ok",
+        source="set",
+        text=value,
+        confidence=1.0,
+        reason=f'given with --set "{text}"',
+    )
+
+
+def _check_range(wanted: Wanted, value: float, text: str, setting: str) -> None:
+    """`YellowironError` for a value that the wanted entry's range, or its dimension, rules out."""
+    unit = SI_UNIT[wanted.dimension]
+    low, high = wanted.minimum, wanted.maximum
+    least = low if low is not None else -math.inf
+    most = high if high is not None else math.inf
+    slack = _ROUNDING * max(abs(b) for b in (least, most, 0.0) if math.isfinite(b))
+    positive = low is None and wanted.dimension not in _SIGNED
+    if math.isfinite(value) and least - slack <= value <= most + slack and (value > 0.0 or not positive):
+        return
+    if low is not None and high is not None:
+        usual = f"from {display(low, unit)} to {display(high, unit)}"
+    elif low is not None:
+        usual = f"at least {display(low, unit)}"
+    else:
+        usual = "more than 0" if positive else "finite"
+        usual += f" and at most {display(high, unit)}" if high is not None else ""
+    raise YellowironError(
+        f"'{text}' is outside what {wanted.name} can be",
+        where=f"{_WHERE} {setting}",
+        hint=f"It is {usual}; check number and unit.",
+    )
+
+
+def _nearest(name: str, template: Template, known: dict[str, Wanted]) -> str:
+    from rapidfuzz import fuzz, process, utils
+
+    names: Sequence[str] = [w.name for w in known.values()] + [v.name for v in template.variants]
+    close = process.extract(name, names, scorer=fuzz.WRatio, processor=utils.default_process, limit=3, score_cutoff=60)
+    if close:
+        return f"Did you mean {', '.join(repr(match[0]) for match in close)}?"
+    return f"Known names: {', '.join(names[:12])}{' …' if len(names) > 12 else ''}."

@@ -1,0 +1,202 @@
+"""Runs third-party readers and engines in a child process, so that a crash, a hang or a bomb there is an error message
+here."""
+
+from __future__ import annotations
+
+import contextlib
+import importlib
+import math
+import os
+import pickle
+import resource
+import selectors
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import IO, Any, cast
+
+from yellowiron.model.errors import YellowironError
+
+_PR_SET_PDEATHSIG = 1
+"""linux/prctl.h."""
+_CRASH_HINT = "The file is damaged, or made to break its reader; open it in its own program and export it again."
+_BEAT = 1.0
+"""Seconds between two signs of life."""
+_LAST_WORDS = 65536
+
+
+def run_guarded(
+    target: str,
+    *args: Any,
+    where: str,
+    error: type[YellowironError] = YellowironError,
+    timeout_s: float = 600.0,
+    memory_mb: int | None = 8192,
+    who: str = "The reader",
+    late: str = "Reading took more than",
+    hint: str = _CRASH_HINT,
+    progress: Callable[[str], None] = lambda words: None,
+) -> Any:
+    """The result of `module:function` called with `args` in a child process; both travel by pickle.
+
+    A `YellowironError` raised there is raised here. A crash, more than `timeout_s` seconds without a sign of life
+    (`beat`; readers give none) or more than `memory_mb` of address space raise `error`, naming `where`. `progress` is
+    called with what the child says of itself; `who`, `late` and `hint` word the errors.
+    """
+    with tempfile.TemporaryDirectory(prefix="yellowiron-") as folder:
+        call, answer = Path(folder, "call"), Path(folder, "answer")
+        life, told = os.pipe()
+        with os.fdopen(life, "rb", buffering=0) as lives:
+            with os.fdopen(told, "wb", buffering=0):
+                call.write_bytes(pickle.dumps((target, args, memory_mb, str(answer), told)))
+                # The parent's import path goes along, so that a source checkout works as an installation does.
+                environment = {**os.environ, "PYTHONPATH": os.pathsep.join(p for p in sys.path if p)}
+                child = subprocess.Popen(
+                    [sys.executable, "-m", "yellowiron.support.guard", str(call)],
+                    stdin=subprocess.DEVNULL,
+                    stdout=subprocess.DEVNULL,
+                    stderr=subprocess.PIPE,
+                    env=environment,
+                    start_new_session=True,
+                    pass_fds=(told,),
+                )
+            with child:
+                try:
+                    noise = _attend(child, lives, timeout_s, progress)
+                except subprocess.TimeoutExpired as expired:
+                    raise error(f"{late} {timeout_s:g} s and was stopped", where=where, hint=hint) from expired
+                finally:
+                    # The whole group: a reader may have started processes of its own.
+                    with contextlib.suppress(ProcessLookupError, PermissionError):
+                        os.killpg(child.pid, signal.SIGKILL)
+        if child.returncode == os.EX_IOERR and not answer.exists():
+            raise error(
+                f"What was read cannot be stored: {noise.decode(errors='replace')}",
+                where=tempfile.gettempdir(),
+                hint="Make room in the folder for temporary files, or set TMPDIR to another.",
+            )
+        if not answer.exists():
+            raise error(_obituary(who, child.returncode, noise), where=where, hint=hint)
+        kind, value = pickle.loads(answer.read_bytes())
+    if kind == "error":
+        raise value
+    if kind == "memory":
+        raise error(f"{who} needs more than {memory_mb} MB of memory", where=where, hint="Split the file.")
+    if kind == "failure":
+        raise error(f"{who} failed: {value}", where=where, hint=hint)
+    return value
+
+
+def _attend(
+    child: subprocess.Popen[bytes], life: IO[bytes], timeout_s: float, progress: Callable[[str], None]
+) -> bytes:
+    """Waits for the child to end; what it wrote to its error output, the last of it. `TimeoutExpired` where it gave no
+    sign of life for so long."""
+    noise, words, end = b"", b"", time.monotonic() + timeout_s
+    with selectors.DefaultSelector() as streams:
+        streams.register(cast(IO[bytes], child.stderr), selectors.EVENT_READ)
+        streams.register(life, selectors.EVENT_READ)
+        while streams.get_map():
+            if (left := end - time.monotonic()) <= 0.0:
+                raise subprocess.TimeoutExpired(child.args, timeout_s)
+            for key, _ in streams.select(left):
+                data = os.read(key.fd, 65536)
+                if not data:
+                    streams.unregister(key.fileobj)
+                elif key.fileobj is life:
+                    end = time.monotonic() + timeout_s
+                    *lines, words = (words + data).split(b"\n")
+                    for line in filter(None, lines):
+                        progress(line.decode())
+                else:
+                    noise = (noise + data)[-_LAST_WORDS:]
+    child.wait(max(0.0, end - time.monotonic()))
+    return noise
+
+
+_life: int | None = None
+_last_beat = 0.0
+
+
+def beat(words: str = "") -> None:
+    """In a guarded child a sign of life, and words for its parent's `progress`; elsewhere nothing. Quick enough to be
+    called at every step of a long work."""
+    global _last_beat
+    if _life is None:
+        return
+    now = time.monotonic()
+    if words or now - _last_beat > _BEAT:
+        _last_beat = now
+        os.write(_life, f"{words}\n".encode())
+
+
+@contextlib.contextmanager
+def must_end(seconds: float) -> Iterator[None]:
+    """Ends the process, a guarded child, where what is inside takes more than so many seconds of the processor: for
+    readers that go round in a circle on some damage, and whose time is known from the file's size."""
+    before = resource.getrlimit(resource.RLIMIT_CPU)
+    latest = math.ceil(time.process_time() + seconds)
+    resource.setrlimit(resource.RLIMIT_CPU, (latest, before[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_CPU, before)
+
+
+def _obituary(who: str, returncode: int, noise: bytes) -> str:
+    if returncode == -signal.SIGXCPU:
+        return f"{who} came to no end"
+    if returncode < 0:
+        name = signal.Signals(-returncode).name if -returncode in signal.valid_signals() else str(-returncode)
+        return f"{who} crashed ({name})"
+    lines = [line for line in noise.decode(errors="replace").splitlines() if line.strip()]
+    detail = f": {lines[-1].strip()[:200]}" if lines else ""
+    return f"{who} ended with code {returncode} and no result{detail}"
+
+
+def _die_with_parent() -> None:
+    """Asks the kernel to end this process when its parent ends, however that ends (Linux; elsewhere it may linger)."""
+    import ctypes
+
+    with contextlib.suppress(AttributeError, OSError):
+        ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
+
+
+def _child(call: Path) -> None:
+    global _life
+    _die_with_parent()
+    target, args, memory_mb, answer, _life = pickle.loads(call.read_bytes())
+    if memory_mb is not None:
+        limit = memory_mb * 1024 * 1024
+        resource.setrlimit(resource.RLIMIT_AS, (limit, limit))
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    module_name, function_name = target.split(":")
+    outcome: tuple[str, Any]
+    try:
+        outcome = ("value", getattr(importlib.import_module(module_name), function_name)(*args))
+    except YellowironError as error:
+        outcome = ("error", error)
+    except MemoryError:
+        outcome = ("memory", None)
+    except Exception as error:  # noqa: BLE001 - whatever a third-party reader throws becomes one sentence in the parent
+        outcome = ("failure", f"{type(error).__name__}: {error}"[:500])
+    part = Path(f"{answer}.part")
+    try:
+        part.write_bytes(pickle.dumps(outcome))
+        part.rename(answer)
+    except OSError as error:
+        sys.stderr.write(str(error.strerror))
+        sys.stderr.flush()
+        os._exit(os.EX_IOERR)
+    # Past this point only library teardown could run, and that is where some readers crash.
+    os._exit(0)
+
+
+if __name__ == "__main__":
+    from yellowiron.support import guard  # as others import it: this one is `__main__`
+
+    guard._child(Path(sys.argv[1]))

@@ -1,0 +1,39 @@
+"""Drives (JSON-4): PhysicsDriveAPI with gains in USD's units — per degree for pivots."""
+
+from __future__ import annotations
+
+import math
+
+from pxr import Sdf
+
+from yellowiron.model.mechanism import Drive, Joint
+from yellowiron.usd.authoring.stage import Types, apply_schemas, set_attribute
+
+INSTANCES = {"revolute": "angular", "prismatic": "linear"}
+"""Joint type → the instance of PhysicsDriveAPI that drives its one coordinate."""
+
+
+def per_usd_unit(joint_type: str) -> float:
+    """Factor from a gain per metre or radian to one per USD's unit (metre, degree)."""
+    return math.radians(1.0) if joint_type == "revolute" else 1.0
+
+
+def to_usd_unit(joint_type: str) -> float:
+    """Factor from metres or radians to USD's unit (metres, degrees)."""
+    return math.degrees(1.0) if joint_type == "revolute" else 1.0
+
+
+def write_drive(spec: Sdf.PrimSpec, joint: Joint, drive: Drive) -> None:
+    """Stiffness, damping and the largest force. A velocity drive has no stiffness; every target is the default, 0."""
+    instance = INSTANCES[joint.type]
+    factor = per_usd_unit(joint.type)
+    apply_schemas(spec, f"PhysicsDriveAPI:{instance}")
+    values = {
+        "stiffness": drive.stiffness * factor if drive.kind == "position" else 0.0,
+        "damping": drive.damping * factor,
+    }
+    for name, value in values.items():
+        if value != 0.0:
+            set_attribute(spec, f"drive:{instance}:physics:{name}", Types.Float, float(value))
+    if math.isfinite(drive.max_force):
+        set_attribute(spec, f"drive:{instance}:physics:maxForce", Types.Float, float(drive.max_force))

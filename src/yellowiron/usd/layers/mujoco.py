@@ -1,0 +1,66 @@
+"""The MuJoCo and Newton layer: how a cut is closed, and what Newton calls its own.
+
+A cut is a `connect` equality (`MjcEqualityConnectAPI`, which Newton reads too): one soft constraint of three rows,
+stiff enough at time steps of a millisecond. Newton closes a revolute cut by two of them, which is forty times worse.
+"""
+
+from __future__ import annotations
+
+import math
+
+from pxr import Sdf, Vt
+
+from yellowiron.usd.authoring.stage import Types, apply_schemas, over, set_attribute
+from yellowiron.usd.layers.articulation import articulation_roots
+from yellowiron.usd.layers.base import shape_path
+from yellowiron.usd.layers.drives import to_usd_unit
+from yellowiron.usd.layers.joints import usd_type
+from yellowiron.usd.planning.plan import COLLIDERS, Plan
+
+SOLREF = (0.002, 1.0)
+"""Time constant (s) and damping ratio of a cut: twice a step of 1 ms, the stiffest that stays stable."""
+SOLIMP = (0.9999, 0.9999, 0.001, 0.5, 2.0)
+"""As hard as MuJoCo takes it from the first micrometre on: with 0.999 there, pins err by half as much again."""
+
+RULING = ("min", "multiply")
+"""Ways to combine friction that MuJoCo does not know: its colliders of such a material rule by priority."""
+
+_EQUALITIES = {"spherical": "MjcEqualityConnectAPI", "fixed": "MjcEqualityWeldAPI"}
+
+
+def write_mujoco(layer: Sdf.Layer, base: Sdf.Layer, plan: Plan) -> None:
+    """Equalities on the cuts, self-collision off, velocity limits, sites, signed distance fields."""
+    for root in articulation_roots(layer, plan):
+        apply_schemas(root, "NewtonArticulationRootAPI")
+        set_attribute(root, "newton:selfCollisionEnabled", Types.Bool, False)
+    for joint in plan.mechanism.joints:
+        equality = _EQUALITIES.get(usd_type(joint)) if joint.cut else None
+        if equality is not None:
+            spec = over(layer, plan.joint_paths[joint.name])
+            apply_schemas(spec, equality)
+            set_attribute(spec, "mjc:solref", Types.DoubleArray, Vt.DoubleArray(SOLREF), uniform=True)
+            set_attribute(spec, "mjc:solimp", Types.DoubleArray, Vt.DoubleArray(SOLIMP), uniform=True)
+        elif joint.drive is not None and not joint.cut and 0.0 < joint.drive.max_velocity < math.inf:
+            spec = over(layer, plan.joint_paths[joint.name])
+            apply_schemas(spec, "NewtonJointAPI")
+            velocity = joint.drive.max_velocity * to_usd_unit(joint.type)
+            set_attribute(spec, "newton:velocityLimit", Types.Float, velocity)
+    for path in plan.site_paths.values():
+        apply_schemas(over(layer, path), "NewtonSiteAPI")
+    ruling = {name for name, m in plan.mechanism.materials.items() if m.friction_combine in RULING}
+    for body in plan.mechanism.bodies:
+        own = [(shape_path(plan.body_paths[body.name], s), s.material) for s in body.shapes]
+        drawn = [
+            (f"{plan.body_paths[body.name]}/{COLLIDERS}/{p.name}", p.data.material)
+            for p in plan.parts[body.name]
+            if p.approximation.usd
+        ]
+        for path, material in (*own, *drawn) if ruling else ():
+            if material in ruling:
+                spec = over(layer, path)
+                apply_schemas(spec, "MjcCollisionAPI")
+                set_attribute(spec, "mjc:priority", Types.Int, 1, uniform=True)
+        for placed in plan.parts[body.name]:
+            path = f"{plan.body_paths[body.name]}/{COLLIDERS}/{placed.name}"
+            if placed.approximation.newton_schema and base.GetPrimAtPath(path).typeName == "Mesh":
+                apply_schemas(over(layer, path), placed.approximation.newton_schema)

@@ -1,0 +1,78 @@
+"""Machines whose files hold triangles alone, written as they come: parts in one soup, one mesh for all, one a body."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from excavator_machines import excavator
+from synthetic import Machine, disguise, loader
+
+from cad_meshfiles import lumps
+from yellowiron.alignment import align
+from yellowiron.build import aligned
+from yellowiron.cad.mesh.assembly import Occurrence, assemble
+from yellowiron.library import load_template
+from yellowiron.model.assembly import Assembly
+from yellowiron.model.geometry import Mesh
+from yellowiron.model.specification import Specifications
+
+
+def meshed(assembly: Assembly, groups: list[list[str]]) -> Assembly:
+    """The triangles of an assembly, the parts of a group in one mesh, their surfaces forgotten."""
+    found = [
+        Occurrence(name, (), Mesh(points, triangles), np.eye(4)) for name, points, triangles in lumps(assembly, groups)
+    ]
+    return assemble(found, name="machine", format="GLB", unit=1.0, path="machine.glb")
+
+
+def owners(original: Assembly, found: Assembly) -> dict[str, str]:
+    """Part id of `found` → the one of `original` whose box is nearest to its own."""
+    boxes = np.array(
+        [np.concatenate([f(original.points_of(p), axis=0) for f in (np.min, np.max)]) for p in original.parts]
+    )
+    result = {}
+    for part in found.parts:
+        box = np.concatenate([f(found.points_of(part), axis=0) for f in (np.min, np.max)])
+        result[part.id] = original.parts[int(np.abs(boxes - box).sum(axis=1).argmin())].id
+    return result
+
+
+def wrong(machine: Machine, kind: str, merged: str, seed: int) -> list[str]:
+    assembly, truth, _ = disguise(machine, seed)
+    groups: dict[str, list[str]] = {}
+    for number, part in enumerate(assembly.parts):
+        key = {"part": str(number), "body": truth[part.id][1], "one": ""}[merged]
+        groups.setdefault(key, []).append(part.id)
+    found, alignment = aligned(meshed(assembly, list(groups.values())), load_template(kind), Specifications())
+    owner = owners(assembly, found)
+    assert set(alignment.missing) <= set(align(assembly, load_template(kind), Specifications()).missing)
+    silent = [p for p in alignment.parts if p.part not in alignment.to_review]
+    bodies = [(p.part, p.body, truth[owner[p.part]][1]) for p in silent if truth[owner[p.part]][1]]
+    assert len(bodies) > 0.98 * len(assembly.parts)
+    return [f"{part}: {body}, not {true}" for part, body, true in bodies if body != true]
+
+
+@pytest.mark.parametrize("merged", ["one", pytest.param("body", marks=pytest.mark.slow)])
+def test_loader_merged(merged: str) -> None:
+    assert wrong(loader(1001), "wheel_loader", merged, 1001) == []
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("merged", "seed"), [("part", 1002), ("one", 1005), ("body", 1002)])
+def test_excavators_merged(merged: str, seed: int) -> None:
+    assert wrong(excavator(seed), "excavator", merged, seed) == []
+
+
+def test_bodies_without_pins_are_not_taken_apart() -> None:
+    """Nothing is gained by it: their roles are missing all the same."""
+    machine = loader(1002)
+    pins = {role for role, _ in machine.truth.values() if role.endswith("_pin") or "cylinder" in role or "rod" in role}
+    machine.parts[:] = [p for p in machine.parts if not set(machine.truth[p.id]) & pins]
+    assembly, truth, _ = disguise(machine, 1002)
+    groups: dict[str, list[str]] = {}
+    for part in assembly.parts:
+        groups.setdefault(truth[part.id][1], []).append(part.id)
+    merged = meshed(assembly, list(groups.values()))
+    found, alignment = aligned(merged, load_template("wheel_loader"), Specifications())
+    assert alignment.missing
+    assert found is merged

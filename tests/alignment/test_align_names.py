@@ -1,0 +1,142 @@
+"""What names say: six languages, typos, abbreviations, truncation, wrong codes; and what they do not."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from yellowiron.alignment.assignment.names import (
+    concepts,
+    exact_role,
+    exact_roles,
+    likeness,
+    name_scores,
+    role_concepts,
+    spoken,
+    tokens,
+    vocabulary,
+)
+from yellowiron.library import load_template
+from yellowiron.model.assembly import Part
+from yellowiron.model.template import Template
+
+
+@pytest.fixture(scope="module")
+def template() -> Template:
+    return load_template("wheel_loader")
+
+
+@pytest.fixture(scope="module")
+def digger() -> Template:
+    return load_template("excavator")
+
+
+def part(name: str, *above: str) -> Part:
+    return Part(name, name, ("TOP", *above), "", np.eye(4))
+
+
+def test_tokens() -> None:
+    assert tokens("BUCKET_LinkPin-04 Ø90 gr\u00fcn de la") == ["bucket", "link", "pin", "grun"]
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("BUKCET_LINK", {"bucket", "link"}),
+        ("HYDRUALIC_CYL", {"cylinder"}),
+        ("LIFT CYL ROD EYE", {"boom", "cylinder", "rod"}),
+        ("liftCylinderTube2", {"boom", "cylinder", "barrel"}),
+        ("FRT FRAME LH", {"front", "frame", "left"}),
+        ("WHEELS", {"wheel"}),
+        ("Hubzylinder Kolbenstange li", {"boom", "cylinder", "rod", "left"}),
+        ("Hubzylinderkolbenstange", {"boom", "cylinder", "rod"}),
+        ("Hubgeruest", {"boom"}),
+        ("v\u00e9rin de levage", {"boom", "cylinder"}),
+        ("cuchar\u00f3n", {"bucket"}),
+        ("cilindro de direcci\u00f3n izq.", {"cylinder", "steering", "left"}),
+        ("左动臂油缸活塞杆", {"left", "boom", "cylinder", "rod"}),
+        ("バケットシリンダロッド", {"bucket", "cylinder", "rod"}),
+        ("ﾊﾞｹｯﾄ", {"bucket"}),
+        ("¶¯±Û", {"boom"}),  # 动臂 in GBK, read as Latin-1
+        ("cuchar\u00c3\u00b3n", {"bucket"}),  # UTF-8, read as Latin-1
+        ("cab", {"rear", "frame"}),
+        ("blade", {"cutting", "edge"}),
+        ("Solid17", set()),
+        ("Part_003", set()),
+        ("Boss-Extrude2", set()),
+        ("light", set()),
+        ("cover plate", set()),
+        ("Lager", set()),
+        ("\u00c5\u00c4", set()),
+        ("", set()),
+    ],
+)
+def test_concepts(template: Template, name: str, said: set[str]) -> None:
+    assert concepts(name, vocabulary(template)) == said
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("CAB", {"upperstructure"}),
+        ("Gegengewicht", {"upperstructure"}),
+        ("发动机", {"upperstructure"}),
+        ("blade", {"blade"}),
+        ("sprocet", {"sprocket"}),
+        ("L\u00f6ffelstiel", {"arm"}),
+        ("Stielzylinder", {"arm", "cylinder"}),
+        ("balancier", {"arm"}),
+        ("斗杆油缸缸筒", {"arm", "cylinder", "barrel"}),
+        ("アームシリンダ", {"arm", "cylinder"}),
+    ],
+)
+def test_a_template_says_what_its_bodies_are_called(digger: Template, name: str, said: set[str]) -> None:
+    assert concepts(name, vocabulary(digger)) == said
+
+
+def test_role_names_are_words(template: Template) -> None:
+    """A template without words.json: its own role names, and the words of any machine."""
+    bare = vocabulary(template.__class__("crane", "", "mast", template.roles[1:3], ()))
+    assert concepts("REAR FRAME", bare) == {"rear", "frame"}
+    assert concepts("Zylinder", bare) == {"cylinder"}
+
+
+def test_sides_and_ends_exclude_each_other(template: Template) -> None:
+    words = vocabulary(template)
+
+    def score(name: str, role: str) -> float:
+        return likeness(spoken([name], words), role_concepts(template.role(role)))
+
+    assert score("boom piston rod left", "boom_piston_rod_l") > 0.9
+    assert score("boom piston rod right", "boom_piston_rod_l") == 0.0
+    assert score("boom cylinder rod", "boom_cylinder_barrel_l") == 0.0
+    assert score("rear wheel", "front_wheel_l") == 0.0
+    assert score("rear left", "rear_wheel_l") == 0.0  # a place is no name
+
+
+def test_the_assembly_above_counts_less(template: Template) -> None:
+    scores = name_scores((part("boom"), part("cover", "boom"), part("bucket", "boom"), part("x")), template)
+    assert scores[0]["boom"] == 1.5
+    assert 0.5 < scores[1]["boom"] < 1.0
+    assert scores[2]["bucket"] == 1.5
+    assert 0.3 < scores[2]["boom"] < 0.8
+    assert scores[3] == {}
+
+
+def test_what_holds_everything_says_nothing(template: Template) -> None:
+    parts = (part("x1", "BUCKET TRUCK"), part("x2", "BUCKET TRUCK"))
+    assert name_scores(parts, template) == [{}, {}]
+
+
+def test_exact_names(template: Template) -> None:
+    roles = exact_roles(template)
+    assert exact_role(part("Boom Pin"), roles) == "boom_pin"
+    assert exact_role(part("boom_pin_2"), roles) == "boom_pin"
+    assert exact_role(part("boom_pinion"), roles) is None
+
+
+def test_scores_name_the_body(template: Template) -> None:
+    scores = name_scores((part("boom_pin"), part("BUCKET SIDE PLATE"), part("Solid1")), template)
+    assert max(scores[0], key=lambda b: scores[0][b]) == template.body_of("boom_pin")
+    assert max(scores[1], key=lambda b: scores[1][b]) == "bucket"
+    assert scores[2] == {}

@@ -1,0 +1,94 @@
+"""Models in another unit than they claim: noticed by the sheet's overall length, and scaled."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from synthetic import loader
+
+from yellowiron.alignment import align, to_scale
+from yellowiron.alignment.assignment.unit_scale import scaled
+from yellowiron.library import load_template
+from yellowiron.model.assembly import Assembly
+from yellowiron.model.specification import Specification, Specifications
+from yellowiron.model.template import Template
+
+
+@pytest.fixture(scope="module")
+def template() -> Template:
+    return load_template("wheel_loader")
+
+
+@pytest.fixture(scope="module")
+def drawn() -> Assembly:
+    return loader(4, twin=True).assembly()
+
+
+def sheet(**values: float) -> Specifications:
+    names = {k.replace("_", " "): v for k, v in values.items()}
+    return Specifications({n: Specification(n, v, "m", "ok") for n, v in names.items()})
+
+
+def claimed(assembly: Assembly, unit: float) -> Assembly:
+    """The model in a file that says its numbers are of that unit."""
+    return replace(assembly, unit=unit)
+
+
+def size(assembly: Assembly) -> float:
+    points = np.concatenate([assembly.points_of(p) for p in assembly.parts])
+    return float(np.ptp(points, axis=0).max())
+
+
+def test_inches(template: Template, drawn: Assembly) -> None:
+    length = 0.9 * size(drawn)
+    model = to_scale(claimed(scaled(drawn, 1 / 0.0254), 1.0), template, sheet(Overall_Length=length))
+    assert size(model) == pytest.approx(size(drawn), rel=1e-9)
+    (finding,) = model.findings
+    assert finding.code == "ALN014"
+    assert "its numbers are inches" in finding.message
+    before, after = (sum(a.shape_of(p).volume for p in a.parts) for a in (drawn, model))
+    assert after == pytest.approx(before, rel=1e-9)
+
+
+def test_millimetres_as_metres(template: Template, drawn: Assembly) -> None:
+    model = to_scale(claimed(scaled(drawn, 1000.0), 1.0), template, sheet(Overall_Length=1.2 * size(drawn)))
+    assert size(model) == pytest.approx(size(drawn), rel=1e-9)
+
+
+def test_no_unit_at_all(template: Template, drawn: Assembly) -> None:
+    """The hydraulic cylinders' diameters give the scale that the length only hints at."""
+    found = align(drawn, template, Specifications())
+    radii = {}
+    for role in ("boom_piston_rod_l", "bucket_piston_rod", "steering_piston_rod_l"):
+        bars = [p for p in found.parts if p.body == role]
+        shapes = [drawn.shape_of(drawn.part(p.part)) for p in bars]
+        longest = max((c for s in shapes for c in s.cylinders if not c.inner), key=lambda c: c.length)
+        radii[role] = longest.radius
+    values = sheet(
+        Overall_Length=0.85 * size(drawn),
+        Lift_Cylinder_Rod_Diameter=2 * radii["boom_piston_rod_l"],
+        Tilt_Cylinder_Rod_Diameter=2 * radii["bucket_piston_rod"],
+        Steering_Cylinder_Rod_Diameter=2 * radii["steering_piston_rod_l"],
+    )
+    model = to_scale(claimed(scaled(drawn, 7.3), 1.0), template, values)
+    assert size(model) == pytest.approx(size(drawn), rel=0.01)
+    assert "hydraulic cylinders" in model.findings[-1].message
+    guess = to_scale(claimed(scaled(drawn, 7.3), 1.0), template, sheet(Overall_Length=size(drawn)))
+    assert size(guess) == pytest.approx(size(drawn), rel=0.4)
+    assert "a guess" in guess.findings[-1].message
+
+
+def test_a_pose_is_no_unit(template: Template, drawn: Assembly) -> None:
+    for length in (0.7 * size(drawn), 1.5 * size(drawn)):
+        assert to_scale(drawn, template, sheet(Overall_Length=length)) is drawn
+    assert to_scale(drawn, template, Specifications()) is drawn
+
+
+def test_the_template_says_which_length(template: Template, drawn: Assembly) -> None:
+    """Without a value that is the whole machine's length there is nothing to compare with."""
+    plain = replace(template, wanted=tuple(replace(w, length_of=None) for w in template.wanted))
+    long = sheet(Overall_Length=30 * size(drawn))
+    assert to_scale(drawn, template, long) is not drawn
+    assert to_scale(drawn, plain, long) is drawn

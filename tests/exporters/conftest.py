@@ -1,0 +1,22 @@
+"""The small loader, exported once."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+import small_machine
+
+
+@pytest.fixture(scope="session")
+def usd_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return small_machine.write(tmp_path_factory.mktemp("usd"))
+
+
+@pytest.fixture(scope="session")
+def mjcf_file(usd_file: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    from yellowiron.exporters import export_mjcf
+    from yellowiron.usd import read_machine
+
+    return export_mjcf(read_machine(usd_file), usd_file, tmp_path_factory.mktemp("mjcf"))

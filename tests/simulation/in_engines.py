@@ -1,0 +1,21 @@
+"""The engines to test in: MuJoCo always, the others where they are installed."""
+
+from __future__ import annotations
+
+import pytest
+
+from yellowiron.simulation.engine import ENGINES, Engine, Setup, load_engine
+
+MODULES = {"mujoco": "mujoco", "newton": "newton", "physx": "ovphysx"}
+EVERY = [pytest.param(name, marks=() if name == "mujoco" else pytest.mark.slow) for name in ENGINES]
+
+
+def need(engine: str) -> None:
+    """Skips the test where the engine is not installed."""
+    pytest.importorskip(MODULES[engine], reason=f"needs {ENGINES[engine].install}")
+
+
+def load(engine: str, setup: Setup) -> Engine:
+    """The engine with a setup loaded, or a skipped test."""
+    need(engine)
+    return load_engine(engine, setup)
