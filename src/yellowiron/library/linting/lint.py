@@ -7,7 +7,7 @@ import itertools
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-from yellowiron.library.linting.mobility import Group, TemplateMobility, blocks, mobility, welded_ends
+from yellowiron.library.linting.mobility import Group, TemplateMobility, mobility, welded_ends
 from yellowiron.library.parsing.joints import DIMENSION, stated_gains
 from yellowiron.library.parsing.json_documents import near
 from yellowiron.library.parsing.machine_tests import lint_tests
@@ -15,6 +15,7 @@ from yellowiron.model.finding import Finding
 from yellowiron.model.rows import expand, rings, split_index
 from yellowiron.model.specification import fold
 from yellowiron.model.template import Choices, JointTemplate, Template, choose
+from yellowiron.support.graphs import blocks
 
 MOST_COMBINATIONS = 512
 """Sets of choices that are looked at; a template with more says so."""

@@ -15,6 +15,7 @@ import numpy as np
 from yellowiron.model.geometry import Floats
 from yellowiron.model.rows import split_index
 from yellowiron.model.template import JointTemplate, Template
+from yellowiron.support.graphs import blocks, components
 
 SPATIAL_FREEDOM: Mapping[str, int] = {"fixed": 0, "distance": 5, "spherical": 3, "revolute": 1, "prismatic": 1}
 """Joint type → its degrees of freedom in space."""
@@ -96,67 +97,18 @@ def coordinates_of(template: Template) -> tuple[str, ...]:
 
 def welded_ends(template: Template, joints: Iterable[JointTemplate]) -> dict[str, tuple[str, str]]:
     """Joint → its two bodies, bodies that fixed joints weld together being one; without the fixed joints."""
-    leader: dict[str, str] = {}
-
-    def find(body: str) -> str:
-        while body in leader:
-            body = leader[body]
-        return body
-
+    joints = tuple(joints)
     pairs = {}
     for joint in joints:
         first, second = template.bodies_of(joint)
-        if first is None or second is None:
-            continue
-        if joint.type == "fixed":
-            if find(first) != find(second):
-                leader[find(second)] = find(first)
-        else:
+        if first is not None and second is not None:
             pairs[joint.name] = (first, second)
-    welded = {name: (find(a), find(b)) for name, (a, b) in pairs.items()}
+    fixed = {joint.name for joint in joints if joint.type == "fixed"}
+    bodies = (body for pair in pairs.values() for body in pair)
+    groups = components(bodies, (pair for name, pair in pairs.items() if name in fixed))
+    one = {body: group[0] for group in groups for body in group}
+    welded = {name: (one[a], one[b]) for name, (a, b) in pairs.items() if name not in fixed}
     return {name: pair for name, pair in welded.items() if pair[0] != pair[1]}
-
-
-def blocks(ends: Mapping[str, tuple[str, str]]) -> tuple[tuple[str, ...], ...]:
-    """The joints by common loops (the graph's biconnected components), each in the given order; a joint in no loop is a
-    block of its own. J. Hopcroft, R. Tarjan: Algorithm 447, CACM 16 (1973)."""
-    neighbours: dict[str, list[tuple[str, str]]] = {}
-    for name, (a, b) in ends.items():
-        neighbours.setdefault(a, []).append((name, b))
-        neighbours.setdefault(b, []).append((name, a))
-    order = {name: i for i, name in enumerate(ends)}
-    depth: dict[str, int] = {}
-    low: dict[str, int] = {}
-    open_joints: list[str] = []
-    found: list[tuple[str, ...]] = []
-    for start in neighbours:
-        if start in depth:
-            continue
-        depth[start] = low[start] = 0
-        stack = [(start, "", iter(neighbours[start]))]
-        while stack:
-            body, by, rest = stack[-1]
-            step = next(rest, None)
-            if step is None:
-                stack.pop()
-                if stack:
-                    parent = stack[-1][0]
-                    low[parent] = min(low[parent], low[body])
-                    if low[body] >= depth[parent]:
-                        cut = open_joints.index(by)
-                        found.append(tuple(sorted(open_joints[cut:], key=order.__getitem__)))
-                        del open_joints[cut:]
-                continue
-            name, other = step
-            if name == by or (other in depth and depth[other] > depth[body]):
-                continue
-            open_joints.append(name)
-            if other in depth:
-                low[body] = min(low[body], depth[other])
-            else:
-                depth[other] = low[other] = depth[body] + 1
-                stack.append((other, name, iter(neighbours[other])))
-    return tuple(sorted(found, key=lambda names: order[names[0]]))
 
 
 def generic_freedom(

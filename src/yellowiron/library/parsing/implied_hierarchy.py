@@ -14,6 +14,7 @@ from yellowiron.library.parsing.json_documents import Document
 from yellowiron.model.errors import TemplateError
 from yellowiron.model.rows import split_index
 from yellowiron.model.template import ActuatorTemplate, CylinderTemplate, JointTemplate, Role, Template
+from yellowiron.support.graphs import bridges
 
 _SIDE = re.compile(r"_([lr])(?=_|2|$)")
 _KINDS = (("pin", "pin"), ("barrel", "barrel"), ("rod", "rod"), ("wheel", "wheel"), ("wheels", "wheel"),
@@ -49,7 +50,7 @@ def infer_roles(
     roles += [_role(name, carrier, rigid=False) for name, carrier in carriers.items()]
     # Parents first.
     ordered = sorted(roles, key=lambda r: r.parent is not None)
-    loose = _bridges({n: _through(welded, e) for n, e in ends.items()})
+    loose = bridges({n: _through(welded, e) for n, e in ends.items()})
     return tuple(ordered), tuple(replace(j, free=j.free or (j.drive is None and j.name in loose)) for j in joints), root
 
 
@@ -211,24 +212,6 @@ def _parents(joints: Iterable[JointTemplate], ends: Mapping[str, tuple[str, ...]
 
 def _through(welded: Mapping[str, str], pair: tuple[str, ...]) -> tuple[str, str]:
     return (welded.get(pair[0], pair[0]), welded.get(pair[1], pair[1]))
-
-
-def _bridges(ends: Mapping[str, tuple[str, str]]) -> set[str]:
-    """Joints that are in no loop: without them their two bodies are not connected."""
-    return {name for name, pair in ends.items() if not _connected(pair, [e for n, e in ends.items() if n != name])}
-
-
-def _connected(pair: tuple[str, str], edges: list[tuple[str, str]]) -> bool:
-    seen, front = {pair[0]}, [pair[0]]
-    while front:
-        body = front.pop()
-        for a, b in edges:
-            if body in (a, b):
-                other = b if body == a else a
-                if other not in seen:
-                    seen.add(other)
-                    front.append(other)
-    return pair[1] in seen
 
 
 def _role(name: str, parent: str | None, *, rigid: bool) -> Role:

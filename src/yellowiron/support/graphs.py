@@ -1,0 +1,73 @@
+"""Graphs of bodies and joints, as all stages need them: what hangs together, what closes loops. networkx does the work;
+the results are in the order of what was given, so that they are the same in every run."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable, Iterable, Mapping
+from typing import TypeVar
+
+import networkx as nx
+
+Node = TypeVar("Node", bound=Hashable)
+Edge = TypeVar("Edge")
+Name = TypeVar("Name", bound=Hashable)
+
+
+def components(nodes: Iterable[Node], edges: Iterable[tuple[Node, Node]]) -> list[tuple[Node, ...]]:
+    """The nodes in groups that edges hold together, groups by their first nodes, each in the nodes' order. An edge to
+    what is no node counts for nothing."""
+    order = list(dict.fromkeys(nodes))
+    groups = nx.utils.UnionFind(order)
+    known = set(order)
+    for a, b in edges:
+        if a in known and b in known:
+            groups.union(a, b)
+    found: dict[Node, list[Node]] = {}
+    for node in order:
+        found.setdefault(groups[node], []).append(node)
+    return [tuple(group) for group in found.values()]
+
+
+def spanning_forest(
+    edges: Iterable[Edge], ends: Callable[[Edge], tuple[Hashable, Hashable]]
+) -> tuple[list[Edge], list[Edge]]:
+    """(edges of a spanning forest, edges that close a loop), the forest taking the edges in the order given
+    (J. B. Kruskal, Proc. AMS 7, 1956)."""
+    groups = nx.utils.UnionFind()
+    kept: list[Edge] = []
+    closing: list[Edge] = []
+    for edge in edges:
+        a, b = ends(edge)
+        if groups[a] == groups[b]:
+            closing.append(edge)
+        else:
+            kept.append(edge)
+            groups.union(a, b)
+    return kept, closing
+
+
+def blocks(edges: Mapping[Name, tuple[Node, Node]]) -> list[tuple[Name, ...]]:
+    """The edges by common loops (the graph's biconnected components), each block in the given order, blocks by their
+    first edges; an edge in no loop is a block of its own.
+
+    Several edges may join the same two nodes: every edge is a node of its own between its ends, so two of them are a
+    loop.
+    """
+    graph = nx.Graph()
+    for name, pair in edges.items():
+        graph.add_edges_from(((False, node), (True, name)) for node in pair)
+    order = {name: number for number, name in enumerate(edges)}
+    found: set[tuple[Name, ...]] = set()
+    looped: set[Name] = set()
+    for block in nx.biconnected_components(graph):
+        names = tuple(sorted((name for is_edge, name in block if is_edge), key=order.__getitem__))
+        if len(names) > 1:
+            found.add(names)
+            looped.update(names)
+    found.update((name,) for name in edges if name not in looped)
+    return sorted(found, key=lambda names: order[names[0]])
+
+
+def bridges(edges: Mapping[Name, tuple[Node, Node]]) -> set[Name]:
+    """The edges in no loop: without them their two ends are not connected."""
+    return {block[0] for block in blocks(edges) if len(block) == 1 and edges[block[0]][0] != edges[block[0]][1]}
