@@ -37,7 +37,7 @@ def test_code_on_the_pages_is_python(root: Path, name: str) -> None:
 @pytest.fixture(scope="module")
 def built(example: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The example, built."""
-    from yellowiron.build import build
+    from yellowiron.pipeline import build
 
     if not (example / "wheel_loader.step").is_file():
         pytest.skip("the example's STEP file is not there: run its draw.py")

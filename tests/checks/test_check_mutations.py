@@ -17,8 +17,8 @@ from pathlib import Path
 import pytest
 from pxr import Gf, Sdf, Usd, UsdGeom, UsdPhysics
 
-from yellowiron.build import build
 from yellowiron.checks import check
+from yellowiron.pipeline import build
 
 pytestmark = pytest.mark.slow
 

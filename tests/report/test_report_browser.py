@@ -13,8 +13,8 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from yellowiron.build import build
 from yellowiron.kinematics import ClosedChain
+from yellowiron.pipeline import build
 
 pytestmark = pytest.mark.slow
 

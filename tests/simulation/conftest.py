@@ -24,7 +24,7 @@ def mechanism(usd_file: Path) -> Mechanism:
 
 @pytest.fixture(scope="session")
 def wheel_loader(example: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    from yellowiron.build import build
+    from yellowiron.pipeline import build
 
     cad, sheet = example / "wheel_loader.step", example / "specifications.pdf"
     if not cad.is_file() or not sheet.is_file():

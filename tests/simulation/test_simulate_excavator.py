@@ -30,7 +30,7 @@ pytestmark = pytest.mark.slow
 @pytest.fixture(scope="module")
 def built(root: Path, tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
     """The machine's file by what its tracks are, each built once."""
-    from yellowiron.build import build
+    from yellowiron.pipeline import build
 
     example = root / "examples" / "excavator"
     cad, sheet = example / "excavator.step", example / "specifications.pdf"

@@ -18,7 +18,7 @@ def loader(example: Path, tmp_path_factory: pytest.TempPathFactory):
     """The mechanism of the example, and the folder it was written to."""
     if not (example / "wheel_loader.step").is_file():
         pytest.skip("the example's STEP file is not there: run its draw.py")
-    from yellowiron.build import build
+    from yellowiron.pipeline import build
 
     out = tmp_path_factory.mktemp("loader") / "out"
     machine = build("wheel_loader", example / "wheel_loader.step", out, sheets=[example / "specifications.pdf"])

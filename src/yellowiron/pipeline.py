@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 import importlib
-import sys
 import time
-import types
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from yellowiron import alignment as align
-from yellowiron import cad, kinematics, library, mechanism, report, specs, usd
-from yellowiron import checks as check
+from yellowiron import cad, checks, kinematics, library, report, specs, usd
+from yellowiron.alignment import align, declared_roles, read_alignment, to_scale, write_alignment
+from yellowiron.mechanism import build_mechanism, compare_declared, declared_findings, declared_values
 from yellowiron.model.alignment import Alignment
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import MechanismError
@@ -35,15 +33,35 @@ Progress = Callable[[str], None]
 
 @dataclass(frozen=True, eq=False)
 class Machine:
-    """What a build returns: every stage's result, the report, and what `fell_short`, one phrase each."""
+    """What a build returns: every stage's result, `document` (what `report.json` holds), the folder with its files, and
+    what `fell_short`, one phrase each."""
 
     mechanism: Mechanism
     alignment: Alignment
     specifications: Specifications
     measurements: tuple[Measurement, ...]
-    report: Mapping[str, Any]
+    document: Mapping[str, Any]
     folder: Path
     fell_short: tuple[str, ...]
+
+    @property
+    def usd(self) -> Path:
+        """The machine alone, without ground or light: what `measure`, `simulate` and `export` take."""
+        return self.folder / f"{self.mechanism.name}.usda"
+
+    @property
+    def scene(self) -> Path:
+        """The machine on a ground plane: what to open first."""
+        return self.folder / "scene.usda"
+
+    @property
+    def report(self) -> Path:
+        """The page that says why everything is as it is."""
+        return self.folder / "report.html"
+
+    def __repr__(self) -> str:
+        state = "; ".join(self.fell_short) or "ready"
+        return f"<Machine {self.mechanism.name}: {len(self.mechanism.bodies)} bodies in {self.folder}: {state}>"
 
 
 @dataclass
@@ -111,76 +129,78 @@ def build(
         with clock.stage("align", "Finding the part that plays each role"):
             earlier = Path(alignment_file or out / "alignment.json")
             edited = earlier if alignment_file or earlier.exists() else None
-            assembly, alignment = aligned(
+            assembly, alignment = find_roles(
                 assembly, template, specifications, earlier=edited, data=data, choices=choices
             )
             chosen = choose(template, {**alignment.choices, **choices})
             template = expand(chosen, alignment.counts)
 
         with clock.stage("mechanism", "Building the mechanism"):
-            machine = _mechanism(assembly, template, alignment, specifications, data)
-            compared = mechanism.compare_declared(machine, assembly, alignment)
-            lent = mechanism.declared_values(machine, template, assembly, alignment, compared, specifications)
+            mechanism = _complete(assembly, template, alignment, specifications, data)
+            compared = compare_declared(mechanism, assembly, alignment)
+            lent = declared_values(mechanism, template, assembly, alignment, compared, specifications)
             if lent.values:
                 specifications = specs.merge(lent, specifications)
-                machine = _mechanism(assembly, template, alignment, specifications, data)
-            start = kinematics.legal_start(machine)
+                mechanism = _complete(assembly, template, alignment, specifications, data)
+            start = kinematics.legal_start(mechanism)
             if start is not None:
                 assembly, template, alignment = kinematics.started(assembly, template, alignment, start)
-                machine = _mechanism(assembly, template, alignment, specifications, data)
-                machine = replace(machine, findings=(*machine.findings, *start.findings))
+                mechanism = _complete(assembly, template, alignment, specifications, data)
+                mechanism = replace(mechanism, findings=(*mechanism.findings, *start.findings))
 
         with clock.stage("measure", "Measuring the machine against its sheet"):
-            measurements = kinematics.measure(machine)
+            measurements = kinematics.measure(mechanism)
 
         with clock.stage("write", "Writing USD"):
             usd.write_machine(
-                machine, assembly, folder, name=machine.name, frame=alignment.frame,
+                mechanism, assembly, folder, name=mechanism.name, frame=alignment.frame,
                 texture_folders=[*data.folders, Path(template.folder)],
             )  # fmt: skip
+            written = folder / f"{mechanism.name}.usda"
 
         with clock.stage("check", "Checking what was written"):
-            checked = check.check(folder / "scene.usda")
+            checked = checks.check(folder / "scene.usda")
 
         simulation, sweeps = {}, {}
         if engines:
             with clock.stage("simulate", "Driving the machine"):
                 for engine in engines:
-                    simulation[engine], sweeps[engine] = driven(folder / f"{machine.name}.usda", engine, progress)
+                    simulation[engine], sweeps[engine] = _driven(written, engine, progress)
 
         with clock.stage("report", "Writing the report"):
             document = report.report_document(
-                machine, template, alignment, specifications, measurements,
+                mechanism, template, alignment, specifications, measurements,
                 findings=(
                     *library.lint(chosen).findings, *assembly.findings, *data.findings,
-                    *mechanism.declared_findings(compared, assembly.name), *checked,
+                    *declared_findings(compared, assembly.name), *checked,
                 ),
-                usd_counts=usd.count_joints(folder / f"{machine.name}.usda"),
-                levers={a.name: kinematics.lever_table(machine, a.name) for a in machine.actuators},
+                usd_counts=usd.count_joints(written),
+                levers={a.name: kinematics.lever_table(mechanism, a.name) for a in mechanism.actuators},
                 simulation=simulation, declared=compared,
             )  # fmt: skip
             report.write_document(document, folder / "report.json")
             report.write_document({"specifications": document["specifications"]}, folder / "specifications.json")
-            report.write_document(library.filled_joints(chosen, machine, specifications), folder / "joints.filled.json")
-            align.write_alignment(alignment, assembly, folder / "alignment.json")
+            filled = library.filled_joints(chosen, mechanism, specifications)
+            report.write_document(filled, folder / "joints.filled.json")
+            write_alignment(alignment, assembly, folder / "alignment.json")
             page = report.page(
-                document, machine, assembly, alignment,
-                poses=kinematics.key_poses(machine), tables=kinematics.pose_tables(machine), sweeps=sweeps,
+                document, mechanism, assembly, alignment,
+                poses=kinematics.key_poses(mechanism), tables=kinematics.pose_tables(mechanism), sweeps=sweeps,
             )  # fmt: skip
             (folder / "report.html").write_text(page, encoding="utf-8")
         report.write_document({**clock.seconds, "total": sum(clock.seconds.values())}, folder / "timings.json")
     return Machine(
-        mechanism=machine,
+        mechanism=mechanism,
         alignment=alignment,
         specifications=specifications,
         measurements=measurements,
-        report=document,
+        document=document,
         folder=out,
         fell_short=tuple(report.fell_short(document)),
     )
 
 
-def aligned(
+def find_roles(
     assembly: Assembly,
     template: Template,
     specifications: Specifications,
@@ -194,17 +214,17 @@ def aligned(
     alignment file whose edits hold."""
 
     def found(model: Assembly) -> Alignment:
-        edits = align.read_alignment(earlier, model, template) if earlier is not None else None
+        edits = read_alignment(earlier, model, template) if earlier is not None else None
         edits = edits if data is None else library.with_relations(edits, data)
-        alignment = align.align(model, template, specifications, edits=edits, choices=choices)
+        alignment = align(model, template, specifications, edits=edits, choices=choices)
         # A robot description whose bodies are the template's: what it says goes before what was found.
-        declared = align.declared_roles(model, template, alignment)
+        declared = declared_roles(model, template, alignment)
         if declared:
             edits = replace(edits or alignment, parts=(*(edits.parts if edits else ()), *declared))
-            alignment = align.align(model, template, specifications, edits=edits, choices=choices)
+            alignment = align(model, template, specifications, edits=edits, choices=choices)
         return alignment
 
-    assembly = align.to_scale(assembly, template, specifications)
+    assembly = to_scale(assembly, template, specifications)
     alignment = found(assembly)
     apart = cad.taken_apart(assembly) if alignment.missing else assembly
     if apart is not assembly:
@@ -215,19 +235,19 @@ def aligned(
     return assembly, alignment
 
 
-def declared_findings(
+def compare_with_declared(
     assembly: Assembly, template: Template, alignment: Alignment, specifications: Specifications
 ) -> tuple[Finding, ...]:
     """How the joints that the CAD file declares agree with those that its geometry shows."""
     chosen = expand(choose(template, alignment.choices), alignment.counts)
     try:
-        machine = mechanism.build_mechanism(assembly, chosen, alignment, specifications, name=assembly.name)
+        mechanism = build_mechanism(assembly, chosen, alignment, specifications, name=assembly.name)
     except MechanismError:
         return ()
-    return mechanism.declared_findings(mechanism.compare_declared(machine, assembly, alignment), assembly.name)
+    return declared_findings(compare_declared(mechanism, assembly, alignment), assembly.name)
 
 
-def _mechanism(
+def _complete(
     assembly: Assembly,
     template: Template,
     alignment: Alignment,
@@ -235,26 +255,16 @@ def _mechanism(
     data: library.Documents,
 ) -> Mechanism:
     """The mechanism with its cylinders calibrated, limits, mobility and gains found."""
-    machine = mechanism.build_mechanism(
+    mechanism = build_mechanism(
         assembly, template, alignment, specifications, name=template.equipment_type, documents=data
     )
-    return kinematics.complete(kinematics.calibrate(machine))
+    return kinematics.complete(kinematics.calibrate(mechanism))
 
 
-def driven(machine_file: Path, engine: str, progress: Progress) -> tuple[dict[str, Any], tuple[Sweep, ...]]:
+def _driven(machine_file: Path, engine: str, progress: Progress) -> tuple[dict[str, Any], tuple[Sweep, ...]]:
     """A machine in an engine: through all its strokes, on a fixed base, with its rated payload; driving; put to its
     template's tests. As a document, and what there is to look at."""
-    from yellowiron import simulation as simulate
+    from yellowiron import simulation
 
-    load = simulate.rated_payload(usd.read_machine(machine_file))
-    return simulate.examine(machine_file, engine=engine, payload=load, progress=progress)
-
-
-class _Callable(types.ModuleType):
-    """`yellowiron.build` is this module, and to a user the function: importing the one must not hide the other."""
-
-    def __call__(self, *args: Any, **kwargs: Any) -> Machine:
-        return build(*args, **kwargs)
-
-
-sys.modules[__name__].__class__ = _Callable
+    load = simulation.rated_payload(usd.read_machine(machine_file))
+    return simulation.examine(machine_file, engine=engine, payload=load, progress=progress)
