@@ -7,12 +7,18 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from yellowiron.usd.convert import write_assembly
     from yellowiron.usd.counts import count_joints
-    from yellowiron.usd.read import read_machine
+    from yellowiron.usd.read import read_machine, read_mechanism
     from yellowiron.usd.write import write_machine
 
-__all__ = ["count_joints", "read_machine", "write_assembly", "write_machine"]
+__all__ = ["count_joints", "read_machine", "read_mechanism", "write_assembly", "write_machine"]
 
-_HOMES = {"count_joints": "counts", "read_machine": "read", "write_assembly": "convert", "write_machine": "write"}
+_HOMES = {
+    "count_joints": "counts",
+    "read_machine": "read",
+    "read_mechanism": "read",
+    "write_assembly": "convert",
+    "write_machine": "write",
+}
 
 
 def __getattr__(name: str) -> Any:
