@@ -73,8 +73,8 @@ def test_a_crawler_drives_and_turns_on_the_spot(tmp_path: Path) -> None:
     template = load_template(write_tracked_template(tmp_path / "template"))
     aligned = drawn.aligned(shoes=False)
     chosen = expand(choose(template, {"tracks": "belt"}), aligned.counts)
-    machine = build_mechanism(drawn.assembly(), chosen, aligned, Specifications(), name="crawler")
-    file, *_ = write_machine(complete(machine), drawn.assembly(), tmp_path / "out", name="crawler")
+    mechanism = build_mechanism(drawn.assembly(), chosen, aligned, Specifications(), name="crawler")
+    file, *_ = write_machine(complete(mechanism), drawn.assembly(), tmp_path / "out", name="crawler")
     result = drive(file, engine="mujoco")
     assert result.distance == 2.0
     assert result.forward == pytest.approx(2.0, rel=0.05)

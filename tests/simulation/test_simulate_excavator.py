@@ -22,7 +22,7 @@ from yellowiron.simulation.engine import (
     standing_bodies,
     tell,
 )
-from yellowiron.usd import read_machine
+from yellowiron.usd import read_mechanism
 
 pytestmark = pytest.mark.slow
 
@@ -65,7 +65,7 @@ def test_full_strokes_with_a_filled_bucket(
     in_engines.need(engine)
     import_engine(engine)  # before a stage opens: its schemas
     file = built("belt")
-    payload = rated_payload(read_machine(file))
+    payload = rated_payload(read_mechanism(file))
     assert payload.mass == pytest.approx(1530.0, rel=0.01)
     result = simulate(file, engine=engine, base=base, payload_kg=payload.mass, actuators=actuators)
     assert result.completed and result.branches_kept and len(result.branches) >= 4
@@ -106,7 +106,7 @@ def test_shoes_carry_the_machine_and_move_around_the_loop(built: Callable[[str],
     in_engines.need(engine)
     import_engine(engine)
     file = built("shoes")
-    mechanism = read_machine(file)
+    mechanism = read_mechanism(file)
     names, drawn = [b.name for b in mechanism.bodies], np.array([b.origin for b in mechanism.bodies])
     timestep = find_engine(engine).timestep
     standing = standing_bodies(mechanism)

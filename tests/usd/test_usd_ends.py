@@ -12,7 +12,7 @@ from pxr import Gf, Usd, UsdGeom, UsdPhysics
 import small_machine
 from yellowiron.checks import check
 from yellowiron.model.mechanism import Mechanism
-from yellowiron.usd import read_machine, write_machine
+from yellowiron.usd import read_mechanism, write_machine
 from yellowiron.usd.planning.pin_links import SHARE, slewed_cuts
 
 
@@ -65,7 +65,7 @@ def test_a_cut_joins_two_light_links_on_the_pin(slewed: tuple[Mechanism, Path]) 
 @pytest.mark.parametrize("file", ["slewed.usda", "scene.usda"])
 def test_the_mechanism_comes_back_without_them(slewed: tuple[Mechanism, Path], file: str) -> None:
     mechanism, path = slewed
-    read = read_machine(path.parent / file)
+    read = read_mechanism(path.parent / file)
     assert [b.name for b in read.bodies] == [b.name for b in mechanism.bodies]
     for found, built in zip(read.joints, mechanism.joints, strict=True):
         assert (found.name, found.body0, found.body1) == (built.name, built.body0, built.body1)

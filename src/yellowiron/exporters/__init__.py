@@ -6,8 +6,9 @@ documents).
 
 from __future__ import annotations
 
-import importlib
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from yellowiron.support.lazy import lazy_names
 
 if TYPE_CHECKING:
     from yellowiron.exporters.geometry import BodyGeometry, Geometry, read_geometry
@@ -15,16 +16,13 @@ if TYPE_CHECKING:
 
 __all__ = ["BodyGeometry", "Geometry", "actuator_names", "export_mjcf", "read_geometry"]
 
-_HOMES = {
-    "BodyGeometry": "geometry",
-    "Geometry": "geometry",
-    "actuator_names": "mjcf.document",
-    "export_mjcf": "mjcf.document",
-    "read_geometry": "geometry",
-}
-
-
-def __getattr__(name: str) -> Any:
-    if name not in _HOMES:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(importlib.import_module(f"{__name__}.{_HOMES[name]}"), name)
+__getattr__, __dir__ = lazy_names(
+    __name__,
+    {
+        "BodyGeometry": "geometry",
+        "Geometry": "geometry",
+        "actuator_names": "mjcf.document",
+        "export_mjcf": "mjcf.document",
+        "read_geometry": "geometry",
+    },
+)

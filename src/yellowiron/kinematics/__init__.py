@@ -24,8 +24,9 @@ KIN012  a driven joint is drawn outside its limits; the machine starts in the ne
 
 from __future__ import annotations
 
-import importlib
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from yellowiron.support.lazy import lazy_names
 
 if TYPE_CHECKING:
     from yellowiron.kinematics.completion import complete
@@ -37,23 +38,6 @@ if TYPE_CHECKING:
     from yellowiron.kinematics.solver.chain import ClosedChain, KinematicsError, State
     from yellowiron.kinematics.solver.floating import attached
     from yellowiron.kinematics.start import legal_start, started
-
-_HOME = {
-    "ClosedChain": "solver.chain",
-    "KinematicsError": "solver.chain",
-    "State": "solver.chain",
-    "attached": "solver.floating",
-    "branch_pivots": "solver.branches",
-    "branch_sine": "solver.branches",
-    "calibrate": "measuring.calibration",
-    "complete": "completion",
-    "key_poses": "measuring.measurement",
-    "legal_start": "start",
-    "lever_table": "levers",
-    "measure": "measuring.measurement",
-    "pose_tables": "poses",
-    "started": "start",
-}
 
 __all__ = [
     "ClosedChain",
@@ -72,8 +56,22 @@ __all__ = [
     "started",
 ]
 
-
-def __getattr__(name: str) -> Any:
-    if name not in _HOME:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(importlib.import_module(f"{__name__}.{_HOME[name]}"), name)
+__getattr__, __dir__ = lazy_names(
+    __name__,
+    {
+        "ClosedChain": "solver.chain",
+        "KinematicsError": "solver.chain",
+        "State": "solver.chain",
+        "attached": "solver.floating",
+        "branch_pivots": "solver.branches",
+        "branch_sine": "solver.branches",
+        "calibrate": "measuring.calibration",
+        "complete": "completion",
+        "key_poses": "measuring.measurement",
+        "legal_start": "start",
+        "lever_table": "levers",
+        "measure": "measuring.measurement",
+        "pose_tables": "poses",
+        "started": "start",
+    },
+)

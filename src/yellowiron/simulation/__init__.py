@@ -25,8 +25,9 @@ SIM009  driving: a distance, turning radius, turn on the spot or swing is off by
 
 from __future__ import annotations
 
-import importlib
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from yellowiron.support.lazy import lazy_names
 
 if TYPE_CHECKING:
     from yellowiron.simulation.driving.wheeled import DrivingResult, drive, driving_document
@@ -37,25 +38,6 @@ if TYPE_CHECKING:
     from yellowiron.simulation.strokes.result import SimulationResult, simulation_document
     from yellowiron.simulation.strokes.run import simulate
     from yellowiron.simulation.suite import examine
-
-_HOMES = {
-    "DrivingResult": "driving.wheeled",
-    "drive": "driving.wheeled",
-    "driving_document": "driving.wheeled",
-    "examine": "suite",
-    "ENGINES": "engine",
-    "Engine": "engine",
-    "Figure": "machine_tests.figures",
-    "Setup": "engine",
-    "SimulationResult": "strokes.result",
-    "installed_engines": "engine",
-    "parse_payload": "payload",
-    "rated_payload": "payload",
-    "run_tests": "machine_tests.hydraulics",
-    "simulate": "strokes.run",
-    "simulation_document": "strokes.result",
-    "figures_document": "machine_tests.figures",
-}
 
 __all__ = [
     "ENGINES",
@@ -76,8 +58,24 @@ __all__ = [
     "simulation_document",
 ]
 
-
-def __getattr__(name: str) -> Any:
-    if name not in _HOMES:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(importlib.import_module(f"{__name__}.{_HOMES[name]}"), name)
+__getattr__, __dir__ = lazy_names(
+    __name__,
+    {
+        "DrivingResult": "driving.wheeled",
+        "ENGINES": "engine",
+        "Engine": "engine",
+        "Figure": "machine_tests.figures",
+        "Setup": "engine",
+        "SimulationResult": "strokes.result",
+        "drive": "driving.wheeled",
+        "driving_document": "driving.wheeled",
+        "examine": "suite",
+        "figures_document": "machine_tests.figures",
+        "installed_engines": "engine",
+        "parse_payload": "payload",
+        "rated_payload": "payload",
+        "run_tests": "machine_tests.hydraulics",
+        "simulate": "strokes.run",
+        "simulation_document": "strokes.result",
+    },
+)

@@ -39,9 +39,9 @@ def rated_payload(mechanism: Mechanism) -> RatedPayload:
 def parse_payload(text: str, usd_path: str | Path) -> RatedPayload:
     """A payload as a person gives it: kilograms, or `rated` for the machine file's own (`rated_payload`)."""
     if text.strip().casefold() == "rated":
-        from yellowiron.usd import read_machine
+        from yellowiron.usd import read_mechanism
 
-        return rated_payload(read_machine(usd_path))
+        return rated_payload(read_mechanism(usd_path))
     try:
         value, unit = parse_quantity(text, where="--payload")
     except YellowironError:

@@ -106,7 +106,7 @@ def _driven(
     usd_path: str | Path, engine: str, dt: float | None, progress: Callable[[str], None]
 ) -> tuple[dict[str, Any], Sequence[Finding]]:
     try:
-        wheels(usd.read_machine(usd_path))
+        wheels(usd.read_mechanism(usd_path))
     except YellowironError as error:
         return {"driving": None, "driving_reason": error.message}, ()
     progress(f"Driving in {engine}")

@@ -32,7 +32,7 @@ _SINGLE = 2.0**-22
 """Relative distance within which a double and a single-precision attribute say the same."""
 
 
-def read_machine(path: str | Path) -> Mechanism:
+def read_mechanism(path: str | Path) -> Mechanism:
     """The mechanism in a machine file, or in a scene that holds one. SI, machine frame, drawn pose.
 
     `YellowironError` where the file is no USD, references that it needs are missing, or there is no machine of ours.
@@ -51,6 +51,10 @@ def read_machine(path: str | Path) -> Mechanism:
         raise YellowironError(
             "The machine's data is damaged", where=str(path), hint=f"Build the machine again. USD says: {_short(error)}"
         ) from error
+
+
+read_machine = read_mechanism
+"""The former name, until `build`, `cli` and the front of `yellowiron` say `read_mechanism`."""
 
 
 def open_stage(path: str | Path) -> Usd.Stage:

@@ -39,7 +39,7 @@ _STOPS = 12
 Measured = Callable[[State], float]
 
 
-class Machine(Protocol):
+class StrokeBench(Protocol):
     """What is needed of a bench: `range` gives a driven coordinate's two ends, `driven` the joint an actuator drives,
     `value` a quantity in a state (SI)."""
 
@@ -56,12 +56,12 @@ class Strokes:
     """The poses of several actuators over their strokes, all others as in `start`. Coordinates are shares (n,) of the
     strokes, 0 to 1, from the shorter end of each driven slide."""
 
-    def __init__(self, machine: Machine, actuators: Sequence[str], start: State) -> None:
+    def __init__(self, bench: StrokeBench, actuators: Sequence[str], start: State) -> None:
         """`Unmeasurable` where an actuator is not there or has no stroke."""
-        self._machine = machine
-        self._chain = machine.chain
-        self.joints = tuple(machine.driven(name) for name in actuators)
-        ends = np.array([sorted(machine.range(name)) for name in actuators]).reshape(-1, 2)
+        self._bench = bench
+        self._chain = bench.chain
+        self.joints = tuple(bench.driven(name) for name in actuators)
+        ends = np.array([sorted(bench.range(name)) for name in actuators]).reshape(-1, 2)
         self._low, self._span = ends[:, 0], ends[:, 1] - ends[:, 0]
         for name, width in zip(actuators, self._span, strict=True):
             if not width > 0.0:
@@ -110,7 +110,7 @@ class Strokes:
         """A quantity on the lattice (count, …); NaN where the linkage locks."""
         key = repr(quantity)
         if key not in self._values:
-            value = self._machine.value
+            value = self._bench.value
             flat = [math.nan if state is None else value(quantity, state) for state in self.states.ravel()]
             self._values[key] = np.array(flat).reshape(self.states.shape)
         return self._values[key]
@@ -135,7 +135,7 @@ class Strokes:
 
     def measured(self, quantity: Mapping[str, Any]) -> Callable[[Floats], float]:
         """A quantity as a function of the shares."""
-        return lambda shares: self._machine.value(quantity, self.at(shares))
+        return lambda shares: self._bench.value(quantity, self.at(shares))
 
     def begin(self, index: Sequence[int]) -> Floats:
         """The shares of a lattice point, from which the next state is reached."""

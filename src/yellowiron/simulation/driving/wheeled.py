@@ -33,7 +33,7 @@ from yellowiron.simulation.engine import (
 )
 from yellowiron.simulation.loads import paces
 from yellowiron.simulation.payload import with_payload
-from yellowiron.usd import read_machine
+from yellowiron.usd import read_mechanism
 
 DISTANCE = 5.0
 SPEED = 1.0
@@ -195,7 +195,7 @@ def drive(usd_path: str | Path, *, engine: str, payload_kg: float = 0.0, dt: flo
     Raises `YellowironError` for an unknown engine, one that is not installed, and a machine without driven wheels.
     """
     entry = find_engine(engine)
-    read = read_machine(usd_path)
+    read = read_mechanism(usd_path)
     mechanism = with_payload(read, payload_kg)
     heavier = tuple(b for b, old in zip(mechanism.bodies, read.bodies, strict=True) if b is not old)
     trip = _Trip(engine, Path(usd_path), mechanism, heavier, entry.timestep if dt is None else dt)

@@ -63,7 +63,7 @@ def run_tests(
     """
     step = find_engine(engine).timestep if dt is None else dt
     import_engine(engine)
-    mechanism = attached(usd.read_machine(usd_path))
+    mechanism = attached(usd.read_mechanism(usd_path))
     known = [test.name for test in mechanism.tests]
     for name in names or ():
         if name not in known:
