@@ -14,7 +14,7 @@ machine_file = sys.argv[1] if len(sys.argv) > 1 else "out/wheel_loader/wheel_loa
 picture = sys.argv[2] if len(sys.argv) > 2 else "out/bucket_height.png"
 
 # %% The machine as a mechanism: bodies, joints, actuators, sites. Metres and radians from the drawn pose.
-mechanism = yi.read_machine(machine_file)
+mechanism = yi.read_mechanism(machine_file)
 chain = yi.ClosedChain(mechanism)
 boom = next(a for a in mechanism.actuators if a.name == "boom").joints[0].joint
 hinge = next(site for site in mechanism.sites if site.name == "hinge_pin")

@@ -10,8 +10,9 @@ The public names; each is imported on first use, because CAD, USD and physics li
 
 from __future__ import annotations
 
-import importlib
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from yellowiron.support.lazy import lazy_names
 
 if TYPE_CHECKING:
     from yellowiron.api import Roles, align, check, convert, export, extract, measure, new_template, simulate
@@ -24,35 +25,9 @@ if TYPE_CHECKING:
     from yellowiron.model.template import Template
     from yellowiron.pipeline import Machine, build
     from yellowiron.specs import ModelOptions
-    from yellowiron.usd import read_machine, write_machine
+    from yellowiron.usd import read_mechanism, write_machine
 
 __version__ = "0.2.0"
-
-_HOMES = {
-    "ClosedChain": "kinematics",
-    "Machine": "pipeline",
-    "Mechanism": "model.mechanism",
-    "ModelOptions": "specs",
-    "Roles": "api",
-    "Specifications": "model.specification",
-    "Template": "model.template",
-    "YellowironError": "model.errors",
-    "align": "api",
-    "build": "pipeline",
-    "check": "api",
-    "convert": "api",
-    "export": "api",
-    "extract": "api",
-    "lint": "library",
-    "list_templates": "library",
-    "load_template": "library",
-    "measure": "api",
-    "new_template": "api",
-    "read_cad": "cad",
-    "read_machine": "usd",
-    "simulate": "api",
-    "write_machine": "usd",
-}
 
 __all__ = [
     "ClosedChain",
@@ -76,17 +51,36 @@ __all__ = [
     "measure",
     "new_template",
     "read_cad",
-    "read_machine",
+    "read_mechanism",
     "simulate",
     "write_machine",
 ]
 
-
-def __getattr__(name: str) -> Any:
-    if name not in _HOMES:
-        raise AttributeError(f"module 'yellowiron' has no attribute '{name}'")
-    return getattr(importlib.import_module(f"yellowiron.{_HOMES[name]}"), name)
-
-
-def __dir__() -> list[str]:
-    return sorted(__all__)
+__getattr__, __dir__ = lazy_names(
+    __name__,
+    {
+        "ClosedChain": "kinematics",
+        "Machine": "pipeline",
+        "Mechanism": "model.mechanism",
+        "ModelOptions": "specs",
+        "Roles": "api",
+        "Specifications": "model.specification",
+        "Template": "model.template",
+        "YellowironError": "model.errors",
+        "align": "api",
+        "build": "pipeline",
+        "check": "api",
+        "convert": "api",
+        "export": "api",
+        "extract": "api",
+        "lint": "library",
+        "list_templates": "library",
+        "load_template": "library",
+        "measure": "api",
+        "new_template": "api",
+        "read_cad": "cad",
+        "read_mechanism": "usd",
+        "simulate": "api",
+        "write_machine": "usd",
+    },
+)

@@ -120,7 +120,7 @@ def measure(machine: Machine | Mechanism | Path | str) -> tuple[Measurement, ...
     metres and radians."""
     from yellowiron import kinematics, usd
 
-    return kinematics.measure(machine if isinstance(machine, Mechanism) else usd.read_machine(_file(machine)))
+    return kinematics.measure(machine if isinstance(machine, Mechanism) else usd.read_mechanism(_file(machine)))
 
 
 def simulate(
@@ -156,7 +156,7 @@ def export(
     file = _file(machine)
     with output_folder(Path(out)) as folder:
         progress("Writing MJCF")
-        inside = export_mjcf(usd.read_machine(file), file, folder).relative_to(folder)
+        inside = export_mjcf(usd.read_mechanism(file), file, folder).relative_to(folder)
     return Path(out) / inside
 
 

@@ -11,7 +11,8 @@ def lazy_names(package: str, homes: Mapping[str, str]) -> tuple[Callable[[str], 
     """The module functions `__getattr__` and `__dir__` (PEP 562) of a package whose names are imported on first use.
 
     `package` is its `__name__`; `homes` says of each name which module inside the package defines it, dotted from
-    there ("solver.chain"). `AttributeError` for every other name, as for a module without `__getattr__`.
+    there ("solver.chain"). `dir` gives the package's `__all__`. `AttributeError` for every other name, as for a module
+    without `__getattr__`.
     """
 
     def find(name: str) -> Any:
@@ -20,6 +21,6 @@ def lazy_names(package: str, homes: Mapping[str, str]) -> tuple[Callable[[str], 
         return getattr(importlib.import_module(f"{package}.{homes[name]}"), name)
 
     def names() -> list[str]:
-        return sorted({*vars(importlib.import_module(package)), *homes})
+        return sorted(importlib.import_module(package).__all__)
 
     return find, names

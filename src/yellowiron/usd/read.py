@@ -53,10 +53,6 @@ def read_mechanism(path: str | Path) -> Mechanism:
         ) from error
 
 
-read_machine = read_mechanism
-"""The former name, until `build`, `cli` and the front of `yellowiron` say `read_mechanism`."""
-
-
 def open_stage(path: str | Path) -> Usd.Stage:
     """The composed stage of a USD file; `YellowironError` where it is none or does not compose."""
     file = Path(path)
