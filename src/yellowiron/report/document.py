@@ -1,4 +1,4 @@
-"""`report.json`: everything a build decided and measured, as one document (DESIGN: the command line)."""
+"""`report.json`: everything a build decided and measured, as one document (docs/report.md)."""
 
 from __future__ import annotations
 
