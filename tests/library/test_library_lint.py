@@ -80,7 +80,7 @@ def test_lint_defect(file: Path, tmp_path: Path) -> None:
 
 
 def test_every_code_is_documented_and_tested(root: Path) -> None:
-    source = "".join(p.read_text(encoding="utf-8") for p in (root / "src/yellowiron/library").glob("*.py"))
+    source = "".join(p.read_text(encoding="utf-8") for p in (root / "src/yellowiron/library").rglob("*.py"))
     documented = (root / "docs/template-format.md").read_text(encoding="utf-8")
     codes = {f"{family}{number:03d}" for family in ("TPL", "DOC") for number in range(1, 40)}
     used = {code for code in codes if f'"{code}"' in source}

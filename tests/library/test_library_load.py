@@ -15,8 +15,8 @@ from hypothesis import strategies as st
 from rich.console import Console
 
 from yellowiron import library
-from yellowiron.library.load import DOCUMENTS, library_folder
-from yellowiron.library.parsing.quantities import limit, number_text, quantity
+from yellowiron.library.notation.quantities import limit, number_text, quantity
+from yellowiron.library.type_folders import DOCUMENTS, library_folder
 from yellowiron.model.errors import OutputError
 from yellowiron.model.template import Template, choose
 from yellowiron.model.units import SI_UNIT

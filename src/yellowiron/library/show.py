@@ -5,8 +5,8 @@ from __future__ import annotations
 from rich.text import Text
 from rich.tree import Tree
 
+from yellowiron.library.notation.quantities import number_text
 from yellowiron.library.parsing.joints import DIMENSION
-from yellowiron.library.parsing.quantities import number_text
 from yellowiron.model.rows import split_index
 from yellowiron.model.template import Choices, JointTemplate, Role, Template
 from yellowiron.model.units import SI_UNIT

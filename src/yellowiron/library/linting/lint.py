@@ -8,8 +8,8 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from yellowiron.library.linting.mobility import Group, TemplateMobility, blocks, mobility, welded_ends
+from yellowiron.library.notation.validated_json import near
 from yellowiron.library.parsing.joints import DIMENSION, stated_gains
-from yellowiron.library.parsing.json_documents import near
 from yellowiron.library.parsing.machine_tests import lint_tests
 from yellowiron.model.finding import Finding
 from yellowiron.model.rows import expand, rings, split_index

@@ -10,7 +10,7 @@ import re
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
-from yellowiron.library.parsing.json_documents import Document
+from yellowiron.library.notation.validated_json import Document
 from yellowiron.model.errors import TemplateError
 from yellowiron.model.rows import split_index
 from yellowiron.model.template import ActuatorTemplate, CylinderTemplate, JointTemplate, Role, Template

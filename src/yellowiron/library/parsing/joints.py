@@ -6,9 +6,9 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any, cast
 
-from yellowiron.library.parsing.hierarchy import choices_of, yes
-from yellowiron.library.parsing.json_documents import Document, near
-from yellowiron.library.parsing.quantities import limit
+from yellowiron.library.notation.quantities import limit, yes
+from yellowiron.library.notation.validated_json import Document, near
+from yellowiron.library.parsing.variants import choices_of
 from yellowiron.model.errors import TemplateError
 from yellowiron.model.rows import split_index
 from yellowiron.model.specification import fold

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from yellowiron.library.parsing.details import in_si
-from yellowiron.library.parsing.hierarchy import yes
-from yellowiron.library.parsing.json_documents import Document, near
-from yellowiron.library.parsing.quantities import quantity
+from yellowiron.library.notation.quantities import quantity, yes
+from yellowiron.library.notation.validated_json import Document, near
+from yellowiron.library.parsing.measurements import in_si
 from yellowiron.model.errors import TemplateError
 from yellowiron.model.finding import Finding
 from yellowiron.model.machine_tests import MachineTest, PayloadTemplate, RatedLoad

@@ -7,9 +7,9 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Any
 
-from yellowiron.library.parsing.hierarchy import choices_of
-from yellowiron.library.parsing.json_documents import Document, near
-from yellowiron.library.parsing.quantities import quantity
+from yellowiron.library.notation.quantities import quantity
+from yellowiron.library.notation.validated_json import Document, near
+from yellowiron.library.parsing.variants import choices_of
 from yellowiron.model.errors import TemplateError
 from yellowiron.model.sensor import FRAME_TYPES, PARAMETERS, SensorTemplate
 from yellowiron.model.specification import fold

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from yellowiron.library.parsing.details import matches
+from yellowiron.library.notation.role_keys import matches
 from yellowiron.library.proposal.likeness import Likeness
 from yellowiron.library.proposal.naming import plain, proposed_names, title
 from yellowiron.model.found import FoundJoint, FoundMachine

@@ -16,10 +16,12 @@ from typing import Any
 
 import numpy as np
 
-from yellowiron.library.parsing.details import EVERYTHING, check_choices, matches, read_material
+from yellowiron.library.notation.role_keys import EVERYTHING, matches
+from yellowiron.library.notation.validated_json import Document, check_document, near, read_json, template_schema, where
 from yellowiron.library.parsing.joints import check_bodies, read_joint
-from yellowiron.library.parsing.json_documents import Document, check_document, near, read_json, template_schema, where
+from yellowiron.library.parsing.materials import read_material
 from yellowiron.library.parsing.sensors import merged, read_sensor
+from yellowiron.library.parsing.variants import check_choices
 from yellowiron.model.alignment import Alignment, PartAssignment
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import TemplateError
