@@ -11,7 +11,7 @@ from yellowiron.model.errors import TemplateError
 from yellowiron.model.specification import fold
 from yellowiron.model.template import ActuatorTemplate, CylinderTemplate, JointTemplate
 
-QUANTITY_DIMENSION: Mapping[str, str] = {
+_QUANTITY_DIMENSION: Mapping[str, str] = {
     "bore": "length",
     "rod_diameter": "length",
     "stroke": "length",
@@ -86,7 +86,7 @@ def read_actuators(document: Document, joints: tuple[JointTemplate, ...]) -> tup
 
 def _default(key: str, value: float | str, where: str) -> float:
     """An actuator's default in SI; a speed may be a turning one ("11 rpm")."""
-    dimension = QUANTITY_DIMENSION[key]
+    dimension = _QUANTITY_DIMENSION[key]
     if dimension == "speed" and isinstance(value, str) and value.strip().endswith(("rpm", "rad/s", "deg/s")):
         dimension = "angular_speed"
     return quantity(value, dimension, where=where)

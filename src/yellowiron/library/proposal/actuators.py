@@ -17,11 +17,11 @@ QUANTITIES = {
     "stroke": ("Stroke", "length", "upper limit of the cylinder's slide"),
     "closed_length": ("Closed Length", "length", "how far the drawn cylinder is out"),
 }
-OILS = {
+_OILS = {
     "pressure": ("Relief Pressure", "pressure", "the cylinders' force"),
     "flow": ("Pump Flow", "flow", "the cylinders' speed"),
 }
-MOTORS = {
+_MOTORS = {
     "speed": ("Speed", "angular_speed", "the motor's top speed"),
     "torque": ("Torque", "torque", "the motor's torque"),
 }
@@ -51,7 +51,7 @@ def add_cylinders(draft: Draft) -> None:
             }  # fmt: skip
             cylinders.append(cylinder | ({"sign": sign} if sign < 0 else {}) | ({"passive": "Y"} if place else {}))
         said = {q: draft.want(f"{title(name)} Cylinder {w}", d, use) for q, (w, d, use) in QUANTITIES.items()}
-        said |= {q: draft.want(f"{w}", d, use) for q, (w, d, use) in OILS.items()}
+        said |= {q: draft.want(f"{w}", d, use) for q, (w, d, use) in _OILS.items()}
         draft.actuators[name] = {"kind": "cylinder", "cylinders": cylinders, "specifications": said}
 
 
@@ -140,5 +140,5 @@ def add_motors(draft: Draft) -> None:
 
 def _motor(draft: Draft, name: str, joints: list[str]) -> None:
     name = _own(draft, name, f"{name}_motor")
-    said = {q: draft.want(f"{title(name)} {w}", d, use) for q, (w, d, use) in MOTORS.items()}
+    said = {q: draft.want(f"{title(name)} {w}", d, use) for q, (w, d, use) in _MOTORS.items()}
     draft.actuators[name] = {"kind": "motor", "joints": joints, "specifications": said}

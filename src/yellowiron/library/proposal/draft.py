@@ -14,7 +14,7 @@ Json = dict[str, Any]
 @dataclass
 class Draft:
     """The template while it is written. `names` and `reasons` of the bodies and `joint_names`, in the order of
-    the machine's; `pins`: role → (body that carries it, its parts); `joints`, `wanted`, `actuators` as in their files."""
+    the machine's; `pins`: role → (body that carries it, its parts); the rest as in the files of that name."""
 
     machine: FoundMachine
     names: list[str]
