@@ -49,7 +49,7 @@ def test_library_documents_are_valid_as_they_are_written(equipment_type: str) ->
 
 
 def test_schemas_are_schemas() -> None:
-    for kind in (*DOCUMENTS, "joint_overrides"):
+    for kind in (*DOCUMENTS, "joint_overrides", "common"):
         jsonschema.Draft202012Validator.check_schema(library.template_schema(kind))
 
 

@@ -6,8 +6,8 @@ machine that has none (`propose`), a copy to edit, its joints with numbers fille
 
 `notation` is how documents are written, `type_folders` where they are, `parsing` what each says; `load` makes of them
 a template. On these stand `user_documents` (`--data`), `linting`, `proposal`, `copying`, `filled` and `show`, none of
-which knows another. `data` has a folder for each type, and `common.json`, what types ask a sheet for alike; `schema` the
-JSON Schema of every document. A type is a folder: none is named in code.
+which knows another. `data` has a folder for each type, and `common.json`, what types ask a sheet for alike; `schema`
+the JSON Schema of every document. A type is a folder: none is named in code.
 """
 
 from yellowiron.library.copying import copy_template
