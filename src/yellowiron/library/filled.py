@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from yellowiron.library.notation.quantities import number_text
 from yellowiron.library.parsing.joints import DIMENSION, stated_gains
-from yellowiron.library.parsing.quantities import number_text
 from yellowiron.model.mechanism import Mechanism
 from yellowiron.model.specification import Specification, Specifications
 from yellowiron.model.template import JointTemplate, Template

@@ -17,11 +17,13 @@ from yellowiron.model.rows import split_index
 from yellowiron.model.template import JointTemplate, Template
 from yellowiron.support.graphs import blocks, components
 
-SPATIAL_FREEDOM: Mapping[str, int] = {"fixed": 0, "distance": 5, "spherical": 3, "revolute": 1, "prismatic": 1}
+_SPATIAL_FREEDOM: Mapping[str, int] = {"fixed": 0, "distance": 5, "spherical": 3, "revolute": 1, "prismatic": 1}
 """Joint type → its degrees of freedom in space."""
 _PLANAR_FREEDOM: Mapping[str, int] = {"distance": 2, "spherical": 1, "revolute": 1, "prismatic": 1}
 _SAMPLES = 3
+"""Random poses looked at: one already has the generic rank with probability 1."""
 _RANK_TOLERANCE = 1e-9
+"""Singular values below it are 0: of the library's types the least that is not is 3e-3, and round-off 1e-15."""
 
 
 @dataclass(frozen=True)
@@ -59,30 +61,30 @@ def mobility(template: Template, choices: Mapping[str, str]) -> TemplateMobility
     that are not expanded."""
     joints = [j for j in template.joints if not j.ring and not any(split_index(p)[1] for p in j.parts)]
     ends = welded_ends(template, joints)
-    coordinates = coordinates_of(template)
+    coordinates = _coordinates_of(template)
     groups, loose = [], []
     computed = planar = 0
     for names in blocks(ends):
         members = [template.joint(n) for n in names]
         if len(members) == 1:
-            computed += SPATIAL_FREEDOM[members[0].type]
-            planar += SPATIAL_FREEDOM[members[0].type]
+            computed += _SPATIAL_FREEDOM[members[0].type]
+            planar += _SPATIAL_FREEDOM[members[0].type]
             loose += [n for n in names if n not in coordinates]
             continue
         bodies = tuple(dict.fromkeys(b for n in names for b in ends[n]))
         count = 3 * (len(bodies) - 1) - sum(3 - _PLANAR_FREEDOM[j.type] for j in members)
-        free = generic_freedom(bodies, members, ends)
+        free = _generic_freedom(bodies, members, ends)
         given = frozenset(names) & frozenset(coordinates)
-        left = generic_freedom(bodies, members, ends, held=given)
+        left = _generic_freedom(bodies, members, ends, held=given)
         groups.append(Group(bodies, names, count, free, len(given), left))
         computed += free
         planar += count
     bodies = tuple(dict.fromkeys(b for pair in ends.values() for b in pair))
-    spatial = 6 * (len(bodies) - 1) - sum(6 - SPATIAL_FREEDOM[template.joint(n).type] for n in ends)
+    spatial = 6 * (len(bodies) - 1) - sum(6 - _SPATIAL_FREEDOM[template.joint(n).type] for n in ends)
     return TemplateMobility(choices, computed, len(coordinates), planar, spatial, tuple(groups), tuple(loose))
 
 
-def coordinates_of(template: Template) -> tuple[str, ...]:
+def _coordinates_of(template: Template) -> tuple[str, ...]:
     """The joints whose coordinates are given from outside: the driven cylinders' slides (not their passive twins'),
     motor joints, and free joints."""
     slides = [c.slide for a in template.actuators for c in a.cylinders if not c.passive]
@@ -111,7 +113,7 @@ def welded_ends(template: Template, joints: Iterable[JointTemplate]) -> dict[str
     return {name: pair for name, pair in welded.items() if pair[0] != pair[1]}
 
 
-def generic_freedom(
+def _generic_freedom(
     bodies: tuple[str, ...],
     joints: Iterable[JointTemplate],
     ends: Mapping[str, tuple[str, str]],

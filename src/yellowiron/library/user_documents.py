@@ -16,10 +16,12 @@ from typing import Any
 
 import numpy as np
 
-from yellowiron.library.parsing.details import EVERYTHING, check_choices, matches, read_material
+from yellowiron.library.notation.role_keys import EVERYTHING, matches
+from yellowiron.library.notation.validated_json import Document, check_document, near, read_json, template_schema, where
 from yellowiron.library.parsing.joints import check_bodies, read_joint
-from yellowiron.library.parsing.json_documents import Document, check_document, near, read_json, template_schema, where
-from yellowiron.library.parsing.sensors import merged, read_sensor
+from yellowiron.library.parsing.materials import read_material
+from yellowiron.library.parsing.sensors import read_sensor
+from yellowiron.library.parsing.variants import check_choices
 from yellowiron.model.alignment import Alignment, PartAssignment
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import TemplateError
@@ -133,7 +135,10 @@ def apply_joints(template: Template, documents: Documents) -> Template:
 
 def apply_sensors(template: Template, documents: Documents) -> Template:
     """The template with the documents' sensors: theirs replace those of the same name, new ones come after."""
-    return merged(template, documents.sensors)
+    sensors = [documents.sensors.get(s.name, s) for s in template.sensors]
+    known = {s.name for s in template.sensors}
+    sensors += [s for name, s in documents.sensors.items() if name not in known]
+    return replace(template, sensors=tuple(sensors))
 
 
 def with_relations(edits: Alignment | None, documents: Documents) -> Alignment | None:

@@ -1,4 +1,4 @@
-"""Numbers of a template: bare ones are metres and degrees, texts may carry a unit or name a specification."""
+"""Numbers and flags of a template: bare numbers are metres, degrees; texts may have a unit or name a specification."""
 
 from __future__ import annotations
 
@@ -82,6 +82,11 @@ def in_unit(value: float | str, unit: str, *, where: str) -> float:
     if not (math.isfinite(number) and number > 0.0):
         raise TemplateError(f"'{value}' should be more than 0 and finite", where=where)
     return number
+
+
+def yes(value: object) -> bool:
+    """`"Y"` or true."""
+    return value is True or value == "Y"
 
 
 def number_text(value: float, unit: str) -> str:

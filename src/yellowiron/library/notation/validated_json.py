@@ -63,7 +63,7 @@ def _schema_text(kind: str) -> str:
 
 def template_schema(kind: str) -> dict[str, Any]:
     """The published JSON Schema of a document: `hierarchy`, `relations`, `joints`, `joint_overrides`, `materials`,
-    `collision`, `wanted`, `variants`, `actuators`, `measurements`, `tests`, `reference`, `sensors` or `words`."""
+    `collision`, `wanted`, `common`, `variants`, `actuators`, `measurements`, `tests`, `sensors` or `words`."""
     try:
         text = _schema_text(kind)
         shared = re.search(r'"(\w+)\.json#/', text)
