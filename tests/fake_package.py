@@ -1,4 +1,4 @@
-"""A package as another project would install it: modules and entry points in a folder that is put on the import path."""
+"""A package as another project would install it: modules and entry points in a folder on the import path."""
 
 from __future__ import annotations
 

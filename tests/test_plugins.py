@@ -3,8 +3,8 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from fake_package import install_package
 
+from fake_package import install_package
 from yellowiron.model.errors import YellowironError
 from yellowiron.support.plugins import find_plugins, installed
 

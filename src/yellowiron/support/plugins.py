@@ -1,6 +1,6 @@
 """What other installed packages add to yellowiron: the entry points of a group, in the order of their names.
 
-A package names them in its `pyproject.toml`, `[project.entry-points."yellowiron.engines"]`, as `name = "module:object"`.
+A package names them in its `pyproject.toml` under `[project.entry-points."yellowiron.engines"]`: `name = "module:object"`.
 Nothing is looked up before it is asked for, and nothing of a package is imported before its entry is loaded.
 """
 
@@ -37,7 +37,7 @@ class Plugin:
         """The object that it names; `YellowironError` where that cannot be imported or is no `kind`."""
         try:
             found = self.entry.load()
-        except Exception as error:  # noqa: BLE001 - whatever another package throws becomes one sentence here
+        except Exception as error:
             said = " ".join(f"{type(error).__name__}: {error}".split())[:300]
             raise YellowironError(
                 f"The plugin '{self.name}' cannot be loaded: {said}",
