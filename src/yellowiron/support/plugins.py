@@ -1,7 +1,8 @@
 """What other installed packages add to yellowiron: the entry points of a group, in the order of their names.
 
-A package names them in its `pyproject.toml` under `[project.entry-points."yellowiron.engines"]`: `name = "module:object"`.
-Nothing is looked up before it is asked for, and nothing of a package is imported before its entry is loaded.
+A package names them in its `pyproject.toml`, for engines under `[project.entry-points."yellowiron.engines"]`, as
+`name = "module:object"`. Nothing is looked up before it is asked for, and nothing of a package is imported before its
+entry is loaded.
 """
 
 from __future__ import annotations

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from yellowiron.checks.graph import KINDS, Island, reversed_joints, root_body
+from yellowiron.checks.islands import Island, reversed_joints, root_body
+from yellowiron.checks.loops import KINDS
 from yellowiron.checks.rule import Remarks, rule
-from yellowiron.checks.view import WORLD, View
+from yellowiron.checks.values import WORLD
+from yellowiron.checks.view import View
 
 
 @rule(
@@ -110,6 +112,3 @@ def reversed_joint(view: View) -> Remarks:
             of_tree = [j for j in joints if set(tree).intersection(j.bodies)]
             for joint in reversed_joints(of_tree, root_body(island, tree, recorded)):
                 yield joint.path, f"Its body0 {joint.bodies[0].rsplit('/', 1)[-1]} hangs from its body1."
-
-
-RULES = (no_root, several_roots, uncut_loop, cut_in_two, cut_slide, reversed_joint)

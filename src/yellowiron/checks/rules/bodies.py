@@ -126,6 +126,3 @@ def no_physics(view: View) -> Remarks:
     """There is no physics."""
     if not view.bodies and not view.broken:
         yield view.name, "The file has no rigid body."
-
-
-RULES = (nested, stretched, mirrored, kinematic, disabled, loose, stranded_collider, no_physics)

@@ -6,9 +6,10 @@ import math
 
 import numpy as np
 
-from yellowiron.checks.graph import KINDS
+from yellowiron.checks.loops import KINDS
 from yellowiron.checks.rule import Remarks, rule
-from yellowiron.checks.view import LINEAR, Joint, View, direction
+from yellowiron.checks.values import LINEAR, StageJoint, direction
+from yellowiron.checks.view import View
 
 _APART = 1e-4
 """Metres, and of the machine's size where that is more than 10 m: SimReady's DJ.003."""
@@ -20,7 +21,7 @@ _AT_ZERO = (1e-3, 1e-3)
 _MOST = 4
 
 
-def _joined(view: View) -> list[Joint]:
+def _joined(view: View) -> list[StageJoint]:
     """Joints whose both ends are somewhere, with frames that are numbers."""
     return [
         j
@@ -104,6 +105,3 @@ def odd_zero(view: View) -> Remarks:
                 else f"{math.degrees(joint.coordinate):.4g}°"
             )
             yield joint.path, f"It is drawn at {value}, all others at 0."
-
-
-RULES = (apart, turned, no_rotation, odd_zero)

@@ -9,9 +9,10 @@ from typing import Any
 
 import numpy as np
 
-from yellowiron.checks.graph import KINDS
+from yellowiron.checks.loops import KINDS
 from yellowiron.checks.rule import Remarks, rule
-from yellowiron.checks.view import WORLD, Joint, View, direction
+from yellowiron.checks.values import WORLD, StageJoint, direction
+from yellowiron.checks.view import View
 from yellowiron.model.geometry import Floats
 
 _MOVED = 1e-4
@@ -50,7 +51,7 @@ def _vector(value: Any) -> Floats | None:
     return found if found.shape == (3,) and np.isfinite(found).all() else None
 
 
-def _recorded(view: View) -> Iterator[tuple[Joint, Mapping[str, Any]]]:
+def _recorded(view: View) -> Iterator[tuple[StageJoint, Mapping[str, Any]]]:
     for joint in view.joints:
         if joint.record.get("kind") == "joint":
             yield joint, joint.record
@@ -226,6 +227,3 @@ def _same(value: float | None, built: float | None) -> bool:
 
 def _say(value: float | None) -> str:
     return "none" if value is None else f"{value:.5g}"
-
-
-RULES = (gone, changed, moved, edited_limits, edited_drive, edited_mass, mobility)
