@@ -12,7 +12,7 @@ import numpy as np
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Actuator, Mechanism, rolling
-from yellowiron.simulation.engine import standing_bodies
+from yellowiron.simulation.ground import standing_bodies
 
 SHARE = 0.02
 """Of the stroke, left at both ends."""

@@ -12,7 +12,7 @@ import numpy as np
 from yellowiron.kinematics import ClosedChain
 from yellowiron.model.geometry import Floats
 from yellowiron.simulation.commands import Motion
-from yellowiron.simulation.driving.wheeled import Wheel
+from yellowiron.simulation.driving.wheel import DrivenWheel
 
 _SAMPLE = 0.05
 _LEAST = 1e-6
@@ -20,7 +20,7 @@ _LEAST = 1e-6
 
 def rolling(
     chain: ClosedChain,
-    wheels: Sequence[Wheel],
+    wheels: Sequence[DrivenWheel],
     moves: Sequence[Motion],
     targets: Mapping[str, Floats],
     timestep: float,

@@ -12,7 +12,7 @@ from yellowiron.kinematics import ClosedChain, State
 from yellowiron.kinematics.measuring.quantities import Unmeasurable, wheels
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Mechanism, Site
-from yellowiron.simulation.engine import TOUCHING, standing_bodies
+from yellowiron.simulation.ground import TOUCHING, standing_bodies
 from yellowiron.simulation.loads import GRAVITY
 
 _STEP = 1e-4
