@@ -7,7 +7,8 @@ entry is loaded.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from importlib.metadata import EntryPoint, entry_points
 from typing import Any, TypeVar
@@ -15,6 +16,7 @@ from typing import Any, TypeVar
 from yellowiron.model.errors import YellowironError
 
 _Kind = TypeVar("_Kind")
+_HINT = "Update the package that brings it, or uninstall it."
 
 
 @dataclass(frozen=True)
@@ -36,22 +38,27 @@ class Plugin:
 
     def load(self, kind: type[_Kind]) -> _Kind:
         """The object that it names; `YellowironError` where that cannot be imported or is no `kind`."""
-        try:
+        with in_a_sentence(f"The plugin '{self.name}' cannot be loaded", self.package):
             found = self.entry.load()
-        except Exception as error:
-            said = " ".join(f"{type(error).__name__}: {error}".split())[:300]
-            raise YellowironError(
-                f"The plugin '{self.name}' cannot be loaded: {said}",
-                where=self.package,
-                hint="Update the package that brings it, or uninstall it.",
-            ) from error
         if not isinstance(found, kind):
             raise YellowironError(
                 f"The plugin '{self.name}' is no {kind.__name__} but a {type(found).__name__}",
                 where=self.package,
-                hint="Update the package that brings it, or uninstall it.",
+                hint=_HINT,
             )
         return found
+
+
+@contextmanager
+def in_a_sentence(what: str, where: str) -> Iterator[None]:
+    """Whatever another package's code throws inside becomes a `YellowironError` that begins with `what`."""
+    try:
+        yield
+    except YellowironError:
+        raise
+    except Exception as error:
+        said = " ".join(f"{type(error).__name__}: {error}".split())[:300]
+        raise YellowironError(f"{what}: {said}", where=where, hint=_HINT) from error
 
 
 def find_plugins(group: str, *, builtin: Iterable[str] = ()) -> dict[str, Plugin]:
