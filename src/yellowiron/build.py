@@ -149,7 +149,7 @@ def build(
                     simulation[engine], sweeps[engine] = driven(folder / f"{machine.name}.usda", engine, progress)
 
         with clock.stage("report", "Writing the report"):
-            document = report.report_document(
+            document = report.report_document(report.BuildFacts(
                 machine, template, alignment, specifications, measurements,
                 findings=(
                     *library.lint(chosen).findings, *assembly.findings, *data.findings,
@@ -158,7 +158,7 @@ def build(
                 usd_counts=usd.count_joints(folder / f"{machine.name}.usda"),
                 levers={a.name: kinematics.lever_table(machine, a.name) for a in machine.actuators},
                 simulation=simulation, declared=compared,
-            )  # fmt: skip
+            ))  # fmt: skip
             report.write_document(document, folder / "report.json")
             report.write_document({"specifications": document["specifications"]}, folder / "specifications.json")
             report.write_document(library.filled_joints(chosen, machine, specifications), folder / "joints.filled.json")

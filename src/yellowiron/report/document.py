@@ -1,9 +1,9 @@
-"""`report.json`: everything a build decided and measured, as one document (DESIGN: the command line)."""
+"""`report.json`: everything a build decided and measured, as one document (docs: report)."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -20,21 +20,28 @@ RELATIVE_TOLERANCE = 0.2
 """Percent: the same for every other quantity."""
 
 
-def report_document(
-    mechanism: Mechanism,
-    template: Template,
-    alignment: Alignment,
-    specifications: Specifications,
-    measurements: Sequence[Measurement],
-    *,
-    findings: Sequence[Finding] = (),
-    usd_counts: Mapping[str, int] | None = None,
-    levers: Mapping[str, Any] | None = None,
-    simulation: Mapping[str, Any] | None = None,
-    declared: Sequence[Any] = (),
-) -> dict[str, Any]:
+@dataclass(frozen=True, eq=False)
+class BuildFacts:
+    """What a build's stages gave, for its report. `findings`: those that no other value here carries; `usd_counts`: of
+    joints in the written file; `levers`: actuator → its table; `simulation`: engine → its document; `declared`: the
+    joints that the CAD file itself declares, beside what was found."""
+
+    mechanism: Mechanism
+    template: Template
+    alignment: Alignment
+    specifications: Specifications
+    measurements: Sequence[Measurement] = ()
+    findings: Sequence[Finding] = ()
+    usd_counts: Mapping[str, int] = field(default_factory=dict)
+    levers: Mapping[str, Any] = field(default_factory=dict)
+    simulation: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+    declared: Sequence[Any] = ()
+
+
+def report_document(facts: BuildFacts) -> dict[str, Any]:
     """The document behind `report.json` and `report.html`. SI units, machine frame, radians."""
-    everything = (*findings, *specifications.findings, *alignment.findings, *mechanism.findings)
+    mechanism, alignment = facts.mechanism, facts.alignment
+    everything = (*facts.findings, *facts.specifications.findings, *alignment.findings, *mechanism.findings)
     return {
         "machine": mechanism.name,
         "equipment_type": mechanism.equipment_type,
@@ -46,7 +53,7 @@ def report_document(
             "missing": list(alignment.missing),
             "choices": dict(alignment.choices),
         },
-        "specifications": [specification_entry(s) for s in specifications],
+        "specifications": [specification_entry(s) for s in facts.specifications],
         "bodies": [
             {
                 "name": b.name,
@@ -59,24 +66,23 @@ def report_document(
             for b in mechanism.bodies
         ],
         "joints": [_joint_entry(j) for j in mechanism.joints],
-        # What the CAD file itself declares, beside what was found.
-        "declared_joints": [asdict(d) for d in declared],
+        "declared_joints": [asdict(d) for d in facts.declared],
         "cylinders": [{**asdict(c), "extension": c.extension} for c in mechanism.cylinders],
         "actuators": [asdict(a) for a in mechanism.actuators],
         "loops": [asdict(loop) for loop in mechanism.loops],
-        "levers": dict(levers or {}),
+        "levers": dict(facts.levers),
         "sensors": [asdict(s) for s in mechanism.sensors],
-        "counts": _counts(mechanism, template),
-        "usd_counts": dict(usd_counts or {}),
+        "counts": _counts(mechanism, facts.template),
+        "usd_counts": dict(facts.usd_counts),
         "mobility": asdict(mechanism.mobility) if mechanism.mobility else None,
-        "measurements": [asdict(m) for m in measurements],
+        "measurements": [asdict(m) for m in facts.measurements],
         "findings": [asdict(f) for f in _unique(everything)],
         # Steps per second differ from run to run: they belong to the console, not to a file that should not.
         "simulation": {
             engine: {key: value for key, value in run.items() if key != "steps_per_second"}
-            for engine, run in (simulation or {}).items()
+            for engine, run in facts.simulation.items()
         },
-        "missing": missing_limits(template, specifications),
+        "missing": missing_limits(facts.template, facts.specifications),
     }
 
 
