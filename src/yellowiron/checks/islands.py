@@ -28,9 +28,9 @@ class Island:
     loops: tuple[StageLoop, ...]
 
     @property
-    def uncut(self) -> tuple[StageJoint, ...]:
-        """The joints that close its loops and are not cut."""
-        return tuple(loop.closing for loop in self.loops if not loop.closing.cut)
+    def uncut(self) -> tuple[StageLoop, ...]:
+        """Its loops that no cut joint closes."""
+        return tuple(loop for loop in self.loops if not loop.closing.cut)
 
     @property
     def where(self) -> str:

@@ -132,7 +132,7 @@ class StageJoint:
     @property
     def name(self) -> str:
         """The last part of its path."""
-        return self.path.rsplit("/", 1)[-1]
+        return leaf(self.path)
 
     @property
     def bodies(self) -> tuple[str, str]:
@@ -175,6 +175,11 @@ class StageMaterial:
     dynamic_friction: float | None
     restitution: float | None
     density: float | None
+
+
+def leaf(path: str) -> str:
+    """The last part of a path."""
+    return path.rsplit("/", 1)[-1]
 
 
 def direction(rotation: Floats, freedom: str) -> Floats:

@@ -6,7 +6,7 @@ import numpy as np
 
 from yellowiron.checks.islands import Island
 from yellowiron.checks.rule import Remarks, rule
-from yellowiron.checks.values import StageBody
+from yellowiron.checks.values import StageBody, leaf
 from yellowiron.checks.view import View
 
 _TOKENS = (
@@ -91,7 +91,7 @@ def overlapping(view: View) -> Remarks:
             continue
         pairs = list(_overlaps(island))
         if pairs:
-            names = [f"{a.path.rsplit('/', 1)[-1]}–{b.path.rsplit('/', 1)[-1]}" for a, b in pairs[:3]]
+            names = [f"{leaf(a.path)}–{leaf(b.path)}" for a, b in pairs[:3]]
             yield (
                 pairs[0][0].path,
                 f"Boxes of {len(pairs)} unjointed pair(s) overlap in the drawn pose: {', '.join(names)}.",

@@ -8,9 +8,10 @@ from collections.abc import Iterator
 import numpy as np
 
 from yellowiron.checks.islands import Island, cylinders
+from yellowiron.checks.loops import StageLoop
 from yellowiron.checks.motion import STILL, LoopMotion
 from yellowiron.checks.rule import Remarks, rule
-from yellowiron.checks.values import WORLD, StageBody, StageJoint
+from yellowiron.checks.values import WORLD, StageBody, StageJoint, leaf
 from yellowiron.checks.view import View
 from yellowiron.model.geometry import Floats
 
@@ -34,20 +35,27 @@ def _skewed(island: Island) -> list[tuple[StageJoint, float]]:
     motion = island.motion
     if motion is None:
         return []
-    found: dict[str, tuple[StageJoint, float]] = {}
-    for loop in island.loops:
-        paths = {j.path for j in loop.joints}
-        near = [o for o in island.loops if paths.intersection(j.path for j in o.joints)]
-        context = list({j.path: j for o in near for j in o.joints}.values())
-        hinges = [j for j in loop.joints if j.type == "revolute"]
-        if len(loop.joints) < 4 or len(hinges) < 2:
-            continue
-        normal = max((j.axis for j in hinges), key=lambda d: sum(_tilt(j, d) < _PARALLEL for j in context))
-        off = [(j, _tilt(j, normal)) for j in loop.joints if j.type in ("revolute", "prismatic")]
-        out = [(j, angle) for j, angle in off if angle > _PARALLEL]
-        if len(out) * 2 <= len(off):
-            found.update({j.path: (j, a) for j, a in out if not motion.moves(j)})
-    return list(found.values())
+    out = [pair for loop in island.loops for pair in _out_of_plane(loop, island)]
+    return list({joint.path: (joint, angle) for joint, angle in out if not motion.moves(joint)}.values())
+
+
+def _out_of_plane(loop: StageLoop, island: Island) -> list[tuple[StageJoint, float]]:
+    """The few hinges and slides of a planar loop that are out of its plane, with the angle (rad)."""
+    hinges = [j for j in loop.joints if j.type == "revolute"]
+    if len(loop.joints) < 4 or len(hinges) < 2:
+        return []
+    near = _with_neighbours(loop, island)
+    normal = max((j.axis for j in hinges), key=lambda d: sum(_tilt(j, d) < _PARALLEL for j in near))
+    off = [(j, _tilt(j, normal)) for j in loop.joints if j.type in ("revolute", "prismatic")]
+    out = [(j, angle) for j, angle in off if angle > _PARALLEL]
+    return out if len(out) * 2 <= len(off) else []
+
+
+def _with_neighbours(loop: StageLoop, island: Island) -> list[StageJoint]:
+    """The joints of a loop and of those that share one with it."""
+    paths = {j.path for j in loop.joints}
+    near = [o for o in island.loops if paths.intersection(j.path for j in o.joints)]
+    return list({j.path: j for o in near for j in o.joints}.values())
 
 
 def _tilt(joint: StageJoint, normal: Floats) -> float:
@@ -240,7 +248,7 @@ def off_wheel(view: View) -> Remarks:
                     if near and angle > _OFF_WHEEL:
                         yield (
                             joint.path,
-                            f"It turns {path.rsplit('/', 1)[-1]} about an axis {math.degrees(angle):.4g}° off its own.",
+                            f"It turns {leaf(path)} about an axis {math.degrees(angle):.4g}° off its own.",
                         )
                         break
 
