@@ -9,7 +9,7 @@ from typing import Any
 
 from yellowiron.model.alignment import Alignment
 from yellowiron.model.finding import Finding
-from yellowiron.model.mechanism import Joint, Measurement, Mechanism
+from yellowiron.model.mechanism import Body, Joint, Measurement, Mechanism
 from yellowiron.model.specification import Specification, Specifications
 from yellowiron.model.template import Template
 from yellowiron.model.text import to_json
@@ -46,25 +46,9 @@ def report_document(facts: BuildFacts) -> dict[str, Any]:
         "machine": mechanism.name,
         "equipment_type": mechanism.equipment_type,
         "frame": alignment.frame,
-        "alignment": {
-            "parts": len(alignment.parts),
-            "assigned": sum(a.body is not None for a in alignment.parts),
-            "to_review": list(alignment.to_review),
-            "missing": list(alignment.missing),
-            "choices": dict(alignment.choices),
-        },
+        "alignment": _alignment_counts(alignment),
         "specifications": [specification_entry(s) for s in facts.specifications],
-        "bodies": [
-            {
-                "name": b.name,
-                "mass": b.mass,
-                "center_of_mass": b.center_of_mass,
-                "inertia": b.inertia,
-                "parts": [p.part for p in b.parts],
-                "source": b.source,
-            }
-            for b in mechanism.bodies
-        ],
+        "bodies": [_body_entry(b) for b in mechanism.bodies],
         "joints": [_joint_entry(j) for j in mechanism.joints],
         "declared_joints": [asdict(d) for d in facts.declared],
         "cylinders": [{**asdict(c), "extension": c.extension} for c in mechanism.cylinders],
@@ -77,11 +61,7 @@ def report_document(facts: BuildFacts) -> dict[str, Any]:
         "mobility": asdict(mechanism.mobility) if mechanism.mobility else None,
         "measurements": [asdict(m) for m in facts.measurements],
         "findings": [asdict(f) for f in _unique(everything)],
-        # Steps per second differ from run to run: they belong to the console, not to a file that should not.
-        "simulation": {
-            engine: {key: value for key, value in run.items() if key != "steps_per_second"}
-            for engine, run in facts.simulation.items()
-        },
+        "simulation": {engine: _repeatable(run) for engine, run in facts.simulation.items()},
         "missing": missing_limits(facts.template, facts.specifications),
     }
 
@@ -176,6 +156,33 @@ def _with_hint(message: str, hint: str) -> str:
 def write_document(document: Mapping[str, Any], path: Path) -> None:
     """Writes a document as JSON, the same bytes for the same content."""
     path.write_text(to_json(document), encoding="utf-8")
+
+
+def _repeatable(run: Mapping[str, Any]) -> dict[str, Any]:
+    """A simulation's document without its steps per second. They differ from run to run: they belong to the console,
+    not to a file that should not."""
+    return {key: value for key, value in run.items() if key != "steps_per_second"}
+
+
+def _alignment_counts(alignment: Alignment) -> dict[str, Any]:
+    return {
+        "parts": len(alignment.parts),
+        "assigned": sum(a.body is not None for a in alignment.parts),
+        "to_review": list(alignment.to_review),
+        "missing": list(alignment.missing),
+        "choices": dict(alignment.choices),
+    }
+
+
+def _body_entry(body: Body) -> dict[str, Any]:
+    return {
+        "name": body.name,
+        "mass": body.mass,
+        "center_of_mass": body.center_of_mass,
+        "inertia": body.inertia,
+        "parts": [p.part for p in body.parts],
+        "source": body.source,
+    }
 
 
 def _joint_entry(joint: Joint) -> dict[str, Any]:

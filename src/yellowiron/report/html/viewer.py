@@ -12,7 +12,7 @@ import gzip
 import json
 import math
 import struct
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from importlib import resources
 from typing import Any
@@ -223,33 +223,35 @@ def _joint(joint: Joint, tables: PoseTables) -> dict[str, Any]:
 
 def _sliders(mechanism: Mechanism, tables: PoseTables) -> list[dict[str, Any]]:
     """One for each cylinder actuator that has a table, for each other actuator, and for each free joint besides."""
-    joints = {joint.name: joint for joint in mechanism.joints}
+    return [*_actuator_sliders(mechanism, tables), *_free_sliders(mechanism, tables)]
+
+
+def _actuator_sliders(mechanism: Mechanism, tables: PoseTables) -> Iterator[dict[str, Any]]:
     cylinders = {cylinder.slide: cylinder for cylinder in mechanism.cylinders}
     tabled = {driver for table in tables.tables for driver in table.drivers}
-    taken: set[str] = set()
-    sliders = []
     for actuator in mechanism.actuators:
         moved = [entry for entry in actuator.joints if entry.joint in tables.independent]
-        first = joints[moved[0].joint] if moved else None
-        taken.update(entry.joint for entry in actuator.joints)
         # Without a table, a coupled joint would tear its loop open.
-        if first is None or (actuator.kind == "cylinder" and first.name not in tabled):
+        if not moved or (actuator.kind == "cylinder" and moved[0].joint not in tabled):
             continue
-        cylinder = cylinders.get(first.name)
-        sliders.append(
-            {
-                **_slider(actuator.name, first, moved[0].sign),
-                "joints": [[entry.joint, entry.sign * moved[0].sign] for entry in _together(actuator, moved)],
-                "extension": cylinder.extension if cylinder and math.isfinite(cylinder.extension) else None,
-                "stroke": cylinder.stroke if cylinder else None,
-            }
-        )
+        cylinder = cylinders.get(moved[0].joint)
+        yield {
+            **_slider(actuator.name, mechanism.joint(moved[0].joint), moved[0].sign),
+            "joints": [[entry.joint, entry.sign * moved[0].sign] for entry in _together(actuator, moved)],
+            "extension": cylinder.extension if cylinder and math.isfinite(cylinder.extension) else None,
+            "stroke": cylinder.stroke if cylinder else None,
+        }
+
+
+def _free_sliders(mechanism: Mechanism, tables: PoseTables) -> Iterator[dict[str, Any]]:
+    """Of the independent joints that no actuator moves."""
+    joints = {joint.name: joint for joint in mechanism.joints}
+    taken = {entry.joint for actuator in mechanism.actuators for entry in actuator.joints}
     # A roller or shoe of a counted row is nothing to set by hand.
     rows = {mechanism.joints[p].name for places in in_rows(list(joints)).values() if len(places) > 1 for p in places}
     for name in tables.independent:
         if name not in taken and name not in rows and joints[name].type in ("revolute", "prismatic"):
-            sliders.append({**_slider(name, joints[name], 1), "joints": [[name, 1]], "extension": None, "stroke": None})
-    return sliders
+            yield {**_slider(name, joints[name], 1), "joints": [[name, 1]], "extension": None, "stroke": None}
 
 
 def _together(actuator: Actuator, moved: Sequence[Any]) -> Sequence[Any]:
