@@ -13,13 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from yellowiron.checks.loops import StageLoop
+from yellowiron.checks.tolerances import CLOSED, STILL
 from yellowiron.checks.values import StageJoint, direction
 from yellowiron.model.geometry import Floats
-
-RANK_TOLERANCE = 2e-4
-"""Singular values below this close nothing: axes that differ by some hundredths of a degree still count as parallel."""
-STILL = 1e-6
-"""A joint whose share in every motion is below this cannot move."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,7 +61,7 @@ class LoopMotion:
     def rank(self, joints: Iterable[StageJoint]) -> int:
         """In how many independent ways some joints move."""
         part = self.part(joints)
-        return int(np.linalg.matrix_rank(part, tol=RANK_TOLERANCE)) if part.size else 0
+        return int(np.linalg.matrix_rank(part, tol=CLOSED)) if part.size else 0
 
 
 def screws(joint: StageJoint, *, center: Floats, scale: float) -> Floats:
@@ -84,4 +80,4 @@ def null_space(matrix: Floats) -> Floats:
     if matrix.shape[0] == 0 or matrix.shape[1] == 0:
         return np.eye(matrix.shape[1])
     _, values, rows = np.linalg.svd(matrix, full_matrices=True)
-    return np.asarray(rows[int((values > RANK_TOLERANCE).sum()) :].T, dtype=np.float64)
+    return np.asarray(rows[int((values > CLOSED).sum()) :].T, dtype=np.float64)

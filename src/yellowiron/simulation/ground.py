@@ -15,7 +15,7 @@ UPRIGHT = 0.9
 """Least vertical part of a unit axis about which a body slews."""
 
 GROUND_FRICTION = 0.7
-"""Of ground and blocks."""
+"""Of ground and blocks; the ground in the exported MJCF has the same."""
 
 
 @dataclass(frozen=True, eq=False)

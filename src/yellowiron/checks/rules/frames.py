@@ -8,11 +8,10 @@ import numpy as np
 
 from yellowiron.checks.loops import KINDS
 from yellowiron.checks.rule import Remarks, rule
+from yellowiron.checks.tolerances import FRAMES_APART
 from yellowiron.checks.values import LINEAR, StageJoint, direction
 from yellowiron.checks.view import View
 
-_APART = 1e-4
-"""Metres, and of the machine's size where that is more than 10 m: SimReady's DJ.003."""
 _TURNED = 1e-3
 """Radians."""
 _UNIT = 1e-3
@@ -49,7 +48,7 @@ def apart(view: View) -> Remarks:
                 offset = offset - (offset @ axis) * axis
         distance = float(np.linalg.norm(offset))
         reach = float(np.abs(joint.sides[0].position).max())
-        if distance > _APART * max(1.0, reach / 10.0):
+        if distance > FRAMES_APART * max(1.0, reach / 10.0):
             beside = " beside its axis" if joint.type == "prismatic" else ""
             yield joint.path, f"Its frames are {1e3 * distance:.4g} mm apart{beside}."
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from yellowiron.checks.islands import cylinders
 from yellowiron.checks.rule import Remarks, rule
+from yellowiron.checks.tolerances import DEPENDENT
 from yellowiron.checks.values import WORLD, StageJoint
 from yellowiron.checks.view import View
 
@@ -107,7 +108,7 @@ def _needed(view: View, joint: StageJoint) -> float | None:
             for j in driven
         ]
         rates = motion.part(driven)
-        if not any(strokes) or np.linalg.matrix_rank(rates, tol=1e-3) < len(driven):
+        if not any(strokes) or np.linalg.matrix_rank(rates, tol=DEPENDENT) < len(driven):
             return None
         share = motion.part([joint]) @ np.linalg.pinv(rates)
         return float(np.abs(share[0] * np.array(strokes)).max())

@@ -9,8 +9,9 @@ import numpy as np
 
 from yellowiron.checks.islands import Island, cylinders
 from yellowiron.checks.loops import StageLoop
-from yellowiron.checks.motion import STILL, LoopMotion
+from yellowiron.checks.motion import LoopMotion
 from yellowiron.checks.rule import Remarks, rule
+from yellowiron.checks.tolerances import DEPENDENT, STILL
 from yellowiron.checks.values import WORLD, StageBody, StageJoint, leaf
 from yellowiron.checks.view import View
 from yellowiron.model.geometry import Floats
@@ -205,7 +206,7 @@ def _dependent(motion: LoopMotion, joints: list[StageJoint]) -> list[StageJoint]
     """The joints whose motions depend on each other's."""
     rows = motion.part(joints)
     left, values, _ = np.linalg.svd(rows)
-    lost = left[:, int((values > 1e-3).sum()) :]
+    lost = left[:, int((values > DEPENDENT).sum()) :]
     return [j for j, share in zip(joints, np.abs(lost).max(axis=1, initial=0.0), strict=True) if share > STILL]
 
 

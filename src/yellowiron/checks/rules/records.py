@@ -12,11 +12,11 @@ import numpy as np
 from yellowiron.checks.islands import Island
 from yellowiron.checks.loops import KINDS
 from yellowiron.checks.rule import Remarks, rule
+from yellowiron.checks.tolerances import FRAMES_APART
 from yellowiron.checks.values import WORLD, StageJoint, direction
 from yellowiron.checks.view import View
 from yellowiron.model.geometry import Floats
 
-_MOVED = 1e-4
 _TURNED = math.radians(0.01)
 _EDITED = 1e-4
 """Relative: what is written in single precision differs by less."""
@@ -136,7 +136,7 @@ def moved(view: View) -> Remarks:
             distance = float(np.linalg.norm(side.position - anchor))
             found = direction(side.rotation, joint.freedoms[0]) if len(joint.freedoms) == 1 else side.rotation[:, 0]
             angle = math.atan2(float(np.linalg.norm(np.cross(found, axis))), float(found @ axis))
-            if distance > _MOVED * max(1.0, float(np.abs(anchor).max()) / 10.0):
+            if distance > FRAMES_APART * max(1.0, float(np.abs(anchor).max()) / 10.0):
                 yield joint.path, f"Its frame on body{end} is {1e3 * distance:.4g} mm from there."
             elif angle > _TURNED and joint.type != "fixed":
                 yield joint.path, f"Its axis on body{end} is {math.degrees(angle):.4g}° off."
