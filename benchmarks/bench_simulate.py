@@ -22,7 +22,9 @@ import numpy as np  # noqa: E402
 
 from yellowiron.kinematics import ClosedChain  # noqa: E402
 from yellowiron.simulation import rated_payload, simulate  # noqa: E402
-from yellowiron.simulation.engine import ENGINES, Setup, installed_engines, load_engine, standing_bodies  # noqa: E402
+from yellowiron.simulation.engine import Setup  # noqa: E402
+from yellowiron.simulation.ground import standing_bodies  # noqa: E402
+from yellowiron.simulation.registry import ENGINES, installed_engines, load_engine  # noqa: E402
 from yellowiron.simulation.strokes.run import play  # noqa: E402
 from yellowiron.usd import read_mechanism  # noqa: E402
 

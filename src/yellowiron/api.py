@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, Literal
 from yellowiron import checks, library, specs
 from yellowiron.model.alignment import Alignment
 from yellowiron.model.assembly import Assembly
-from yellowiron.model.errors import OutputError, YellowironError
+from yellowiron.model.errors import OutputError
 from yellowiron.model.finding import Finding
 from yellowiron.model.mechanism import Measurement, Mechanism
 from yellowiron.model.specification import Specifications
@@ -148,15 +148,13 @@ def export(
     machine: Machine | Path | str, out: Path | str, *, to: str = "mjcf", progress: Progress = lambda words: None
 ) -> Path:
     """The same machine for another simulator, in the folder `out`: the path of the file to open there."""
-    from yellowiron import usd
-    from yellowiron.exporters import export_mjcf
+    from yellowiron import exporters, usd
 
-    if to != "mjcf":
-        raise YellowironError(f"There is no export to '{to}'", where="--to", hint="This version writes mjcf.")
+    title = exporters.find_exporter(to).title
     file = _file(machine)
     with output_folder(Path(out)) as folder:
-        progress("Writing MJCF")
-        inside = export_mjcf(usd.read_mechanism(file), file, folder).relative_to(folder)
+        progress(f"Writing {title}")
+        inside = exporters.export(usd.read_mechanism(file), file, folder, to=to).relative_to(folder)
     return Path(out) / inside
 
 

@@ -270,10 +270,14 @@ def export(
     as_json: Json = False,
 ) -> None:
     """Write the same machine for another simulator."""
+    from yellowiron.exporters import find_exporter
+
     with _progress(as_json) as progress:
         written = yellowiron.export(machine, out, to=to, progress=progress)
-    files = {"machine": str(written), "scene": str(out / "scene.xml")}
-    _show(files, Text(f"{files['machine']}; scene.xml beside it is the machine on the ground"), as_json)
+    scene = find_exporter(to).scene
+    files = {"machine": str(written), **({"scene": str(out / scene)} if scene else {})}
+    said = f"{written}; {scene} beside it is the machine on the ground" if scene else str(written)
+    _show(files, Text(said), as_json)
 
 
 @templates.command("list")

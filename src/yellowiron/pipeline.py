@@ -168,7 +168,7 @@ def build(
                     simulation[engine], sweeps[engine] = _driven(written, engine, progress)
 
         with clock.stage("report", "Writing the report"):
-            document = report.report_document(
+            document = report.report_document(report.BuildFacts(
                 mechanism, template, alignment, specifications, measurements,
                 findings=(
                     *library.lint(chosen).findings, *assembly.findings, *data.findings,
@@ -177,7 +177,7 @@ def build(
                 usd_counts=usd.count_joints(written),
                 levers={a.name: kinematics.lever_table(mechanism, a.name) for a in mechanism.actuators},
                 simulation=simulation, declared=compared,
-            )  # fmt: skip
+            ))  # fmt: skip
             report.write_document(document, folder / "report.json")
             report.write_document({"specifications": document["specifications"]}, folder / "specifications.json")
             filled = library.filled_joints(chosen, mechanism, specifications)

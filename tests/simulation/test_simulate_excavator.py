@@ -11,17 +11,10 @@ import numpy as np
 import pytest
 
 from yellowiron.simulation import drive, rated_payload, run_tests, simulate
-from yellowiron.simulation.driving.wheeled import driving_findings
-from yellowiron.simulation.engine import (
-    Base,
-    Setup,
-    find_engine,
-    import_engine,
-    load_engine,
-    poses,
-    standing_bodies,
-    tell,
-)
+from yellowiron.simulation.driving.result import driving_findings
+from yellowiron.simulation.engine import Base, Setup, poses, tell
+from yellowiron.simulation.ground import standing_bodies
+from yellowiron.simulation.registry import find_engine, import_engine, load_engine
 from yellowiron.usd import read_mechanism
 
 pytestmark = pytest.mark.slow

@@ -12,8 +12,8 @@ from plain_engines import drop_ball, play, world_with
 
 from yellowiron.exporters import export_mjcf
 from yellowiron.kinematics import ClosedChain
-from yellowiron.simulation.engine import ENGINES
 from yellowiron.simulation.payload import tool
+from yellowiron.simulation.registry import ENGINES
 from yellowiron.usd import read_mechanism
 
 pytestmark = pytest.mark.slow

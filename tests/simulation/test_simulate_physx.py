@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from yellowiron.simulation import rated_payload, simulate
-from yellowiron.simulation.engine import ENGINES, Base, Setup, coordinates, tell
+from yellowiron.simulation.engine import Base, Setup, coordinates, tell
+from yellowiron.simulation.registry import ENGINES
 from yellowiron.usd import read_mechanism
 
 pytest.importorskip("ovphysx", reason="needs pip install 'yellowiron[physx]'")

@@ -18,8 +18,10 @@ from yellowiron.model.rows import expand
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import choose
 from yellowiron.simulation import simulate
-from yellowiron.simulation.driving.tracked import pitch_radius
-from yellowiron.simulation.engine import Setup, import_engine, load_engine, poses, standing_bodies, tell
+from yellowiron.simulation.driving.wheel import pitch_radius
+from yellowiron.simulation.engine import Setup, poses, tell
+from yellowiron.simulation.ground import standing_bodies
+from yellowiron.simulation.registry import import_engine, load_engine
 from yellowiron.simulation.strokes.held import held_machine
 from yellowiron.usd import read_mechanism, write_machine
 

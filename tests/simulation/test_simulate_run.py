@@ -15,9 +15,10 @@ from yellowiron.kinematics import ClosedChain, State
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Mechanism
-from yellowiron.simulation import engine as engines
 from yellowiron.simulation import rated_payload, simulate, simulation_document
-from yellowiron.simulation.engine import EngineEntry, Readings, Setup
+from yellowiron.simulation import registry as engines
+from yellowiron.simulation.engine import Base, Readings, Setup
+from yellowiron.simulation.registry import EngineEntry
 
 
 class Puppet:
@@ -185,7 +186,7 @@ def test_bad_orders_are_refused(usd_file: Path, more: dict[str, object], words: 
 
 
 @pytest.mark.parametrize("base", ["fixed", "floating"])
-def test_mujoco_keeps_the_small_machine_together(usd_file: Path, mechanism: Mechanism, base: engines.Base) -> None:
+def test_mujoco_keeps_the_small_machine_together(usd_file: Path, mechanism: Mechanism, base: Base) -> None:
     payload = rated_payload(mechanism)
     assert payload.mass == pytest.approx(90.0)
     result = simulate(usd_file, engine="mujoco", base=base, payload_kg=payload.mass, payload_source=payload.source)

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from in_engines import load
 
-from yellowiron.simulation.engine import ENGINES, Setup, poses
+from yellowiron.simulation.engine import Setup, poses
+from yellowiron.simulation.registry import ENGINES
 from yellowiron.usd import read_mechanism
 
 pytestmark = pytest.mark.slow

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import importlib.metadata
 import importlib.resources
 from pathlib import Path
+from types import ModuleType
 
 from yellowiron.library.notation.validated_json import near
 from yellowiron.model.errors import TemplateError
 from yellowiron.model.specification import fold
+from yellowiron.support.plugins import Plugin, find_plugins
 
 DOCUMENTS = (
     "hierarchy",
@@ -37,8 +38,8 @@ def library_folder() -> Path:
 def type_folders() -> dict[str, Path]:
     """Equipment type → its folder, sorted by type: the library's own, and those of installed packages, which name the
     package that holds such folders under the entry point group `yellowiron.templates`; the library's own first.
-    `TemplateError` for an entry point that names no such package."""
-    roots = [library_folder(), *map(_brought, importlib.metadata.entry_points(group=ENTRY_POINTS))]
+    `YellowironError` for an entry point that names no such package."""
+    roots = [library_folder(), *map(_brought, find_plugins(ENTRY_POINTS).values())]
     found: dict[str, Path] = {}
     for root in roots:
         for folder in root.iterdir():
@@ -47,18 +48,15 @@ def type_folders() -> dict[str, Path]:
     return dict(sorted(found.items()))
 
 
-def _brought(entry_point: importlib.metadata.EntryPoint) -> Path:
+def _brought(plugin: Plugin) -> Path:
     """The folder of type folders that an installed package brings."""
-    try:
-        folder = Path(str(importlib.resources.files(entry_point.module)))
-        reason = "" if folder.is_dir() else "it is no package with a folder of its own"
-    except (ImportError, TypeError) as error:  # TypeError: a module that is no package
-        reason = str(error)
-    if reason:
+    package = plugin.load(ModuleType)
+    folder = Path(package.__file__ or "").parent
+    if not hasattr(package, "__path__") or not package.__file__:
         raise TemplateError(
-            f"The equipment types of '{entry_point.value}' cannot be found: {reason}",
-            where=f"{ENTRY_POINTS}: {entry_point.name}",
-            hint="An installed package names it; correct that package or remove it.",
+            "The equipment types of a package cannot be found: it names no package with a folder of its own",
+            where=plugin.package,
+            hint="Update the package, or uninstall it.",
         )
     return folder
 

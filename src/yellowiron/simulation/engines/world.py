@@ -16,7 +16,8 @@ from pxr import Gf, Sdf, Usd, UsdPhysics, Vt
 from scipy.spatial import ConvexHull
 
 from yellowiron.model.mechanism import Joint
-from yellowiron.simulation.engine import GROUND_FRICTION, Block, Setup
+from yellowiron.simulation.engine import Setup
+from yellowiron.simulation.ground import GROUND_FRICTION, Block
 from yellowiron.simulation.loads import GRAVITY
 from yellowiron.usd.authoring.metadata import KEY
 from yellowiron.usd.authoring.stage import (

@@ -11,7 +11,7 @@ from yellowiron import usd
 from yellowiron.kinematics import attached
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.mechanism import Body, Joint, Mechanism, chained
-from yellowiron.simulation.driving.tracked import pitch_radius
+from yellowiron.simulation.driving.wheel import pitch_radius
 from yellowiron.simulation.engine import Base
 
 
