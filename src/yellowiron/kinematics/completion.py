@@ -11,7 +11,7 @@ import numpy as np
 
 from yellowiron.kinematics.solver.branches import branch_pivots, branch_sines
 from yellowiron.kinematics.solver.chain import ClosedChain, Component, State, independent_joints, suspects
-from yellowiron.kinematics.solver.grid import Grid, explore, joint_values
+from yellowiron.kinematics.solver.pose_grid import PoseGrid, explore, joint_values
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Drive, Joint, Mechanism, Mobility
@@ -149,7 +149,7 @@ def _reachable(work: _Work, joint: Joint, end: str, limit: float) -> float:
     return stop
 
 
-def _report_unreachable(grid: Grid, work: _Work) -> None:
+def _report_unreachable(grid: PoseGrid, work: _Work) -> None:
     if not grid.unreachable:
         return
     share = 100.0 * len(grid.unreachable) / (len(grid.unreachable) + len(grid.states))
@@ -163,7 +163,7 @@ def _report_unreachable(grid: Grid, work: _Work) -> None:
     )
 
 
-def _report_gap(component: Component, grid: Grid, work: _Work) -> None:
+def _report_gap(component: Component, grid: PoseGrid, work: _Work) -> None:
     gap = max((state.closure for state in grid.states), default=0.0)
     if gap > PARALLEL:
         work.find(
@@ -175,7 +175,7 @@ def _report_gap(component: Component, grid: Grid, work: _Work) -> None:
         )
 
 
-def _limit(component: Component, grid: Grid, rotations: Floats, work: _Work) -> None:
+def _limit(component: Component, grid: PoseGrid, rotations: Floats, work: _Work) -> None:
     """Limits of everything that moves with a component's drivers, once all of them have ends of stroke."""
     endless = [name for name in component.drivers if name not in grid.drivers]
     if endless:
@@ -233,7 +233,7 @@ def _check_twins(mechanism: Mechanism, work: _Work) -> None:
             )
 
 
-def _branches(mechanism: Mechanism, grids: list[Grid], placed: list[tuple[Floats, Floats]], work: _Work) -> Any:
+def _branches(mechanism: Mechanism, grids: list[PoseGrid], placed: list[tuple[Floats, Floats]], work: _Work) -> Any:
     """The loops with their branch signs; a sign that changes over the strokes is a finding."""
     pivots = branch_pivots(mechanism)
     at = {cut: number for number, component in enumerate(work.chain.components()) for cut in component.cuts}
@@ -262,7 +262,7 @@ def _branches(mechanism: Mechanism, grids: list[Grid], placed: list[tuple[Floats
     return tuple(loops)
 
 
-def _gains(mechanism: Mechanism, grids: list[Grid], work: _Work) -> None:
+def _gains(mechanism: Mechanism, grids: list[PoseGrid], work: _Work) -> None:
     masses = _seen_masses(work.chain, grids)
     for joint in mechanism.joints:
         drive = joint.drive
@@ -325,7 +325,7 @@ def _velocity_gain(drive: Drive, joint: Joint, work: _Work) -> Drive:
     )
 
 
-def _seen_masses(chain: ClosedChain, grids: list[Grid]) -> dict[str, float]:
+def _seen_masses(chain: ClosedChain, grids: list[PoseGrid]) -> dict[str, float]:
     """Driver → the mass it sees in all but the rarest poses of its own component and of the others (a steering cylinder
     turns a raised or outstretched boom too). The rarest are left out: at full lock a short lever makes it ten times the
     usual mass, and gains for that saturate and buzz everywhere else."""

@@ -49,7 +49,7 @@ class ComparedJoint:
 
 
 @dataclass(frozen=True)
-class DeclaredLine:
+class DeclaredAxis:
     """A declared hinge or slide between two of the mechanism's bodies: a point on its axis and the unit vector, in the
     machine frame, metres."""
 
@@ -60,7 +60,7 @@ class DeclaredLine:
     axis: Floats
 
 
-def declared_lines(assembly: Assembly, alignment: Alignment) -> tuple[DeclaredLine, ...]:
+def declared_axes(assembly: Assembly, alignment: Alignment) -> tuple[DeclaredAxis, ...]:
     """The declared hinges and slides whose bodies the alignment knows."""
     played = _played(assembly, alignment) if assembly.joints else {}
     turn, move = alignment.frame[:3, :3], alignment.frame[:3, 3]
@@ -72,7 +72,7 @@ def declared_lines(assembly: Assembly, alignment: Alignment) -> tuple[DeclaredLi
         if one is None or other is None or axis is None or joint.type not in ("revolute", "prismatic", "spherical"):
             continue
         point, kind = turn @ np.array(joint.anchor) + move, "revolute" if closes else joint.type
-        found.append(DeclaredLine(joint.name, kind, frozenset((one, other)), point, turn @ np.array(axis)))
+        found.append(DeclaredAxis(joint.name, kind, frozenset((one, other)), point, turn @ np.array(axis)))
     return tuple(found)
 
 

@@ -13,7 +13,7 @@ from yellowiron.kinematics.measuring.extremes import Strokes, extreme, level_cut
 from yellowiron.kinematics.measuring.quantities import Posed, Unmeasurable, evaluate, wheels
 from yellowiron.kinematics.measuring.sheet import specified
 from yellowiron.kinematics.solver.chain import ClosedChain, KinematicsError, State
-from yellowiron.kinematics.solver.grid import Grid, explore
+from yellowiron.kinematics.solver.pose_grid import PoseGrid, explore
 from yellowiron.model.mechanism import Actuator, Mechanism
 from yellowiron.model.units import parse_quantity
 
@@ -39,7 +39,7 @@ class Bench:
         self._joints = {joint.name: joint for joint in mechanism.joints}
         self._cylinders = {cylinder.name: cylinder for cylinder in mechanism.cylinders}
         self._wheels = wheels(mechanism)
-        self._grids: dict[tuple[str, ...], Grid] = {}
+        self._grids: dict[tuple[str, ...], PoseGrid] = {}
         self._strokes: dict[tuple[tuple[str, ...], bytes], Strokes] = {}
         self._states: dict[str, State] = {}
         self._straight: State | None = None

@@ -16,7 +16,7 @@ from scipy.optimize import brentq, least_squares, minimize
 
 from yellowiron.kinematics.measuring.quantities import Unmeasurable
 from yellowiron.kinematics.solver.chain import ClosedChain, Component, State
-from yellowiron.kinematics.solver.grid import explore
+from yellowiron.kinematics.solver.pose_grid import explore
 from yellowiron.model.geometry import Floats
 
 POINTS = {1: 33, 2: 21, 3: 13, 4: 7}

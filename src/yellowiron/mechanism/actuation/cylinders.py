@@ -14,8 +14,8 @@ from typing import Any
 
 import numpy as np
 
-from yellowiron.mechanism.actuation.cylinder_geometry import Ram, measure_ram
-from yellowiron.mechanism.joints.axes import Line
+from yellowiron.mechanism.actuation.cylinder_geometry import CylinderGeometry, measure_cylinder
+from yellowiron.mechanism.joints.axes import Axis
 from yellowiron.mechanism.joints.frames import JointFrame
 from yellowiron.mechanism.placement import Placement
 from yellowiron.mechanism.values import Known, default, known, limit
@@ -90,17 +90,17 @@ class _Sizes:
     template: CylinderTemplate
     barrel: str
     rod: str
-    ram: Ram
+    geometry: CylinderGeometry
     bore: Known
     rod_diameter: Known
 
     @property
     def push_area(self) -> float:
-        return self.ram.count * math.pi / 4.0 * self.bore.value**2
+        return self.geometry.count * math.pi / 4.0 * self.bore.value**2
 
     @property
     def pull_area(self) -> float:
-        return self.ram.count * math.pi / 4.0 * (self.bore.value**2 - self.rod_diameter.value**2)
+        return self.geometry.count * math.pi / 4.0 * (self.bore.value**2 - self.rod_diameter.value**2)
 
 
 def with_leaders(template: Template, frames: Mapping[str, JointFrame], findings: list[Finding]) -> Template:
@@ -136,11 +136,11 @@ def fit_cylinders(
     return fitted, findings
 
 
-def extension_line(entry: CylinderTemplate, frames: Mapping[str, JointFrame]) -> Line:
+def extension_axis(entry: CylinderTemplate, frames: Mapping[str, JointFrame]) -> Axis:
     """A slide's line, from the foot of the barrel's pivot towards the rod's pivot."""
     slide, hung, held = frames[entry.slide], frames[entry.barrel_joint], frames[entry.rod_joint]
     axis = slide.axis if (held.anchor - hung.anchor) @ slide.axis >= 0.0 else -slide.axis
-    return Line(Line(slide.anchor, axis).foot(hung.anchor), axis)
+    return Axis(Axis(slide.anchor, axis).foot(hung.anchor), axis)
 
 
 def pivot_distance(hung: JointFrame, held: JointFrame) -> float:
@@ -157,16 +157,17 @@ def _sizes(entry: CylinderTemplate, work: _Work) -> _Sizes:
     slide, hung = work.frames[entry.slide], work.frames[entry.barrel_joint]
     barrel = next((b for b in slide.bodies if b in hung.bodies), slide.bodies[0])
     rod = next(b for b in slide.bodies if b != barrel)
-    ram = measure_ram(work.placement, barrel, rod, extension_line(entry, work.frames))
-    bore = _size("bore", ram.bore, entry.slide, work)
-    if bore.value == 0.0 and ram.outer is not None:
-        bore = Known(WALL * ram.outer, f"geometry: {WALL:g} of the barrel's outer {_mm(ram.outer)}, without a bore")
+    geometry = measure_cylinder(work.placement, barrel, rod, extension_axis(entry, work.frames))
+    bore = _size("bore", geometry.bore, entry.slide, work)
+    if bore.value == 0.0 and geometry.outer is not None:
+        outer = _mm(geometry.outer)
+        bore = Known(WALL * geometry.outer, f"geometry: {WALL:g} of the barrel's outer {outer}, without a bore")
         words = f"The barrel is drawn without its bore: {_mm(bore.value)} was taken, {WALL:g} of its outer diameter."
         name = work.actuator.specifications.get("bore", "bore")
         work.warn("MEC029", entry.slide, words, f'--set "{name}=… mm"')
-    if ram.count > 1:
-        bore = Known(bore.value, f"{bore.source}; {ram.count} cylinders drawn as one")
-    return _Sizes(entry, barrel, rod, ram, bore, _size("rod_diameter", ram.rod_diameter, entry.slide, work))
+    if geometry.count > 1:
+        bore = Known(bore.value, f"{bore.source}; {geometry.count} cylinders drawn as one")
+    return _Sizes(entry, barrel, rod, geometry, bore, _size("rod_diameter", geometry.rod_diameter, entry.slide, work))
 
 
 def _size(quantity: str, drawn: float | None, slide: str, work: _Work) -> Known:
@@ -226,7 +227,7 @@ def _fit(one: _Sizes, group: list[_Sizes], work: _Work) -> FittedCylinder:
 def _stroke(one: _Sizes, work: _Work) -> Known:
     """The stroke: set by hand, else a document's limit of the slide, else the sheet's, else the template's limit, else
     the piston's travel in the CAD model, else the template's default; 0 where nothing gives it."""
-    printed, travel, slide = work.printed("stroke"), one.ram.travel, one.template.slide
+    printed, travel, slide = work.printed("stroke"), one.geometry.travel, one.template.slide
     joint = work.frames[slide].joint
     limited = _limited(joint, work)
     if limited is not None and (printed is None or ("limit" in joint.documents and not _by_hand(printed.source))):
@@ -269,10 +270,10 @@ def _closed_length(one: _Sizes, drawn: float, stroke: float, work: _Work) -> Kno
     """The closed length by the best way there is; the source names what every other way gives."""
     printed = work.printed("closed_length")
     ways = [printed] if printed is not None else []
-    if one.ram.to_base is not None:
-        ways.append(Known(drawn - one.ram.to_base, "geometry: piston against base"))
-    if one.ram.to_eye is not None:
-        ways.append(Known(drawn - one.ram.to_eye, _BY_EYE))
+    if one.geometry.to_base is not None:
+        ways.append(Known(drawn - one.geometry.to_base, "geometry: piston against base"))
+    if one.geometry.to_eye is not None:
+        ways.append(Known(drawn - one.geometry.to_eye, _BY_EYE))
     slide, hint = one.template.slide, work.setting("closed_length")
     if not ways:
         words = "Neither sheet nor CAD model shows its closed length: drawn at mid-stroke until it is calibrated."

@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from typing import Literal
 
 from yellowiron.mechanism.actuation.cylinders import FittedCylinder
-from yellowiron.mechanism.joints.axes import Line
+from yellowiron.mechanism.joints.axes import Axis
 from yellowiron.mechanism.joints.frames import JointFrame
 from yellowiron.mechanism.placement import Placement
 from yellowiron.mechanism.values import DEFAULT, Known, default, known
@@ -210,7 +210,7 @@ def _wanted_as(actuator: ActuatorTemplate, quantity: str, dimension: str, templa
 
 def _rim(frame: JointFrame, placement: Placement, moved: str) -> float:
     """The largest radius of a body about a joint's axis, metres."""
-    line = Line(frame.anchor, frame.axis)
+    line = Axis(frame.anchor, frame.axis)
     return max(float(line.distance(placement.points(row)).max()) for row in placement.rows_of_body(moved))
 
 
