@@ -12,8 +12,8 @@ from pxr import Gf, Tf, Usd, UsdGeom, UsdPhysics, UsdShade
 from yellowiron.checks.reading.attributes import axis_token, number, quaternion, vector
 from yellowiron.checks.view import Body, Collider, Material, Units, union
 from yellowiron.model.geometry import Floats
+from yellowiron.model.record import RECORD
 
-RECORD = "yellowiron"
 _FIELDS = {
     "Sphere": ("radius",),
     "Cylinder": ("radius", "height"),
