@@ -12,9 +12,10 @@ import numpy as np
 from yellowiron.kinematics.solver.branches import branch_pivots, branch_sines
 from yellowiron.kinematics.solver.chain import ClosedChain, Component, State, independent_joints, suspects
 from yellowiron.kinematics.solver.pose_grid import PoseGrid, explore, joint_values
+from yellowiron.kinematics.tolerances import PINS_APART
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
-from yellowiron.model.mechanism import Drive, Joint, Mechanism, Mobility
+from yellowiron.model.mechanism import PROVISIONAL, STATED, Drive, Joint, Mechanism, Mobility
 
 ANGLE_MARGIN = math.radians(0.5)
 """Radians added to a pivot's range from the loop, so that its limit never carries load."""
@@ -22,15 +23,14 @@ SLIDE_MARGIN = 2e-3
 """Metres added to a passive slide's range from the loop."""
 FREQUENCY = 3.0
 """Hertz of a position drive on the empty machine: with its payload about 2, which every engine holds."""
-PROVISIONAL = "gains provisional"
-"""In a drive's source: its gains wait for the mass that only the kinematics knows."""
-STATED = "template states "
-"""In a drive's source: before the names of the gains that stay all the same."""
 STRAIGHT = 0.05
 """|sine| at a triangle of pivots below which a loop is too near its dead point to have a branch."""
-PARALLEL = 1e-4
-"""Metres: gap at a loop's pins, half a metre along the axis included, that pins of a sound drawing do not leave."""
 _BACK = 2e-3
+"""Metres or radians by which a limit that was drawn in stands back from the dead point."""
+_EVEN = 1e-3
+"""Metres by which a passive twin may go past its own stroke."""
+_FLAT = 1e-6
+"""|sine| of a drawn triangle of pivots that is none: its loop has no branch."""
 _OWN, _OTHERS = 13, 25
 """Poses sampled for the mass a drive sees: of its own component, and of each other one."""
 _USUAL = 0.95
@@ -165,7 +165,7 @@ def _report_unreachable(grid: PoseGrid, work: _Work) -> None:
 
 def _report_gap(component: Component, grid: PoseGrid, work: _Work) -> None:
     gap = max((state.closure for state in grid.states), default=0.0)
-    if gap > PARALLEL:
+    if gap > PINS_APART:
         work.find(
             "KIN008",
             "warning",
@@ -223,7 +223,7 @@ def _check_twins(mechanism: Mechanism, work: _Work) -> None:
             continue
         short = -cylinder.extension - (slide.lower + SLIDE_MARGIN)
         long = (slide.upper - SLIDE_MARGIN) - (cylinder.stroke - cylinder.extension)
-        if max(short, long) > 1e-3:
+        if max(short, long) > _EVEN:
             work.find(
                 "KIN004",
                 "warning",
@@ -243,7 +243,7 @@ def _branches(mechanism: Mechanism, grids: list[PoseGrid], placed: list[tuple[Fl
         branch = 0
         if loop.cut in pivots:
             sine = float(branch_sines(work.chain, pivots[loop.cut], *drawn)[0])
-            branch = int(math.copysign(1.0, sine)) if abs(sine) > 1e-6 else 0
+            branch = int(math.copysign(1.0, sine)) if abs(sine) > _FLAT else 0
             sines = branch_sines(work.chain, pivots[loop.cut], *placed[at[loop.cut]]) * branch
             least = float(sines.min(initial=abs(sine)))
             if branch and least < STRAIGHT:

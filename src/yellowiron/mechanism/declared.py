@@ -16,6 +16,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from yellowiron.mechanism.tolerances import PARALLEL
 from yellowiron.model.alignment import Alignment
 from yellowiron.model.assembly import Assembly, DeclaredJoint, loop_axis
 from yellowiron.model.finding import Finding
@@ -24,10 +25,11 @@ from yellowiron.model.mechanism import Joint, Mechanism
 from yellowiron.model.specification import Specification, Specifications
 from yellowiron.model.template import Template
 
-ANGLE = math.radians(0.5)
-"""Declared and found axes agree within this, …"""
 OFFSET = 5e-4
-"""… and hinges if one runs past the other by less than this share of the machine's size."""
+"""A declared and a found hinge, `PARALLEL`, agree if one runs past the other by less than this share of the machine's
+size."""
+_SAME_PIN = 1e-3
+"""Metres by which the hinges of bodies that turn on one pin may run past each other."""
 _TYPES = ("revolute", "prismatic", "spherical", "fixed")
 
 
@@ -215,7 +217,7 @@ def _compared(
     distance = _distance(found, anchor) if turns else None
     # A point that closes a loop stands for a hinge: the rest of the loop holds its axis.
     alike = found.type == kind or (kind == "spherical" and found.type == "revolute")
-    agrees = alike and (angle or 0.0) <= ANGLE and (distance or 0.0) <= OFFSET * size
+    agrees = alike and (angle or 0.0) <= PARALLEL and (distance or 0.0) <= OFFSET * size
     words = "" if agrees else f"{title}; found is a {found.type} joint"
     if not agrees and alike:
         words += f", its axis {math.degrees(angle):.2f}° off" if angle is not None else ""
@@ -232,7 +234,7 @@ def _across(mechanism: Mechanism, ends: tuple[str | None, str | None]) -> list[J
             pairs = {one.body0, one.body1}, {other.body0, other.body1}
             if ends[0] not in pairs[0] or ends[1] not in pairs[1] or len(pairs[0] & pairs[1]) != 1 or one is other:
                 continue
-            same = _angle(one, np.array(other.axis)) < ANGLE and _distance(one, np.array(other.anchor)) < 1e-3
+            same = _angle(one, np.array(other.axis)) < PARALLEL and _distance(one, np.array(other.anchor)) < _SAME_PIN
             if one.type == other.type == "revolute" and same:
                 found.append(one)
     return found

@@ -13,6 +13,7 @@ from yellowiron.mechanism.bodies.body import vector
 from yellowiron.mechanism.joints.axes import Axis
 from yellowiron.mechanism.joints.frames import JointFrame
 from yellowiron.mechanism.placement import Placement, ancestors
+from yellowiron.mechanism.tolerances import PARALLEL
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Site
@@ -24,7 +25,7 @@ _ALIKE = 1e-3
 """Relative difference of the lengths by which parts are compared up to which they are congruent."""
 _ON_PLANE = 1e-3
 """A plane this near to the edge contains it, metres."""
-_ACROSS = math.sin(math.radians(0.5))
+_ACROSS = math.sin(PARALLEL)
 """Sine of the angle up to which a plane is parallel to the joint's axis."""
 
 

@@ -14,12 +14,12 @@ from yellowiron.kinematics.measuring.quantities import Posed, Unmeasurable, eval
 from yellowiron.kinematics.measuring.sheet import specified
 from yellowiron.kinematics.solver.chain import ClosedChain, KinematicsError, State
 from yellowiron.kinematics.solver.pose_grid import PoseGrid, explore
+from yellowiron.kinematics.tolerances import REACHED
 from yellowiron.model.mechanism import Actuator, Mechanism
 from yellowiron.model.units import parse_quantity
 
-REACHED = 1e-9
-"""Metres or radians: how exactly the conditions of a `solve` step are met."""
 _SAMPLES = 17
+"""Poses over a stroke between which a root is looked for."""
 
 
 class Bench:

@@ -17,12 +17,11 @@ from scipy.optimize import brentq, least_squares, minimize
 from yellowiron.kinematics.measuring.quantities import Unmeasurable
 from yellowiron.kinematics.solver.chain import ClosedChain, Component, State
 from yellowiron.kinematics.solver.pose_grid import explore
+from yellowiron.kinematics.tolerances import MET
 from yellowiron.model.geometry import Floats
 
 POINTS = {1: 33, 2: 21, 3: 13, 4: 7}
 """Lattice points per actuator, by how many there are."""
-MET = 1e-6
-"""Metres or radians: how exactly a subject is met."""
 _TRIES = 5
 """Valleys of the lattice that are searched."""
 _STEP = 1e-6

@@ -16,18 +16,20 @@ import numpy as np
 
 from yellowiron.kinematics.solver.floating import attached
 from yellowiron.kinematics.solver.multibody import build, transverse
+from yellowiron.kinematics.tolerances import CLOSED, RANK
 from yellowiron.model.errors import MechanismError
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Mechanism, chained
 
-CLOSED = 1e-12
-"""Metres: largest gap left in a loop's independent closure equations, for machines up to 10 m; it grows beyond."""
-RANK = 1e-3
-"""Relative size below which a closure equation counts as dependent on the others."""
 _STEP = {"prismatic": 0.2, "revolute": 0.35}
+"""Longest step between solved states, metres or radians, so that they stay on the branch."""
 _ITERATIONS = 12
+"""Newton's, after which a step is halved."""
 _SHORTEST = 1e-7
+"""Share of the way below which a halved step is a dead point."""
 _NEAR, _SMALL = 1e-3, 0.05
+"""Metres or radians: a row of a sweep is tried in one step where the last states lead this near to it, and it is no
+farther than that from the last one."""
 
 
 class KinematicsError(MechanismError):

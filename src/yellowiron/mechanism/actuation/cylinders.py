@@ -18,10 +18,11 @@ from yellowiron.mechanism.actuation.cylinder_geometry import CylinderGeometry, m
 from yellowiron.mechanism.joints.axes import Axis
 from yellowiron.mechanism.joints.frames import JointFrame
 from yellowiron.mechanism.placement import Placement
+from yellowiron.mechanism.tolerances import PARALLEL
 from yellowiron.mechanism.values import Known, default, known, limit
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
-from yellowiron.model.mechanism import Cylinder
+from yellowiron.model.mechanism import DRAWN_OUTSIDE, UNKNOWN, Cylinder
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import ActuatorTemplate, CylinderTemplate, JointTemplate, Template
 from yellowiron.model.text import display
@@ -32,15 +33,9 @@ _STROKE_TOLERANCE, _STROKE_SHARE = 5e-4, 0.002
 """Difference of the piston's travel in CAD and the stroke that is worth a finding: metres, and relative."""
 _PASSIVE_ROOM = 0.05
 """A passive cylinder's limits are wider than its stroke by this share at each end: it must never stop its twin."""
-_DRAWN_OUTSIDE = 1e-6
-"""How far outside its limits a cylinder may be drawn before it is a finding, metres."""
-_PARALLEL = math.radians(0.5)
-"""Pivots within this angle are parallel."""
 _BY_EYE = "geometry: rod eye against gland"
 WALL = 0.82
 """Bore over outer diameter of a barrel that shows none: welded cylinders have walls of about a tenth of their bore."""
-UNKNOWN = "unknown"
-"""How the source of a quantity begins that nothing gives."""
 
 
 @dataclass(frozen=True)
@@ -148,7 +143,7 @@ def pivot_distance(hung: JointFrame, held: JointFrame) -> float:
     anchors."""
     between: Floats = held.anchor - hung.anchor
     hinges = hung.joint.type == "revolute" and held.joint.type == "revolute"
-    if hinges and np.linalg.norm(np.cross(hung.axis, held.axis)) < math.sin(_PARALLEL):
+    if hinges and np.linalg.norm(np.cross(hung.axis, held.axis)) < math.sin(PARALLEL):
         between = between - (between @ hung.axis) * hung.axis
     return float(np.linalg.norm(between))
 
@@ -349,7 +344,7 @@ def _limits(cylinder: Cylinder, work: _Work) -> tuple[float | None, float | None
         high = cylinder.stroke
     if high is None:
         return None, None, evidence
-    if not low - _DRAWN_OUTSIDE <= cylinder.extension <= high + _DRAWN_OUTSIDE:
+    if not low - DRAWN_OUTSIDE <= cylinder.extension <= high + DRAWN_OUTSIDE:
         words = f"The cylinder is drawn {_mm(cylinder.extension)} out, outside {_mm(low)} … {_mm(high)}."
         work.warn("MEC024", cylinder.slide, words, "Check stroke and closed length; a legal start pose is used.")
     room = _PASSIVE_ROOM * (high - low) if cylinder.passive else 0.0

@@ -16,7 +16,7 @@ from yellowiron.mechanism.joints.frames import JointFrame
 from yellowiron.mechanism.placement import Placement
 from yellowiron.mechanism.values import DEFAULT, Known, default, known
 from yellowiron.model.finding import Finding
-from yellowiron.model.mechanism import Actuator, ActuatorJoint, Drive
+from yellowiron.model.mechanism import PROVISIONAL, STATED, Actuator, ActuatorJoint, Drive
 from yellowiron.model.specification import Specifications, fold
 from yellowiron.model.template import ActuatorTemplate, JointTemplate, Template
 
@@ -58,9 +58,7 @@ def _cylinder_drive(
         t.cylinder.pull_force if t.sign == one.sign else t.cylinder.push_force for t in twins
     )
     share = f" with {len(twins)} passive twin(s)" if twins else ""
-    source = (
-        f"pressure times area{share}: {out / 1e3:.1f} kN extending, {back / 1e3:.1f} kN retracting; gains provisional"
-    )
+    source = f"pressure times area{share}: {out / 1e3:.1f} kN extending, {back / 1e3:.1f} kN retracting; {PROVISIONAL}"
     force = max(out, back)
     if force <= 0.0:
         _no_limit(actuator, "bore or pressure", findings)
@@ -133,7 +131,7 @@ def stated_drives(template: Template, frames: Mapping[str, JointFrame], findings
         holds = joint.stiffness is not None or joint.lower is not None or joint.upper is not None
         source = "stated in the template"
         if holds:
-            drive = Drive("position", 0.0, 0.0, math.inf, math.inf, f"{source}; gains provisional")
+            drive = Drive("position", 0.0, 0.0, math.inf, math.inf, f"{source}; {PROVISIONAL}")
         else:
             drive = Drive("velocity", 0.0, 1e4, math.inf, math.inf, source)
         if joint.max_force is None:
@@ -231,7 +229,7 @@ def _overridden(joint: JointTemplate, drive: Drive) -> Drive:
     if not stated:
         return drive
     values = {n: stated.get(n, getattr(drive, n)) for n in ("stiffness", "damping", "max_force", "max_velocity")}
-    return Drive(drive.kind, **values, source=f"{drive.source}; template states {', '.join(stated)}")
+    return Drive(drive.kind, **values, source=f"{drive.source}; {STATED}{', '.join(stated)}")
 
 
 def _no_limit(actuator: ActuatorTemplate, what: str, findings: list[Finding]) -> None:

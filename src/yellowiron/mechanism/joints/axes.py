@@ -9,12 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from yellowiron.mechanism.placement import Features
+from yellowiron.mechanism.tolerances import SAME_ANGLE, SAME_OFFSET
 from yellowiron.model.geometry import Floats
 
-SAME_ANGLE = math.radians(0.3)
-"""Two features may be on one axis if their directions differ by less than this …"""
-SAME_OFFSET = 5e-4
-"""… and the middle of one is nearer to the other's axis than this, metres."""
 _FITTED_WEIGHT = 0.01
 """Weight of a feature fitted to triangles beside an exact one."""
 _FITTED_LEAN = 1e-3
@@ -120,7 +117,7 @@ def symmetry_axis(points: Floats) -> Axis:
 
 
 def machine_sense(direction: Floats) -> Floats:
-    """A pivot's axis the way DESIGN wants it: pitch to +Y, vertical to +Z, lengthwise to +X; round-off becomes zero."""
+    """A pivot's axis as all of ours point: pitch to +Y, vertical to +Z, lengthwise to +X; round-off becomes zero."""
     size = np.abs(direction)
     # Near a tie the vertical wins, then the lateral: the order must not hang on round-off.
     main = next(i for i in (2, 1, 0) if size[i] > size.max() - 1e-3)

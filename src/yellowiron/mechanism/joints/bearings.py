@@ -10,8 +10,6 @@ from typing import Any
 import numpy as np
 
 from yellowiron.mechanism.joints.axes import (
-    SAME_ANGLE,
-    SAME_OFFSET,
     Axis,
     axis_of,
     coaxial_groups,
@@ -21,6 +19,7 @@ from yellowiron.mechanism.joints.axes import (
     symmetry_axis,
 )
 from yellowiron.mechanism.placement import Features, Placement, join
+from yellowiron.mechanism.tolerances import SAME_ANGLE, SAME_OFFSET
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
 
