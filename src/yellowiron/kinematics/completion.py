@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 
 from yellowiron.kinematics.solver.branches import branch_pivots, branch_sines
-from yellowiron.kinematics.solver.chain import ClosedChain, Component, State, independent_joints, suspects
+from yellowiron.kinematics.solver.chain import ClosedChain, Component, State
+from yellowiron.kinematics.solver.independence import independent_joints, suspects
 from yellowiron.kinematics.solver.pose_grid import PoseGrid, explore, joint_values
 from yellowiron.kinematics.tolerances import PINS_APART
 from yellowiron.model.finding import Finding

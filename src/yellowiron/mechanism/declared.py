@@ -212,17 +212,27 @@ def _compared(
     if found is None:
         words = f"{title}: no joint was found between '{ends[0]}' and '{ends[1]}'."
         return ComparedJoint(name, kind, bodies, agrees=False, words=words)
+    return _beside(declared, title, found, anchor, axis, OFFSET * size)
+
+
+def _beside(
+    declared: DeclaredJoint, title: str, found: Joint, anchor: Floats, axis: Floats, offset: float
+) -> ComparedJoint:
+    """A declared joint at `anchor` along `axis` in the machine frame, beside the one found, which may run past it by
+    `offset` metres."""
+    kind = declared.type
     angle = _angle(found, axis) if kind in ("revolute", "prismatic") and found.type == kind else None
     turns = kind in ("revolute", "spherical") and found.type in ("revolute", "spherical")
     distance = _distance(found, anchor) if turns else None
     # A point that closes a loop stands for a hinge: the rest of the loop holds its axis.
     alike = found.type == kind or (kind == "spherical" and found.type == "revolute")
-    agrees = alike and (angle or 0.0) <= PARALLEL and (distance or 0.0) <= OFFSET * size
+    agrees = alike and (angle or 0.0) <= PARALLEL and (distance or 0.0) <= offset
     words = "" if agrees else f"{title}; found is a {found.type} joint"
     if not agrees and alike:
         words += f", its axis {math.degrees(angle):.2f}° off" if angle is not None else ""
         words += f", {1e3 * distance:.1f} mm beside" if distance is not None else ""
-    return ComparedJoint(name, kind, bodies, found.name, found.type, angle, distance, agrees, words and f"{words}.")
+    words = words and f"{words}."
+    return ComparedJoint(declared.name, kind, declared.bodies, found.name, found.type, angle, distance, agrees, words)
 
 
 def _across(mechanism: Mechanism, ends: tuple[str | None, str | None]) -> list[Joint]:
