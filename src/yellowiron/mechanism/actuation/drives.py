@@ -1,7 +1,7 @@
 """Drives and actuators: what moves a joint, and how hard it can push.
 
-Gains of slides are provisional here; the kinematics sets them from the mass that the cylinder moves (FINDINGS
-section 6, rule 4). The template's own gains win over both.
+Gains of slides are provisional here; the kinematics sets them from the mass that the cylinder moves. The template's own
+gains win over both.
 """
 
 from __future__ import annotations

@@ -1,5 +1,4 @@
-"""Where a joint is: its axis and anchor, from its pin, else from the bores its two bodies share (DESIGN, "Where a joint
-is").
+"""Where a joint is: its axis and anchor, from its pin, else from the bores its two bodies share.
 
 Pivots first, then slides, which run from one pivot of their cylinder to the other. Machine frame, metres.
 """

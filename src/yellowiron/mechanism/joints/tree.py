@@ -1,7 +1,7 @@
 """Loops and cuts: which joints make the articulation's tree, and the one joint of each loop that is cut.
 
 The tree is the cheapest spanning tree of the joint graph (Kruskal), so that what closes a loop is always the joint
-least fit to be in it. What stays first, after FINDINGS section 6:
+least fit to be in it. What stays first:
 
 1. slides and welds: a slide is never cut;
 2. motors, then both pins of every driven cylinder: they carry the load;
