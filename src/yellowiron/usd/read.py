@@ -24,7 +24,7 @@ from yellowiron.usd.authoring.metadata import DOCUMENTS, FORMAT, from_json
 from yellowiron.usd.authoring.rotation import axis_of, principal_axes
 from yellowiron.usd.layers.drives import INSTANCES, per_usd_unit, to_usd_unit
 from yellowiron.usd.layers.sensors import read_sensors
-from yellowiron.usd.planning.pin_links import KIND as END
+from yellowiron.usd.planning.pin_links import KIND as PIN_LINK
 from yellowiron.usd.planning.plan import HULL, JOINTS, VISUALS
 
 _SUFFIXES = {".usd", ".usda", ".usdc", ".usdz"}
@@ -140,7 +140,7 @@ class _Reader:
         data = self._prim.GetCustomDataByKey(RECORD)
         body_prims = [p for p in self._prim.GetChildren() if _kind(p) == "body"]
         self._names = {p.GetPath(): str(_data(p)["name"]) for p in body_prims}
-        self._names |= {p.GetPath(): str(_data(p)["name"]) for p in self._prim.GetChildren() if _kind(p) == END}
+        self._names |= {p.GetPath(): str(_data(p)["name"]) for p in self._prim.GetChildren() if _kind(p) == PIN_LINK}
         bodies = tuple(self._body(p) for p in body_prims)
         scope = self._prim.GetChild(JOINTS)
         joint_prims = [p for p in scope.GetChildren() if _kind(p) == "joint"] if scope else []
