@@ -237,13 +237,13 @@ def test_a_sweep_is_kept_to_be_looked_at(usd_file: Path, mechanism: Mechanism, p
     assert sweep.pin_error.max() == pytest.approx(0.002)
     assert len(sweep.times) == len(sweep.pin_error) == len(sweep.angle_error) <= 240
     assert sweep.times[-1] == pytest.approx(0.02 * result.phases[-1].steps)
-    assert [frame.share for frame in sweep.frames] == pytest.approx([0.02, 0.26, 0.5, 0.74, 0.98], abs=0.03)
-    (track,) = sweep.tracks
-    assert track.kind == "position" and np.abs(track.wanted - track.measured).max() < 0.05
+    assert [snapshot.share for snapshot in sweep.snapshots] == pytest.approx([0.02, 0.26, 0.5, 0.74, 0.98], abs=0.03)
+    (trace,) = sweep.traces
+    assert trace.kind == "position" and np.abs(trace.wanted - trace.measured).max() < 0.05
     chain = ClosedChain(mechanism)
-    joint = mechanism.joint(track.joint)
-    for frame in sweep.frames:
-        relative = np.linalg.inv(frame.poses[joint.body0]) @ frame.poses[joint.body1]
+    joint = mechanism.joint(trace.joint)
+    for snapshot in sweep.snapshots:
+        relative = np.linalg.inv(snapshot.poses[joint.body0]) @ snapshot.poses[joint.body1]
         stroke = float(relative[:3, 3] @ np.asarray(joint.axis))
         solved = chain.pose(chain.solve({joint.name: stroke}))
-        assert np.abs(frame.poses["boom"] - solved["boom"]).max() < 1e-6
+        assert np.abs(snapshot.poses["boom"] - solved["boom"]).max() < 1e-6

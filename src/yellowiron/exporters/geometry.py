@@ -12,8 +12,8 @@ from pxr import Gf, Tf, Usd, UsdGeom, UsdPhysics, UsdShade
 
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.geometry import Color, Floats, Mesh
+from yellowiron.model.record import RECORD
 
-_KEY = "yellowiron"
 _NEUTRAL: Color = (0.5, 0.5, 0.5)
 Kind = Literal["mesh", "cylinder", "capsule", "box", "sphere"]
 
@@ -95,7 +95,7 @@ def read_geometry(path: str | Path) -> Geometry:
 
 def _described(stage: Usd.Stage) -> Iterator[tuple[Usd.Prim, Mapping[str, object]]]:
     for prim in stage.Traverse():
-        data = prim.GetCustomDataByKey(_KEY)
+        data = prim.GetCustomDataByKey(RECORD)
         if data:
             yield prim, data
 

@@ -1,8 +1,9 @@
 """Closed-chain kinematics: the loops solved, limits and gains that follow from them, and the machine measured.
 
-MuJoCo is imported with the first function that is asked for. One concept a module: `multibody` (mechanism → MuJoCo
-model), `chain` (the loops solved), `grid` (poses over the strokes), `branches`, `completion`, `bench` and `quantities`
-(how a measurement is made), `measurement`, `calibration`, `levers`, `poses`.
+`Mechanism` in; out come the mechanism completed (`complete`), calibrated (`calibrate`) or in a legal start pose
+(`started`), `Measurement`s, `PoseTables` and lever tables. MuJoCo is imported with the first function that is asked
+for. In order: `tolerances`, `solver` (the loops solved), `completion` (mobility, limits, branch signs, gains), `start`,
+`measuring` (measurements and calibration), `poses` and `levers` (tables for those who have no solver).
 
 Findings:
 

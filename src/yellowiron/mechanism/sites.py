@@ -10,9 +10,10 @@ import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
 from yellowiron.mechanism.bodies.body import vector
-from yellowiron.mechanism.joints.axes import Line
+from yellowiron.mechanism.joints.axes import Axis
 from yellowiron.mechanism.joints.frames import JointFrame
 from yellowiron.mechanism.placement import Placement, ancestors
+from yellowiron.mechanism.tolerances import PARALLEL
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Site
@@ -24,7 +25,7 @@ _ALIKE = 1e-3
 """Relative difference of the lengths by which parts are compared up to which they are congruent."""
 _ON_PLANE = 1e-3
 """A plane this near to the edge contains it, metres."""
-_ACROSS = math.sin(math.radians(0.5))
+_ACROSS = math.sin(PARALLEL)
 """Sine of the angle up to which a plane is parallel to the joint's axis."""
 
 
@@ -83,7 +84,7 @@ def _middle_site(entry: SiteTemplate, placement: Placement) -> Site | None:
 def _at_tip(edge: Site, frame: JointFrame, placement: Placement) -> Site:
     """The edge's site moved to the body's points farthest from the joint's axis (the teeth, whatever part they are
     of), in their middle along it."""
-    line = Line(frame.anchor, frame.axis)
+    line = Axis(frame.anchor, frame.axis)
     points = placement.points_of(placement.rows_of_body(edge.body))
     distance = line.distance(points)
     tip = _one_edge(points[distance > distance.max() - _EDGE], line)
@@ -96,7 +97,7 @@ def _inside_site(entry: SiteTemplate, frame: JointFrame, spanning: float, placem
     """The middle of what a body's wide parts enclose (a bucket's floor, back and edge; of rows such as teeth no part is
     wide): of their common hull without their own solids. All parts where none is wide."""
     rows = placement.rows_of_body(entry.body)
-    line = Line(frame.anchor, frame.axis)
+    line = Axis(frame.anchor, frame.axis)
     wide = [g[0] for g in _wide_groups(rows, line, spanning, placement) if len(g) == 1] or list(rows)
     points = placement.points_of(tuple(wide))
     try:
@@ -145,7 +146,7 @@ def _edge_site(
     the widest plane ends, a bucket's floor; of the edges in that plane the farthest. Parts of an `edge` role, where the
     alignment knows any, rule other planes out.
     """
-    line = Line(frame.anchor, frame.axis)
+    line = Axis(frame.anchor, frame.axis)
     rows = placement.rows_of_body(entry.body)
     edges = [_far_edge(group, rows, line, placement) for group in _wide_groups(rows, line, spanning, placement)]
     if not edges:
@@ -177,7 +178,7 @@ def _edge_site(
     )
 
 
-def _far_edge(group: tuple[int, ...], rows: Sequence[int], line: Line, placement: Placement) -> _Edge:
+def _far_edge(group: tuple[int, ...], rows: Sequence[int], line: Axis, placement: Placement) -> _Edge:
     """The edge of a wide part, or row of equal parts, that is farthest from a line."""
     points = placement.points_of(group)
     distance = line.distance(points)
@@ -189,14 +190,14 @@ def _far_edge(group: tuple[int, ...], rows: Sequence[int], line: Line, placement
     return _Edge(group, position, float(distance.max()), normal, area)
 
 
-def _one_edge(tip: Floats, line: Line) -> Floats:
+def _one_edge(tip: Floats, line: Axis) -> Floats:
     """Of points equally far from a line those on one parallel to it: of several edges the foremost, then the lowest."""
     across = tip - np.outer(line.along(tip), line.direction)
     order = np.lexsort((across[:, 2], np.round(-across[:, 0] / _EDGE)))
     return np.asarray(tip[np.linalg.norm(across - across[order[0]], axis=1) < 4.0 * _EDGE], dtype=np.float64)
 
 
-def _wide_groups(rows: Sequence[int], line: Line, spanning: float, placement: Placement) -> list[tuple[int, ...]]:
+def _wide_groups(rows: Sequence[int], line: Axis, spanning: float, placement: Placement) -> list[tuple[int, ...]]:
     """Parts that span a share of the body's width along the axis, alone or as a row of congruent parts (a CAD model may
     draw every tooth as a part of its own, turned or mirrored)."""
     reach = {row: (line.along(p := placement.points(row)).min(), line.along(p).max()) for row in rows}
@@ -234,7 +235,7 @@ def _congruent(row: int, other: int, sizes: Mapping[int, Floats], placement: Pla
     return bool(np.all(np.abs(sizes[row] - sizes[other]) <= _ALIKE * np.maximum(sizes[row], sizes[other])))
 
 
-def _plane_at(position: Floats, line: Line, rows: Sequence[int], placement: Placement) -> tuple[Floats | None, float]:
+def _plane_at(position: Floats, line: Axis, rows: Sequence[int], placement: Placement) -> tuple[Floats | None, float]:
     """The plane through an edge, parallel to the axis, on which the body has most area: (normal, area), or (None,
     0)."""
     found: list[tuple[Floats, float]] = []
@@ -249,7 +250,7 @@ def _plane_at(position: Floats, line: Line, rows: Sequence[int], placement: Plac
     return max(found, key=lambda pair: pair[1]) if found else (None, 0.0)
 
 
-def _planes_through(position: Floats, line: Line, row: int, placement: Placement) -> list[tuple[Floats, float]]:
+def _planes_through(position: Floats, line: Axis, row: int, placement: Placement) -> list[tuple[Floats, float]]:
     """(normal, area) of one part's planes through the edge: its planar faces, else its facets."""
     shape, matrix = placement.shapes[row], placement.transforms[row]
     if shape.planes:

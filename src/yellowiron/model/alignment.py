@@ -35,7 +35,7 @@ class PartAssignment:
 
 @dataclass(frozen=True, eq=False)
 class Alignment:
-    """Every part's role. `frame` (4, 4) takes CAD metres to the machine frame (DESIGN: frames).
+    """Every part's role. `frame` (4, 4) takes CAD metres to the machine frame (+X forward, +Y left, +Z up).
 
     `choices` are the template's variants as found in the CAD (`{"lift_cylinders": "twin"}`); `missing` lists roles
     that the template requires and no part plays; `to_review` the part ids and roles a person should look at. `counts`:

@@ -1,4 +1,10 @@
-"""USD: machines and plain assemblies written, machines read back. The names here import `pxr` when they are used."""
+"""USD: machines and plain assemblies written, machines read back.
+
+`Mechanism` × `Assembly` → a machine's files (`write_machine`), `Assembly` → plain USD (`write_assembly`), a machine's
+file → `Mechanism` (`read_mechanism`) or what it counts (`count_joints`). The names here import `pxr` when they are
+used. In order: `authoring` (how anything is written), `planning` (what is written where), `layers` (one concept a
+layer), `write`, `convert`, `read`, `counts`.
+"""
 
 from __future__ import annotations
 

@@ -18,12 +18,13 @@ from pxr import Gf, Sdf, Tf, Usd, UsdGeom, UsdPhysics, UsdUtils
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Body, BodyPart, BodyShape, Drive, Joint, Mechanism, Site, Vector
+from yellowiron.model.record import RECORD
 from yellowiron.model.template import JointType
-from yellowiron.usd.authoring.metadata import DOCUMENTS, FORMAT, KEY, from_json
+from yellowiron.usd.authoring.metadata import DOCUMENTS, FORMAT, from_json
 from yellowiron.usd.authoring.rotation import axis_of, principal_axes
 from yellowiron.usd.layers.drives import INSTANCES, per_usd_unit, to_usd_unit
 from yellowiron.usd.layers.sensors import read_sensors
-from yellowiron.usd.planning.pin_links import KIND as END
+from yellowiron.usd.planning.pin_links import KIND as PIN_LINK
 from yellowiron.usd.planning.plan import HULL, JOINTS, VISUALS
 
 _SUFFIXES = {".usd", ".usda", ".usdc", ".usdz"}
@@ -110,7 +111,7 @@ def find_machine(stage: Usd.Stage, where: str) -> Usd.Prim:
     if default:
         candidates = (default, *default.GetChildren(), *candidates)
     for prim in candidates:
-        data = prim.GetCustomDataByKey(KEY)
+        data = prim.GetCustomDataByKey(RECORD)
         if data and "equipmentType" in data:
             if data.get("format") != FORMAT:
                 raise YellowironError(
@@ -132,10 +133,10 @@ class _Reader:
         self._names: dict[Sdf.Path, str] = {}
 
     def read(self) -> Mechanism:
-        data = self._prim.GetCustomDataByKey(KEY)
+        data = self._prim.GetCustomDataByKey(RECORD)
         body_prims = [p for p in self._prim.GetChildren() if _kind(p) == "body"]
         self._names = {p.GetPath(): str(_data(p)["name"]) for p in body_prims}
-        self._names |= {p.GetPath(): str(_data(p)["name"]) for p in self._prim.GetChildren() if _kind(p) == END}
+        self._names |= {p.GetPath(): str(_data(p)["name"]) for p in self._prim.GetChildren() if _kind(p) == PIN_LINK}
         bodies = tuple(self._body(p) for p in body_prims)
         scope = self._prim.GetChild(JOINTS)
         joint_prims = [p for p in scope.GetChildren() if _kind(p) == "joint"] if scope else []
@@ -300,12 +301,12 @@ def _drive(prim: Usd.Prim, kind: str, recorded: Drive) -> Drive:
 
 
 def _kind(prim: Usd.Prim) -> str:
-    data = prim.GetCustomDataByKey(KEY)
+    data = prim.GetCustomDataByKey(RECORD)
     return str(data.get("kind", "")) if data else ""
 
 
 def _data(prim: Usd.Prim) -> Any:
-    return prim.GetCustomDataByKey(KEY)
+    return prim.GetCustomDataByKey(RECORD)
 
 
 def _array(attribute: Usd.Attribute) -> Floats:

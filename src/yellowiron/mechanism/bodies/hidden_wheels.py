@@ -16,13 +16,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from yellowiron.mechanism.bodies.body import hull_corners, vector
-from yellowiron.mechanism.bodies.choice import Choice
-from yellowiron.mechanism.bodies.mass import STEEL, Moments, combine, key_of
+from yellowiron.mechanism.bodies.mass import Masses, Moments, combine
 from yellowiron.mechanism.placement import Placement
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats, Ints, Mesh
 from yellowiron.model.mechanism import Body, BodyShape
-from yellowiron.model.template import Material, Role, Template
+from yellowiron.model.template import Role, Template
 
 MIDDLE = 2.0 / 3.0
 """Share of the room between two tracks, drawn in one with their frame, that is surely the frame's."""
@@ -126,22 +125,18 @@ def with_wheels(
     order: Sequence[str],
     wheels: Mapping[str, HiddenWheel],
     placement: Placement,
-    template: Template,
-    by_document: Mapping[str, Material],
-    used: dict[str, Material],
+    weighed: Masses,
     findings: list[Finding],
 ) -> tuple[Body, ...]:
     """The bodies in their `order`, hidden wheels among them; those that carry the tracks are lighter by them, and the
-    tracks' parts have no colliders. The wheels' materials come into `used`."""
+    tracks' parts have no colliders. The wheels' materials come into those that `weighed` has in use."""
     if not wheels:
         return tuple(bodies)
     by_name = {b.name: b for b in bodies}
     masses = {p.part: p.mass for b in bodies for p in b.parts}
-    choice = Choice(template, by_document, template.materials)
     for name, wheel in wheels.items():
         mass = wheel.share * sum(masses[placement.parts[row].id] for row in wheel.rows)
-        material, _ = choice.of("", name) or (Material("steel", density=STEEL), "default")
-        by_name[name] = _wheel(wheel, mass, key_of(material, used))
+        by_name[name] = _wheel(wheel, mass, weighed.key_of_role(name))
     for carrier in dict.fromkeys(w.carrier for w in wheels.values()):
         made = [by_name[n] for n, w in wheels.items() if w.carrier == carrier]
         stood_for = frozenset(placement.ids(row for w in wheels.values() if w.carrier == carrier for row in w.rows))

@@ -10,7 +10,7 @@ import numpy as np
 
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Mechanism
-from yellowiron.model.sweep import Frame, Sweep
+from yellowiron.model.sweep import Snapshot, Sweep
 from yellowiron.report.html.pictures import DrawnTriangles, data_uri, look_at, outline, posed, render
 from yellowiron.report.html.plots import Chart, Curve, plot
 from yellowiron.report.html.simulation import engine_name
@@ -45,30 +45,30 @@ def sweep_entries(
 
 
 def _frames(sweep: Sweep, mechanism: Mechanism, drawn: DrawnTriangles) -> list[dict[str, Any]]:
-    if not _moves(sweep.frames, mechanism):
+    if not _moves(sweep.snapshots, mechanism):
         return []
     # One camera for all of a strip: what moves is the machine.
-    points = np.concatenate([outline(mechanism, frame.poses) for frame in sweep.frames])
+    points = np.concatenate([outline(mechanism, snapshot.poses) for snapshot in sweep.snapshots])
     camera = look_at(points, azimuth=-1.1, elevation=0.2, width=WIDTH, height=HEIGHT)
     return [
         {
-            "picture": data_uri(render(posed(drawn, frame.poses), camera)),
-            "share": "" if frame.share is None else f"{100.0 * frame.share:.0f} %",
-            "time": f"{frame.time:.1f} s",
+            "picture": data_uri(render(posed(drawn, snapshot.poses), camera)),
+            "share": "" if snapshot.share is None else f"{100.0 * snapshot.share:.0f} %",
+            "time": f"{snapshot.time:.1f} s",
         }
-        for frame in sweep.frames
+        for snapshot in sweep.snapshots
     ]
 
 
-def _moves(frames: Sequence[Frame], mechanism: Mechanism) -> bool:
+def _moves(snapshots: Sequence[Snapshot], mechanism: Mechanism) -> bool:
     """Whether anything leaves its place: a wheel that turns on the spot looks the same in every picture."""
     hulls = {b.name: np.asarray(b.hull, dtype=np.float64) for b in mechanism.bodies if len(b.hull)}
-    if not frames or not hulls:
+    if not snapshots or not hulls:
         return False
     size = float(np.linalg.norm(np.ptp(np.concatenate(list(hulls.values())), axis=0)))
     for name, hull in hulls.items():
         middle = np.append(0.5 * (hull.min(axis=0) + hull.max(axis=0)), 1.0)
-        places = np.array([(frame.poses[name] @ middle)[:3] for frame in frames if name in frame.poses])
+        places = np.array([(snapshot.poses[name] @ middle)[:3] for snapshot in snapshots if name in snapshot.poses])
         if len(places) and float(np.linalg.norm(np.ptp(places, axis=0))) > SEEN * size:
             return True
     return False
@@ -77,17 +77,17 @@ def _moves(frames: Sequence[Frame], mechanism: Mechanism) -> bool:
 def _positions(sweep: Sweep, document: Mapping[str, Any]) -> dict[str, Any]:
     """Where each driven joint was, against where it was told to be."""
     names = {j["joint"]: a["name"] for a in document["actuators"] for j in a["joints"]}
-    tracks = [track for track in sweep.tracks if track.kind == "position"] or list(sweep.tracks)
+    traces = [trace for trace in sweep.traces if trace.kind == "position"] or list(sweep.traces)
     # The joints of a motor turn alike: one curve says it.
-    first = {names.get(track.joint, track.joint): track for track in reversed(tracks)}
+    first = {names.get(trace.joint, trace.joint): trace for trace in reversed(traces)}
     curves, legend = [], []
-    for number, (name, track) in enumerate(reversed(first.items())):
-        scale = 100.0 if track.kind == "position" else 1.0
-        curves.append(Curve(sweep.times, scale * track.wanted, f"{name}, wanted", number, wanted=True))
-        curves.append(Curve(sweep.times, scale * track.measured, name, number))
+    for number, (name, trace) in enumerate(reversed(first.items())):
+        scale = 100.0 if trace.kind == "position" else 1.0
+        curves.append(Curve(sweep.times, scale * trace.wanted, f"{name}, wanted", number, wanted=True))
+        curves.append(Curve(sweep.times, scale * trace.measured, name, number))
         legend.append((number, sentence(name)))
-    moments = [frame.time for frame in sweep.frames]
-    if tracks and tracks[0].kind == "position":
+    moments = [snapshot.time for snapshot in sweep.snapshots]
+    if traces and traces[0].kind == "position":
         chart = Chart("Stroke: wanted (dashed) and measured", " %", 0.0, 100.0, moments=moments)
     else:
         most = max((float(np.abs(curve.values).max(initial=0.0)) for curve in curves), default=0.0) or 1.0

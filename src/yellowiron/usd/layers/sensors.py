@@ -18,8 +18,9 @@ import numpy as np
 from pxr import Gf, Sdf, Usd, UsdGeom
 
 from yellowiron.model.geometry import Floats
+from yellowiron.model.record import RECORD
 from yellowiron.model.sensor import Sensor, Vector
-from yellowiron.usd.authoring.metadata import KEY, describe_sensor, from_json, set_custom, to_json
+from yellowiron.usd.authoring.metadata import describe_sensor, from_json, set_custom, to_json
 from yellowiron.usd.authoring.rotation import quaternion_of
 from yellowiron.usd.authoring.stage import (
     Types,
@@ -122,13 +123,13 @@ def _axes(sensor: Sensor) -> Floats:
 def read_sensors(machine: Usd.Prim, cache: UsdGeom.XformCache) -> tuple[Sensor, ...]:
     """The sensors of a machine's prim, as they were written or have been edited since: a prim that was moved, a lens
     that was changed; a prim that was removed takes its sensor with it."""
-    text = machine.GetCustomDataByKey(f"{KEY}:sensors")
+    text = machine.GetCustomDataByKey(f"{RECORD}:sensors")
     if not text:
         return ()
     prims = {}
     for body in machine.GetChildren():
         for prim in body.GetChildren():
-            data = prim.GetCustomDataByKey(KEY)
+            data = prim.GetCustomDataByKey(RECORD)
             if data and data.get("kind") == "sensor":
                 prims[str(data["name"])] = prim
     recorded: tuple[Sensor, ...] = from_json(tuple[Sensor, ...], text)

@@ -1,4 +1,4 @@
-"""Pin ends: links on a slewed machine's cut pins, that the mechanism knows nothing of."""
+"""Pin links: links on a slewed machine's cut pins, that the mechanism knows nothing of."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def slewed(tmp_path_factory: pytest.TempPathFactory) -> tuple[Mechanism, Path]:
     return mechanism, folder / "slewed.usda"
 
 
-def test_only_what_a_motor_slews_has_ends(slewed: tuple[Mechanism, Path], tmp_path: Path) -> None:
+def test_only_what_a_motor_slews_has_pin_links(slewed: tuple[Mechanism, Path], tmp_path: Path) -> None:
     assert [j.name for j in slewed_cuts(slewed[0])] == ["boom_joint"]
     assert not slewed_cuts(small_machine.make()[0])
     stage = Usd.Stage.Open(str(small_machine.write(tmp_path)))

@@ -17,7 +17,7 @@ _TURN = 2.0 * np.pi
 
 
 @dataclass(frozen=True, eq=False)
-class Grid:
+class PoseGrid:
     """Solved states over a lattice of the drivers' ranges. `values` (n, drivers) are their coordinates, `parents` (n,)
     the state each was solved from (−1: the drawn pose), `corners` the indices of the range's corners among the
     states, `unreachable` the lattice points (coordinates) that no step led to."""
@@ -30,7 +30,7 @@ class Grid:
     unreachable: tuple[tuple[float, ...], ...]
 
 
-def explore(chain: ClosedChain, ranges: Mapping[str, tuple[float, float]], *, points: int | None = None) -> Grid:
+def explore(chain: ClosedChain, ranges: Mapping[str, tuple[float, float]], *, points: int | None = None) -> PoseGrid:
     """The lattice of `points` per driver (default: fewer the more drivers there are), each state solved from a solved
     neighbour, outwards from the drawn pose."""
     drivers = tuple(ranges)
@@ -67,7 +67,7 @@ def explore(chain: ClosedChain, ranges: Mapping[str, tuple[float, float]], *, po
                 if 0 <= index < count and neighbour not in number and attempt(neighbour, number[node]):
                     waiting.append(neighbour)
     lattice = list(np.ndindex(*shape))
-    return Grid(
+    return PoseGrid(
         drivers,
         tuple(states),
         np.array(values).reshape(len(states), len(drivers)),
@@ -79,7 +79,7 @@ def explore(chain: ClosedChain, ranges: Mapping[str, tuple[float, float]], *, po
     )
 
 
-def joint_values(chain: ClosedChain, grid: Grid, joint: Joint, rotations: Floats) -> Floats:
+def joint_values(chain: ClosedChain, grid: PoseGrid, joint: Joint, rotations: Floats) -> Floats:
     """A joint's coordinate (n,) in every state of a grid; a cut pivot's is followed from state to state, so that it may
     pass half a turn. `rotations` as from `ClosedChain.placements`."""
     if not joint.cut:
