@@ -38,7 +38,7 @@ from yellowiron.alignment.labelling.result import reported
 from yellowiron.alignment.labelling.review import doubts, name_doubts
 from yellowiron.alignment.labelling.suspects import shaken
 from yellowiron.alignment.structure.clusters import Structure
-from yellowiron.alignment.structure.observation import CONTACT, Seen, see
+from yellowiron.alignment.structure.observation import CONTACT, Observation, observe
 from yellowiron.model.alignment import Alignment, Vector
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import AlignmentError
@@ -77,41 +77,45 @@ def align(
     plain = without_tracks(template)
     up = _upright(tracks)
     search = Search(
-        lambda contact: replace(see(machine, plain, contact), up=up), plain, specifications, choices or {}, edited
+        lambda contact: replace(observe(machine, plain, contact), up=up), plain, specifications, choices or {}, edited
     )
-    answer, seen, scores = search.run()
+    answer, observation, scores = search.run()
     structure, resolved, solution = answer.structure, answer.template, answer.solution
-    frame = machine_frame(seen.solids, structure, solution, seen.wheels, resolved, tracks) if seen.solids else None
+    frame = (
+        machine_frame(observation.solids, structure, solution, observation.wheels, resolved, tracks)
+        if observation.solids
+        else None
+    )
     if frame is not None and solution.body_of:
-        sided = side_weights(seen.solids, structure, resolved, solution, frame, answer.unary)
+        sided = side_weights(observation.solids, structure, resolved, solution, frame, answer.unary)
         if sided != answer.unary:
             solution = solve(structure, resolved, unary=sided, barred=answer.barred) or solution
-            frame = machine_frame(seen.solids, structure, solution, seen.wheels, resolved, tracks)
-    solution = grounded(solution, structure, seen.solids, resolved)
+            frame = machine_frame(observation.solids, structure, solution, observation.wheels, resolved, tracks)
+    solution = grounded(solution, structure, observation.solids, resolved)
     answer = replace(answer, solution=solution)
     rivals = {} if is_whole(answer) else rivals_of(answer)
     spreader = Spreader(
-        seen.solids,
+        observation.solids,
         structure,
         solution,
         resolved,
-        seen.flats,
-        seen.near,
-        seen.touch,
+        observation.flats,
+        observation.near,
+        observation.touch,
         scores,
-        seen.size,
+        observation.size,
         frame.matrix[2, :3] if frame is not None else np.array([0.0, 0.0, 1.0]),
         rivals,
-        shaken(solution, resolved, _surfaces(seen, structure, solution)),
+        shaken(solution, resolved, _surfaces(observation, structure, solution)),
     )
-    places = coupled(spreader.run(seen.wheels), seen.solids, structure, solution, resolved)
-    apart |= {seen.solids[i].part.id: metres for i, metres in spreader.apart.items()}
-    by_id = {seen.solids[i].part.id: place for i, place in places.items()}
+    places = coupled(spreader.run(observation.wheels), observation.solids, structure, solution, resolved)
+    apart |= {observation.solids[i].part.id: metres for i, metres in spreader.apart.items()}
+    by_id = {observation.solids[i].part.id: place for i, place in places.items()}
     whole = choose(template, answer.choices)
     if tracks and frame is not None:
         rows = track_places(tracks, tracked, frame.matrix, whole)
         all_solids = solids_of(tracking)
-        by_id |= on_tracks(by_id, rows, all_solids, Touch(all_solids, answer.contact * seen.size)) | rows
+        by_id |= on_tracks(by_id, rows, all_solids, Touch(all_solids, answer.contact * observation.size)) | rows
     documents = {item.part: item.reason for item in edits.parts if item.source == "data"} if edits is not None else {}
     return reported(
         assembly,
@@ -123,16 +127,16 @@ def align(
         frame or MachineFrame(np.eye(4)),
         documents=documents,
         apart=apart,
-        axes=_axes(structure, solution, seen),
+        axes=_axes(structure, solution, observation),
         whole=is_whole(answer),
         rung=CONTACT.index(answer.contact),
         remarks=[
             # What reading the file found; the rest was of an earlier model.
             *(f for f in (edits.findings if edits is not None else ()) if f.code in ("ALN012", "ALN013")),
             *name_doubts(search.heed, BELIEVED, template.equipment_type),
-            *sheet_findings(structure, seen.rams, resolved, specifications, solution),
+            *sheet_findings(structure, observation.cylinders, resolved, specifications, solution),
             *doubts(
-                seen.solids,
+                observation.solids,
                 structure,
                 solution,
                 resolved,
@@ -146,28 +150,32 @@ def align(
     )
 
 
-def _surfaces(seen: Seen, structure: Structure, solution: Solution) -> dict[str, float]:
+def _surfaces(observation: Observation, structure: Structure, solution: Solution) -> dict[str, float]:
     """Body → the surface of its cluster, m²."""
     return {
-        b: sum(seen.solids[i].surface for i in sorted(structure.clusters[c].members))
+        b: sum(observation.solids[i].surface for i in sorted(structure.clusters[c].members))
         for c, b in solution.body_of.items()
     }
 
 
-def _axes(structure: Structure, solution: Solution, seen: Seen) -> dict[str, tuple[Vector, Vector]]:
+def _axes(structure: Structure, solution: Solution, observation: Observation) -> dict[str, tuple[Vector, Vector]]:
     """Joint → its axis, for the joints that no pin is drawn for and that no wheel turns on, for the slides whose rod is
     not drawn in its barrel, and for sections in each other."""
     found = {}
     for joint, slide in sorted(solution.slide_of.items()):
         number = structure.slides[slide][2]
-        drawn = seen.rams[number] if number < len(seen.rams) else seen.nests[number - len(seen.rams)]
+        drawn = (
+            observation.cylinders[number]
+            if number < len(observation.cylinders)
+            else observation.nests[number - len(observation.cylinders)]
+        )
         if isinstance(drawn, Nest) or drawn.apart:
             found[joint] = (_vector(drawn.origin), _vector(drawn.direction))
     for joint, number in sorted(solution.hinge_of.items()):
         hinge = structure.hinges[number]
         if not hinge.pins and not any(structure.clusters[c].kind == "wheel" for c in (hinge.a, hinge.b)):
-            line = structure.lines[hinge.line]
-            found[joint] = (_vector(line.origin), _vector(line.direction))
+            axis = structure.axes[hinge.axis]
+            found[joint] = (_vector(axis.origin), _vector(axis.direction))
     return found
 
 

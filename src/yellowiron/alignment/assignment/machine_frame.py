@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from yellowiron.alignment.assignment.cp_sat import Solution
-from yellowiron.alignment.features.contacts import Line
+from yellowiron.alignment.features.contacts import SharedAxis
 from yellowiron.alignment.features.solids import Solid
 from yellowiron.alignment.features.tracks import Track
 from yellowiron.alignment.features.wheels import Wheel
@@ -37,7 +37,7 @@ def machine_frame(
     """The frame: up along the axis about which the machine turns or bends, left along the root's wheels or across its
     tracks, forward towards the working arms. What is not there is guessed and said so."""
     doubts: list[str] = []
-    lines = {j: structure.lines[structure.hinges[h].line] for j, h in solution.hinge_of.items()}
+    axes = {j: structure.axes[structure.hinges[h].axis] for j, h in solution.hinge_of.items()}
     cluster_of = {b: c for c, b in solution.body_of.items()}
     kinds = {r.name: r.kind for r in template.roles}
     rolling = [
@@ -46,27 +46,27 @@ def machine_frame(
         if structure.clusters[c].kind == "wheel"
     ]
     flat = _ground_normal(rolling) if not tracks else np.cross(tracks[0].axis, tracks[0].along)
-    swing = _swing(template, lines, kinds, flat)
+    swing = _swing(template, axes, kinds, flat)
     if swing is not None:
-        up = lines[swing].direction
+        up = axes[swing].direction
     elif flat is not None:
         up = flat
         doubts.append("up is the normal of the wheels' plane")
     else:
-        pitch = _common_direction(list(lines.values()))
+        pitch = _common_direction(list(axes.values()))
         up = _up_guess(pitch)
-        if lines:
+        if axes:
             doubts.append("up is guessed: no wheels and no swing axis were found")
     if rolling or tracks:
         below = np.mean([*(w.center for w in rolling), *(t.center for t in tracks)], axis=0)
         above = _middle([s for s in solids if all(s.index not in w.members for w in wheels)])
         if float((above - below) @ up) < 0:
             up = -up
-    elif lines and "wheel" in kinds.values():
+    elif axes and "wheel" in kinds.values():
         doubts.append("no wheels were found, so the ground is taken under the lowest part")
-    left = tracks[0].axis if tracks else _left(template, structure, cluster_of, wheels, lines, swing, up)
+    left = tracks[0].axis if tracks else _left(template, structure, cluster_of, wheels, axes, swing, up)
     if left is None:
-        if not lines and not rolling:
+        if not axes and not rolling:
             return MachineFrame(np.eye(4), ("no joints and no wheels were found: the CAD file's own axes are taken",))
         left = np.eye(3)[int(np.argmin(np.abs(up)))]
         doubts.append("left is guessed: no wheel or pitch axis was found")
@@ -78,7 +78,7 @@ def machine_frame(
     elif sense < 0:
         forward, left = -forward, -left
     rotation = _snapped(np.array([forward, left, up]))
-    origin = _origin(solids, structure, cluster_of, template, lines[swing] if swing else None, rolling, up, tracks)
+    origin = _origin(solids, structure, cluster_of, template, axes[swing] if swing else None, rolling, up, tracks)
     matrix = np.eye(4)
     matrix[:3, :3] = rotation
     matrix[:3, 3] = np.round(-rotation @ origin, 12) + 0.0
@@ -104,10 +104,10 @@ def _ground_normal(wheels: list[Wheel]) -> Floats | None:
     return np.asarray(axes[2], dtype=np.float64) if spread[1] > 0.2 * spread[0] else None
 
 
-def _swing(template: Template, lines: dict[str, Line], kinds: dict[str, str], flat: Floats | None) -> str | None:
+def _swing(template: Template, axes: dict[str, SharedAxis], kinds: dict[str, str], flat: Floats | None) -> str | None:
     """The root's joint about the vertical: the one along the wheels' plane's normal, else the one to another frame."""
     best: tuple[float, str] | None = None
-    for name in sorted(lines):
+    for name in sorted(axes):
         joint = template.joint(name)
         bodies = template.bodies_of(joint)
         if template.root not in bodies:
@@ -115,16 +115,16 @@ def _swing(template: Template, lines: dict[str, Line], kinds: dict[str, str], fl
         other = bodies[1] if bodies[0] == template.root else bodies[0]
         if other is None or kinds[other] in ("barrel", "rod", "wheel"):
             continue
-        score = abs(float(lines[name].direction @ flat)) if flat is not None else float(kinds[other] == "frame")
+        score = abs(float(axes[name].direction @ flat)) if flat is not None else float(kinds[other] == "frame")
         if score > 0.8 and (best is None or score > best[0]):
             best = (score, name)
     return best[1] if best is not None else None
 
 
-def _common_direction(lines: list[Line]) -> Floats | None:
-    if not lines:
+def _common_direction(axes: list[SharedAxis]) -> Floats | None:
+    if not axes:
         return None
-    directions = np.array([ln.direction for ln in lines])
+    directions = np.array([ln.direction for ln in axes])
     alike = (np.abs(directions @ directions.T) > 0.999).sum(axis=1)
     return np.asarray(directions[int(np.argmax(alike))], dtype=np.float64)
 
@@ -140,7 +140,7 @@ def _up_guess(pitch: Floats | None) -> Floats:
 
 def _left(
     template: Template, structure: Structure, cluster_of: dict[str, int], wheels: list[Wheel],
-    lines: dict[str, Line], swing: str | None, up: Floats,
+    axes: dict[str, SharedAxis], swing: str | None, up: Floats,
 ) -> Floats | None:  # fmt: skip
     """The axis of the wheels on the root's side of the swing, else the commonest joint axis across `up`."""
     reached = {template.root}
@@ -164,7 +164,7 @@ def _left(
         first = found[0].direction
         total = np.sum([w.direction if w.direction @ first > 0 else -w.direction for w in found], axis=0)
         return np.asarray(total, dtype=np.float64)
-    across = [ln for ln in lines.values() if abs(float(ln.direction @ up)) < 0.3]
+    across = [ln for ln in axes.values() if abs(float(ln.direction @ up)) < 0.3]
     return _common_direction(across)
 
 
@@ -197,7 +197,7 @@ def _snapped(rotation: Floats) -> Floats:
 
 def _origin(
     solids: tuple[Solid, ...], structure: Structure, cluster_of: dict[str, int], template: Template,
-    axis: Line | None, wheels: list[Wheel], up: Floats, tracks: Sequence[Track],
+    axis: SharedAxis | None, wheels: list[Wheel], up: Floats, tracks: Sequence[Track],
 ) -> Floats:  # fmt: skip
     """The ground under the swing axis, else under the root's centre."""
     if axis is not None:

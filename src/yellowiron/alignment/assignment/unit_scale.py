@@ -10,7 +10,7 @@ import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 from scipy.spatial.distance import pdist
 
-from yellowiron.alignment.features.cylinders import rams_of
+from yellowiron.alignment.features.cylinders import cylinders_of
 from yellowiron.alignment.features.separate_parts import islands
 from yellowiron.alignment.features.solids import solids_of
 from yellowiron.alignment.structure.observation import CONTACT
@@ -87,7 +87,9 @@ def _by_diameters(assembly: Assembly, template: Template, specifications: Specif
     if not values or not solids:
         return None
     size = float(np.linalg.norm(np.max([s.high for s in solids], axis=0) - np.min([s.low for s in solids], axis=0)))
-    drawn = sorted({2 * r for ram in rams_of(solids, CONTACT[0] * size) for r in (ram.bore, ram.rod_radius)})
+    drawn = sorted(
+        {2 * r for cylinder in cylinders_of(solids, CONTACT[0] * size) for r in (cylinder.bore, cylinder.rod_radius)}
+    )
     best: tuple[int, float, float] | None = None
     for first in (v / d for v in values for d in drawn if POSES[0] < v / d / near < POSES[1]):
         pairs = [v / d for v in values for d in drawn if abs(v / d / first - 1) < AGREE]

@@ -1,4 +1,4 @@
-"""What touches what: shafts in bores, the lines they share, and flat faces that lie on each other.
+"""What touches what: shafts in bores, the axes they share, and flat faces that lie on each other.
 
 Facets of cylindrical faces never count as flat contact (a bore would look like a weld): only the planes that the CAD
 reader found do, and only over the area that both really cover.
@@ -37,7 +37,7 @@ class Fit:
 
 
 @dataclass(frozen=True, eq=False)
-class Line:
+class SharedAxis:
     """An axis that fits share: `fits` are indices into the list of fits."""
 
     origin: Floats
@@ -46,7 +46,7 @@ class Line:
     fits: tuple[int, ...]
 
     def off(self, point: Floats) -> float:
-        """Distance of a point from the line, metres."""
+        """Distance of a point from the axis, metres."""
         delta = point - self.origin
         return float(np.linalg.norm(delta - (delta @ self.direction) * self.direction))
 
@@ -160,7 +160,7 @@ def _fit(inner: int, shaft: Cyl, outer: int, bore: Cyl, tolerance: float) -> Fit
 
 
 def _strongest(fits: list[Fit]) -> list[Fit]:
-    """One fit for each pair of parts and line: the longest."""
+    """One fit for each pair of parts and axis: the longest."""
     kept: list[Fit] = []
     by_pair: dict[tuple[int, int], list[Fit]] = {}
     for fit in sorted(fits, key=lambda f: (f.inner, f.outer, -round(f.overlap, 7), round(f.gap, 7))):
@@ -175,7 +175,7 @@ def _skew(a: Cyl, b: Cyl) -> bool:
     return abs(float(a.direction @ b.direction)) < PARALLEL
 
 
-def lines_of(fits: list[Fit], tolerance: float) -> list[Line]:
+def shared_axes_of(fits: list[Fit], tolerance: float) -> list[SharedAxis]:
     """The distinct axes of fits: parallel and within a few per cent of a radius of each other."""
     origins: list[Floats] = []
     directions: list[Floats] = []
@@ -200,7 +200,9 @@ def lines_of(fits: list[Fit], tolerance: float) -> list[Line]:
         else:
             members[found].append(k)
             radii[found] = max(radii[found], shaft.radius)
-    return [Line(o, d, r, tuple(sorted(m))) for o, d, r, m in zip(origins, directions, radii, members, strict=True)]
+    return [
+        SharedAxis(o, d, r, tuple(sorted(m))) for o, d, r, m in zip(origins, directions, radii, members, strict=True)
+    ]
 
 
 class Patches:

@@ -15,7 +15,7 @@ TWIN = 0.02
 
 
 @dataclass(frozen=True, eq=False)
-class Ram:
+class DrawnCylinder:
     """One cylinder: indices of the solids of its barrel and of its rod (those about its own axis; eyes come later), the
     axis from the closed end towards the rod's eye, and the two radii. Where the barrel is not `hollow`, `bore` is its
     outer radius. `count` twins side by side are one. A rod that is drawn `apart`, in line with its barrel but not in
@@ -44,7 +44,7 @@ class Pair:
     score: float
 
 
-def rams_of(solids: tuple[Solid, ...], tolerance: float) -> list[Ram]:
+def cylinders_of(solids: tuple[Solid, ...], tolerance: float) -> list[DrawnCylinder]:
     """Every hydraulic cylinder, longest first; no solid belongs to two. Twins that share their two parts are one, in
     the middle between them."""
     bores = [
@@ -61,7 +61,7 @@ def rams_of(solids: tuple[Solid, ...], tolerance: float) -> list[Ram]:
             pair = _pair(tube, bore, bar, shaft, eyes, tolerance)
             if pair is not None:
                 pairs.append(pair)
-    rams: list[Ram] = []
+    cylinders: list[DrawnCylinder] = []
     used: set[int] = set()
     for pair in sorted(pairs, key=lambda p: (-round(p.score, 6), p.tube.index, p.bar.index)):
         if pair.tube.index in used or pair.bar.index in used:
@@ -69,13 +69,13 @@ def rams_of(solids: tuple[Solid, ...], tolerance: float) -> list[Ram]:
         twins = [p for p in pairs if p.tube is pair.tube and p.bar is pair.bar and _alike(p, pair)]
         halves = [grown(p, solids, used, tolerance) for p in twins]
         rod = frozenset().union(*(r.rod for r in halves))
-        ram = replace(
+        cylinder = replace(
             halves[0], barrel=frozenset().union(*(r.barrel for r in halves)) - rod, rod=rod,
             origin=np.asarray(np.mean([r.origin for r in halves], axis=0)), count=len(halves),
         )  # fmt: skip
-        used |= ram.barrel | ram.rod
-        rams.append(ram)
-    return rams
+        used |= cylinder.barrel | cylinder.rod
+        cylinders.append(cylinder)
+    return cylinders
 
 
 def _alike(one: Pair, other: Pair) -> bool:
@@ -124,7 +124,7 @@ def crossing(eye: Cyl, origin: Floats, direction: Floats, radius: float) -> floa
     return float(delta @ direction) if skew < 0.5 * radius and abs(float(delta @ eye.direction)) < 12 * radius else None
 
 
-def grown(pair: Pair, solids: tuple[Solid, ...], used: set[int], tolerance: float) -> Ram:
+def grown(pair: Pair, solids: tuple[Solid, ...], used: set[int], tolerance: float) -> DrawnCylinder:
     """The parts turned about the cylinder's axis, each to the barrel or to the rod."""
     origin, d, r = pair.bore.center, pair.direction, pair.bore.radius
     mouth, bottom = pair.bore.half, -pair.bore.half
@@ -147,7 +147,7 @@ def grown(pair: Pair, solids: tuple[Solid, ...], used: set[int], tolerance: floa
             rod.add(s.index)
         else:
             barrel.add(s.index)
-    return Ram(frozenset(barrel), frozenset(rod), origin, d, r, pair.shaft.radius)
+    return DrawnCylinder(frozenset(barrel), frozenset(rod), origin, d, r, pair.shaft.radius)
 
 
 def _radius(solid: Solid, origin: Floats, direction: Floats) -> float:

@@ -10,8 +10,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from yellowiron.alignment.features.contacts import PARALLEL, Fit, Line, lines_of
-from yellowiron.alignment.features.cylinders import Ram
+from yellowiron.alignment.features.contacts import PARALLEL, Fit, SharedAxis, shared_axes_of
+from yellowiron.alignment.features.cylinders import DrawnCylinder
 from yellowiron.alignment.features.distance import Touch
 from yellowiron.alignment.features.solids import Cyl, Solid, coaxial
 from yellowiron.model.template import Template
@@ -42,26 +42,26 @@ def bored(solids: tuple[Solid, ...], template: Template, size: float) -> bool:
 
 
 def ended_fits_of(
-    solids: tuple[Solid, ...], fits: Iterable[Fit], rams: Iterable[Ram], touch: Touch, size: float
+    solids: tuple[Solid, ...], fits: Iterable[Fit], cylinders: Iterable[DrawnCylinder], touch: Touch, size: float
 ) -> list[Fit]:
     """A fit for every part right beside a round end of another, for pairs of parts without one. `inner` is the part
     with the end; the shaft is the pin that is not drawn."""
-    rams = list(rams)
+    cylinders = list(cylinders)
     joined = {frozenset((f.inner, f.outer)) for f in fits}
-    of_ram = {i: ram for ram in rams for i in ram.barrel | ram.rod}
+    of_cylinder = {i: cylinder for cylinder in cylinders for i in cylinder.barrel | cylinder.rod}
     found: dict[tuple[int, int], Fit] = {}
     for solid in solids:
         if (
             solid.axis is not None
-            or (solid.shaft is not None and solid.index not in of_ram)
+            or (solid.shaft is not None and solid.index not in of_cylinder)
             or (solid.slight and solid.shape.closed)
         ):
             continue
         for end in (*solid.cylinders, *solid.knuckles):
             if end.inner or end.arc < ARC or not LEAST * size < end.radius < MOST * size:
                 continue
-            ram = of_ram.get(solid.index)
-            if ram is not None and abs(float(end.direction @ ram.direction)) > PARALLEL:
+            cylinder = of_cylinder.get(solid.index)
+            if cylinder is not None and abs(float(end.direction @ cylinder.direction)) > PARALLEL:
                 continue
             for side in (1.0, -1.0):
                 for other, bore in _beside(solid, end, side, solids, touch):
@@ -78,16 +78,16 @@ def stays_of(pierced: Iterable[Fit], ended: list[Fit], solids: tuple[Solid, ...]
     """Bars through parts that hold them together and are no pins: where few of the round ends have a pin, those between
     whose ends and other parts there is no room."""
     pins = sorted({f.inner for f in pierced if solids[f.inner].shaft is not None})
-    lines = lines_of(ended, 0.0)
+    axes = shared_axes_of(ended, 0.0)
     bars = {i: shaft for i in pins if (shaft := solids[i].shaft) is not None}
-    on = [ln for ln in lines if any(_along(bar, ln) for bar in bars.values())]
-    if 2 * len(on) >= len(lines):
+    on = [ln for ln in axes if any(_along(bar, ln) for bar in bars.values())]
+    if 2 * len(on) >= len(axes):
         return frozenset()
     return frozenset(i for i, bar in bars.items() if not any(_along(bar, ln) for ln in on) and _held(i, bar, touch))
 
 
-def _along(bar: Cyl, line: Line) -> bool:
-    return abs(float(bar.direction @ line.direction)) > PARALLEL and line.off(bar.center) < 0.1 * line.radius
+def _along(bar: Cyl, axis: SharedAxis) -> bool:
+    return abs(float(bar.direction @ axis.direction)) > PARALLEL and axis.off(bar.center) < 0.1 * axis.radius
 
 
 def _held(index: int, bar: Cyl, touch: Touch) -> bool:

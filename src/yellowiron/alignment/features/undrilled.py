@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from yellowiron.alignment.features.contacts import PARALLEL, Fit
-from yellowiron.alignment.features.cylinders import Pair, Ram, crossing, grown
+from yellowiron.alignment.features.cylinders import DrawnCylinder, Pair, crossing, grown
 from yellowiron.alignment.features.distance import Touch
 from yellowiron.alignment.features.solids import Cyl, Solid, coaxial
 from yellowiron.model.geometry import Floats
@@ -40,14 +40,14 @@ TWIN = 0.02
 
 
 def pierced_fits_of(
-    solids: tuple[Solid, ...], fits: list[Fit], rams: Iterable[Ram], touch: Touch, size: float
+    solids: tuple[Solid, ...], fits: list[Fit], cylinders: Iterable[DrawnCylinder], touch: Touch, size: float
 ) -> list[Fit]:
     """A fit for every part that a pin without a single hole runs through; and for two parts that have no pin between
     them, where the bar that one of them has runs through the other. None in a model that has holes for its pins.
 
     `inner` is the pin, or the part that has the bar.
     """
-    taken = {i for ram in rams for i in ram.barrel | ram.rod}
+    taken = {i for cylinder in cylinders for i in cylinder.barrel | cylinder.rod}
     held = {f.inner for f in fits}
     pins = [s for s in solids if s.shaft is not None and s.index not in taken | held]
     found = [fit for pin in pins for fit in _through(pin, _bars(pin, size), solids, touch)]
@@ -61,7 +61,7 @@ def pierced_fits_of(
     pinned = {frozenset((a, b)) for around in hosts.values() if len(around) > 1 for a in around for b in around}
     pinned |= {frozenset((f.inner, f.outer)) for f in fits}
     loose = {s.index for s in pins if len(hosts.get(s.index, ())) < 2}
-    axes = [ram.direction for ram in rams]
+    axes = [cylinder.direction for cylinder in cylinders]
     for solid in solids:
         if solid.index in loose or (solid.shaft is not None and solid.index not in taken):
             continue
@@ -223,12 +223,14 @@ def _rimmed(solid: Solid, bar: Cyl) -> bool:
     return len(set(np.floor((turn + np.pi) / (2 * np.pi) * SECTORS).astype(int) % SECTORS)) >= SECTORS - 1
 
 
-def solid_rams_of(solids: tuple[Solid, ...], rams: list[Ram], tolerance: float) -> list[Ram]:
+def solid_cylinders_of(
+    solids: tuple[Solid, ...], cylinders: list[DrawnCylinder], tolerance: float
+) -> list[DrawnCylinder]:
     """Hydraulic cylinders drawn without a bore: a bar, and in line with it a thinner one that comes out of its end.
 
     Twins that share their two parts are one cylinder, in the middle between them. `bore` is the barrel's outer radius.
     """
-    taken = {i for ram in rams for i in ram.barrel | ram.rod}
+    taken = {i for cylinder in cylinders for i in cylinder.barrel | cylinder.rod}
     bars = [
         (s, c)
         for s in solids
@@ -251,7 +253,7 @@ def solid_rams_of(solids: tuple[Solid, ...], rams: list[Ram], tolerance: float) 
             bar, thin = bars[k]
             if tube.index != bar.index and (score := _pair(thick, thin, eyes, tolerance)) > 0.0:
                 pairs.append((score, tube, thick, bar, thin))
-    found: list[Ram] = []
+    found: list[DrawnCylinder] = []
     for score, tube, thick, bar, thin in sorted(pairs, key=lambda p: (-round(p[0], 6), p[1].index, p[3].index)):
         if tube.index in taken or bar.index in taken:
             continue
@@ -272,20 +274,22 @@ def solid_rams_of(solids: tuple[Solid, ...], rams: list[Ram], tolerance: float) 
         taken |= barrel | rod
         origin = np.mean([t.center for t, _ in twins], axis=0)
         found.append(
-            Ram(
+            DrawnCylinder(
                 barrel, rod, np.asarray(origin), direction, thick.radius, thin.radius, hollow=False, count=len(twins)
             )
         )  # fmt: skip
     return found
 
 
-def apart_rams_of(solids: tuple[Solid, ...], rams: list[Ram], tolerance: float) -> list[Ram]:
+def apart_cylinders_of(
+    solids: tuple[Solid, ...], cylinders: list[DrawnCylinder], tolerance: float
+) -> list[DrawnCylinder]:
     """Hydraulic cylinders whose rod is not drawn in its place: a long bore, and in line with it a long bar of another
     part that fills it, beside it or in it, each part with an eye across.
 
     The barrel's eye says which end is closed: the direction is from it through the bore.
     """
-    taken = {i for ram in rams for i in ram.barrel | ram.rod}
+    taken = {i for cylinder in cylinders for i in cylinder.barrel | cylinder.rod}
     free = [s for s in solids if s.index not in taken]
     tubes = [(s, c) for s in free for c in s.cylinders if c.inner and c.full and 2 * c.half > 3.5 * c.radius]
     shafts = [
@@ -312,7 +316,7 @@ def apart_rams_of(solids: tuple[Solid, ...], rams: list[Ram], tolerance: float) 
                 continue
             direction = bore.direction if own < 0 else -bore.direction
             pairs.append((min(bore.half, shaft.half) * bore.radius, tube, bore, bar, shaft, direction))
-    found: list[Ram] = []
+    found: list[DrawnCylinder] = []
     for _, tube, bore, bar, shaft, direction in sorted(pairs, key=lambda p: (-round(p[0], 9), p[1].index, p[3].index)):
         if {tube.index, bar.index} & taken:
             continue
@@ -320,7 +324,7 @@ def apart_rams_of(solids: tuple[Solid, ...], rams: list[Ram], tolerance: float) 
         ends = frozenset({tube.index}), frozenset({bar.index})
         reach = shaft.interval(bore.center, direction)
         inside = min(reach[1], bore.half) - max(reach[0], -bore.half) > bore.radius and reach[1] > bore.half
-        found.append(Ram(*ends, bore.center, direction, bore.radius, shaft.radius, apart=not inside))
+        found.append(DrawnCylinder(*ends, bore.center, direction, bore.radius, shaft.radius, apart=not inside))
     return found
 
 

@@ -14,7 +14,7 @@ from dataclasses import replace
 import numpy as np
 
 from yellowiron.alignment.assignment.cp_sat import Solution
-from yellowiron.alignment.features.contacts import Line
+from yellowiron.alignment.features.contacts import SharedAxis
 from yellowiron.alignment.features.solids import Cyl, Solid, coaxial
 from yellowiron.alignment.labelling.propagation import Place
 from yellowiron.alignment.structure.clusters import Structure
@@ -46,28 +46,28 @@ def coupled(
     return found
 
 
-def _hinges(body: str, structure: Structure, solution: Solution) -> list[Line]:
+def _hinges(body: str, structure: Structure, solution: Solution) -> list[SharedAxis]:
     """The distinct axes on which a body hangs."""
     numbers = set()
     for number in solution.hinge_of.values():
         hinge = structure.hinges[number]
         if body in (solution.body_of.get(hinge.a), solution.body_of.get(hinge.b)):
-            numbers.add(hinge.line)
-    return [structure.lines[number] for number in sorted(numbers)]
+            numbers.add(hinge.axis)
+    return [structure.axes[number] for number in sorted(numbers)]
 
 
-def _coupler(numbers: Sequence[int], solids: Sequence[Solid], hinges: Sequence[Line]) -> list[int]:
+def _coupler(numbers: Sequence[int], solids: Sequence[Solid], hinges: Sequence[SharedAxis]) -> list[int]:
     """Which of a tool's parts are its coupler's; none where it has none."""
     if len(hinges) < 2:
         return []
     across = hinges[0].direction
-    lines = [_hole(line) for line in hinges]
-    narrow = WIDE * min(line.radius for line in lines)
+    axes = [_hole(axis) for axis in hinges]
+    narrow = WIDE * min(axis.radius for axis in axes)
     holes = [
         [c for c in s.cylinders if c.inner and c.full and c.radius >= narrow and abs(c.direction @ across) > 0.999]
         for s in solids
     ]
-    hung = [{k for k, line in enumerate(lines) if any(_on(c, line) for c in own)} for own in holes]
+    hung = [{k for k, axis in enumerate(axes) if any(_on(c, axis) for c in own)} for own in holes]
     carriers = [n for n, met in enumerate(hung) if met]
     rest = [n for n, met in enumerate(hung) if not met]
     if len(set().union(*hung)) < 2:
@@ -75,7 +75,7 @@ def _coupler(numbers: Sequence[int], solids: Sequence[Solid], hinges: Sequence[L
     grips: list[Cyl] = []
     for n in carriers:
         for hole in holes[n]:
-            if any(_on(hole, line) for line in (*lines, *grips)):
+            if any(_on(hole, axis) for axis in (*axes, *grips)):
                 continue
             if any(_on(hole, other) for m in rest for other in holes[m]):
                 grips.append(hole)
@@ -87,8 +87,8 @@ def _coupler(numbers: Sequence[int], solids: Sequence[Solid], hinges: Sequence[L
     return [numbers[n] for n in sorted({*carriers, *inside})]
 
 
-def _hole(line: Line) -> Cyl:
-    return Cyl(line.origin, line.direction, line.radius, 0.0, 2.0 * np.pi, True)
+def _hole(axis: SharedAxis) -> Cyl:
+    return Cyl(axis.origin, axis.direction, axis.radius, 0.0, 2.0 * np.pi, True)
 
 
 def _on(one: Cyl, other: Cyl) -> bool:

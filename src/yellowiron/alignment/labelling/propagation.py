@@ -152,7 +152,7 @@ class Spreader:
                 continue
             body = self.template.body_of(role) or role
             a, b = self.template.bodies_of(joint)
-            self._race(self.structure.hinges[hinge].line, role, body)
+            self._race(self.structure.hinges[hinge].axis, role, body)
             for pin in self.structure.hinges[hinge].pins:
                 if pin in self.places:
                     continue
@@ -175,10 +175,10 @@ class Spreader:
         pairs = [(x, y) for a, x in at.items() for b, y in at.items() if a != b]
         return any(min(x) < min(y) and max(y) < max(x) for x, y in pairs)
 
-    def _race(self, line: int, role: str, body: str) -> None:
+    def _race(self, axis: int, role: str, body: str) -> None:
         """Of a slewing bearing the race of the body that carries it is the joint's pin; where the race is drawn in one
         with other things, that part is no pin."""
-        for i in self.structure.races.get(line, ()):
+        for i in self.structure.races.get(axis, ()):
             place = self.places.get(i)
             if place is not None and place.body == body and self.solids[i].axis is not None:
                 self.places[i] = replace(place, role=role, reason=f"{place.reason}; a race of the bearing it turns in")
@@ -206,7 +206,7 @@ class Spreader:
     def _unplayed(self, pin: int, hosts: set[str]) -> None:
         """A pin as stout as the machine's, in a body that has a pin's role of its own left, may be that pin."""
         least = STURDY * min(
-            (self.structure.lines[self.structure.hinges[h].line].radius for h in self.solution.hinge_of.values()),
+            (self.structure.axes[self.structure.hinges[h].axis].radius for h in self.solution.hinge_of.values()),
             default=0.0,
         )
         radius = max(f.shaft.radius for f in self.structure.hosts[pin])
@@ -445,22 +445,22 @@ class Spreader:
 
     def _edge(self, body: str) -> int | None:
         """The lowest of the parts that span most of a body's width along its hinge and lie far out from it."""
-        lines = [
-            self.structure.lines[self.structure.hinges[self.solution.hinge_of[j.name]].line]
+        axes = [
+            self.structure.axes[self.structure.hinges[self.solution.hinge_of[j.name]].axis]
             for j in self.template.joints
             if body in self.template.bodies_of(j) and j.name in self.solution.hinge_of
         ]
         members = [i for i, p in sorted(self.places.items()) if p.body == body and p.role == body]
-        if not lines or not members:
+        if not axes or not members:
             return None
-        line = lines[-1]
-        spans = {i: self.solids[i].span(line.origin, line.direction) for i in members}
+        axis = axes[-1]
+        spans = {i: self.solids[i].span(axis.origin, axis.direction) for i in members}
         width = max(b for _, b in spans.values()) - min(a for a, _ in spans.values())
         wide = [i for i in members if spans[i][1] - spans[i][0] > 0.75 * width]
 
         middle = {i: 0.5 * (self.solids[i].low + self.solids[i].high) for i in wide}
-        far = max((line.off(middle[i]) for i in wide), default=0.0)
-        out = [i for i in wide if line.off(middle[i]) > 0.7 * far]
+        far = max((axis.off(middle[i]) for i in wide), default=0.0)
+        out = [i for i in wide if axis.off(middle[i]) > 0.7 * far]
         return min(out, key=lambda i: (round(float(middle[i] @ self.up), 6), i)) if len(wide) > 1 else None
 
 

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from yellowiron.alignment.assignment.cp_sat import Solution
-from yellowiron.alignment.features.cylinders import Ram
+from yellowiron.alignment.features.cylinders import DrawnCylinder
 from yellowiron.alignment.features.solids import Solid
 from yellowiron.alignment.features.wheels import Wheel
 from yellowiron.alignment.structure.clusters import Structure, hangs
@@ -30,7 +30,7 @@ def one_sided(
     solids: tuple[Solid, ...],
     structure: Structure,
     solution: Solution,
-    rams: tuple[Ram, ...],
+    cylinders: tuple[DrawnCylinder, ...],
     template: Template,
     resolved: Template,
 ) -> tuple[str, ...]:
@@ -46,7 +46,7 @@ def one_sided(
         barrel = next((b for b in ends if kinds.get(b) == "barrel"), None)
         if slide is None or barrel is None or f"{barrel}_l" not in sided:
             continue
-        ram = rams[structure.slides[slide][2]]
+        cylinder = cylinders[structure.slides[slide][2]]
         shares = []
         for pivot in resolved.joints:
             bodies = [b for b in resolved.bodies_of(pivot) if b is not None]
@@ -54,10 +54,10 @@ def one_sided(
             hinge = solution.hinge_of.get(pivot.name)
             if hinge is None or host not in cluster_of or not set(bodies) & set(ends):
                 continue
-            along = structure.lines[structure.hinges[hinge].line].direction
+            along = structure.axes[structure.hinges[hinge].axis].direction
             reach = [p for i in structure.clusters[cluster_of[host]].members for p in _ends(solids[i], along)]
             low, high = min(reach), max(reach)
-            shares.append(abs(float(ram.origin @ along) - 0.5 * (low + high)) / max(high - low, 1e-9))
+            shares.append(abs(float(cylinder.origin @ along) - 0.5 * (low + high)) / max(high - low, 1e-9))
         if shares and min(shares) > ONE_SIDED:
             found.append(barrel)
     return tuple(found)
@@ -71,18 +71,18 @@ def _ends(solid: Solid, along: np.ndarray[tuple[int], np.dtype[np.float64]]) -> 
 def unheld(solids: tuple[Solid, ...], structure: Structure, solution: Solution) -> frozenset[int]:
     """Solids of clusters that no body of the template is left for, though they could move: halves of a hydraulic
     cylinder, and what hangs far out from a pin as sturdy as the machine's own."""
-    pivots = [structure.lines[structure.hinges[h].line].radius for h in solution.hinge_of.values()]
+    pivots = [structure.axes[structure.hinges[h].axis].radius for h in solution.hinge_of.values()]
     least = STURDY * min((r for r in pivots if r > 0), default=0.0)
-    lines: dict[int, set[int]] = {}
+    axes: dict[int, set[int]] = {}
     for hinge in structure.hinges:
         for c in (hinge.a, hinge.b):
-            lines.setdefault(c, set()).add(hinge.line)
+            axes.setdefault(c, set()).add(hinge.axis)
     found: set[int] = set()
     for c, cluster in enumerate(structure.clusters):
         if c in solution.body_of or cluster.kind == "wheel":
             continue
-        on = [structure.lines[k] for k in sorted(lines.get(c, set()))]
-        if cluster.kind or any(line.radius >= least and hangs(solids, cluster.members, line) for line in on):
+        on = [structure.axes[k] for k in sorted(axes.get(c, set()))]
+        if cluster.kind or any(axis.radius >= least and hangs(solids, cluster.members, axis) for axis in on):
             found |= cluster.members
     return frozenset(found)
 

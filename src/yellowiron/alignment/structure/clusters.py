@@ -13,13 +13,13 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from yellowiron.alignment.features.contacts import PARALLEL, Fit, Line
+from yellowiron.alignment.features.contacts import PARALLEL, Fit, SharedAxis
 from yellowiron.alignment.features.solids import Solid
 from yellowiron.alignment.features.wheels import Wheel
 from yellowiron.alignment.structure.contact_evidence import Evidence, crosses
 from yellowiron.alignment.structure.min_cut import false_welds, strength
 from yellowiron.alignment.structure.rigid_groups import Groups
-from yellowiron.alignment.structure.welds import Pairs, join_doubly_pinned, lines_by_group, weld
+from yellowiron.alignment.structure.welds import Pairs, axes_by_group, join_doubly_pinned, weld
 
 ROUNDS = 4
 """How often a careful reading starts again without the false welds it found."""
@@ -38,11 +38,11 @@ class Cluster:
 
 @dataclass(frozen=True)
 class Hinge:
-    """Clusters `a` < `b` turn against each other about line `line`; `pins` are the solids through both."""
+    """Clusters `a` < `b` turn against each other about axis `axis`; `pins` are the solids through both."""
 
     a: int
     b: int
-    line: int
+    axis: int
     pins: tuple[int, ...]
 
 
@@ -50,14 +50,14 @@ class Hinge:
 class Structure:
     """What geometry alone says: clusters, hinges between them, slides (barrel, rod, number of the hydraulic
     cylinder; then sections in each other, numbered on),
-    lines (the wheels' axes behind those of the evidence), for each pin and bolt its hosts, and the pairs of solids that
+    axes (the wheels' axes behind those of the evidence), for each pin and bolt its hosts, and the pairs of solids that
     touch but were not welded, since a pin would have nothing to turn on, with the strength of their contact;
-    and the hoses and such that hold nothing; and line → the races of a slewing bearing on it."""
+    and the hoses and such that hold nothing; and axis → the races of a slewing bearing on it."""
 
     clusters: tuple[Cluster, ...] = ()
     hinges: tuple[Hinge, ...] = ()
     slides: tuple[tuple[int, int, int], ...] = ()
-    lines: tuple[Line, ...] = ()
+    axes: tuple[SharedAxis, ...] = ()
     hosts: dict[int, tuple[Fit, ...]] = field(default_factory=dict)
     refused: tuple[tuple[int, int, float], ...] = ()
     slight: frozenset[int] = frozenset()
@@ -92,9 +92,9 @@ def structure_of(evidence: Evidence, *, leaves: bool, weak: bool, careful: bool)
 def _tagged(evidence: Evidence) -> Groups:
     """Groups of what is certain: barrels, rods, wheels, rings in their bores."""
     groups = Groups(len(evidence.solids))
-    for k, ram in enumerate(evidence.rams):
-        groups.tag(ram.barrel, ("barrel", k))
-        groups.tag(ram.rod, ("rod", k))
+    for k, cylinder in enumerate(evidence.cylinders):
+        groups.tag(cylinder.barrel, ("barrel", k))
+        groups.tag(cylinder.rod, ("rod", k))
     for k, wheel in enumerate(evidence.wheels):
         groups.tag(wheel.members, ("wheel", k))
     for ring, around in evidence.pressed:
@@ -109,7 +109,7 @@ def loose_ends(structure: Structure) -> int:
 
 
 def _touching(groups: Groups, evidence: Evidence) -> list[tuple[int, int]]:
-    """Pairs in different groups whose meshes touch and that lie about no common line."""
+    """Pairs in different groups whose meshes touch and that lie about no common axis."""
     sliding = {(min(n.outer, n.inner), max(n.outer, n.inner)) for n in evidence.nests}
     return [
         (a, b)
@@ -125,16 +125,16 @@ def _touching(groups: Groups, evidence: Evidence) -> list[tuple[int, int]]:
 
 def _attach_eyes(groups: Groups, evidence: Evidence) -> None:
     """A barrel or rod without a pin line across it takes the touching group that has one."""
-    for ram in evidence.rams:
-        for part in (ram.barrel,) if ram.apart else (ram.barrel, ram.rod):
+    for cylinder in evidence.cylinders:
+        for part in (cylinder.barrel,) if cylinder.apart else (cylinder.barrel, cylinder.rod):
             root = groups.find(min(part))
             mine = {s.index for s in evidence.solids if groups.find(s.index) == root}
-            if any(crosses(evidence.lines[k], ram) for i in mine for k in evidence.pinned[i]):
+            if any(crosses(evidence.axes[k], cylinder) for i in mine for k in evidence.pinned[i]):
                 continue
             beside = {(a, b) if b in mine else (b, a) for a, b in evidence.near if (a in mine) != (b in mine)}
             for other, own in sorted(beside):
                 if other in evidence.fasteners or not any(
-                    crosses(evidence.lines[k], ram) for k in evidence.pinned[other]
+                    crosses(evidence.axes[k], cylinder) for k in evidence.pinned[other]
                 ):
                     continue
                 if groups.may_join(own, other) and evidence.touching(own, other) and groups.join(own, other):
@@ -153,16 +153,16 @@ def _beside(s: Solid, wheel: Wheel) -> bool:
 
 
 def _absorb_leaves(groups: Groups, evidence: Evidence, *, leaves: bool) -> None:
-    """Rings and spacers on a single line go with the only group they lie against."""
-    on = lines_by_group(groups, evidence)
+    """Rings and spacers on a single axis go with the only group they lie against."""
+    on = axes_by_group(groups, evidence)
     partners: dict[int, set[int]] = {}
     members: dict[int, list[int]] = {}
-    wheel_axes: dict[int, set[int]] = {}
+    beside_wheels: dict[int, set[int]] = {}
     for s in evidence.solids:
         group = groups.find(s.index)
         members.setdefault(group, []).append(s.index)
         if groups.kind(group) != "wheel" and s.index not in evidence.fasteners:
-            wheel_axes.setdefault(group, set()).update(k for k, w in enumerate(evidence.wheels) if _beside(s, w))
+            beside_wheels.setdefault(group, set()).update(k for k, w in enumerate(evidence.wheels) if _beside(s, w))
     for flat in evidence.turning:
         a, b = groups.find(flat.a), groups.find(flat.b)
         if a != b and "wheel" not in (groups.kind(a), groups.kind(b)):
@@ -172,21 +172,25 @@ def _absorb_leaves(groups: Groups, evidence: Evidence, *, leaves: bool) -> None:
     for group in sorted(partners):
         if groups.kind(group) or groups.find(group) != group:
             continue
-        axes = wheel_axes.get(group, set())
+        own_wheels = beside_wheels.get(group, set())
         rings = all(evidence.solids[i].axis is not None for i in members[group])
         if on.get(group, set()) & slewing and not rings:
             continue  # what stands on a slewing bearing reaches no further than it, and turns
         found = {groups.find(p) for p in partners[group]} - {group}
-        lines = [evidence.lines[k] for k in on.get(group, set())]
-        if any(hangs(evidence.solids, members[group], line) for line in lines):
+        axes = [evidence.axes[k] for k in on.get(group, set())]
+        if any(hangs(evidence.solids, members[group], axis) for axis in axes):
             continue
-        if len(on.get(group, set())) + len(axes) <= 1 and (rings or (not leaves and not axes)) and len(found) == 1:
+        if (
+            len(on.get(group, set())) + len(own_wheels) <= 1
+            and (rings or (not leaves and not own_wheels))
+            and len(found) == 1
+        ):
             groups.join(group, found.pop())
 
 
 def _absorb_bosses(groups: Groups, evidence: Evidence) -> None:
     """A ring on a single pin line that is drawn into another part, and touches one group only, goes with it."""
-    on = lines_by_group(groups, evidence)
+    on = axes_by_group(groups, evidence)
     beside: dict[int, set[int]] = {}
     for a, b in evidence.near:
         if groups.find(a) != groups.find(b) and not {a, b} & (evidence.fasteners | evidence.slight):
@@ -202,11 +206,11 @@ def _absorb_bosses(groups: Groups, evidence: Evidence) -> None:
             groups.join(group, found.pop())
 
 
-def hangs(solids: tuple[Solid, ...], members: Iterable[int], line: Line) -> bool:
-    """True for solids that reach far out from a pin's line: no rings and spacers on it, but something that turns."""
-    points = np.concatenate([solids[i].points for i in sorted(members)]) - line.origin
-    off = np.linalg.norm(points - np.outer(points @ line.direction, line.direction), axis=1)
-    return float(off.max()) > LONG * line.radius
+def hangs(solids: tuple[Solid, ...], members: Iterable[int], axis: SharedAxis) -> bool:
+    """True for solids that reach far out from a pin's axis: no rings and spacers on it, but something that turns."""
+    points = np.concatenate([solids[i].points for i in sorted(members)]) - axis.origin
+    off = np.linalg.norm(points - np.outer(points @ axis.direction, axis.direction), axis=1)
+    return float(off.max()) > LONG * axis.radius
 
 
 def _collected(groups: Groups, evidence: Evidence, refused: Pairs) -> Structure:
@@ -224,7 +228,7 @@ def _collected(groups: Groups, evidence: Evidence, refused: Pairs) -> Structure:
     pins: dict[tuple[int, int, int], set[int]] = {}
     for pin, around in evidence.hosts.items():
         found = sorted({cluster(f.outer) for f in around if f.outer not in evidence.fasteners})
-        for k in evidence.line_of[pin]:
+        for k in evidence.axes_of[pin]:
             for x, a in enumerate(found):
                 for b in found[x + 1 :]:
                     pins.setdefault((a, b, k), set()).add(pin)
@@ -232,20 +236,20 @@ def _collected(groups: Groups, evidence: Evidence, refused: Pairs) -> Structure:
         a, b = sorted((cluster(fit.inner), cluster(fit.outer)))
         if a != b:
             pins.setdefault((a, b, k), set())
-    lines = list(evidence.lines)
+    axes = list(evidence.axes)
     for wheel in evidence.wheels:
         own = cluster(wheel.tyre)
         beside = {cluster(s.index) for s in evidence.solids if s.index not in evidence.fasteners and _beside(s, wheel)}
         for other in sorted(beside - {own}):
             if clusters[other].kind != "wheel":
-                pins.setdefault((min(own, other), max(own, other), len(lines)), set())
-        lines.append(Line(wheel.center, wheel.direction, wheel.radius, ()))
+                pins.setdefault((min(own, other), max(own, other), len(axes)), set())
+        axes.append(SharedAxis(wheel.center, wheel.direction, wheel.radius, ()))
     hinges = tuple(Hinge(a, b, k, tuple(sorted(p))) for (a, b, k), p in sorted(pins.items()))
-    slides = tuple((cluster(min(r.barrel)), cluster(min(r.rod)), k) for k, r in enumerate(evidence.rams))
+    slides = tuple((cluster(min(r.barrel)), cluster(min(r.rod)), k) for k, r in enumerate(evidence.cylinders))
     sections = [(cluster(n.outer), cluster(n.inner)) for n in evidence.nests]
     slides += tuple((a, b, len(slides) + k) for k, (a, b) in enumerate(sections) if a != b)
     apart = tuple((a, b, strength(evidence, a, b)) for a, b in refused if groups.find(a) != groups.find(b))
     races: dict[int, tuple[int, ...]] = {}
     for k, fit in evidence.races:
         races[k] = (*races.get(k, ()), fit.inner, fit.outer)
-    return Structure(clusters, hinges, slides, tuple(lines), dict(evidence.hosts), apart, evidence.slight, races)
+    return Structure(clusters, hinges, slides, tuple(axes), dict(evidence.hosts), apart, evidence.slight, races)

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from yellowiron.alignment.features.contacts import PARALLEL, Fit, Flat, Line
-from yellowiron.alignment.features.cylinders import Ram
+from yellowiron.alignment.features.contacts import PARALLEL, Fit, Flat, SharedAxis
+from yellowiron.alignment.features.cylinders import DrawnCylinder
 from yellowiron.alignment.features.solids import Cyl, Solid, coaxial
 from yellowiron.alignment.features.telescopes import Nest, sliding_pairs
 from yellowiron.alignment.features.wheels import Wheel
@@ -27,29 +27,29 @@ class Evidence:
     """The contacts of a CAD model, sorted by what they can mean.
 
     - `fasteners`: bars in bores (pins, bolts, shafts), which join nothing themselves;
-    - `hosts`: fastener → the fits of the solids around it; `line_of`: fastener → its lines;
-    - `pinned`: solid → the lines it shares with a fastener (through a bush, too) or with another solid's shaft;
-    - `about`: `pinned`, and for rings the lines that run through them;
+    - `hosts`: fastener → the fits of the solids around it; `axes_of`: fastener → its axes;
+    - `pinned`: solid → the axes it shares with a fastener (through a bush, too) or with another solid's shaft;
+    - `about`: `pinned`, and for rings the axes that run through them;
     - `slight`: hoses, rails and sheets on no pin line, which go with others but hold nothing together; `sheets` of them
       are wide and flat, and may hold what only touches;
-    - `bolted`: lines too thin to be a pivot, next to those through the cylinders' eyes;
+    - `bolted`: axes too thin to be a pivot, next to those through the cylinders' eyes;
     - `pressed`: rings in bores, (ring, host), which stay where they are;
-    - `direct`: shafts of structural parts in bores, `races` of slewing bearings, empty bores side by side, (line, fit);
-    - `welds`, `turning`: flat contacts that hold, and those that allow turning about a shared line;
+    - `direct`: shafts of structural parts in bores, `races` of slewing bearings, empty bores side by side, (axis, fit);
+    - `welds`, `turning`: flat contacts that hold, and those that allow turning about a shared axis;
     - `area`: m² of flat contact of a pair;
     - `nests`: sections that slide in each other;
     - `near`: pairs whose boxes touch; `touching(a, b)` asks the meshes.
     """
 
     solids: tuple[Solid, ...]
-    lines: tuple[Line, ...]
-    rams: tuple[Ram, ...]
+    axes: tuple[SharedAxis, ...]
+    cylinders: tuple[DrawnCylinder, ...]
     wheels: tuple[Wheel, ...]
     near: tuple[tuple[int, int], ...]
     touching: Callable[[int, int], bool]
     fasteners: frozenset[int]
     hosts: dict[int, tuple[Fit, ...]]
-    line_of: dict[int, tuple[int, ...]]
+    axes_of: dict[int, tuple[int, ...]]
     pinned: dict[int, frozenset[int]]
     about: dict[int, frozenset[int]]
     slight: frozenset[int]
@@ -68,9 +68,9 @@ def evidence_of(
     solids: tuple[Solid, ...],
     fits: list[Fit],
     bare: list[Fit],
-    lines: list[Line],
+    axes: list[SharedAxis],
     flats: list[Flat],
-    rams: list[Ram],
+    cylinders: list[DrawnCylinder],
     wheels: list[Wheel],
     near: list[tuple[int, int]],
     touching: Callable[[int, int], bool],
@@ -82,12 +82,12 @@ def evidence_of(
     holes: bool = True,
 ) -> Evidence:
     """Sorts fits and flat contacts. Fits between a barrel and its rod, and between a wheel and its axle, slide. `bare`:
-    empty bores side by side; `lines` number the fits first, then these. `slewing`: whatever round thing is as wide as a
+    empty bores side by side; `axes` number the fits first, then these. `slewing`: whatever round thing is as wide as a
     slewing bearing turns in its bore, though it is no thin ring. `stays`: bars that are no pins. Without `holes`
-    what is turned about a pin's line may turn though it has no bore."""
+    what is turned about a pin's axis may turn though it has no bore."""
     owner: dict[int, tuple[str, int]] = {}
-    for k, ram in enumerate(rams):
-        owner.update(dict.fromkeys(ram.barrel, ("barrel", k)) | dict.fromkeys(ram.rod, ("rod", k)))
+    for k, cylinder in enumerate(cylinders):
+        owner.update(dict.fromkeys(cylinder.barrel, ("barrel", k)) | dict.fromkeys(cylinder.rod, ("rod", k)))
     for k, wheel in enumerate(wheels):
         owner.update(dict.fromkeys(wheel.members, ("wheel", k)))
     inner = {f.inner for f in fits}
@@ -96,23 +96,23 @@ def evidence_of(
         for s in solids
         if s.shaft is not None and s.index in inner and s.index not in owner and s.index not in stays
     )
-    number = {f: k for k, line in enumerate(lines) for f in line.fits}
+    number = {f: k for k, axis in enumerate(axes) for f in axis.fits}
     hosts: dict[int, list[Fit]] = {}
-    line_of: dict[int, set[int]] = {}
+    axes_of: dict[int, set[int]] = {}
     pinned: dict[int, set[int]] = {s.index: set() for s in solids}
     size = float(np.linalg.norm(np.max([s.high for s in solids], axis=0) - np.min([s.low for s in solids], axis=0)))
     wide = SLEWING * size
     pressed: list[Fit] = []
     direct: list[tuple[int, Fit]] = []
     races: list[tuple[int, Fit]] = []
-    astray = {i for ram in rams if ram.apart for i in ram.rod}
+    astray = {i for cylinder in cylinders if cylinder.apart for i in cylinder.rod}
     for k, fit in enumerate(fits):
         if {fit.inner, fit.outer} & astray:
             continue
         mine, theirs = owner.get(fit.inner), owner.get(fit.outer)
         if fit.inner in fasteners:
             hosts.setdefault(fit.inner, []).append(fit)
-            line_of.setdefault(fit.inner, set()).add(number[k])
+            axes_of.setdefault(fit.inner, set()).add(number[k])
             if fit.outer not in fasteners:
                 pinned[fit.outer].add(number[k])
         elif fit.outer in fasteners or (mine is not None and theirs is not None) or _of_wheel(mine, theirs):
@@ -134,8 +134,8 @@ def evidence_of(
             direct.append((number[k], fit))
             pinned[fit.inner].add(number[k])
             pinned[fit.outer].add(number[k])
-    _through_rings(pinned, pressed, lines, tolerance)
-    about = _about(solids, lines, pinned, tolerance, holes=holes)
+    _through_rings(pinned, pressed, axes, tolerance)
+    about = _about(solids, axes, pinned, tolerance, holes=holes)
     held = {i for f in pressed for i in (f.inner, f.outer)} | set(owner)
     slight = frozenset(astray) | frozenset(
         s.index for s in solids if not pinned[s.index] and s.index not in held and s.slight
@@ -145,25 +145,25 @@ def evidence_of(
     turning: list[Flat] = []
     for flat in sorted(flats, key=lambda f: (-round(f.area, 9), f.a, f.b)):
         if not {flat.a, flat.b} & (fasteners | slight) and (flat.a, flat.b) not in sliding:
-            (turning if _may_turn(flat, lines, pinned, about) else welds).append(flat)
+            (turning if _may_turn(flat, axes, pinned, about) else welds).append(flat)
     area: dict[tuple[int, int], float] = {}
     for flat in welds:
         area[flat.a, flat.b] = area.get((flat.a, flat.b), 0.0) + flat.area
     return Evidence(
         solids,
-        tuple(lines),
-        tuple(rams),
+        tuple(axes),
+        tuple(cylinders),
         tuple(wheels),
         tuple(near),
         touching,
         fasteners,
         {p: tuple(f) for p, f in sorted(hosts.items())},
-        {p: tuple(sorted(k)) for p, k in sorted(line_of.items())},
+        {p: tuple(sorted(k)) for p, k in sorted(axes_of.items())},
         {i: frozenset(k) for i, k in pinned.items()},
         about,
         slight,
         frozenset(i for i in slight if _wide(solids[i])),
-        _bolted(lines, rams, solids),
+        _bolted(axes, cylinders, solids),
         tuple((f.inner, f.outer) for f in pressed),
         tuple(direct),
         tuple(races),
@@ -217,43 +217,45 @@ def _of_wheel(mine: tuple[str, int] | None, theirs: tuple[str, int] | None) -> b
     return any(o is not None and o[0] == "wheel" for o in (mine, theirs))
 
 
-def crosses(line: Line, ram: Ram) -> bool:
-    """True if a line runs across a hydraulic cylinder's axis: through one of its eyes, or its trunnion."""
-    if abs(float(line.direction @ ram.direction)) > 0.05:
+def crosses(axis: SharedAxis, cylinder: DrawnCylinder) -> bool:
+    """True if an axis runs across a hydraulic cylinder's axis: through one of its eyes, or its trunnion."""
+    if abs(float(axis.direction @ cylinder.direction)) > 0.05:
         return False
-    normal = np.cross(line.direction, ram.direction)
-    return abs(float((line.origin - ram.origin) @ normal)) / float(np.linalg.norm(normal)) < 0.6 * ram.bore
+    normal = np.cross(axis.direction, cylinder.direction)
+    return abs(float((axis.origin - cylinder.origin) @ normal)) / float(np.linalg.norm(normal)) < 0.6 * cylinder.bore
 
 
-def _bolted(lines: list[Line], rams: list[Ram], solids: tuple[Solid, ...]) -> frozenset[int]:
-    eyes = [ln.radius for ln in lines for ram in rams if crosses(ln, ram) and ln.radius > 0.2 * ram.bore]
+def _bolted(axes: list[SharedAxis], cylinders: list[DrawnCylinder], solids: tuple[Solid, ...]) -> frozenset[int]:
+    eyes = [
+        ln.radius for ln in axes for cylinder in cylinders if crosses(ln, cylinder) and ln.radius > 0.2 * cylinder.bore
+    ]
     size = float(np.linalg.norm(np.max([s.high for s in solids], axis=0) - np.min([s.low for s in solids], axis=0)))
     least = 0.7 * min(eyes) if eyes else 0.0018 * size
-    return frozenset(k for k, line in enumerate(lines) if line.radius < least)
+    return frozenset(k for k, axis in enumerate(axes) if axis.radius < least)
 
 
-def _through_rings(pinned: dict[int, set[int]], pressed: list[Fit], lines: list[Line], tolerance: float) -> None:
-    """What holds a bush is on the line of the pin in the bush."""
+def _through_rings(pinned: dict[int, set[int]], pressed: list[Fit], axes: list[SharedAxis], tolerance: float) -> None:
+    """What holds a bush is on the axis of the pin in the bush."""
     changed = True
     while changed:
         changed = False
         for fit in pressed:
             for k in sorted(pinned[fit.inner] - pinned[fit.outer]):
-                if lines[k].off(fit.bore.center) < max(2 * tolerance, 0.1 * lines[k].radius):
+                if axes[k].off(fit.bore.center) < max(2 * tolerance, 0.1 * axes[k].radius):
                     pinned[fit.outer].add(k)
                     changed = True
 
 
 def _about(
-    solids: tuple[Solid, ...], lines: list[Line], pinned: dict[int, set[int]], tolerance: float, *, holes: bool
+    solids: tuple[Solid, ...], axes: list[SharedAxis], pinned: dict[int, set[int]], tolerance: float, *, holes: bool
 ) -> dict[int, frozenset[int]]:
     about = {i: frozenset(on) for i, on in pinned.items()}
     rails = sorted({k for on in pinned.values() for k in on})
     if not rails:
         return about
-    origins = np.array([lines[k].origin for k in rails])
-    directions = np.array([lines[k].direction for k in rails])
-    radii = np.array([lines[k].radius for k in rails])
+    origins = np.array([axes[k].origin for k in rails])
+    directions = np.array([axes[k].direction for k in rails])
+    radii = np.array([axes[k].radius for k in rails])
     for s in solids:
         if s.axis is None or (holes and s.hole == 0.0):
             continue
@@ -265,14 +267,16 @@ def _about(
     return about
 
 
-def _may_turn(flat: Flat, lines: list[Line], pinned: dict[int, set[int]], about: dict[int, frozenset[int]]) -> bool:
-    """True where a contact allows turning about a line that both parts are on."""
+def _may_turn(
+    flat: Flat, axes: list[SharedAxis], pinned: dict[int, set[int]], about: dict[int, frozenset[int]]
+) -> bool:
+    """True where a contact allows turning about an axis that both parts are on."""
     for k in sorted(about[flat.a] & about[flat.b]):
-        line = lines[k]
-        if abs(float(flat.normal @ line.direction)) < PARALLEL:
+        axis = axes[k]
+        if abs(float(flat.normal @ axis.direction)) < PARALLEL:
             continue
         if k in pinned[flat.a] and k in pinned[flat.b]:
             return True
-        if line.off(flat.center) < 0.25 * flat.width:
+        if axis.off(flat.center) < 0.25 * flat.width:
             return True
     return False

@@ -7,13 +7,26 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from yellowiron.alignment.features.contacts import Fit, Flat, bare_fits_of, fits_of, flats_of, lines_of, neighbours
-from yellowiron.alignment.features.cylinders import Ram, rams_of
+from yellowiron.alignment.features.contacts import (
+    Fit,
+    Flat,
+    bare_fits_of,
+    fits_of,
+    flats_of,
+    neighbours,
+    shared_axes_of,
+)
+from yellowiron.alignment.features.cylinders import DrawnCylinder, cylinders_of
 from yellowiron.alignment.features.distance import Touch
 from yellowiron.alignment.features.pinless_pivots import bored, ended_fits_of, stays_of
 from yellowiron.alignment.features.solids import Solid, solids_of
 from yellowiron.alignment.features.telescopes import Nest, nests_of
-from yellowiron.alignment.features.undrilled import apart_rams_of, interrupted_fits_of, pierced_fits_of, solid_rams_of
+from yellowiron.alignment.features.undrilled import (
+    apart_cylinders_of,
+    interrupted_fits_of,
+    pierced_fits_of,
+    solid_cylinders_of,
+)
 from yellowiron.alignment.features.wheels import Wheel, wheels_of
 from yellowiron.alignment.structure.contact_evidence import Evidence, evidence_of, tables_of
 from yellowiron.model.assembly import Assembly
@@ -26,13 +39,13 @@ the first does not find whole (moved or shrunk parts)."""
 
 
 @dataclass(frozen=True, eq=False)
-class Seen:
+class Observation:
     """What geometry shows, before any role."""
 
     solids: tuple[Solid, ...]
     flats: list[Flat]
     near: list[tuple[int, int]]
-    rams: tuple[Ram, ...]
+    cylinders: tuple[DrawnCylinder, ...]
     wheels: list[Wheel]
     evidence: tuple[Evidence, ...]
     touch: Touch
@@ -41,45 +54,45 @@ class Seen:
     nests: tuple[Nest, ...] = ()
 
 
-def see(assembly: Assembly, template: Template, contact: float) -> Seen:
+def observe(assembly: Assembly, template: Template, contact: float) -> Observation:
     """Looks at a model with a contact tolerance (share of its diagonal); `template` says what to look for: hydraulic
     cylinders, how many wheels, a slewing bearing."""
     solids = solids_of(assembly)
     if not solids:
-        return Seen((), [], [], (), [], (), Touch((), 0.0), 0.0)
+        return Observation((), [], [], (), [], (), Touch((), 0.0), 0.0)
     size = float(np.linalg.norm(np.max([s.high for s in solids], axis=0) - np.min([s.low for s in solids], axis=0)))
     tolerance = contact * size
     touch = Touch(solids, tolerance)
-    rams = rams_of(solids, tolerance) if any(r.kind in ("barrel", "rod") for r in template.roles) else []
+    cylinders = cylinders_of(solids, tolerance) if any(r.kind in ("barrel", "rod") for r in template.roles) else []
     if any(r.kind == "barrel" for r in template.roles):
-        rams += solid_rams_of(solids, rams, tolerance)
-        rams += apart_rams_of(solids, rams, tolerance)
+        cylinders += solid_cylinders_of(solids, cylinders, tolerance)
+        cylinders += apart_cylinders_of(solids, cylinders, tolerance)
     fits = fits_of(solids, tolerance)
     fits += interrupted_fits_of(solids, fits, tolerance)
-    pierced = pierced_fits_of(solids, fits, rams, touch, size)
+    pierced = pierced_fits_of(solids, fits, cylinders, touch, size)
     fits += pierced
     stays: frozenset[int] = frozenset()
     holes = bored(solids, template, size)
     if not holes:
-        ended = ended_fits_of(solids, fits, rams, touch, size)
+        ended = ended_fits_of(solids, fits, cylinders, touch, size)
         stays = stays_of(pierced, ended, solids, touch)
         fits += ended
     bare = bare_fits_of(solids, fits, tolerance)
     near = neighbours(solids, tolerance)
     flats = flats_of(solids, near, tolerance)
     nests = tuple(nests_of(solids, size, tolerance)) if _sections(template) else ()
-    taken = {i for r in rams for i in r.barrel | r.rod}
+    taken = {i for r in cylinders for i in r.barrel | r.rod}
     wheels = wheels_of(solids, sum(1 for r in template.roles if r.kind == "wheel" and r.rigid), taken, tolerance)
 
     def sorted_out(fits: list[Fit], *, slewing: bool) -> Evidence:
-        lines = lines_of([*fits, *bare], tolerance)
+        axes = shared_axes_of([*fits, *bare], tolerance)
         return evidence_of(
             solids,
             fits,
             bare,
-            lines,
+            axes,
             flats,
-            rams,
+            cylinders,
             wheels,
             near,
             touch.touching,
@@ -94,7 +107,7 @@ def see(assembly: Assembly, template: Template, contact: float) -> Seen:
     tables = tables_of(solids, flats) if slewing_joints(template) else []
     other = sorted_out([*fits, *tables], slewing=True) if slewing_joints(template) else evidence[0]
     evidence += [other] if len(other.races) > len(evidence[0].races) else []
-    return Seen(solids, flats, near, tuple(rams), wheels, tuple(evidence), touch, size, nests=nests)
+    return Observation(solids, flats, near, tuple(cylinders), wheels, tuple(evidence), touch, size, nests=nests)
 
 
 def _sections(template: Template) -> bool:
