@@ -31,12 +31,13 @@ from yellowiron.alignment.features.distance import Touch
 from yellowiron.alignment.features.separate_parts import islands
 from yellowiron.alignment.features.solids import solids_of
 from yellowiron.alignment.features.telescopes import Nest
-from yellowiron.alignment.features.tracks import Track, on_tracks, track_places, tracks_of, without_tracks
+from yellowiron.alignment.features.tracks import Track, tracks_of
 from yellowiron.alignment.labelling.coupler import coupled
 from yellowiron.alignment.labelling.propagation import Spreader
 from yellowiron.alignment.labelling.result import reported
 from yellowiron.alignment.labelling.review import doubts, name_doubts
 from yellowiron.alignment.labelling.suspects import shaken
+from yellowiron.alignment.labelling.track_places import on_tracks, track_places, without_tracks
 from yellowiron.alignment.structure.clusters import Structure
 from yellowiron.alignment.structure.observation import CONTACT, Observation, observe
 from yellowiron.model.alignment import Alignment, Vector

@@ -14,9 +14,9 @@ from dataclasses import dataclass, field
 
 from yellowiron.alignment.assignment.cp_sat import MISSING_WEIGHT, Solution, solve
 from yellowiron.alignment.assignment.names import name_scores
+from yellowiron.alignment.assignment.one_sided import one_sided
 from yellowiron.alignment.assignment.sheet_weights import sheet_weights
 from yellowiron.alignment.assignment.weights import Weights, heed, name_weights, size_weights
-from yellowiron.alignment.labelling.review import one_sided
 from yellowiron.alignment.structure.clusters import Structure, loose_ends, structure_of
 from yellowiron.alignment.structure.observation import CONTACT, Observation, slewing_joints
 from yellowiron.model.errors import AlignmentError
@@ -155,7 +155,7 @@ class Search:
         solution = solve(structure, resolved, unary=unary, barred=barred, at_least=least)
         if solution is None:
             return
-        sided = one_sided(observation.solids, structure, solution, observation.cylinders, self.template, resolved)
+        sided = one_sided(observation, structure, solution, self.template, resolved)
         answer = Answer(contact, structure, chosen, resolved, solution, unary, sided, barred)
         if self.best is None or (is_whole(answer), answer.score) > (is_whole(self.best), self.best.score):
             self.best = answer

@@ -2,24 +2,20 @@
 and the round things inside the row are its wheels.
 
 A row is closed where each part has two neighbours at about the same distance and all lie in one plane. Its pins are
-between two shoes: they go with the shoe that holds them tightest. The wheel with teeth is the sprocket, the one at the
-other end the idler; rollers lie on the ground's side, carrier rollers on the other.
+between two shoes: they go with the shoe that holds them tightest. Which wheel is which is told in
+`labelling.track_places`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.spatial import cKDTree
 
-from yellowiron.alignment.features.distance import Touch
 from yellowiron.alignment.features.solids import Solid, coaxial
-from yellowiron.alignment.labelling.propagation import DOUBTFUL, Place
 from yellowiron.model.geometry import Floats
-from yellowiron.model.rows import member, split_index
-from yellowiron.model.template import Role, Template
 
 LEAST = 20
 """Fewer equal parts in a row are no track."""
@@ -31,14 +27,7 @@ FLAT = 0.03
 """How far a row may be from a plane, as a share of its length."""
 PLACE = 0.3
 """Two parts sit at the same place of their shoes if their places differ by less than this many pitches."""
-PLAIN = 0.02
-"""The rims of two wheels differ if one reaches this share of its radius further out than the other's."""
 PARALLEL = 0.9995
-SURE = 0.95
-"""Confidence of a part of a track."""
-ON = 0.5
-"""What stands on a track is smaller than this share of its largest part."""
-KINDS = ("shoe", "sprocket", "idler", "roller", "carrier")
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,16 +86,12 @@ def tracks_of(solids: Sequence[Solid]) -> list[Track]:
         found.append((row, shoes))
     tracks = []
     for row, shoes in found:
-        centers = np.array([_middle(solids[i]) for i in row])
+        centers = np.array([solids[i].center for i in row])
         axis = np.linalg.svd(centers - centers.mean(axis=0))[2][2]
         wheels = _wheels(row, axis, solids, taken)
         points = tuple(np.concatenate([solids[i].points for i in shoe]) for shoe in shoes)
         tracks.append(Track(tuple(shoes), centers, axis, tuple(wheels), points))
     return tracks
-
-
-def _middle(solid: Solid) -> Floats:
-    return solid.center
 
 
 # ---- rows ----
@@ -132,7 +117,7 @@ def _rows(members: list[int], solids: Sequence[Solid]) -> list[list[int]]:
     """The closed rows among equal parts, each in order around the loop."""
     if len(members) < LEAST:
         return []
-    points = np.array([_middle(solids[i]) for i in members])
+    points = np.array([solids[i].center for i in members])
     tree = cKDTree(points)
     apart = np.asarray(tree.query(points, k=3)[0])
     reach = NEXT * float(np.median(apart[:, 2]))
@@ -165,7 +150,7 @@ def _in_plane(points: Floats) -> bool:
 # ---- what goes with a shoe ----
 def _frames(row: list[int], solids: Sequence[Solid]) -> tuple[Floats, Floats, float]:
     """Places (n, 3) and axes (n, 3, 3; rows: along the row, outwards, across) of the shoes, and the pitch."""
-    centers = np.array([_middle(solids[i]) for i in row])
+    centers = np.array([solids[i].center for i in row])
     along = np.roll(centers, -1, axis=0) - np.roll(centers, 1, axis=0)
     along /= np.linalg.norm(along, axis=1)[:, None]
     across = np.linalg.svd(centers - centers.mean(axis=0))[2][2]
@@ -199,7 +184,7 @@ def _companions(
 
 def _beside(solid: Solid, tree: cKDTree, axes: Floats, high: Floats, pitch: float) -> bool:
     """Whether a solid is within the shoes' width and about a pitch of their middle."""
-    middle = _middle(solid)
+    middle = solid.center
     _, k = tree.query(middle)
     local = axes[k] @ (middle - tree.data[k])
     small = solid.size < 1.5 * float(np.linalg.norm(high)) + pitch
@@ -216,9 +201,9 @@ def _slots(
     """
     combos = []
     for i in near:
-        _, nearest = tree.query(_middle(solids[i]), k=3)
+        _, nearest = tree.query(solids[i].center, k=3)
         for k in np.atleast_1d(nearest):
-            local = axes[k] @ (_middle(solids[i]) - centers[k])
+            local = axes[k] @ (solids[i].center - centers[k])
             if abs(local[0]) < 0.8 * pitch:
                 combos.append((i, int(k), local))
     places: list[tuple[Floats, list[tuple[int, int]]]] = []
@@ -265,7 +250,7 @@ def _looseness(pair: tuple[int, int], solids: Sequence[Solid], shoes: list[list[
 def _wheels(row: list[int], axis: Floats, solids: Sequence[Solid], taken: set[int]) -> list[TrackWheel]:
     """The round hollow things inside a loop that turn about lines across it, those on one line together; where nothing
     there is hollow, as in models drawn to be looked at, the widest solid one on each line."""
-    centers = np.array([_middle(solids[i]) for i in row])
+    centers = np.array([solids[i].center for i in row])
     middle = centers.mean(axis=0)
     plane = np.linalg.svd(axis[None, :])[2][1:]
     loop = (centers - middle) @ plane.T
@@ -335,110 +320,3 @@ def _rim(solid: Solid) -> float:
     assert solid.axis is not None
     outer = [c.radius for c in solid.cylinders if not c.inner and c.full and coaxial(c, solid.axis, 0.05)]
     return max(outer, default=0.0) / solid.reach
-
-
-# ---- roles ----
-def without_tracks(template: Template) -> Template:
-    """The template without the parts of tracks, which are found by themselves, and without hidden bodies."""
-    gone = {r.name for r in template.roles if r.many or r.kind in KINDS}
-    return replace(
-        template,
-        roles=tuple(r for r in template.roles if r.name not in gone),
-        joints=tuple(j for j in template.joints if not gone & {split_index(p)[0] for p in j.parts}),
-    )
-
-
-def track_places(
-    tracks: Sequence[Track], ids: Mapping[int, str], frame: Floats, template: Template
-) -> dict[str, Place]:
-    """Part id → place, for all parts of tracks. `ids`: solid → part id; `frame` (4, 4): CAD → machine; `template` has
-    its variants decided."""
-    places: dict[str, Place] = {}
-    level = [float(frame[1, :3] @ t.center + frame[1, 3]) for t in tracks]
-    for track, y in zip(tracks, level, strict=True):
-        left = y > 0 if len(tracks) == 1 else y > np.mean(level)
-        rows = {r.kind: r for r in template.roles if r.kind in KINDS and (_side(r) in ("", "l" if left else "r"))}
-        for kind, words, groups in _parts(track, frame):
-            role = rows.get(kind)
-            if role is None:
-                continue
-            for number, group in enumerate(groups, 1):
-                name = member(role.name, number) if role.many else role.name
-                body = template.body_of(name)
-                if body is not None:
-                    said = f"{words} of {len(groups)}" if role.many else words
-                    places |= {ids[i]: Place(name, body, SURE, said, how="track") for i in group}
-    return places
-
-
-def on_tracks(
-    found: Mapping[str, Place], placed: Mapping[str, Place], solids: Sequence[Solid], touch: Touch
-) -> dict[str, Place]:
-    """Part id → place, for parts that stand on a track: whose place in `found` (or none) rests on no more than what
-    they touch or are near to, and which touch a part of a track in `placed` and are as deep in it."""
-    where = {s.part.id: s.index for s in solids}
-    rows = {where[part] for part in placed}
-    result: dict[str, Place] = {}
-    waiting = [
-        s.index
-        for s in solids
-        if s.index not in rows and (s.part.id not in found or found[s.part.id].how in ("touch", "near"))
-    ]
-    waiting = [i for i in waiting if solids[i].size < ON * max((solids[j].size for j in rows), default=0.0)]
-    bodies = {where[part]: place for part, place in placed.items()}
-    others = {where[part]: place.body for part, place in found.items() if where[part] not in waiting}
-    while True:
-        grown: dict[int, Place] = {}
-        for i in waiting:
-            near = [j for j in touch.reaching(solids[i].low, solids[i].high) if j != i and touch.touching(i, j)]
-            tracks = [j for j in near if j in bodies]
-            if not tracks:
-                continue
-            best = max(tracks, key=lambda j: (round(touch.sunk(i, j), 3), -j))
-            rival = max((touch.sunk(i, j) for j in near if j in others), default=-1.0)
-            own, body, words = found.get(solids[i].part.id), bodies[best].body, f"stands on {bodies[best].role}"
-            if own is not None and own.body == body:
-                grown[i] = replace(own, confidence=max(own.confidence, SURE), reason=words)
-            elif own is not None and rival > touch.sunk(i, best):
-                words = f"{own.reason}; but it {words}"
-                grown[i] = replace(own, confidence=DOUBTFUL, reason=words, runner_up=body)
-            else:
-                grown[i] = Place(body, body, SURE if rival < 0.0 else DOUBTFUL, words, how="touch")
-        if not grown:
-            return result
-        bodies |= {i: place for i, place in grown.items() if place.confidence >= SURE}
-        result |= {solids[i].part.id: place for i, place in grown.items()}
-        waiting = [i for i in waiting if i not in grown]
-
-
-def _side(role: Role) -> str:
-    ends = role.name.rpartition("_")[2]
-    return role.side or (ends if ends in ("l", "r") else "")
-
-
-def _parts(track: Track, frame: Floats) -> list[tuple[str, str, list[tuple[int, ...]]]]:
-    """(kind, words, solids of each) of a track's parts in order: wheels front to rear, shoes around the loop, forward
-    on the ground, the first being the first ahead of the track's middle."""
-    centers = track.centers @ frame[:3, :3].T + frame[:3, 3]
-    middle = 0.5 * (centers.min(axis=0) + centers.max(axis=0))
-    order = list(range(len(centers)))
-    low = [k for k in order if centers[k, 2] < middle[2]]
-    forward = sum(float(centers[(k + 1) % len(order)][0] - centers[k][0]) for k in low)
-    if forward < 0:
-        order.reverse()
-    first = min((k for k in low if centers[k, 0] >= middle[0]), key=lambda k: float(centers[k, 0]), default=order[0])
-    at = order.index(first)
-    shoes = [track.shoes[k] for k in (*order[at:], *order[:at])]
-    placed = sorted(((frame[:3, :3] @ w.center + frame[:3, 3], w) for w in track.wheels), key=lambda p: -float(p[0][0]))
-    found = [("shoe", "one of a closed row", shoes)]
-    if len(placed) >= 2:
-        (_, front), *inner, (_, rear) = placed
-        sprocket, idler = (front, rear) if front.rim < rear.rim - PLAIN else (rear, front)
-        teeth = "the toothed wheel" if abs(front.rim - rear.rim) > PLAIN else "the rear wheel"
-        found += [
-            ("sprocket", f"{teeth} at an end of the track", [sprocket.members]),
-            ("idler", "the other wheel at an end of the track", [idler.members]),
-            ("roller", "one on the lower run, front to rear,", [w.members for p, w in inner if p[2] < middle[2]]),
-            ("carrier", "one under the upper run, front to rear,", [w.members for p, w in inner if p[2] >= middle[2]]),
-        ]
-    return found

@@ -16,7 +16,7 @@ import numpy as np
 from yellowiron.alignment.assignment.cp_sat import Solution
 from yellowiron.alignment.features.contacts import SharedAxis
 from yellowiron.alignment.features.solids import Cyl, Solid, coaxial
-from yellowiron.alignment.labelling.propagation import Place
+from yellowiron.alignment.labelling.place import Place
 from yellowiron.alignment.structure.clusters import Structure
 from yellowiron.model.geometry import Floats
 from yellowiron.model.template import Template

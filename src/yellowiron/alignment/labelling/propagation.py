@@ -14,17 +14,16 @@ from yellowiron.alignment.features.distance import Touch
 from yellowiron.alignment.features.separate_parts import FAR
 from yellowiron.alignment.features.solids import Solid
 from yellowiron.alignment.features.wheels import Wheel
+from yellowiron.alignment.labelling.place import DOUBTFUL, Place, pin_role
 from yellowiron.alignment.labelling.review import STURDY, has_tyre, next_bodies, unheld
 from yellowiron.alignment.structure.clusters import Structure
 from yellowiron.model.geometry import Floats
-from yellowiron.model.template import JointTemplate, Template
+from yellowiron.model.template import Template
 
 NEIGHBOURHOOD = 0.04
 """How far, in machine sizes, a floating part looks for a neighbour."""
 CLOSE = 0.01
 """How far, in machine sizes, a floating part may be from its neighbour without a person's look."""
-DOUBTFUL = 0.4
-"""Confidence of what a person should look at."""
 ALOOF = 0.4
 """How much less than with others a floating part goes with a hydraulic cylinder or a wheel."""
 TORN = 0.8
@@ -33,24 +32,6 @@ SUNK = 10.0
 """How much more what a part is wholly inside of counts than what it only touches."""
 NAMED = 0.9
 """Confidence of a role whose very name the part bears, where geometry does not speak against it."""
-
-
-@dataclass(frozen=True)
-class Place:
-    """What is known of one part: role, body, strength of the evidence (0 to 1, no probability: see `confidence`),
-    reason, runner-up (a body), whether a name decided it, and what it was found by: `joints`, `pin`, `bores`, `flat`,
-    `ring`, `touch`, `near`, `name` or `track`. `said`: how much more its names speak of the body than of any other;
-    `lead`: how many more of its joints hold than of the runner-up's, as a share."""
-
-    role: str
-    body: str
-    confidence: float
-    reason: str
-    runner_up: str | None = None
-    by_name: bool = False
-    how: str = "joints"
-    said: float = 0.0
-    lead: float = 1.0
 
 
 @dataclass
@@ -462,11 +443,3 @@ class Spreader:
         far = max((axis.off(middle[i]) for i in wide), default=0.0)
         out = [i for i in wide if axis.off(middle[i]) > 0.7 * far]
         return min(out, key=lambda i: (round(float(middle[i] @ self.up), 6), i)) if len(wide) > 1 else None
-
-
-def pin_role(joint: JointTemplate, template: Template) -> str | None:
-    """The role of a joint's pin: the one of its two parts that is no body."""
-    for name in joint.parts:
-        if not template.role(name.partition("[")[0]).rigid:
-            return name
-    return None

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from yellowiron.alignment.assignment.cp_sat import Solution
 from yellowiron.alignment.assignment.machine_frame import MachineFrame
 from yellowiron.alignment.labelling.confidence import REVIEW, grounds, probability
-from yellowiron.alignment.labelling.propagation import Place, pin_role
+from yellowiron.alignment.labelling.place import Place, pin_role
 from yellowiron.model.alignment import Alignment, PartAssignment, Vector
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.finding import Finding

@@ -5,18 +5,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-import numpy as np
-
 from yellowiron.alignment.assignment.cp_sat import Solution
-from yellowiron.alignment.features.cylinders import DrawnCylinder
 from yellowiron.alignment.features.solids import Solid
 from yellowiron.alignment.features.wheels import Wheel
 from yellowiron.alignment.structure.clusters import Structure, hangs
 from yellowiron.model.finding import Finding
 from yellowiron.model.template import Template
 
-ONE_SIDED = 0.12
-"""A cylinder further than this share of its bodies' width from their middle is to one side."""
 STURDY = 0.7
 """Pins of at least this share of the thinnest of the machine's are pivots, not those of a door."""
 RIM = 0.65
@@ -24,48 +19,6 @@ RIM = 0.65
 SECOND = 0.2
 """So many parts that stand apart, for each of the machine's own, are a machine of their own."""
 SOME = 6
-
-
-def one_sided(
-    solids: tuple[Solid, ...],
-    structure: Structure,
-    solution: Solution,
-    cylinders: tuple[DrawnCylinder, ...],
-    template: Template,
-    resolved: Template,
-) -> tuple[str, ...]:
-    """Barrels without a side, which another variant of `template` has left and right, that are not in the middle of the
-    bodies they hinge on."""
-    sided = {r.name for r in template.roles}
-    kinds = {r.name: r.kind for r in resolved.roles}
-    cluster_of = {b: c for c, b in solution.body_of.items()}
-    found = []
-    for joint in resolved.joints:
-        slide = solution.slide_of.get(joint.name)
-        ends = [b for b in resolved.bodies_of(joint) if b is not None]
-        barrel = next((b for b in ends if kinds.get(b) == "barrel"), None)
-        if slide is None or barrel is None or f"{barrel}_l" not in sided:
-            continue
-        cylinder = cylinders[structure.slides[slide][2]]
-        shares = []
-        for pivot in resolved.joints:
-            bodies = [b for b in resolved.bodies_of(pivot) if b is not None]
-            host = next((b for b in bodies if b not in ends), None)
-            hinge = solution.hinge_of.get(pivot.name)
-            if hinge is None or host not in cluster_of or not set(bodies) & set(ends):
-                continue
-            along = structure.axes[structure.hinges[hinge].axis].direction
-            reach = [p for i in structure.clusters[cluster_of[host]].members for p in _ends(solids[i], along)]
-            low, high = min(reach), max(reach)
-            shares.append(abs(float(cylinder.origin @ along) - 0.5 * (low + high)) / max(high - low, 1e-9))
-        if shares and min(shares) > ONE_SIDED:
-            found.append(barrel)
-    return tuple(found)
-
-
-def _ends(solid: Solid, along: np.ndarray[tuple[int], np.dtype[np.float64]]) -> tuple[float, float]:
-    run = solid.points @ along
-    return float(run.min()), float(run.max())
 
 
 def unheld(solids: tuple[Solid, ...], structure: Structure, solution: Solution) -> frozenset[int]:
