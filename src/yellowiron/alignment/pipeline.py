@@ -39,7 +39,8 @@ from yellowiron.alignment.labelling.review import doubts, name_doubts
 from yellowiron.alignment.labelling.suspects import shaken
 from yellowiron.alignment.labelling.track_places import on_tracks, track_places, without_tracks
 from yellowiron.alignment.structure.clusters import Structure
-from yellowiron.alignment.structure.observation import CONTACT, Observation, observe
+from yellowiron.alignment.structure.observation import Observation, observe
+from yellowiron.alignment.tolerances import CONTACT
 from yellowiron.model.alignment import Alignment, Vector
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import AlignmentError

@@ -13,6 +13,7 @@ from yellowiron.alignment.features.solids import Solid
 from yellowiron.alignment.features.tracks import Track
 from yellowiron.alignment.features.wheels import Wheel
 from yellowiron.alignment.structure.clusters import Structure
+from yellowiron.alignment.tolerances import SAME_DIRECTION
 from yellowiron.model.geometry import Floats
 from yellowiron.model.template import JointTemplate, Template
 
@@ -125,7 +126,7 @@ def _common_direction(axes: list[SharedAxis]) -> Floats | None:
     if not axes:
         return None
     directions = np.array([ln.direction for ln in axes])
-    alike = (np.abs(directions @ directions.T) > 0.999).sum(axis=1)
+    alike = (np.abs(directions @ directions.T) > SAME_DIRECTION).sum(axis=1)
     return np.asarray(directions[int(np.argmax(alike))], dtype=np.float64)
 
 

@@ -18,7 +18,8 @@ from yellowiron.alignment.assignment.one_sided import one_sided
 from yellowiron.alignment.assignment.sheet_weights import sheet_weights
 from yellowiron.alignment.assignment.weights import Weights, heed, name_weights, size_weights
 from yellowiron.alignment.structure.clusters import Structure, loose_ends, structure_of
-from yellowiron.alignment.structure.observation import CONTACT, Observation, slewing_joints
+from yellowiron.alignment.structure.observation import Observation, slewing_joints
+from yellowiron.alignment.tolerances import CONTACT, UPRIGHT
 from yellowiron.model.errors import AlignmentError
 from yellowiron.model.geometry import Floats
 from yellowiron.model.specification import Specifications
@@ -26,8 +27,6 @@ from yellowiron.model.template import Template, choose
 
 MARGIN = 20
 """An assignment is doubtful if the best without it scores this little less: less than a name is worth."""
-UPRIGHT = 0.98
-"""An axis whose cosine to the upright is less is not upright."""
 SIDED_WEIGHT = 4 * MISSING_WEIGHT
 """What a variant loses for a cylinder that stands to one side where it should be in the middle."""
 HOPELESS = 200

@@ -12,8 +12,8 @@ from scipy.spatial.distance import pdist
 
 from yellowiron.alignment.features.cylinders import cylinders_of
 from yellowiron.alignment.features.separate_parts import islands
-from yellowiron.alignment.features.solids import solids_of
-from yellowiron.alignment.structure.observation import CONTACT
+from yellowiron.alignment.features.solids import size_of, solids_of
+from yellowiron.alignment.tolerances import CONTACT
 from yellowiron.model.assembly import Assembly, DeclaredJoint
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import CylinderFeature, PlaneFeature, Shape
@@ -86,7 +86,7 @@ def _by_diameters(assembly: Assembly, template: Template, specifications: Specif
     solids = solids_of(assembly)
     if not values or not solids:
         return None
-    size = float(np.linalg.norm(np.max([s.high for s in solids], axis=0) - np.min([s.low for s in solids], axis=0)))
+    size = size_of(solids)
     drawn = sorted(
         {2 * r for cylinder in cylinders_of(solids, CONTACT[0] * size) for r in (cylinder.bore, cylinder.rod_radius)}
     )

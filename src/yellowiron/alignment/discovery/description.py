@@ -11,14 +11,13 @@ from yellowiron.alignment.features.tracks import Track
 from yellowiron.alignment.structure.clusters import Structure
 from yellowiron.alignment.structure.loops import Edge, bridges, components
 from yellowiron.alignment.structure.observation import Observation
+from yellowiron.alignment.tolerances import SAME_DIRECTION, UPRIGHT
 from yellowiron.model.finding import Finding
 from yellowiron.model.found import FoundBody, FoundJoint, FoundMachine, Vector
 from yellowiron.model.geometry import Floats
 
 STANDS = 0.05
 """What reaches down to this share of the machine's height stands on the ground."""
-UPRIGHT = 0.98
-"""Cosine from which an axis is upright."""
 LEVER = 0.01
 """A piece of less than this share of the machine's surface is a latch or lever of it."""
 KIN = 0.6
@@ -98,7 +97,7 @@ def _up(observation: Observation, structure: Structure, edges: Sequence[Edge], t
     pitch = np.eye(3)[1]
     if axes:
         directions = np.array([ln.direction for ln in axes])
-        pitch = directions[int(np.argmax((np.abs(directions @ directions.T) > 0.999).sum(axis=1)))]
+        pitch = directions[int(np.argmax((np.abs(directions @ directions.T) > SAME_DIRECTION).sum(axis=1)))]
     if tracks:
         up = np.cross(tracks[0].axis, tracks[0].along)
     elif len(observation.wheels) > 2:

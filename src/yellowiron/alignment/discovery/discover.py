@@ -15,13 +15,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from yellowiron.alignment.discovery.description import UPRIGHT, across, surface, told
+from yellowiron.alignment.discovery.description import across, surface, told
 from yellowiron.alignment.features.separate_parts import islands
 from yellowiron.alignment.features.solids import solids_of
 from yellowiron.alignment.features.tracks import Track, tracks_of
 from yellowiron.alignment.structure.clusters import LONG, Structure, hangs, structure_of
 from yellowiron.alignment.structure.loops import Edge, bridges, components, freedoms
-from yellowiron.alignment.structure.observation import CONTACT, Observation, observe
+from yellowiron.alignment.structure.observation import Observation, observe
+from yellowiron.alignment.tolerances import CONTACT, UPRIGHT
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import AlignmentError
 from yellowiron.model.found import FoundMachine
@@ -33,7 +34,7 @@ NOTHING = 1000
 """The rank of a reading without a single joint."""
 HALF = 0.05
 """A slewing bearing has at least this share of the machine's surface on either side."""
-STURDY = 0.5
+STOUT = 0.5
 """A pivot is at least this share of the machine's usual pin radius: thinner ones are of doors and levers."""
 
 
@@ -191,7 +192,7 @@ def _pivots(observation: Observation, structure: Structure) -> list[Edge]:
     return [
         Edge(h.a, h.b, h.axis, k, False)
         for k, h in enumerate(structure.hinges)
-        if h.axis in wheels or structure.axes[h.axis].radius >= STURDY * usual
+        if h.axis in wheels or structure.axes[h.axis].radius >= STOUT * usual
     ]
 
 

@@ -14,11 +14,12 @@ from typing import Literal
 
 import numpy as np
 
-from yellowiron.alignment.discovery.description import UPRIGHT, across, some
+from yellowiron.alignment.discovery.description import across, some
 from yellowiron.alignment.discovery.discover import discover
 from yellowiron.alignment.structure.loops import Edge, bridges, components, freedoms
+from yellowiron.alignment.tolerances import UPRIGHT
 from yellowiron.model.alignment import Alignment, PartAssignment
-from yellowiron.model.assembly import PARALLEL, Assembly, DeclaredJoint, loop_axis
+from yellowiron.model.assembly import PARALLEL_HINGES, Assembly, DeclaredJoint, loop_axis
 from yellowiron.model.errors import AlignmentError
 from yellowiron.model.finding import Finding
 from yellowiron.model.found import FoundBody, FoundJoint, FoundMachine, Vector
@@ -195,7 +196,7 @@ def _is_known(extra: _Joint, joints: Sequence[_Joint], group: Mapping[str, str])
 
 
 def _along(one: Vector, other: Vector) -> bool:
-    return abs(float(np.dot(one, other))) > PARALLEL
+    return abs(float(np.dot(one, other))) > PARALLEL_HINGES
 
 
 def _told(
@@ -283,7 +284,7 @@ def _why(name: str, group: Mapping[str, str], links: Mapping[str, object]) -> st
 def _upright(joints: Sequence[_Joint]) -> Floats:
     """Across most of the hinges."""
     axes = np.array([j.axis for j in joints if j.type == "revolute"] or [(0.0, 1.0, 0.0)])
-    pitch = axes[int(np.argmax((np.abs(axes @ axes.T) > PARALLEL).sum(axis=1)))]
+    pitch = axes[int(np.argmax((np.abs(axes @ axes.T) > PARALLEL_HINGES).sum(axis=1)))]
     return across(pitch)
 
 

@@ -13,11 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from yellowiron.alignment.features.solids import Cyl, Patch, Solid, patch
+from yellowiron.alignment.features.solids import Cyl, Patch, Solid, patch, size_of
+from yellowiron.alignment.tolerances import FACING, PARALLEL, ROUND_ARC
 from yellowiron.model.geometry import Floats
 
-PARALLEL = 1 - 2e-5
-"""Cosine beyond which two lines are parallel (0.36°)."""
 BESIDE = 1.5
 """Two bores that a pin is missing in are this many radii apart at most (or half as far as the longer one is long)."""
 LOOSEST = 0.84
@@ -85,10 +84,10 @@ def neighbours(solids: tuple[Solid, ...], slack: float) -> list[tuple[int, int]]
 def fits_of(solids: tuple[Solid, ...], tolerance: float) -> list[Fit]:
     """Every shaft in a bore of another part: parallel, concentric, of like radius, overlapping along the axis."""
     shafts = [(s.index, c) for s in solids for c in s.cylinders if c.full and not c.inner]
-    bores = [(s.index, c) for s in solids for c in s.cylinders if c.inner and c.arc > 2.0]
+    bores = [(s.index, c) for s in solids for c in s.cylinders if c.inner and c.arc > ROUND_ARC]
     if not shafts or not bores:
         return []
-    size = float(np.linalg.norm(np.max([s.high for s in solids], axis=0) - np.min([s.low for s in solids], axis=0)))
+    size = size_of(solids)
     origin = np.mean([s.center for s in solids], axis=0)
     tree = cKDTree(_coordinates([c for _, c in bores], origin, size))
     ahead = _coordinates([c for _, c in shafts], origin, size)
@@ -240,7 +239,7 @@ def flats_of(solids: tuple[Solid, ...], pairs: list[tuple[int, int]], tolerance:
         kb = _crossing(sb, low, high)
         if not len(ka) or not len(kb):
             continue
-        opposed = sa.plane_normals[ka] @ sb.plane_normals[kb].T < -0.99995
+        opposed = sa.plane_normals[ka] @ sb.plane_normals[kb].T < -FACING
         apart = np.abs(
             np.einsum("ij,ij->i", sa.plane_normals[ka], sa.plane_points[ka])[:, None]
             - sa.plane_normals[ka] @ sb.plane_points[kb].T

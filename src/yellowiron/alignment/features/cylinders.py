@@ -7,11 +7,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from yellowiron.alignment.features.solids import Cyl, Solid, coaxial
+from yellowiron.alignment.tolerances import ACROSS, PARALLEL_TWINS, TWIN
 from yellowiron.model.geometry import Floats
-
-PARALLEL = 0.9995
-TWIN = 0.02
-"""Two cylinders of one part are twins if their radii, and how far their rods are out, are equal within this share."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,7 +82,7 @@ def _alike(one: Pair, other: Pair) -> bool:
     apart = one.bore is not other.bore and one.bore.off(other.bore.center) > other.bore.radius
     delta = float((one.shaft.center - one.bore.center) @ other.direction)
     delta -= float((other.shaft.center - other.bore.center) @ other.direction)
-    as_far = abs(delta) < TWIN * other.tube.size and float(one.direction @ other.direction) > PARALLEL
+    as_far = abs(delta) < TWIN * other.tube.size and float(one.direction @ other.direction) > PARALLEL_TWINS
     return one is other or (same and apart and as_far and one.shaft is not other.shaft)
 
 
@@ -116,7 +113,7 @@ def _pair(tube: Solid, bore: Cyl, bar: Solid, shaft: Cyl, eyes: list[Cyl], toler
 
 def crossing(eye: Cyl, origin: Floats, direction: Floats, radius: float) -> float | None:
     """Where along a line a bore crosses it at right angles, or None."""
-    if abs(float(eye.direction @ direction)) > 0.05:
+    if abs(float(eye.direction @ direction)) > ACROSS:
         return None
     normal = np.cross(eye.direction, direction)
     delta = eye.center - origin

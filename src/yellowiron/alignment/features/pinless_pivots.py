@@ -10,16 +10,17 @@ from dataclasses import replace
 
 import numpy as np
 
-from yellowiron.alignment.features.contacts import PARALLEL, Fit, SharedAxis, shared_axes_of
+from yellowiron.alignment.features.contacts import Fit, SharedAxis, shared_axes_of
 from yellowiron.alignment.features.cylinders import DrawnCylinder
 from yellowiron.alignment.features.distance import Touch
 from yellowiron.alignment.features.solids import Cyl, Solid, coaxial
+from yellowiron.alignment.tolerances import LEAST_PIVOT, PARALLEL
 from yellowiron.model.template import Template
 
 ARC = 1.5
 """Radians that an end is round at least."""
-LEAST, MOST = 0.002, 0.025
-"""An end's radius in machine sizes."""
+MOST = 0.025
+"""An end's radius in machine sizes, at most."""
 LONG = 6.0
 """A hole longer than this many radii is a barrel's."""
 BESIDE = (0.25, 0.5, 1.0)
@@ -34,7 +35,7 @@ def bored(solids: tuple[Solid, ...], template: Template, size: float) -> bool:
     """Whether a model's pivots are drawn with holes: as many stout ones as the template has hinges, or more."""
     hinges = sum(1 for j in template.joints if j.type == "revolute")
     holes = sum(
-        c.inner and c.full and LEAST * size < c.radius < MOST * size and 2 * c.half < LONG * c.radius
+        c.inner and c.full and LEAST_PIVOT * size < c.radius < MOST * size and 2 * c.half < LONG * c.radius
         for s in solids
         for c in s.cylinders
     )
@@ -58,7 +59,7 @@ def ended_fits_of(
         ):
             continue
         for end in (*solid.cylinders, *solid.knuckles):
-            if end.inner or end.arc < ARC or not LEAST * size < end.radius < MOST * size:
+            if end.inner or end.arc < ARC or not LEAST_PIVOT * size < end.radius < MOST * size:
                 continue
             cylinder = of_cylinder.get(solid.index)
             if cylinder is not None and abs(float(end.direction @ cylinder.direction)) > PARALLEL:

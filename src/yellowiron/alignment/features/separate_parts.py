@@ -7,11 +7,9 @@ from collections.abc import Collection
 import numpy as np
 from numpy.typing import NDArray
 
+from yellowiron.alignment.tolerances import FAR
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.geometry import Floats
-
-FAR = 0.05
-"""What is further than this from every part of the machine, in machine sizes, is no part of it."""
 
 
 def islands(assembly: Assembly, wanted: Collection[str] = ()) -> dict[str, float]:

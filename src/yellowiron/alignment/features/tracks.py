@@ -15,6 +15,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from yellowiron.alignment.features.solids import Solid, coaxial
+from yellowiron.alignment.tolerances import PARALLEL_TWINS
 from yellowiron.model.geometry import Floats
 
 LEAST = 20
@@ -27,7 +28,6 @@ FLAT = 0.03
 """How far a row may be from a plane, as a share of its length."""
 PLACE = 0.3
 """Two parts sit at the same place of their shoes if their places differ by less than this many pitches."""
-PARALLEL = 0.9995
 
 
 @dataclass(frozen=True, eq=False)
@@ -237,7 +237,7 @@ def _looseness(pair: tuple[int, int], solids: Sequence[Solid], shoes: list[list[
             continue
         for j in shoes[k]:
             for bore in solids[j].cylinders:
-                if not bore.inner or abs(float(bore.direction @ shaft.direction)) < PARALLEL:
+                if not bore.inner or abs(float(bore.direction @ shaft.direction)) < PARALLEL_TWINS:
                     continue
                 low, high = bore.interval(shaft.center, shaft.direction)
                 apart = max(low - shaft.half, -shaft.half - high)
@@ -258,7 +258,7 @@ def _wheels(row: list[int], axis: Floats, solids: Sequence[Solid], taken: set[in
     pitch = float(np.median(np.linalg.norm(np.roll(loop, -1, axis=0) - loop, axis=1)))
     rings: list[tuple[Floats, list[int]]] = []
     for s in solids:
-        if s.index in taken or s.axis is None or abs(float(s.axis.direction @ axis)) < PARALLEL:
+        if s.index in taken or s.axis is None or abs(float(s.axis.direction @ axis)) < PARALLEL_TWINS:
             continue
         place = plane @ (s.axis.center - middle)
         low, high = s.span(middle, axis)
@@ -306,7 +306,7 @@ def _bolted(
     """Bolts of a wheel: three or more equal bars along its axis, at one distance from it and within its rim."""
     circles: dict[tuple[float, float, float], list[int]] = {}
     for s in solids:
-        if s.index in others or s.shaft is None or abs(float(s.shaft.direction @ axis)) < PARALLEL:
+        if s.index in others or s.shaft is None or abs(float(s.shaft.direction @ axis)) < PARALLEL_TWINS:
             continue
         away = float(np.linalg.norm(plane @ (s.shaft.center - middle) - place))
         low, high = s.span(middle, axis)

@@ -11,32 +11,35 @@ from dataclasses import replace
 
 import numpy as np
 
-from yellowiron.alignment.features.contacts import PARALLEL, Fit
+from yellowiron.alignment.features.contacts import Fit
 from yellowiron.alignment.features.cylinders import DrawnCylinder, Pair, crossing, grown
 from yellowiron.alignment.features.distance import Touch
 from yellowiron.alignment.features.solids import Cyl, Solid, coaxial
+from yellowiron.alignment.tolerances import (
+    LEAST_PIVOT,
+    LEAST_SLEWING,
+    NEARLY_PARALLEL,
+    PARALLEL,
+    PARALLEL_BY_EYE,
+    ROUND_ARC,
+    TWIN,
+)
 from yellowiron.model.geometry import Floats
 
 CORE = 0.6
-"""A bar runs through a part that is within this share of its radius from its axis …"""
-STOUT = 0.002
-"""… and is a pivot only from this radius on, in machine sizes."""
+"""A bar runs through a part that is within this share of its radius from its axis."""
 LEAST = 0.1
 """A bar runs through a part over at least this share of its radius; less is a part that it ends at."""
 RIM = 0.12
 """Points of a hole's edge are this near to the bar's surface, as a share of its radius …"""
 SECTORS = 6
 """… in all sectors around it but one."""
-TABLE = 0.02
-"""A round base is a turntable from this radius on, in machine sizes …"""
 NEAR = 0.05
-"""… if what stands on it is no further from it than this share of its radius."""
+"""What stands on a turntable is no further from it than this share of its radius."""
 FILLING = 0.85
 """A rod that is not in its barrel fills the bore that it belongs to: it has at least this share of its radius."""
 WHOLE = 0.5
 """The pieces of a bar make up at least this share of it."""
-TWIN = 0.02
-"""Two bars of one part are twins if their radii and lengths are equal within this share."""
 
 
 def pierced_fits_of(
@@ -123,14 +126,14 @@ def _whole_bar(one: Cyl, others: list[Cyl], tolerance: float) -> Cyl | None:
 
 def _between_knuckles(solid: Solid, size: float) -> list[Cyl]:
     """Bars between two like knuckles of a part that are in line, as of a fork: from one's outer end to the other's."""
-    stout = [k for k in solid.knuckles if STOUT * size < k.radius < TABLE * size]
+    stout = [k for k in solid.knuckles if LEAST_PIVOT * size < k.radius < LEAST_SLEWING * size]
     bars = []
     for i, one in enumerate(stout):
         for other in stout[i + 1 :]:
             delta = other.center - one.center
             apart = float(np.linalg.norm(delta))
             alike = abs(one.radius - other.radius) < 0.1 * one.radius and apart > one.half + other.half
-            if not alike or abs(float(one.direction @ other.direction)) < 1 - 100 * (1 - PARALLEL):
+            if not alike or abs(float(one.direction @ other.direction)) < PARALLEL_BY_EYE:
                 continue
             if one.off(other.center) > 0.3 * one.radius:
                 continue
@@ -144,7 +147,7 @@ def _turntables(solids: list[Solid], touch: Touch, size: float) -> list[Fit]:
     best: dict[frozenset[int], Fit] = {}
     for solid in solids:
         for base in solid.cylinders:
-            if base.inner or not base.full or base.radius < TABLE * size:
+            if base.inner or not base.full or base.radius < LEAST_SLEWING * size:
                 continue
             gap = NEAR * base.radius
             reach = base.half * np.abs(base.direction) + gap
@@ -176,7 +179,7 @@ def _bored(solids: tuple[Solid, ...], fits: list[Fit]) -> int:
 
 def _bars(solid: Solid, size: float) -> list[Cyl]:
     """The solid round bars of a part that are stout enough for a pivot."""
-    bars = [c for c in solid.cylinders if c.full and not c.inner and c.radius > STOUT * size]
+    bars = [c for c in solid.cylinders if c.full and not c.inner and c.radius > LEAST_PIVOT * size]
     holes = [c for c in solid.cylinders if c.inner and c.full]
     return [c for c in bars if not any(h.radius > 0.4 * c.radius and coaxial(h, c, 0.1) for h in holes)]
 
@@ -238,7 +241,7 @@ def solid_cylinders_of(
         for c in s.cylinders
         if c.full and not c.inner and c.half > c.radius
     ]
-    eyes = [c for s in solids for c in s.cylinders if c.arc > 2.0]
+    eyes = [c for s in solids for c in s.cylinders if c.arc > ROUND_ARC]
     centers = np.array([c.center for _, c in bars]).reshape(-1, 3)
     directions = np.array([c.direction for _, c in bars]).reshape(-1, 3)
     radii = np.array([c.radius for _, c in bars])
@@ -248,7 +251,9 @@ def solid_cylinders_of(
             continue
         delta = centers - thick.center
         off = np.linalg.norm(delta - np.outer(delta @ thick.direction, thick.direction), axis=1)
-        in_line = (off <= max(tolerance, 0.05 * thick.radius)) & (np.abs(directions @ thick.direction) > PARALLEL**9)
+        in_line = (off <= max(tolerance, 0.05 * thick.radius)) & (
+            np.abs(directions @ thick.direction) > NEARLY_PARALLEL
+        )
         for k in np.flatnonzero(in_line & (radii < thick.radius)).tolist():
             bar, thin = bars[k]
             if tube.index != bar.index and (score := _pair(thick, thin, eyes, tolerance)) > 0.0:

@@ -18,6 +18,7 @@ from yellowiron.alignment.features.contacts import SharedAxis
 from yellowiron.alignment.features.solids import Cyl, Solid, coaxial
 from yellowiron.alignment.labelling.place import Place
 from yellowiron.alignment.structure.clusters import Structure
+from yellowiron.alignment.tolerances import SAME_DIRECTION
 from yellowiron.model.geometry import Floats
 from yellowiron.model.template import Template
 
@@ -64,7 +65,11 @@ def _coupler(numbers: Sequence[int], solids: Sequence[Solid], hinges: Sequence[S
     axes = [_hole(axis) for axis in hinges]
     narrow = WIDE * min(axis.radius for axis in axes)
     holes = [
-        [c for c in s.cylinders if c.inner and c.full and c.radius >= narrow and abs(c.direction @ across) > 0.999]
+        [
+            c
+            for c in s.cylinders
+            if c.inner and c.full and c.radius >= narrow and abs(c.direction @ across) > SAME_DIRECTION
+        ]
         for s in solids
     ]
     hung = [{k for k, axis in enumerate(axes) if any(_on(c, axis) for c in own)} for own in holes]

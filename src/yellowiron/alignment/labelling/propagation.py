@@ -11,12 +11,12 @@ from yellowiron.alignment.assignment.cp_sat import Solution
 from yellowiron.alignment.assignment.names import exact_role, exact_roles
 from yellowiron.alignment.features.contacts import Fit, Flat
 from yellowiron.alignment.features.distance import Touch
-from yellowiron.alignment.features.separate_parts import FAR
 from yellowiron.alignment.features.solids import Solid
 from yellowiron.alignment.features.wheels import Wheel
 from yellowiron.alignment.labelling.place import DOUBTFUL, Place, pin_role
 from yellowiron.alignment.labelling.review import STURDY, has_tyre, next_bodies, unheld
 from yellowiron.alignment.structure.clusters import Structure
+from yellowiron.alignment.tolerances import FAR
 from yellowiron.model.geometry import Floats
 from yellowiron.model.template import Template
 

@@ -13,13 +13,14 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from yellowiron.alignment.features.contacts import PARALLEL, Fit, SharedAxis
+from yellowiron.alignment.features.contacts import Fit, SharedAxis
 from yellowiron.alignment.features.solids import Solid
 from yellowiron.alignment.features.wheels import Wheel
 from yellowiron.alignment.structure.contact_evidence import Evidence, crosses
 from yellowiron.alignment.structure.min_cut import false_welds, strength
 from yellowiron.alignment.structure.rigid_groups import Groups
 from yellowiron.alignment.structure.welds import Pairs, axes_by_group, join_doubly_pinned, weld
+from yellowiron.alignment.tolerances import PARALLEL, ROUND_ARC
 
 ROUNDS = 4
 """How often a careful reading starts again without the false welds it found."""
@@ -144,7 +145,7 @@ def _attach_eyes(groups: Groups, evidence: Evidence) -> None:
 def _beside(s: Solid, wheel: Wheel) -> bool:
     """True if a part has a cylinder about a wheel's axis, near that wheel."""
     for c in s.cylinders:
-        if c.arc < 2.0 or abs(float(c.direction @ wheel.direction)) < PARALLEL:
+        if c.arc < ROUND_ARC or abs(float(c.direction @ wheel.direction)) < PARALLEL:
             continue
         low, high = c.interval(wheel.center, wheel.direction)
         if low < wheel.width and high > -wheel.width and c.off(wheel.center) < 0.02 * wheel.radius:

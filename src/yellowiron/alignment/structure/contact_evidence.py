@@ -8,18 +8,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from yellowiron.alignment.features.contacts import PARALLEL, Fit, Flat, SharedAxis
+from yellowiron.alignment.features.contacts import Fit, Flat, SharedAxis
 from yellowiron.alignment.features.cylinders import DrawnCylinder
-from yellowiron.alignment.features.solids import Cyl, Solid, coaxial
+from yellowiron.alignment.features.solids import Cyl, Solid, coaxial, size_of
 from yellowiron.alignment.features.telescopes import Nest, sliding_pairs
 from yellowiron.alignment.features.wheels import Wheel
+from yellowiron.alignment.tolerances import ACROSS, LEAST_SLEWING, PARALLEL
 
 WIDE = 6.0
 """A sheet is this many times wider than thick; a hose is about three."""
-SLEWING = 0.02
-"""The least radius of a slewing bearing, in sizes of the whole …"""
 THIN = 0.6
-"""… and of the hole in each of its races, as a share of its outer radius."""
+"""The least radius of the hole in each race of a slewing bearing, as a share of its outer radius."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,8 +99,8 @@ def evidence_of(
     hosts: dict[int, list[Fit]] = {}
     axes_of: dict[int, set[int]] = {}
     pinned: dict[int, set[int]] = {s.index: set() for s in solids}
-    size = float(np.linalg.norm(np.max([s.high for s in solids], axis=0) - np.min([s.low for s in solids], axis=0)))
-    wide = SLEWING * size
+    size = size_of(solids)
+    wide = LEAST_SLEWING * size
     pressed: list[Fit] = []
     direct: list[tuple[int, Fit]] = []
     races: list[tuple[int, Fit]] = []
@@ -191,10 +190,10 @@ def tables_of(solids: tuple[Solid, ...], flats: list[Flat]) -> list[Fit]:
     bearing: a turntable that is only drawn as faces."""
     if not solids:
         return []
-    size = float(np.linalg.norm(np.max([s.high for s in solids], axis=0) - np.min([s.low for s in solids], axis=0)))
+    size = size_of(solids)
     found = []
     for flat in flats:
-        for a, b in itertools.product(*(_ends(solids[i], flat, SLEWING * size) for i in (flat.a, flat.b))):
+        for a, b in itertools.product(*(_ends(solids[i], flat, LEAST_SLEWING * size) for i in (flat.a, flat.b))):
             if coaxial(a, b, 0.02):
                 found.append(Fit(flat.a, flat.b, a, b, 0.0, b.off(a.center)))
                 break
@@ -219,7 +218,7 @@ def _of_wheel(mine: tuple[str, int] | None, theirs: tuple[str, int] | None) -> b
 
 def crosses(axis: SharedAxis, cylinder: DrawnCylinder) -> bool:
     """True if an axis runs across a hydraulic cylinder's axis: through one of its eyes, or its trunnion."""
-    if abs(float(axis.direction @ cylinder.direction)) > 0.05:
+    if abs(float(axis.direction @ cylinder.direction)) > ACROSS:
         return False
     normal = np.cross(axis.direction, cylinder.direction)
     return abs(float((axis.origin - cylinder.origin) @ normal)) / float(np.linalg.norm(normal)) < 0.6 * cylinder.bore
@@ -229,7 +228,7 @@ def _bolted(axes: list[SharedAxis], cylinders: list[DrawnCylinder], solids: tupl
     eyes = [
         ln.radius for ln in axes for cylinder in cylinders if crosses(ln, cylinder) and ln.radius > 0.2 * cylinder.bore
     ]
-    size = float(np.linalg.norm(np.max([s.high for s in solids], axis=0) - np.min([s.low for s in solids], axis=0)))
+    size = size_of(solids)
     least = 0.7 * min(eyes) if eyes else 0.0018 * size
     return frozenset(k for k, axis in enumerate(axes) if axis.radius < least)
 

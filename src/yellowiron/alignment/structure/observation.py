@@ -5,8 +5,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from yellowiron.alignment.features.contacts import (
     Fit,
     Flat,
@@ -19,7 +17,7 @@ from yellowiron.alignment.features.contacts import (
 from yellowiron.alignment.features.cylinders import DrawnCylinder, cylinders_of
 from yellowiron.alignment.features.distance import Touch
 from yellowiron.alignment.features.pinless_pivots import bored, ended_fits_of, stays_of
-from yellowiron.alignment.features.solids import Solid, solids_of
+from yellowiron.alignment.features.solids import Solid, size_of, solids_of
 from yellowiron.alignment.features.telescopes import Nest, nests_of
 from yellowiron.alignment.features.undrilled import (
     apart_cylinders_of,
@@ -32,10 +30,6 @@ from yellowiron.alignment.structure.contact_evidence import Evidence, evidence_o
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.geometry import Floats
 from yellowiron.model.template import Template
-
-CONTACT = (4e-5, 3e-4, 1e-3)
-"""Two faces touch within this share of the machine's diagonal (0.4 mm on 10 m); the wider ones are for machines that
-the first does not find whole (moved or shrunk parts)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,7 +54,7 @@ def observe(assembly: Assembly, template: Template, contact: float) -> Observati
     solids = solids_of(assembly)
     if not solids:
         return Observation((), [], [], (), [], (), Touch((), 0.0), 0.0)
-    size = float(np.linalg.norm(np.max([s.high for s in solids], axis=0) - np.min([s.low for s in solids], axis=0)))
+    size = size_of(solids)
     tolerance = contact * size
     touch = Touch(solids, tolerance)
     cylinders = cylinders_of(solids, tolerance) if any(r.kind in ("barrel", "rod") for r in template.roles) else []
