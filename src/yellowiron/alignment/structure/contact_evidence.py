@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from yellowiron.alignment.features.contacts import Fit, Flat, SharedAxis
+from yellowiron.alignment.features.contacts import Fit, Flat, SharedAxis, shared_axes_of
 from yellowiron.alignment.features.cylinders import DrawnCylinder
 from yellowiron.alignment.features.solids import Cyl, Solid, coaxial, size_of
 from yellowiron.alignment.features.telescopes import Nest, sliding_pairs
@@ -63,114 +63,165 @@ class Evidence:
     nests: tuple[Nest, ...] = ()
 
 
-def evidence_of(
-    solids: tuple[Solid, ...],
-    fits: list[Fit],
-    bare: list[Fit],
-    axes: list[SharedAxis],
-    flats: list[Flat],
-    cylinders: list[DrawnCylinder],
-    wheels: list[Wheel],
-    near: list[tuple[int, int]],
-    touching: Callable[[int, int], bool],
-    tolerance: float,
-    *,
-    slewing: bool = False,
-    nests: tuple[Nest, ...] = (),
-    stays: frozenset[int] = frozenset(),
-    holes: bool = True,
-) -> Evidence:
-    """Sorts fits and flat contacts. Fits between a barrel and its rod, and between a wheel and its axle, slide. `bare`:
-    empty bores side by side; `axes` number the fits first, then these. `slewing`: whatever round thing is as wide as a
-    slewing bearing turns in its bore, though it is no thin ring. `stays`: bars that are no pins. Without `holes`
-    what is turned about a pin's axis may turn though it has no bore."""
-    owner: dict[int, tuple[str, int]] = {}
-    for k, cylinder in enumerate(cylinders):
-        owner.update(dict.fromkeys(cylinder.barrel, ("barrel", k)) | dict.fromkeys(cylinder.rod, ("rod", k)))
-    for k, wheel in enumerate(wheels):
-        owner.update(dict.fromkeys(wheel.members, ("wheel", k)))
-    inner = {f.inner for f in fits}
-    fasteners = frozenset(
-        s.index
-        for s in solids
-        if s.shaft is not None and s.index in inner and s.index not in owner and s.index not in stays
-    )
-    number = {f: k for k, axis in enumerate(axes) for f in axis.fits}
-    hosts: dict[int, list[Fit]] = {}
-    axes_of: dict[int, set[int]] = {}
-    pinned: dict[int, set[int]] = {s.index: set() for s in solids}
-    size = size_of(solids)
-    wide = LEAST_SLEWING * size
-    pressed: list[Fit] = []
-    direct: list[tuple[int, Fit]] = []
-    races: list[tuple[int, Fit]] = []
-    astray = {i for cylinder in cylinders if cylinder.apart for i in cylinder.rod}
-    for k, fit in enumerate(fits):
-        if {fit.inner, fit.outer} & astray:
-            continue
-        mine, theirs = owner.get(fit.inner), owner.get(fit.outer)
-        if fit.inner in fasteners:
-            hosts.setdefault(fit.inner, []).append(fit)
-            axes_of.setdefault(fit.inner, set()).add(number[k])
-            if fit.outer not in fasteners:
-                pinned[fit.outer].add(number[k])
-        elif fit.outer in fasteners or (mine is not None and theirs is not None) or _of_wheel(mine, theirs):
-            continue
-        elif fit.shaft.radius > wide and (slewing or solids[fit.inner].axis is None or _race(fit, solids)):
-            races.append((number[k], fit))
-        elif solids[fit.inner].axis is not None:
-            pressed.append(fit)
-        else:
-            direct.append((number[k], fit))
-            pinned[fit.inner].add(number[k])
-            pinned[fit.outer].add(number[k])
-    for k, fit in races:
-        direct.append((k, fit))
-        pinned[fit.inner].add(k)
-        pinned[fit.outer].add(k)
-    for k, fit in enumerate(bare, len(fits)):
-        if not {fit.inner, fit.outer} & (fasteners | set(owner)):
-            direct.append((number[k], fit))
-            pinned[fit.inner].add(number[k])
-            pinned[fit.outer].add(number[k])
-    _through_rings(pinned, pressed, axes, tolerance)
-    about = _about(solids, axes, pinned, tolerance, holes=holes)
-    held = {i for f in pressed for i in (f.inner, f.outer)} | set(owner)
-    slight = frozenset(astray) | frozenset(
-        s.index for s in solids if not pinned[s.index] and s.index not in held and s.slight
-    )
-    sliding = sliding_pairs(nests, flats)
-    welds: list[Flat] = []
-    turning: list[Flat] = []
-    for flat in sorted(flats, key=lambda f: (-round(f.area, 9), f.a, f.b)):
-        if not {flat.a, flat.b} & (fasteners | slight) and (flat.a, flat.b) not in sliding:
-            (turning if _may_turn(flat, axes, pinned, about) else welds).append(flat)
+@dataclass(frozen=True, eq=False)
+class Contacts:
+    """What evidence is made of: `fits` of shafts in bores, `bare` empty bores side by side, `flats`, hydraulic
+    cylinders, wheels, `near` pairs of solids and what asks whether their meshes touch; `tolerance` in metres. `nests`:
+    sections that slide in each other; `stays`: bars that are no pins. Without `holes` what is turned about a pin's axis
+    may turn though it has no bore."""
+
+    solids: tuple[Solid, ...]
+    fits: list[Fit]
+    bare: list[Fit]
+    flats: list[Flat]
+    cylinders: list[DrawnCylinder]
+    wheels: list[Wheel]
+    near: list[tuple[int, int]]
+    touching: Callable[[int, int], bool]
+    tolerance: float
+    nests: tuple[Nest, ...] = ()
+    stays: frozenset[int] = frozenset()
+    holes: bool = True
+
+
+@dataclass(frozen=True, eq=False)
+class _Roles:
+    """What solids are before their fits are looked at: solid → its wheel, or half of a hydraulic cylinder (`owner`);
+    bars in bores (`fasteners`); rods that are drawn out of their barrels' places (`astray`)."""
+
+    owner: dict[int, tuple[str, int]]
+    fasteners: frozenset[int]
+    astray: frozenset[int]
+
+
+@dataclass(frozen=True, eq=False)
+class _Fits:
+    """Fits by what they mean; the fields are those of `Evidence`, and `number`: fit → axis."""
+
+    number: dict[int, int]
+    pinned: dict[int, set[int]]
+    hosts: dict[int, list[Fit]] = field(default_factory=dict)
+    axes_of: dict[int, set[int]] = field(default_factory=dict)
+    pressed: list[Fit] = field(default_factory=list)
+    direct: list[tuple[int, Fit]] = field(default_factory=list)
+    races: list[tuple[int, Fit]] = field(default_factory=list)
+
+    def pin_on(self, fit: Fit, axis: int) -> None:
+        """Both of a fit's solids are on an axis."""
+        self.pinned[fit.inner].add(axis)
+        self.pinned[fit.outer].add(axis)
+
+
+def evidence_of(contacts: Contacts, *, slewing: bool = False) -> Evidence:
+    """Sorts fits and flat contacts. Fits between a barrel and its rod, and between a wheel and its axle, slide. The
+    axes number the fits first, then the bare bores. `slewing`: whatever round thing is as wide as a slewing bearing
+    turns in its bore, though it is no thin ring."""
+    solids = contacts.solids
+    axes = shared_axes_of([*contacts.fits, *contacts.bare], contacts.tolerance)
+    roles = _roles_of(contacts)
+    fits = _sorted_fits(contacts, axes, roles, slewing=slewing)
+    about = _about(solids, axes, fits.pinned, contacts.tolerance, holes=contacts.holes)
+    slight = _slight(solids, roles, fits)
+    welds, turning = _sorted_flats(contacts, axes, fits, about, roles.fasteners | slight)
     area: dict[tuple[int, int], float] = {}
     for flat in welds:
         area[flat.a, flat.b] = area.get((flat.a, flat.b), 0.0) + flat.area
     return Evidence(
-        solids,
-        tuple(axes),
-        tuple(cylinders),
-        tuple(wheels),
-        tuple(near),
-        touching,
-        fasteners,
-        {p: tuple(f) for p, f in sorted(hosts.items())},
-        {p: tuple(sorted(k)) for p, k in sorted(axes_of.items())},
-        {i: frozenset(k) for i, k in pinned.items()},
-        about,
-        slight,
-        frozenset(i for i in slight if _wide(solids[i])),
-        _bolted(axes, cylinders, solids),
-        tuple((f.inner, f.outer) for f in pressed),
-        tuple(direct),
-        tuple(races),
-        tuple(welds),
-        tuple(turning),
-        area,
-        nests,
+        solids=solids,
+        axes=tuple(axes),
+        cylinders=tuple(contacts.cylinders),
+        wheels=tuple(contacts.wheels),
+        near=tuple(contacts.near),
+        touching=contacts.touching,
+        fasteners=roles.fasteners,
+        hosts={p: tuple(f) for p, f in sorted(fits.hosts.items())},
+        axes_of={p: tuple(sorted(k)) for p, k in sorted(fits.axes_of.items())},
+        pinned={i: frozenset(k) for i, k in fits.pinned.items()},
+        about=about,
+        slight=slight,
+        sheets=frozenset(i for i in slight if _wide(solids[i])),
+        bolted=_bolted(axes, contacts.cylinders, solids),
+        pressed=tuple((f.inner, f.outer) for f in fits.pressed),
+        direct=tuple(fits.direct),
+        races=tuple(fits.races),
+        welds=tuple(welds),
+        turning=tuple(turning),
+        area=area,
+        nests=contacts.nests,
     )
+
+
+def _roles_of(contacts: Contacts) -> _Roles:
+    owner: dict[int, tuple[str, int]] = {}
+    for k, cylinder in enumerate(contacts.cylinders):
+        owner.update(dict.fromkeys(cylinder.barrel, ("barrel", k)) | dict.fromkeys(cylinder.rod, ("rod", k)))
+    for k, wheel in enumerate(contacts.wheels):
+        owner.update(dict.fromkeys(wheel.members, ("wheel", k)))
+    inner = {f.inner for f in contacts.fits} - set(owner) - contacts.stays
+    fasteners = frozenset(s.index for s in contacts.solids if s.shaft is not None and s.index in inner)
+    astray = frozenset(i for cylinder in contacts.cylinders if cylinder.apart for i in cylinder.rod)
+    return _Roles(owner, fasteners, astray)
+
+
+def _sorted_fits(contacts: Contacts, axes: list[SharedAxis], roles: _Roles, *, slewing: bool) -> _Fits:
+    """Each fit by what it means: of a fastener in its host, of races, of a ring in its bore, of a part's own shaft."""
+    solids, fasteners, owner = contacts.solids, roles.fasteners, roles.owner
+    number = {f: k for k, axis in enumerate(axes) for f in axis.fits}
+    fits = _Fits(number, {s.index: set() for s in solids})
+    wide = LEAST_SLEWING * size_of(solids)
+    for k, fit in enumerate(contacts.fits):
+        if {fit.inner, fit.outer} & roles.astray:
+            continue
+        if fit.inner in fasteners:
+            fits.hosts.setdefault(fit.inner, []).append(fit)
+            fits.axes_of.setdefault(fit.inner, set()).add(number[k])
+            if fit.outer not in fasteners:
+                fits.pinned[fit.outer].add(number[k])
+        elif fit.outer in fasteners or _slides(fit, owner):
+            continue
+        elif fit.shaft.radius > wide and (slewing or solids[fit.inner].axis is None or _race(fit, solids)):
+            fits.races.append((number[k], fit))
+        elif solids[fit.inner].axis is not None:
+            fits.pressed.append(fit)
+        else:
+            fits.direct.append((number[k], fit))
+            fits.pin_on(fit, number[k])
+    for axis, fit in fits.races:
+        fits.direct.append((axis, fit))
+        fits.pin_on(fit, axis)
+    for k, fit in enumerate(contacts.bare, len(contacts.fits)):
+        if not {fit.inner, fit.outer} & (fasteners | set(owner)):
+            fits.direct.append((number[k], fit))
+            fits.pin_on(fit, number[k])
+    _through_rings(fits.pinned, fits.pressed, axes, contacts.tolerance)
+    return fits
+
+
+def _slides(fit: Fit, owner: dict[int, tuple[str, int]]) -> bool:
+    """True for a barrel and its rod, and for whatever turns on a wheel's axis."""
+    mine, theirs = owner.get(fit.inner), owner.get(fit.outer)
+    return (mine is not None and theirs is not None) or any(o is not None and o[0] == "wheel" for o in (mine, theirs))
+
+
+def _slight(solids: tuple[Solid, ...], roles: _Roles, fits: _Fits) -> frozenset[int]:
+    """Hoses, rails and sheets on no axis, and rods that are astray."""
+    held = {i for f in fits.pressed for i in (f.inner, f.outer)} | set(roles.owner)
+    thin = (s.index for s in solids if not fits.pinned[s.index] and s.index not in held and s.slight)
+    return roles.astray | frozenset(thin)
+
+
+def _sorted_flats(
+    contacts: Contacts, axes: list[SharedAxis], fits: _Fits, about: dict[int, frozenset[int]], idle: frozenset[int]
+) -> tuple[list[Flat], list[Flat]]:
+    """Flat contacts that hold and those that allow turning, largest first, save those of `idle` solids and of sections
+    that slide on each other."""
+    sliding = sliding_pairs(contacts.nests, contacts.flats)
+    welds: list[Flat] = []
+    turning: list[Flat] = []
+    for flat in sorted(contacts.flats, key=lambda f: (-round(f.area, 9), f.a, f.b)):
+        if not {flat.a, flat.b} & idle and (flat.a, flat.b) not in sliding:
+            (turning if _may_turn(flat, axes, fits.pinned, about) else welds).append(flat)
+    return welds, turning
 
 
 def _wide(s: Solid) -> bool:
@@ -210,10 +261,6 @@ def _ends(solid: Solid, flat: Flat, least: float) -> list[Cyl]:
         and abs(float(flat.normal @ c.direction)) > PARALLEL
         and (c is solid.axis or abs(abs(float((flat.center - c.center) @ c.direction)) - c.half) < 0.05 * c.radius)
     ]
-
-
-def _of_wheel(mine: tuple[str, int] | None, theirs: tuple[str, int] | None) -> bool:
-    return any(o is not None and o[0] == "wheel" for o in (mine, theirs))
 
 
 def crosses(axis: SharedAxis, cylinder: DrawnCylinder) -> bool:

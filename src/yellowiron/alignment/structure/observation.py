@@ -3,16 +3,14 @@ contact can mean."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from yellowiron.alignment.features.contacts import (
-    Fit,
     Flat,
     bare_fits_of,
     fits_of,
     flats_of,
     neighbours,
-    shared_axes_of,
 )
 from yellowiron.alignment.features.cylinders import DrawnCylinder, cylinders_of
 from yellowiron.alignment.features.distance import Touch
@@ -26,7 +24,7 @@ from yellowiron.alignment.features.undrilled import (
     solid_cylinders_of,
 )
 from yellowiron.alignment.features.wheels import Wheel, wheels_of
-from yellowiron.alignment.structure.contact_evidence import Evidence, evidence_of, tables_of
+from yellowiron.alignment.structure.contact_evidence import Contacts, Evidence, evidence_of, tables_of
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.geometry import Floats
 from yellowiron.model.template import Template
@@ -34,7 +32,10 @@ from yellowiron.model.template import Template
 
 @dataclass(frozen=True, eq=False)
 class Observation:
-    """What geometry shows, before any role."""
+    """What geometry shows, before any role: the solids, flat contacts and `near` pairs of them, hydraulic cylinders,
+    wheels, sections in each other (`nests`), what the contacts can mean (`evidence`: the usual reading first, then, if
+    it differs, the one with slewing bearings), what asks for distances (`touch`), the machine's size in metres, and the
+    upright where it is known. CAD frame."""
 
     solids: tuple[Solid, ...]
     flats: list[Flat]
@@ -78,29 +79,13 @@ def observe(assembly: Assembly, template: Template, contact: float) -> Observati
     taken = {i for r in cylinders for i in r.barrel | r.rod}
     wheels = wheels_of(solids, sum(1 for r in template.roles if r.kind == "wheel" and r.rigid), taken, tolerance)
 
-    def sorted_out(fits: list[Fit], *, slewing: bool) -> Evidence:
-        axes = shared_axes_of([*fits, *bare], tolerance)
-        return evidence_of(
-            solids,
-            fits,
-            bare,
-            axes,
-            flats,
-            cylinders,
-            wheels,
-            near,
-            touch.touching,
-            tolerance,
-            slewing=slewing,
-            nests=nests,
-            stays=stays,
-            holes=holes,
-        )
-
-    evidence = [sorted_out(fits, slewing=False)]
-    tables = tables_of(solids, flats) if slewing_joints(template) else []
-    other = sorted_out([*fits, *tables], slewing=True) if slewing_joints(template) else evidence[0]
-    evidence += [other] if len(other.races) > len(evidence[0].races) else []
+    contacts = Contacts(
+        solids, fits, bare, flats, cylinders, wheels, near, touch.touching, tolerance, nests, stays, holes
+    )  # fmt: skip
+    evidence = [evidence_of(contacts)]
+    if slewing_joints(template):
+        other = evidence_of(replace(contacts, fits=[*fits, *tables_of(solids, flats)]), slewing=True)
+        evidence += [other] if len(other.races) > len(evidence[0].races) else []
     return Observation(solids, flats, near, tuple(cylinders), wheels, tuple(evidence), touch, size, nests=nests)
 
 
