@@ -12,7 +12,8 @@ from yellowiron.alignment.features.contacts import Fit, fits_of
 from yellowiron.alignment.features.cylinders import DrawnCylinder
 from yellowiron.alignment.features.distance import Touch
 from yellowiron.alignment.features.solids import Solid, solids_of
-from yellowiron.alignment.features.undrilled import pierced_fits_of, solid_cylinders_of
+from yellowiron.alignment.features.undrilled import pierced_fits_of
+from yellowiron.alignment.features.undrilled_cylinders import solid_cylinders_of
 from yellowiron.cad.mesh.assembly import shape_of
 from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.geometry import Floats, Mesh

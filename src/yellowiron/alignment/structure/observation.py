@@ -17,12 +17,8 @@ from yellowiron.alignment.features.distance import Touch
 from yellowiron.alignment.features.pinless_pivots import bored, ended_fits_of, stays_of
 from yellowiron.alignment.features.solids import Solid, size_of, solids_of
 from yellowiron.alignment.features.telescopes import Nest, nests_of
-from yellowiron.alignment.features.undrilled import (
-    apart_cylinders_of,
-    interrupted_fits_of,
-    pierced_fits_of,
-    solid_cylinders_of,
-)
+from yellowiron.alignment.features.undrilled import interrupted_fits_of, pierced_fits_of
+from yellowiron.alignment.features.undrilled_cylinders import apart_cylinders_of, solid_cylinders_of
 from yellowiron.alignment.features.wheels import Wheel, wheels_of
 from yellowiron.alignment.structure.contact_evidence import Contacts, Evidence, evidence_of, tables_of
 from yellowiron.model.assembly import Assembly
