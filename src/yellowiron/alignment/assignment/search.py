@@ -12,11 +12,12 @@ import itertools
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 
-from yellowiron.alignment.assignment.cp_sat import MISSING_WEIGHT, Solution, solve
+from yellowiron.alignment.assignment.answer import Answer, is_whole
+from yellowiron.alignment.assignment.cp_sat import MISSING_WEIGHT, solve
 from yellowiron.alignment.assignment.names import name_scores
 from yellowiron.alignment.assignment.one_sided import one_sided
 from yellowiron.alignment.assignment.sheet_weights import sheet_weights
-from yellowiron.alignment.assignment.weights import Weights, heed, name_weights, size_weights
+from yellowiron.alignment.assignment.weights import name_agreement, name_weights, size_weights
 from yellowiron.alignment.structure.clusters import Structure, loose_ends, structure_of
 from yellowiron.alignment.structure.observation import Observation, slewing_joints
 from yellowiron.alignment.tolerances import CONTACT, UPRIGHT
@@ -25,56 +26,16 @@ from yellowiron.model.geometry import Floats
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import Template, choose
 
-MARGIN = 20
-"""An assignment is doubtful if the best without it scores this little less: less than a name is worth."""
-SIDED_WEIGHT = 4 * MISSING_WEIGHT
-"""What a variant loses for a cylinder that stands to one side where it should be in the middle."""
 HOPELESS = 200
 """A reading that cannot come nearer than this to the best one's score is not looked at any further."""
-
-
 BELIEVED = 0.6
 """Names that agree less with the joints than this have no say in the search."""
 
 
-@dataclass(frozen=True, eq=False)
-class Answer:
-    """One reading of the welds and one variant of the template, solved. `contact`: the tolerance of the contacts, as a
-    share of the machine's diagonal."""
-
-    contact: float
-    structure: Structure
-    choices: dict[str, str]
-    template: Template
-    solution: Solution
-    unary: Weights
-    sided: tuple[str, ...]
-    barred: frozenset[tuple[str, int]]
-
-    @property
-    def score(self) -> int:
-        """What variants and readings are compared by: a cylinder at the wrong place is worse than a missing one."""
-        return self.solution.score - SIDED_WEIGHT * len(self.sided)
-
-
-def rivals_of(answer: Answer) -> dict[int, str | None]:
-    """Clusters that could as well be another body (or none), and which: where a machine is not whole, its joints alone
-    may not tell."""
-    found = {}
-    for cluster, body in sorted(answer.solution.body_of.items()):
-        other = solve(
-            answer.structure, answer.template, unary=answer.unary, barred=answer.barred, without=(cluster, body),
-            at_least=answer.solution.objective - MARGIN - MISSING_WEIGHT,
-        )  # fmt: skip
-        if other is not None and answer.solution.score - other.score < MARGIN:
-            found[cluster] = other.body_of.get(cluster)
-    return found
-
-
 @dataclass
 class Search:
-    """One search: `look` gives what geometry shows with a contact tolerance; the rest as for `align`. `heed`: how far
-    the names agreed with what was found, 0 to 1."""
+    """One search: `look` gives what geometry shows with a contact tolerance; the rest as for `align`. `agreement`: how
+    far the names agreed with what was found, 0 to 1."""
 
     look: Callable[[float], Observation]
     template: Template
@@ -82,7 +43,7 @@ class Search:
     choices: Mapping[str, str]
     edited: Mapping[str, str]
     best: Answer | None = None
-    heed: float = 1.0
+    agreement: float = 1.0
     _named: bool = True
     _looked: dict[float, tuple[Observation, list[dict[str, float]], list[Structure]]] = field(default_factory=dict)
 
@@ -90,9 +51,9 @@ class Search:
         """The best answer, what was observed with its tolerance, and what the names say of each solid there, as far as
         they are to be believed: where they contradict the joints, the search is made again without them."""
         answer, observation, scores = self._run()
-        self.heed = heed(answer.structure, answer.solution, scores)
-        believed = [{body: self.heed * score for body, score in of.items()} for of in scores]
-        if self.heed < BELIEVED:
+        self.agreement = name_agreement(answer.structure, answer.solution, scores)
+        believed = [{body: self.agreement * score for body, score in of.items()} for of in scores]
+        if self.agreement < BELIEVED:
             self.best = None
             self._looked = {c: (s, [{} for _ in s.solids], known) for c, (s, _, known) in self._looked.items()}
             self._named = False
@@ -187,17 +148,6 @@ def _structures(observation: Observation, template: Template, *, careful: bool) 
     for weak in (broken, not broken):
         for evidence in observation.evidence:
             yield read(evidence, weak=weak)
-
-
-def is_whole(answer: Answer) -> bool:
-    """True where every body is played and every joint found, each at a place it may have, and no hydraulic cylinder is
-    left over."""
-    found = {*answer.solution.hinge_of, *answer.solution.slide_of}
-    joints = {j.name for j in answer.template.joints if j.type in ("revolute", "prismatic")}
-    bodies = {r.name for r in answer.template.roles if r.rigid and not r.optional}
-    cylinders = {c for slide in answer.structure.slides for c in slide[:2]}
-    played = answer.solution.body_of
-    return not answer.sided and joints <= found and bodies <= set(played.values()) and cylinders <= set(played)
 
 
 def _barred(structure: Structure, template: Template, up: Floats | None) -> frozenset[tuple[str, int]]:

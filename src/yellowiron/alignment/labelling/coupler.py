@@ -13,6 +13,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from yellowiron.alignment.assignment.answer import Answer
 from yellowiron.alignment.assignment.cp_sat import Solution
 from yellowiron.alignment.features.contacts import SharedAxis
 from yellowiron.alignment.features.solids import Cyl, Solid, coaxial
@@ -20,7 +21,6 @@ from yellowiron.alignment.labelling.place import Place
 from yellowiron.alignment.structure.clusters import Structure
 from yellowiron.alignment.tolerances import SAME_DIRECTION
 from yellowiron.model.geometry import Floats
-from yellowiron.model.template import Template
 
 SLACK = 0.1
 """Two bores on one pin are off each other by this share of a radius at most."""
@@ -31,17 +31,16 @@ _LEAST = 0.6
 """How strong that evidence is."""
 
 
-def coupled(
-    places: Mapping[int, Place], solids: Sequence[Solid], structure: Structure, solution: Solution, template: Template
-) -> dict[int, Place]:
+def with_couplers(places: Mapping[int, Place], solids: Sequence[Solid], answer: Answer) -> dict[int, Place]:
     """The places of all parts, those of couplers among them; as they were where a name has told a coupler already."""
     found = dict(places)
+    template = answer.template
     for role in template.roles:
         body = template.body_of(role.parent) if role.kind == "coupler" and role.parent is not None else None
         if body is None or any(place.role == role.name for place in places.values()):
             continue
         own = [i for i, place in sorted(places.items()) if place.body == body and place.role == body]
-        for i in _coupler(own, [solids[i] for i in own], _hinges(body, structure, solution)):
+        for i in _coupler_parts(own, [solids[i] for i in own], _hinges(body, answer.structure, answer.solution)):
             old = found[i]
             found[i] = replace(old, role=role.name, confidence=min(old.confidence, _LEAST), reason=_REASON, how="bores")
     return found
@@ -57,39 +56,40 @@ def _hinges(body: str, structure: Structure, solution: Solution) -> list[SharedA
     return [structure.axes[number] for number in sorted(numbers)]
 
 
-def _coupler(numbers: Sequence[int], solids: Sequence[Solid], hinges: Sequence[SharedAxis]) -> list[int]:
-    """Which of a tool's parts are its coupler's; none where it has none."""
+def _coupler_parts(numbers: Sequence[int], solids: Sequence[Solid], hinges: Sequence[SharedAxis]) -> list[int]:
+    """Which of a tool's parts are its coupler's; none where it has none. `numbers` of `solids`."""
     if len(hinges) < 2:
         return []
     across = hinges[0].direction
     axes = [_hole(axis) for axis in hinges]
-    narrow = WIDE * min(axis.radius for axis in axes)
-    holes = [
-        [
-            c
-            for c in s.cylinders
-            if c.inner and c.full and c.radius >= narrow and abs(c.direction @ across) > SAME_DIRECTION
-        ]
-        for s in solids
-    ]
+    holes = [_holes_across(s, across, WIDE * min(axis.radius for axis in axes)) for s in solids]
     hung = [{k for k, axis in enumerate(axes) if any(_on(c, axis) for c in own)} for own in holes]
-    carriers = [n for n, met in enumerate(hung) if met]
-    rest = [n for n, met in enumerate(hung) if not met]
     if len(set().union(*hung)) < 2:
         return []
-    grips: list[Cyl] = []
-    for n in carriers:
-        for hole in holes[n]:
-            if any(_on(hole, axis) for axis in (*axes, *grips)):
-                continue
-            if any(_on(hole, other) for m in rest for other in holes[m]):
-                grips.append(hole)
+    carriers = [n for n, met in enumerate(hung) if met]
+    rest = [n for n, met in enumerate(hung) if not met]
+    grips = _grips([c for n in carriers for c in holes[n]], [c for n in rest for c in holes[n]], axes)
     if len(grips) < 2:
         return []
     held = [n for n in rest if any(_on(c, grip) for c in solids[n].cylinders for grip in grips)]
     room = np.array([_flat(c.center, across) for n in carriers for c in holes[n]])
     inside = [n for n in rest if n not in held and _within(_flat(solids[n].points, across), room)]
     return [numbers[n] for n in sorted({*carriers, *inside})]
+
+
+def _holes_across(solid: Solid, across: Floats, least: float) -> list[Cyl]:
+    """The bores of a part across the machine, of at least a radius."""
+    bores = [c for c in solid.cylinders if c.inner and c.full and c.radius >= least]
+    return [c for c in bores if abs(c.direction @ across) > SAME_DIRECTION]
+
+
+def _grips(carried: Sequence[Cyl], others: Sequence[Cyl], axes: Sequence[Cyl]) -> list[Cyl]:
+    """The carriers' bores, one of each axis that is no hinge's, that go on in other parts."""
+    grips: list[Cyl] = []
+    for hole in carried:
+        if not any(_on(hole, axis) for axis in (*axes, *grips)) and any(_on(hole, other) for other in others):
+            grips.append(hole)
+    return grips
 
 
 def _hole(axis: SharedAxis) -> Cyl:

@@ -7,18 +7,14 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from yellowiron.alignment.assignment.cp_sat import Solution
+from yellowiron.alignment.assignment.answer import Answer
 from yellowiron.alignment.assignment.names import exact_role, exact_roles
-from yellowiron.alignment.features.contacts import Fit, Flat
-from yellowiron.alignment.features.distance import Touch
-from yellowiron.alignment.features.solids import Solid
-from yellowiron.alignment.features.wheels import Wheel
+from yellowiron.alignment.features.contacts import Fit
 from yellowiron.alignment.labelling.place import DOUBTFUL, Place, pin_role
-from yellowiron.alignment.labelling.review import STURDY, has_tyre, next_bodies, unheld
-from yellowiron.alignment.structure.clusters import Structure
+from yellowiron.alignment.labelling.review import STURDY, has_tyre, next_bodies, solids_without_a_body
+from yellowiron.alignment.structure.observation import Observation
 from yellowiron.alignment.tolerances import FAR
 from yellowiron.model.geometry import Floats
-from yellowiron.model.template import Template
 
 NEIGHBOURHOOD = 0.04
 """How far, in machine sizes, a floating part looks for a neighbour."""
@@ -35,29 +31,30 @@ NAMED = 0.9
 
 
 @dataclass
-class Spreader:
-    """The state of the spreading: what each solid was found to be so far."""
+class Propagation:
+    """The state of the spreading: what each solid was found to be so far (`places`), the solids that no body is left
+    for (`loose`), and those that stand `apart`, with the metres to the rest.
 
-    solids: tuple[Solid, ...]
-    structure: Structure
-    solution: Solution
-    template: Template
-    flats: list[Flat]
-    near: list[tuple[int, int]]
-    touch: Touch
+    `scores`: what the names say of each solid; `up`: the upright, CAD frame; `rivals`: cluster → the body it could as
+    well be; `suspects`: body → why it is doubtful."""
+
+    observation: Observation
+    answer: Answer
     scores: list[dict[str, float]]
-    size: float
     up: Floats
     rivals: Mapping[int, str | None] = field(default_factory=dict)
-    shaken: Mapping[str, str] = field(default_factory=dict)
+    suspects: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
+        self.solids, self.touch = self.observation.solids, self.observation.touch
+        self.structure, self.solution = self.answer.structure, self.answer.solution
+        self.template = self.answer.template
         self.places: dict[int, Place] = {}
-        self.loose = unheld(self.solids, self.structure, self.solution)
+        self.loose = solids_without_a_body(self.solids, self.structure, self.solution)
         self.apart: dict[int, float] = {}
         self.cluster_of = {b: c for c, b in self.solution.body_of.items()}
 
-    def run(self, wheels: list[Wheel]) -> dict[int, Place]:
+    def run(self) -> dict[int, Place]:
         """Every solid's place; solids that nothing speaks for are absent, and those far from all others (`apart`)."""
         self._bodies()
         self._torn()
@@ -69,7 +66,7 @@ class Spreader:
         self._by_touch()
         self._by_exact_name()
         self._nearest()
-        self._specific(wheels)
+        self._specific()
         for i, place in self.places.items():
             others = max((v for b, v in self.scores[i].items() if b != place.body), default=0.0)
             self.places[i] = replace(place, said=self.scores[i].get(place.body, 0.0) - others)
@@ -91,8 +88,8 @@ class Spreader:
             doubt = self.rivals.get(c) if c in self.rivals else None
             if c in self.rivals:
                 confidence, words = min(confidence, 0.45), f"{words}; but it could as well be {doubt or 'none'}"
-            if body in self.shaken:
-                confidence, words = min(confidence, 0.45), f"{words}; but {self.shaken[body]}"
+            if body in self.suspects:
+                confidence, words = min(confidence, 0.45), f"{words}; but {self.suspects[body]}"
             for i in self.structure.clusters[c].members:
                 rival = self._named_other(i, body)
                 drop = 0.1 if rival else 0.0
@@ -101,7 +98,7 @@ class Spreader:
     def _torn(self) -> None:
         """Parts that hold to two bodies about as firmly: the one chosen is a guess."""
         ties: dict[int, dict[str, float]] = {}
-        for flat in self.flats:
+        for flat in self.observation.flats:
             for i, j in ((flat.a, flat.b), (flat.b, flat.a)):
                 if i in self.places and j in self.places:
                     body = self.places[j].body
@@ -231,7 +228,7 @@ class Spreader:
     def _by_contact(self) -> None:
         """Flat contact with placed parts, spreading outward in rounds."""
         across: dict[int, list[tuple[int, float]]] = {}
-        for flat in self.flats:
+        for flat in self.observation.flats:
             across.setdefault(flat.a, []).append((flat.b, flat.area))
             across.setdefault(flat.b, []).append((flat.a, flat.area))
         self._rounds(lambda i: across.get(i, []), 0.97, "lies flat against {body}", "flat")
@@ -239,7 +236,7 @@ class Spreader:
     def _by_touch(self) -> None:
         """Meshes that touch or cut each other, parts counted, those that a part is sunk in for more."""
         beside: dict[int, list[int]] = {}
-        for a, b in self.near:
+        for a, b in self.observation.near:
             beside.setdefault(a, []).append(b)
             beside.setdefault(b, []).append(a)
 
@@ -304,7 +301,7 @@ class Spreader:
         for pin, fits in self.structure.hosts.items():
             for fit in fits:
                 around.setdefault(fit.outer, []).append((pin, fit.overlap))
-        for flat in self.flats:
+        for flat in self.observation.flats:
             for i, pin in ((flat.a, flat.b), (flat.b, flat.a)):
                 if self._is_pin(pin):
                     around.setdefault(i, []).append((pin, flat.width))
@@ -396,9 +393,9 @@ class Spreader:
         return role if body is not None and self.scores[i].get(body, 0.0) > 1.0 else None
 
     # ---- the most specific role ----
-    def _specific(self, wheels: list[Wheel]) -> None:
+    def _specific(self) -> None:
         """Tyres, edges, and exact names of roles that move with the body found."""
-        roles = exact_roles(self.template)
+        roles, wheels = exact_roles(self.template), self.observation.wheels
         for i, place in sorted(self.places.items()):
             named = self._bears(i, roles)
             if place.role != place.body:

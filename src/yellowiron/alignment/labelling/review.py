@@ -3,8 +3,9 @@ body, parts that stand apart, wheels without tyres."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
+from yellowiron.alignment.assignment.answer import Answer
 from yellowiron.alignment.assignment.cp_sat import Solution
 from yellowiron.alignment.features.solids import Solid
 from yellowiron.alignment.features.wheels import Wheel
@@ -21,7 +22,7 @@ SECOND = 0.2
 SOME = 6
 
 
-def unheld(solids: tuple[Solid, ...], structure: Structure, solution: Solution) -> frozenset[int]:
+def solids_without_a_body(solids: tuple[Solid, ...], structure: Structure, solution: Solution) -> frozenset[int]:
     """Solids of clusters that no body of the template is left for, though they could move: halves of a hydraulic
     cylinder, and what hangs far out from a pin as sturdy as the machine's own."""
     pivots = [structure.axes[structure.hinges[h].axis].radius for h in solution.hinge_of.values()]
@@ -77,54 +78,68 @@ def has_tyre(wheel: Wheel, solids: tuple[Solid, ...]) -> bool:
     return inner < RIM * wheel.radius
 
 
-def doubts(
-    solids: tuple[Solid, ...],
-    structure: Structure,
-    solution: Solution,
-    template: Template,
-    sided: Sequence[str],
+def review_findings(
+    solids: Sequence[Solid],
+    answer: Answer,
+    *,
     loose: frozenset[int],
     apart: Mapping[str, float],
     played: frozenset[str],
     settled: frozenset[str],
 ) -> list[Finding]:
-    """The remarks: ALN007 (`loose` solids), ALN008 (`sided` barrels), ALN009 and ALN010 (`apart`: part id → metres
-    from the rest), ALN011. `played` are the roles that parts have; `settled` part ids are a person's, of which nothing
-    is said."""
-    where = template.equipment_type
-    findings = []
-    left = [i for i in sorted(loose) if solids[i].part.id not in {*settled, *apart}]
+    """The remarks: ALN007 (`loose` solids), ALN008 (the answer's barrels to one side), ALN009 and ALN010 (`apart`: part
+    id → metres from the rest), ALN011. `played` are the roles that parts have; `settled` part ids are a person's, of
+    which nothing is said."""
+    return [
+        *_without_a_body([solids[i].part.id for i in sorted(loose)], {*settled, *apart}, answer.template),
+        *_to_one_side(answer.sided),
+        *_standing_apart(apart, len(solids), answer.template),
+        *_without_tyres(answer, played),
+    ]
+
+
+def _without_a_body(loose: Sequence[str], settled: set[str], template: Template) -> Iterator[Finding]:
+    left = [part for part in loose if part not in settled]
     if left:
-        names = _some([solids[i].part.id for i in left])
-        text = f"No body is left for {len(left)} parts that could move on their own: {names}"
+        text = f"No body is left for {len(left)} parts that could move on their own: {_some(left)}"
         hint = "Set their roles in alignment.json, choose another variant, or complete the hydraulic cylinder in CAD."
-        findings.append(Finding("ALN007", "warning", where, text, hint))
-    for barrel in sided:
+        yield Finding("ALN007", "warning", template.equipment_type, text, hint)
+
+
+def _to_one_side(barrels: Sequence[str]) -> Iterator[Finding]:
+    for barrel in barrels:
         text = f"{barrel} is to one side of the machine, where the variant has one in the middle"
         hint = "Choose the variant with a left and a right one, or check whether the CAD model lacks the other."
-        findings.append(Finding("ALN008", "warning", barrel, text, hint))
+        yield Finding("ALN008", "warning", barrel, text, hint)
+
+
+def _standing_apart(apart: Mapping[str, float], count: int, template: Template) -> Iterator[Finding]:
+    where = template.equipment_type
     if apart:
         least = min(apart.values())
         text = f"{len(apart)} parts stand {least:.3g} m or more from the machine: {_some(sorted(apart))}"
         hint = "They are left out of the machine; set their role in alignment.json (null: left out)."
-        findings.append(Finding("ALN009", "warning", where, text, hint))
-    if len(apart) > SECOND * len(solids):
+        yield Finding("ALN009", "warning", where, text, hint)
+    if len(apart) > SECOND * count:
         text = f"The CAD model seems to hold more than one machine: {len(apart)} parts stand apart"
         hint = "Hand in one machine a file; the parts of the others are left out."
-        findings.append(Finding("ALN010", "warning", where, text, hint))
-    tyres = {r.name for r in template.roles if r.kind == "tyre"}
-    rolling = [c for c in solution.body_of if structure.clusters[c].kind == "wheel"]
+        yield Finding("ALN010", "warning", where, text, hint)
+
+
+def _without_tyres(answer: Answer, played: frozenset[str]) -> Iterator[Finding]:
+    tyres = {r.name for r in answer.template.roles if r.kind == "tyre"}
+    rolling = [c for c in answer.solution.body_of if answer.structure.clusters[c].kind == "wheel"]
     if tyres and rolling and not tyres & played:
         text = "The wheels have no tyres: the ground is taken under the rims"
-        findings.append(Finding("ALN011", "warning", where, text, "Check that the CAD model has the tyres."))
-    return findings
+        hint = "Check that the CAD model has the tyres."
+        yield Finding("ALN011", "warning", answer.template.equipment_type, text, hint)
 
 
-def name_doubts(heed: float, believed: float, where: str) -> list[Finding]:
-    """ALN015 for names that agree with the joints (`weights.heed`) less than is `believed`."""
-    if heed >= believed:
+def name_findings(agreement: float, believed: float, where: str) -> list[Finding]:
+    """ALN015 for names that agree with the joints (`weights.name_agreement`) less than is `believed`."""
+    if agreement >= believed:
         return []
-    text = f"The parts' names contradict the joints (they agree to {heed:.0%}, chance taken off): they have no say"
+    text = f"The parts' names contradict the joints (they agree to {agreement:.0%}, chance taken off): they have no say"
     return [Finding("ALN015", "info", where, text, "Check the names if they should be right, or the equipment type.")]
 
 
