@@ -1,4 +1,4 @@
-"""From clusters and hinges to a machine that can be told: its root, its tree, what each body is and why."""
+"""From clusters and hinges to a machine that can be described: its root, its tree, what each body is and why."""
 
 from __future__ import annotations
 
@@ -25,19 +25,13 @@ KIN = 0.6
 SOME = 3
 
 
-def told(
-    name: str,
-    observation: Observation,
-    structure: Structure,
-    edges: Sequence[Edge],
-    tracks: Sequence[Track],
+def describe(
+    name: str, observation: Observation, structure: Structure, edges: Sequence[Edge], tracks: Sequence[Track],
     apart: int,
-) -> FoundMachine:
+) -> FoundMachine:  # fmt: skip
     """The machine with its root first and its bodies from there outward; pieces that no joint ties together are welded,
-    with a finding."""
-    total = sum(surface(observation, structure, c) for c in range(len(structure.clusters)))
-    large = [p for p in components(edges) if sum(surface(observation, structure, c) for c in p) > LEVER * total]
-    pieces = large or components(edges)
+    with a finding. `apart`: how many parts were left out."""
+    pieces = _pieces(observation, structure, edges)
     bodies = sorted(c for p in pieces for c in p)
     edges = [e for e in edges if e.a in bodies]
     up = _up(observation, structure, edges, tracks)
@@ -47,20 +41,15 @@ def told(
     number = {c: k for k, c in enumerate(order)}
     single = bridges(edges)
     upright = {e for e in edges if not e.slide and abs(float(structure.axes[e.axis].direction @ up)) > UPRIGHT}
-    frames = {c for e in upright for c in (e.a, e.b) if root in (e.a, e.b)}
-    rolling = {
-        c for e in edges if "wheel" in (structure.clusters[e.a].kind, structure.clusters[e.b].kind) for c in (e.a, e.b)
-    }
-    swinging = {c for e in edges if not e.slide and e not in upright for c in (e.a, e.b)} - rolling
-    found = []
-    for c in order:
-        kind = structure.clusters[c].kind or ("frame" if c == root or c in frames else "arm" if c in swinging else "")
-        found.append(_body(observation, structure, c, kind, c == root, bool(tracks)))
+    kinds = _kinds(structure, edges, root, upright)
+    found = [_body(observation, structure, c, kinds.get(c, ""), c == root, bool(tracks)) for c in order]
 
     def rank(e: Edge) -> tuple[int, int, bool]:
         return max(number[e.a], number[e.b]), min(number[e.a], number[e.b]), e.slide
 
-    joints = [_joint(observation, structure, e, number, e not in single, e in upright) for e in sorted(edges, key=rank)]
+    joints = [
+        _joint(observation, structure, e, number, e not in single, e in upright) for e in sorted(edges, key=rank)
+    ]  # fmt: skip
     findings = _remarks(observation, structure, found, number, edges, tracks, apart)
     for a, b in sorted(tuple(sorted((number[a], number[b]))) for a, b in welds):
         nowhere = (0.0, 0.0, 0.0)
@@ -70,6 +59,26 @@ def told(
         hint = "If it turns or slides, change the joint's type in joints.json."
         findings.append(Finding("ALN020", "warning", some(found[b].parts), words, hint))
     return FoundMachine(name, tuple(found), 0, tuple(joints), len(tracks), tuple(findings))
+
+
+def _pieces(observation: Observation, structure: Structure, edges: Sequence[Edge]) -> list[set[int]]:
+    """The pieces of the machine that joints tie together, without its latches and levers, unless it has only these."""
+    total = sum(surface(observation, structure, c) for c in range(len(structure.clusters)))
+    pieces = components(edges)
+    large = [p for p in pieces if sum(surface(observation, structure, c) for c in p) > LEVER * total]
+    return large or pieces
+
+
+def _kinds(structure: Structure, edges: Sequence[Edge], root: int, upright: set[Edge]) -> dict[int, str]:
+    """Cluster → what body it is, for those that are told by their shape or joints: a frame is the root, or turns
+    upright on it; an arm swings."""
+    frames = {root} | {c for e in upright if root in (e.a, e.b) for c in (e.a, e.b)}
+    rolling = {
+        c for e in edges if "wheel" in (structure.clusters[e.a].kind, structure.clusters[e.b].kind) for c in (e.a, e.b)
+    }
+    swinging = {c for e in edges if not e.slide and e not in upright for c in (e.a, e.b)} - rolling
+    kinds = dict.fromkeys(swinging, "arm") | dict.fromkeys(frames, "frame")
+    return kinds | {c: cluster.kind for c, cluster in enumerate(structure.clusters) if cluster.kind}
 
 
 def surface(observation: Observation, structure: Structure, c: int) -> float:
@@ -272,7 +281,7 @@ def _remarks(
     tracks: Sequence[Track],
     apart: int,
 ) -> list[Finding]:
-    """What could not be told: rods on nothing, tracks, parts that stand apart."""
+    """What remains open: rods on nothing, tracks, parts that stand apart."""
     findings = []
     hinged = {c for e in edges if not e.slide for c in (e.a, e.b)}
     for e in edges:

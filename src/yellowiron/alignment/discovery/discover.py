@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from yellowiron.alignment.discovery.description import across, surface, told
+from yellowiron.alignment.discovery.description import across, describe, surface
 from yellowiron.alignment.features.separate_parts import islands
 from yellowiron.alignment.features.solids import solids_of
 from yellowiron.alignment.features.tracks import Track, tracks_of
@@ -76,7 +76,7 @@ def discover(assembly: Assembly) -> FoundMachine:
     machine = replace(machine, parts=tuple(p for p in machine.parts if p.id not in of_tracks))
     best: tuple[Observation, _Reading] | None = None
     for contact in CONTACT:
-        observation = _looked(machine, contact)
+        observation = _observed(machine, contact)
         for reading in _readings(observation, _upright(observation, tracks)):
             if best is None or reading.rank < best[1].rank:
                 best = (observation, reading)
@@ -89,10 +89,10 @@ def discover(assembly: Assembly) -> FoundMachine:
             hint="Pins, bores or hydraulic cylinders are what joints are found by; or copy a template and edit it.",
         )
     observation, reading = best
-    return told(assembly.name, observation, reading.structure, reading.edges, tracks, len(apart))
+    return describe(assembly.name, observation, reading.structure, reading.edges, tracks, len(apart))
 
 
-def _looked(assembly: Assembly, contact: float) -> Observation:
+def _observed(assembly: Assembly, contact: float) -> Observation:
     """What geometry shows where everything is asked for; wheels only where all of them stand on one plane."""
     for count in (MOST_WHEELS, 0):
         observation = observe(assembly, _anything(count), contact)
