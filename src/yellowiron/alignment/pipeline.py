@@ -29,7 +29,7 @@ from yellowiron.alignment.assignment.search import BELIEVED, Search
 from yellowiron.alignment.assignment.sheet_weights import sheet_findings
 from yellowiron.alignment.assignment.weights import side_weights
 from yellowiron.alignment.features.distance import Touch
-from yellowiron.alignment.features.separate_parts import islands
+from yellowiron.alignment.features.separate_parts import separate_parts
 from yellowiron.alignment.features.solids import solids_of
 from yellowiron.alignment.features.telescopes import Nest
 from yellowiron.alignment.features.tracks import Track, tracks_of
@@ -69,7 +69,7 @@ def align(
             "The CAD model has no parts", where=assembly.name, hint="Check that the file holds solids."
         )
     edited = _edited(assembly, template, edits)
-    apart = islands(assembly, [part for part, role in edited.items() if role])
+    apart = separate_parts(assembly, [part for part, role in edited.items() if role])
     tracking = _without(assembly, apart)
     tracked, tracks = _tracked(tracking, template)
     machine = _without(tracking, set(tracked.values()))

@@ -11,7 +11,7 @@ from scipy.spatial import ConvexHull, QhullError
 from scipy.spatial.distance import pdist
 
 from yellowiron.alignment.features.cylinders import cylinders_of
-from yellowiron.alignment.features.separate_parts import islands
+from yellowiron.alignment.features.separate_parts import separate_parts
 from yellowiron.alignment.features.solids import size_of, solids_of
 from yellowiron.alignment.tolerances import CONTACT
 from yellowiron.model.assembly import Assembly, DeclaredJoint
@@ -50,15 +50,15 @@ def to_scale(assembly: Assembly, template: Template, specifications: Specificati
     if fitting:
         true, factor = min(fitting.items(), key=lambda item: abs(math.log(item[1] * drawn / length)))
         if by_diameters is None or abs(factor / by_diameters - 1) < AGREE:
-            return _told(assembly, factor, f"{read}: its numbers are {true}; scaled by {factor:.6g}")
+            return _rescaled(assembly, factor, f"{read}: its numbers are {true}; scaled by {factor:.6g}")
     if by_diameters is not None:
         words = f"{read}: scaled by {by_diameters:.6g}, with which its hydraulic cylinders are the sheet's"
-        return _told(assembly, by_diameters, words)
+        return _rescaled(assembly, by_diameters, words)
     factor = length / drawn
-    return _told(assembly, factor, f"{read}, and no unit explains that: scaled by {factor:.4g}, which is a guess")
+    return _rescaled(assembly, factor, f"{read}, and no unit explains that: scaled by {factor:.4g}, which is a guess")
 
 
-def _told(assembly: Assembly, factor: float, words: str) -> Assembly:
+def _rescaled(assembly: Assembly, factor: float, words: str) -> Assembly:
     hint = "Check the unit that the model was exported in, and the sheet's overall length."
     finding = Finding("ALN014", "warning", assembly.name, words, hint)
     return replace(scaled(assembly, factor), findings=(*assembly.findings, finding))
@@ -66,7 +66,7 @@ def _told(assembly: Assembly, factor: float, words: str) -> Assembly:
 
 def _extent(assembly: Assembly) -> float:
     """Metres between the two points of the machine that are farthest apart; what stands apart does not count."""
-    apart = islands(assembly)
+    apart = separate_parts(assembly)
     clouds = [assembly.points_of(p) for p in assembly.parts if p.id not in apart]
     clouds = [c for c in clouds if len(c)]
     if not clouds:

@@ -16,10 +16,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from yellowiron.alignment.discovery.description import across, describe, surface
-from yellowiron.alignment.features.separate_parts import islands
+from yellowiron.alignment.features.separate_parts import separate_parts
 from yellowiron.alignment.features.solids import solids_of
 from yellowiron.alignment.features.tracks import Track, tracks_of
-from yellowiron.alignment.structure.clusters import LONG, Structure, hangs, structure_of
+from yellowiron.alignment.structure.clusters import LONG, Structure, reaches_out, structure_of
 from yellowiron.alignment.structure.loops import Edge, bridges, components, freedoms
 from yellowiron.alignment.structure.observation import Observation, observe
 from yellowiron.alignment.tolerances import CONTACT, UPRIGHT
@@ -66,7 +66,7 @@ def discover(assembly: Assembly) -> FoundMachine:
         raise AlignmentError(
             "The CAD model has no parts", where=assembly.name, hint="Check that the file holds solids."
         )
-    apart = islands(assembly)
+    apart = separate_parts(assembly)
     machine = replace(assembly, parts=tuple(p for p in assembly.parts if p.id not in apart))
     solids = solids_of(machine)
     tracks = tracks_of(solids)
@@ -205,7 +205,7 @@ def _bodies(observation: Observation, structure: Structure, pivots: list[Edge]) 
     found = {c for s in structure.slides for c in s[:2]}
     for c, on in axes.items():
         cluster = structure.clusters[c]
-        reach = any(hangs(observation.solids, cluster.members, structure.axes[k]) for k in on)
+        reach = any(reaches_out(observation.solids, cluster.members, structure.axes[k]) for k in on)
         wide = any(structure.axes[k].radius * LONG > 0.1 * observation.size for k in on)
         if cluster.kind or len(on) > 1 or reach or wide:
             found.add(c)

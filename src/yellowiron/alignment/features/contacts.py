@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from yellowiron.alignment.features.solids import Cyl, Patch, Solid, patch, size_of
+from yellowiron.alignment.features.solids import Cyl, Patch, Solid, flat_faces, patch, size_of
 from yellowiron.alignment.tolerances import FACING, PARALLEL, ROUND_ARC
 from yellowiron.model.geometry import Floats
 
@@ -213,8 +213,6 @@ class Patches:
 
     def _find(self, solid: Solid, plane: int) -> Patch:
         if not solid.shape.planes:
-            from yellowiron.alignment.features.solids import flat_faces
-
             return patch(solid.shape, flat_faces(solid.shape)[plane], self.tolerance)
         return patch(solid.shape, solid.shape.planes[plane], self.tolerance)
 

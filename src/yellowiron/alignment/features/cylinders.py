@@ -64,7 +64,7 @@ def cylinders_of(solids: tuple[Solid, ...], tolerance: float) -> list[DrawnCylin
         if pair.tube.index in used or pair.bar.index in used:
             continue
         twins = [p for p in pairs if p.tube is pair.tube and p.bar is pair.bar and _alike(p, pair)]
-        halves = [grown(p, solids, used, tolerance) for p in twins]
+        halves = [with_coaxial_parts(p, solids, used, tolerance) for p in twins]
         rod = frozenset().union(*(r.rod for r in halves))
         cylinder = replace(
             halves[0], barrel=frozenset().union(*(r.barrel for r in halves)) - rod, rod=rod,
@@ -121,7 +121,7 @@ def crossing(eye: Cyl, origin: Floats, direction: Floats, radius: float) -> floa
     return float(delta @ direction) if skew < 0.5 * radius and abs(float(delta @ eye.direction)) < 12 * radius else None
 
 
-def grown(pair: Pair, solids: tuple[Solid, ...], used: set[int], tolerance: float) -> DrawnCylinder:
+def with_coaxial_parts(pair: Pair, solids: tuple[Solid, ...], used: set[int], tolerance: float) -> DrawnCylinder:
     """The parts turned about the cylinder's axis, each to the barrel or to the rod."""
     origin, d, r = pair.bore.center, pair.direction, pair.bore.radius
     mouth, bottom = pair.bore.half, -pair.bore.half

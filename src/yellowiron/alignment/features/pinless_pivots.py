@@ -31,7 +31,7 @@ PIN = 0.5
 """A pin has about this share of the radius of the end around it."""
 
 
-def bored(solids: tuple[Solid, ...], template: Template, size: float) -> bool:
+def has_drilled_pivots(solids: tuple[Solid, ...], template: Template, size: float) -> bool:
     """Whether a model's pivots are drawn with holes: as many stout ones as the template has hinges, or more."""
     hinges = sum(1 for j in template.joints if j.type == "revolute")
     holes = sum(
@@ -42,7 +42,7 @@ def bored(solids: tuple[Solid, ...], template: Template, size: float) -> bool:
     return holes >= hinges
 
 
-def ended_fits_of(
+def round_end_fits_of(
     solids: tuple[Solid, ...], fits: Iterable[Fit], cylinders: Iterable[DrawnCylinder], touch: Touch, size: float
 ) -> list[Fit]:
     """A fit for every part right beside a round end of another, for pairs of parts without one. `inner` is the part
@@ -75,7 +75,7 @@ def ended_fits_of(
     return _chained([found[pair] for pair in sorted(found)], joined)
 
 
-def stays_of(pierced: Iterable[Fit], ended: list[Fit], solids: tuple[Solid, ...], touch: Touch) -> frozenset[int]:
+def stay_bars_of(pierced: Iterable[Fit], ended: list[Fit], solids: tuple[Solid, ...], touch: Touch) -> frozenset[int]:
     """Bars through parts that hold them together and are no pins: where few of the round ends have a pin, those between
     whose ends and other parts there is no room."""
     pins = sorted({f.inner for f in pierced if solids[f.inner].shaft is not None})

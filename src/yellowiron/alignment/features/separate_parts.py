@@ -12,7 +12,7 @@ from yellowiron.model.assembly import Assembly
 from yellowiron.model.geometry import Floats
 
 
-def islands(assembly: Assembly, wanted: Collection[str] = ()) -> dict[str, float]:
+def separate_parts(assembly: Assembly, wanted: Collection[str] = ()) -> dict[str, float]:
     """Part id → metres (between boxes) to the machine, for the parts that stand apart from it.
 
     The machine is the group of most parts (then of most volume) of which each is near another; groups that hold one of

@@ -67,7 +67,7 @@ def pierced_fits_of(
         hosts.setdefault(fit.inner, set()).add(fit.outer)
     # A pin runs through two parts at least; what is in one only is a boss or a knob of it.
     hosted = {pin: around for pin, around in hosts.items() if len(around) > 1}
-    if _bored(solids, fits) > len(hosted):
+    if _pins_in_holes(solids, fits) > len(hosted):
         return []
     found = [fit for fit in through if fit.inner in hosted]
     pinned = {frozenset((a, b)) for around in hosted.values() for a in around for b in around} | _pairs(fits)
@@ -198,7 +198,7 @@ def _turntables(solids: list[Solid], touch: Touch, size: float) -> list[Fit]:
     return [best[pair] for pair in sorted(best, key=sorted)]
 
 
-def _bored(solids: tuple[Solid, ...], fits: list[Fit]) -> int:
+def _pins_in_holes(solids: tuple[Solid, ...], fits: list[Fit]) -> int:
     """How many pins there are that run through holes of two parts or more."""
     hosts: dict[int, set[int]] = {}
     for fit in fits:

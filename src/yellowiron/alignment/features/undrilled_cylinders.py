@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from yellowiron.alignment.features.cylinders import DrawnCylinder, Pair, crossing, grown
+from yellowiron.alignment.features.cylinders import DrawnCylinder, Pair, crossing, with_coaxial_parts
 from yellowiron.alignment.features.solids import Cyl, Solid, coaxial
 from yellowiron.alignment.tolerances import NEARLY_PARALLEL, PARALLEL, ROUND_ARC, TWIN
 
@@ -34,7 +34,7 @@ def solid_cylinders_of(
             continue
         taken |= {best.tube.index, best.bar.index}
         twins = [replace(p, direction=best.direction) for p in pairs if _is_twin(p, best)]
-        halves = [grown(p, solids, taken, tolerance) for p in twins]
+        halves = [with_coaxial_parts(p, solids, taken, tolerance) for p in twins]
         rod = frozenset().union(*(h.rod for h in halves))
         barrel = frozenset().union(*(h.barrel for h in halves)) - rod
         taken |= barrel | rod

@@ -49,7 +49,7 @@ def wheels_of(solids: tuple[Solid, ...], count: int, taken: set[int], tolerance:
             break
         found.append(Wheel(frozenset({s.index}), s.index, centre, s.axis.direction, s.reach, width))
     equal = [w for w in found if any(v is not w and abs(v.radius - w.radius) < 0.02 * w.radius for v in found)]
-    return [_grown(w, solids, taken, tolerance) for w in equal[:count]] if len(equal) >= 2 else []
+    return [_with_coaxial_parts(w, solids, taken, tolerance) for w in equal[:count]] if len(equal) >= 2 else []
 
 
 def _same_place(wheel: Wheel, axis: Cyl, centre: Floats) -> bool:
@@ -61,7 +61,7 @@ def _same_place(wheel: Wheel, axis: Cyl, centre: Floats) -> bool:
     return off < 0.1 * wheel.radius and along < wheel.width
 
 
-def _grown(wheel: Wheel, solids: tuple[Solid, ...], taken: set[int], tolerance: float) -> Wheel:
+def _with_coaxial_parts(wheel: Wheel, solids: tuple[Solid, ...], taken: set[int], tolerance: float) -> Wheel:
     """Everything round about the wheel's axis that is mostly between its sides."""
     axis = solids[wheel.tyre].axis
     assert axis is not None

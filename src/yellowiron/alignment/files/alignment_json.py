@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from yellowiron.alignment.files.revisions import Print, prints_of, revised
+from yellowiron.alignment.files.revisions import Print, match_parts, prints_of
 from yellowiron.model.alignment import Alignment, PartAssignment
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import AlignmentError, OutputError
@@ -140,7 +140,7 @@ def read_alignment(path: str | Path, assembly: Assembly, template: Template) -> 
 def _again(entries: list[Any], assembly: Assembly) -> dict[str, str]:
     """Part id of the file → part id of the CAD model, for the entries with shape and place."""
     earlier = {str(e.get("part")): known for e in entries if isinstance(e, Mapping) and (known := _print(e))}
-    return revised(earlier, prints_of(assembly)) if earlier else {}
+    return match_parts(earlier, prints_of(assembly)) if earlier else {}
 
 
 def _print(entry: Mapping[str, Any]) -> Print | None:

@@ -9,7 +9,7 @@ from yellowiron.alignment.assignment.answer import Answer
 from yellowiron.alignment.assignment.cp_sat import Solution
 from yellowiron.alignment.features.solids import Solid
 from yellowiron.alignment.features.wheels import Wheel
-from yellowiron.alignment.structure.clusters import Structure, hangs
+from yellowiron.alignment.structure.clusters import Structure, reaches_out
 from yellowiron.model.finding import Finding
 from yellowiron.model.template import Template
 
@@ -36,7 +36,7 @@ def solids_without_a_body(solids: tuple[Solid, ...], structure: Structure, solut
         if c in solution.body_of or cluster.kind == "wheel":
             continue
         on = [structure.axes[k] for k in sorted(axes.get(c, set()))]
-        if cluster.kind or any(axis.radius >= least and hangs(solids, cluster.members, axis) for axis in on):
+        if cluster.kind or any(axis.radius >= least and reaches_out(solids, cluster.members, axis) for axis in on):
             found |= cluster.members
     return frozenset(found)
 

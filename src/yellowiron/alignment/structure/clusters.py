@@ -16,7 +16,7 @@ import numpy as np
 from yellowiron.alignment.features.contacts import Fit, SharedAxis
 from yellowiron.alignment.features.solids import Solid
 from yellowiron.alignment.features.wheels import Wheel
-from yellowiron.alignment.structure.contact_evidence import Evidence, crosses
+from yellowiron.alignment.structure.contact_evidence import Evidence, runs_across
 from yellowiron.alignment.structure.min_cut import false_welds, strength
 from yellowiron.alignment.structure.rigid_groups import Groups
 from yellowiron.alignment.structure.welds import Pairs, axes_by_group, join_doubly_pinned, weld
@@ -130,12 +130,12 @@ def _attach_eyes(groups: Groups, evidence: Evidence) -> None:
         for part in (cylinder.barrel,) if cylinder.apart else (cylinder.barrel, cylinder.rod):
             root = groups.find(min(part))
             mine = {s.index for s in evidence.solids if groups.find(s.index) == root}
-            if any(crosses(evidence.axes[k], cylinder) for i in mine for k in evidence.pinned[i]):
+            if any(runs_across(evidence.axes[k], cylinder) for i in mine for k in evidence.pinned[i]):
                 continue
             beside = {(a, b) if b in mine else (b, a) for a, b in evidence.near if (a in mine) != (b in mine)}
             for other, own in sorted(beside):
                 if other in evidence.fasteners or not any(
-                    crosses(evidence.axes[k], cylinder) for k in evidence.pinned[other]
+                    runs_across(evidence.axes[k], cylinder) for k in evidence.pinned[other]
                 ):
                     continue
                 if groups.may_join(own, other) and evidence.touching(own, other) and groups.join(own, other):
@@ -179,7 +179,7 @@ def _absorb_leaves(groups: Groups, evidence: Evidence, *, leaves: bool) -> None:
             continue  # what stands on a slewing bearing reaches no further than it, and turns
         found = {groups.find(p) for p in partners[group]} - {group}
         axes = [evidence.axes[k] for k in on.get(group, set())]
-        if any(hangs(evidence.solids, members[group], axis) for axis in axes):
+        if any(reaches_out(evidence.solids, members[group], axis) for axis in axes):
             continue
         if (
             len(on.get(group, set())) + len(own_wheels) <= 1
@@ -207,7 +207,7 @@ def _absorb_bosses(groups: Groups, evidence: Evidence) -> None:
             groups.join(group, found.pop())
 
 
-def hangs(solids: tuple[Solid, ...], members: Iterable[int], axis: SharedAxis) -> bool:
+def reaches_out(solids: tuple[Solid, ...], members: Iterable[int], axis: SharedAxis) -> bool:
     """True for solids that reach far out from a pin's axis: no rings and spacers on it, but something that turns."""
     points = np.concatenate([solids[i].points for i in sorted(members)]) - axis.origin
     off = np.linalg.norm(points - np.outer(points @ axis.direction, axis.direction), axis=1)

@@ -263,7 +263,7 @@ def _ends(solid: Solid, flat: Flat, least: float) -> list[Cyl]:
     ]
 
 
-def crosses(axis: SharedAxis, cylinder: DrawnCylinder) -> bool:
+def runs_across(axis: SharedAxis, cylinder: DrawnCylinder) -> bool:
     """True if an axis runs across a hydraulic cylinder's axis: through one of its eyes, or its trunnion."""
     if abs(float(axis.direction @ cylinder.direction)) > ACROSS:
         return False
@@ -273,7 +273,10 @@ def crosses(axis: SharedAxis, cylinder: DrawnCylinder) -> bool:
 
 def _bolted(axes: list[SharedAxis], cylinders: list[DrawnCylinder], solids: tuple[Solid, ...]) -> frozenset[int]:
     eyes = [
-        ln.radius for ln in axes for cylinder in cylinders if crosses(ln, cylinder) and ln.radius > 0.2 * cylinder.bore
+        ln.radius
+        for ln in axes
+        for cylinder in cylinders
+        if runs_across(ln, cylinder) and ln.radius > 0.2 * cylinder.bore
     ]
     size = size_of(solids)
     least = 0.7 * min(eyes) if eyes else 0.0018 * size

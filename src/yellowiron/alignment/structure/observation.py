@@ -14,7 +14,7 @@ from yellowiron.alignment.features.contacts import (
 )
 from yellowiron.alignment.features.cylinders import DrawnCylinder, cylinders_of
 from yellowiron.alignment.features.distance import Touch
-from yellowiron.alignment.features.pinless_pivots import bored, ended_fits_of, stays_of
+from yellowiron.alignment.features.pinless_pivots import has_drilled_pivots, round_end_fits_of, stay_bars_of
 from yellowiron.alignment.features.solids import Solid, size_of, solids_of
 from yellowiron.alignment.features.telescopes import Nest, nests_of
 from yellowiron.alignment.features.undrilled import interrupted_fits_of, pierced_fits_of
@@ -63,10 +63,10 @@ def observe(assembly: Assembly, template: Template, contact: float) -> Observati
     pierced = pierced_fits_of(solids, fits, cylinders, touch, size)
     fits += pierced
     stays: frozenset[int] = frozenset()
-    holes = bored(solids, template, size)
+    holes = has_drilled_pivots(solids, template, size)
     if not holes:
-        ended = ended_fits_of(solids, fits, cylinders, touch, size)
-        stays = stays_of(pierced, ended, solids, touch)
+        ended = round_end_fits_of(solids, fits, cylinders, touch, size)
+        stays = stay_bars_of(pierced, ended, solids, touch)
         fits += ended
     bare = bare_fits_of(solids, fits, tolerance)
     near = neighbours(solids, tolerance)
