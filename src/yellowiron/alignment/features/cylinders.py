@@ -44,20 +44,7 @@ class Pair:
 def cylinders_of(solids: tuple[Solid, ...], tolerance: float) -> list[DrawnCylinder]:
     """Every hydraulic cylinder, longest first; no solid belongs to two. Twins that share their two parts are one, in
     the middle between them."""
-    bores = [
-        (s, c)
-        for s in solids
-        for c in s.cylinders
-        if c.inner and c.full and 2 * c.half > 3.5 * c.radius and c.radius < 0.25 * s.size
-    ]
-    shafts = [(s, c) for s in solids for c in s.cylinders if not c.inner and c.full and 2 * c.half > 4 * c.radius]
-    eyes = [c for s in solids for c in s.cylinders if c.inner and c.full]
-    pairs = []
-    for tube, bore in bores:
-        for bar, shaft in shafts:
-            pair = _pair(tube, bore, bar, shaft, eyes, tolerance)
-            if pair is not None:
-                pairs.append(pair)
+    pairs = _rods_in_bores(solids, tolerance)
     cylinders: list[DrawnCylinder] = []
     used: set[int] = set()
     for pair in sorted(pairs, key=lambda p: (-round(p.score, 6), p.tube.index, p.bar.index)):
@@ -73,6 +60,16 @@ def cylinders_of(solids: tuple[Solid, ...], tolerance: float) -> list[DrawnCylin
         used |= cylinder.barrel | cylinder.rod
         cylinders.append(cylinder)
     return cylinders
+
+
+def _rods_in_bores(solids: tuple[Solid, ...], tolerance: float) -> list[Pair]:
+    """Every long bore with a long shaft of another part in it."""
+    faces = [(s, c) for s in solids for c in s.cylinders if c.full]
+    bores = [(s, c) for s, c in faces if c.inner and 2 * c.half > 3.5 * c.radius and c.radius < 0.25 * s.size]
+    shafts = [(s, c) for s, c in faces if not c.inner and 2 * c.half > 4 * c.radius]
+    eyes = [c for _, c in faces if c.inner]
+    pairs = (_pair(tube, bore, bar, shaft, eyes, tolerance) for tube, bore in bores for bar, shaft in shafts)
+    return [pair for pair in pairs if pair is not None]
 
 
 def _alike(one: Pair, other: Pair) -> bool:

@@ -8,6 +8,7 @@ with nothing to turn is refused (`careful`) as long as the machine is whole with
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
@@ -156,37 +157,39 @@ def _beside(s: Solid, wheel: Wheel) -> bool:
 def _absorb_leaves(groups: Groups, evidence: Evidence, *, leaves: bool) -> None:
     """Rings and spacers on a single axis go with the only group they lie against."""
     on = axes_by_group(groups, evidence)
-    partners: dict[int, set[int]] = {}
+    partners = _turning_partners(groups, evidence)
     members: dict[int, list[int]] = {}
-    beside_wheels: dict[int, set[int]] = {}
+    wheels: dict[int, set[int]] = {}
     for s in evidence.solids:
         group = groups.find(s.index)
         members.setdefault(group, []).append(s.index)
         if groups.kind(group) != "wheel" and s.index not in evidence.fasteners:
-            beside_wheels.setdefault(group, set()).update(k for k, w in enumerate(evidence.wheels) if _beside(s, w))
+            wheels.setdefault(group, set()).update(k for k, w in enumerate(evidence.wheels) if _beside(s, w))
+    slewing = {k for k, _ in evidence.races}
+    for group in sorted(partners):
+        if groups.kind(group) or groups.find(group) != group:
+            continue
+        axes, own_wheels = on.get(group, set()), wheels.get(group, set())
+        rings = all(evidence.solids[i].axis is not None for i in members[group])
+        if axes & slewing and not rings:
+            continue  # what stands on a slewing bearing reaches no further than it, and turns
+        if any(reaches_out(evidence.solids, members[group], evidence.axes[k]) for k in axes):
+            continue
+        found = {groups.find(p) for p in partners[group]} - {group}
+        leaf = len(axes) + len(own_wheels) <= 1 and (rings or not (leaves or own_wheels))
+        if leaf and len(found) == 1:
+            groups.join(group, found.pop())
+
+
+def _turning_partners(groups: Groups, evidence: Evidence) -> dict[int, set[int]]:
+    """Group → those that it lies against and may turn on, wheels left out."""
+    partners: dict[int, set[int]] = {}
     for flat in evidence.turning:
         a, b = groups.find(flat.a), groups.find(flat.b)
         if a != b and "wheel" not in (groups.kind(a), groups.kind(b)):
             partners.setdefault(a, set()).add(b)
             partners.setdefault(b, set()).add(a)
-    slewing = {k for k, _ in evidence.races}
-    for group in sorted(partners):
-        if groups.kind(group) or groups.find(group) != group:
-            continue
-        own_wheels = beside_wheels.get(group, set())
-        rings = all(evidence.solids[i].axis is not None for i in members[group])
-        if on.get(group, set()) & slewing and not rings:
-            continue  # what stands on a slewing bearing reaches no further than it, and turns
-        found = {groups.find(p) for p in partners[group]} - {group}
-        axes = [evidence.axes[k] for k in on.get(group, set())]
-        if any(reaches_out(evidence.solids, members[group], axis) for axis in axes):
-            continue
-        if (
-            len(on.get(group, set())) + len(own_wheels) <= 1
-            and (rings or (not leaves and not own_wheels))
-            and len(found) == 1
-        ):
-            groups.join(group, found.pop())
+    return partners
 
 
 def _absorb_bosses(groups: Groups, evidence: Evidence) -> None:
@@ -215,42 +218,53 @@ def reaches_out(solids: tuple[Solid, ...], members: Iterable[int], axis: SharedA
 
 
 def _collected(groups: Groups, evidence: Evidence, refused: Pairs) -> Structure:
+    """The structure that groups make: every group but the fasteners' is a cluster."""
     gathered: dict[int, set[int]] = {}
     for s in evidence.solids:
         if s.index not in evidence.fasteners:
             gathered.setdefault(groups.find(s.index), set()).add(s.index)
     roots = sorted(gathered)
-    number = {root: k for k, root in enumerate(roots)}
     clusters = tuple(Cluster(frozenset(gathered[r]), *groups.label(r)) for r in roots)
-
-    def cluster(i: int) -> int:
-        return number[groups.find(i)]
-
-    pins: dict[tuple[int, int, int], set[int]] = {}
-    for pin, around in evidence.hosts.items():
-        found = sorted({cluster(f.outer) for f in around if f.outer not in evidence.fasteners})
-        for k in evidence.axes_of[pin]:
-            for x, a in enumerate(found):
-                for b in found[x + 1 :]:
-                    pins.setdefault((a, b, k), set()).add(pin)
-    for k, fit in evidence.direct:
-        a, b = sorted((cluster(fit.inner), cluster(fit.outer)))
-        if a != b:
-            pins.setdefault((a, b, k), set())
-    axes = list(evidence.axes)
-    for wheel in evidence.wheels:
-        own = cluster(wheel.tyre)
-        beside = {cluster(s.index) for s in evidence.solids if s.index not in evidence.fasteners and _beside(s, wheel)}
-        for other in sorted(beside - {own}):
+    cluster_of = {i: k for k, r in enumerate(roots) for i in gathered[r]}
+    pins = _pinned_pairs(evidence, cluster_of)
+    for number, wheel in enumerate(evidence.wheels, len(evidence.axes)):
+        own = cluster_of[wheel.tyre]
+        beside = {c for i, c in cluster_of.items() if _beside(evidence.solids[i], wheel)} - {own}
+        for other in sorted(beside):
             if clusters[other].kind != "wheel":
-                pins.setdefault((min(own, other), max(own, other), len(axes)), set())
-        axes.append(SharedAxis(wheel.center, wheel.direction, wheel.radius, ()))
-    hinges = tuple(Hinge(a, b, k, tuple(sorted(p))) for (a, b, k), p in sorted(pins.items()))
-    slides = tuple((cluster(min(r.barrel)), cluster(min(r.rod)), k) for k, r in enumerate(evidence.cylinders))
-    sections = [(cluster(n.outer), cluster(n.inner)) for n in evidence.nests]
-    slides += tuple((a, b, len(slides) + k) for k, (a, b) in enumerate(sections) if a != b)
-    apart = tuple((a, b, strength(evidence, a, b)) for a, b in refused if groups.find(a) != groups.find(b))
+                pins.setdefault((min(own, other), max(own, other), number), set())
     races: dict[int, tuple[int, ...]] = {}
     for k, fit in evidence.races:
         races[k] = (*races.get(k, ()), fit.inner, fit.outer)
-    return Structure(clusters, hinges, slides, tuple(axes), dict(evidence.hosts), apart, evidence.slight, races)
+    return Structure(
+        clusters,
+        hinges=tuple(Hinge(a, b, k, tuple(sorted(p))) for (a, b, k), p in sorted(pins.items())),
+        slides=_slides(evidence, cluster_of),
+        axes=(*evidence.axes, *(SharedAxis(w.center, w.direction, w.radius, ()) for w in evidence.wheels)),
+        hosts=dict(evidence.hosts),
+        refused=tuple((a, b, strength(evidence, a, b)) for a, b in refused if groups.find(a) != groups.find(b)),
+        slight=evidence.slight,
+        races=races,
+    )
+
+
+def _pinned_pairs(evidence: Evidence, cluster_of: dict[int, int]) -> dict[tuple[int, int, int], set[int]]:
+    """(cluster, cluster, axis) of what turns on each other → the pins through both; none for a part's own shaft."""
+    pins: dict[tuple[int, int, int], set[int]] = {}
+    for pin, around in evidence.hosts.items():
+        found = sorted({cluster_of[f.outer] for f in around if f.outer not in evidence.fasteners})
+        for k in evidence.axes_of[pin]:
+            for a, b in itertools.combinations(found, 2):
+                pins.setdefault((a, b, k), set()).add(pin)
+    for k, fit in evidence.direct:
+        a, b = sorted((cluster_of[fit.inner], cluster_of[fit.outer]))
+        if a != b:
+            pins.setdefault((a, b, k), set())
+    return pins
+
+
+def _slides(evidence: Evidence, cluster_of: dict[int, int]) -> tuple[tuple[int, int, int], ...]:
+    """Barrels and rods, then sections in each other, as `Structure` has them."""
+    slides = [(cluster_of[min(c.barrel)], cluster_of[min(c.rod)], k) for k, c in enumerate(evidence.cylinders)]
+    sections = [(cluster_of[n.outer], cluster_of[n.inner]) for n in evidence.nests]
+    return (*slides, *((a, b, len(slides) + k) for k, (a, b) in enumerate(sections) if a != b))
