@@ -8,7 +8,7 @@ shares no bore with it, and what is bolted on shares narrow ones.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -63,17 +63,18 @@ def _coupler_parts(numbers: Sequence[int], solids: Sequence[Solid], hinges: Sequ
     across = hinges[0].direction
     axes = [_hole(axis) for axis in hinges]
     holes = [_holes_across(s, across, WIDE * min(axis.radius for axis in axes)) for s in solids]
-    hung = [{k for k, axis in enumerate(axes) if any(_on(c, axis) for c in own)} for own in holes]
+    hung = [{k for k, axis in enumerate(axes) if any(_on_any(c, [axis]) for c in own)} for own in holes]
     if len(set().union(*hung)) < 2:
         return []
     carriers = [n for n, met in enumerate(hung) if met]
     rest = [n for n, met in enumerate(hung) if not met]
-    grips = _grips([c for n in carriers for c in holes[n]], [c for n in rest for c in holes[n]], axes)
+    carried = [c for n in carriers for c in holes[n]]
+    grips = _grips(carried, [c for n in rest for c in holes[n]], axes)
     if len(grips) < 2:
         return []
-    held = [n for n in rest if any(_on(c, grip) for c in solids[n].cylinders for grip in grips)]
-    room = np.array([_flat(c.center, across) for n in carriers for c in holes[n]])
-    inside = [n for n in rest if n not in held and _within(_flat(solids[n].points, across), room)]
+    room = np.array([_flat(c.center, across) for c in carried])
+    free = [n for n in rest if not any(_on_any(c, grips) for c in solids[n].cylinders)]
+    inside = [n for n in free if _within(_flat(solids[n].points, across), room)]
     return [numbers[n] for n in sorted({*carriers, *inside})]
 
 
@@ -87,7 +88,7 @@ def _grips(carried: Sequence[Cyl], others: Sequence[Cyl], axes: Sequence[Cyl]) -
     """The carriers' bores, one of each axis that is no hinge's, that go on in other parts."""
     grips: list[Cyl] = []
     for hole in carried:
-        if not any(_on(hole, axis) for axis in (*axes, *grips)) and any(_on(hole, other) for other in others):
+        if not _on_any(hole, (*axes, *grips)) and _on_any(hole, others):
             grips.append(hole)
     return grips
 
@@ -96,8 +97,9 @@ def _hole(axis: SharedAxis) -> Cyl:
     return Cyl(axis.origin, axis.direction, axis.radius, 0.0, 2.0 * np.pi, True)
 
 
-def _on(one: Cyl, other: Cyl) -> bool:
-    return coaxial(one, other, SLACK)
+def _on_any(one: Cyl, others: Iterable[Cyl]) -> bool:
+    """True if a cylinder's middle is on the axis of one of these, and parallel to it."""
+    return any(coaxial(one, other, SLACK) for other in others)
 
 
 def _flat(points: Floats, across: Floats) -> Floats:
