@@ -121,32 +121,36 @@ def _up(observation: Observation, structure: Structure, edges: Sequence[Edge], t
 
 
 def _root(
-    observation: Observation,
-    structure: Structure,
-    edges: Sequence[Edge],
-    bodies: list[int],
-    up: Floats,
+    observation: Observation, structure: Structure, edges: Sequence[Edge], bodies: list[int], up: Floats,
     tracks: Sequence[Track],
-) -> int:
+) -> int:  # fmt: skip
     """The body that carries the machine: the one nearest to the tracks' middle; the largest of those on wheels, or on
     what is on wheels; else the largest of those that reach down to the ground."""
     plain = [c for c in bodies if not structure.clusters[c].kind] or bodies
-    size = {c: (round(surface(observation, structure, c), 9), -c) for c in plain}
     if tracks:
         middle = np.mean([t.center for t in tracks], axis=0)
         gap = {c: float(np.linalg.norm(np.mean(_box(observation, structure, c), axis=0) - middle)) for c in plain}
         return min(plain, key=lambda c: (round(gap[c], 6), c))
+    standing = _on_wheels(structure, edges, bodies) or _on_ground(observation, structure, plain, up)
+    return max((c for c in plain if c in standing), key=lambda c: (round(surface(observation, structure, c), 9), -c))
+
+
+def _on_wheels(structure: Structure, edges: Sequence[Edge], bodies: list[int]) -> set[int]:
+    """The wheels, what hinges on them, and what hinges on that."""
     near = {c for c in bodies if structure.clusters[c].kind == "wheel"}
-    if near:
-        for _ in range(2):
-            near |= {c for e in edges if not e.slide and {e.a, e.b} & near for c in (e.a, e.b)}
-        return max((c for c in plain if c in near), key=lambda c: size[c])
+    for _ in range(2):
+        near |= {c for e in edges if not e.slide and {e.a, e.b} & near for c in (e.a, e.b)}
+    return near
+
+
+def _on_ground(observation: Observation, structure: Structure, bodies: list[int], up: Floats) -> set[int]:
+    """Those of the bodies that reach down to the lowest one's bottom."""
     low = {
-        c: min(float((observation.solids[i].points @ up).min()) for i in structure.clusters[c].members) for c in plain
+        c: min(float((observation.solids[i].points @ up).min()) for i in structure.clusters[c].members) for c in bodies
     }
     ground = min(low.values())
     height = max(float((s.points @ up).max()) for s in observation.solids) - ground
-    return max((c for c in plain if low[c] < ground + STANDS * height), key=lambda c: size[c])
+    return {c for c in bodies if low[c] < ground + STANDS * height}
 
 
 def _box(observation: Observation, structure: Structure, c: int) -> Floats:
