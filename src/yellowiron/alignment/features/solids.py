@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import weakref
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -117,6 +118,11 @@ def coaxial(a: Cyl, b: Cyl, slack: float, tolerance: float = 0.0) -> bool:
     if abs(float(a.direction @ b.direction)) < 1 - 5e-6 * (1 + 100 * slack):
         return False
     return b.off(a.center) <= max(tolerance, slack * min(a.radius, b.radius))
+
+
+def size_of(solids: Sequence[Solid]) -> float:
+    """The machine's size, metres: the diagonal of the box around its solids, of which there is at least one."""
+    return float(np.linalg.norm(np.max([s.high for s in solids], axis=0) - np.min([s.low for s in solids], axis=0)))
 
 
 _known: weakref.WeakKeyDictionary[Assembly, tuple[Solid, ...]] = weakref.WeakKeyDictionary()

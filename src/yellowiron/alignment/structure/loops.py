@@ -8,12 +8,12 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Edge:
-    """A joint of clusters `a` and `b`: a hinge (`number`) on a `line`, or a slide of that hydraulic cylinder (`driven`)
-    or of that section in another."""
+    """A joint of clusters `a` and `b`: a hinge (`number`) on a shared `axis`, or a slide of that hydraulic cylinder
+    (`driven`) or of that section in another."""
 
     a: int
     b: int
-    line: int
+    axis: int
     number: int
     slide: bool
     driven: bool = False

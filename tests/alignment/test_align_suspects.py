@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from yellowiron.alignment.assignment.cp_sat import Solution
-from yellowiron.alignment.labelling.suspects import shaken
+from yellowiron.alignment.labelling.suspects import suspect_bodies
 from yellowiron.library import load_template
 from yellowiron.model.template import Template, choose
 
@@ -23,21 +23,21 @@ def without(template: Template, *gone: str) -> Solution:
 
 
 def test_nothing_is_missing(template: Template) -> None:
-    assert shaken(without(template), template) == {}
+    assert suspect_bodies(without(template), template) == {}
 
 
 def test_a_body_that_was_welded_to_another(template: Template) -> None:
-    doubted = shaken(without(template, "bucket"), template)
+    doubted = suspect_bodies(without(template, "bucket"), template)
     assert {"boom", "bucket_link"} <= set(doubted)
     assert "rear_frame" not in doubted
 
 
 def test_a_cylinder_that_is_not_drawn(template: Template) -> None:
-    doubted = shaken(without(template, "steering_cylinder_barrel_l", "steering_piston_rod_l"), template)
+    doubted = suspect_bodies(without(template, "steering_cylinder_barrel_l", "steering_piston_rod_l"), template)
     assert set(doubted) == {"steering_cylinder_barrel_l", "steering_piston_rod_l"}
 
 
 def test_a_chain_that_is_not_drawn(template: Template) -> None:
     chain = ("bucket_cylinder_barrel", "bucket_piston_rod", "rocker", "bucket_link")
-    doubted = shaken(without(template, *chain), template)
+    doubted = suspect_bodies(without(template, *chain), template)
     assert not {"boom", "bucket", "front_frame"} & set(doubted)
