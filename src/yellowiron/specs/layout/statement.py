@@ -29,7 +29,7 @@ _FEET_HEAD = re.compile(r"\(?\s*(?:ft\.?|feet|′|')\s*[-·.,&/ ]*\s*(?:in\.?|in
 
 
 @dataclass(frozen=True)
-class Piece:
+class TextPiece:
     """Neighbouring words on one line without a wide gap: a label, a value, a head."""
 
     words: tuple[Word, ...]
@@ -91,7 +91,7 @@ class Statement:
     `variant` is what names the row where heads name the properties (a bucket's capacity beside its width). `row` groups
     the cells of one row. `quote` is what the page prints, pieces that stand apart joined by " … "; `heads`
     are the lines over the column as printed, for a quote that needs them. `proven`: whether each part of the quote
-    stands together in the file's own text.
+    stands together in the file's own text. `sheet` is the number of its sheet among those read together, from 0.
     """
 
     page: int
@@ -109,6 +109,7 @@ class Statement:
     heads: tuple[str, ...] = ()
     variant: tuple[str, ...] = ()
     proven: bool = True
+    sheet: int = 0
 
 
 def joined(texts: Iterable[str]) -> str:
@@ -220,7 +221,7 @@ def unit_said(text: str) -> str:
     return is_unit(match.group(2)) if match and not match.group(1) else ""
 
 
-def kind_of(piece: Piece) -> str:
+def kind_of(piece: TextPiece) -> str:
     """`value`, `unit`, `mark` (an example mark, or a dash for "none", alone) or `text`."""
     bare = piece.bare
     if not bare:

@@ -179,7 +179,7 @@ def _with_other_columns(found: Match, passage: Passage) -> list[Match]:
 
 
 def _decided(wanted: Wanted, found: Sequence[Match], sheets: Sheets, config: str, model: str) -> Specification:
-    unique = {(id(m.claim), m.claim.quantity): m for m in found}
+    unique = {m.claim: m for m in found}
     specification = decide(wanted, list(unique.values()), sheets, config)
     if not found:
         return replace(missing(wanted), reason=f"{model} finds it on no sheet")

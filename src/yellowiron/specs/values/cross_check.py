@@ -69,7 +69,7 @@ def _undisputed(
 ) -> tuple[dict[Side, dict[str, Match]], AbstractSet[str]]:
     """By side, the wanted values of which the words there give one, and only one, that is usual; those of them at the
     left for which the configuration had to choose."""
-    place_of = {id(n.statement): n for own, _ in near for n in own}
+    place_of = {n.statement: n for own, _ in near for n in own}
     meant = phrases_in(config)
     claims = [
         claim
@@ -81,9 +81,9 @@ def _undisputed(
     chosen: set[str] = set()
     for name, matches in match(claims, asked).items():
         for side in _SIDES:
-            sure = [m for m in matches if place_of[id(m.claim.statement)].side == side and _is_sure(m)]
+            sure = [m for m in matches if place_of[m.claim.statement].side == side and _is_sure(m)]
             if meant and _differ(sure):
-                sure = [m for m in sure if _stands_under(place_of[id(m.claim.statement)], meant)]
+                sure = [m for m in sure if _stands_under(place_of[m.claim.statement], meant)]
                 chosen.update([name] if side == "left" else [])
             if sure and not _differ(sure):
                 found[side][name] = sure[0]

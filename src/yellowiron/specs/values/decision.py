@@ -24,13 +24,17 @@ _SAID = 0.5
 """A column says a phrase of the configuration if it says this share of its words."""
 
 
+Column = tuple[int, int, tuple[str, ...]]
+"""A column of a table: sheet, page, the heads over it."""
+
+
 @dataclass(frozen=True)
 class Sheets:
-    """What `decide` must know of the sheets. By statement identity: its file; the quantities of its column. `stated`:
-    sentences that may say which configuration is meant."""
+    """What `decide` must know of the sheets: their `files`, in the order that `Statement.sheet` counts; by sheet, page
+    and heads the quantities of a `column`; sentences that may say which configuration is meant (`stated`)."""
 
-    files: Mapping[int, str]
-    columns: Mapping[int, frozenset[str]]
+    files: Sequence[str]
+    columns: Mapping[Column, frozenset[str]]
     stated: tuple[Stated, ...] = ()
 
 
@@ -104,7 +108,7 @@ def evidence_of(found: Match, sheets: Sheets) -> Evidence:
     box = tuple(round(v, 2) for v in statement.box)
     heads = statement.heads if found.by_head else ()
     quote = " … ".join(dict.fromkeys([*heads, statement.quote]))
-    return Evidence(sheets.files[id(statement)], statement.page, quote, (box[0], box[1], box[2], box[3]))
+    return Evidence(sheets.files[statement.sheet], statement.page, quote, (box[0], box[1], box[2], box[3]))
 
 
 def _preference(found: Match) -> tuple[float, bool, bool, bool, float]:
@@ -229,7 +233,7 @@ def _config_words(claim: Claim, sheets: Sheets) -> set[str]:
     words = {t for text in texts for t in tokens(text)}
     for text in (*statement.column, *statement.variant):
         words |= quantity_words(text)
-    return words | sheets.columns.get(id(statement), frozenset())
+    return words | sheets.columns.get((statement.sheet, statement.page, statement.column), frozenset())
 
 
 # ---- values --------------------------------------------------------------------------------------------------------

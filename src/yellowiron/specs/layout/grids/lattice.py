@@ -9,17 +9,17 @@ from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
 
-from yellowiron.specs.layout.grids.grid import Cell, Grid
 from yellowiron.specs.layout.grids.open_sided import side_walls
 from yellowiron.specs.layout.grids.partly_ruled import with_columns, with_rows
-from yellowiron.specs.layout.rows.cells import is_circumstance, marked_by_legend
+from yellowiron.specs.layout.grids.table_grid import Cell, TableGrid
+from yellowiron.specs.layout.rows.cells import is_circumstance, marked_by_footnote
 from yellowiron.specs.layout.rows.headings import names_no_columns
 from yellowiron.specs.layout.rows.lines import lines_of
 from yellowiron.specs.layout.statement import (
     COUNTED,
     EXAMPLE,
-    Piece,
     Statement,
+    TextPiece,
     ascending,
     is_key,
     is_unit,
@@ -39,7 +39,7 @@ _WALL = 6.0
 """A vertical rule shorter than this is a tick or part of a letter."""
 
 
-def grids_of(page: Page) -> list[Grid]:
+def grids_of(page: Page) -> list[TableGrid]:
     """The tables of a page that have at least two rows, two columns and words in three cells."""
     walls = [r for r in page.rules if not r.horizontal and r.bottom - r.top >= _WALL]
     filled = edges_of_fills(page.bars, walls)
@@ -73,7 +73,7 @@ def _closing_bars(page: Page, walls: Sequence[Rule]) -> list[Rule]:
     return found
 
 
-def _are_level(row: Grid, table: Grid) -> bool:
+def _are_level(row: TableGrid, table: TableGrid) -> bool:
     """Whether a row that stands alone has the columns of a table, or some of them."""
     stops = {x for c in table.cells for x in (c.box[0], c.box[2])}
     return all(any(abs(x - stop) <= _SNAP for stop in stops) for c in row.cells for x in (c.box[0], c.box[2]))
@@ -92,7 +92,7 @@ def _edge(rule: Rule) -> dict[str, object]:
     }
 
 
-def _grid(boxes: Sequence[Box], words: Sequence[Word]) -> Grid:
+def _grid(boxes: Sequence[Box], words: Sequence[Word]) -> TableGrid:
     xs, ys = (
         _stops([b[0] for b in boxes] + [b[2] for b in boxes]),
         _stops([b[1] for b in boxes] + [b[3] for b in boxes]),
@@ -109,7 +109,7 @@ def _grid(boxes: Sequence[Box], words: Sequence[Word]) -> Grid:
         cell = Cell(box, rows, columns, tuple(lines_of([w for place in covered for w in inside.get(place, ())])))
         cells.append(cell)
         places.update((place, cell) for place in covered)
-    return Grid(join_boxes(boxes), tuple(cells), len(ys) - 1, len(xs) - 1, places)
+    return TableGrid(join_boxes(boxes), tuple(cells), len(ys) - 1, len(xs) - 1, places)
 
 
 def _slot(stops: Sequence[float], value: float) -> int:
@@ -130,14 +130,14 @@ def _index(stops: Sequence[float], value: float) -> int:
     return min(range(len(stops)), key=lambda i: abs(stops[i] - value))
 
 
-def _is_frame(grid: Grid) -> bool:
+def _is_frame(grid: TableGrid) -> bool:
     """Frames around blocks of text are no table: a few big cells, each with many lines."""
     crowded = sum(len(c.lines) >= 5 for c in grid.cells)
     return crowded >= 1 and crowded >= 0.3 * sum(bool(c.lines) for c in grid.cells)
 
 
 def read_grid(
-    page: Page, grid: Grid, first_row: int, section: str = "", above: Sequence[Piece] = ()
+    page: Page, grid: TableGrid, first_row: int, section: str = "", above: Sequence[TextPiece] = ()
 ) -> list[Statement]:
     """The statements of a table: a value's label is the words to its left, its column the heads above; `above` are
     heads that stand over the table, outside of it."""
@@ -175,13 +175,13 @@ def read_grid(
     return found
 
 
-def columns_of(grid: Grid) -> list[tuple[float, float]]:
+def columns_of(grid: TableGrid) -> list[tuple[float, float]]:
     """Left and right edges of the columns that hold values."""
     found = {c.columns: c.box for c in grid.cells if c.columns[1] - c.columns[0] == 1 and looks_like_value(c.text)}
     return sorted((box[0], box[2]) for box in found.values())
 
 
-def _headed(statement: Statement, above: Sequence[Piece]) -> Statement:
+def _headed(statement: Statement, above: Sequence[TextPiece]) -> Statement:
     """The statement with the heads over its cell; a cell under all of them has none of its own."""
     own = [p for p in above if statement.box[0] <= (p.x0 + p.x1) / 2 <= statement.box[2]]
     if len(own) == len(above) > 1:
@@ -196,10 +196,10 @@ def _headed(statement: Statement, above: Sequence[Piece]) -> Statement:
     )
 
 
-def _without_keys(grid: Grid) -> Grid:
+def _without_keys(grid: TableGrid) -> TableGrid:
     """The grid with the columns of a drawing's keys emptied: letters, symbols or outline numbers, no two alike, beside
     a column of words."""
-    keys: set[int] = set()
+    keys: set[Cell] = set()
     for column in range(grid.columns - 1):
         cells = [c for c in grid.cells if c.columns[0] == column and c.lines]
         own = [c for c in cells if is_key(c.text)]
@@ -210,27 +210,23 @@ def _without_keys(grid: Grid) -> Grid:
         if numbers and not (ascending(texts) and all(_begins(grid, c) for c in own)
                             and all(_worded(grid, c) for c in own)):  # fmt: skip
             continue
-        keys.update(id(c) for c in own)
-    if not keys:
-        return grid
-    emptied = {id(c): replace(c, lines=()) if id(c) in keys else c for c in grid.cells}
-    places = {place: emptied[id(c)] for place, c in grid.places.items()}
-    return replace(grid, cells=tuple(emptied.values()), places=places)
+        keys.update(own)
+    return grid.emptied(keys) if keys else grid
 
 
-def _begins(grid: Grid, key: Cell) -> bool:
+def _begins(grid: TableGrid, key: Cell) -> bool:
     """Whether no words stand left of a cell in its row."""
     left = [grid.at(key.rows[0], column) for column in range(key.columns[0])]
     return not any(c is not None and c.lines and c.rows == key.rows for c in left)
 
 
-def _worded(grid: Grid, key: Cell) -> bool:
+def _worded(grid: TableGrid, key: Cell) -> bool:
     """Whether the cell right of a number holds a label: words, and no unit."""
     beside = grid.at(key.rows[0], key.columns[1])
     return beside is not None and bool(beside.lines) and not (is_unit(beside.text) or looks_like_value(beside.text))
 
 
-def _titles(grid: Grid) -> dict[int, str]:
+def _titles(grid: TableGrid) -> dict[int, str]:
     """Row → the line that ends in a colon over the label of the first row beside one drawing's key, which holds for all
     of that key's rows: "1 | Machine height: / top of cab", "  | with boom installed"."""
     found: dict[int, str] = {}
@@ -244,7 +240,7 @@ def _titles(grid: Grid) -> dict[int, str]:
     return found
 
 
-def _head_rows(page: Page, grid: Grid) -> list[int]:
+def _head_rows(page: Page, grid: TableGrid) -> list[int]:
     """The first rows of quantities that name the columns ("2925 mm arm"): set in bold or shaded, which not all that
     follows is, or spread over columns that part below."""
     found: list[int] = []
@@ -267,10 +263,10 @@ def _head_rows(page: Page, grid: Grid) -> list[int]:
     return found
 
 
-def _parts(grid: Grid, row: int, cell: Cell) -> bool:
+def _parts(grid: TableGrid, row: int, cell: Cell) -> bool:
     """Whether values stand side by side below a cell."""
     return any(
-        len({id(c) for k in range(*cell.columns) if (c := grid.at(below, k)) is not None and c.lines}) > 1
+        len({c for k in range(*cell.columns) if (c := grid.at(below, k)) is not None and c.lines}) > 1
         for below in range(row + 1, grid.rows)
     )
 
@@ -284,13 +280,9 @@ def _is_shaded(page: Page, cell: Cell) -> bool:
     return any(b[0] <= x <= b[2] and b[1] <= y <= b[3] for b in page.bars)
 
 
-def _row_cells(grid: Grid, row: int) -> list[Cell]:
-    found: dict[int, Cell] = {}
-    for column in range(grid.columns):
-        cell = grid.at(row, column)
-        if cell is not None:
-            found.setdefault(id(cell), cell)
-    return list(found.values())
+def _row_cells(grid: TableGrid, row: int) -> list[Cell]:
+    cells = (grid.at(row, column) for column in range(grid.columns))
+    return list(dict.fromkeys(c for c in cells if c is not None))
 
 
 def _labels(cells: Sequence[Cell], value: Cell) -> list[Cell]:
@@ -299,7 +291,7 @@ def _labels(cells: Sequence[Cell], value: Cell) -> list[Cell]:
 
 def _read_row(
     page: Page,
-    grid: Grid,
+    grid: TableGrid,
     row: int,
     cells: Sequence[Cell],
     values: Sequence[Cell],
@@ -327,7 +319,7 @@ def _read_row(
     return found
 
 
-def _heads_over(grid: Grid, heads: Sequence[int], value: Cell, labels: Sequence[Cell]) -> list[Cell]:
+def _heads_over(grid: TableGrid, heads: Sequence[int], value: Cell, labels: Sequence[Cell]) -> list[Cell]:
     """The heads of a value's column; a value across several columns has those that stand over all of them."""
     over: list[Cell] = []
     for row in heads:
@@ -365,7 +357,7 @@ def _last(labels: Sequence[Cell]) -> int:
 
 def _statement(
     page: Page,
-    grid: Grid,
+    grid: TableGrid,
     value: Cell,
     labels: Sequence[Cell],
     over: Sequence[Cell],
@@ -404,7 +396,7 @@ def _statement(
         or label_unit
         or head_unit
         or ("" if COUNTED.search(label) else unit_of_heading(section)[1]),
-        example=marked or bool(EXAMPLE.search(section)) or marked_by_legend(page, pieces),
+        example=marked or bool(EXAMPLE.search(section)) or marked_by_footnote(page, pieces),
         x0=value.box[0],
         heads=tuple(line.text for c in column for line in c.lines) if labels else (),
     )
@@ -430,7 +422,7 @@ _SYMBOL = re.compile(r"[A-Z][a-z]{1,2}\d?")
 _LISTED = re.compile(r"[^\W\d]\s?[/／×x]\s?[^\W\d]+\s?[/／×x]\s?[^\W\d]")
 
 
-def _is_group(grid: Grid, cell: Cell) -> bool:
+def _is_group(grid: TableGrid, cell: Cell) -> bool:
     """Whether a cell stands in a column whose cells span several rows each: a group that has one row only."""
     column = [c for c in grid.cells if c.columns == cell.columns and c.lines]
     return any(c.rows[1] - c.rows[0] > 1 for c in column) and not any(looks_like_value(c.text) for c in column)

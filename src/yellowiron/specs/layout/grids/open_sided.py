@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from yellowiron.specs.layout.rows.lines import Line, lines_of
-from yellowiron.specs.layout.statement import Piece, kind_of
+from yellowiron.specs.layout.rows.lines import TextLine, lines_of
+from yellowiron.specs.layout.statement import TextPiece, kind_of
 from yellowiron.specs.pages.strokes import Box, Rule
 from yellowiron.specs.pages.words import Word
 
@@ -75,8 +75,8 @@ def _joined(walls: Sequence[Rule]) -> list[Rule]:
 
 
 def heads_above(
-    lines: Sequence[Line], box: Box, columns: Sequence[tuple[float, float]], tables: Sequence[Box]
-) -> tuple[Piece, ...]:
+    lines: Sequence[TextLine], box: Box, columns: Sequence[tuple[float, float]], tables: Sequence[Box]
+) -> tuple[TextPiece, ...]:
     """The heads that stand over a table's columns (left and right edges, without the labels') outside of it: the
     nearest line above with words over two or more of them. Only headings, tables of the same width and their heads may
     stand between."""
@@ -100,7 +100,7 @@ def heads_above(
     return ()
 
 
-def _column_of(piece: Piece, columns: Sequence[tuple[float, float]]) -> int | None:
+def _column_of(piece: TextPiece, columns: Sequence[tuple[float, float]]) -> int | None:
     """The column that a head stands over."""
     middle = (piece.x0 + piece.x1) / 2
     return next((i for i, (x0, x1) in enumerate(columns) if x0 <= middle <= x1 and x0 - 6 <= piece.x0), None)

@@ -7,14 +7,14 @@ from collections.abc import Iterator, Sequence
 from yellowiron.specs.language.numbers import read, same
 from yellowiron.specs.layout.rows.cells import cells_of
 from yellowiron.specs.layout.rows.headings import LARGER
-from yellowiron.specs.layout.rows.lines import Line
-from yellowiron.specs.layout.statement import Piece, kind_of, unit_in_label, words_beside_numbers
+from yellowiron.specs.layout.rows.lines import TextLine
+from yellowiron.specs.layout.statement import TextPiece, kind_of, unit_in_label, words_beside_numbers
 
 INDENT = 4.0
 """Points by which a row stands in under its sub-heading."""
 
 
-def split_if_separate(row: Sequence[Line]) -> Iterator[Sequence[Line]]:
+def split_if_separate(row: Sequence[TextLine]) -> Iterator[Sequence[TextLine]]:
     """A band that holds several labelled values of its own is several rows; a heading over a row is none of it."""
     ordered = sorted(row, key=lambda line: line.top)
     first, rest = ordered[0], ordered[1:]
@@ -57,12 +57,12 @@ def split_if_separate(row: Sequence[Line]) -> Iterator[Sequence[Line]]:
         yield row
 
 
-def _words(line: Line) -> list[Piece]:
+def _words(line: TextLine) -> list[TextPiece]:
     """What a line says, without the sign at its end that folds a section of a web page."""
     return [p for p in line.pieces if kind_of(p) != "mark"]
 
 
-def _are_heads_of(line: Line, row: Line) -> bool:
+def _are_heads_of(line: TextLine, row: TextLine) -> bool:
     """Whether a line names the columns of the row under it: words with numbers ("Arm 2.4 m"), one over each of its two
     or more bare values, and none over its label."""
     values = [p for p in row.pieces if kind_of(p) == "value"]
@@ -74,7 +74,7 @@ def _are_heads_of(line: Line, row: Line) -> bool:
     return over and named and bare and line.bottom <= row.top + 2 and line.x0 > row.x0 + 2 * line.pieces[0].size
 
 
-def _in_two_systems(lines: Sequence[Line]) -> bool:
+def _in_two_systems(lines: Sequence[TextLine]) -> bool:
     """Whether two lines with labels are one row, its label broken in two: their values are the same, metric and
     imperial."""
     both = [cells_of((line,)) for line in lines]

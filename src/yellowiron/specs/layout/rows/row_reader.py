@@ -28,7 +28,7 @@ from yellowiron.specs.layout.rows.headings import (
     labels_reach,
     names_no_columns,
 )
-from yellowiron.specs.layout.rows.lines import Block, Line, bands
+from yellowiron.specs.layout.rows.lines import TextBlock, TextLine, bands
 from yellowiron.specs.layout.rows.margin import Beside, parted_margin, without_keys
 from yellowiron.specs.layout.rows.prose import paragraphs_of, read_paragraph
 from yellowiron.specs.layout.rows.row_bands import INDENT, split_if_separate
@@ -36,8 +36,8 @@ from yellowiron.specs.layout.rows.two_line_rows import unfolded
 from yellowiron.specs.layout.statement import (
     COUNTED,
     EXAMPLE,
-    Piece,
     Statement,
+    TextPiece,
     is_key,
     is_unit,
     join_boxes,
@@ -56,24 +56,24 @@ _LONGEST_LABEL = 12
 
 
 @dataclass
-class _State:
+class ReaderState:
     """What the rows above say about the rows below."""
 
     section: str = ""
     unit: str = ""
-    context: list[Piece] = field(default_factory=list)
-    pending: list[Piece] = field(default_factory=list)
-    heads: list[tuple[Piece, ...]] = field(default_factory=list)
-    kept: list[tuple[Piece, ...]] = field(default_factory=list)
+    context: list[TextPiece] = field(default_factory=list)
+    pending: list[TextPiece] = field(default_factory=list)
+    heads: list[tuple[TextPiece, ...]] = field(default_factory=list)
+    kept: list[tuple[TextPiece, ...]] = field(default_factory=list)
     data_since_heads: bool = False
     indented: bool = False
     values_in_row: int = 0
     headings: list[Heading] = field(default_factory=list)
     orphans: list[int] = field(default_factory=list)
-    last: tuple[Sequence[Line], range, str] | None = None
+    last: tuple[Sequence[TextLine], range, str] | None = None
     beside: Beside | None = None
 
-    def open_section(self, heading: Heading, heads: tuple[Piece, ...]) -> None:
+    def open_section(self, heading: Heading, heads: tuple[TextPiece, ...]) -> None:
         """A heading ends what held above it; `heads` stand on its line."""
         if heads:
             self.kept = []
@@ -84,7 +84,7 @@ class _State:
         self.context, self.pending, self.heads = [], [], [heads] if heads else list(self.kept)
         self.indented = self.data_since_heads = False
 
-    def add_heads(self, heads: tuple[Piece, ...]) -> None:
+    def add_heads(self, heads: tuple[TextPiece, ...]) -> None:
         """A line of column heads: under the ones above it, or in their place where values stand between."""
         if self.heads == self.kept:
             self.heads, self.kept = [], []
@@ -94,7 +94,7 @@ class _State:
             self.data_since_heads = False
         self.heads.append(heads)
 
-    def add_label(self, piece: Piece) -> None:
+    def add_label(self, piece: TextPiece) -> None:
         """Words alone at the left: a sub-heading if bold, else the beginning of the next row's label."""
         if piece.bold:
             self.context, self.pending, self.indented = [piece], [], False
@@ -106,22 +106,24 @@ class _State:
             self.data_since_heads = False
 
 
-def read_block(page: Page, block: Block, first_row: int, section: str = "") -> tuple[list[Statement], list[Heading]]:
+def read_block(
+    page: Page, block: TextBlock, first_row: int, section: str = ""
+) -> tuple[list[Statement], list[Heading]]:
     """The statements of a column of text, and its headings. `first_row` numbers its rows."""
-    state = _State(section=section)
+    state = ReaderState(section=section)
     found: list[Statement] = []
     size = body_size(w for line in block.lines for p in line.pieces for w in p.words)
     if not any(kind_of(p) == "value" for line in block.lines for p in line.pieces):
         size = min(size, body_size(page.words))  # headings alone
     paragraphs = paragraphs_of(block.lines)
-    running = {id(piece) for paragraph in paragraphs for line in paragraph for piece in line.pieces}
-    kept = [tuple(p for p in line.pieces if id(p) not in running) for line in block.lines]
+    running = {piece for paragraph in paragraphs for line in paragraph for piece in line.pieces}
+    kept = [tuple(p for p in line.pieces if p not in running) for line in block.lines]
     beside = {
-        id(line.pieces[-1]): " ".join(p.text for p in rest)
+        line.pieces[-1]: " ".join(p.text for p in rest)
         for line, rest in zip(block.lines, kept, strict=True)
         if len(rest) < len(line.pieces)
     }
-    lines, margin = parted_margin(without_keys([Line(pieces) for pieces in kept if pieces]), page.rules)
+    lines, margin = parted_margin(without_keys([TextLine(pieces) for pieces in kept if pieces]), page.rules)
     rows = unfolded([r for band in bands(lines, page.rules, bars_of(page, block), block.x0, block.x1)
                      for r in split_if_separate(band)])  # fmt: skip
     for index, row in enumerate(rows):
@@ -141,12 +143,12 @@ def read_block(page: Page, block: Block, first_row: int, section: str = "") -> t
         state.last = (row, range(before, len(found)), row[0].pieces[0].text) if len(found) > before else None
     for paragraph in paragraphs:
         headings = [h for h in state.headings if h.bottom <= paragraph[0].top + 2]
-        heading = beside[id(paragraph[0].pieces[-1])] or (headings[-1].text if headings else section)
+        heading = beside[paragraph[0].pieces[-1]] or (headings[-1].text if headings else section)
         found.extend(read_paragraph(page.number, paragraph, first_row + len(found) + len(block.lines), heading))
     return found, state.headings
 
 
-def _enter_margin(block: Block, row: Sequence[Line], margin: Sequence[Beside], state: _State) -> None:
+def _enter_margin(block: TextBlock, row: Sequence[TextLine], margin: Sequence[Beside], state: ReaderState) -> None:
     """Makes what stands in the margin beside a row its section or, where it looks like a label, its sub-heading."""
     middle = (min(line.top for line in row) + max(line.bottom for line in row)) / 2
     beside = next((b for b in margin if b.top <= middle < b.bottom), None)
@@ -164,7 +166,13 @@ def _enter_margin(block: Block, row: Sequence[Line], margin: Sequence[Beside], s
 
 
 def _read_row(
-    page: Page, block: Block, row: Sequence[Line], state: _State, size: float, number: int, found: list[Statement]
+    page: Page,
+    block: TextBlock,
+    row: Sequence[TextLine],
+    state: ReaderState,
+    size: float,
+    number: int,
+    found: list[Statement],
 ) -> None:
     pieces = [p for line in row for p in line.pieces]
     kinds = [kind_of(p) for p in pieces]
@@ -190,7 +198,7 @@ def _read_row(
     state.data_since_heads = True
 
 
-def _captioned(above: Sequence[Line], row: Sequence[Line], following: Sequence[Sequence[Line]]) -> bool:
+def _captioned(above: Sequence[TextLine], row: Sequence[TextLine], following: Sequence[Sequence[TextLine]]) -> bool:
     """Whether a line of values has a label right above each; where more values stand under them, the words above are
     columns' heads."""
     if len(above) != 1 or len(row) != 1 or len(above[0].pieces) != len(row[0].pieces):
@@ -202,9 +210,9 @@ def _captioned(above: Sequence[Line], row: Sequence[Line], following: Sequence[S
     return not (following and all(kind_of(p) == "value" for line in following[0] for p in line.pieces))
 
 
-def _broken_caption(rows: Sequence[Sequence[Line]]) -> list[Piece]:
+def _broken_caption(rows: Sequence[Sequence[TextLine]]) -> list[TextPiece]:
     """The lines of a label over its value that stand above the last one, set like it and close to it."""
-    found: list[Piece] = []
+    found: list[TextPiece] = []
     below = rows[-1][0].pieces[0]
     for row in reversed(rows[:-1]):
         piece = row[0].pieces[0]
@@ -219,15 +227,15 @@ def _broken_caption(rows: Sequence[Sequence[Line]]) -> list[Piece]:
 
 def _read_captions(
     page: Page,
-    labels: Line,
-    values: Line,
-    state: _State,
+    labels: TextLine,
+    values: TextLine,
+    state: ReaderState,
     number: int,
     found: list[Statement],
-    above: Sequence[Piece] = (),
+    above: Sequence[TextPiece] = (),
 ) -> None:
     state.heads, state.pending, state.last = [], [], None
-    lines = [*(Line((p,)) for p in above), labels, values]
+    lines = [*(TextLine((p,)) for p in above), labels, values]
     context = [p for p in state.context if p not in (*above, *labels.pieces)]
     for label, value in zip(labels.pieces, values.pieces, strict=True):
         cell = ValueCell([*above, label], [value])
@@ -236,14 +244,14 @@ def _read_captions(
         found.append(_in_section(statement, state, marked=marked))
 
 
-def _in_section(statement: Statement, state: _State, *, marked: bool) -> Statement:
+def _in_section(statement: Statement, state: ReaderState, *, marked: bool) -> Statement:
     section, unit = unit_of_heading(EXAMPLE.sub("", state.section).strip())
     unit = statement.unit or ("" if COUNTED.search(statement.label) else unit or state.unit)
     return replace(statement, section=section, unit=unit, example=marked or statement.example)
 
 
 def _continue_label(
-    row: Sequence[Line], following: Sequence[Line] | None, state: _State, found: list[Statement]
+    row: Sequence[TextLine], following: Sequence[TextLine] | None, state: ReaderState, found: list[Statement]
 ) -> bool:
     """Gives a label whose value stands beside its first line the words under it: they are nearer to it than to the row
     below."""
@@ -274,7 +282,7 @@ def _continue_label(
     return bool(own)
 
 
-def _label_orphans(line: Line, state: _State, found: list[Statement]) -> bool:
+def _label_orphans(line: TextLine, state: ReaderState, found: list[Statement]) -> bool:
     """Gives values without any label the words right beneath them: a card with a big number over its name."""
     orphans, state.orphans = state.orphans, []
     if not orphans or len(line.pieces) != len(orphans):
@@ -299,7 +307,7 @@ def _label_orphans(line: Line, state: _State, found: list[Statement]) -> bool:
     return True
 
 
-def _heads_a_section(page: Page, pieces: Sequence[Piece], kinds: Sequence[str], size: float) -> bool:
+def _heads_a_section(page: Page, pieces: Sequence[TextPiece], kinds: Sequence[str], size: float) -> bool:
     """Whether a row on a heading's bar names the section and its columns by numbers: "Dimensions   2.5-m arm   3-m
     arm"."""
     if len(pieces) < 3 or kinds[0] != "text" or not set(kinds[1:]) <= {"value"} or not all(p.bold for p in pieces):
@@ -308,7 +316,7 @@ def _heads_a_section(page: Page, pieces: Sequence[Piece], kinds: Sequence[str], 
     return named and bar_under(page, pieces[0], size) is not None
 
 
-def _are_heads(pieces: Sequence[Piece], kinds: Sequence[str], state: _State) -> bool:
+def _are_heads(pieces: Sequence[TextPiece], kinds: Sequence[str], state: ReaderState) -> bool:
     """Whether a row without a label names columns by numbers: "3.4-m arm   3.9-m arm" above their values."""
     if state.data_since_heads or state.pending or len(pieces) < 2 or "text" in kinds:
         return False
@@ -318,7 +326,7 @@ def _are_heads(pieces: Sequence[Piece], kinds: Sequence[str], state: _State) -> 
 # ---- rows without a value ------------------------------------------------------------------------------------------
 
 
-def _read_words(page: Page, block: Block, line: Line, state: _State, size: float) -> None:
+def _read_words(page: Page, block: TextBlock, line: TextLine, state: ReaderState, size: float) -> None:
     """A heading, column heads, a sub-heading, or the first line of a label."""
     texts = [q for p in line.pieces if kind_of(p) != "mark" for q in _parted(p)]
     if not texts:
@@ -356,15 +364,15 @@ def _read_words(page: Page, block: Block, line: Line, state: _State, size: float
         state.pending = []
 
 
-def _parted(piece: Piece) -> list[Piece]:
+def _parted(piece: TextPiece) -> list[TextPiece]:
     """Heads that nearly touch, parted behind their units: "bore (mm) stroke (mm)"."""
     ends = [i for i, w in enumerate(piece.words[:-1], start=1) if w.text[0] == "(" and is_unit(w.text)]
     if not ends or not is_unit(piece.words[-1].text):
         return [piece]
-    return [Piece(piece.words[a:b]) for a, b in zip([0, *ends], [*ends, len(piece.words)], strict=True)]
+    return [TextPiece(piece.words[a:b]) for a, b in zip([0, *ends], [*ends, len(piece.words)], strict=True)]
 
 
-def _are_column_heads(texts: Sequence[Piece], labels_end: float, state: _State) -> bool:
+def _are_column_heads(texts: Sequence[TextPiece], labels_end: float, state: ReaderState) -> bool:
     """Whether a line of words names columns: units alone, several words over the values, or emphasis."""
     over_values = [p for p in texts if p.x0 >= labels_end]
     bold = all(p.bold for p in texts)
@@ -375,18 +383,18 @@ def _are_column_heads(texts: Sequence[Piece], labels_end: float, state: _State) 
     return len(texts) == 2 and bold
 
 
-def _is_prose(piece: Piece) -> bool:
+def _is_prose(piece: TextPiece) -> bool:
     return len(piece.words) > _LONGEST_LABEL or (piece.text.endswith(".") and len(piece.words) > 3)
 
 
-def _stacked(a: Piece, b: Piece) -> bool:
+def _stacked(a: TextPiece, b: TextPiece) -> bool:
     return abs(a.x0 - b.x0) < 2 * a.size and 0 < b.box[1] - a.box[3] < 0.9 * a.size
 
 
 # ---- rows with values ----------------------------------------------------------------------------------------------
 
 
-def _read_values(page: Page, row: Sequence[Line], state: _State, number: int, found: list[Statement]) -> None:
+def _read_values(page: Page, row: Sequence[TextLine], state: ReaderState, number: int, found: list[Statement]) -> None:
     cells = [c for c in cells_of(row) if sum(len(p.words) for p in c.label) <= _LONGEST_LABEL]
     if not cells:
         return
@@ -416,12 +424,12 @@ def _read_values(page: Page, row: Sequence[Line], state: _State, number: int, fo
             state.orphans = list(range(len(found) - len(cells), len(found)))
 
 
-def _broken(above: Piece, label: Piece) -> bool:
+def _broken(above: TextPiece, label: TextPiece) -> bool:
     """Whether a label of a script without spaces is broken over two lines, perhaps within a word."""
     return _stacked(above, label) and abs(above.x0 - label.x0) < 1 and has_cjk(above.text)
 
 
-def _keep_sub_heading(cells: Sequence[ValueCell], pending: Sequence[Piece], state: _State) -> None:
+def _keep_sub_heading(cells: Sequence[ValueCell], pending: Sequence[TextPiece], state: ReaderState) -> None:
     """A line of words holds for all the rows that are indented under it, not only the next."""
     labels = [c.label[0].x0 for c in cells if c.label]
     if not labels:
@@ -432,9 +440,9 @@ def _keep_sub_heading(cells: Sequence[ValueCell], pending: Sequence[Piece], stat
         state.context, state.indented = list(pending), True
 
 
-def _end_heads(row: Sequence[Line], cells: Sequence[ValueCell], state: _State) -> None:
+def _end_heads(row: Sequence[TextLine], cells: Sequence[ValueCell], state: ReaderState) -> None:
     """Forgets column heads where their table has ended: a narrower row, a row of several labels, or a gap."""
-    labels = {id(c.label[0]) for c in cells if c.label}
+    labels = {c.label[0] for c in cells if c.label}
     dashes = sum(kind_of(p) == "mark" and bool(p.bare) for line in row for p in line.pieces)  # "none" in a column
     filled = len(cells) + dashes
     narrower = state.data_since_heads and 2 * filled < state.values_in_row
@@ -450,7 +458,7 @@ def _end_heads(row: Sequence[Line], cells: Sequence[ValueCell], state: _State) -
     state.values_in_row = filled
 
 
-def _are_keys(heads: Sequence[Piece], cells: Sequence[ValueCell]) -> bool:
+def _are_keys(heads: Sequence[TextPiece], cells: Sequence[ValueCell]) -> bool:
     """Whether the letters of a line stand about a drawing, and not each over a column of values."""
     if not all(is_key(h.bare) for h in heads):
         return False
