@@ -30,6 +30,7 @@ from yellowiron.specs.layout.statement import (
     unit_of_heading,
     without_key,
 )
+from yellowiron.specs.layout.tolerances import HEADING_BAR
 from yellowiron.specs.pages.fills import edges_of_fills
 from yellowiron.specs.pages.strokes import Box, Rule
 from yellowiron.specs.pages.words import Page, Word
@@ -68,7 +69,7 @@ def _closing_bars(page: Page, walls: Sequence[Rule]) -> list[Rule]:
     found = []
     for bar in page.bars:
         on = [w.x0 for w in walls if abs(w.top - bar[3]) <= _SNAP and bar[0] - _SNAP <= w.x0 <= bar[2] + _SNAP]
-        if bar[3] - bar[1] < 40 and on:
+        if bar[3] - bar[1] < HEADING_BAR and on:
             found.append(Rule(min(*on, bar[0]), bar[3], max(*on, bar[2]), bar[3]))
     return found
 

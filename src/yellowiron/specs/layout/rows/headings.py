@@ -8,11 +8,9 @@ from dataclasses import dataclass
 from yellowiron.specs.language.vocabulary import tokens
 from yellowiron.specs.layout.rows.lines import TextBlock
 from yellowiron.specs.layout.statement import EXAMPLE, TextPiece, kind_of
+from yellowiron.specs.layout.tolerances import HEADING_BAR, LARGER
 from yellowiron.specs.pages.strokes import Box
 from yellowiron.specs.pages.words import Page, Word
-
-LARGER = 1.12
-"""A heading is set larger than its rows by this at least, or in capitals."""
 
 
 @dataclass(frozen=True)
@@ -65,7 +63,7 @@ def inside(box: Box, outer: Box) -> bool:
 
 def bars_of(page: Page, block: TextBlock) -> list[Box]:
     """The filled bars that stand in a block and are no higher than a heading."""
-    return [b for b in page.bars if b[0] < block.x1 and block.x0 < b[2] and b[3] - b[1] < 40]
+    return [b for b in page.bars if b[0] < block.x1 and block.x0 < b[2] and b[3] - b[1] < HEADING_BAR]
 
 
 def body_size(words: Iterable[Word]) -> float:
