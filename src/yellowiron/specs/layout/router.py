@@ -6,10 +6,11 @@ import re
 from collections.abc import Sequence
 from dataclasses import replace
 
-from yellowiron.specs.layout.grids.lattice import columns_of, grids_of, read_grid
+from yellowiron.specs.layout.grids.lattice import grids_of
 from yellowiron.specs.layout.grids.nested_rows import read_boxes
 from yellowiron.specs.layout.grids.open_sided import heads_above
 from yellowiron.specs.layout.grids.table_grid import TableGrid
+from yellowiron.specs.layout.grids.table_reader import columns_of, read_grid
 from yellowiron.specs.layout.rows.cells import footnotes_of
 from yellowiron.specs.layout.rows.headings import Heading, body_size
 from yellowiron.specs.layout.rows.legends import key_legend, labelled, spelled

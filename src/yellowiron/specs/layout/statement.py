@@ -10,6 +10,7 @@ from itertools import pairwise
 
 from yellowiron.specs.language.numbers import FEET_INCHES, Reading, read
 from yellowiron.specs.language.units import printed_unit, unit_pattern
+from yellowiron.specs.layout.tolerances import LONGEST_LABEL
 from yellowiron.specs.pages.strokes import Box
 from yellowiron.specs.pages.words import Word
 
@@ -283,7 +284,7 @@ def split_inline(text: str) -> tuple[str, str]:
     for reading in readings:
         start = min(q.start for q in reading.numbers)
         label, value = text[:start].rstrip(" (:-–"), text[start:]
-        if re.search(r"[^\W\d_]{2,}", label) and looks_like_value(value) and len(label.split()) <= 12:
+        if re.search(r"[^\W\d_]{2,}", label) and looks_like_value(value) and len(label.split()) <= LONGEST_LABEL:
             tail = words_beside_numbers(value, read(value))
             if len(tail) <= 4:
                 return label, value

@@ -126,6 +126,45 @@ def blocks_of(lines: Sequence[TextLine], bars: Sequence[Box] = (), across: Seque
 
 def _gutter(lines: Sequence[TextLine], bars: Sequence[Box], across: Sequence[Box]) -> tuple[float, int, int] | None:
     """The best gutter: its x and the range of lines that it parts."""
+    by_bars = sorted({b[0] for b in bars if any(a[2] <= b[0] and a[1] < b[3] and b[1] < a[3] for a in bars)})
+    drawn = [*by_bars, *_of_broken_rules(lines, across)]
+    best: tuple[int, float, int, int] | None = None
+    for x in [*_of_repeated_labels(lines), *_of_right_set_labels(lines), *drawn]:
+        first, last, weight = _run(lines, across, x)
+        part = lines[first:last]
+        parts = sum(_has_value_left_of(line, x) for line in part) >= 2 or (x in drawn and _begun_at(part, x) >= 3)
+        if weight >= 3 and parts and (best is None or weight > best[0]):
+            best = (weight, x, first, last)
+    return best[1:] if best else None
+
+
+def _has_value_left_of(line: TextLine, x: float) -> bool:
+    return any(p.x0 < x - 2 and (kind_of(p) == "value" or _says_all(line, i)) for i, p in enumerate(line.pieces))
+
+
+def _begun_at(lines: Sequence[TextLine], x: float) -> int:
+    """How many lines have a piece that begins about there."""
+    return sum(any(abs(p.x0 - x) < 12 for p in line.pieces) for line in lines)
+
+
+def _of_repeated_labels(lines: Sequence[TextLine]) -> list[float]:
+    """Where several lines begin a label anew, most of them with its value, and where headings hang out from there."""
+    starts = _label_starts(lines)
+    found: list[float] = []
+    for key in sorted(starts):
+        near = starts[key] + starts.get(key + 1, [])
+        if len(near) >= 4 and sum(paired for _, paired in near) >= max(3, 0.5 * len(near)):
+            label = min(x for x, _ in near)
+            found.append(label)
+            # headings may hang out to the left of their rows
+            hanging = {p.x0 for line in lines for p in line.pieces if label - _HANGING <= p.x0 < label - 2}
+            found.extend(sorted(hanging)[:3])
+    return found
+
+
+def _label_starts(lines: Sequence[TextLine]) -> dict[int, list[tuple[float, bool]]]:
+    """By thirds of their x in points: where words begin that are not the first of the page's left edge, and whether
+    they have a value."""
     starts: dict[int, list[tuple[float, bool]]] = {}
     left_edge = min(line.x0 for line in lines)
     for number, line in enumerate(lines):
@@ -136,32 +175,7 @@ def _gutter(lines: Sequence[TextLine], bars: Sequence[Box], across: Sequence[Box
             paired = any(kind_of(p) == "value" for p in line.pieces[index + 1 : index + 4]) or _says_all(line, index)
             paired = paired or _folded(lines, number, index)
             starts.setdefault(round(piece.x0 / 3), []).append((piece.x0, paired))
-    candidates: list[float] = []
-    for key in sorted(starts):
-        near = starts[key] + starts.get(key + 1, [])
-        if len(near) >= 4 and sum(paired for _, paired in near) >= max(3, 0.5 * len(near)):
-            label = min(x for x, _ in near)
-            candidates.append(label)
-            # headings may hang out to the left of their rows
-            hanging = {p.x0 for line in lines for p in line.pieces if label - _HANGING <= p.x0 < label - 2}
-            candidates.extend(sorted(hanging)[:3])
-    candidates += _of_right_set_labels(lines)
-    by_bars = sorted({b[0] for b in bars if any(a[2] <= b[0] and a[1] < b[3] and b[1] < a[3] for a in bars)})
-    candidates += by_bars
-    by_rules = _of_broken_rules(lines, across)
-    candidates += by_rules
-    best: tuple[int, float, int, int] | None = None
-    for x in candidates:
-        first, last, weight = _run(lines, across, x)
-        left_values = sum(
-            any(p.x0 < x - 2 and (kind_of(p) == "value" or _says_all(line, i)) for i, p in enumerate(line.pieces))
-            for line in lines[first:last]
-        )
-        begun = sum(any(abs(p.x0 - x) < 12 for p in line.pieces) for line in lines[first:last])
-        parts = left_values >= 2 or (x in (*by_bars, *by_rules) and begun >= 3)
-        if weight >= 3 and parts and (best is None or weight > best[0]):
-            best = (weight, x, first, last)
-    return best[1:] if best else None
+    return starts
 
 
 def _of_broken_rules(lines: Sequence[TextLine], across: Sequence[Box]) -> list[float]:
