@@ -15,7 +15,7 @@ from yellowiron.model.specification import Specification, Specifications
 from yellowiron.model.template import Template, Wanted
 from yellowiron.specs import ocr
 from yellowiron.specs.findings import ignored_phrases, model_cost, model_failure, unread_pages
-from yellowiron.specs.language.numbers import DecimalStyle, decimal_style
+from yellowiron.specs.language.decimal_style import DecimalStyle, decimal_style
 from yellowiron.specs.layout.nearest import Near
 from yellowiron.specs.llm.agreement import agreed
 from yellowiron.specs.llm.endpoint import Endpoint, EndpointError, ModelOptions

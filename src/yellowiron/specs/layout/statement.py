@@ -8,7 +8,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
-from yellowiron.specs.language.numbers import FEET_INCHES, Reading, read
+from yellowiron.specs.language.numbers import Reading, read
+from yellowiron.specs.language.quantities import FEET_INCHES
 from yellowiron.specs.language.units import printed_unit, unit_pattern
 from yellowiron.specs.layout.tolerances import LONGEST_LABEL
 from yellowiron.specs.pages.strokes import Box

@@ -14,7 +14,9 @@ from itertools import groupby
 
 from yellowiron.model.specification import Specification, fold
 from yellowiron.model.template import Wanted
-from yellowiron.specs.language.numbers import DecimalStyle, Quantity, read, same
+from yellowiron.specs.language.decimal_style import DecimalStyle
+from yellowiron.specs.language.numbers import read
+from yellowiron.specs.language.quantities import Quantity, same
 from yellowiron.specs.llm.endpoint import Answer, Endpoint
 from yellowiron.specs.llm.prompts import (
     NAMES,

@@ -13,7 +13,8 @@ from dataclasses import replace
 from yellowiron.model.specification import Candidate, Evidence, Specification
 from yellowiron.model.template import Wanted
 from yellowiron.model.units import SI_UNIT
-from yellowiron.specs.language.numbers import DecimalStyle, Quantity
+from yellowiron.specs.language.decimal_style import DecimalStyle
+from yellowiron.specs.language.quantities import Quantity
 from yellowiron.specs.layout.nearest import Near, Side
 from yellowiron.specs.layout.statement import Statement
 from yellowiron.specs.pages.strokes import Box

@@ -9,7 +9,9 @@ from dataclasses import dataclass, replace
 from yellowiron.model.specification import Candidate, Evidence, Specification
 from yellowiron.model.template import Wanted
 from yellowiron.model.units import SI_UNIT
-from yellowiron.specs.language.numbers import DecimalStyle, Quantity, read
+from yellowiron.specs.language.decimal_style import DecimalStyle
+from yellowiron.specs.language.numbers import read
+from yellowiron.specs.language.quantities import Quantity
 from yellowiron.specs.language.vocabulary import tokens
 from yellowiron.specs.values.claims import Claim
 from yellowiron.specs.values.matching import Match

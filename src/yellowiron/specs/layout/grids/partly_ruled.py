@@ -7,7 +7,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
 
-from yellowiron.specs.language.numbers import read, same
+from yellowiron.specs.language.numbers import read
+from yellowiron.specs.language.quantities import same
 from yellowiron.specs.layout.grids.table_grid import Cell, TableGrid
 from yellowiron.specs.layout.rows.lines import TextLine, lines_of
 from yellowiron.specs.layout.statement import is_unit, kind_of, looks_like_value

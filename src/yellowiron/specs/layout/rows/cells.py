@@ -7,7 +7,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 
-from yellowiron.specs.language.numbers import FEET_DASH, read
+from yellowiron.specs.language.numbers import read
+from yellowiron.specs.language.quantities import FEET_DASH
 from yellowiron.specs.layout.rows.lines import TextLine
 from yellowiron.specs.layout.statement import (
     EXAMPLE,

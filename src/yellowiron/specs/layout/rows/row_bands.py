@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from yellowiron.specs.language.numbers import read, same
+from yellowiron.specs.language.numbers import read
+from yellowiron.specs.language.quantities import same
 from yellowiron.specs.layout.rows.cells import cells_of
 from yellowiron.specs.layout.rows.lines import TextLine
 from yellowiron.specs.layout.statement import TextPiece, kind_of, unit_in_label, words_beside_numbers
