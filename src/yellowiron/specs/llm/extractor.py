@@ -32,7 +32,8 @@ from yellowiron.specs.llm.prompts import (
 )
 from yellowiron.specs.values.claims import Claim
 from yellowiron.specs.values.decision import Sheets, decide, missing
-from yellowiron.specs.values.matching import LEAST, Match, match_one, weakly
+from yellowiron.specs.values.matching import Match, match_one, weakly
+from yellowiron.specs.values.tolerances import LEAST
 
 _BATCH = 20
 """Rows that one question lists."""
