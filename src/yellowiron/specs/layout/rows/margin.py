@@ -30,6 +30,25 @@ class Beside:
 def without_keys(lines: Sequence[TextLine]) -> list[TextLine]:
     """The lines without a drawing's keys: a column of letters or outline numbers, no two alike, beside the rows'
     labels. A letter may look like a unit (L, N, m), and units repeat."""
+    keys: set[TextPiece] = set()
+    for column in _key_columns(lines):
+        texts = [piece.bare for piece, _ in column]
+        if (
+            len(column) >= 3
+            and len(set(texts)) == len(texts)
+            and sum(beside for _, beside in column) >= 0.6 * len(column)
+            and not all(is_unit(t) for t in texts)
+            and _counts([piece for piece, _ in column if piece.bare[0].isdigit()], lines)
+        ):
+            keys.update(piece for piece, beside in column if beside)
+    if not keys:
+        return list(lines)
+    kept = [tuple(p for p in line.pieces if p not in keys) for line in lines]
+    return [TextLine(pieces) for pieces in kept if pieces]
+
+
+def _key_columns(lines: Sequence[TextLine]) -> list[list[tuple[TextPiece, bool]]]:
+    """What may be keys, by column; each with whether it stands beside a label and a value."""
     columns: list[list[tuple[TextPiece, bool]]] = []
     for line in lines:
         for index, piece in enumerate(line.pieces):
@@ -47,21 +66,7 @@ def without_keys(lines: Sequence[TextLine]) -> list[TextLine]:
             if not near:
                 columns.append(column)
             column.append((piece, any(words) and any(values)))
-    keys: set[TextPiece] = set()
-    for column in columns:
-        texts = [piece.bare for piece, _ in column]
-        if (
-            len(column) >= 3
-            and len(set(texts)) == len(texts)
-            and sum(beside for _, beside in column) >= 0.6 * len(column)
-            and not all(is_unit(t) for t in texts)
-            and _counts([piece for piece, _ in column if piece.bare[0].isdigit()], lines)
-        ):
-            keys.update(piece for piece, beside in column if beside)
-    if not keys:
-        return list(lines)
-    kept = [tuple(p for p in line.pieces if p not in keys) for line in lines]
-    return [TextLine(pieces) for pieces in kept if pieces]
+    return columns
 
 
 def _counts(numbers: Sequence[TextPiece], lines: Sequence[TextLine]) -> bool:
@@ -88,32 +93,47 @@ def parted_margin(lines: Sequence[TextLine], rules: Sequence[Rule]) -> tuple[lis
     left = min(p.x0 for p in own)
     top, bottom = lines[first].top, lines[last - 1].bottom
     across = sorted(r.top for r in rules if r.horizontal and r.x0 <= left + 4 and r.x1 >= start + 4)
+    groups = _groups(own, across)
+    edges = [y for y in across if top - 12 <= y <= bottom + 12]
+    labels = [p for line in lines[first:last] for p in line.pieces if abs(p.x0 - start) <= _LEVEL]
+    beside = [
+        Beside(above, below, tuple(group), _is_set_apart(group, labels))
+        for group, (above, below) in zip(groups, _extents(groups, edges, top, bottom), strict=True)
+    ]
+    inner = [tuple(p for p in line.pieces if p.x0 >= start - _LEVEL) for line in lines[first:last]]
+    return [*lines[:first], *(TextLine(pieces) for pieces in inner if pieces), *lines[last:]], beside
+
+
+def _groups(pieces: Sequence[TextPiece], across: Sequence[float]) -> list[list[TextPiece]]:
+    """The pieces of a margin that stand close to each other, in one weight, with no rule `across` between them."""
     groups: list[list[TextPiece]] = []
-    for piece in own:
+    for piece in pieces:
         before = groups[-1][-1] if groups else None
         near = before is not None and piece.box[1] - before.box[3] < 0.7 * piece.size and before.bold == piece.bold
         if before is not None and near and not any(before.box[3] - 2 <= y <= piece.box[1] + 2 for y in across):
             groups[-1].append(piece)
         else:
             groups.append([piece])
-    edges = [y for y in across if top - 12 <= y <= bottom + 12]
-    ruled = bool(edges) and all(
-        sum(_cell_of(g, edges) == _cell_of(other, edges) for other in groups) == 1 for g in groups
-    )
-    labels = [p for line in lines[first:last] for p in line.pieces if abs(p.x0 - start) <= _LEVEL]
-    beside = []
-    for index, group in enumerate(groups):
-        above, below = group[0].box[1] - 0.5 * group[0].size, bottom + 1
-        if ruled:
-            above, below = _cell_of(group, edges)
-            above, below = max(above, top - 1), min(below, bottom + 1)
-        elif index + 1 < len(groups):
-            below = groups[index + 1][0].box[1] - 0.5 * group[0].size
-        marked = all(p.bold or p.size > 1.1 * max(q.size for q in labels) for p in group)
-        heading = marked and not all(p.bold for p in labels)
-        beside.append(Beside(above, below, tuple(group), heading))
-    inner = [tuple(p for p in line.pieces if p.x0 >= start - _LEVEL) for line in lines[first:last]]
-    return [*lines[:first], *(TextLine(pieces) for pieces in inner if pieces), *lines[last:]], beside
+    return groups
+
+
+def _extents(
+    groups: Sequence[Sequence[TextPiece]], edges: Sequence[float], top: float, bottom: float
+) -> list[tuple[float, float]]:
+    """From where to where each group of a margin holds: between its rules where each group has its own, else to the
+    next one."""
+    places = [_cell_of(g, edges) for g in groups]
+    if edges and all(places.count(place) == 1 for place in places):
+        return [(max(above, top - 1), min(below, bottom + 1)) for above, below in places]
+    begins = [g[0].box[1] - 0.5 * g[0].size for g in groups]
+    ends = [after[0].box[1] - 0.5 * g[0].size for g, after in pairwise(groups)]
+    return list(zip(begins, [*ends, bottom + 1], strict=True))
+
+
+def _is_set_apart(group: Sequence[TextPiece], labels: Sequence[TextPiece]) -> bool:
+    """Whether words in the margin stand out from the labels: a heading."""
+    marked = all(p.bold or p.size > 1.1 * max(q.size for q in labels) for p in group)
+    return marked and not all(p.bold for p in labels)
 
 
 def _cell_of(group: Sequence[TextPiece], edges: Sequence[float]) -> tuple[float, float]:
