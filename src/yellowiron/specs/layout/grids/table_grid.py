@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, replace
 
-from yellowiron.specs.layout.rows.lines import Line
-from yellowiron.specs.layout.statement import EXAMPLE, Piece, joined
+from yellowiron.specs.layout.rows.lines import TextLine
+from yellowiron.specs.layout.statement import EXAMPLE, TextPiece, joined
 from yellowiron.specs.pages.strokes import Box
 
 
@@ -18,10 +18,10 @@ class Cell:
     box: Box
     rows: tuple[int, int]
     columns: tuple[int, int]
-    lines: tuple[Line, ...] = ()
+    lines: tuple[TextLine, ...] = ()
 
     @functools.cached_property
-    def pieces(self) -> tuple[Piece, ...]:
+    def pieces(self) -> tuple[TextPiece, ...]:
         """All its pieces, line by line."""
         return tuple(p for line in self.lines for p in line.pieces)
 
@@ -32,7 +32,7 @@ class Cell:
 
 
 @dataclass(frozen=True)
-class Grid:
+class TableGrid:
     """A table: its cells on a grid of `rows` × `columns`."""
 
     box: Box
@@ -44,3 +44,9 @@ class Grid:
     def at(self, row: int, column: int) -> Cell | None:
         """The cell that covers a grid position."""
         return self.places.get((row, column))
+
+    def emptied(self, cells: Collection[Cell]) -> TableGrid:
+        """The table with no words in some of its cells."""
+        kept = {c: replace(c, lines=()) if c in cells else c for c in self.cells}
+        places = {place: kept[c] for place, c in self.places.items()}
+        return replace(self, cells=tuple(kept.values()), places=places)
