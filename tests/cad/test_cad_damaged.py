@@ -8,6 +8,7 @@ import subprocess
 import sys
 import time
 import zipfile
+from dataclasses import replace
 from pathlib import Path
 
 import cad_blend
@@ -18,8 +19,7 @@ from cad_exports import ITEMS, WRITERS
 
 import yellowiron.cad
 from yellowiron import cli
-from yellowiron.cad import read as cad_reading
-from yellowiron.cad import read_cad
+from yellowiron.cad import formats, read_cad
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import CadError
 from yellowiron.support.guard import run_guarded
@@ -398,7 +398,8 @@ def test_a_reader_that_goes_on_for_ever_is_one_sentence(
     text = f"from yellowiron.support.guard import must_end\n\n{work}\ndef read(path):\n    {body}\n"
     (tmp_path / "reader_without_end.py").write_text(text)
     monkeypatch.syspath_prepend(tmp_path)
-    monkeypatch.setitem(cad_reading._READERS, "OBJ", "reader_without_end:read")
+    endless = tuple(replace(f, reader="reader_without_end:read") if f.name == "OBJ" else f for f in formats.FORMATS)
+    monkeypatch.setattr(formats, "FORMATS", endless)
     monkeypatch.setattr(yellowiron.cad, "read_cad", functools.partial(read_cad, timeout_s=limit))
     path = sound("OBJ", tmp_path)
     monkeypatch.setattr(sys, "argv", ["yellowiron", "convert", str(path), "--out", str(tmp_path / "machine.usda")])
