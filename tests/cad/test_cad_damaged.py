@@ -294,7 +294,7 @@ def test_what_is_worked_on_for_ever_is_ended(name: str, target: str, tmp_path: P
     path = sound(name, tmp_path)
     module, function = target.split(":")
     code = (
-        f"from yellowiron.cad import {module}\n"
+        f"from yellowiron.cad.readers.exact import {module}\n"
         f"{module}._PATIENCE = {module}._PATIENCE_AFTER = 1.0\n"
         f"{module}._SLOWEST_AFTER = 1e9\n"
         "def go_on(*_, **__):\n    while True: pass\n"
@@ -395,7 +395,7 @@ def test_a_reader_that_goes_on_for_ever_is_one_sentence(
 ) -> None:
     """By its own limit or by the guard's: the program ends with code 2."""
     work = "def work():\n    while True: pass\n"
-    text = f"from yellowiron.support.guard import must_end\n\n{work}\ndef read(path):\n    {body}\n"
+    text = f"from yellowiron.support.limits import must_end\n\n{work}\ndef read(path):\n    {body}\n"
     (tmp_path / "reader_without_end.py").write_text(text)
     monkeypatch.syspath_prepend(tmp_path)
     endless = tuple(replace(f, reader="reader_without_end:read") if f.name == "OBJ" else f for f in formats.FORMATS)

@@ -36,7 +36,7 @@ from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import CadError
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Color, linear
-from yellowiron.support.guard import must_end
+from yellowiron.support.limits import must_end
 
 _SEAM = 0.02
 """Millimetres. Edges of neighbouring surfaces closer than this are one; IGES repeats each of them."""

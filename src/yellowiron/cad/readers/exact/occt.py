@@ -33,7 +33,7 @@ from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import CadError
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Color, linear
-from yellowiron.support.guard import must_end
+from yellowiron.support.limits import must_end
 
 _DAMAGED = "Copy or save it again; the file is damaged."
 _GROUPS = ("App::Part", "App::DocumentObjectGroup", "Assembly::AssemblyObject", "App::LinkGroup")

@@ -13,7 +13,7 @@ from yellowiron.cad.readers.exact import part21
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import CadError
 from yellowiron.model.finding import Finding
-from yellowiron.support.guard import must_end
+from yellowiron.support.limits import must_end
 
 UNITS = {
     "millimetre": 1e-3,
