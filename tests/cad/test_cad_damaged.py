@@ -285,8 +285,8 @@ def test_a_ply_that_has_other_lines_than_it_says(tmp_path: Path) -> None:
     [
         ("STEP", "step:read_step"),
         ("IGES", "iges:read_iges"),
-        ("BREP", "occt:read_brep"),
-        ("FreeCAD", "occt:read_freecad"),
+        ("BREP", "brep_file:read_brep"),
+        ("FreeCAD", "freecad:read_freecad"),
     ],
 )
 def test_what_is_worked_on_for_ever_is_ended(name: str, target: str, tmp_path: Path) -> None:
@@ -294,9 +294,9 @@ def test_what_is_worked_on_for_ever_is_ended(name: str, target: str, tmp_path: P
     path = sound(name, tmp_path)
     module, function = target.split(":")
     code = (
-        f"from yellowiron.cad.readers.exact import {module}\n"
-        f"{module}._PATIENCE = {module}._PATIENCE_AFTER = 1.0\n"
-        f"{module}._SLOWEST_AFTER = 1e9\n"
+        f"from yellowiron.cad.readers.exact import {module}, patience\n"
+        "patience.SECONDS = patience.TEXT_SECONDS = 1.0\n"
+        "patience.BYTES_A_SECOND = 1e9\n"
         "def go_on(*_, **__):\n    while True: pass\n"
         f"{module}.products.assemble = go_on\n"
         f"{module}.{function}({str(path)!r})\n"

@@ -98,7 +98,7 @@ FORMATS: tuple[CadFormat, ...] = (
         "DWG", (".dwg",), "yellowiron.cad.readers.dwg:read_dwg", content=_starts(rb"AC10\d\d"),
         needs="yellowiron.cad.readers.dwg:require_program",
     ),
-    CadFormat("FreeCAD", (".fcstd",), f"{_EXACT}.occt:read_freecad", member=re.compile(r"\Adocument\.xml\Z")),
+    CadFormat("FreeCAD", (".fcstd",), f"{_EXACT}.freecad:read_freecad", member=re.compile(r"\Adocument\.xml\Z")),
     CadFormat("3MF", (".3mf",), f"{_MESHES}.threemf:read_3mf", member=re.compile(r"\.model\Z")),
     CadFormat("GLB", (".glb",), f"{_MESHES}.gltf:read_gltf", content=_starts(rb"glTF")),
     CadFormat(
@@ -114,7 +114,7 @@ FORMATS: tuple[CadFormat, ...] = (
         meshes=f"{_MESHES}.ply:meshes_of",
     ),
     CadFormat(
-        "BREP", (".brep", ".brp"), f"{_EXACT}.occt:read_brep", plausible=_PLAIN,
+        "BREP", (".brep", ".brp"), f"{_EXACT}.brep_file:read_brep", plausible=_PLAIN,
         content=_starts(rb"\s*(?:DBRep_DrawableShape|(?:Open )?CASCADE Topology V)"),
     ),
     CadFormat(
