@@ -3,6 +3,6 @@
 
 `exact` (STEP, IGES, BREP, FreeCAD) ends in `yellowiron.cad.brep`; `meshes`, `robots` (URDF, MJCF), `usd`, `ifc`, `dxf`
 and `dwg` (through `dxf`) end in `yellowiron.cad.mesh`. `robots` reads the meshes that a description names with
-`meshes`; `declared` has the joints of `robots` and `usd`; `folder` reads each of its files with the reader of its format.
-Else no reader knows another.
+`meshes`; `declared` has the joints of `robots` and `usd`; `folder` reads each file with the reader of its format. Else
+no reader knows another.
 """
