@@ -1,8 +1,8 @@
-"""A BREP or FreeCAD file to an `Assembly`. Runs in the guard's child process.
+"""A FreeCAD file to an `Assembly`. Runs in the guard's child process.
 
-Both hold the shapes of Open CASCADE, in millimetres. A BREP file is one shape without names. A FreeCAD file is an
-archive: `Document.xml` lists objects with labels and placements, `GuiDocument.xml` those that are shown and their
-colours; the shapes are files beside it. Objects that others are made from are hidden, or used by them.
+The file is an archive: `Document.xml` lists objects with labels and placements, `GuiDocument.xml` those that are shown
+and their colours; the shapes are BREP files beside it, in millimetres. Objects that others are made from are hidden, or
+used by them.
 """
 
 from __future__ import annotations
@@ -16,24 +16,20 @@ from tempfile import TemporaryDirectory
 from typing import Any
 from xml.etree import ElementTree
 
-from OCP.BinTools import BinTools
-from OCP.BRep import BRep_Builder
-from OCP.BRepTools import BRepTools
 from OCP.gp import gp_Pnt, gp_Quaternion, gp_Trsf, gp_Vec
 from OCP.TopAbs import TopAbs_FACE
 from OCP.TopLoc import TopLoc_Location
-from OCP.TopoDS import TopoDS_Shape
 
 from yellowiron.cad.brep import products
 from yellowiron.cad.brep.to_shape import subshapes
-from yellowiron.cad.brep.xcaf import Product, Tree, add_product, add_products, new_document
+from yellowiron.cad.brep.xcaf import Product, ProductTree, add_products, new_document
 from yellowiron.cad.naming import decode_name
-from yellowiron.cad.readers.exact import brep_text
+from yellowiron.cad.readers.exact.brep_file import shape_in
+from yellowiron.cad.readers.exact.patience import file_must_end
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import CadError
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Color, linear
-from yellowiron.support.guard import must_end
 
 _DAMAGED = "Copy or save it again; the file is damaged."
 _GROUPS = ("App::Part", "App::DocumentObjectGroup", "Assembly::AssemblyObject", "App::LinkGroup")
@@ -45,36 +41,6 @@ _LARGEST_PALETTE = 64 * 1024**2
 _PALETTES = {"DiffuseColor": ("ColorList", 4, 0), "ShapeAppearance": ("MaterialList", 24, 4)}
 """Lists of colours: their element, the bytes of an entry, and where its diffuse colour is."""
 _DEEPEST = 50
-_PATIENCE, _SLOWEST = 2.0, 1e6
-"""Seconds, and bytes a second: a fiftieth of what is usual."""
-_PATIENCE_AFTER, _SLOWEST_AFTER = 20.0, 2e4
-"""The same for what is made of the shapes: some damaged surfaces are measured for ever."""
-
-
-def read_brep(path: str) -> Assembly:
-    """The assembly in a BREP file, text or binary, taken to be in millimetres. `CadError` if it is damaged."""
-    shape = _shape(path, path)
-    words = "The format has no unit of length: millimetres assumed, as Open CASCADE's programs have it"
-    unit = Finding("CAD009", "info", path, words)
-    with must_end(_PATIENCE_AFTER + Path(path).stat().st_size / _SLOWEST_AFTER):
-        document = new_document()
-        add_product(document, Path(path).stem, shape)
-        return products.assemble(Tree(document, "utf-8"), path=path, format="BREP", unit=1e-3, findings=[unit])
-
-
-def _shape(file: str, path: str) -> Any:
-    """The shape in a text or binary file of Open CASCADE."""
-    shape = TopoDS_Shape()
-    data = Path(file).read_bytes()
-    binary = data[:64].lstrip(b"\n").startswith(b"Open CASCADE Topology V")
-    if not binary and (fault := brep_text.fault(data)):
-        raise CadError(f"The shape {fault}", where=path, hint=_DAMAGED)
-    # Some damage is read on for ever.
-    with must_end(_PATIENCE + len(data) / _SLOWEST):
-        read = BinTools.Read_s(shape, file) if binary else BRepTools.Read_s(shape, file, BRep_Builder())
-    if not read or shape.IsNull():
-        raise CadError("The shape cannot be read: it is damaged or cut short", where=path, hint=_DAMAGED)
-    return shape
 
 
 @dataclass
@@ -110,15 +76,16 @@ def read_freecad(path: str) -> Assembly:
             shapes = _shapes(archive, objects, path)
     except (zipfile.BadZipFile, ElementTree.ParseError, KeyError, ValueError, EOFError, NotImplementedError) as error:
         raise CadError(f"The FreeCAD file is broken: {error}", where=path, hint=_DAMAGED) from error
-    document = new_document()
+    document = _Document(objects, shapes, path)
     owned = {m for o in objects.values() for m in o.members}
     roots: list[tuple[Product, Any]] = []
     for name in objects:
         if name not in owned:
-            _add(roots, name, TopLoc_Location(), objects, shapes, path, 0)
-    with must_end(_PATIENCE_AFTER + Path(path).stat().st_size / _SLOWEST_AFTER):
-        add_products(document, [_at(product, place) for product, place in roots])
-        tree = Tree(document, "utf-8")
+            _add(roots, name, TopLoc_Location(), document)
+    with file_must_end(Path(path).stat().st_size):
+        made = new_document()
+        add_products(made, [_at(product, place) for product, place in roots])
+        tree = ProductTree(made, "utf-8")
         return products.assemble(tree, path=path, format="FreeCAD", unit=1e-3, findings=_damage(root, objects, path))
 
 
@@ -130,41 +97,44 @@ def _at(product: Product, place: Any) -> Product:
     return replace(product, shape=product.shape.Moved(place), face_colors=faces)
 
 
+@dataclass(frozen=True)
+class _Document:
+    """A document's objects by name, the shapes of those that have one, and the file."""
+
+    objects: Mapping[str, _Object]
+    shapes: Mapping[str, Any]
+    path: str
+
+
 def _add(
-    held: list[tuple[Product, Any]],
-    name: str,
-    outer: Any,
-    objects: Mapping[str, _Object],
-    shapes: Mapping[str, Any],
-    path: str,
-    depth: int,
-    label: str = "",
+    held: list[tuple[Product, Any]], name: str, outer: Any, document: _Document, depth: int = 0, label: str = ""
 ) -> None:
     """Adds an object, and what it groups or links to, at its place; `outer` is from the document's origin."""
-    one = objects.get(name)
+    one = document.objects.get(name)
     if one is None or (not one.shown and not label):
         return
     if depth > _DEEPEST:
-        raise CadError("The FreeCAD file is broken: an object holds itself", where=path, hint=_DAMAGED)
+        raise CadError("The FreeCAD file is broken: an object holds itself", where=document.path, hint=_DAMAGED)
     place = outer if one.place is None else outer * one.place
     # Types of groups and links are many, and a damaged one holds what it held.
     if one.kind in _GROUPS or (one.members and not one.file):
         inner: list[tuple[Product, Any]] = []
         for member in one.members:
-            _add(inner, member, place, objects, shapes, path, depth + 1)
+            _add(inner, member, place, document, depth + 1)
         if inner:
             held.append((Product(label or one.label, None, inner), TopLoc_Location()))
     elif one.kind in _LINKS or (one.linked and not one.file):
-        target = objects.get(one.linked)
+        target = document.objects.get(one.linked)
         if target is not None:
             # A link has a place of its own instead of its target's.
             undo = target.place.Inverted() if target.place is not None else TopLoc_Location()
-            _add(held, one.linked, place * undo, objects, shapes, path, depth + 1, one.label)
-    elif name in shapes and (label or not _is_used(one, objects)):
+            _add(held, one.linked, place * undo, document, depth + 1, one.label)
+    elif name in document.shapes and (label or not _is_used(one, document.objects)):
         # The shape's file has its object's own place in it.
-        faces = subshapes(shapes[name], TopAbs_FACE)
+        shape = document.shapes[name]
+        faces = subshapes(shape, TopAbs_FACE)
         painted = list(zip(faces, one.palette, strict=True)) if len(faces) == len(one.palette) > 1 else []
-        held.append((Product(label or one.label, shapes[name], [], one.color, painted), outer))
+        held.append((Product(label or one.label, shape, [], one.color, painted), outer))
 
 
 def _is_used(one: _Object, objects: Mapping[str, _Object]) -> bool:
@@ -277,5 +247,5 @@ def _shapes(archive: zipfile.ZipFile, objects: Mapping[str, _Object], path: str)
             # Under a name of ours: the archive's may lead anywhere.
             copy = Path(folder, f"shape{len(shapes)}")
             copy.write_bytes(archive.read(one.file))
-            shapes[name] = _shape(str(copy), path)
+            shapes[name] = shape_in(str(copy), path)
     return shapes
