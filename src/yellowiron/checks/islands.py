@@ -13,6 +13,7 @@ from yellowiron.checks.loops import KINDS, StageLoop, find_loops
 from yellowiron.checks.motion import LoopMotion
 from yellowiron.checks.values import WORLD, StageBody, StageJoint, extent, union
 from yellowiron.model.geometry import Floats
+from yellowiron.support.graphs import components
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,28 +99,8 @@ def build_islands(
         for j in joints
         if j.enabled and j.bodies[0] != j.bodies[1] and not any(s.missing or len(s.targets) > 1 for s in j.sides)
     ]
-    groups = _components([b for b in bodies if any(b in j.bodies for j in edges)], edges)
+    groups = components([b for b in bodies if any(b in j.bodies for j in edges)], (j.bodies for j in edges))
     return tuple(_island(group, bodies, edges, tuple(roots)) for group in groups)
-
-
-def _components(nodes: list[str], edges: list[StageJoint]) -> list[tuple[str, ...]]:
-    """Nodes by connection, not through the world, in the nodes' order."""
-    parent = {n: n for n in nodes}
-
-    def find(node: str) -> str:
-        while parent[node] != node:
-            parent[node] = parent[parent[node]]
-            node = parent[node]
-        return node
-
-    for edge in edges:
-        first, second = edge.bodies
-        if first in parent and second in parent:
-            parent[find(second)] = find(first)
-    groups: dict[str, list[str]] = {}
-    for node in nodes:
-        groups.setdefault(find(node), []).append(node)
-    return [tuple(g) for g in groups.values()]
 
 
 def _island(
@@ -134,7 +115,7 @@ def _island(
         roots=tuple(
             r for r in roots if any(b == r or b.startswith(f"{r}/") for b in group) or any(j.path == r for j in joints)
         ),
-        trees=tuple(_components(list(group), [j for j in links if not j.cut])),
+        trees=tuple(components(group, (j.bodies for j in links if not j.cut))),
         loops=find_loops(links),
     )
 

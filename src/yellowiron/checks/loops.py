@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from yellowiron.checks.values import StageJoint
+from yellowiron.support.graphs import spanning_forest
 
 _SINGLE = ("revolute", "prismatic")
 _OTHER_AXIS = 0.02
@@ -52,7 +53,7 @@ def find_loops(joints: Iterable[StageJoint]) -> tuple[StageLoop, ...]:
     joints = list(joints)
     uncut, cut = [j for j in joints if not j.cut], [j for j in joints if j.cut]
     ends = _in_series(uncut) | {j.path: j.bodies for j in cut}
-    tree, closing = _spanning_tree([*uncut, *cut], ends)
+    tree, closing = spanning_forest([*uncut, *cut], lambda joint: ends[joint.path])
     return tuple(_loop(joint, tree, ends) for joint in closing)
 
 
@@ -79,30 +80,6 @@ def _in_series(joints: list[StageJoint]) -> dict[str, tuple[str, str]]:
 def _differ(a: StageJoint, b: StageJoint) -> bool:
     """Whether two hinges or slides move their bodies differently."""
     return a.type != b.type or float(np.linalg.norm(np.cross(a.axis, b.axis))) > _OTHER_AXIS
-
-
-def _spanning_tree(
-    joints: list[StageJoint], ends: Mapping[str, tuple[str, str]]
-) -> tuple[list[StageJoint], list[StageJoint]]:
-    """A spanning forest that takes the joints in order, and the joints that close loops."""
-    nodes = list(dict.fromkeys(n for j in joints for n in ends[j.path]))
-    parent = {n: n for n in nodes}
-
-    def find(node: str) -> str:
-        while parent[node] != node:
-            parent[node] = parent[parent[node]]
-            node = parent[node]
-        return node
-
-    tree, closing = [], []
-    for joint in joints:
-        a, b = (find(n) for n in ends[joint.path])
-        if a == b:
-            closing.append(joint)
-        else:
-            parent[b] = a
-            tree.append(joint)
-    return tree, closing
 
 
 def _loop(closing: StageJoint, tree: list[StageJoint], ends: Mapping[str, tuple[str, str]]) -> StageLoop:

@@ -1,10 +1,10 @@
-"""Graphs of bodies and joints, as all stages need them: what hangs together, what closes loops. networkx does the work;
-the results are in the order of what was given, so that they are the same in every run."""
+"""Graphs of bodies and joints, as all stages need them: what hangs together, what closes loops. Results are in
+the order of what was given, so that they are the same in every run."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Mapping
-from typing import TypeVar
+from typing import Generic, TypeVar
 
 import networkx as nx
 
@@ -13,19 +13,45 @@ Edge = TypeVar("Edge")
 Name = TypeVar("Name", bound=Hashable)
 
 
+class LedSets(Generic[Node]):
+    """Disjoint sets, each with the leader that the joins gave it (libraries' own leave the leader to chance)."""
+
+    def __init__(self, nodes: Iterable[Node] = ()) -> None:
+        self._above = {node: node for node in nodes}
+
+    def __contains__(self, node: object) -> bool:
+        return node in self._above
+
+    def leader(self, node: Node) -> Node:
+        """The leader of a node's set; a node that was not known is a set of its own."""
+        above = self._above
+        while above.setdefault(node, node) != node:
+            above[node] = above[above[node]]
+            node = above[node]
+        return node
+
+    def join(self, leading: Node, other: Node) -> bool:
+        """Makes one set of two, led by the first's leader; False where they are one already."""
+        first, second = self.leader(leading), self.leader(other)
+        self._above[second] = first
+        return first != second
+
+    def sets(self) -> list[tuple[Node, ...]]:
+        """All sets, by their first nodes, each in the nodes' order."""
+        found: dict[Node, list[Node]] = {}
+        for node in self._above:
+            found.setdefault(self.leader(node), []).append(node)
+        return [tuple(members) for members in found.values()]
+
+
 def components(nodes: Iterable[Node], edges: Iterable[tuple[Node, Node]]) -> list[tuple[Node, ...]]:
     """The nodes in groups that edges hold together, groups by their first nodes, each in the nodes' order. An edge to
     what is no node counts for nothing."""
-    order = list(dict.fromkeys(nodes))
-    groups = nx.utils.UnionFind(order)
-    known = set(order)
+    sets = LedSets(nodes)
     for a, b in edges:
-        if a in known and b in known:
-            groups.union(a, b)
-    found: dict[Node, list[Node]] = {}
-    for node in order:
-        found.setdefault(groups[node], []).append(node)
-    return [tuple(group) for group in found.values()]
+        if a in sets and b in sets:
+            sets.join(a, b)
+    return sets.sets()
 
 
 def spanning_forest(
@@ -33,16 +59,11 @@ def spanning_forest(
 ) -> tuple[list[Edge], list[Edge]]:
     """(edges of a spanning forest, edges that close a loop), the forest taking the edges in the order given
     (J. B. Kruskal, Proc. AMS 7, 1956)."""
-    groups = nx.utils.UnionFind()
+    sets: LedSets[Hashable] = LedSets()
     kept: list[Edge] = []
     closing: list[Edge] = []
     for edge in edges:
-        a, b = ends(edge)
-        if groups[a] == groups[b]:
-            closing.append(edge)
-        else:
-            kept.append(edge)
-            groups.union(a, b)
+        (kept if sets.join(*ends(edge)) else closing).append(edge)
     return kept, closing
 
 

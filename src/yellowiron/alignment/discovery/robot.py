@@ -25,6 +25,7 @@ from yellowiron.model.finding import Finding
 from yellowiron.model.found import FoundBody, FoundJoint, FoundMachine, Vector
 from yellowiron.model.geometry import Floats
 from yellowiron.model.template import Template
+from yellowiron.support.graphs import LedSets
 
 BESIDE = 0.01
 """Metres up to which two hinges are on one line."""
@@ -152,25 +153,22 @@ def _groups(
     declared: Sequence[DeclaredJoint], names: Sequence[str], links: Mapping[str, object], apart: set[frozenset[str]]
 ) -> dict[str, str]:
     """Link → the first link of those that are one body with it."""
-    group = {name: name for name in names}
-
-    def unite(one: str, other: str) -> None:
-        first, second = group[one], group[other]
-        for name in group:
-            group[name] = first if group[name] == second else group[name]
-
+    groups = LedSets(names)
     for joint in declared:
         one, other = joint.bodies
         if joint.type == "fixed" and one and other and frozenset((one, other)) not in apart:
-            unite(one, other)
+            groups.join(one, other)
     for joint in declared:
         # A link without a shape between two that have one: it goes with the one it hangs on.
         one, other = joint.bodies
-        drawn = {group[name] for name in links}
-        onward = [j for j in declared if j.bodies[0] and group[j.bodies[0]] == group.get(other)]
-        if joint.type in _MOVING and one and other and group[other] not in drawn and onward:
-            unite(one, other)
-    return group
+        if joint.type not in _MOVING or not one or not other:
+            continue
+        drawn = {groups.leader(name) for name in links}
+        hung = groups.leader(other)
+        onward = any(j.bodies[0] and groups.leader(j.bodies[0]) == hung for j in declared)
+        if hung not in drawn and onward:
+            groups.join(one, other)
+    return {name: groups.leader(name) for name in names}
 
 
 def _declared(joints: Sequence[DeclaredJoint]) -> Iterator[_Joint]:
