@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-import small_machine
+from kit.machines import small_machine
 from yellowiron import cad, library
 from yellowiron.alignment.discovery.robot import robot
 from yellowiron.model.assembly import Assembly, DeclaredJoint

@@ -5,7 +5,6 @@ from __future__ import annotations
 import importlib
 import json
 import math
-import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
@@ -14,6 +13,7 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
+from kit.machines.synthetic import disguise, loader
 from yellowiron import cad, library
 from yellowiron.cli import app
 from yellowiron.model.assembly import Assembly
@@ -110,11 +110,8 @@ def test_a_telescopic_crane_builds(drawn: Drawn, tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_like_another_type(drawn: Drawn, tmp_path: Path, root: Path) -> None:
+def test_like_another_type(drawn: Drawn, tmp_path: Path) -> None:
     """Bodies, joints, pins and actuators have the library's names where they match."""
-    sys.path.insert(0, str(root / "tests" / "alignment"))
-    from synthetic import disguise, loader
-
     assembly, truth, _ = disguise(loader(2), 2)
     drawn(assembly)
     document = new_template("machine.step", tmp_path / "new", like="wheel_loader")

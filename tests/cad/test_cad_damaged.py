@@ -10,13 +10,13 @@ import time
 import zipfile
 from pathlib import Path
 
-import cad_blend
 import ezdxf
 import numpy as np
 import pytest
-from cad_exports import ITEMS, WRITERS
 
 import yellowiron.cad
+from kit.cadfiles import blend as cad_blend
+from kit.cadfiles.exports import ITEMS, WRITERS
 from yellowiron import cli
 from yellowiron.cad import read as cad_reading
 from yellowiron.cad import read_cad

@@ -10,14 +10,14 @@ from collections.abc import Callable
 from io import BytesIO
 from pathlib import Path
 
-import cad_fbx
 import numpy as np
 import pytest
-from cad_stepfiles import box, faces_of
 from PIL import Image
 from pxr import Sdf, Usd, UsdGeom, UsdShade
 from test_cad_triangles import CORNERS, FACES, binary
 
+from kit.cadfiles import fbx as cad_fbx
+from kit.cadfiles.step import box, faces_of
 from yellowiron.cad import formats
 from yellowiron.cad.read import _READERS
 from yellowiron.model.assembly import Assembly
