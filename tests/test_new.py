@@ -14,6 +14,7 @@ import pytest
 from typer.testing import CliRunner
 
 from kit.machines.synthetic import disguise, loader
+from kit.machines.telescope import crane
 from yellowiron import cad, library
 from yellowiron.cli import app
 from yellowiron.model.assembly import Assembly
@@ -24,15 +25,13 @@ Drawn = Callable[[Assembly], None]
 
 
 @pytest.fixture
-def drawn(monkeypatch: pytest.MonkeyPatch, root: Path) -> Drawn:
+def drawn(monkeypatch: pytest.MonkeyPatch) -> Drawn:
     """Stands in for the CAD file."""
-    monkeypatch.syspath_prepend(str(root / "tests" / "alignment"))
     return lambda assembly: monkeypatch.setattr(cad, "read_cad", lambda file: assembly)
 
 
 def telescope() -> Assembly:
-    assembly: Assembly = importlib.import_module("telescope").crane()[0]
-    return assembly
+    return crane()[0]
 
 
 def build(folder: Path, file: Path, out: Path, *, settings: Sequence[str] = ()) -> Any:
