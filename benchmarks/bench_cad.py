@@ -26,13 +26,13 @@ from collections.abc import Callable
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-sys.path[:0] = [str(ROOT / "src"), str(ROOT / "tests" / "cad")]
+sys.path[:0] = [str(ROOT / "src"), str(ROOT / "tests")]
 
 
 def generate(path: Path, parts: int) -> Path:
     """A STEP assembly of drilled blocks and pins."""
-    from cad_stepfiles import Node, Use, cut, cylinder, translation, write_step
-    from cad_stepfiles import box as block
+    from kit.cadfiles.step import Node, Use, cut, cylinder, translation, write_step
+    from kit.cadfiles.step import box as block
 
     rng, uses = random.Random(1), []
     for index in range(parts // 3):

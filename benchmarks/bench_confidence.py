@@ -23,14 +23,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 ROOT = Path(__file__).resolve().parent.parent
-sys.path[:0] = [str(ROOT / "src"), str(ROOT / "tests"), str(ROOT / "tests" / "alignment"), str(ROOT / "benchmarks")]
+sys.path[:0] = [str(ROOT / "src"), str(ROOT / "tests"), str(ROOT / "benchmarks")]
 
-from defects import DEFECTS, spoiled  # noqa: E402
 from scipy.optimize import minimize  # noqa: E402
-from synthetic import disguise  # noqa: E402
 
 from bench_names import called  # noqa: E402
 from bench_recognition import ROWS, TEMPLATES, same_role  # noqa: E402
+from kit.machines.defects import DEFECTS, spoiled  # noqa: E402
+from kit.machines.synthetic import disguise  # noqa: E402
 from yellowiron.alignment import align  # noqa: E402
 from yellowiron.alignment.labelling.confidence import probability  # noqa: E402
 from yellowiron.library import load_template  # noqa: E402

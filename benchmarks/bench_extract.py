@@ -1,4 +1,4 @@
-"""Extraction from generated sheets whose every value is known (`tests/specs/sheets.py`). Bars: docs/extraction.md.
+"""Extraction from generated sheets whose every value is known (`tests/kit/sheets`). Bars: docs/extraction.md.
 
 Run from the repository's root: `python benchmarks/bench_extract.py [--by] [--faults F] [--manual PAGES]
 [--sets tuned,held,final,last,fresh,fresh2,fresh3,fresh4,fresh5,fresh6,fresh7,fresh8,fresh9,fresh10,fresh11,
@@ -20,11 +20,11 @@ import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-sys.path[:0] = [str(ROOT / "src"), str(ROOT / "tests" / "specs")]
+sys.path[:0] = [str(ROOT / "src"), str(ROOT / "tests")]
 
 from reportlab.pdfgen.canvas import Canvas  # noqa: E402
-from sheets import LAYOUTS, WORDED, Score, cases, make, page_texts, score  # noqa: E402
 
+from kit.sheets import SETS, WORDED, Score, cases, make, page_texts, score  # noqa: E402
 from yellowiron.library import load_template  # noqa: E402
 from yellowiron.specs.extraction import from_sheets, read  # noqa: E402
 from yellowiron.specs.reader import read_sheet  # noqa: E402
@@ -68,7 +68,7 @@ def line(name: str, one: Score) -> str:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--sets", default=",".join([*LAYOUTS, *WORDED]))
+    parser.add_argument("--sets", default=",".join(SETS))
     parser.add_argument("--by", action="store_true")
     parser.add_argument("--faults", type=Path)
     parser.add_argument("--manual", type=int, default=0)

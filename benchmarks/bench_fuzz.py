@@ -43,7 +43,7 @@ from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).resolve().parent.parent
-sys.path[:0] = [str(ROOT / "tests" / "cad")]
+sys.path[:0] = [str(ROOT / "tests")]
 LIMIT_S, WALL_S = 60.0, 600.0
 """Seconds of the processor, and on the clock, for one mutant."""
 MEMORY = 4 * 1024**3
@@ -243,10 +243,9 @@ def _lines(stream: int) -> Iterator[Any]:
 
 def writers() -> dict[str, tuple[str, Any]]:
     """Format → the file's name and what writes it: the tests' small machine, and the other forms that formats have."""
-    import cad_blend
-    from cad_exports import WRITERS
-
     from fuzz_forms import FORMS
+    from kit.cadfiles import blend as cad_blend
+    from kit.cadfiles.exports import WRITERS
 
     found: dict[str, tuple[str, Any]] = {**WRITERS, **FORMS}
     if cad_blend.is_here():
@@ -256,9 +255,8 @@ def writers() -> dict[str, tuple[str, Any]]:
 
 def report(name: str, path: Path, own: Path, options: argparse.Namespace) -> list[str]:
     """The table's cells for a format, whose sound file is at `path`, all that it may write being in `own`."""
-    from cad_exports import ITEMS
-
     import fuzz_declared
+    from kit.cadfiles.exports import ITEMS
     from yellowiron.cad import read_cad
     from yellowiron.cad.readers.exact import part21
     from yellowiron.cad.recognition import format_of
@@ -314,8 +312,7 @@ def main() -> None:
     if os.environ.get("PYTHONHASHSEED") != "0":
         # Some libraries write their sets as they come.
         os.execve(sys.executable, [sys.executable, *sys.argv], {**os.environ, "PYTHONHASHSEED": "0"})
-    from cad_exports import ITEMS, WRITERS
-
+    from kit.cadfiles.exports import ITEMS, WRITERS
     from yellowiron.cad import read_cad
 
     heads = ("format", "mutants", "read", "refused", "crashed", "ended", "hung", "said", "fewer", "silent", "half")

@@ -19,10 +19,11 @@ from typing import Any
 import numpy as np
 
 ROOT = Path(__file__).resolve().parent.parent
-sys.path[:0] = [str(ROOT / "src"), str(ROOT / "tests"), str(ROOT / "tests" / "alignment"), str(ROOT / "benchmarks")]
+sys.path[:0] = [str(ROOT / "src"), str(ROOT / "tests"), str(ROOT / "benchmarks")]
 
-from defects import spoiled  # noqa: E402
-from spoken_names import (  # noqa: E402
+from bench_recognition import TEMPLATES, judged  # noqa: E402
+from kit.machines.defects import spoiled  # noqa: E402
+from kit.machines.spoken_names import (  # noqa: E402
     LANGUAGES,
     in_assemblies,
     misleading,
@@ -31,9 +32,7 @@ from spoken_names import (  # noqa: E402
     shuffled,
     truncated,
 )
-from synthetic import disguise  # noqa: E402
-
-from bench_recognition import TEMPLATES, judged  # noqa: E402
+from kit.machines.synthetic import disguise  # noqa: E402
 from yellowiron.alignment import align  # noqa: E402
 from yellowiron.library import load_template  # noqa: E402
 from yellowiron.model.assembly import Assembly  # noqa: E402

@@ -28,11 +28,10 @@ from typing import Any
 import numpy as np
 
 ROOT = Path(__file__).resolve().parent.parent
-sys.path[:0] = [str(ROOT / "src"), str(ROOT / "tests"), str(ROOT / "tests" / "alignment")]
+sys.path[:0] = [str(ROOT / "src"), str(ROOT / "tests")]
 
-from defects import DEFECTS, crowded, spoiled  # noqa: E402
-from synthetic import Machine, disguise  # noqa: E402
-
+from kit.machines.defects import DEFECTS, crowded, spoiled  # noqa: E402
+from kit.machines.synthetic import Machine, disguise  # noqa: E402
 from yellowiron.alignment import align  # noqa: E402
 from yellowiron.cad.mesh.assembly import shape_of  # noqa: E402
 from yellowiron.cad.mesh.measures import compacted  # noqa: E402

@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from cad_exports import ITEMS, WRITERS, Meshes
+
+from kit.cadfiles.exports import ITEMS, WRITERS, Meshes
 
 
 def brep_binary(path: Path, meshes: Meshes) -> None:

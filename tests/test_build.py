@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from nameless import write_nameless
+from kit.machines.nameless import write_nameless
 from yellowiron.cad import read_cad
 
 pytestmark = pytest.mark.slow

@@ -10,7 +10,7 @@ import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-import small_machine
+from kit.machines import small_machine
 from yellowiron.model.geometry import Mesh
 from yellowiron.support import convex
 from yellowiron.support.cache import VARIABLE, cache_folder

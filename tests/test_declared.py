@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-import small_machine
 import yellowiron
+from kit.machines import small_machine
 from yellowiron import cad, library, new_template
 from yellowiron.alignment.discovery.robot import robot
 from yellowiron.model.assembly import Assembly, DeclaredJoint

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import importlib
 import json
 import math
-import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
@@ -15,6 +13,8 @@ import pytest
 from typer.testing import CliRunner
 
 import yellowiron
+from kit.machines.synthetic import disguise, loader
+from kit.machines.telescope import crane
 from yellowiron import cad, library, new_template
 from yellowiron.cli import app
 from yellowiron.model.assembly import Assembly
@@ -24,15 +24,13 @@ Drawn = Callable[[Assembly], None]
 
 
 @pytest.fixture
-def drawn(monkeypatch: pytest.MonkeyPatch, root: Path) -> Drawn:
+def drawn(monkeypatch: pytest.MonkeyPatch) -> Drawn:
     """Stands in for the CAD file."""
-    monkeypatch.syspath_prepend(str(root / "tests" / "alignment"))
     return lambda assembly: monkeypatch.setattr(cad, "read_cad", lambda file: assembly)
 
 
 def telescope() -> Assembly:
-    assembly: Assembly = importlib.import_module("telescope").crane()[0]
-    return assembly
+    return crane()[0]
 
 
 def build(folder: Path, file: Path, out: Path, *, settings: Sequence[str] = ()) -> Any:
@@ -110,11 +108,8 @@ def test_a_telescopic_crane_builds(drawn: Drawn, tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_like_another_type(drawn: Drawn, tmp_path: Path, root: Path) -> None:
+def test_like_another_type(drawn: Drawn, tmp_path: Path) -> None:
     """Bodies, joints, pins and actuators have the library's names where they match."""
-    sys.path.insert(0, str(root / "tests" / "alignment"))
-    from synthetic import disguise, loader
-
     assembly, truth, _ = disguise(loader(2), 2)
     drawn(assembly)
     document = new_template("machine.step", tmp_path / "new", like="wheel_loader")

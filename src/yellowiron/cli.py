@@ -19,6 +19,7 @@ from rich.text import Text
 import yellowiron
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.text import to_json
+from yellowiron.support.limits import require_supported_platform
 
 app = typer.Typer(
     name="yellowiron",
@@ -364,9 +365,10 @@ def options(
 
 def main() -> None:
     """The console script: an unusable input is one sentence on stderr and exit code 2, never a traceback."""
-    # A terminated run leaves as an interrupted one does: its child ends, its temporary folders go.
-    signal.signal(signal.SIGTERM, lambda number, frame: sys.exit(128 + number))
     try:
+        require_supported_platform()
+        # A terminated run leaves as an interrupted one does: its child ends, its temporary folders go.
+        signal.signal(signal.SIGTERM, lambda number, frame: sys.exit(128 + number))
         app()
     except YellowironError as error:
         console = Console(stderr=True)

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from align_solids import bolt, box, lathe, place, plate, tube
+from kit.machines.solids import bolt, box, lathe, place, plate, tube
 from yellowiron.alignment.features.contacts import covered, fits_of, flats_of, neighbours, shared_axes_of
 from yellowiron.alignment.features.solids import Solid, flat_faces, solids_of
 from yellowiron.model.assembly import Assembly, Part

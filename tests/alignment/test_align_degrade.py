@@ -6,10 +6,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from defects import spoiled
-from synthetic import Machine, disguise, loader
 
-from align_solids import bolt, box, place
+from kit.machines.defects import spoiled
+from kit.machines.solids import bolt, box, place
+from kit.machines.synthetic import Machine, disguise, loader
 from yellowiron.alignment import align
 from yellowiron.library import load_template
 from yellowiron.model.alignment import Alignment

@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from excavator_machines import excavator
-from synthetic import Machine, disguise, loader
 
-from crawler import merged
+from kit.machines.crawler import merged
+from kit.machines.excavators import excavator
+from kit.machines.synthetic import Machine, disguise, loader
 from yellowiron import pipeline
 from yellowiron.library import load_template
 from yellowiron.model.assembly import Part

@@ -6,12 +6,12 @@ from collections import Counter
 
 import numpy as np
 import pytest
-from excavator_machines import any_features, excavator
-from synthetic import disguise, loader
-from telescope import crane
 
-from align_solids import box, tube
-from crawler import merged
+from kit.machines.crawler import merged
+from kit.machines.excavators import any_features, excavator
+from kit.machines.solids import box, tube
+from kit.machines.synthetic import disguise, loader
+from kit.machines.telescope import crane
 from yellowiron.alignment import discover
 from yellowiron.library import load_template
 from yellowiron.model.assembly import Assembly, Part

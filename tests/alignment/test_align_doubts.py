@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from synthetic import Machine, disguise, loader
 
-from align_solids import Array, box, place
+from kit.machines.solids import Array, box, place
+from kit.machines.synthetic import Machine, disguise, loader
 from yellowiron.alignment import align
 from yellowiron.library import load_template
 from yellowiron.model.alignment import Alignment, PartAssignment

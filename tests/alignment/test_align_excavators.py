@@ -6,9 +6,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from excavator_machines import Features, any_features, excavator
-from synthetic import Machine, disguise
 
+from kit.machines.excavators import Features, any_features, excavator
+from kit.machines.synthetic import Machine, disguise
 from yellowiron import checks, kinematics, library, usd
 from yellowiron.alignment import align
 from yellowiron.library import load_template

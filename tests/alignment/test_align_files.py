@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from synthetic import loader
 
+from kit.machines.synthetic import loader
 from yellowiron.alignment import align, explain, read_alignment, write_alignment
 from yellowiron.library import load_template
 from yellowiron.model.alignment import Alignment

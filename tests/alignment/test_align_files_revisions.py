@@ -9,10 +9,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from excavator_machines import excavator
-from synthetic import loader
 
-from align_solids import box, place
+from kit.machines.excavators import excavator
+from kit.machines.solids import box, place
+from kit.machines.synthetic import loader
 from yellowiron.alignment import align, read_alignment, write_alignment
 from yellowiron.alignment.files.revisions import match_parts, prints_of
 from yellowiron.library import load_template

@@ -6,8 +6,8 @@ import json
 
 import numpy as np
 import pytest
-from synthetic import disguise, loader
 
+from kit.machines.synthetic import disguise, loader
 from yellowiron.alignment import align
 from yellowiron.library import load_template
 from yellowiron.model.alignment import Alignment

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from excavator_machines import excavator
-from synthetic import Machine, disguise, loader
 
-from cad_meshfiles import lumps
+from kit.cadfiles.meshes import lumps
+from kit.machines.excavators import excavator
+from kit.machines.synthetic import Machine, disguise, loader
 from yellowiron.alignment import align
 from yellowiron.cad.mesh.assembly import Occurrence, assemble
 from yellowiron.library import load_template

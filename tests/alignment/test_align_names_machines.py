@@ -5,10 +5,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from defects import spoiled
-from spoken_names import LANGUAGES, in_assemblies, misleading, mistyped, named, shuffled, spoken, truncated
-from synthetic import disguise
 
+from kit.machines.defects import spoiled
+from kit.machines.spoken_names import LANGUAGES, in_assemblies, misleading, mistyped, named, shuffled, spoken, truncated
+from kit.machines.synthetic import disguise
 from yellowiron.alignment import align
 from yellowiron.alignment.assignment.cp_sat import Solution
 from yellowiron.alignment.assignment.names import concepts, name_scores, vocabulary

@@ -4,9 +4,9 @@ what is wrong was flagged. `benchmarks/bench_recognition.py` measures the same o
 from __future__ import annotations
 
 import pytest
-from defects import spoiled
-from synthetic import disguise
 
+from kit.machines.defects import spoiled
+from kit.machines.synthetic import disguise
 from yellowiron.alignment import align
 from yellowiron.library import load_template
 from yellowiron.model.alignment import Alignment

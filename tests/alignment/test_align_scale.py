@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from synthetic import loader
 
+from kit.machines.synthetic import loader
 from yellowiron.alignment import align, to_scale
 from yellowiron.alignment.assignment.unit_scale import scaled
 from yellowiron.library import load_template

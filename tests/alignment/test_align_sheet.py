@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import pytest
-from synthetic import loader
 
+from kit.machines.synthetic import loader
 from yellowiron.alignment import align
 from yellowiron.library import load_template
 from yellowiron.model.assembly import Assembly

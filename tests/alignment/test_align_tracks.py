@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from crawler import Crawler, crawler
-from tracked_template import write_tracked_template
+from kit.machines.crawler import Crawler, crawler
+from kit.machines.tracked_template import write_tracked_template
 from yellowiron.alignment import align, read_alignment, write_alignment
 from yellowiron.alignment.features.solids import solids_of
 from yellowiron.alignment.features.tracks import tracks_of

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from align_solids import box, lathe, place, tube
+from kit.machines.solids import box, lathe, place, tube
 from yellowiron.cad import taken_apart
 from yellowiron.cad.mesh.assembly import Occurrence, assemble
 from yellowiron.model.assembly import Assembly, Part

@@ -11,13 +11,13 @@ import zipfile
 from dataclasses import replace
 from pathlib import Path
 
-import cad_blend
 import ezdxf
 import numpy as np
 import pytest
-from cad_exports import ITEMS, WRITERS
 
 import yellowiron.cad
+from kit.cadfiles import blend as cad_blend
+from kit.cadfiles.exports import ITEMS, WRITERS
 from yellowiron import cli
 from yellowiron.cad import formats, read_cad
 from yellowiron.model.assembly import Assembly

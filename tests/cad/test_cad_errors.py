@@ -7,8 +7,8 @@ import zipfile
 from pathlib import Path
 
 import pytest
-from cad_stepfiles import Node, Use, box, cylinder, moved, translation, write_step
 
+from kit.cadfiles.step import Node, Use, box, cylinder, moved, translation, write_step
 from yellowiron.cad import read_cad
 from yellowiron.cad.readers.exact import part21
 from yellowiron.cad.readers.exact.brep_text import fault

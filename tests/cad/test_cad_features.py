@@ -7,10 +7,21 @@ from typing import Any
 
 import numpy as np
 import pytest
-from cad_stepfiles import box, compound, cut, cylinder, faces_of, moved, pin_bracket, rotation, to_nurbs, translation
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from kit.cadfiles.step import (
+    box,
+    compound,
+    cut,
+    cylinder,
+    faces_of,
+    moved,
+    pin_bracket,
+    rotation,
+    to_nurbs,
+    translation,
+)
 from yellowiron.cad.brep import tessellate, to_shape
 from yellowiron.model.geometry import CylinderFeature, Shape
 

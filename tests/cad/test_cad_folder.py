@@ -9,10 +9,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from cad_exports import ITEMS, urdf
-from cad_stepfiles import Node, Use, box, translation, write_step
 from test_cad_triangles import CORNERS, FACES, binary
 
+from kit.cadfiles.exports import ITEMS, urdf
+from kit.cadfiles.step import Node, Use, box, translation, write_step
 from yellowiron.cad import read_cad
 from yellowiron.model.errors import CadError
 

@@ -8,10 +8,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from cad_exports import ITEMS, WRITERS, Meshes
 from cad_validators import errors_of
 from test_cad_looks import TEXTURED
 
+from kit.cadfiles.exports import ITEMS, WRITERS, Meshes
 from yellowiron.cad import read_cad
 from yellowiron.cad.readers.usd.stage import read_usd
 from yellowiron.model.assembly import Assembly, Part

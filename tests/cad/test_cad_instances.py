@@ -8,12 +8,12 @@ from collections.abc import Callable
 from pathlib import Path
 from pkgutil import resolve_name
 
-import cad_fbx
 import numpy as np
 import pytest
-from cad_stepfiles import box
 from test_cad_gltf import packed
 
+from kit.cadfiles import fbx as cad_fbx
+from kit.cadfiles.step import box
 from yellowiron.cad.recognition import format_of
 from yellowiron.model.assembly import Assembly
 
@@ -239,11 +239,11 @@ def test_names_in_gltf(encoding: str, tmp_path: Path) -> None:
 
 def test_colours_of_faces_in_iges(tmp_path: Path) -> None:
     """Of a solid and of surfaces; with the product's name."""
-    from cad_stepfiles import faces_of
     from OCP.IGESCAFControl import IGESCAFControl_Writer
     from OCP.IGESControl import IGESControl_Controller
     from OCP.Interface import Interface_Static
 
+    from kit.cadfiles.step import faces_of
     from yellowiron.cad.brep.xcaf import Product, add_products, new_document
 
     shape = box(100.0, 200.0, 300.0)

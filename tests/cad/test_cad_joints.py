@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import small_machine
+from kit.machines import small_machine
 from yellowiron.cad import read_cad
 from yellowiron.exporters import export_mjcf
 from yellowiron.model.assembly import Assembly

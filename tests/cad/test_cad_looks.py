@@ -10,14 +10,14 @@ from io import BytesIO
 from pathlib import Path
 from pkgutil import resolve_name
 
-import cad_fbx
 import numpy as np
 import pytest
-from cad_stepfiles import box, faces_of
 from PIL import Image
 from pxr import Sdf, Usd, UsdGeom, UsdShade
 from test_cad_triangles import CORNERS, FACES, binary
 
+from kit.cadfiles import fbx as cad_fbx
+from kit.cadfiles.step import box, faces_of
 from yellowiron.cad.recognition import format_of
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.geometry import Mesh

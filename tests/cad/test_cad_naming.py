@@ -5,10 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from cad_stepfiles import Node, Use, box, write_step
 from hypothesis import given
 from hypothesis import strategies as st
 
+from kit.cadfiles.step import Node, Use, box, write_step
 from yellowiron.cad.naming import decode_name, is_generic, occurrence_name, sniff_encoding, unique_ids
 from yellowiron.cad.readers.exact.step import read_step
 

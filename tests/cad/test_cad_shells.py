@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from align_solids import box, lathe, tube
+from kit.machines.solids import box, lathe, tube
 from yellowiron.cad.mesh import copies, shells
 from yellowiron.cad.mesh.measures import compacted
 from yellowiron.model.geometry import Floats, Mesh

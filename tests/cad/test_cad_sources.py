@@ -7,9 +7,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from cad_stepfiles import Node, Use, box, cylinder, translation, write_step
 from cad_validators import errors_of
 
+from kit.cadfiles.step import Node, Use, box, cylinder, translation, write_step
 from yellowiron.cad import read_cad
 from yellowiron.model.assembly import Assembly
 from yellowiron.usd import write_assembly

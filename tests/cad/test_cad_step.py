@@ -7,7 +7,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from cad_stepfiles import (
+
+from kit.cadfiles.step import (
     Node,
     Use,
     box,
@@ -21,7 +22,6 @@ from cad_stepfiles import (
     translation,
     write_step,
 )
-
 from yellowiron.cad import read_cad
 from yellowiron.cad.readers.exact.step import read_step
 from yellowiron.model.assembly import Assembly

@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from cad_stepfiles import box, cut, cylinder, faces_of, moved, pin_bracket, to_nurbs
 from OCP.BRep import BRep_Tool
 from OCP.BRepLib import BRepLib_ToolTriangulatedShape
 from OCP.TopLoc import TopLoc_Location
 
+from kit.cadfiles.step import box, cut, cylinder, faces_of, moved, pin_bracket, to_nurbs
 from yellowiron.cad.brep import tessellate, to_shape
 from yellowiron.cad.mesh import measures
 from yellowiron.model.geometry import Mesh

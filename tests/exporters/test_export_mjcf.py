@@ -10,7 +10,7 @@ import mujoco
 import numpy as np
 import pytest
 
-import small_machine
+from kit.machines import small_machine
 from yellowiron.exporters import Geometry, actuator_names, export_mjcf, read_geometry
 from yellowiron.model.errors import MechanismError, YellowironError
 from yellowiron.model.mechanism import Joint, Mechanism

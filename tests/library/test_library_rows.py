@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from rich.console import Console
 
-from tracked_template import tracked_documents, write_tracked_template
+from kit.machines.tracked_template import tracked_documents, write_tracked_template
 from yellowiron.library import filled_joints, lint, load_template, tree
 from yellowiron.model.errors import TemplateError
 from yellowiron.model.rows import count_members, expand, rings

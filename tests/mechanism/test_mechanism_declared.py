@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-import small_machine
+from kit.machines import small_machine
 from yellowiron.mechanism import compare_declared, declared_findings
 from yellowiron.model.alignment import Alignment, PartAssignment
 from yellowiron.model.assembly import Assembly, DeclaredJoint

@@ -8,8 +8,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from crawler import PITCH_RADIUS, Crawler, crawler, merged
-from tracked_template import write_tracked_template
+from kit.machines.crawler import PITCH_RADIUS, Crawler, crawler, merged
+from kit.machines.tracked_template import write_tracked_template
 from yellowiron import kinematics
 from yellowiron.library import load_template
 from yellowiron.mechanism import build_mechanism

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-import small_machine
+from kit.machines import small_machine
 from yellowiron.model.mechanism import Mechanism
 
 

@@ -8,8 +8,8 @@ import in_engines
 import numpy as np
 import pytest
 
-from crawler import crawler
-from tracked_template import write_tracked_template
+from kit.machines.crawler import crawler
+from kit.machines.tracked_template import write_tracked_template
 from yellowiron.kinematics import complete
 from yellowiron.library import load_template
 from yellowiron.mechanism import build_mechanism

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from in_engines import EVERY, load, need
 
-import simple_machines as simple
+from kit.machines import simple_machines as simple
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.mechanism import Mechanism
 from yellowiron.simulation.engine import Base, Setup, poses

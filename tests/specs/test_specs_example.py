@@ -19,6 +19,7 @@ from yellowiron.model.specification import Specifications, fold
 from yellowiron.model.template import Template
 from yellowiron.specs import draw_evidence, extract
 from yellowiron.specs.extraction import from_sheets, read
+from yellowiron.specs.reader import Sheet
 
 CONFIG = "standard boom, stock-pile bucket with bolt-on edge"
 NAMES = {
@@ -106,6 +107,12 @@ def printed(sheet: Path) -> ModuleType:
 
 
 @pytest.fixture(scope="module")
+def once(sheet: Path) -> Sheet:
+    """The sheet, read once."""
+    return read(sheet)
+
+
+@pytest.fixture(scope="module")
 def found(wheel_loader: Template, sheet: Path) -> Specifications:
     return extract(wheel_loader, [sheet], config=CONFIG)
 
@@ -129,10 +136,10 @@ def test_nothing_else_is_ok(found: Specifications) -> None:
 
 
 def test_without_a_configuration_what_differs_is_a_conflict(
-    wheel_loader: Template, sheet: Path, printed: ModuleType
+    wheel_loader: Template, once: Sheet, printed: ModuleType
 ) -> None:
     # without the sentence in which the sheet itself says what its figures are for
-    undecided = from_sheets(wheel_loader, [replace(read(sheet), stated=())])
+    undecided = from_sheets(wheel_loader, [replace(once, stated=())])
     conflicts = {s.name for s in undecided if s.status == "conflict"}
     assert {"Hinge Pin Height at Maximum Lift", "Hinge Pin Height at Carry", "Operating Weight"} <= conflicts
     assert {"Dumping Clearance", "Dumping Reach", "Bucket Weight", "Overall Length"} <= conflicts
@@ -146,22 +153,22 @@ def test_without_a_configuration_what_differs_is_a_conflict(
             assert specification.value == pytest.approx(value.value * SI[value.unit], rel=1e-12)
 
 
-def test_the_sheets_own_word_chooses_like_a_person(wheel_loader: Template, sheet: Path, found: Specifications) -> None:
-    alone = extract(wheel_loader, [sheet])
+def test_the_sheets_own_word_chooses_like_a_person(wheel_loader: Template, once: Sheet, found: Specifications) -> None:
+    alone = from_sheets(wheel_loader, [once])
     assert {s.name: (s.status, s.value) for s in alone} == {s.name: (s.status, s.value) for s in found}
 
 
 @pytest.mark.parametrize(
     "config", ["standard boom; 4.2 m3", "Standard Boom, Stock pile Bolt-on edge", "4.2 m³ bucket, standard boom"]
 )
-def test_a_configuration_can_be_said_in_several_ways(wheel_loader: Template, sheet: Path, config: str) -> None:
-    chosen = extract(wheel_loader, [sheet], config=config)
+def test_a_configuration_can_be_said_in_several_ways(wheel_loader: Template, once: Sheet, config: str) -> None:
+    chosen = from_sheets(wheel_loader, [once], config=config)
     assert chosen.number("Operating Weight") == 25510.0
     assert chosen.number("Hinge Pin Height at Maximum Lift") == 4.37
 
 
-def test_another_configuration_gives_its_own_values(wheel_loader: Template, sheet: Path) -> None:
-    chosen = extract(wheel_loader, [sheet], config="high-lift boom, light material")
+def test_another_configuration_gives_its_own_values(wheel_loader: Template, once: Sheet) -> None:
+    chosen = from_sheets(wheel_loader, [once], config="high-lift boom, light material")
     assert chosen.number("Hinge Pin Height at Maximum Lift") == 4.87
     assert chosen.number("Operating Weight") == 25860.0
     weight = chosen.get("Operating Weight")
@@ -169,16 +176,16 @@ def test_another_configuration_gives_its_own_values(wheel_loader: Template, shee
 
 
 @pytest.mark.parametrize("config", ["High-lift boom; Teeth", "high lift; teeth"])
-def test_a_head_that_says_the_phrase_and_no_more_is_meant(wheel_loader: Template, sheet: Path, config: str) -> None:
-    chosen = extract(wheel_loader, [sheet], config=config)
+def test_a_head_that_says_the_phrase_and_no_more_is_meant(wheel_loader: Template, once: Sheet, config: str) -> None:
+    chosen = from_sheets(wheel_loader, [once], config=config)
     assert [s.name for s in chosen if s.status == "conflict"] == [] and chosen.findings == ()
     assert (chosen.number("Hinge Pin Height at Maximum Lift"), chosen.number("Operating Weight")) == (4.87, 25450.0)
-    more = extract(wheel_loader, [sheet], config="high lift; teeth and segments")
+    more = from_sheets(wheel_loader, [once], config="high lift; teeth and segments")
     assert more.number("Operating Weight") == 25585.0
 
 
-def test_a_phrase_that_no_sheet_says_is_told(wheel_loader: Template, sheet: Path, found: Specifications) -> None:
-    chosen = extract(wheel_loader, [sheet], config="nonsense column; standard boom, 4.2 m3")
+def test_a_phrase_that_no_sheet_says_is_told(wheel_loader: Template, once: Sheet, found: Specifications) -> None:
+    chosen = from_sheets(wheel_loader, [once], config="nonsense column; standard boom, 4.2 m3")
     assert chosen.values == found.values
     (finding,) = chosen.findings
     assert (finding.code, finding.severity) == ("SPC002", "warning")

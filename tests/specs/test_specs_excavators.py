@@ -22,6 +22,8 @@ from yellowiron.model.specification import Specifications
 from yellowiron.model.template import Template
 from yellowiron.specs import extract
 
+pytestmark = pytest.mark.usefixtures("read_here")
+
 Draw = Callable[[Path], None]
 
 

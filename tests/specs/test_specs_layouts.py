@@ -21,6 +21,8 @@ from specs_layouts import (
 from yellowiron.model.specification import Specifications
 from yellowiron.specs import extract
 
+pytestmark = pytest.mark.usefixtures("read_here")
+
 EXCAVATOR = template(
     wanted("Boom Cylinder Bore", "length"),
     wanted("Boom Cylinder Stroke", "length"),

@@ -36,6 +36,8 @@ from yellowiron.specs.extraction import from_sheets
 from yellowiron.specs.extraction import read as read_pdf
 from yellowiron.specs.llm.endpoint import parsed
 
+pytestmark = pytest.mark.usefixtures("read_here")
+
 TEMPLATE = template(
     wanted("Lift Cylinder Stroke", "length", "lift cylinder stroke"),
     wanted("Lift Cylinder Bore", "length", "lift cylinder bore"),

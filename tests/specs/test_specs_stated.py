@@ -12,6 +12,8 @@ from yellowiron.model.template import Template, Wanted
 from yellowiron.specs import extract
 from yellowiron.specs.values.stated_configuration import stated_in
 
+pytestmark = pytest.mark.usefixtures("read_here")
+
 TEMPLATE = Template(
     "loader", "", "", (), (),
     wanted=(Wanted("Hinge Pin Height", "length", synonyms={"en": ("hinge pin height",)}),),

@@ -11,6 +11,8 @@ from yellowiron.model.specification import Specifications
 from yellowiron.model.template import Template
 from yellowiron.specs import extract
 
+pytestmark = pytest.mark.usefixtures("read_here")
+
 
 def ok(asked: Template, path: Path, config: str = "") -> dict[str, float | None]:
     found: Specifications = extract(asked, [path], config=config)

@@ -112,7 +112,10 @@ OPEN = {
 }
 """Values on the sheet that come back as anything but `ok`, by machine. First reading: 106 of 113 `ok`, none wrong."""
 
-pytestmark = pytest.mark.skipif(not FACTS.is_dir(), reason="no fact files beside the checkout")
+pytestmark = [
+    pytest.mark.usefixtures("read_here"),
+    pytest.mark.skipif(not FACTS.is_dir(), reason="no fact files beside the checkout"),
+]
 
 
 @pytest.mark.parametrize("machine", MACHINES)

@@ -20,6 +20,8 @@ from yellowiron.library import load_template
 from yellowiron.model.template import Template
 from yellowiron.specs import extract
 
+pytestmark = pytest.mark.usefixtures("read_here")
+
 
 # Bobcat S76, BOBCAT-S76-2-NA-PRODUCT (EXO-Robotics/exo-equipment-atlas, bobcat-s76-2): imperial first
 def bobcat_s76(path: Path) -> None:

@@ -1,4 +1,4 @@
-"""The sheets of `sheets_worded.py` are true: each printed number stands on a page, each label names one thing."""
+"""The sets in words of their own are true: each printed number stands on a page, each label names one thing."""
 
 from __future__ import annotations
 
@@ -6,12 +6,13 @@ from collections import Counter
 from pathlib import Path
 
 import pytest
-from sheets import WORDED, Split, cases, make, page_texts
-from sheets_worded import lines
+
+from kit.sheets import WORDED, cases, make, page_texts
+from kit.sheets.worded import lines
 
 
 @pytest.mark.parametrize("split", list(WORDED))
-def test_each_printed_number_stands_on_a_page(split: Split, tmp_path: Path) -> None:
+def test_each_printed_number_stands_on_a_page(split: str, tmp_path: Path) -> None:
     own = cases(split)
     assert len({case.kind for case in own}) == 10 and len({case.layout for case in own}) >= 6 and len(own) >= 40
     assert all(sum(case.kind == kind for case in own) >= 7 for kind in ("wheel_loader", "excavator"))

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from pxr import Usd, UsdPhysics
 
-import small_machine
+from kit.machines import small_machine
 from yellowiron.usd.layers.articulation import root_link
 from yellowiron.usd.layers.physx import loops_last
 

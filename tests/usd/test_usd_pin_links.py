@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from pxr import Gf, Usd, UsdGeom, UsdPhysics
 
-import small_machine
+from kit.machines import small_machine
 from yellowiron.checks import check
 from yellowiron.model.mechanism import Mechanism
 from yellowiron.usd import read_mechanism, write_machine

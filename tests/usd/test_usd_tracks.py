@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from pxr import Usd, UsdGeom, UsdPhysics, UsdShade
 
-from align_solids import box, lathe
-from crawler import crawler
-from tracked_template import write_tracked_template
+from kit.machines.crawler import crawler
+from kit.machines.solids import box, lathe
+from kit.machines.tracked_template import write_tracked_template
 from yellowiron import kinematics, usd
 from yellowiron.exporters import export_mjcf
 from yellowiron.library import load_template

@@ -103,7 +103,7 @@ class Wanted:
 
     name: str
     dimension: str
-    synonyms: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    synonyms: Mapping[str, tuple[str, ...]] = field(default_factory=dict, hash=False)
     concepts: tuple[str, ...] = ()
     forbidden: tuple[str, ...] = ()
     sections: tuple[str, ...] = ()

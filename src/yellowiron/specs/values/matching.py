@@ -65,11 +65,11 @@ class Match:
 def match(claims: Sequence[Claim], wanted: Sequence[Wanted]) -> dict[str, list[Match]]:
     """The matches by wanted name. A claim that one wanted value explains better does not count for another."""
     found: dict[str, list[Match]] = {w.name: [] for w in wanted}
-    by_dimension: dict[str, list[_Asked]] = {}
+    by_dimension: dict[str, tuple[_Asked, ...]] = {}
     for group in _by_dimension(wanted).values():
-        by_dimension[group[0].dimension] = _asked(group)
+        by_dimension[group[0].dimension] = _asked(tuple(group))
     for claim in claims:
-        asked_for = by_dimension.get(claim.quantity.dimension, [])
+        asked_for = by_dimension.get(claim.quantity.dimension, ())
         said = _said(claim)
         matches = [m for a in asked_for if (m := _match(a, claim, said)) is not None and m.score >= LEAST]
         if not matches:
@@ -138,7 +138,8 @@ class _Said:
         return frozenset[str]().union(*self.contexts)
 
 
-def _asked(wanted: Sequence[Wanted]) -> list[_Asked]:
+@functools.lru_cache(maxsize=256)
+def _asked(wanted: tuple[Wanted, ...]) -> tuple[_Asked, ...]:
     """Values of one dimension, each knowing the words of all."""
     alone = [_alone(one) for one in wanted]
     others: dict[str, list[tuple[_Asked, frozenset[str]]]] = {}
@@ -146,7 +147,7 @@ def _asked(wanted: Sequence[Wanted]) -> list[_Asked]:
         for _, words in one.phrases:
             for word in words:
                 others.setdefault(word, []).append((one, words))
-    return [replace(one, others=others) for one in alone]
+    return tuple(replace(one, others=others) for one in alone)
 
 
 def _alone(wanted: Wanted) -> _Asked:
@@ -195,7 +196,7 @@ def match_one(wanted: Wanted, claim: Claim, among: Sequence[Wanted] = ()) -> Mat
     words that are missing."""
     if claim.quantity.dimension != wanted.dimension:
         return None
-    asked_for = _asked([wanted, *(w for w in among if w is not wanted and w.dimension == wanted.dimension)])
+    asked_for = _asked((wanted, *(w for w in among if w is not wanted and w.dimension == wanted.dimension)))
     return _match(asked_for[0], claim, _said(claim))
 
 
