@@ -52,7 +52,7 @@ def test_a_bomb_is_bounded() -> None:
 
 def test_our_own_errors_cross_the_process_whole() -> None:
     with pytest.raises(Exception) as caught:
-        run_guarded("yellowiron.model.units:parse_quantity", "many", where="x")
+        run_guarded("yellowiron.support.units:parse_quantity", "many", where="x")
     assert "many" in str(caught.value) and "764 mm" in str(caught.value)
 
 
@@ -135,7 +135,7 @@ def on_windows(code: str) -> str:
 def test_the_package_is_imported_where_there_are_no_limits() -> None:
     code = (
         "import yellowiron\n"
-        "from yellowiron.model.units import parse_quantity\n"
+        "from yellowiron.support.units import parse_quantity\n"
         "from yellowiron.support.limits import must_end\n"
         "with must_end(1.0):\n"
         "    print(type(yellowiron.load_template('excavator')).__name__, yellowiron.read_cad.__name__)"

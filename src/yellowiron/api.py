@@ -22,8 +22,8 @@ from yellowiron.model.finding import Finding
 from yellowiron.model.mechanism import Measurement, Mechanism
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import Template
-from yellowiron.model.text import to_json
 from yellowiron.support.output import output_file, output_folder
+from yellowiron.support.text import to_json
 
 if TYPE_CHECKING:
     from yellowiron.pipeline import Machine

@@ -18,8 +18,8 @@ from rich.text import Text
 
 import yellowiron
 from yellowiron.model.errors import YellowironError
-from yellowiron.model.text import to_json
 from yellowiron.support.limits import require_supported_platform
+from yellowiron.support.text import to_json
 
 app = typer.Typer(
     name="yellowiron",

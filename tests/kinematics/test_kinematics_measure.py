@@ -14,7 +14,7 @@ from scipy.optimize import brentq
 from yellowiron.kinematics import ClosedChain, calibrate, complete, key_poses, lever_table, measure
 from yellowiron.kinematics.measuring.quantities import KINDS, wheels
 from yellowiron.model.template import MeasurementTemplate
-from yellowiron.model.text import plain
+from yellowiron.support.text import plain
 
 DOWN = -math.radians(30.0)
 EDGE = {"kind": "height", "site": "edge"}

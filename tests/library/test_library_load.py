@@ -19,7 +19,7 @@ from yellowiron.library.notation.quantities import limit, number_text, quantity
 from yellowiron.library.type_folders import DOCUMENTS, library_folder
 from yellowiron.model.errors import OutputError
 from yellowiron.model.template import Template, choose
-from yellowiron.model.units import SI_UNIT
+from yellowiron.support.units import SI_UNIT
 
 DATA = Path(__file__).resolve().parent.parent / "data" / "templates"
 FIG_A1 = DATA / "fig_a1_joints_template_cat982m.json"

@@ -15,8 +15,8 @@ from yellowiron.cli import app
 from yellowiron.library.type_folders import library_folder
 from yellowiron.model.errors import TemplateError
 from yellowiron.model.template import Template, Wanted
-from yellowiron.model.units import SI_UNIT
 from yellowiron.specs.language.vocabulary import has_cjk, squeezed, tokens
+from yellowiron.support.units import SI_UNIT
 
 LANGUAGES = {"en", "de", "fr", "es", "zh", "ja"}
 TYPES = library.list_templates()

@@ -46,6 +46,7 @@ from yellowiron.model.errors import AlignmentError
 from yellowiron.model.geometry import Floats
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import Template, choose
+from yellowiron.support.vectors import triple
 
 
 def align(
@@ -157,18 +158,13 @@ def _axes(answer: Answer, observation: Observation) -> dict[str, tuple[Vector, V
         number = structure.slides[slide][2]
         drawn = cylinders[number] if number < len(cylinders) else observation.nests[number - len(cylinders)]
         if isinstance(drawn, Nest) or drawn.apart:
-            found[joint] = (_vector(drawn.origin), _vector(drawn.direction))
+            found[joint] = (triple(drawn.origin), triple(drawn.direction))
     for joint, number in sorted(answer.solution.hinge_of.items()):
         hinge = structure.hinges[number]
         if not hinge.pins and not any(structure.clusters[c].kind == "wheel" for c in (hinge.a, hinge.b)):
             axis = structure.axes[hinge.axis]
-            found[joint] = (_vector(axis.origin), _vector(axis.direction))
+            found[joint] = (triple(axis.origin), triple(axis.direction))
     return found
-
-
-def _vector(values: Floats) -> Vector:
-    x, y, z = (float(v) for v in values)
-    return (x, y, z)
 
 
 def _upright(tracks: list[Track]) -> Floats | None:

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from yellowiron.model.geometry import Floats
+from yellowiron.support.vectors import angle_between
 
 WORLD = ""
 LINEAR = ("transX", "transY", "transZ")
@@ -153,7 +154,7 @@ class StageJoint:
     def tilt(self) -> float:
         """Angle (rad) between the axis as its two frames carry it."""
         other = direction(self.sides[1].rotation, self.freedoms[0])
-        return math.atan2(float(np.linalg.norm(np.cross(self.axis, other))), float(self.axis @ other))
+        return angle_between(self.axis, other)
 
     @functools.cached_property
     def coordinate(self) -> float:

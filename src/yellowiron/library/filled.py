@@ -9,7 +9,7 @@ from yellowiron.library.parsing.joints import DIMENSION, stated_gains
 from yellowiron.model.mechanism import Mechanism
 from yellowiron.model.specification import Specification, Specifications
 from yellowiron.model.template import JointTemplate, Template
-from yellowiron.model.units import SI_UNIT
+from yellowiron.support.units import SI_UNIT
 
 
 def filled_joints(

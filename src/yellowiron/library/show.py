@@ -9,7 +9,7 @@ from yellowiron.library.notation.quantities import number_text
 from yellowiron.library.parsing.joints import DIMENSION
 from yellowiron.model.rows import split_index
 from yellowiron.model.template import Choices, JointTemplate, Role, Template
-from yellowiron.model.units import SI_UNIT
+from yellowiron.support.units import SI_UNIT
 
 
 def tree(template: Template) -> Tree:

@@ -24,6 +24,7 @@ from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Joint, Mechanism
 from yellowiron.model.specification import Specification, Specifications
 from yellowiron.model.template import Template
+from yellowiron.support.vectors import angle_between_lines
 
 OFFSET = 5e-4
 """A declared and a found hinge, `PARALLEL`, agree if one runs past the other by less than this share of the machine's
@@ -221,7 +222,7 @@ def _beside(
     """A declared joint at `anchor` along `axis` in the machine frame, beside the one found, which may run past it by
     `offset` metres."""
     kind = declared.type
-    angle = _angle(found, axis) if kind in ("revolute", "prismatic") and found.type == kind else None
+    angle = angle_between_lines(found.axis, axis) if kind in ("revolute", "prismatic") and found.type == kind else None
     turns = kind in ("revolute", "spherical") and found.type in ("revolute", "spherical")
     distance = _distance(found, anchor) if turns else None
     # A point that closes a loop stands for a hinge: the rest of the loop holds its axis.
@@ -244,18 +245,17 @@ def _across(mechanism: Mechanism, ends: tuple[str | None, str | None]) -> list[J
             pairs = {one.body0, one.body1}, {other.body0, other.body1}
             if ends[0] not in pairs[0] or ends[1] not in pairs[1] or len(pairs[0] & pairs[1]) != 1 or one is other:
                 continue
-            same = _angle(one, np.array(other.axis)) < PARALLEL and _distance(one, np.array(other.anchor)) < _SAME_PIN
+            same = (
+                angle_between_lines(one.axis, other.axis) < PARALLEL
+                and _distance(one, np.array(other.anchor)) < _SAME_PIN
+            )
             if one.type == other.type == "revolute" and same:
                 found.append(one)
     return found
 
 
 def _rank(joint: Joint, kind: str, anchor: Floats, axis: Floats) -> tuple[bool, float, float]:
-    return joint.type != kind, round(_angle(joint, axis), 6), _distance(joint, anchor)
-
-
-def _angle(joint: Joint, axis: Floats) -> float:
-    return math.atan2(float(np.linalg.norm(np.cross(joint.axis, axis))), abs(float(np.dot(joint.axis, axis))))
+    return joint.type != kind, round(angle_between_lines(joint.axis, axis), 6), _distance(joint, anchor)
 
 
 def _distance(joint: Joint, anchor: Floats) -> float:

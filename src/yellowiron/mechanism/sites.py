@@ -9,7 +9,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
-from yellowiron.mechanism.bodies.body import vector
 from yellowiron.mechanism.joints.axes import Axis
 from yellowiron.mechanism.joints.frames import JointFrame
 from yellowiron.mechanism.placement import Placement, ancestors
@@ -18,6 +17,7 @@ from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Site
 from yellowiron.model.template import SiteTemplate, Template
+from yellowiron.support.vectors import clean_triple
 
 _EDGE = 5e-4
 """Points this near to the farthest one belong to the edge, metres."""
@@ -54,7 +54,12 @@ def _site(
 ) -> Site | None:
     rule = entry.rule
     if "point" in rule:
-        return Site(entry.name, entry.body, vector(np.array(rule["point"], dtype=np.float64)), source="template: point")
+        return Site(
+            entry.name,
+            entry.body,
+            clean_triple(np.array(rule["point"], dtype=np.float64)),
+            source="template: point",
+        )
     if "middle_of" in rule:
         return _middle_site(entry, placement)
     name = rule.get("joint", rule.get("edge_from", rule.get("inside_from")))
@@ -64,7 +69,7 @@ def _site(
     if frame is None:
         return None
     if "joint" in rule:
-        return Site(entry.name, entry.body, vector(frame.anchor), source=f"anchor of {name}")
+        return Site(entry.name, entry.body, clean_triple(frame.anchor), source=f"anchor of {name}")
     spanning = float(rule.get("spanning", 0.8))
     if "inside_from" in rule:
         return _inside_site(entry, frame, spanning, placement)
@@ -78,7 +83,7 @@ def _middle_site(entry: SiteTemplate, placement: Placement) -> Site | None:
     if not len(points):
         return None
     middle = 0.5 * (points.min(axis=0) + points.max(axis=0))
-    return Site(entry.name, entry.body, vector(middle), source=f"middle of {entry.rule['middle_of']}")
+    return Site(entry.name, entry.body, clean_triple(middle), source=f"middle of {entry.rule['middle_of']}")
 
 
 def _at_tip(edge: Site, frame: JointFrame, placement: Placement) -> Site:
@@ -90,7 +95,7 @@ def _at_tip(edge: Site, frame: JointFrame, placement: Placement) -> Site:
     tip = _one_edge(points[distance > distance.max() - _EDGE], line)
     along = line.along(tip)
     position = tip.mean(axis=0) + (0.5 * (along.min() + along.max()) - along.mean()) * line.direction
-    return replace(edge, position=vector(position), source=f"{edge.source}; at the body's farthest point")
+    return replace(edge, position=clean_triple(position), source=f"{edge.source}; at the body's farthest point")
 
 
 def _inside_site(entry: SiteTemplate, frame: JointFrame, spanning: float, placement: Placement) -> Site | None:
@@ -117,7 +122,7 @@ def _inside_site(entry: SiteTemplate, frame: JointFrame, spanning: float, placem
             first = first - solid * (matrix[:3, :3] @ shape.centroid + matrix[:3, 3])
     also = f" and {len(wide) - 1} more" if len(wide) > 1 else ""
     source = f"middle of the {volume:.2f} m³ that {placement.parts[wide[0]].id}{also} enclose"
-    return Site(entry.name, entry.body, vector(first / volume), source=source)
+    return Site(entry.name, entry.body, clean_triple(first / volume), source=source)
 
 
 @dataclass(frozen=True, eq=False)
@@ -171,9 +176,9 @@ def _edge_site(
     return Site(
         name=entry.name,
         body=entry.body,
-        position=vector(edge.position),
-        x_axis=vector(x_axis),
-        z_axis=vector(np.cross(x_axis, line.direction)),
+        position=clean_triple(edge.position),
+        x_axis=clean_triple(x_axis),
+        z_axis=clean_triple(np.cross(x_axis, line.direction)),
         source=f"edge of {placement.parts[edge.rows[0]].id}{also}, far from {frame.joint.name}",
     )
 

@@ -12,7 +12,7 @@ from yellowiron.model.finding import Finding
 from yellowiron.model.mechanism import Body, Joint, Measurement, Mechanism
 from yellowiron.model.specification import Specification, Specifications
 from yellowiron.model.template import Template
-from yellowiron.model.text import to_json
+from yellowiron.support.text import to_json
 
 REVOLUTE_TOLERANCE = 0.1
 """Degrees: how far a measured angle may be from a published one before the build falls short."""

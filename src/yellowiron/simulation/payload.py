@@ -10,7 +10,7 @@ import numpy as np
 from yellowiron.kinematics.measuring.sheet import specified
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.mechanism import Body, Mechanism, Site
-from yellowiron.model.units import parse_quantity
+from yellowiron.support.units import parse_quantity
 
 MATERIAL_DENSITY = 1800.0
 """kg/m³ of loose earth and gravel: how large a ball a payload is."""

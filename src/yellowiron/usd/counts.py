@@ -6,7 +6,7 @@ from pathlib import Path
 
 from pxr import Usd, UsdPhysics
 
-from yellowiron.model.record import RECORD
+from yellowiron.support.record import RECORD
 from yellowiron.usd.read import open_stage
 
 _TYPES = {

@@ -17,9 +17,10 @@ from pxr import Gf, Sdf, Tf, Usd, UsdGeom, UsdPhysics, UsdUtils
 
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.geometry import Floats
-from yellowiron.model.mechanism import Body, BodyPart, BodyShape, Drive, Joint, Mechanism, Site, Vector
-from yellowiron.model.record import RECORD
+from yellowiron.model.mechanism import Body, BodyPart, BodyShape, Drive, Joint, Mechanism, Site
 from yellowiron.model.template import JointType
+from yellowiron.support.record import RECORD
+from yellowiron.support.vectors import triple
 from yellowiron.usd.authoring.metadata import DOCUMENTS, FORMAT, from_json
 from yellowiron.usd.authoring.rotation import axis_of, principal_axes
 from yellowiron.usd.layers.drives import INSTANCES, per_usd_unit, to_usd_unit
@@ -168,9 +169,9 @@ class _Reader:
             inertia = columns @ np.diag(written) @ columns.T
         return Body(
             name=str(data["name"]),
-            origin=_vector(origin),
+            origin=triple(origin),
             mass=_number(mass.GetMassAttr(), data["mass"]),
-            center_of_mass=_vector(center),
+            center_of_mass=triple(center),
             inertia=inertia,
             parts=tuple(self._parts(prim)),
             hull=self._hull(prim, origin),
@@ -210,9 +211,9 @@ class _Reader:
                 yield Site(
                     name=str(data["name"]),
                     body=self._names[body.GetPath()],
-                    position=_vector(_exact(np.array(matrix.ExtractTranslation()), np.array(data["position"]))),
-                    x_axis=_vector(_exact(np.array(x), np.array(data["xAxis"]), scale=1.0)),
-                    z_axis=_vector(_exact(np.array(z), np.array(data["zAxis"]), scale=1.0)),
+                    position=triple(_exact(np.array(matrix.ExtractTranslation()), np.array(data["position"]))),
+                    x_axis=triple(_exact(np.array(x), np.array(data["xAxis"]), scale=1.0)),
+                    z_axis=triple(_exact(np.array(z), np.array(data["zAxis"]), scale=1.0)),
                     source=str(data.get("source", "")),
                 )
 
@@ -234,8 +235,8 @@ class _Reader:
             type=kind,
             body0=names[0],
             body1=names[1],
-            anchor=_vector(_exact(anchor, recorded, scale=np.abs(recorded - origin))),
-            axis=_vector(_exact(axis, np.array(data["axis"]), scale=1.0)),
+            anchor=triple(_exact(anchor, recorded, scale=np.abs(recorded - origin))),
+            axis=triple(_exact(axis, np.array(data["axis"]), scale=1.0)),
             lower=lower,
             upper=upper,
             cut=bool(joint.GetExcludeFromArticulationAttr().Get())
@@ -311,10 +312,6 @@ def _data(prim: Usd.Prim) -> Any:
 
 def _array(attribute: Usd.Attribute) -> Floats:
     return np.array(attribute.Get(), dtype=np.float64)
-
-
-def _vector(values: Floats) -> Vector:
-    return (float(values[0]), float(values[1]), float(values[2]))
 
 
 def _same(written: Floats | float, recorded: Floats | float, scale: Floats | float | None = None) -> bool:

@@ -1,4 +1,4 @@
-"""The machine's frame from the solved roles: +X forward, +Y left, +Z up, z = 0 under the wheels (DESIGN: frames)."""
+"""The machine frame from solved roles: +X forward, +Y left, +Z up, z = 0 under the wheels (docs/architecture.md)."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ from yellowiron.alignment.structure.clusters import Structure
 from yellowiron.alignment.tolerances import SAME_DIRECTION
 from yellowiron.model.geometry import Floats
 from yellowiron.model.template import Template
+from yellowiron.support.vectors import unit
 
 RUN = 0.05
 """Shoes this near to the lowest, as a share of the track's height, are on the ground."""
@@ -73,7 +74,7 @@ def machine_frame(
             return MachineFrame(np.eye(4), ("no joints and no wheels were found: the CAD file's own axes are taken",))
         left = np.eye(3)[int(np.argmin(np.abs(up)))]
         doubts.append("left is guessed: no wheel or pitch axis was found")
-    left = _unit(left - (left @ up) * up)
+    left = unit(left - (left @ up) * up)
     forward = np.cross(left, up)
     sense = _forward_sense(scene, forward)
     if sense == 0:
@@ -108,10 +109,6 @@ def _up(scene: _Scene, swing: str | None, flat: Floats | None, doubts: list[str]
     elif scene.axes and "wheel" in scene.kinds.values():
         doubts.append("no wheels were found, so the ground is taken under the lowest part")
     return up
-
-
-def _unit(v: Floats) -> Floats:
-    return np.asarray(v / np.linalg.norm(v), dtype=np.float64)
 
 
 def _middle(solids: list[Solid]) -> Floats:
@@ -159,9 +156,9 @@ def _up_guess(pitch: Floats | None) -> Floats:
     """CAD's z, unless the joints turn about it; then y."""
     z = np.array([0.0, 0.0, 1.0])
     if pitch is None or abs(float(pitch @ z)) < 0.7:
-        return z if pitch is None else _unit(z - (z @ pitch) * pitch)
+        return z if pitch is None else unit(z - (z @ pitch) * pitch)
     y = np.array([0.0, 1.0, 0.0])
-    return _unit(y - (y @ pitch) * pitch)
+    return unit(y - (y @ pitch) * pitch)
 
 
 def _left(scene: _Scene, swing: str | None, up: Floats) -> Floats | None:

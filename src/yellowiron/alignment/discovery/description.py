@@ -13,8 +13,9 @@ from yellowiron.alignment.structure.loops import Edge, bridges, components
 from yellowiron.alignment.structure.observation import Observation
 from yellowiron.alignment.tolerances import SAME_DIRECTION, UPRIGHT
 from yellowiron.model.finding import Finding
-from yellowiron.model.found import FoundBody, FoundJoint, FoundMachine, Vector
+from yellowiron.model.found import FoundBody, FoundJoint, FoundMachine
 from yellowiron.model.geometry import Floats
+from yellowiron.support.vectors import triple
 
 STANDS = 0.05
 """What reaches down to this share of the machine's height stands on the ground."""
@@ -229,7 +230,7 @@ def _joint(
     if e.slide and not e.driven:
         nest = observation.nests[e.number - len(observation.cylinders)]
         reason = "a long box close inside the walls of another"
-        point, direction = _vector(nest.origin), _vector(nest.direction)
+        point, direction = triple(nest.origin), triple(nest.direction)
         return FoundJoint("prismatic", number[a], number[b], point, direction, 0.0, (), reason, loop=loop)
     if e.slide:
         cylinder = observation.cylinders[e.number]
@@ -245,8 +246,8 @@ def _joint(
             "prismatic",
             number[a],
             number[b],
-            _vector(cylinder.origin),
-            _vector(cylinder.direction),
+            triple(cylinder.origin),
+            triple(cylinder.direction),
             cylinder.rod_radius,
             (),
             reason,
@@ -266,8 +267,8 @@ def _joint(
         "revolute",
         number[a],
         number[b],
-        _vector(axis.origin),
-        _vector(axis.direction),
+        triple(axis.origin),
+        triple(axis.direction),
         axis.radius,
         pins,
         reason,
@@ -311,8 +312,3 @@ def _remarks(
         words = f"{apart} parts stand apart from the machine and are left out."
         findings.append(Finding("ALN023", "info", some(found[0].parts), words, "Hand in one machine a file."))
     return findings
-
-
-def _vector(values: Floats) -> Vector:
-    x, y, z = (float(v) for v in values)
-    return (x, y, z)

@@ -16,6 +16,7 @@ from scipy.spatial import cKDTree
 from yellowiron.alignment.features.solids import Cyl, Patch, Solid, flat_faces, patch, size_of
 from yellowiron.alignment.tolerances import FACING, PARALLEL, ROUND_ARC
 from yellowiron.model.geometry import Floats
+from yellowiron.support.vectors import distance_from_line
 
 BESIDE = 1.5
 """Two bores that a pin is missing in are this many radii apart at most (or half as far as the longer one is long)."""
@@ -46,8 +47,7 @@ class SharedAxis:
 
     def off(self, point: Floats) -> float:
         """Distance of a point from the axis, metres."""
-        delta = point - self.origin
-        return float(np.linalg.norm(delta - (delta @ self.direction) * self.direction))
+        return distance_from_line(point, self.origin, self.direction)
 
 
 @dataclass(frozen=True, eq=False)

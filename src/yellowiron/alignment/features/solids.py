@@ -11,6 +11,7 @@ import numpy as np
 
 from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.geometry import CylinderFeature, Floats, Ints, PlaneFeature, Shape
+from yellowiron.support.vectors import distance_from_line, triple
 
 FULL_ARC = 0.6 * 2 * math.pi
 """Radians around: more is taken for a whole cylinder (bores and shafts are often split, slotted or cross-drilled)."""
@@ -41,8 +42,7 @@ class Cyl:
 
     def off(self, point: Floats) -> float:
         """Distance of a point from its axis, metres."""
-        delta = point - self.center
-        return float(np.linalg.norm(delta - (delta @ self.direction) * self.direction))
+        return distance_from_line(point, self.center, self.direction)
 
 
 @dataclass(frozen=True, eq=False)
@@ -272,7 +272,7 @@ def flat_faces(shape: Shape) -> tuple[PlaneFeature, ...]:
         normal = weights @ normals[good][rows]
         point = weights @ centres[rows]
         normal = normal / np.linalg.norm(normal)
-        planes.append(PlaneFeature(_triple(point), _triple(normal), float(total[k])))
+        planes.append(PlaneFeature(triple(point), triple(normal), float(total[k])))
     return tuple(planes)
 
 
@@ -287,7 +287,3 @@ def patch(shape: Shape, plane: PlaneFeature, tolerance: float) -> Patch:
     double = np.linalg.norm(cross, axis=1)
     facing = (cross @ normal > 0.99 * double) & (double > 1e-14)
     return Patch(corners[facing], float(0.5 * double[facing].sum()))
-
-
-def _triple(v: Floats) -> tuple[float, float, float]:
-    return (float(v[0]), float(v[1]), float(v[2]))

@@ -12,7 +12,7 @@ from pxr import Gf, Tf, Usd, UsdGeom, UsdPhysics, UsdShade
 from yellowiron.checks.reading.attributes import axis_token, number, quaternion, vector
 from yellowiron.checks.values import StageBody, StageCollider, StageMaterial, Units, union
 from yellowiron.model.geometry import Floats
-from yellowiron.model.record import RECORD
+from yellowiron.support.record import RECORD
 
 _FIELDS = {
     "Sphere": ("radius",),

@@ -15,6 +15,7 @@ from yellowiron.checks.tolerances import DEPENDENT, STILL
 from yellowiron.checks.values import WORLD, StageBody, StageJoint, leaf
 from yellowiron.checks.view import View
 from yellowiron.model.geometry import Floats
+from yellowiron.support.vectors import angle_between_lines
 
 _PARALLEL = math.radians(0.1)
 _OFF_PINS = 3.0
@@ -24,11 +25,6 @@ _CENTRED = 0.1
 """Of a wheel's radius: its hinge passes this close to its middle."""
 _BALANCED = 0.02
 """Of the size of what hangs on a hinge: with its centre of mass this close to the axis it does not swing."""
-
-
-def _angle(a: Floats, b: Floats) -> float:
-    """The angle between two lines, rad, 0 … π/2."""
-    return math.atan2(float(np.linalg.norm(np.cross(a, b))), abs(float(a @ b)))
 
 
 def _skewed(island: Island) -> list[tuple[StageJoint, float]]:
@@ -62,8 +58,8 @@ def _with_neighbours(loop: StageLoop, island: Island) -> list[StageJoint]:
 def _tilt(joint: StageJoint, normal: Floats) -> float:
     """How far a hinge is from parallel, or a slide from square, to a plane's normal; π/2 for other joints."""
     if joint.type == "revolute":
-        return _angle(joint.axis, normal)
-    return math.pi / 2.0 - _angle(joint.axis, normal) if joint.type == "prismatic" else math.pi / 2.0
+        return angle_between_lines(joint.axis, normal)
+    return math.pi / 2.0 - angle_between_lines(joint.axis, normal) if joint.type == "prismatic" else math.pi / 2.0
 
 
 @rule(
@@ -226,7 +222,7 @@ def off_pins(view: View) -> Remarks:
                 line, axis = line - (line @ hinge) * hinge, axis - (axis @ hinge) * hinge
             if np.linalg.norm(line) < 1e-3 * island.size or np.linalg.norm(axis) < 0.1:
                 continue
-            angle = math.degrees(_angle(axis, line))
+            angle = math.degrees(angle_between_lines(axis, line))
             if angle > _OFF_PINS:
                 yield slide.path, f"It slides {angle:.4g}° off the line between {before.name} and {after.name}."
 
@@ -245,7 +241,7 @@ def off_wheel(view: View) -> Remarks:
             for path in joint.bodies:
                 for center, radius, axis in _discs(view, path):
                     near = float(np.linalg.norm(center - joint.sides[0].position)) < _CENTRED * radius
-                    angle = _angle(axis, joint.axis)
+                    angle = angle_between_lines(axis, joint.axis)
                     if near and angle > _OFF_WHEEL:
                         yield (
                             joint.path,

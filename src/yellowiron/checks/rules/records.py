@@ -16,6 +16,7 @@ from yellowiron.checks.tolerances import FRAMES_APART
 from yellowiron.checks.values import WORLD, StageJoint, direction
 from yellowiron.checks.view import View
 from yellowiron.model.geometry import Floats
+from yellowiron.support.vectors import angle_between
 
 _TURNED = math.radians(0.01)
 _EDITED = 1e-4
@@ -135,7 +136,7 @@ def moved(view: View) -> Remarks:
                 continue
             distance = float(np.linalg.norm(side.position - anchor))
             found = direction(side.rotation, joint.freedoms[0]) if len(joint.freedoms) == 1 else side.rotation[:, 0]
-            angle = math.atan2(float(np.linalg.norm(np.cross(found, axis))), float(found @ axis))
+            angle = angle_between(found, axis)
             if distance > FRAMES_APART * max(1.0, float(np.abs(anchor).max()) / 10.0):
                 yield joint.path, f"Its frame on body{end} is {1e3 * distance:.4g} mm from there."
             elif angle > _TURNED and joint.type != "fixed":

@@ -16,7 +16,7 @@ from yellowiron.kinematics.solver.chain import ClosedChain, KinematicsError, Sta
 from yellowiron.kinematics.solver.pose_grid import PoseGrid, explore
 from yellowiron.kinematics.tolerances import REACHED
 from yellowiron.model.mechanism import Actuator, Mechanism
-from yellowiron.model.units import parse_quantity
+from yellowiron.support.units import parse_quantity
 
 _SAMPLES = 17
 """Poses over a stroke between which a root is looked for."""

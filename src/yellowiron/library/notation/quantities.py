@@ -6,7 +6,7 @@ import math
 import re
 
 from yellowiron.model.errors import TemplateError, YellowironError
-from yellowiron.model.units import SI_UNIT, parse_quantity, registry
+from yellowiron.support.units import SI_UNIT, parse_quantity, registry
 
 _STARTS_A_NUMBER = re.compile(r"^[-+−]?\s*\.?\d")
 _NUMBER_AND_UNIT = re.compile(r"^\s*([-+−]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*$")

@@ -25,7 +25,7 @@ from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import DRAWN_OUTSIDE, UNKNOWN, Cylinder
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import ActuatorTemplate, CylinderTemplate, JointTemplate, Template
-from yellowiron.model.text import display
+from yellowiron.support.text import display
 
 _SIZE_TOLERANCE = 0.02
 """Relative difference of bore or rod between sheet and CAD that is worth a finding."""

@@ -12,6 +12,7 @@ from yellowiron.mechanism.placement import Placement
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats, Mesh
 from yellowiron.model.mechanism import Body, BodyPart, Vector
+from yellowiron.support.vectors import clean_triple
 
 COLLISION = "convexHull"
 """The collision approximation of a part that neither document nor template names."""
@@ -42,7 +43,7 @@ def bodies(
                 name=name,
                 origin=origins[name],
                 mass=whole.mass,
-                center_of_mass=vector(whole.center),
+                center_of_mass=clean_triple(whole.center),
                 inertia=whole.inertia,
                 parts=tuple(_part(row, placement, masses, factor, tokens) for row in rows),
                 hull=np.concatenate([hulls.placed(placement, row) for row in rows]),
@@ -63,12 +64,6 @@ def _part(row: int, placement: Placement, masses: Masses, factor: Factor, tokens
         mass=masses.moments[row].mass * factor.value,
         source=f"material {material.source}; collision {told}",
     )
-
-
-def vector(values: Floats) -> Vector:
-    """(3,) array as a tuple, without negative zeros."""
-    x, y, z = (float(v) + 0.0 for v in values)
-    return (x, y, z)
 
 
 def hull_corners(mesh: Mesh) -> Floats:

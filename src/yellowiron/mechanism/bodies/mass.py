@@ -19,7 +19,7 @@ from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats, Shape
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import Material, Template
-from yellowiron.model.text import display
+from yellowiron.support.text import display
 
 STEEL = 7850.0
 """Density where a material states none, kg/m³."""

@@ -11,9 +11,9 @@ import re
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from yellowiron.model.units import parse_quantity
 from yellowiron.specs.language.decimal_style import DecimalStyle
 from yellowiron.specs.language.quantities import Quantity, quantities_in, same
+from yellowiron.support.units import parse_quantity
 
 _TIMES = re.compile(r"\s*[x×✕*]\s*[Øø⌀]?\s*", re.IGNORECASE)
 _DASH = re.compile(r"(?:\s*(?:[-–—~]|\.\.\.|…)|\s+(?:to|bis|à|a))\s*[Øø⌀]?\s*")

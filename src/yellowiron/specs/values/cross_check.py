@@ -12,7 +12,6 @@ from dataclasses import replace
 
 from yellowiron.model.specification import Candidate, Evidence, Specification
 from yellowiron.model.template import Wanted
-from yellowiron.model.units import SI_UNIT
 from yellowiron.specs.language.decimal_style import DecimalStyle
 from yellowiron.specs.language.quantities import Quantity
 from yellowiron.specs.layout.nearest import Near, Side
@@ -23,6 +22,7 @@ from yellowiron.specs.values.decision import Sheets, evidence_of, printed, settl
 from yellowiron.specs.values.matching import Match, match
 from yellowiron.specs.values.requested import check_hint, usual
 from yellowiron.specs.values.tolerances import DOUBTFUL, SURE
+from yellowiron.support.units import SI_UNIT
 
 _UNITS = {**BARE_UNITS, "angle": ("°",), "time": ("s",)}
 _SIDES: tuple[Side, ...] = ("left", "above", "below")

@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 
 from yellowiron.model.specification import Candidate, Evidence, Specification
 from yellowiron.model.template import Wanted
-from yellowiron.model.units import SI_UNIT
 from yellowiron.specs.language.decimal_style import DecimalStyle
 from yellowiron.specs.language.numbers import read
 from yellowiron.specs.language.quantities import Quantity
@@ -17,6 +16,7 @@ from yellowiron.specs.values.matching import Match
 from yellowiron.specs.values.requested import check_hint, hint_for, usual
 from yellowiron.specs.values.stated_configuration import Stated
 from yellowiron.specs.values.tolerances import DOUBTFUL, SURE
+from yellowiron.support.units import SI_UNIT
 
 _NEAR = 0.15
 """Claims this much weaker than the best still have a say."""

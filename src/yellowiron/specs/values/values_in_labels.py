@@ -7,13 +7,13 @@ from dataclasses import replace
 
 from yellowiron.model.specification import Specification
 from yellowiron.model.template import Wanted
-from yellowiron.model.units import SI_UNIT
 from yellowiron.specs.language.decimal_style import DecimalStyle
 from yellowiron.specs.language.numbers import read
 from yellowiron.specs.language.quantities import Quantity
 from yellowiron.specs.values.decision import Sheets, evidence_of, missing
 from yellowiron.specs.values.matching import Match
 from yellowiron.specs.values.requested import usual
+from yellowiron.support.units import SI_UNIT
 
 
 def in_label(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, style: DecimalStyle) -> Specification:

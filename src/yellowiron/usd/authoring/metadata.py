@@ -17,8 +17,8 @@ from pxr import Gf, Sdf, Vt
 
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.mechanism import Body, BodyPart, Joint, Mechanism, Site
-from yellowiron.model.record import RECORD
 from yellowiron.model.sensor import Sensor
+from yellowiron.support.record import RECORD
 
 FORMAT = 1
 """The version of the form that `describe_machine` writes and `read` understands."""

@@ -11,8 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from yellowiron.model.errors import YellowironError
-from yellowiron.model.text import display, to_json
-from yellowiron.model.units import parse_quantity
+from yellowiron.support.text import display, to_json
+from yellowiron.support.units import parse_quantity
 
 
 @pytest.mark.parametrize(
