@@ -6,11 +6,16 @@ from __future__ import annotations
 import json
 import re
 import threading
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from typing import Any
+
+import pytest
+from openai.types.chat import ChatCompletion
+
+from yellowiron.specs.llm.endpoint import Endpoint
 
 Facts = Mapping[str, tuple[str, str, str]]
 """Wanted name → words of its row, number as printed, unit."""
@@ -56,12 +61,7 @@ def serving(model: Model) -> Iterator[Server]:
             server.questions.append(question)
             server.headers.append(dict(self.headers))
             status, text = model(question)
-            answer: Any = {
-                "id": "1", "object": "chat.completion", "created": 0, "model": body["model"],
-                "choices": [{"index": 0, "finish_reason": "stop", "message": {"role": "assistant", "content": text}}],
-                "usage": {"prompt_tokens": 100, "completion_tokens": 10, "total_tokens": 110},
-            }  # fmt: skip
-            data = json.dumps(answer if status == 200 else {"error": {"message": text}}).encode()
+            data = json.dumps(_completion(text) if status == 200 else {"error": {"message": text}}).encode()
             self.send_response(status)
             self.send_header("Content-Type", "application/json")
             self.send_header("Content-Length", str(len(data)))
@@ -82,6 +82,33 @@ def serving(model: Model) -> Iterator[Server]:
         http.shutdown()
         thread.join()
         http.server_close()
+
+
+@contextmanager
+def at_hand(model: Model) -> Iterator[list[Question]]:
+    """The model answers in this process, for thousands of questions, whose way there would be most of the work; what
+    was asked."""
+    asked: list[Question] = []
+
+    def completion(
+        self: Endpoint, messages: Sequence[Mapping[str, str]], schema: Mapping[str, Any], rung: str
+    ) -> ChatCompletion:
+        asked.append(_question({"messages": messages}))
+        status, text = model(asked[-1])
+        assert status == 200
+        return ChatCompletion.model_validate(_completion(text))
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Endpoint, "_completion", completion)
+        yield asked
+
+
+def _completion(text: str) -> dict[str, Any]:
+    return {
+        "id": "1", "object": "chat.completion", "created": 0, "model": "m",
+        "choices": [{"index": 0, "finish_reason": "stop", "message": {"role": "assistant", "content": text}}],
+        "usage": {"prompt_tokens": 100, "completion_tokens": 10, "total_tokens": 110},
+    }  # fmt: skip
 
 
 def _question(body: Mapping[str, Any]) -> Question:

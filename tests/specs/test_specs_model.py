@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 from specs_endpoint import (
     SECRET,
     Model,
+    at_hand,
     chatting,
     failing,
     honest,
@@ -270,11 +271,11 @@ def test_no_lie_about_an_examples_sheet_passes_the_gates(root: Path, machine: st
     pdf = root / "examples" / machine / "specifications.pdf"
     known = load_template(machine)
     truth = {s.name: s.value for s in extract(known, [pdf]) if s.status == "ok"}
-    with serving(model) as server:
-        found = extract(known, [pdf], extractor="llm", model=ModelOptions("m", server.url, most_calls=10**6))
+    with at_hand(model) as questions:
+        found = extract(known, [pdf], extractor="llm", model=ModelOptions("m", "http://localhost", most_calls=10**6))
     wrong = [s.name for s in found if s.status == "ok" and s.value != pytest.approx(truth.get(s.name), rel=1e-9)]
     assert wrong == [], wrong
-    assert len(server.questions) > 20
+    assert len(questions) > 20
 
 
 SCHEMA = {"type": "object", "properties": {"value": {"type": "string"}}, "required": ["value"]}
