@@ -62,6 +62,7 @@ def test_flipped_bytes(seed: int, tmp_path: Path) -> None:
     assert codes(path)
 
 
+@pytest.mark.usefixtures("read_here")
 def test_a_step_file_with_bytes_that_are_no_text(tmp_path: Path) -> None:
     """What they have overwritten may have been a part's place in the tree."""
     path = sound("STEP", tmp_path)
@@ -73,6 +74,7 @@ def test_a_step_file_with_bytes_that_are_no_text(tmp_path: Path) -> None:
     assert not codes(path)
 
 
+@pytest.mark.usefixtures("read_here")
 def test_an_ifc_that_is_cut_short(tmp_path: Path) -> None:
     pytest.importorskip("ifcopenshell")
     path = sound("IFC", tmp_path)
@@ -80,6 +82,7 @@ def test_an_ifc_that_is_cut_short(tmp_path: Path) -> None:
     assert codes(path) == {"refused"}
 
 
+@pytest.mark.usefixtures("read_here")
 def test_an_iges_with_a_damaged_entity(tmp_path: Path) -> None:
     path = sound("IGES", tmp_path)
     path.write_text(path.read_text().replace("     186 ", "     1x6 ", 1))
@@ -103,6 +106,7 @@ def test_an_iges_that_open_cascade_would_not_survive(mark: str, damage: str, say
     assert isinstance(found, CadError) and says in found.message
 
 
+@pytest.mark.usefixtures("read_here")
 def test_indices_that_are_no_numbers(tmp_path: Path) -> None:
     path = sound("COLLADA", tmp_path)
     text = path.read_text()
@@ -112,6 +116,7 @@ def test_indices_that_are_no_numbers(tmp_path: Path) -> None:
     assert isinstance(found, CadError) and "no whole number" in found.message
 
 
+@pytest.mark.usefixtures("read_here")
 @pytest.mark.parametrize("name", ["OBJ", "PLY", "3MF", "COLLADA"])
 def test_points_that_are_no_numbers(name: str, tmp_path: Path) -> None:
     path = sound(name, tmp_path)
@@ -137,6 +142,7 @@ def test_an_archive_that_would_fill_the_memory(tmp_path: Path) -> None:
     assert codes(path) == {"refused"}
 
 
+@pytest.mark.usefixtures("read_here")
 def test_an_archive_that_leads_elsewhere(tmp_path: Path) -> None:
     folder = tmp_path / "a" / "b"
     folder.mkdir(parents=True)
@@ -151,12 +157,14 @@ def test_an_archive_that_leads_elsewhere(tmp_path: Path) -> None:
     assert not (tmp_path.parent / "evil.usda").exists()
 
 
+@pytest.mark.usefixtures("read_here")
 def test_a_usd_reference_that_leads_nowhere(tmp_path: Path) -> None:
     path = tmp_path / "machine.usda"
     path.write_text('#usda 1.0\n(metersPerUnit = 1)\ndef Cube "frame" {}\ndef "boom" (references = @gone.usda@) {}\n')
     assert "CAD008" in codes(path)
 
 
+@pytest.mark.usefixtures("read_here")
 def test_parts_without_a_name_and_of_one_name(tmp_path: Path) -> None:
     path = tmp_path / "machine.usda"
     cubes = "".join(f'def Xform "a{k}" (\ndisplayName = "PIN"\n)\n{{\ndef Cube "mesh" {{}}\n}}\n' for k in range(3))
@@ -167,6 +175,7 @@ def test_parts_without_a_name_and_of_one_name(tmp_path: Path) -> None:
     assert {p.name for p in read.parts} == {"PIN"}
 
 
+@pytest.mark.usefixtures("read_here")
 def test_entities_of_an_ifc_that_are_lost_are_told(tmp_path: Path) -> None:
     """IfcOpenShell passes over an entity whose name is damaged; a `#` in a string is no reference."""
     pytest.importorskip("ifcopenshell")
@@ -181,6 +190,7 @@ def test_entities_of_an_ifc_that_are_lost_are_told(tmp_path: Path) -> None:
     assert "CAD001" in [f.code for f in read.findings]
 
 
+@pytest.mark.usefixtures("read_here")
 @pytest.mark.parametrize("name", ["FBX (text)", "FBX (binary)"])
 def test_a_node_of_an_fbx_that_is_lost_is_told(name: str, tmp_path: Path) -> None:
     """What hangs below it is still there."""
@@ -196,6 +206,7 @@ def test_a_node_of_an_fbx_that_is_lost_is_told(name: str, tmp_path: Path) -> Non
     assert "CAD001" in codes(path)
 
 
+@pytest.mark.usefixtures("read_here")
 def test_a_node_of_a_gltf_that_says_what_it_should_not(tmp_path: Path) -> None:
     path = sound("glTF", tmp_path)
     text = path.read_text()
@@ -203,6 +214,7 @@ def test_a_node_of_a_gltf_that_says_what_it_should_not(tmp_path: Path) -> None:
     assert "CAD001" in codes(path)
 
 
+@pytest.mark.usefixtures("read_here")
 def test_a_usd_prim_whose_reference_brings_nothing(tmp_path: Path) -> None:
     path = tmp_path / "machine.usda"
     head = '#usda 1.0\n(metersPerUnit = 1)\ndef Cube "a" {}\n'
@@ -212,6 +224,7 @@ def test_a_usd_prim_whose_reference_brings_nothing(tmp_path: Path) -> None:
     assert not codes(path)
 
 
+@pytest.mark.usefixtures("read_here")
 @pytest.mark.parametrize("form", ["asc", "bin"])
 def test_entities_of_a_dxf_that_are_lost_are_told(form: str, tmp_path: Path) -> None:
     """ezdxf passes over an entity of no known kind."""
@@ -223,6 +236,7 @@ def test_entities_of_a_dxf_that_are_lost_are_told(form: str, tmp_path: Path) -> 
     assert "CAD001" in codes(path)
 
 
+@pytest.mark.usefixtures("read_here")
 def test_a_binary_dxf(tmp_path: Path) -> None:
     path = sound("DXF", tmp_path)
     ezdxf.readfile(path).saveas(path, fmt="bin")
@@ -249,6 +263,7 @@ def stl_text(folder: Path) -> Path:
     return path
 
 
+@pytest.mark.usefixtures("read_here")
 def test_an_stl_text_that_is_cut_short(tmp_path: Path) -> None:
     """Its first solid has an end."""
     path = stl_text(tmp_path)
@@ -260,6 +275,7 @@ def test_an_stl_text_that_is_cut_short(tmp_path: Path) -> None:
     assert codes(path) & {"CAD001", "refused"}
 
 
+@pytest.mark.usefixtures("read_here")
 def test_an_obj_that_is_cut_short(tmp_path: Path) -> None:
     """The format has no end; points without faces show it."""
     path = sound("OBJ", tmp_path)
@@ -271,6 +287,7 @@ def test_an_obj_that_is_cut_short(tmp_path: Path) -> None:
         assert "CAD001" in codes(path)
 
 
+@pytest.mark.usefixtures("read_here")
 def test_a_ply_that_has_other_lines_than_it_says(tmp_path: Path) -> None:
     path = sound("PLY", tmp_path)
     lines = path.read_text().splitlines(keepends=True)
@@ -308,6 +325,7 @@ def test_what_is_worked_on_for_ever_is_ended(name: str, target: str, tmp_path: P
     assert caught.value.hint and caught.value.where == str(path)
 
 
+@pytest.mark.usefixtures("read_here")
 @pytest.mark.parametrize(
     ("part", "mark", "damage"),
     [
@@ -330,6 +348,7 @@ def test_objects_of_a_freecad_file_that_are_lost_are_told(part: str, mark: str, 
     assert "CAD001" in codes(path)
 
 
+@pytest.mark.usefixtures("read_here")
 def test_a_group_of_an_unknown_kind_holds_what_it_holds(tmp_path: Path) -> None:
     path = sound("FreeCAD", tmp_path)
     data = path.read_bytes()
@@ -412,6 +431,7 @@ def test_a_reader_that_goes_on_for_ever_is_one_sentence(
     assert not (tmp_path / "machine.usda").exists()
 
 
+@pytest.mark.usefixtures("read_here")
 def test_what_is_lost_of_a_robot_s_mesh_and_of_a_folder_s_file_is_told(tmp_path: Path) -> None:
     """The files are read through another one."""
     path = sound("OBJ", tmp_path)

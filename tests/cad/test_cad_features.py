@@ -25,6 +25,8 @@ from kit.cadfiles.step import (
 from yellowiron.cad.brep import tessellate, to_shape
 from yellowiron.model.geometry import CylinderFeature, Shape
 
+pytestmark = pytest.mark.usefixtures("read_here")
+
 TURN = 2 * math.pi
 AXES = st.tuples(*[st.floats(-1, 1)] * 3).filter(lambda axis: float(np.linalg.norm(axis)) > 0.1)
 POINTS = st.tuples(*[st.floats(-3000, 3000)] * 3)

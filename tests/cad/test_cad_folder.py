@@ -16,6 +16,8 @@ from kit.cadfiles.step import Node, Use, box, translation, write_step
 from yellowiron.cad import read_cad
 from yellowiron.model.errors import CadError
 
+pytestmark = pytest.mark.usefixtures("read_here")
+
 BOX = CORNERS[FACES]
 
 

@@ -14,6 +14,8 @@ from yellowiron.model.assembly import Assembly
 from yellowiron.model.mechanism import Mechanism
 from yellowiron.usd import read_mechanism
 
+pytestmark = pytest.mark.usefixtures("read_here")
+
 
 @pytest.fixture(scope="module")
 def written(tmp_path_factory: pytest.TempPathFactory) -> tuple[Mechanism, Path]:

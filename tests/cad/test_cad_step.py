@@ -26,6 +26,8 @@ from yellowiron.cad import read_cad
 from yellowiron.cad.readers.exact.step import read_step
 from yellowiron.model.assembly import Assembly
 
+pytestmark = pytest.mark.usefixtures("read_here")
+
 MIRROR = np.diag([1.0, -1.0, 1.0, 1.0])
 DOUBLE = np.diag([2.0, 2.0, 2.0, 1.0])
 ORANGE, RED, BLUE, GREY = (1.0, 0.5, 0.0), (1.0, 0.0, 0.0), (0.0, 0.0, 1.0), (0.2, 0.2, 0.2)

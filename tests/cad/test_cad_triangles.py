@@ -11,6 +11,8 @@ import pytest
 from yellowiron.cad import read_cad
 from yellowiron.model.errors import CadError
 
+pytestmark = pytest.mark.usefixtures("read_here")
+
 CORNERS = np.array([[x, y, z] for x in (0.0, 4.0) for y in (0.0, 3.0) for z in (0.0, 2.0)])
 FACES = np.array(
     [[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1], [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4],
