@@ -88,7 +88,6 @@ class StageDrive:
     damping: float
     max_force: float
     target_position: float
-    target_velocity: float
 
     @property
     def acts(self) -> bool:

@@ -52,11 +52,3 @@ class Alignment:
     findings: tuple[Finding, ...] = ()
     counts: Mapping[str, int] = field(default_factory=dict)
     axes: Mapping[str, tuple[Vector, Vector]] = field(default_factory=dict)
-
-    def parts_of_body(self, body: str) -> tuple[str, ...]:
-        """Ids of the parts that move with a body, in CAD order."""
-        return tuple(a.part for a in self.parts if a.body == body)
-
-    def parts_of_role(self, role: str) -> tuple[str, ...]:
-        """Ids of the parts that play exactly this role, in CAD order."""
-        return tuple(a.part for a in self.parts if a.role == role)

@@ -76,10 +76,7 @@ def solve(
     for joint in template.joints:
         _add_joint(program, joint, structure, template, barred)
     _add_one_joint_each(program)
-    program.terms.extend(
-        (weight, program.x[key]) for key, weight in sorted(unary.items()) if key in program.x and weight
-    )
-    program.terms.extend((1, v) for (c, _), v in sorted(program.x.items()) if c in linked)
+    _add_weights(program, unary, linked)
     if without in program.x:
         program.model.add(program.x[without] == 0)
     total = sum(weight * v for weight, v in program.terms)

@@ -77,7 +77,7 @@ class CylindricalFace:
 class Face:
     """What is known of one face, mm: kind of surface, area, centre of area, and the plane's or cylinder's data.
 
-    `kind` is what the surface was recognised as; `freeform` says that the file has it as a spline or the like.
+    `kind` is what the surface was recognised as.
     """
 
     kind: int
@@ -85,7 +85,6 @@ class Face:
     center: tuple[float, float, float]
     normal: tuple[float, float, float] | None = None
     patch: CylindricalFace | None = None
-    freeform: bool = False
 
 
 def survey(faces: Sequence[Any], box: Floats) -> tuple[list[Face], Any]:
@@ -175,12 +174,12 @@ def _recognise(face: Any, surface: Any, area: float, center: tuple[float, float,
     recognition = ShapeAnalysis_CanonicalRecognition(face)
     plane, cylinder = gp_Pln(), gp_Cylinder()
     if recognition.IsPlane(tolerance, plane):
-        return Face(_PLANE, area, center, normal=_outward(face, surface), freeform=True)
+        return Face(_PLANE, area, center, normal=_outward(face, surface))
     if recognition.IsCylinder(tolerance, cylinder):
         patch = _sampled_patch(face, surface, cylinder, area)
         if patch is not None:
-            return Face(_CYLINDER, area, center, patch=patch, freeform=True)
-    return Face(_FREE, area, center, freeform=True)
+            return Face(_CYLINDER, area, center, patch=patch)
+    return Face(_FREE, area, center)
 
 
 def _plane_normal(face: Any, surface: Any) -> tuple[float, float, float]:

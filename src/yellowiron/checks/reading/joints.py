@@ -147,7 +147,6 @@ def _read_drive(prim: Usd.Prim, instance: str, units: Units) -> StageDrive:
         damping=value("damping", 0.0) * gain,
         max_force=value("maxForce", math.inf) * kilograms * (meters**2 if angular else meters),
         target_position=value("targetPosition", 0.0) * target,
-        target_velocity=value("targetVelocity", 0.0) * target,
     )
 
 

@@ -35,8 +35,6 @@ _WALKED = 1e-3
 _STOPS = 12
 """Poses between the ends of a level cut at which the tooth is looked for."""
 
-Measured = Callable[[State], float]
-
 
 class StrokeBench(Protocol):
     """What is needed of a bench: `range` gives a driven coordinate's two ends, `driven` the joint an actuator drives,
