@@ -2,10 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import fcntl
+import os
+import pickle
+import shutil
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
+
+from yellowiron.model.mechanism import Mechanism
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -28,6 +35,50 @@ def root() -> Path:
 def example() -> Path:
     """The wheel loader example's folder."""
     return ROOT / "examples" / "wheel_loader"
+
+
+@pytest.fixture(scope="session")
+def made_once(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str, Callable[[Path], None]], Path]:
+    """A folder by its name, filled by the first of this run's workers that asks for it; not to be written to."""
+    base = tmp_path_factory.getbasetemp()
+    shared = base.parent if os.environ.get("PYTEST_XDIST_WORKER") else base
+
+    def made(name: str, fill: Callable[[Path], None]) -> Path:
+        folder, done = shared / name, shared / f"{name}.done"
+        with (shared / f"{name}.lock").open("w") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            if not done.exists():
+                shutil.rmtree(folder, ignore_errors=True)
+                fill(folder)
+                done.touch()
+        return folder
+
+    return made
+
+
+@dataclass(frozen=True)
+class Built:
+    """The wheel loader example as the pipeline builds it with its sheet: `folder` is not to be written to."""
+
+    folder: Path
+    mechanism: Mechanism
+
+
+@pytest.fixture(scope="session")
+def built_loader(example: Path, made_once: Callable[[str, Callable[[Path], None]], Path]) -> Built:
+    """The wheel loader example, built once a run."""
+    cad, sheet = example / "wheel_loader.step", example / "specifications.pdf"
+    if not cad.is_file() or not sheet.is_file():
+        pytest.skip("the wheel loader example is not drawn: run its draw.py")
+
+    def fill(folder: Path) -> None:
+        from yellowiron.pipeline import build
+
+        machine = build("wheel_loader", cad, folder / "out", sheets=[sheet])
+        (folder / "mechanism.pickle").write_bytes(pickle.dumps(machine.mechanism))
+
+    folder = made_once("wheel_loader", fill)
+    return Built(folder / "out", pickle.loads((folder / "mechanism.pickle").read_bytes()))
 
 
 @pytest.fixture(scope="session")

@@ -39,15 +39,10 @@ def test_code_on_the_pages_is_python(root: Path, name: str) -> None:
 
 
 @pytest.fixture(scope="module")
-def built(example: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+def built(built_loader: Any) -> Path:
     """The example, built."""
-    from yellowiron.pipeline import build
-
-    if not (example / "wheel_loader.step").is_file():
-        pytest.skip("the example's STEP file is not there: run its draw.py")
-    out = tmp_path_factory.mktemp("docs") / "out"
-    build("wheel_loader", example / "wheel_loader.step", out, sheets=[example / "specifications.pdf"])
-    return out
+    folder: Path = built_loader.folder
+    return folder
 
 
 @pytest.fixture(scope="module")

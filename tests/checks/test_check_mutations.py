@@ -10,15 +10,16 @@ from __future__ import annotations
 import itertools
 import json
 import math
+import shutil
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import pytest
 from pxr import Gf, Sdf, Usd, UsdGeom, UsdPhysics
 
 from yellowiron.checks import check
-from yellowiron.pipeline import build
 
 pytestmark = pytest.mark.slow
 
@@ -459,11 +460,9 @@ _COUNT = itertools.count()
 
 
 @pytest.fixture(scope="session")
-def built(example: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The example's scene."""
-    out = tmp_path_factory.mktemp("checked") / "machine"
-    build("wheel_loader", example / "wheel_loader.step", out, sheets=[example / "specifications.pdf"])
-    return out / "scene.usda"
+def built(built_loader: Any, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The example's scene, in a folder that is written to."""
+    return shutil.copytree(built_loader.folder, tmp_path_factory.mktemp("checked") / "machine") / "scene.usda"
 
 
 @pytest.fixture(scope="session")

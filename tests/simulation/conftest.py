@@ -1,8 +1,9 @@
-"""The small loader as USD, and the wheel loader example built once for the slow tests."""
+"""The small loader as USD, and the wheel loader example as built for the slow tests."""
 
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -23,12 +24,6 @@ def mechanism(usd_file: Path) -> Mechanism:
 
 
 @pytest.fixture(scope="session")
-def wheel_loader(example: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    from yellowiron.pipeline import build
-
-    cad, sheet = example / "wheel_loader.step", example / "specifications.pdf"
-    if not cad.is_file() or not sheet.is_file():
-        pytest.skip("the wheel loader example is not drawn")
-    folder = tmp_path_factory.mktemp("loader") / "out"
-    build("wheel_loader", cad, folder, sheets=(sheet,), config="Standard boom; Stock pile, Bolt-on edge")
-    return folder / "wheel_loader.usda"
+def wheel_loader(built_loader: Any) -> Path:
+    file: Path = built_loader.folder / "wheel_loader.usda"
+    return file

@@ -14,15 +14,9 @@ pytestmark = pytest.mark.slow
 
 
 @pytest.fixture(scope="module")
-def loader(example: Path, tmp_path_factory: pytest.TempPathFactory):
+def loader(built_loader):
     """The mechanism of the example, and the folder it was written to."""
-    if not (example / "wheel_loader.step").is_file():
-        pytest.skip("the example's STEP file is not there: run its draw.py")
-    from yellowiron.pipeline import build
-
-    out = tmp_path_factory.mktemp("loader") / "out"
-    machine = build("wheel_loader", example / "wheel_loader.step", out, sheets=[example / "specifications.pdf"])
-    return machine.mechanism, out
+    return built_loader.mechanism, built_loader.folder
 
 
 def test_no_error(loader) -> None:

@@ -1,9 +1,9 @@
 """The registry of CAD formats: one entry a format, `CadFormat`.
 
 A new format is one entry and the module that reads it. The entry stands in `FORMATS`, or comes from another installed
-package by an entry point of the group `yellowiron.cad_formats` that names a `CadFormat`, or a function without
-parameters that gives one. What a file is, `yellowiron.cad.recognition` decides; the formats of this package come first,
-so that what it reads is read the same whatever else is installed.
+package by an entry point of the group `yellowiron.cad_formats` that names a `CadFormat`. What a file is,
+`yellowiron.cad.recognition` decides; the formats of this package come first, so that what it reads is read the same
+whatever else is installed.
 """
 
 from __future__ import annotations
@@ -12,10 +12,10 @@ import functools
 import re
 import sys
 from dataclasses import dataclass
-from importlib.metadata import EntryPoint, entry_points
 
-from yellowiron.model.errors import CadError
+from yellowiron.model.errors import CadError, YellowironError
 from yellowiron.model.finding import Finding
+from yellowiron.support.plugins import all_plugins
 
 GROUP = "yellowiron.cad_formats"
 """The entry points that name the formats of other packages."""
@@ -153,29 +153,19 @@ def _others(path: tuple[str, ...]) -> tuple[tuple[CadFormat, ...], tuple[Finding
     """As above, once for every import path."""
     taken = {known.name.casefold(): "yellowiron" for known in FORMATS}
     formats, findings = [], []
-    for point in sorted(entry_points(group=GROUP), key=lambda point: (point.name, _package(point), point.value)):
-        found = _loaded(point)
-        if isinstance(found, CadFormat) and (owner := taken.get(found.name.casefold())):
-            found = f"{owner} has a format of the name {found.name}"
-        if isinstance(found, CadFormat):
-            taken[found.name.casefold()] = _package(point)
-            formats.append(found)
+    for plugin in all_plugins(GROUP):
+        try:
+            found, reason = plugin.load(CadFormat), ""
+            if owner := taken.get(found.name.casefold()):
+                reason = f"{owner} has a format of the name {found.name}"
+        except YellowironError as error:
+            reason = error.message
+        if reason:
+            words = f"The CAD format of {plugin.package} cannot be used: {reason}"
+            findings.append(
+                Finding("CAD014", "warning", plugin.entry.value, words, "Update the package, or remove it.")
+            )
         else:
-            words = f"The CAD format '{point.name}' of the package {_package(point)} cannot be used: {found}"
-            hint = "Update the package, or remove it."
-            findings.append(Finding("CAD014", "warning", point.value, words, hint))
+            taken[found.name.casefold()] = plugin.package
+            formats.append(found)
     return tuple(formats), tuple(findings)
-
-
-def _package(point: EntryPoint) -> str:
-    return point.dist.name if point.dist is not None else "?"
-
-
-def _loaded(point: EntryPoint) -> CadFormat | str:
-    """The format that an entry point names; else why there is none."""
-    try:
-        found = point.load()
-        found = found if isinstance(found, CadFormat) else found()
-    except Exception as error:  # noqa: BLE001 - whatever another package does wrong is a sentence, not a crash
-        return f"{type(error).__name__}: {error}"[:300]
-    return found if isinstance(found, CadFormat) else f"it gives a {type(found).__name__}, not a CadFormat"

@@ -61,12 +61,17 @@ def in_a_sentence(what: str, where: str) -> Iterator[None]:
         raise YellowironError(f"{what}: {said}", where=where, hint=_HINT) from error
 
 
+def all_plugins(group: str) -> list[Plugin]:
+    """The plugins of a group, in the order of their names, none loaded."""
+    return [Plugin(entry) for entry in sorted(entry_points(group=group), key=lambda e: (e.name, e.value))]
+
+
 def find_plugins(group: str, *, builtin: Iterable[str] = ()) -> dict[str, Plugin]:
     """The plugins of a group by name, in the order of the names, none loaded. `YellowironError` where two packages
     bring the same name, or one brings a name of `builtin`: nothing is replaced silently."""
     found: dict[str, Plugin] = {}
     own = set(builtin)
-    for plugin in map(Plugin, sorted(entry_points(group=group), key=lambda e: (e.name, e.value))):
+    for plugin in all_plugins(group):
         if plugin.name in own:
             raise YellowironError(
                 f"A package brings '{plugin.name}', a name that yellowiron has itself",
