@@ -8,135 +8,15 @@ or three models in columns, groups in cells; `turin`: the unit in brackets after
 
 from __future__ import annotations
 
-import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import replace
 
-from kit.sheets.machines import rounded
-from kit.sheets.sets.fresh5 import _figure
+from kit.sheets.sets.rows import blocks_of, colon, figure, foot, lower_edge, phrase, stepped, value_of, write
 from kit.sheets.typeset import Style
-from kit.sheets.worded import Flow, Row, Said, Truth, Worded, Wording, lines
+from kit.sheets.worded import Flow, Worded, Wording
 
 _INK, _GREY = "#1f2226", "#6b6f74"
-_METRIC_POWER = {"de": "PS", "fr": "ch", "es": "CV"}
-_UNITS = {
-    "de": {"L/min": "l/min", "rpm": "min-1", "L": "l", "kN·m": "kNm", "N·m": "Nm"},
-    "fr": {"L/min": "l/min", "rpm": "tr/min", "L": "l", "kN·m": "kNm", "N·m": "Nm"},
-    "es": {"L/min": "l/min", "L": "l", "kN·m": "kNm", "N·m": "Nm"},
-    "zh": {"rpm": "r/min"},
-    "ja": {"rpm": "min-1", "L/min": "L/min"},
-}
-_EUROPEAN = {"L/min": "l/min", "L": "l", "kN·m": "kNm", "N·m": "Nm", "rpm": "rpm"}
-_AMERICAN = {"gal/min": "gpm", "lbf·ft": "lb-ft", "yd³": "yd3", "ft/min": "fpm"}
-_ASIDE = {"L": (0.264172, 1, "gal"), "N·m": (0.737562, 0, "lb-ft"), "km/h": (0.621371, 1, "mph"),
-          "kg": (2.20462, 0, "lb"), "MPa": (145.038, 0, "psi"), "bar": (14.5038, 0, "psi"),
-          "kPa": (0.145038, 0, "psi")}  # fmt: skip
-"""What a value that is not asked for is in the other system: factor, decimals, unit."""
-_GROWS = {"mm", "m", "kg", "t", "kW", "kN", "m³", "L/min", "l/min"}
-_FIXED = ("Load Center", "Radius at Maximum Capacity")
 _LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
-
-
-# ---- what is printed -------------------------------------------------------------------------------------------------
-def _word(s: Wording, key: str) -> str:
-    """A text of this set that is no label."""
-    return next(s.of(one) for one in lines(s.file)["texts"] if one.name == key)
-
-
-def _local(s: Wording, row: Row) -> Row:
-    """A row with its units as the country writes them, and a second unit where it prints one."""
-    style, said = s.style, row.said
-    units = _UNITS.get(style.language, {} if style.imperial else _EUROPEAN)
-    number, _, unit = said.imperial.rpartition(" ")
-    second = f"{number} {_AMERICAN.get(unit, unit)}".strip()
-    plain = said.number.replace(style.group, "").replace(style.point, ".")
-    if style.imperial and not second and not row.name and said.unit in _ASIDE and re.fullmatch(r"[\d.]+", plain):
-        factor, decimals, unit = _ASIDE[said.unit]
-        second = f"{s.digits(float(plain) * factor, decimals)} {unit}"
-    elif said.unit == "kW" and style.language in _METRIC_POWER:
-        second = f"{s.digits(float(plain) * 1.35962, 0)} {_METRIC_POWER[style.language]}"
-    return replace(row, said=Said(said.number, units.get(said.unit, said.unit), second))
-
-
-def _derived(s: Wording, section: str) -> list[Row]:
-    """Values that go with wanted ones and are not asked for."""
-    found = []
-    for one in lines(s.file)["derived"]:
-        kind, base, factor = one.place.split(", ")
-        if one.name == section and kind == s.machine.kind and s.prints(base):
-            value = rounded(kind, base, s.machine.values[base] * float(factor))
-            found.append(Row(s.of(one), s.say(base, value, note=False), f"*{base}"))
-            s.note_level_cut(found[-1].label, value / 1e3)
-    return found
-
-
-def _rows(s: Wording, section: str, *, pairs: bool = False, rams: str = "rows") -> list[Row]:
-    """The rows of a section; an engine's begin with its model and gross power. `pairs`: two values in one cell."""
-    rows = s.rows(section, cylinders=rams)
-    for row in _derived(s, section):
-        group = row.label.partition(" > ")[0]
-        same = [i for i, one in enumerate(rows) if one.label.partition(" > ")[0] == group]
-        rows.insert(same[-1] + 1 if same and " > " in row.label else s.dice.randrange(len(rows) + 1), row)
-    if section == "engine":
-        power = float(round(s.machine.values["Net Power"] * 1.05))
-        if s.machine.kind != "forklift" and s.dice.random() < 0.6:
-            s.allowed |= dict.fromkeys(("Engine Power", "Gross Power"), Truth(power * 1e3, power * 1e-3))
-            rows.insert(0, Row(_word(s, "gross"), s.say("Net Power", power, note=False), "*Net Power"))
-        rows.insert(0, Row(_word(s, "maker"), Said(s.dice.choice(("QSB6.7", "D6E-T4F", "6HK1", "TCD 6.1 L6")), "")))
-    rows = [_local(s, row) for row in rows]
-    for one in lines(s.file)["pairs"] if pairs else ():
-        names = one.name.split(" + ")
-        own = sorted((row for row in rows if row.name in names), key=lambda row: names.index(row.name))
-        if len(own) == 2 and one.place == s.machine.kind:
-            rows[rows.index(own[0])] = Row(s.of(one), _both(s, own), one.name)
-            rows.remove(own[1])
-    return rows
-
-
-def _both(s: Wording, own: Sequence[Row]) -> Said:
-    """Two values in a cell, the unit once behind them."""
-    mark = " – " if own[0].said.unit in ("m", "mm") else "/"
-    seconds = [row.said.imperial for row in own]
-    return Said(mark.join(row.said.number for row in own), own[0].said.unit, mark.join(seconds) if all(seconds) else "")
-
-
-def _blocks(s: Wording, *, pairs: bool = False, rams: str = "rows") -> list[tuple[str, list[Row]]]:
-    """The sections that have rows."""
-    found = [(one, _rows(s, one, pairs=pairs, rams=rams)) for one in s.sections()]
-    return [(one, rows) for one, rows in found if rows]
-
-
-def _text(s: Wording, row: Row, form: str = "{} ({})") -> str:
-    """A value with both its units; American sheets put theirs first."""
-    said = row.said
-    if not said.imperial:
-        return said.metric
-    own = s.style.imperial and s.style.wording == 0 and s.style.language == "en"
-    return form.format(*((said.imperial, said.metric) if own else (said.metric, said.imperial)))
-
-
-def _colon(s: Wording) -> str:
-    """A colon as the country sets it."""
-    return {"fr": "\u00a0:", "zh": "：", "ja": "："}.get(s.style.language, ":")
-
-
-def _level(blocks: Sequence[tuple[str, list[Row]]], top: float, columns: int, row: float, head: float) -> float:
-    """The lower edge at which a page's columns are about equally full."""
-    high = sum(head + row * len(rows) for _, rows in blocks)
-    return max(46.0, top - 1.04 * high / columns - 2 * row)
-
-
-def _write(
-    s: Wording, x: float, y: float, texts: Sequence[str], size: float, step: float, *, bold: bool = False
-) -> None:
-    """Lines of text below each other."""
-    for index, text in enumerate(texts):
-        s.put(x, y - step * index, text, size=size, bold=bold)
-
-
-def _foot(s: Wording) -> None:
-    """The maker's reservation."""
-    s.put(40, 26, _word(s, "note"), size=5.6, ink=_GREY)
 
 
 # ---- layouts ---------------------------------------------------------------------------------------------------------
@@ -144,16 +24,16 @@ def fargo(s: Wording) -> None:
     """A drawing with letters; below it two columns of ruled tables, the drawing's letters in brackets."""
     s.fill(0, 790, 596, 52, "#d9531e")
     s.put(40, 806, s.machine.name, size=24, bold=True, ink="#ffffff")
-    s.put(555, 808, _word(s, "title"), size=11, align="r", ink="#ffffff")
-    _foot(s)
-    blocks = _blocks(s, rams="product" if s.style.wording else "rows")
+    s.put(555, 808, phrase(s, "title"), size=11, align="r", ink="#ffffff")
+    foot(s)
+    blocks = blocks_of(s, rams="product" if s.style.wording else "rows")
     drawn = ("working", "dimensions")
     count = sum(len(rows) for one, rows in blocks if one in drawn)
     letters = [_LETTERS[i % 26] + ("" if i < 26 else str(i // 26)) for i in range(count)]
-    _figure(s, 60, 578, 470, 200, letters[:20])
+    figure(s, 60, 578, 470, 200, letters[:20])
     blocks.sort(key=lambda block: block[0] not in drawn)
     marks = iter(letters)
-    flow = Flow(s, ((40, 288), (307, 555)), 566, _level(blocks, 566, 2, 13, 27), 796)
+    flow = Flow(s, ((40, 288), (307, 555)), 566, lower_edge(blocks, 566, 2, 13, 27), 796)
     for section, rows in blocks:
         flow.keep(30 + 12 * min(len(rows), 4))
         x0, x1, y = flow.room(19)
@@ -161,10 +41,10 @@ def fargo(s: Wording) -> None:
         s.line(x0, y - 16, x1, weight=1.4)
         for row in rows:
             label = f"({next(marks)}) {s.joined(row.label)}" if section in drawn else s.joined(row.label)
-            value = _text(s, row)
+            value = value_of(s, row)
             texts = s.wrapped(label, x1 - x0 - s.width(value, 7.4) - 10, 7.4)
             x0, x1, y = flow.room(9 * len(texts) + 3.4)
-            _write(s, x0, y - 8.6, texts, 7.4, 9)
+            write(s, x0, y - 8.6, texts, 7.4, 9)
             s.put(x1, y - 8.6, value, size=7.4, align="r")
             s.line(x0, flow.y, x1, weight=0.25)
         flow.room(8)
@@ -173,10 +53,10 @@ def fargo(s: Wording) -> None:
 def ulm(s: Wording) -> None:
     """A sober data sheet: headings stand in the margin, labels and values in two columns beside them."""
     s.put(40, 800, s.machine.name, size=22, bold=True)
-    s.put(40, 784, _word(s, "title"), size=9, ink=_GREY)
-    _foot(s)
+    s.put(40, 784, phrase(s, "title"), size=9, ink=_GREY)
+    foot(s)
     flow = Flow(s, ((40, 555),), 770, 46, 800)
-    for section, rows in _blocks(s, rams="product"):
+    for section, rows in blocks_of(s, rams="product"):
         flow.keep(14 + 12 * min(len(rows), 6))
         x0, x1, y = flow.room(6)
         s.line(x0, y - 2, x1, weight=0.7)
@@ -184,9 +64,9 @@ def ulm(s: Wording) -> None:
             texts = s.wrapped(s.joined(row.label), 238, 8.2)
             x0, x1, y = flow.room(10 * len(texts) + 2.4)
             if index == 0:
-                _write(s, x0, y - 9.4, s.wrapped(s.section(section), 100, 9), 9, 11, bold=True)
-            _write(s, x0 + 116, y - 9.4, texts, 8.2, 10)
-            s.put(x0 + 366, y - 9.4, _text(s, row, "{} / {}"), size=8.2)
+                write(s, x0, y - 9.4, s.wrapped(s.section(section), 100, 9), 9, 11, bold=True)
+            write(s, x0 + 116, y - 9.4, texts, 8.2, 10)
+            s.put(x0 + 366, y - 9.4, value_of(s, row, "{} / {}"), size=8.2)
         flow.room(5 if len(rows) > 1 else 14)
 
 
@@ -195,7 +75,7 @@ def weblist(s: Wording) -> None:
 
     def furniture() -> None:
         s.put(24, 822, "11/4/26, 9:12 AM", size=7, ink="#000000")
-        s.put(298, 822, f"{s.machine.name} | {_word(s, 'title').title()}", size=7, align="c", ink="#000000")
+        s.put(298, 822, f"{s.machine.name} | {phrase(s, 'title').title()}", size=7, align="c", ink="#000000")
         s.put(24, 18, f"https://www.example.com/en/products/{s.machine.name.lower().replace(' ', '-')}/specs", size=7)
 
     furniture()
@@ -205,7 +85,7 @@ def weblist(s: Wording) -> None:
     s.line(134, 747, 170, weight=2)
     flow = Flow(s, ((50, 545),), 736, 40, 800)
     place, stripe = 0, 0
-    for section, rows in _blocks(s, rams="rows"):
+    for section, rows in blocks_of(s, rams="rows"):
         flow.keep(58)
         x0, x1, y = flow.room(27)
         if flow.place != place:
@@ -223,7 +103,7 @@ def weblist(s: Wording) -> None:
             if stripe % 2:
                 s.fill(x0, y - 16.5, x1 - x0, 16.5, "#f2f2f2")
             s.put(x0 + 6, y - 11.4, s.joined(row.label), size=8.4)
-            s.put(x0 + 300, y - 11.4, _text(s, row), size=8.4, bold=True)
+            s.put(x0 + 300, y - 11.4, value_of(s, row), size=8.4, bold=True)
         flow.room(8)
 
 
@@ -231,10 +111,10 @@ def shadyside(s: Wording) -> None:
     """A product guide: by each heading a pictogram's square, below it bullets "item: value" in two columns."""
     s.fill(40, 776, 515, 40, "#8a1020")
     s.put(50, 789, s.machine.name, size=20, bold=True, ink="#ffffff")
-    s.put(546, 791, _word(s, "title"), size=10, align="r", ink="#ffffff")
-    _foot(s)
-    blocks = _blocks(s, pairs=True, rams="product")
-    flow = Flow(s, ((40, 288), (307, 555)), 764, _level(blocks, 764, 2, 13.6, 32), 800)
+    s.put(546, 791, phrase(s, "title"), size=10, align="r", ink="#ffffff")
+    foot(s)
+    blocks = blocks_of(s, pairs=True, rams="product")
+    flow = Flow(s, ((40, 288), (307, 555)), 764, lower_edge(blocks, 764, 2, 13.6, 32), 800)
     for section, rows in blocks:
         flow.keep(44)
         x0, x1, y = flow.room(24)
@@ -243,31 +123,31 @@ def shadyside(s: Wording) -> None:
         s.canvas.circle(x0 + 9, y - 11, 5)
         s.put(x0 + 25, y - 14, s.section(section), size=10, bold=True, ink="#8a1020")
         for row in rows:
-            texts = s.wrapped(f"{s.joined(row.label)}{_colon(s)} {_text(s, row)}", x1 - x0 - 36, 8)
+            texts = s.wrapped(f"{s.joined(row.label)}{colon(s)} {value_of(s, row)}", x1 - x0 - 36, 8)
             x0, x1, y = flow.room(10 * len(texts) + 2)
             s.put(x0 + 25, y - 9, "•", size=8)
-            _write(s, x0 + 34, y - 9, texts, 8, 10)
+            write(s, x0 + 34, y - 9, texts, 8, 10)
         flow.room(6)
 
 
 def liuzhou(s: Wording) -> None:
     """Bars over ruled rows in two columns; where both systems are printed a stroke parts them."""
     s.put(40, 800, s.machine.name, size=20, bold=True, ink="#c40d1e")
-    s.put(40 + s.width(s.machine.name, 20, True) + 12, 800, _word(s, "title"), size=11, ink=_GREY)
+    s.put(40 + s.width(s.machine.name, 20, True) + 12, 800, phrase(s, "title"), size=11, ink=_GREY)
     s.line(40, 790, 555, weight=2)
-    _foot(s)
-    blocks = _blocks(s, rams="product" if s.style.language != "zh" else "rows")
-    flow = Flow(s, ((40, 291), (304, 555)), 780, _level(blocks, 780, 2, 14, 26), 800)
+    foot(s)
+    blocks = blocks_of(s, rams="product" if s.style.language != "zh" else "rows")
+    flow = Flow(s, ((40, 291), (304, 555)), 780, lower_edge(blocks, 780, 2, 14, 26), 800)
     for section, rows in blocks:
         flow.keep(20 + 14 * min(len(rows), 5))
         x0, x1, y = flow.room(16)
         s.fill(x0, y - 15, x1 - x0, 15, "#c40d1e")
         s.put(x0 + 5, y - 10.8, s.section(section), size=8.6, bold=True, ink="#ffffff")
         for row in rows:
-            value = _text(s, row, "{} / {}")
+            value = value_of(s, row, "{} / {}")
             texts = s.wrapped(s.joined(row.label), x1 - x0 - s.width(value, 7.4) - 16, 7.4)
             x0, x1, y = flow.room(9 * len(texts) + 4.4)
-            _write(s, x0 + 5, y - 9.2, texts, 7.4, 9)
+            write(s, x0 + 5, y - 9.2, texts, 7.4, 9)
             s.put(x1 - 5, y - 4.7 - 4.5 * len(texts), value, size=7.4, align="r")
             s.line(x0, flow.y, x1, weight=0.3)
         flow.room(7)
@@ -279,12 +159,12 @@ def hino(s: Wording) -> None:
     names = [f"{s.machine.name[:-3]}{int(s.machine.name[-3:]) + 15 * step}" for step in steps]
     s.config = s.machine.name
     s.put(40, 800, " / ".join(names), size=15, bold=True)
-    s.put(555, 800, _word(s, "title"), size=10, align="r", ink=_GREY)
-    _foot(s)
+    s.put(555, 800, phrase(s, "title"), size=10, align="r", ink=_GREY)
+    foot(s)
     flow = Flow(s, ((40, 555),), 790, 46, 800)
     item, unit, first = 156.0, 310.0, 352.0
     wide = (555 - first) / len(steps)
-    heads = _word(s, "heads").split(" / ")
+    heads = phrase(s, "heads").split(" / ")
     place = -1
 
     def head() -> None:
@@ -297,7 +177,7 @@ def hino(s: Wording) -> None:
         s.line(x0, y, x1, weight=0.8)
         s.line(x0, y - 17, x1, weight=0.5)
 
-    for section, rows in _blocks(s, pairs=True):
+    for section, rows in blocks_of(s, pairs=True):
         group = ""
         for row in [None, *rows]:
             high = 13.4 if row else 14.0
@@ -328,32 +208,17 @@ def hino(s: Wording) -> None:
                 s.line(x, y, x, y1=y - high, weight=0.3)
             s.put((unit + first) / 2, y - 9.4, row.said.unit, size=7.4, align="c")
             for index, step in enumerate(steps):
-                s.put(first + wide * (index + 0.5), y - 9.4, _step(s, row, step), size=7.4, align="c")
-
-
-def _step(s: Wording, row: Row, step: int) -> str:
-    """A cell's number for a model that is so many steps larger."""
-    names = row.name.split(" + ")
-    if len(names) == 2:
-        return row.said.number
-    name = row.name.removeprefix("*")
-    grows = row.said.unit in _GROWS and " Cylinder " not in name and name not in _FIXED
-    if not step or not grows or name not in s.machine.values:
-        return row.said.number
-    if row.name.startswith("*"):
-        value = float(row.said.number.replace(s.style.group or " ", "").replace(s.style.point, "."))
-        return s.digits(round(value * (1 + 0.06 * step)), 0)
-    return s.say(name, rounded(s.machine.kind, name, s.machine.values[name] * (1 + 0.06 * step)), note=False).number
+                s.put(first + wide * (index + 0.5), y - 9.4, stepped(s, row, step), size=7.4, align="c")
 
 
 def turin(s: Wording) -> None:
     """Two columns: the unit in brackets after the label, dots, and the number at the right edge."""
     s.put(40, 796, s.machine.name, size=24, bold=True, ink="#0b3d91")
     s.fill(40, 772, 515, 16, "#f7c600")
-    s.put(46, 776.5, _word(s, "title"), size=9, bold=True)
-    _foot(s)
-    blocks = _blocks(s, rams="product")
-    flow = Flow(s, ((40, 288), (307, 555)), 762, _level(blocks, 762, 2, 13, 27), 800)
+    s.put(46, 776.5, phrase(s, "title"), size=9, bold=True)
+    foot(s)
+    blocks = blocks_of(s, rams="product")
+    flow = Flow(s, ((40, 288), (307, 555)), 762, lower_edge(blocks, 762, 2, 13, 27), 800)
     for section, rows in blocks:
         flow.keep(22 + 12 * min(len(rows), 3))
         x0, x1, y = flow.room(19)
@@ -367,7 +232,7 @@ def turin(s: Wording) -> None:
             label = s.joined(row.label) + (f" ({unit})" if unit else "")
             texts = s.wrapped(label, x1 - x0 - s.width(value, 7.6, True) - 14, 7.6)
             x0, x1, y = flow.room(9.2 * len(texts) + 2.6)
-            _write(s, x0, y - 9, texts, 7.6, 9.2)
+            write(s, x0, y - 9, texts, 7.6, 9.2)
             base = y - 9 - 9.2 * (len(texts) - 1)
             s.put(x1, base, value, size=7.6, bold=True, align="r")
             left, right = x0 + s.width(texts[-1], 7.6) + 2, x1 - s.width(value, 7.6, True) - 2

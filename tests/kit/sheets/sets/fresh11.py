@@ -13,7 +13,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import replace
 
-from kit.sheets.sets.fresh10 import _blocks, _foot, _level, _step, _text, _word, _write
+from kit.sheets.sets.rows import blocks_of, foot, lower_edge, phrase, stepped, value_of, write
 from kit.sheets.typeset import Style
 from kit.sheets.worded import Flow, Row, Worded, Wording
 
@@ -50,43 +50,43 @@ def racine(s: Wording) -> None:
     """Three narrow columns: items with dotted leaders up to the value, which goes below where it does not fit."""
     s.fill(0, 796, 596, 46, "#c8102e")
     s.put(36, 811, s.machine.name, size=20, bold=True, ink="#ffffff")
-    s.put(560, 813, _word(s, "title"), size=10, align="r", ink="#ffffff")
-    _foot(s)
-    blocks = _blocks(s, rams="product" if s.style.imperial else "rows")
+    s.put(560, 813, phrase(s, "title"), size=10, align="r", ink="#ffffff")
+    foot(s)
+    blocks = blocks_of(s, rams="product" if s.style.imperial else "rows")
     columns = ((36, 203), (214, 381), (392, 559))
-    flow = Flow(s, columns, 782, _level(blocks, 782, 3, 12.4, 27), 800)
+    flow = Flow(s, columns, 782, lower_edge(blocks, 782, 3, 12.4, 27), 800)
     for section, rows in blocks:
         flow.keep(48)
         x0, x1, y = flow.room(17)
         s.put(x0, y - 11, s.section(section).upper(), size=8.4, bold=True, ink="#c8102e")
         s.line(x0, y - 13.6, x1, weight=0.8)
         for row in rows:
-            value = _text(s, row)
+            value = value_of(s, row)
             wide = s.width(value, 6.8)
             texts = s.wrapped(s.joined(row.label), x1 - x0 - 4, 6.8)
             below = s.width(texts[-1], 6.8) + wide + 10 > x1 - x0
             x0, x1, y = flow.room(8.2 * (len(texts) + below) + 2)
-            _write(s, x0, y - 8, texts, 6.8, 8.2)
+            write(s, x0, y - 8, texts, 6.8, 8.2)
             base = y - 8 - 8.2 * (len(texts) - 1 + below)
             s.put(x1, base, value, size=6.8, align="r")
             left = x0 + (8 if below else s.width(texts[-1], 6.8) + 2)
             dots = int((x1 - wide - 2 - left) / s.width(".", 6.8))
             s.put(x1 - wide - 2, base, "." * dots, size=6.8, align="r")
         if section == "weights":
-            texts = s.wrapped(_word(s, "with"), x1 - x0, 6)
+            texts = s.wrapped(phrase(s, "with"), x1 - x0, 6)
             x0, x1, y = flow.room(7 * len(texts) + 3)
-            _write(s, x0, y - 7, texts, 6, 7)
+            write(s, x0, y - 7, texts, 6, 7)
         flow.room(7)
 
 
 def rocester(s: Wording) -> None:
     """Tables over the whole width: the drawing's letter, the item, the unit, and the value in the model's column."""
     s.fill(36, 786, 523, 34, "#fcb026")
-    s.put(46, 797, f"{_word(s, 'title')}  |  {s.machine.name}", size=15, bold=True, ink="#000000")
-    _foot(s)
+    s.put(46, 797, f"{phrase(s, 'title')}  |  {s.machine.name}", size=15, bold=True, ink="#000000")
+    foot(s)
     flow = Flow(s, ((36, 559),), 776, 44, 806)
     letter = 0
-    for section, rows in _blocks(s, rams="rows"):
+    for section, rows in blocks_of(s, rams="rows"):
         flow.keep(16 + 12.6 * min(len(rows), 4))
         x0, x1, y = flow.room(15)
         s.fill(x0, y - 14, x1 - x0, 14, "#3b3b3b")
@@ -109,11 +109,11 @@ def rocester(s: Wording) -> None:
 def incheon(s: Wording) -> None:
     """Two columns of striped rows: item, unit and value, headings in colour."""
     s.put(36, 802, s.machine.name, size=22, bold=True, ink="#e8590c")
-    s.put(559, 804, _word(s, "title"), size=10, align="r", ink=_GREY)
+    s.put(559, 804, phrase(s, "title"), size=10, align="r", ink=_GREY)
     s.line(36, 792, 559, weight=1.6)
-    _foot(s)
-    blocks = _blocks(s, rams="product" if s.style.language == "en" else "rows")
-    flow = Flow(s, ((36, 291), (304, 559)), 784, _level(blocks, 784, 2, 13.5, 26), 800)
+    foot(s)
+    blocks = blocks_of(s, rams="product" if s.style.language == "en" else "rows")
+    flow = Flow(s, ((36, 291), (304, 559)), 784, lower_edge(blocks, 784, 2, 13.5, 26), 800)
     for section, rows in blocks:
         flow.keep(20 + 13 * min(len(rows), 4))
         x0, x1, y = flow.room(17)
@@ -125,7 +125,7 @@ def incheon(s: Wording) -> None:
             x0, x1, y = flow.room(high)
             if index % 2:
                 s.fill(x0, y - high, x1 - x0, high, "#eeeeee")
-            _write(s, x0 + 3, y - 8.8, texts, 7.2, 8.6)
+            write(s, x0 + 3, y - 8.8, texts, 7.2, 8.6)
             middle = y - high / 2 - 2.5
             s.put(x0 + 148, middle, _unit(row), size=7.2, align="c")
             s.put(x1 - 4, middle, _number(row), size=7.2, align="r")
@@ -135,17 +135,17 @@ def incheon(s: Wording) -> None:
 def changsha(s: Wording) -> None:
     """Key figures in boxes, below them two ruled tables of item and value side by side."""
     s.put(40, 796, s.machine.name, size=24, bold=True, ink="#b11116")
-    s.put(40, 780, _word(s, "title"), size=10, ink=_GREY)
-    _foot(s)
-    blocks = _blocks(s, rams="rows")
+    s.put(40, 780, phrase(s, "title"), size=10, ink=_GREY)
+    foot(s)
+    blocks = blocks_of(s, rams="rows")
     own = {row.name: row for _, rows in blocks for row in rows}
     keys = [own[name] for name in _KEYS if name in own][:3]
     for index, row in enumerate(keys):
         x = 40 + 175 * index
         s.fill(x, 722, 165, 46, "#f4f4f4")
-        s.put(x + 10, 745, _text(s, row), size=13, bold=True, ink="#b11116")
+        s.put(x + 10, 745, value_of(s, row), size=13, bold=True, ink="#b11116")
         s.put(x + 10, 730, s.joined(row.label), size=7.4)
-    flow = Flow(s, ((40, 292), (303, 555)), 708, _level(blocks, 708, 2, 14.8, 24), 800)
+    flow = Flow(s, ((40, 292), (303, 555)), 708, lower_edge(blocks, 708, 2, 14.8, 24), 800)
     for section, rows in blocks:
         flow.keep(18 + 15 * min(len(rows), 4))
         x0, x1, y = flow.room(16)
@@ -155,8 +155,8 @@ def changsha(s: Wording) -> None:
             texts = s.wrapped(s.joined(row.label), 138, 7.4)
             high = 9 * len(texts) + 5
             x0, x1, y = flow.room(high)
-            _write(s, x0 + 5, y - 9.8, texts, 7.4, 9)
-            s.put(x0 + 199, y - high / 2 - 2.6, _text(s, row), size=7.4, align="c")
+            write(s, x0 + 5, y - 9.8, texts, 7.4, 9)
+            s.put(x0 + 199, y - high / 2 - 2.6, value_of(s, row), size=7.4, align="c")
             s.line(x0, y - high, x1, weight=0.3)
             for edge in (x0, x0 + 146, x1):
                 s.line(edge, y, edge, y1=y - high, weight=0.3)
@@ -168,13 +168,13 @@ def linz(s: Wording) -> None:
     steps = (0, 1) if s.machine.kind in ("excavator", "wheel_loader") else (-1, 0, 1)
     names = [f"{s.machine.name[:-3]}{int(s.machine.name[-3:]) + 15 * step}" for step in steps]
     s.config = s.machine.name
-    s.put(40, 798, _word(s, "title"), size=17, bold=True, ink="#00695c")
-    _foot(s)
+    s.put(40, 798, phrase(s, "title"), size=17, bold=True, ink="#00695c")
+    foot(s)
     flow = Flow(s, ((40, 555),), 786, 44, 806)
     first = 285.0
     wide = (555 - first) / len(steps)
     place = -1
-    for section, rows in _blocks(s):
+    for section, rows in blocks_of(s):
         for row in [None, *rows]:
             flow.keep(42 if row is None else 14)
             if flow.place != place:
@@ -190,20 +190,20 @@ def linz(s: Wording) -> None:
                 continue
             s.put(x0, y - 9, s.joined(row.label), size=7.5)
             for index, step in enumerate(steps):
-                said = replace(row.said, number=_step(s, row, step), imperial="")
+                said = replace(row.said, number=stepped(s, row, step), imperial="")
                 s.put(first + wide * index, y - 9, said.metric, size=7.5)
             s.line(x0, y - 12.8, x1, weight=0.2)
 
 
 def osaka(s: Wording) -> None:
     """A ruled table: the section in a cell at the left of its rows, then item, unit and value."""
-    s.put(40, 802, _word(s, "title"), size=13, bold=True)
-    _foot(s)
+    s.put(40, 802, phrase(s, "title"), size=13, bold=True)
+    foot(s)
     flow = Flow(s, ((40, 555),), 790, 44, 806)
     item, unit, value = 132.0, 372.0, 430.0
-    heads = _word(s, "heads").split(" / ")
+    heads = phrase(s, "heads").split(" / ")
     place = -1
-    for section, rows in _blocks(s, rams="rows"):
+    for section, rows in blocks_of(s, rams="rows"):
         rest = list(rows)
         while rest:
             flow.keep(13.2 * min(len(rest), 2) + (14 if flow.place == place else 0))
@@ -225,7 +225,7 @@ def osaka(s: Wording) -> None:
                 s.put((value + x1) / 2, y - 9.4, _number(row), size=7.6, align="c")
                 s.line(item, y - 13.2, x1, weight=0.25)
             texts = s.wrapped(s.section(section), item - 46, 7.8)
-            _write(s, 45, (top + flow.y) / 2 - 3 + 4.6 * (len(texts) - 1), texts, 7.8, 9.2, bold=True)
+            write(s, 45, (top + flow.y) / 2 - 3 + 4.6 * (len(texts) - 1), texts, 7.8, 9.2, bold=True)
             s.line(40, flow.y, 555, weight=0.6)
             for x in (40, item, unit, value, 555):
                 s.line(x, top, x, y1=flow.y, weight=0.4)
@@ -236,11 +236,11 @@ def richards(s: Wording) -> None:
     """Four columns: a heading with a bar, labels in bold type and below each its value."""
     s.fill(0, 800, 596, 42, "#1d2b44")
     s.put(36, 813, s.machine.name, size=19, bold=True, ink="#f2b705")
-    s.put(560, 815, _word(s, "title"), size=10, align="r", ink="#ffffff")
-    _foot(s)
-    blocks = _blocks(s, rams="product")
+    s.put(560, 815, phrase(s, "title"), size=10, align="r", ink="#ffffff")
+    foot(s)
+    blocks = blocks_of(s, rams="product")
     columns = tuple((36.0 + 133 * i, 36.0 + 133 * i + 124) for i in range(4))
-    flow = Flow(s, columns, 788, _level(blocks, 788, 4, 21, 25), 806)
+    flow = Flow(s, columns, 788, lower_edge(blocks, 788, 4, 21, 25), 806)
     for section, rows in blocks:
         flow.keep(44)
         x0, x1, y = flow.room(19)
@@ -249,8 +249,8 @@ def richards(s: Wording) -> None:
         for row in rows:
             texts = s.wrapped(s.joined(row.label), x1 - x0 - 12, 7)
             x0, x1, y = flow.room(8.4 * len(texts) + 12)
-            _write(s, x0, y - 7, texts, 7, 8.4, bold=True)
-            s.put(x0, y - 7 - 8.4 * len(texts), _text(s, row), size=7)
+            write(s, x0, y - 7, texts, 7, 8.4, bold=True)
+            s.put(x0, y - 7 - 8.4 * len(texts), value_of(s, row), size=7)
         flow.room(6)
 
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
-from kit.sheets.sets.fresh10 import _blocks, _colon, _foot, _level, _step, _text, _word, _write
+from kit.sheets.sets.rows import blocks_of, colon, foot, lower_edge, phrase, stepped, value_of, write
 from kit.sheets.typeset import Style
 from kit.sheets.worded import Flow, Worded, Wording
 
@@ -23,10 +23,10 @@ _TWO = ((38, 288), (308, 558))
 def annecy(s: Wording) -> None:
     """Two columns: capitals over a rule, striped rows, all values of a column begin at one edge."""
     s.put(38, 798, s.machine.name, size=26, bold=True, ink="#e2001a")
-    s.put(558, 800, _word(s, "title"), size=10, align="r", ink=_GREY)
-    _foot(s)
-    blocks = _blocks(s, rams="product")
-    flow = Flow(s, _TWO, 782, _level(blocks, 782, 2, 14.4, 28), 804)
+    s.put(558, 800, phrase(s, "title"), size=10, align="r", ink=_GREY)
+    foot(s)
+    blocks = blocks_of(s, rams="product")
+    flow = Flow(s, _TWO, 782, lower_edge(blocks, 782, 2, 14.4, 28), 804)
     stripe = 0
     for section, rows in blocks:
         flow.keep(20 + 15 * min(len(rows), 3))
@@ -35,24 +35,24 @@ def annecy(s: Wording) -> None:
         s.line(x0, y - 17, x1, weight=0.9)
         for row in rows:
             texts = s.wrapped(s.joined(row.label), 140, 7.4)
-            values = s.wrapped(_text(s, row), 98, 7.4)
+            values = s.wrapped(value_of(s, row), 98, 7.4)
             high = 9 * max(len(texts), len(values)) + 3.6
             x0, x1, y = flow.room(high)
             stripe += 1
             if stripe % 2:
                 s.fill(x0, y - high, x1 - x0, high, "#eeeeee")
-            _write(s, x0 + 3, y - 8.8, texts, 7.4, 9)
-            _write(s, x0 + 150, y - 8.8, values, 7.4, 9)
+            write(s, x0 + 3, y - 8.8, texts, 7.4, 9)
+            write(s, x0 + 150, y - 8.8, values, 7.4, 9)
         flow.room(8)
 
 
 def ankara(s: Wording) -> None:
     """Two columns under dark bars: labels, colons below each other, values."""
     s.fill(0, 800, 596, 42, "#f39200")
-    s.put(38, 813, f"{s.machine.name}  {_word(s, 'title')}", size=16, bold=True)
-    _foot(s)
-    blocks = _blocks(s, rams="rows")
-    flow = Flow(s, _TWO, 788, _level(blocks, 788, 2, 13.4, 27), 804)
+    s.put(38, 813, f"{s.machine.name}  {phrase(s, 'title')}", size=16, bold=True)
+    foot(s)
+    blocks = blocks_of(s, rams="rows")
+    flow = Flow(s, _TWO, 788, lower_edge(blocks, 788, 2, 13.4, 27), 804)
     for section, rows in blocks:
         flow.keep(20 + 14 * min(len(rows), 3))
         x0, x1, y = flow.room(18)
@@ -61,26 +61,26 @@ def ankara(s: Wording) -> None:
         for row in rows:
             texts = s.wrapped(s.joined(row.label), 134, 7.5)
             x0, x1, y = flow.room(9 * len(texts) + 3.2)
-            _write(s, x0 + 6, y - 9, texts, 7.5, 9)
-            s.put(x0 + 145, y - 9, _colon(s).strip(), size=7.5)
-            s.put(x0 + 154, y - 9, _text(s, row), size=7.5)
+            write(s, x0 + 6, y - 9, texts, 7.5, 9)
+            s.put(x0 + 145, y - 9, colon(s).strip(), size=7.5)
+            s.put(x0 + 154, y - 9, value_of(s, row), size=7.5)
         flow.room(7)
 
 
 def lugo(s: Wording) -> None:
     """Two columns: a tick before each heading, grey labels at the left, bold values at the right, dotted rules."""
-    s.put(38, 800, _word(s, "title"), size=11, ink=_GREY)
+    s.put(38, 800, phrase(s, "title"), size=11, ink=_GREY)
     s.put(558, 796, s.machine.name, size=22, bold=True, align="r", ink="#004f9f")
-    _foot(s)
-    blocks = _blocks(s, rams="product" if s.style.imperial else "rows")
-    flow = Flow(s, _TWO, 780, _level(blocks, 780, 2, 14, 28), 804)
+    foot(s)
+    blocks = blocks_of(s, rams="product" if s.style.imperial else "rows")
+    flow = Flow(s, _TWO, 780, lower_edge(blocks, 780, 2, 14, 28), 804)
     for section, rows in blocks:
         flow.keep(20 + 15 * min(len(rows), 3))
         x0, x1, y = flow.room(20)
         s.fill(x0, y - 16, 4, 13, "#004f9f")
         s.put(x0 + 9, y - 13, s.section(section), size=10, bold=True, ink="#004f9f")
         for row in rows:
-            value = _text(s, row)
+            value = value_of(s, row)
             texts = s.wrapped(s.joined(row.label), x1 - x0 - s.width(value, 7.6, True) - 12, 7.6)
             x0, x1, y = flow.room(9 * len(texts) + 4.4)
             for index, text in enumerate(texts):
@@ -96,19 +96,19 @@ def lexington(s: Wording) -> None:
     """Two columns: a heading in bold type, items indented, leaders, the value where there is room for it."""
     s.fill(38, 794, 520, 26, "#1d1d1b")
     s.put(46, 802, s.machine.name, size=15, bold=True, ink="#ffffff")
-    s.put(550, 803, _word(s, "title"), size=10, align="r", ink="#ffffff")
-    _foot(s)
-    blocks = _blocks(s, rams="rows")
-    flow = Flow(s, _TWO, 786, _level(blocks, 786, 2, 12.4, 24), 804)
+    s.put(550, 803, phrase(s, "title"), size=10, align="r", ink="#ffffff")
+    foot(s)
+    blocks = blocks_of(s, rams="rows")
+    flow = Flow(s, _TWO, 786, lower_edge(blocks, 786, 2, 12.4, 24), 804)
     for section, rows in blocks:
         flow.keep(18 + 12 * min(len(rows), 3))
         x0, x1, y = flow.room(16)
         s.put(x0, y - 11.4, s.section(section), size=9.2, bold=True)
         for row in rows:
-            value = _text(s, row)
+            value = value_of(s, row)
             texts = s.wrapped(s.joined(row.label), x1 - x0 - s.width(value, 7.6) - 26, 7.6)
             x0, x1, y = flow.room(9 * len(texts) + 2.4)
-            _write(s, x0 + 8, y - 8.8, texts, 7.6, 9)
+            write(s, x0 + 8, y - 8.8, texts, 7.6, 9)
             base = y - 8.8 - 9 * (len(texts) - 1)
             s.put(x1, base, value, size=7.6, align="r")
             room = x1 - s.width(value, 7.6) - x0 - 12 - s.width(texts[-1], 7.6)
@@ -122,13 +122,13 @@ def straubing(s: Wording) -> None:
     steps = (0, 1) if s.machine.kind == "excavator" else (-1, 0, 1)
     names = [f"{s.machine.name[:-3]}{int(s.machine.name[-3:]) + 15 * step}" for step in steps]
     s.config = s.machine.name
-    s.put(38, 800, _word(s, "title"), size=15, bold=True, ink="#00703c")
-    _foot(s)
+    s.put(38, 800, phrase(s, "title"), size=15, bold=True, ink="#00703c")
+    foot(s)
     flow = Flow(s, ((38, 558),), 788, 44, 806)
     first = 318.0
     wide = (558 - first) / len(steps)
     place = -1
-    for section, rows in _blocks(s, rams="rows"):
+    for section, rows in blocks_of(s, rams="rows"):
         for index, row in enumerate([None, *rows]):
             flow.keep(44 if row is None else 14)
             if flow.place != place:
@@ -146,18 +146,18 @@ def straubing(s: Wording) -> None:
             unit = f" [{row.said.unit}]" if row.said.unit else ""
             s.put(x0 + 4, y - 9.2, s.joined(row.label) + unit, size=7.6)
             for number, step in enumerate(steps):
-                s.put(first + wide * (number + 0.5), y - 9.2, _step(s, row, step), size=7.6, align="c")
+                s.put(first + wide * (number + 0.5), y - 9.2, stepped(s, row, step), size=7.6, align="c")
 
 
 def jining(s: Wording) -> None:
     """One ruled table of item, unit and value; a shaded row over each section's rows."""
-    s.put(298, 802, f"{s.machine.name} {_word(s, 'title')}", size=14, bold=True, align="c")
-    _foot(s)
+    s.put(298, 802, f"{s.machine.name} {phrase(s, 'title')}", size=14, bold=True, align="c")
+    foot(s)
     flow = Flow(s, ((62, 534),), 790, 44, 806)
     unit, value = 332.0, 400.0
-    heads = _word(s, "heads").split(" / ")
+    heads = phrase(s, "heads").split(" / ")
     place = -1
-    for section, rows in _blocks(s, rams="rows"):
+    for section, rows in blocks_of(s, rams="rows"):
         for row in [None, *rows]:
             flow.keep(44 if row is None else 15)
             if flow.place != place:

@@ -12,8 +12,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
-from kit.sheets.sets.fresh5 import _figure
-from kit.sheets.sets.fresh10 import _blocks, _colon, _foot, _level, _step, _text, _word, _write
+from kit.sheets.sets.rows import blocks_of, colon, figure, foot, lower_edge, phrase, stepped, value_of, write
 from kit.sheets.typeset import HEIGHT, WIDTH, Style
 from kit.sheets.worded import Flow, Row, Worded, Wording
 
@@ -28,40 +27,40 @@ _KEYS = ("Net Power", "Operating Weight", "Rated Payload", "Rated Capacity", "Ma
 def dealer(s: Wording) -> None:
     """A dealer's letterhead and a photograph; two columns of striped rows, values at a tab stop after the colon."""
     s.put(40, 812, "NORDHAVEN MACHINERY", size=13, bold=True, ink="#004b87")
-    s.put(40, 800, _word(s, "firm"), size=7, ink=_GREY)
+    s.put(40, 800, phrase(s, "firm"), size=7, ink=_GREY)
     s.put(555, 812, "Harbour Road 12", size=7, align="r", ink=_GREY)
     s.put(555, 802, "www.example.com", size=7, align="r", ink=_GREY)
     s.line(40, 793, 555, weight=1.2)
     s.put(40, 764, s.machine.name, size=20, bold=True)
-    s.put(40, 748, _word(s, "title"), size=10, ink=_GREY)
+    s.put(40, 748, phrase(s, "title"), size=10, ink=_GREY)
     s.fill(385, 690, 170, 94, "#d4d9dd")
-    _foot(s)
-    blocks = _blocks(s)
-    flow = Flow(s, ((40, 291), (304, 555)), 680, _level(blocks, 680, 2, 14, 26), 806)
+    foot(s)
+    blocks = blocks_of(s)
+    flow = Flow(s, ((40, 291), (304, 555)), 680, lower_edge(blocks, 680, 2, 14, 26), 806)
     for section, rows in blocks:
         flow.keep(50)
         x0, x1, y = flow.room(18)
         s.put(x0 + 3, y - 12, s.section(section), size=9.4, bold=True, ink="#004b87")
         s.line(x0, y - 17, x1, weight=0.8)
         for index, row in enumerate(rows):
-            values = s.wrapped(_text(s, row), 100, 7.4)
-            texts = s.wrapped(s.joined(row.label) + _colon(s), 140, 7.4)
+            values = s.wrapped(value_of(s, row), 100, 7.4)
+            texts = s.wrapped(s.joined(row.label) + colon(s), 140, 7.4)
             high = 9 * max(len(texts), len(values)) + 4
             x0, x1, y = flow.room(high)
             if index % 2 == 0:
                 s.fill(x0, y - high, x1 - x0, high, "#eaf0f5")
-            _write(s, x0 + 3, y - 9.2, texts, 7.4, 9)
-            _write(s, x0 + 150, y - 9.2, values, 7.4, 9, bold=True)
+            write(s, x0 + 3, y - 9.2, texts, 7.4, 9)
+            write(s, x0 + 150, y - 9.2, values, 7.4, 9, bold=True)
         flow.room(7)
 
 
 def leaders(s: Wording) -> None:
     """A maker's plain data sheet: one column with dotted leaders, groups' items indented below their names."""
     s.put(WIDTH / 2, 800, s.machine.name, size=20, bold=True, align="c")
-    s.put(WIDTH / 2, 784, _word(s, "title"), size=10, align="c", ink=_GREY)
-    _foot(s)
+    s.put(WIDTH / 2, 784, phrase(s, "title"), size=10, align="c", ink=_GREY)
+    foot(s)
     flow = Flow(s, ((90, 505),), 768, 44, 800)
-    for section, rows in _blocks(s, rams="product" if s.style.language != "ja" else "rows"):
+    for section, rows in blocks_of(s, rams="product" if s.style.language != "ja" else "rows"):
         flow.keep(58)
         x0, x1, y = flow.room(20)
         s.put(x0, y - 14, s.section(section).upper(), size=9, bold=True)
@@ -75,7 +74,7 @@ def leaders(s: Wording) -> None:
             group = name if mark else ""
             x0, x1, y = flow.room(12.6)
             left, label = (x0 + 14, item) if mark else (x0, row.label)
-            value = _text(s, row)
+            value = value_of(s, row)
             end = left + s.put(left, y - 9.4, label, size=8.4) + 3
             begin = x1 - s.put(x1, y - 9.4, value, size=8.4, align="r") - 3
             s.put(begin, y - 9.4, "." * int((begin - end) / s.width(".", 8.4)), size=8.4, align="r")
@@ -88,10 +87,10 @@ def _list(s: Wording, flow: Flow, section: str, rows: list[Row]) -> None:
     x0, x1, y = flow.room(17)
     s.put(x0, y - 12, s.section(section), size=9, bold=True, ink="#2e6b34")
     for row in rows:
-        value = _text(s, row)
+        value = value_of(s, row)
         texts = s.wrapped(s.joined(row.label), x1 - x0 - s.width(value, 7.4) - 10, 7.4)
         x0, x1, y = flow.room(9 * len(texts) + 2.6)
-        _write(s, x0, y - 8.6, texts, 7.4, 9)
+        write(s, x0, y - 8.6, texts, 7.4, 9)
         s.put(x1, y - 8.6, value, size=7.4, align="r")
     flow.room(6)
 
@@ -99,29 +98,29 @@ def _list(s: Wording, flow: Flow, section: str, rows: list[Row]) -> None:
 def lettered(s: Wording) -> None:
     """A drawing with letters, the table of its letters at its right; the other sections in two plain columns."""
     s.put(40, 800, s.machine.name, size=22, bold=True, ink="#2e6b34")
-    s.put(555, 802, _word(s, "title"), size=10, align="r", ink=_GREY)
+    s.put(555, 802, phrase(s, "title"), size=10, align="r", ink=_GREY)
     s.line(40, 790, 555, weight=2)
-    _foot(s)
-    blocks = _blocks(s, rams="product")
+    foot(s)
+    blocks = blocks_of(s, rams="product")
     drawn = [row for one, rows in blocks if one in ("working", "dimensions") for row in rows]
     letters = [_LETTERS[i % 26] + ("" if i < 26 else str(i // 26)) for i in range(len(drawn))]
-    _figure(s, 44, 560, 215, 200, letters[:16])
+    figure(s, 44, 560, 215, 200, letters[:16])
     y = 782.0
     s.put(275, y - 10, s.section("dimensions"), size=9, bold=True, ink="#2e6b34")
     y -= 15
     for letter, row in zip(letters, drawn, strict=True):
-        value = _text(s, row)
+        value = value_of(s, row)
         texts = s.wrapped(s.joined(row.label), 260 - s.width(value, 7.4), 7.4)
         high = 9 * len(texts) + 3.4
         s.line(275, y, 555, weight=0.3)
         s.put(281, y - 9, letter, size=7.4, bold=True, align="c")
-        _write(s, 292, y - 9, texts, 7.4, 9)
+        write(s, 292, y - 9, texts, 7.4, 9)
         s.put(555, y - 9, value, size=7.4, align="r")
         y -= high
     s.line(275, y, 555, weight=0.3)
     top = min(y, 556.0) - 12
     others = [block for block in blocks if block[0] not in ("working", "dimensions")]
-    flow = Flow(s, ((40, 288), (307, 555)), top, _level(others, top, 2, 12, 24), 800)
+    flow = Flow(s, ((40, 288), (307, 555)), top, lower_edge(others, top, 2, 12, 24), 800)
     for section, rows in others:
         _list(s, flow, section, rows)
 
@@ -132,20 +131,20 @@ def range_card(s: Wording) -> None:
     steps = (0, 1) if s.machine.kind in ("wheel_loader", "forklift") else (-1, 0, 1)
     names = [f"{s.machine.name[:-3]}{int(s.machine.name[-3:]) + 10 * step}" for step in steps]
     s.config = s.machine.name
-    s.put(40, 560, _word(s, "title"), size=16, bold=True)
+    s.put(40, 560, phrase(s, "title"), size=16, bold=True)
     s.put(800, 562, "  |  ".join(names), size=11, align="r", ink=_GREY)
-    _foot(s)
+    foot(s)
     flow = Flow(s, ((40, 800),), 550, 44, 560)
     wide = 420 / len(steps)
     place = -1
-    for section, rows in _blocks(s):
+    for section, rows in blocks_of(s):
         for index, row in enumerate([None, *rows]):
             flow.keep(32 if row is None else 16)
             if flow.place != place:
                 place = flow.place
                 x0, x1, y = flow.room(18)
                 s.fill(x0, y - 18, x1 - x0, 18, "#333c45")
-                s.put(x0 + 6, y - 12.4, _word(s, "item"), size=9, bold=True, ink="#ffffff")
+                s.put(x0 + 6, y - 12.4, phrase(s, "item"), size=9, bold=True, ink="#ffffff")
                 for i, name in enumerate(names):
                     x = x1 - wide * (len(names) - i - 0.5)
                     s.put(x, y - 12.4, name, size=9, bold=True, align="c", ink="#ffffff")
@@ -160,7 +159,7 @@ def range_card(s: Wording) -> None:
             s.put(x0 + 6, y - 10.6, s.joined(row.label) + unit, size=8.2)
             for i, step in enumerate(steps):
                 x = x1 - wide * (len(names) - i - 0.5)
-                text = row.said.metric if row.said.unit == "R25" else _step(s, row, step)
+                text = row.said.metric if row.said.unit == "R25" else stepped(s, row, step)
                 if step and row.name.startswith("*") and row.said.unit == "m³":  # a neighbour's, as fine as its own
                     own = float(row.said.number.replace(s.style.point, "."))
                     text = s.digits(own * (1 + 0.06 * step), 2)
@@ -171,16 +170,16 @@ def systems(s: Wording) -> None:
     """One table the width of the page: item, metric value, US value; a black head with the columns' names each time."""
     s.fill(40, 778, 7, 40, "#ffb300")
     s.put(54, 800, s.machine.name, size=19, bold=True)
-    s.put(54, 784, _word(s, "title"), size=10, ink=_GREY)
-    _foot(s)
+    s.put(54, 784, phrase(s, "title"), size=10, ink=_GREY)
+    foot(s)
     flow = Flow(s, ((40, 555),), 768, 44, 806)
-    for section, rows in _blocks(s):
+    for section, rows in blocks_of(s):
         flow.keep(50)
         x0, x1, y = flow.room(16)
         s.fill(x0, y - 16, x1 - x0, 16, "#1a1a1a")
         s.put(x0 + 6, y - 11.4, s.section(section), size=8.6, bold=True, ink="#ffffff")
-        s.put(395, y - 11.4, _word(s, "metric"), size=8, align="c", ink="#ffffff")
-        s.put(500, y - 11.4, _word(s, "us"), size=8, align="c", ink="#ffffff")
+        s.put(395, y - 11.4, phrase(s, "metric"), size=8, align="c", ink="#ffffff")
+        s.put(500, y - 11.4, phrase(s, "us"), size=8, align="c", ink="#ffffff")
         for row in rows:
             x0, x1, y = flow.room(13.6)
             s.put(x0 + 6, y - 9.8, s.joined(row.label), size=8)
@@ -197,9 +196,9 @@ def sidebar(s: Wording) -> None:
     """A rental firm's sheet: a coloured column with key figures as cards, ruled tables at its right."""
     s.fill(0, 0, 168, HEIGHT, "#12324a")
     s.put(24, 796, s.machine.name, size=17, bold=True, ink="#ffffff")
-    s.put(24, 780, _word(s, "title"), size=9, ink="#c8d6e0")
-    s.put(24, 746, _word(s, "key"), size=9, bold=True, ink="#ffd24a")
-    blocks = _blocks(s, rams="product" if s.style.wording else "rows")
+    s.put(24, 780, phrase(s, "title"), size=9, ink="#c8d6e0")
+    s.put(24, 746, phrase(s, "key"), size=9, bold=True, ink="#ffd24a")
+    blocks = blocks_of(s, rams="product" if s.style.wording else "rows")
     keys = sorted((row for _, rows in blocks for row in rows if row.name in _KEYS), key=lambda r: _KEYS.index(r.name))
     y = 732.0
     for key in keys[:4]:
@@ -208,7 +207,7 @@ def sidebar(s: Wording) -> None:
         for index, text in enumerate(s.wrapped(s.joined(key.label), 118, 7)):
             s.put(26, y - 38 - 8.4 * index, text, size=7, ink="#dfe9f0")
         y -= 66
-    s.put(186, 26, _word(s, "note"), size=5.6, ink=_GREY)
+    s.put(186, 26, phrase(s, "note"), size=5.6, ink=_GREY)
     flow = Flow(s, ((186, 560),), 812, 44, 812)
     place = 0
     for section, rows in blocks:
@@ -223,7 +222,7 @@ def sidebar(s: Wording) -> None:
                 s.line(x0, y - 16, x1, weight=1)
                 continue
             s.put(x0 + 2, y - 9.4, s.joined(row.label), size=7.8)
-            s.put(412, y - 9.4, _text(s, row), size=7.8)
+            s.put(412, y - 9.4, value_of(s, row), size=7.8)
             s.line(x0, y - 12.8, x1, weight=0.2)
         flow.room(6)
 

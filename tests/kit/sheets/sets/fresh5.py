@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from kit.sheets.machines import rounded
+from kit.sheets.sets.rows import colon, figure, phrase
 from kit.sheets.typeset import Style
 from kit.sheets.worded import Flow, Row, Said, Truth, Worded, Wording, lines
 
@@ -39,9 +40,6 @@ _SIZED = {"mm", "m", "kg", "t", "kW", "kN", "m³"}
 
 
 # ---- what is printed -------------------------------------------------------------------------------------------------
-def _word(s: Wording, key: str) -> str:
-    """A text of this set that is no label."""
-    return next(s.of(one) for one in lines(s.file)["texts"] if one.name == key)
 
 
 def _start(s: Wording, *, whole: bool = False) -> float:
@@ -55,9 +53,9 @@ def _start(s: Wording, *, whole: bool = False) -> float:
     s.left_out = frozenset(left)
     width, height = s.size
     s.put(40, height - 48, s.machine.name, size=20, bold=True, ink=_BLUE)
-    s.put(width - 40, height - 48, _word(s, "data"), size=11, align="r", ink="#666666")
+    s.put(width - 40, height - 48, phrase(s, "data"), size=11, align="r", ink="#666666")
     s.line(40, height - 56, width - 40, weight=1.2)
-    s.put(40, 22, _word(s, "note"), size=5.8, ink="#666666")
+    s.put(40, 22, phrase(s, "note"), size=5.8, ink="#666666")
     return height - 68
 
 
@@ -102,7 +100,7 @@ def _rows(s: Wording, section: str, *, pairs: bool = False, rams: str = "rows") 
     if section == "engine" and not s.prints("Net Power") and s.machine.kind != "forklift":
         power = float(round(s.machine.values["Net Power"] * 1.04))
         s.allowed |= dict.fromkeys(("Engine Power", "Gross Power"), Truth(power * 1e3, power * 1e-3))
-        rows.insert(0, Row(_word(s, "gross"), s.say("Net Power", power, note=False), "*"))
+        rows.insert(0, Row(phrase(s, "gross"), s.say("Net Power", power, note=False), "*"))
     rows = [replace(row, said=_local(s, row.said, row.name)) for row in rows]
     for names, label, mark in _pairs(s) if pairs else []:
         own = [row for row in rows if row.name in names]
@@ -138,7 +136,7 @@ def _triples(s: Wording) -> list[Row]:
         own = sorted((row for row in rest if row.name in names), key=lambda row: names.index(row.name))
         if one.name.startswith("@") and len(own) == 3:
             text = " × ".join(row.said.number for row in own)
-            found.append(Row(f"{s.of(one)} ({one.place}), {_word(s, 'triple')}", Said(text, "mm"), names[0]))
+            found.append(Row(f"{s.of(one)} ({one.place}), {phrase(s, 'triple')}", Said(text, "mm"), names[0]))
         elif one.name.startswith("@"):
             found += own
     return found
@@ -153,7 +151,7 @@ def _text(s: Wording, row: Row, *, first: bool = False) -> str:
         if s.style.language == "ja":
             text = f"{said.metric} {{{said.imperial}}}"
     if said.unit == "kW" and row.name and not first:
-        at = _word(s, "at").format(s.digits(2000, 0))
+        at = phrase(s, "at").format(s.digits(2000, 0))
         text += at if at[0] == "/" else f" {at}"
     return text
 
@@ -171,39 +169,6 @@ def _bottom(blocks: list[tuple[str, list[Row]]], top: float, columns: int, row: 
 
 
 # ---- layouts ---------------------------------------------------------------------------------------------------------
-def _figure(s: Wording, x: float, y: float, width: float, height: float, letters: list[str]) -> None:
-    """A machine from its side, with dimension lines and their letters: lengths below it, heights beside it."""
-    c, ground, long = s.canvas, y + 58, 0.5 * width
-    c.setLineWidth(0.8)
-    c.setStrokeColorRGB(0.25, 0.25, 0.25)
-    s.line(x, ground, x + width, weight=0.6)
-    if s.machine.kind in ("excavator", "dozer"):
-        c.roundRect(x + 0.2 * long, ground, 0.55 * long, 30, 14)
-        for i in range(5):
-            c.circle(x + 0.27 * long + i * 0.1 * long, ground + 9, 5)
-    else:
-        for share in (0.28, 0.72):
-            c.circle(x + share * long, ground + 20, 20)
-            c.circle(x + share * long, ground + 20, 9)
-    c.rect(x + 0.16 * long, ground + 34, 0.66 * long, 26)
-    c.rect(x + 0.4 * long, ground + 60, 0.22 * long, 32)
-    if s.machine.kind not in ("dozer", "grader"):
-        s.line(x + 0.66 * long, ground + 58, x + 0.86 * long, y1=ground + height - 74, weight=3)
-        s.line(x + 0.86 * long, ground + height - 74, x + 1.02 * long, y1=ground + 30, weight=2)
-    half = (len(letters) + 1) // 2
-    for i, letter in enumerate(letters[:half]):
-        left, level = x + width * (i % 4) / 4 + 4, ground - 13 - 13 * (i // 4)
-        right = left + width / 4 - 8
-        s.line(left, level, right, weight=0.3)
-        for end in (left, right):
-            s.line(end, level - 3, end, y1=level + 3, weight=0.3)
-        s.fill((left + right) / 2 - 8, level - 4, 16, 8, "#ffffff")
-        s.put((left + right) / 2, level - 2.5, letter, size=7.5, bold=True, align="c")
-    for i, letter in enumerate(letters[half:]):
-        at, top = x + width - 8 - 16.5 * i, ground + (height - 70) * (0.35 + 0.13 * (i * 3 % 5))
-        s.line(at, ground, at, y1=top, weight=0.3)
-        s.line(at - 3, top, at + 3, weight=0.3)
-        s.put(at, top + 3, letter, size=7.5, bold=True, align="c")
 
 
 def drawn(s: Wording) -> None:
@@ -213,7 +178,7 @@ def drawn(s: Wording) -> None:
     first = s.style.imperial and s.style.language == "en"
     lettered = [(one, rows) for one, rows in blocks if one in ("working", "dimensions")]
     letters = [_LETTERS[i % 24] + "1" * (i // 24) for i in range(sum(len(rows) for _, rows in lettered))]
-    _figure(s, 44, top - 200, 507, 200, letters)
+    figure(s, 44, top - 200, 507, 200, letters)
     flow = Flow(s, ((40, 290), (305, 555)), top - 212, 44, 800)
     marks = iter(letters)
     for section, rows in [*lettered, *(block for block in blocks if block not in lettered)]:
@@ -245,7 +210,7 @@ def unitary(s: Wording) -> None:
     arms: list[str] = []
     if s.machine.kind == "excavator":
         long = s.machine.values["Arm Length"] / 1000
-        arms = [_word(s, "arm").format(f"{x:.2f}") for x in (round(long - 0.5, 1), long)]
+        arms = [phrase(s, "arm").format(f"{x:.2f}") for x in (round(long - 0.5, 1), long)]
         s.config = arms[1]
     blocks = _blocks(s, pairs=True, rams="product")
     flow = Flow(s, ((40, 291), (304, 555)), top, _bottom(blocks, top, 2, 14, 34), 800)
@@ -259,7 +224,7 @@ def unitary(s: Wording) -> None:
         s.fill(x0, y - 13.5, x1 - x0, 13.5, _BLUE)
         s.put(x0 + 4, y - 9.8, s.section(section), size=8.2, bold=True, ink="#ffffff")
         if unit:
-            s.put(x1 - 4, y - 9.8, _word(s, "unit").format(unit), size=7, align="r", ink="#ffffff")
+            s.put(x1 - 4, y - 9.8, phrase(s, "unit").format(unit), size=7, align="r", ink="#ffffff")
         xs = (x1 - 84, x1 - 4) if columns else (x1 - 4,)
         if columns:
             x0, x1, y = flow.room(12)
@@ -303,7 +268,7 @@ def coded(s: Wording) -> None:
             if flow.place != page:
                 page = flow.place
                 s.fill(x0, y - 15, x1 - x0, 15, _INK)
-                for x, head in zip((44.0, 78.0, symbol, unit), _word(s, "heads").split(" / "), strict=True):
+                for x, head in zip((44.0, 78.0, symbol, unit), phrase(s, "heads").split(" / "), strict=True):
                     s.put(x, y - 10.5, "" if x == symbol and not truck else head, size=7.5, bold=True, ink="#ffffff")
                 for x, name in zip(xs, names, strict=True):
                     s.put(x, y - 10.5, name, size=7.5, bold=True, align="c", ink="#ffffff")
@@ -351,7 +316,7 @@ def systems(s: Wording) -> None:
     flow = Flow(s, ((40, 555),), top, 44, 796)
     both = s.style.imperial
     own = both and s.style.language == "en"
-    heads = _word(s, "systems").split(" / ")
+    heads = phrase(s, "systems").split(" / ")
     stripe = 0
     for section, rows in _blocks(s, rams="triple" if both else "product"):
         flow.keep(16 + 12 * min(len(rows), 5))
@@ -396,11 +361,6 @@ def stacked(s: Wording) -> None:
         flow.room(6)
 
 
-def _colon(s: Wording) -> str:
-    """A colon as the country sets it."""
-    return {"fr": "\u00a0:", "zh": "：", "ja": "："}.get(s.style.language, ":")
-
-
 def onepage(s: Wording) -> None:
     """One page: four key figures in tiles, then two striped columns with a colon after each label."""
     top = _start(s)
@@ -420,7 +380,7 @@ def onepage(s: Wording) -> None:
         s.put(x0 + 2, y - 10.5, s.section(section), size=8.4, bold=True, ink=_INK)
         for row in rows:
             value = _text(s, row)
-            texts = s.wrapped(s.joined(row.label) + _colon(s), x1 - x0 - s.width(value, 7) - 10, 7)
+            texts = s.wrapped(s.joined(row.label) + colon(s), x1 - x0 - s.width(value, 7) - 10, 7)
             x0, x1, y = flow.room(8.4 * len(texts) + 2.2)
             stripe += 1
             if stripe % 2:
@@ -435,7 +395,7 @@ def press(s: Wording) -> None:
     top = _start(s)
     s.fill(380, top - 128, 175, 122, "#d9d9d9")
     y = top - 12
-    for text in s.wrapped(_word(s, "prose"), 325, 9):
+    for text in s.wrapped(phrase(s, "prose"), 325, 9):
         s.put(40, y, text, size=9)
         y -= 12.5
     blocks = _blocks(s, rams="product")
@@ -444,7 +404,7 @@ def press(s: Wording) -> None:
     for section, rows in blocks:
         flow.keep(40)
         for row in [None, *rows]:
-            texts = s.wrapped(f"{s.joined(row.label)}{_colon(s)} {_text(s, row)}", 238, 7.6) if row else []
+            texts = s.wrapped(f"{s.joined(row.label)}{colon(s)} {_text(s, row)}", 238, 7.6) if row else []
             x0, _, y = flow.room(9.6 * len(texts) + 1.5 if row else 15)
             if flow.place // 2 != page:
                 page = flow.place // 2

@@ -13,7 +13,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from kit.sheets.machines import rounded
-from kit.sheets.sets.fresh5 import _figure
+from kit.sheets.sets.rows import figure, phrase
 from kit.sheets.typeset import _CJK, HEIGHT, WIDTH, Style
 from kit.sheets.worded import Flow, Row, Said, Truth, Worded, Wording, lines
 
@@ -40,17 +40,12 @@ _THREE = (358.0, 427.0, 496.0, 565.0)  # the edges of three models' columns
 _LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
 
 
-def _word(s: Wording, key: str) -> str:
-    """A text of this set that is no label."""
-    return next(s.of(one) for one in lines(s.file)["texts"] if one.name == key)
-
-
 def _title(s: Wording, ink: str) -> float:
     """The model on a band, and what the page is; the note at the foot; the edge below."""
     s.fill(0, HEIGHT - 46, WIDTH, 46, ink)
     s.put(30, HEIGHT - 32, s.machine.name, size=19, bold=True, ink="#ffffff")
-    s.put(WIDTH - 30, HEIGHT - 30, _word(s, "specs"), size=12, align="r", ink="#ffffff")
-    s.put(30, 20, _word(s, "note"), size=5.6, ink="#777777")
+    s.put(WIDTH - 30, HEIGHT - 30, phrase(s, "specs"), size=12, align="r", ink="#ffffff")
+    s.put(30, 20, phrase(s, "note"), size=5.6, ink="#777777")
     return float(HEIGHT) - 58
 
 
@@ -103,7 +98,7 @@ def _rams(s: Wording, form: str) -> list[Row]:
             a, b = s.say(names[0]), s.say(names[1])
             second = f"{a.imperial} × {b.imperial}" if s.style.imperial else ""
             text = form.format(one.place, a.number, b.number)
-            found.append(Row(f"{_word(s, 'rams')} > {words}", Said(text, "mm", second), "*"))
+            found.append(Row(f"{phrase(s, 'rams')} > {words}", Said(text, "mm", second), "*"))
             names = names[2:]
         for name in names if one.name.startswith("@") else []:
             found.append(Row(f"{words} > {s.part(name.partition(' Cylinder ')[2])}", s.say(name), name))
@@ -140,7 +135,7 @@ def _text(s: Wording, row: Row, form: str = "{} ({})", *, at: bool = False) -> s
     """A value with both its units; a power at its speed, if asked."""
     said, form = row.said, "{} {{{}}}" if s.style.language == "ja" else form
     text = form.format(said.metric, said.imperial) if said.imperial else said.metric
-    return _word(s, "at").format(text, s.digits(2000, 0)) if at and said.unit == "kW" else text
+    return phrase(s, "at").format(text, s.digits(2000, 0)) if at and said.unit == "kW" else text
 
 
 def _bottom(blocks: list[tuple[str, list[Row]]], top: float, columns: int, row: float, head: float) -> float:
@@ -202,7 +197,7 @@ def komatsu(s: Wording) -> None:
                 _leader(s, flow, row.label, _text(s, row, "{}  {}"), size, 7 if group else 0)
         flow.room(7)
     if flow.place < 3 and flow.bottom > 240:
-        _figure(s, 60, 44, 470, min(flow.bottom - 60, 240), letters)
+        figure(s, 60, 44, 470, min(flow.bottom - 60, 240), letters)
 
 
 def hitachi(s: Wording) -> None:
@@ -231,7 +226,7 @@ def hitachi(s: Wording) -> None:
 def _matrix(s: Wording, flow: Flow, rows: list[Row]) -> None:
     """The cylinders: quantity, bore, rod diameter and stroke in columns; a dash for what is not said."""
     parts = ("Bore", "Rod Diameter", "Stroke")
-    heads = ["", _word(s, "quantity"), *(s.part(part) for part in parts)]
+    heads = ["", phrase(s, "quantity"), *(s.part(part) for part in parts)]
     said = {row.name: row.said.metric for row in rows}
     table = [heads]
     for one in lines(s.file)[s.machine.kind]:
@@ -250,16 +245,16 @@ def _ranged(s: Wording, section: str, rows: list[Row], top: float) -> float:
     """The drawing of a section, and its letters with their lengths; the edge below."""
     heads, long, kind = [""], s.machine.values.get("Arm Length", 0.0) / 1000, s.machine.kind
     if section == "working":
-        heads = [_word(s, "arm").format(s.digits(x, 2)) for x in (long - 0.5, long, long + 0.6)]
+        heads = [phrase(s, "arm").format(s.digits(x, 2)) for x in (long - 0.5, long, long + 0.6)]
         s.config = heads[1]
         near = s.truth if "Arm Length" in s.truth else s.allowed
         near["Arm Length"] = Truth(long, 0.006)
     lengths = [row for row in rows if row.said.unit in ("mm", "m")]
     marks = [*_LETTERS[: len(lengths)], *[""] * len(rows)]
     s.put(30, top - 8, s.section(section).upper(), size=11, bold=True, ink="#d9480f")
-    _figure(s, 60, top - 200, 470, 186, marks[: len(lengths)])
+    figure(s, 60, top - 200, 470, 186, marks[: len(lengths)])
     unit = max(("mm", "m"), key=[row.said.unit for row in rows].count)
-    s.put(565, top - 206, _word(s, "unit").format(unit), size=6.6, align="r")
+    s.put(565, top - 206, phrase(s, "unit").format(unit), size=6.6, align="r")
     xs = [559 - 92 * (len(heads) - 1 - i) for i in range(len(heads))]
     y = top - 210
     if len(heads) > 1:
@@ -298,7 +293,7 @@ def toyota(s: Wording) -> None:
                 if flow.place != page:
                     page, begun = flow.place, y - 14
                     s.fill(x0, y - 14, x1 - x0, 14, "#4a4a4a")
-                    s.put(36, y - 10, _word(s, "model"), size=7.4, bold=True, ink="#ffffff")
+                    s.put(36, y - 10, phrase(s, "model"), size=7.4, bold=True, ink="#ffffff")
                     for left, name in zip(_THREE, names, strict=False):
                         s.put(left + 34.5, y - 10, name, size=7.4, bold=True, align="c", ink="#ffffff")
                     y = flow.room(14)[2] - 0.4
@@ -343,9 +338,9 @@ def hyundai(s: Wording) -> None:
         x0, x1, y = flow.room(15)
         s.fill(x0, y - 14, x1 - x0, 14, ink)
         s.put(x0 + 5, y - 10, s.section(section).upper(), size=8, bold=True, ink="#ffffff")
-        shown = _word(s, "unit").format(f"{unit} (ft·in)" if s.style.imperial else unit) if unit else ""
+        shown = phrase(s, "unit").format(f"{unit} (ft·in)" if s.style.imperial else unit) if unit else ""
         s.put(x1 - 5, y - 10, shown, size=6.8, align="r", ink="#ffffff")
-        texts = s.wrapped(_word(s, "drive"), x1 - x0 - 4, 6.8) if section == "engine" else []
+        texts = s.wrapped(phrase(s, "drive"), x1 - x0 - 4, 6.8) if section == "engine" else []
         y = flow.room(8.6 * len(texts))[2]
         _set(s, x0 + 2, y - 7, texts, 6.8)
         for group, own in _groups(rows):
@@ -382,7 +377,7 @@ def xcmg(s: Wording) -> None:
                 page = flow.place
                 s.fill(x0, y, x1 - x0, 13, "#0b5fa5")
                 for x, head in zip((x0 + 70, x0 + 162, x0 + 223), ("item", "units", "value"), strict=True):
-                    s.put(x, y + 3.6, _word(s, head), size=7.2, bold=True, align="c", ink="#ffffff")
+                    s.put(x, y + 3.6, phrase(s, head), size=7.2, bold=True, align="c", ink="#ffffff")
             if row is None:
                 s.fill(x0, y - high, x1 - x0, high, "#dce9f5")
                 s.put((x0 + x1) / 2, y - 10.6, s.section(section), size=7.6, bold=True, align="c")
@@ -402,7 +397,7 @@ def ritchie(s: Wording) -> None:
     """A data base's page as a browser prints it: heads and foots of the print, a line a value, a column a system."""
     blocks = sorted(_blocks(s), key=lambda block: block[0] not in ("working", "dimensions"))
     flow, page = Flow(s, ((48, 547),), 766, 46, 800), -1
-    name = f"{s.machine.name} {_word(s, 'specs')}"
+    name = f"{s.machine.name} {phrase(s, 'specs')}"
     s.put(48, 780, name, size=15)
     for section, rows in blocks:
         flow.keep(48)
@@ -418,7 +413,7 @@ def ritchie(s: Wording) -> None:
                 s.put(300, 822, name, size=6.6, align="c", ink="#555555")
                 s.put(48, 24, "https://www.example.org/model/specs?print=1", size=6.6, ink="#555555")
                 s.put(547, 24, f"{page + 1}/2", size=6.6, align="r", ink="#555555")
-                s.put(48, 36, _word(s, "note"), size=5.8, ink="#777777")
+                s.put(48, 36, phrase(s, "note"), size=5.8, ink="#777777")
             mark = next(marks, "") if row.said.unit in ("mm", "m") else ""
             s.put(x0 + 6, y - 9.6, f"{mark}. {s.joined(row.label)}" if mark else s.joined(row.label), size=8)
             s.put(344, y - 9.6, row.said.imperial or row.said.metric, size=8)
@@ -438,7 +433,7 @@ def beml(s: Wording) -> None:
         s.put(x + 86, top - 32, row.said.metric, size=13, bold=True, align="c")
     y = top - 54
     for row in [every[name] for name in _POINTS if name in every][:3]:
-        s.put(34, y, "•  " + _word(s, "point").format(s.joined(row.label), row.said.metric), size=8.4)
+        s.put(34, y, "•  " + phrase(s, "point").format(s.joined(row.label), row.said.metric), size=8.4)
         y -= 12.6
     flow = Flow(s, ((30, 292), (303, 565)), y, _bottom(blocks, y, 2, 13.4, 30), 806)
     for section, rows in blocks:

@@ -12,7 +12,6 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 from kit.sheets.machines import rounded
-from kit.sheets.sets.fresh5 import _figure
 from kit.sheets.sets.fresh9_rows import (
     GREY,
     begin,
@@ -29,6 +28,7 @@ from kit.sheets.sets.fresh9_rows import (
     upright,
     word,
 )
+from kit.sheets.sets.rows import figure, write
 from kit.sheets.typeset import HEIGHT, WIDTH, Style
 from kit.sheets.worded import Flow, Row, Worded, Wording, lines
 
@@ -41,12 +41,6 @@ _CARDS = ("Rated Operating Capacity", "Bucket Capacity", "Bucket Capacity Heaped
 _NOT_RENTED = {"cylinders", "cycle", "axles"}
 _GROUPS = {"1": "mark", "2": "weights", "3": "tyres", "4": "dimensions", "5": "performance", "7": "engine",
            "10": "hydraulics"}  # fmt: skip
-
-
-def _set(s: Wording, x: float, y: float, texts: list[str], size: float, step: float, *, bold: bool = False) -> None:
-    """Lines one below the other."""
-    for index, text in enumerate(texts):
-        s.put(x, y - step * index, text, size=size, bold=bold)
 
 
 # ---- pages -----------------------------------------------------------------------------------------------------------
@@ -65,7 +59,7 @@ def peoria(s: Wording) -> None:
             if section in _DRAWN and row.said.unit in ("mm", "m"):
                 number += 1
                 numbers[id(row)] = str(number)
-    _figure(s, 60, 560, 480, 165, list(numbers.values())[:14])
+    figure(s, 60, 560, 480, 165, list(numbers.values())[:14])
     flow = Flow(s, ((36, 298), (314, 576)), 548, 48, 752)
     for section, rows in blocks:
         bullet = word(s, f"bullet_{section}") if section in ("engine", "weights") else ""
@@ -81,7 +75,7 @@ def peoria(s: Wording) -> None:
             texts = s.wrapped(s.joined(row.label), 138 - left, 7.2)
             x0, x1, y = flow.room(8.6 * len(texts) + 4.2)
             s.put(x0, y - 8.8, mark, size=7.2, bold=True)
-            _set(s, x0 + left, y - 8.8, texts, 7.2, 8.6)
+            write(s, x0 + left, y - 8.8, texts, 7.2, 8.6)
             s.put(x0 + 203, y - 8.8, row.said.metric, size=7.2, align="r")
             s.put(x1, y - 8.8, row.said.imperial, size=7.2, align="r")
             s.line(x0, y - 8.6 * len(texts) - 3.6, x1, weight=0.25)
@@ -89,7 +83,7 @@ def peoria(s: Wording) -> None:
             texts = s.wrapped(bullet, 250, 6.2)
             x0, _, y = flow.room(7.4 * len(texts) + 4)
             s.put(x0, y - 8, "•", size=6.2)
-            _set(s, x0 + 7, y - 8, texts, 6.2, 7.4)
+            write(s, x0 + 7, y - 8, texts, 6.2, 7.4)
         flow.room(9)
 
 
@@ -110,7 +104,7 @@ def eskilstuna(s: Wording) -> None:
         if intro:
             texts = s.wrapped(intro, 160, 6.2)
             x0, x1, y = flow.room(7.4 * len(texts) + 4)
-            _set(s, x0, y - 7, texts, 6.2, 7.4)
+            write(s, x0, y - 7, texts, 6.2, 7.4)
         s.line(x0, flow.y, x1, weight=0.8)
         before = ""
         for row in rows:
@@ -126,7 +120,7 @@ def eskilstuna(s: Wording) -> None:
             indent = 7.0 if mark else 0.0
             texts = s.wrapped(item if mark else row.label, 98 - indent, 6.5)
             x0, x1, y = flow.room(7.8 * len(texts) + 3.6)
-            _set(s, x0 + indent, y - 8, texts, 6.5, 7.8)
+            write(s, x0 + indent, y - 8, texts, 6.5, 7.8)
             low = y - 8 - 7.8 * (len(texts) - 1)
             wide = not unit and s.width(value, 6.5) > 30
             s.put(x0 + 102, low, unit, size=6.5)
@@ -156,12 +150,12 @@ def biberach(s: Wording) -> None:
             texts = s.wrapped(s.joined(row.label), 128, 7.4)
             values = s.wrapped(value, 108, 7.4)
             x0, x1, y = flow.room(9 * max(len(texts), len(values)) + 2.4)
-            _set(s, x0, y - 8.4, texts, 7.4, 9)
+            write(s, x0, y - 8.4, texts, 7.4, 9)
             end = x0 + s.width(texts[-1], 7.4) + 1
             base = y - 8.4 - 9 * (len(texts) - 1)
             dashes = int((x0 + 139 - end) / s.width("_", 7.4))
             s.put(end, base, "_" * dashes if dashes > 1 else "", size=7.4, ink="#8a8a8a")
-            _set(s, x0 + 141, base if len(values) == 1 else y - 8.4, values, 7.4, 9)
+            write(s, x0 + 141, base if len(values) == 1 else y - 8.4, values, 7.4, 9)
         flow.room(10)
     shown = [(one, rows) for one, rows in blocks if one in _DRAWN]
     if not shown:
@@ -172,7 +166,7 @@ def biberach(s: Wording) -> None:
         y = HEIGHT - 44
     letters = iter(_LETTERS + "abcdefghijkmnopqrstuvwxyz")
     marks = {id(row): next(letters) for _, rows in shown for row in rows if row.said.unit in ("mm", "m")}
-    _figure(s, 70, y - 170, 450, 165, list(marks.values())[:14])
+    figure(s, 70, y - 170, 450, 165, list(marks.values())[:14])
     y -= 186
     for section, rows in shown:
         s.put(40, y - 10, s.section(section), size=10, bold=True)
@@ -213,15 +207,15 @@ def moline(s: Wording) -> None:
             texts = s.wrapped(s.joined(row.label), 270, 7.6)
             values = s.wrapped(text_of(s, row, at=True), 126 if beside else 252, 7.6)
             x0, x1, y = flow.room(9.2 * max(len(texts), len(values)) + 3.4)
-            _set(s, x0 + 4, y - 9, texts, 7.6, 9.2)
+            write(s, x0 + 4, y - 9, texts, 7.6, 9.2)
             if beside:
                 cells = [values, s.wrapped(text_of(s, replace(row, said=beside), at=True), 126, 7.6)]
                 for x, cell in zip((first, second), cells if own == 0 else cells[::-1], strict=True):
-                    _set(s, x, y - 9, cell, 7.6, 9.2)
+                    write(s, x, y - 9, cell, 7.6, 9.2)
             elif split:
                 s.put((first + x1) / 2, y - 9, " ".join(values), size=7.6, align="c")
             else:
-                _set(s, first, y - 9, values, 7.6, 9.2)
+                write(s, first, y - 9, values, 7.6, 9.2)
             s.line(x0, flow.y + 0.4, x1, weight=0.3)
         flow.room(7)
 
@@ -254,7 +248,7 @@ def sakai(s: Wording) -> None:
                 s.line(x0 + 78, y, x0 + 78, y1=flow.y, weight=0.3)
             if mark and not joined:
                 s.put(x0 + 21, y - 9, group, size=6.8 if s.width(group, 6.8) < 56 else 5.5)
-            _set(s, x0 + (81 if mark else 21), y - 9, texts, 6.8, 8.4)
+            write(s, x0 + (81 if mark else 21), y - 9, texts, 6.8, 8.4)
             unit, value = row.said.unit, row.said.number
             if row.said.unit == "kW" and row.name:
                 unit, value = "kW/min-1", f"{value}/{s.digits(2000, 0)}"
@@ -370,12 +364,12 @@ def depot(s: Wording) -> None:
         s.fill(x, y - 40, wide, 40, "#f1f1f1")
         s.put(x + 8, y - 18, say(every[name]), size=12, bold=True, ink=ink)
         texts = s.wrapped(every[name].label, wide - 12, 6.4)[:2]
-        _set(s, x + 8, y - (31 if len(texts) == 1 else 28), texts, 6.4, 7.4)
+        write(s, x + 8, y - (31 if len(texts) == 1 else 28), texts, 6.4, 7.4)
     prose = word(s, "prose")
     if prose and "Net Power" in every and "Operating Weight" in every:
         texts = [say(every[name]) for name in ("Operating Weight", "Net Power")]
         text = prose.format(s.machine.name, *texts)
-        _set(s, 280, height - 172, s.wrapped(text, width - 316, 8), 8, 11)
+        write(s, 280, height - 172, s.wrapped(text, width - 316, 8), 8, 11)
     s.put(36, height - 236, word(s, "title") if not american else "Specifications", size=12, bold=True, ink=ink)
     top, stripe = height - 244, 0
     kept = [(one, [row for row in rows if row.name not in cards]) for one, rows in blocks]
@@ -394,7 +388,7 @@ def depot(s: Wording) -> None:
             stripe += 1
             if stripe % 2:
                 s.fill(x0, flow.y, x1 - x0, y - flow.y, "#eef3ee" if american else "#f4eeee")
-            _set(s, x0 + 4, y - 9, texts, 7.6, 9.2)
+            write(s, x0 + 4, y - 9, texts, 7.6, 9.2)
             s.put(x1 - 4, y - 9, value, size=7.6, bold=True, align="r")
         flow.room(4)
     s.put(36, 34, word(s, "call"), size=7.6, bold=True, ink=ink)
