@@ -23,7 +23,7 @@ from yellowiron.simulation.payload import RatedPayload
 from yellowiron.simulation.registry import find_engine, import_engine
 from yellowiron.simulation.strokes.result import simulation_document
 from yellowiron.simulation.strokes.run import simulate
-from yellowiron.support.guard import beat, run_guarded
+from yellowiron.support.guard import Wording, beat, run_guarded
 
 PATIENCE = "YELLOWIRON_PATIENCE"
 _PATIENCE = 300.0
@@ -54,9 +54,11 @@ def examine(
         where=str(usd_path),
         timeout_s=patience(),
         memory_mb=None,  # engines reserve address space that they never use: PhysX 3.8 GB for 0.4
-        who=f"The engine '{engine}'",
-        late=f"The engine '{engine}' took no step for",
-        hint=f"Try another engine or a smaller time step; {PATIENCE} allows more seconds without a step.",
+        wording=Wording(
+            f"The engine '{engine}'",
+            f"The engine '{engine}' took no step for",
+            f"Try another engine or a smaller time step; {PATIENCE} allows more seconds without a step.",
+        ),
         progress=progress,
     )  # fmt: skip
     return made

@@ -28,7 +28,7 @@ from yellowiron.specs.values.matching import match
 from yellowiron.specs.values.requested import asked
 from yellowiron.specs.values.tolerances import DOUBTFUL
 from yellowiron.specs.values.values_in_labels import in_label
-from yellowiron.support.guard import run_guarded
+from yellowiron.support.guard import Wording, run_guarded
 
 Extractor = Literal["rules", "llm", "both"]
 
@@ -92,7 +92,7 @@ def _recognised(sheet: Sheet, path: Path, progress: Callable[[str], None]) -> Sh
             error=SheetError,
             timeout_s=2.0 * ocr.PAGE_TIMEOUT_S,
             memory_mb=MEMORY_MB,
-            who="Text recognition",
+            wording=Wording("Text recognition"),
             progress=progress,
         )
     except SheetError as error:

@@ -13,6 +13,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from pkgutil import resolve_name
 from typing import IO, Any, cast
@@ -26,6 +27,19 @@ _BEAT = 1.0
 _LAST_WORDS = 65536
 
 
+@dataclass(frozen=True)
+class Wording:
+    """How the errors of a guarded call speak: `who` did not do it, what took `late` so many seconds, and what to do."""
+
+    who: str = "The reader"
+    late: str = "Reading took more than"
+    hint: str = _CRASH_HINT
+
+
+READING = Wording()
+"""Of a file's reader."""
+
+
 def run_guarded(
     target: str,
     *args: Any,
@@ -33,17 +47,15 @@ def run_guarded(
     error: type[YellowironError] = YellowironError,
     timeout_s: float = 600.0,
     memory_mb: int | None = 8192,
-    who: str = "The reader",
-    late: str = "Reading took more than",
-    hint: str = _CRASH_HINT,
+    wording: Wording = READING,
     progress: Callable[[str], None] = lambda words: None,
 ) -> Any:
     """The result of `module:function` called with `args` in a child process; both travel by pickle.
 
     A `YellowironError` raised there is raised here. A crash, more than `timeout_s` seconds without a sign of life
     (`beat`; readers give none) or more than `memory_mb` of address space raise `error`, naming `where`. `progress` is
-    called with what the child says of itself; `who`, `late` and `hint` word the errors. `YellowironError` on a system
-    without the processes and limits that this takes (`yellowiron.support.limits` says which has what).
+    called with what the child says of itself. `YellowironError` on a system without the processes and limits that this
+    takes (`yellowiron.support.limits` says which has what).
     """
     limits.require_supported_platform()
     with tempfile.TemporaryDirectory(prefix="yellowiron-") as folder:
@@ -67,7 +79,9 @@ def run_guarded(
                 try:
                     noise = _attend(child, lives, timeout_s, progress)
                 except subprocess.TimeoutExpired as expired:
-                    raise error(f"{late} {timeout_s:g} s and was stopped", where=where, hint=hint) from expired
+                    raise error(
+                        f"{wording.late} {timeout_s:g} s and was stopped", where=where, hint=wording.hint
+                    ) from expired
                 finally:
                     # The whole group: a reader may have started processes of its own.
                     with contextlib.suppress(ProcessLookupError, PermissionError):
@@ -79,14 +93,14 @@ def run_guarded(
                 hint="Make room in the folder for temporary files, or set TMPDIR to another.",
             )
         if not answer.exists():
-            raise error(_obituary(who, child.returncode, noise), where=where, hint=hint)
+            raise error(_obituary(wording.who, child.returncode, noise), where=where, hint=wording.hint)
         kind, value = pickle.loads(answer.read_bytes())
     if kind == "error":
         raise value
     if kind == "memory":
-        raise error(f"{who} needs more than {memory_mb} MB of memory", where=where, hint="Split the file.")
+        raise error(f"{wording.who} needs more than {memory_mb} MB of memory", where=where, hint="Split the file.")
     if kind == "failure":
-        raise error(f"{who} failed: {value}", where=where, hint=hint)
+        raise error(f"{wording.who} failed: {value}", where=where, hint=wording.hint)
     return value
 
 
