@@ -15,7 +15,7 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
-from yellowiron.build import build
+from yellowiron.pipeline import build
 
 ROOT = Path(__file__).resolve().parent.parent
 PAPER = {

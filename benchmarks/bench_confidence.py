@@ -2,7 +2,7 @@
 with one defect or two, without names, with right and with wrong ones.
 
     python benchmarks/bench_confidence.py collect FILE.jsonl [--first SEED] [--count N] [--triangles SHARE]
-    python benchmarks/bench_confidence.py fit FILE.jsonl        writes src/yellowiron/align/data/confidence.json
+    python benchmarks/bench_confidence.py fit FILE.jsonl        writes src/yellowiron/alignment/data/confidence.json
     python benchmarks/bench_confidence.py show FILE.jsonl       prints the table, draws docs/confidence.svg
 
 from the repository's root. Fit and show on seeds of their own: those from 1000 on are held back from everything else,
@@ -36,7 +36,7 @@ from yellowiron.alignment.labelling.confidence import probability  # noqa: E402
 from yellowiron.library import load_template  # noqa: E402
 from yellowiron.model.specification import Specifications  # noqa: E402
 
-DATA = ROOT / "src" / "yellowiron" / "align" / "data" / "confidence.json"
+DATA = ROOT / "src" / "yellowiron" / "alignment" / "data" / "confidence.json"
 PICTURE = ROOT / "docs" / "confidence.svg"
 WAYS = {"none": 0.5, "en": 0.1, "de": 0.1, "zh": 0.1, "cut": 0.05, "half wrong": 0.1, "all shuffled": 0.05}
 """How the parts of a machine are called, and how often."""

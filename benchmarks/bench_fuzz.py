@@ -102,7 +102,7 @@ def mutant(sound: bytes, seed: int) -> tuple[str, bytes]:
 
 def work(target: str, file: Path, first: int, last: int) -> None:
     """The child: reads mutants, and says a line of JSON for each."""
-    from yellowiron.cad import formats
+    from yellowiron.cad.recognition import format_of
     from yellowiron.model.errors import YellowironError
 
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
@@ -119,7 +119,7 @@ def work(target: str, file: Path, first: int, last: int) -> None:
         start = time.perf_counter()
         answer: dict[str, object] = {"seed": seed, "kind": kind}
         try:
-            formats.format_of(file)
+            format_of(file)
         except YellowironError:
             pass
         except Exception as error:  # noqa: BLE001 - what would end the program
@@ -258,15 +258,15 @@ def report(name: str, path: Path, own: Path, options: argparse.Namespace) -> lis
     import fuzz_declared
     from kit.cadfiles.exports import ITEMS
     from yellowiron.cad import read_cad
-    from yellowiron.cad.formats import format_of
-    from yellowiron.cad.read import _READERS
     from yellowiron.cad.readers.exact import part21
+    from yellowiron.cad.recognition import format_of
 
     whole = read_cad(path)
     assert len(whole.parts) == len(ITEMS) and not TELLING & {f.code for f in whole.findings}
-    kind, sound, before = format_of(path), path.read_bytes(), set(own.rglob("*"))
+    known = format_of(path)
+    kind, sound, before = known.name, path.read_bytes(), set(own.rglob("*"))
     start = time.perf_counter()
-    answers, lost, peak = run(_READERS[kind], path, options.mutants, alone=kind in ALONE)
+    answers, lost, peak = run(known.reader, path, options.mutants, alone=kind in ALONE)
     seconds = time.perf_counter() - start
     # After a crash the program itself looks at the text.
     if kind == "STEP":

@@ -19,7 +19,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests" / "kinematics"))
 
-from planar_zbar import mechanism, sketch, strokes, with_measurements, wrapped
+from planar_zbar import sketch, strokes, with_measurements, wrapped, zbar_mechanism
 from test_kinematics_measure import TEMPLATES
 
 from yellowiron.kinematics import ClosedChain, complete, measure
@@ -39,17 +39,17 @@ def timed(what: Callable[[], Any]) -> tuple[float, Any]:
 def main() -> None:
     z = sketch()
     travel = strokes(z)
-    machine = with_measurements(mechanism(z, travel), TEMPLATES, {})
+    mechanism = with_measurements(zbar_mechanism(z, travel), TEMPLATES, {})
     (l0, l1), (t0, t1) = travel
     lift = np.linspace(l0, l1, POINTS)
     tilt = t0 + (t1 - t0) * (0.5 - 0.5 * np.cos(np.linspace(0.0, 20.0, POINTS)))
     steer = 0.15 * np.sin(np.linspace(0.0, 9.0, POINTS))
     paths = {"lift_l": lift, "tilt": tilt, "steering_l": steer}
 
-    built, chain = timed(lambda: ClosedChain(machine))
+    built, chain = timed(lambda: ClosedChain(mechanism))
     swept, states = timed(lambda: chain.sweep(paths))
-    completed, _ = timed(lambda: complete(machine))
-    measured, _ = timed(lambda: measure(machine))
+    completed, _ = timed(lambda: complete(mechanism))
+    measured, _ = timed(lambda: measure(mechanism))
     worst = 0.0
     for state, a, b in zip(states, lift, tilt, strict=True):
         p = z.pose(z.lift + a, z.tilt + b)

@@ -12,7 +12,6 @@ during a stage; the CAD reader's is that of its child process.
 from __future__ import annotations
 
 import argparse
-import importlib
 import itertools
 import json
 import random
@@ -30,6 +29,8 @@ from typing import Any
 import numpy as np
 from rich.console import Console
 from rich.table import Table
+
+from yellowiron import pipeline
 
 ROOT = Path(__file__).resolve().parent.parent
 STAGES = ("convert", "extract", "align", "mechanism", "measure", "write", "check", "report")
@@ -191,14 +192,13 @@ class Stages:
 
 def one(equipment_type: str, cad: Path, sheets: list[Path], out: Path) -> dict[str, Any]:
     """Builds a machine and returns its parts, seconds and megabytes by stage."""
-    module = importlib.import_module("yellowiron.build")
     stages = Stages()
-    module._Clock.stage = lambda clock, name, words: stages.stage(clock, name, words)  # type: ignore[method-assign]
-    machine = module.build(equipment_type, cad, out, sheets=sheets)
+    pipeline._Clock.stage = lambda clock, name, words: stages.stage(clock, name, words)  # type: ignore[method-assign]
+    machine = pipeline.build(equipment_type, cad, out, sheets=sheets)
     seconds, memory = stages.seconds, stages.memory
     seconds["total"] = sum(seconds.values())
     memory["convert"] = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024.0
-    parts = machine.report["alignment"]
+    parts = machine.document["alignment"]
     return {
         "parts": parts["parts"], "to_review": len(parts["to_review"]), "seconds": seconds, "memory": memory,
     }  # fmt: skip

@@ -22,9 +22,11 @@ import numpy as np  # noqa: E402
 
 from yellowiron.kinematics import ClosedChain  # noqa: E402
 from yellowiron.simulation import rated_payload, simulate  # noqa: E402
-from yellowiron.simulation.engine import ENGINES, Setup, installed_engines, load_engine, standing_bodies  # noqa: E402
+from yellowiron.simulation.engine import Setup  # noqa: E402
+from yellowiron.simulation.ground import standing_bodies  # noqa: E402
+from yellowiron.simulation.registry import ENGINES, installed_engines, load_engine  # noqa: E402
 from yellowiron.simulation.strokes.run import play  # noqa: E402
-from yellowiron.usd import read_machine  # noqa: E402
+from yellowiron.usd import read_mechanism  # noqa: E402
 
 SWINGS = 12
 SECONDS = 0.5
@@ -61,7 +63,7 @@ def timed(work: Callable[[], object]) -> np.ndarray:
 
 def times(name: str, file: Path, base: Any) -> tuple[np.ndarray, np.ndarray]:
     """Seconds a step, wall and processor time (2,), of the engine alone and of the loop."""
-    mechanism, entry = read_machine(file), ENGINES[name]
+    mechanism, entry = read_mechanism(file), ENGINES[name]
     measured, standing = ClosedChain(mechanism).independent, standing_bodies(mechanism)
     engine = load_engine(name, Setup(file, mechanism, base, entry.timestep, measured, standing=standing))
     alone = own_step(name, engine)
@@ -95,7 +97,7 @@ def main(file: Path, names: list[str]) -> None:
                 f"{name:7s} {base:9s} alone {1.0 / alone[0]:8.0f} steps/s   loop {1.0 / loop[0]:8.0f} steps/s   "
                 f"ratio {ratio[0]:.2f}, by processor time {ratio[1]:.2f}"
             )
-    payload = rated_payload(read_machine(file)).mass
+    payload = rated_payload(read_mechanism(file)).mass
     start = time.perf_counter()
     result = simulate(file, engine="mujoco", base="fixed", payload_kg=payload)
     print(

@@ -14,7 +14,7 @@ from PIL import Image
 from yellowiron.cad import read_cad
 from yellowiron.kinematics import ClosedChain
 from yellowiron.report.html.pictures import contact_sheet, encode, look_at, machine_soup, render
-from yellowiron.usd import read_machine
+from yellowiron.usd import read_mechanism
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -22,7 +22,7 @@ ROOT = Path(__file__).resolve().parent.parent
 def main() -> None:
     """Reads the demo's result and writes the picture."""
     out = ROOT / "out" / "wheel_loader"
-    mechanism = read_machine(out / "wheel_loader.usda")
+    mechanism = read_mechanism(out / "wheel_loader.usda")
     assembly = read_cad(ROOT / "examples" / "wheel_loader" / "wheel_loader.step")
     frame = np.array(json.loads((out / "report.json").read_text(encoding="utf-8"))["frame"])
     chain = ClosedChain(mechanism)

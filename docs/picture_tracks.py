@@ -22,7 +22,7 @@ from yellowiron.exporters import BodyGeometry, Geometry, actuator_names, export_
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Mechanism, chained, rolling
 from yellowiron.report.html.pictures import encode, look_at, machine_soup, posed, render
-from yellowiron.usd import read_machine
+from yellowiron.usd import read_mechanism
 
 ROOT = Path(__file__).resolve().parent.parent
 TIMES = (0.0, 0.8, 1.6, 2.4)
@@ -64,7 +64,7 @@ def main() -> None:
     """Drives the machine and writes the picture."""
     out = ROOT / "out" / "excavator_shoes"
     file = Path(sys.argv[1]) if len(sys.argv) > 1 else out / "excavator.usda"
-    mechanism = read_machine(file)
+    mechanism = read_mechanism(file)
     assembly = read_cad(ROOT / "examples" / "excavator" / "excavator.step")
     frame = np.array(json.loads((file.parent / "report.json").read_text(encoding="utf-8"))["frame"])
     seen = drive(mechanism, read_geometry(file))

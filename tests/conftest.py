@@ -72,7 +72,7 @@ def built_loader(example: Path, made_once: Callable[[str, Callable[[Path], None]
         pytest.skip("the wheel loader example is not drawn: run its draw.py")
 
     def fill(folder: Path) -> None:
-        from yellowiron.build import build
+        from yellowiron.pipeline import build
 
         machine = build("wheel_loader", cad, folder / "out", sheets=[sheet])
         (folder / "mechanism.pickle").write_bytes(pickle.dumps(machine.mechanism))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 import json
 import math
 from collections.abc import Callable
@@ -13,11 +12,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+import yellowiron
 from kit.machines import small_machine
-from yellowiron import cad, library
+from yellowiron import cad, library, new_template
 from yellowiron.alignment.discovery.robot import robot
 from yellowiron.model.assembly import Assembly, DeclaredJoint
-from yellowiron.new import new_template
 
 
 def described(closing: str = "spherical") -> Assembly:
@@ -92,9 +91,9 @@ def test_a_robot_builds_with_its_own_axes_and_limits(drawn: Callable[[Assembly],
     """Nothing is drawn but boxes: axes are where the file declares them, limits those of its joints."""
     drawn(described())
     new_template("robot.urdf", tmp_path / "new")
-    machine = importlib.import_module("yellowiron.build").build(tmp_path / "new", Path("robot.urdf"), tmp_path / "out")
+    machine = yellowiron.build(tmp_path / "new", Path("robot.urdf"), tmp_path / "out")
     mechanism, _ = small_machine.make()
-    report = machine.report
+    report = machine.document
     assert [f for f in report["findings"] if f["severity"] == "error"] == []
     assert report["mobility"]["computed"] == report["mobility"]["expected"]
     frame = np.array(report["frame"])
@@ -120,14 +119,14 @@ def test_the_example_through_mjcf(example: Path, tmp_path: Path) -> None:
     """Exported as MJCF and read back: every joint agrees, a template from it is sound and builds."""
     from yellowiron import kinematics, mechanism, usd
     from yellowiron.alignment import discover_declared
-    from yellowiron.build import aligned
     from yellowiron.exporters import export_mjcf
     from yellowiron.model.rows import expand
     from yellowiron.model.specification import Specifications
     from yellowiron.model.template import choose
+    from yellowiron.pipeline import find_roles
 
     template = library.load_template("wheel_loader")
-    assembly, alignment = aligned(cad.read_cad(example / "wheel_loader.step"), template, Specifications())
+    assembly, alignment = find_roles(cad.read_cad(example / "wheel_loader.step"), template, Specifications())
     chosen = expand(choose(template, alignment.choices), alignment.counts)
     built = mechanism.build_mechanism(assembly, chosen, alignment, Specifications(), name="loader")
     built = kinematics.complete(kinematics.calibrate(built))
@@ -139,8 +138,8 @@ def test_the_example_through_mjcf(example: Path, tmp_path: Path) -> None:
     new = new_template(robot_file, tmp_path / "new")
     assert {b["role"] for b in new["bodies"]} == {b.name for b in built.bodies}
     assert library.lint(library.load_template(tmp_path / "new")).sound
-    machine = importlib.import_module("yellowiron.build").build(tmp_path / "new", robot_file, tmp_path / "out")
-    report = machine.report
+    machine = yellowiron.build(tmp_path / "new", robot_file, tmp_path / "out")
+    report = machine.document
     assert [f for f in report["findings"] if f["severity"] == "error"] == []
     assert len(report["declared_joints"]) == len(built.joints)
     for one in report["declared_joints"]:
@@ -159,9 +158,7 @@ def test_a_robot_that_nobody_here_wrote(shared_data: Path, tmp_path: Path) -> No
     document = new_template(file, tmp_path / "new")
     assert {b["role"] for b in document["bodies"]} == {f"link{k}" for k in range(1, 14)}
     assert library.lint(library.load_template(tmp_path / "new")).sound
-    report: dict[str, Any] = (
-        importlib.import_module("yellowiron.build").build(tmp_path / "new", file, tmp_path / "out").report
-    )
+    report: dict[str, Any] = yellowiron.build(tmp_path / "new", file, tmp_path / "out").document
     assert [f for f in report["findings"] if f["severity"] == "error"] == []
     assert report["mobility"]["computed"] == report["mobility"]["expected"] == 4
     differ = {d["name"]: d["found"] for d in report["declared_joints"] if not d["agrees"]}

@@ -11,8 +11,10 @@ from pathlib import Path
 
 import pytest
 
-from yellowiron.model.errors import CadError, SheetError
-from yellowiron.support.guard import must_end, run_guarded
+from yellowiron.model.errors import CadError, SheetError, YellowironError
+from yellowiron.support import limits
+from yellowiron.support.guard import run_guarded
+from yellowiron.support.limits import must_end
 
 
 def test_a_result_comes_back() -> None:
@@ -50,7 +52,7 @@ def test_a_bomb_is_bounded() -> None:
 
 def test_our_own_errors_cross_the_process_whole() -> None:
     with pytest.raises(Exception) as caught:
-        run_guarded("yellowiron.model.units:parse_quantity", "many", where="x")
+        run_guarded("yellowiron.support.units:parse_quantity", "many", where="x")
     assert "many" in str(caught.value) and "764 mm" in str(caught.value)
 
 
@@ -94,7 +96,7 @@ def test_the_child_ends_with_its_parent(tmp_path: Path) -> None:
 
 
 def test_what_goes_round_in_a_circle_is_ended() -> None:
-    code = "from yellowiron.support.guard import must_end\nwith must_end(0.5):\n    while True: pass"
+    code = "from yellowiron.support.limits import must_end\nwith must_end(0.5):\n    while True: pass"
     start = time.monotonic()
     with pytest.raises(CadError, match="came to no end"):
         run_guarded("builtins:exec", code, where="bad.brep", error=CadError, timeout_s=60.0)
@@ -106,3 +108,68 @@ def test_what_ends_in_time_may_go_on() -> None:
     with must_end(3600.0):
         assert resource.getrlimit(resource.RLIMIT_CPU) != before
     assert resource.getrlimit(resource.RLIMIT_CPU) == before
+
+
+WINDOWS = """
+import importlib.abc, os, signal, sys
+
+class Absent(importlib.abc.MetaPathFinder):
+    def find_spec(self, name, *_):
+        if name in ("fcntl", "grp", "pwd", "resource", "termios"):
+            raise ModuleNotFoundError(f"No module named '{name}'", name=name)
+
+sys.meta_path.insert(0, Absent())
+sys.platform = "win32"
+del os.EX_IOERR, os.killpg, signal.SIGKILL, signal.SIGXCPU
+"""
+"""What makes a process see what there is on Windows, as far as the guard could use it."""
+
+
+def on_windows(code: str) -> str:
+    """What a program that believes itself on Windows prints."""
+    done = subprocess.run([sys.executable, "-c", WINDOWS + code], capture_output=True, text=True, timeout=120.0)
+    assert done.returncode == 0, done.stderr
+    return done.stdout.strip()
+
+
+def test_the_package_is_imported_where_there_are_no_limits() -> None:
+    code = (
+        "import yellowiron\n"
+        "from yellowiron.support.units import parse_quantity\n"
+        "from yellowiron.support.limits import must_end\n"
+        "with must_end(1.0):\n"
+        "    print(type(yellowiron.load_template('excavator')).__name__, yellowiron.read_cad.__name__)"
+    )
+    assert on_windows(code) == "Template read_cad"
+
+
+def test_a_reader_is_refused_in_one_sentence_where_there_are_no_limits() -> None:
+    code = (
+        "from yellowiron.model.errors import YellowironError\n"
+        "from yellowiron.support.guard import run_guarded\n"
+        "try:\n"
+        "    run_guarded('math:sqrt', 4.0, where='x')\n"
+        "except YellowironError as error:\n"
+        "    print(error)"
+    )
+    said = on_windows(code)
+    assert said.startswith("yellowiron runs on Linux and macOS: ") and "(where: win32)" in said and "use WSL" in said
+    assert "\n" not in said
+
+
+@pytest.mark.parametrize("missing", ["platform", "resource"])
+def test_either_sign_is_enough(missing: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    limits.require_supported_platform()
+    monkeypatch.setattr(*((sys, "platform", "win32") if missing == "platform" else (limits, "resource", None)))
+    with pytest.raises(YellowironError, match="runs on Linux and macOS") as caught:
+        limits.require_supported_platform()
+    assert caught.value.hint and caught.value.where
+
+
+def test_macos_has_all_but_a_limit_of_memory(monkeypatch: pytest.MonkeyPatch) -> None:
+    before = resource.getrlimit(resource.RLIMIT_AS)
+    monkeypatch.setattr(sys, "platform", "darwin")
+    limits.require_supported_platform()
+    limits.limit_memory(1)
+    assert resource.getrlimit(resource.RLIMIT_AS) == before
+    assert run_guarded("math:sqrt", 4.0, where="x") == 2.0

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 import json
 import math
 from collections.abc import Callable, Sequence
@@ -13,13 +12,13 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
+import yellowiron
 from kit.machines.synthetic import disguise, loader
 from kit.machines.telescope import crane
-from yellowiron import cad, library
+from yellowiron import cad, library, new_template
 from yellowiron.cli import app
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import AlignmentError, OutputError
-from yellowiron.new import new_template
 
 Drawn = Callable[[Assembly], None]
 
@@ -35,7 +34,7 @@ def telescope() -> Assembly:
 
 
 def build(folder: Path, file: Path, out: Path, *, settings: Sequence[str] = ()) -> Any:
-    return importlib.import_module("yellowiron.build").build(folder, file, out, settings=settings)
+    return yellowiron.build(folder, file, out, settings=settings)
 
 
 def test_a_template_is_written_and_sound(drawn: Drawn, tmp_path: Path) -> None:
@@ -98,9 +97,9 @@ def test_a_telescopic_crane_builds(drawn: Drawn, tmp_path: Path) -> None:
     roles = {part: b["role"] for b in document["bodies"] for part in b["parts"]}
     moved = {p.part: p.body for p in machine.alignment.parts}
     assert all(moved[part] == role for part, role in roles.items())
-    assert machine.report["mobility"]["computed"] == machine.report["mobility"]["expected"] == 4
-    assert [f for f in machine.report["findings"] if f["severity"] == "error"] == []
-    slides = [j for j in machine.report["joints"] if j["type"] == "prismatic"]
+    assert machine.document["mobility"]["computed"] == machine.document["mobility"]["expected"] == 4
+    assert [f for f in machine.document["findings"] if f["severity"] == "error"] == []
+    slides = [j for j in machine.document["joints"] if j["type"] == "prismatic"]
     assert len(slides) == 3
     assert all(
         j["upper"] - j["lower"] == pytest.approx(1.0 if "piston" not in j["name"] and "rod" not in j["name"] else 0.5)
@@ -137,10 +136,10 @@ def test_a_crane_that_nobody_here_drew(drawn: Drawn, shared_data: Path, tmp_path
         if j["parent"] in node and j["child"] in node
     }
     machine = build(tmp_path / "new", file, tmp_path / "out")
-    frame = np.array(machine.report["frame"])
+    frame = np.array(machine.document["frame"])
     found = [(j["bodies"], j["type"], j["point"], j["axis"]) for j in document["joints"]]
     back = np.linalg.inv(frame)
-    for j in machine.report["joints"]:
+    for j in machine.document["joints"]:
         point = back[:3, :3] @ np.array(j["anchor"]) + back[:3, 3]
         found.append(((j["body0"], j["body1"]), j["type"], point, back[:3, :3] @ np.array(j["axis"])))
     assert len(found) == 2 * len(wanted) == 14

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import ast
+import statistics
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+
+MOST_MODULES = 14
+"""In one package: more is no room any more."""
 
 
 def run(root: Path, *command: str) -> None:
@@ -36,22 +41,26 @@ def test_no_module_is_over_500_lines(root: Path) -> None:
     assert not long
 
 
-IMPORTS = ("from yellowiron.", "import yellowiron.", "from yellowiron import ")
-ABOVE = {"simulation": {"kinematics", "usd", "exporters"}}
-"""Layers above the stages, and the stages that each may import."""
+def test_imports_go_one_way(root: Path) -> None:
+    """The contracts of `pyproject.toml`: layers, and no circle between the rooms of any package."""
+    program = Path(sys.executable).with_name("lint-imports")
+    outcome = subprocess.run([program, "--no-cache"], cwd=root, capture_output=True, text=True)
+    assert outcome.returncode == 0, outcome.stdout + outcome.stderr
 
 
-def test_stages_know_the_model_and_never_each_other(root: Path) -> None:
-    """DESIGN: only `build` and the command line know all stages; simulate stands on three of them."""
+def test_rooms_are_small_and_say_what_is_in_them(root: Path) -> None:
     package = root / "src" / "yellowiron"
-    stages = [p.name for p in package.iterdir() if p.is_dir() and p.name not in ("model", "support", "__pycache__")]
-    trespasses = [
-        f"{path.relative_to(package)} imports {other}"
-        for stage in stages
-        for path in sorted((package / stage).rglob("*.py"))
-        for other in stages
-        if other != stage
-        and other not in ABOVE.get(stage, set())
-        and any(f"{words}{other}" in path.read_text(encoding="utf-8") for words in IMPORTS)
+    modules = {p: len(p.read_text(encoding="utf-8").splitlines()) for p in sorted(package.rglob("*.py"))}
+    assert statistics.median(modules.values()) <= 150
+    crowded = {
+        str(folder.relative_to(package)): count
+        for folder in sorted({p.parent for p in modules})
+        if (count := sum(p.parent == folder and p.name != "__init__.py" for p in modules)) > MOST_MODULES
+    }
+    assert not crowded
+    silent = [
+        str(p.relative_to(package))
+        for p in modules
+        if p.name == "__init__.py" and not (ast.get_docstring(ast.parse(p.read_text(encoding="utf-8"))) or "").strip()
     ]
-    assert not trespasses
+    assert not silent

@@ -1,61 +1,86 @@
 """yellowiron: from a construction machine's CAD model and specification sheet to a simulation-ready USD machine.
 
-The public names, each imported on first use: CAD, USD and physics libraries take seconds to load.
+    import yellowiron as yi
+
+    machine = yi.build("wheel_loader", "loader.step", "out/loader", sheets=["brochure.pdf"])
+    print(machine.fell_short or "ready", machine.scene, machine.report)
+
+The public names; each is imported on first use, because CAD, USD and physics libraries take seconds to load.
 """
 
 from __future__ import annotations
 
-import importlib
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from yellowiron.support.lazy import lazy_names
 
 if TYPE_CHECKING:
-    from yellowiron.build import Machine, build
+    from yellowiron.api import Roles, align, check, convert, export, extract, measure, new_template, simulate
     from yellowiron.cad import read_cad
-    from yellowiron.kinematics import ClosedChain, measure
-    from yellowiron.library import lint, load_template
+    from yellowiron.kinematics import ClosedChain
+    from yellowiron.library import lint, list_templates, load_template
     from yellowiron.model.errors import YellowironError
     from yellowiron.model.mechanism import Mechanism
     from yellowiron.model.specification import Specifications
     from yellowiron.model.template import Template
-    from yellowiron.new import new_template
-    from yellowiron.usd import read_machine, write_machine
+    from yellowiron.pipeline import Machine, build
+    from yellowiron.specs import ModelOptions
+    from yellowiron.usd import read_mechanism, write_machine
 
-_HOME = {
-    "ClosedChain": "kinematics",
-    "Machine": "build",
-    "Mechanism": "model.mechanism",
-    "Specifications": "model.specification",
-    "Template": "model.template",
-    "YellowironError": "model.errors",
-    "build": "build",
-    "lint": "library",
-    "load_template": "library",
-    "measure": "kinematics",
-    "new_template": "new",
-    "read_cad": "cad",
-    "read_machine": "usd",
-    "write_machine": "usd",
-}
+__version__ = "0.2.0"
 
 __all__ = [
     "ClosedChain",
     "Machine",
     "Mechanism",
+    "ModelOptions",
+    "Roles",
     "Specifications",
     "Template",
     "YellowironError",
+    "__version__",
+    "align",
     "build",
+    "check",
+    "convert",
+    "export",
+    "extract",
     "lint",
+    "list_templates",
     "load_template",
     "measure",
     "new_template",
     "read_cad",
-    "read_machine",
+    "read_mechanism",
+    "simulate",
     "write_machine",
 ]
 
-
-def __getattr__(name: str) -> Any:
-    if name not in _HOME:
-        raise AttributeError(f"module 'yellowiron' has no attribute '{name}'")
-    return getattr(importlib.import_module(f"yellowiron.{_HOME[name]}"), name)
+__getattr__, __dir__ = lazy_names(
+    __name__,
+    {
+        "ClosedChain": "kinematics",
+        "Machine": "pipeline",
+        "Mechanism": "model.mechanism",
+        "ModelOptions": "specs",
+        "Roles": "api",
+        "Specifications": "model.specification",
+        "Template": "model.template",
+        "YellowironError": "model.errors",
+        "align": "api",
+        "build": "pipeline",
+        "check": "api",
+        "convert": "api",
+        "export": "api",
+        "extract": "api",
+        "lint": "library",
+        "list_templates": "library",
+        "load_template": "library",
+        "measure": "api",
+        "new_template": "api",
+        "read_cad": "cad",
+        "read_mechanism": "usd",
+        "simulate": "api",
+        "write_machine": "usd",
+    },
+)

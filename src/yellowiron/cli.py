@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import functools
+import inspect
 import signal
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import asdict, replace
+from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -14,8 +16,10 @@ import typer
 from rich.console import Console, RenderableType
 from rich.text import Text
 
+import yellowiron
 from yellowiron.model.errors import YellowironError
-from yellowiron.model.text import to_json
+from yellowiron.support.limits import require_supported_platform
+from yellowiron.support.text import to_json
 
 app = typer.Typer(
     name="yellowiron",
@@ -34,26 +38,63 @@ Settings = Annotated[
     list[str] | None, typer.Option("--set", help='A value by hand: "Lift Cylinder Stroke=764 mm"; may be repeated.')
 ]
 Config = Annotated[str, typer.Option("--config", help="The column of the sheet to take, by its heading.")]
-Extractors = Annotated[
-    Literal["rules", "llm", "both"],
-    typer.Option("--extractor", help="How sheets are read: by rules (no network), by a language model, or by both."),
-]
-ModelUrl = Annotated[
-    str,
-    typer.Option("--llm-url", envvar="YELLOWIRON_LLM_URL", help="An OpenAI-compatible endpoint, http://…/v1."),
-]
-ModelName = Annotated[str, typer.Option("--llm-model", envvar="YELLOWIRON_LLM_MODEL", help="The model's name there.")]
-ModelKey = Annotated[
-    str,
-    typer.Option(
-        "--llm-key", envvar="YELLOWIRON_LLM_KEY", show_envvar=True, help="Its key; better in the environment."
-    ),
-]
-Record = Annotated[Path | None, typer.Option("--llm-record", help="Write the conversation with the model here.")]
-Replay = Annotated[Path | None, typer.Option("--llm-replay", help="Answer from a recorded conversation, no network.")]
+
+
+def _reading(
+    config: Config = "",
+    extractor: Annotated[
+        Literal["rules", "llm", "both"],
+        typer.Option(
+            "--extractor", help="How sheets are read: by rules (no network), by a language model, or by both."
+        ),
+    ] = "rules",
+    llm_url: Annotated[
+        str,
+        typer.Option("--llm-url", envvar="YELLOWIRON_LLM_URL", help="An OpenAI-compatible endpoint, http://…/v1."),
+    ] = "",
+    llm_model: Annotated[
+        str, typer.Option("--llm-model", envvar="YELLOWIRON_LLM_MODEL", help="The model's name there.")
+    ] = "",
+    llm_key: Annotated[
+        str,
+        typer.Option(
+            "--llm-key", envvar="YELLOWIRON_LLM_KEY", show_envvar=True, help="Its key; better in the environment."
+        ),
+    ] = "",
+    llm_record: Annotated[
+        Path | None, typer.Option("--llm-record", help="Write the conversation with the model here.")
+    ] = None,
+    llm_replay: Annotated[
+        Path | None, typer.Option("--llm-replay", help="Answer from a recorded conversation, no network.")
+    ] = None,
+) -> dict[str, Any]:
+    """How sheets are read, as `yellowiron.extract` and `yellowiron.build` take it; the model is asked only where the
+    extractor is one that asks."""
+    from yellowiron.specs import ModelOptions
+
+    model = ModelOptions(llm_model, llm_url, llm_key, record=llm_record, replay=llm_replay)
+    return {"config": config, "extractor": extractor, "model": model}
+
+
+def _reads_sheets(command: Callable[..., None]) -> Callable[..., None]:
+    """Gives a command the options of `_reading`, before its last (`--json`); it gets what they say as `reading`."""
+    own = [p for p in inspect.signature(command, eval_str=True).parameters.values() if p.name != "reading"]
+    options = list(inspect.signature(_reading, eval_str=True).parameters.values())
+
+    @functools.wraps(command)
+    def with_options(**given: Any) -> None:
+        reading = _reading(**{option.name: given.pop(option.name) for option in options})
+        command(**given, reading=reading)
+
+    parameters = [*own[:-1], *options, own[-1]]
+    # typer reads the one and the other.
+    with_options.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
+    with_options.__annotations__ = {p.name: p.annotation for p in parameters}
+    return with_options
 
 
 @app.command()
+@_reads_sheets
 def build(
     equipment_type: Type,
     cad: Annotated[Path, typer.Option("--cad", help="The CAD model.")],
@@ -64,19 +105,14 @@ def build(
         list[Path] | None, typer.Option("--data", help="Materials, collision, relations or joints.")
     ] = None,
     settings: Settings = None,
-    config: Config = "",
     tracks: Annotated[
         Literal["belt", "shoes", "fixed"] | None,
         typer.Option("--tracks", help="How a crawler's tracks are modelled: hidden wheels, every shoe, or standing."),
     ] = None,
     simulate: Annotated[bool, typer.Option("--simulate", help="Drive it in every engine that is installed.")] = False,
-    extractor: Extractors = "rules",
-    llm_url: ModelUrl = "",
-    llm_model: ModelName = "",
-    llm_key: ModelKey = "",
-    llm_record: Record = None,
-    llm_replay: Replay = None,
     as_json: Json = False,
+    *,
+    reading: dict[str, Any],
 ) -> None:
     """Build a machine: the whole way."""
     engines: tuple[str, ...] = ()
@@ -84,48 +120,36 @@ def build(
         from yellowiron.simulation import installed_engines
 
         engines = installed_engines()
-    from yellowiron.build import build as build_machine
     from yellowiron.report import build_summary
 
     with _progress(as_json) as progress:
-        machine = build_machine(
+        machine = yellowiron.build(
             equipment_type, cad, out, sheets=specs or (), alignment_file=alignment, documents=data or (),
-            settings=[*(settings or ()), *([f"--tracks={tracks}"] if tracks else [])], config=config,
-            extractor=extractor, model=_model(llm_model, llm_url, llm_key, llm_record, llm_replay),
-            engines=engines, progress=progress,
+            settings=[*(settings or ()), *([f"--tracks={tracks}"] if tracks else [])],
+            engines=engines, progress=progress, **reading,
         )  # fmt: skip
     reasons = machine.fell_short
-    _show(machine.report, build_summary(machine.report, reasons, str(out)), as_json)
+    _show(machine.document, build_summary(machine.document, reasons, str(out)), as_json)
     raise typer.Exit(1 if reasons else 0)
 
 
 @app.command()
+@_reads_sheets
 def extract(
     equipment_type: Type,
-    pdfs: Annotated[list[Path], typer.Argument(metavar="PDF...", help="Specification sheets.")],
-    config: Config = "",
+    sheets: Annotated[list[Path], typer.Argument(metavar="PDF...", help="Specification sheets.")],
     show: Annotated[Path | None, typer.Option("--show", help="Write the pages as pictures, values boxed.")] = None,
-    extractor: Extractors = "rules",
-    llm_url: ModelUrl = "",
-    llm_model: ModelName = "",
-    llm_key: ModelKey = "",
-    llm_record: Record = None,
-    llm_replay: Replay = None,
     as_json: Json = False,
+    *,
+    reading: dict[str, Any],
 ) -> None:
     """Read the specifications a template asks for, each with its evidence."""
     from yellowiron import library, specs
     from yellowiron.report import missing_limits, specification_entry, specification_table
-    from yellowiron.support.output import output_folder
 
     with _progress(as_json) as progress:
-        progress("Reading the specification sheets")
-        template = library.load_template(equipment_type, sheet_only=True)
-        model = _model(llm_model, llm_url, llm_key, llm_record, llm_replay)
-        found = specs.extract(template, pdfs, config=config, extractor=extractor, model=model, progress=progress)
-        if show is not None:
-            with output_folder(show) as folder:
-                specs.draw_evidence(pdfs, found, folder)
+        found = yellowiron.extract(equipment_type, sheets, show=show, progress=progress, **reading)
+    template = library.load_template(equipment_type, sheet_only=True)
     entries = [specification_entry(s) for s in found]
     missing, findings = specs.missing_values(template, found), [asdict(f) for f in found.findings]
     _show(
@@ -144,16 +168,8 @@ def convert(
     as_json: Json = False,
 ) -> None:
     """Convert CAD to USD, nothing else."""
-    from yellowiron import cad as readers
-    from yellowiron import usd
-    from yellowiron.usd.convert import check_target
-
-    check_target(out)
     with _progress(as_json) as progress:
-        progress("Reading the CAD model")
-        assembly = readers.read_cad(cad)
-        progress("Writing USD")
-        usd.write_assembly(assembly, out)
+        assembly = yellowiron.convert(cad, out, progress=progress)
     document = {
         "file": str(out),
         "parts": len(assembly.parts),
@@ -177,30 +193,15 @@ def align_parts(
     as_json: Json = False,
 ) -> None:
     """Find the part that plays each role; with a sheet, the model's scale is checked against it."""
-    from yellowiron import alignment as align
-    from yellowiron import cad as readers
-    from yellowiron import library, specs
-    from yellowiron.build import aligned, declared_findings
+    from yellowiron.alignment import explain as explained
     from yellowiron.report import alignment_entry, alignment_table
-    from yellowiron.support.output import output_file
 
     with _progress(as_json) as progress:
-        template = library.load_template(equipment_type)
-        progress("Reading the CAD model")
-        assembly = readers.read_cad(cad)
-        values, choices = specs.split_settings(settings or (), template)
-        read = specs.extract(template, sheets or (), config=config, progress=progress)
-        specifications = specs.merge(read, specs.parse_settings(values, template))
-        progress("Finding the part that plays each role")
-        earlier = out if out is not None and out.exists() else None
-        assembly, alignment = aligned(assembly, template, specifications, earlier=earlier, choices=choices)
-        if out is not None:
-            with output_file(out) as temporary:
-                align.write_alignment(alignment, assembly, temporary)
-        remarks = declared_findings(assembly, template, alignment, specifications) if assembly.joints else ()
-    alignment = replace(alignment, findings=(*read.findings, *assembly.findings, *alignment.findings, *remarks))
+        alignment = yellowiron.align(
+            equipment_type, cad, sheets=sheets or (), settings=settings or (), config=config, out=out, progress=progress
+        ).alignment
     if explain is not None:
-        words = align.explain(alignment, explain)
+        words = explained(alignment, explain)
         _show({"explain": explain, "reason": words}, Text(words), as_json)
     else:
         _show(alignment_entry(alignment), alignment_table(alignment), as_json)
@@ -213,10 +214,9 @@ def measure(
     as_json: Json = False,
 ) -> None:
     """Measure a machine against its sheet."""
-    from yellowiron import kinematics, usd
     from yellowiron.report import measurement_table, within_tolerance
 
-    found = kinematics.measure(usd.read_machine(machine))
+    found = yellowiron.measure(machine)
     entries = [asdict(m) for m in found]
     _show({"measurements": entries}, measurement_table(entries), as_json)
     raise typer.Exit(1 if any(m.role == "checked" and within_tolerance(m) is False for m in found) else 0)
@@ -227,12 +227,11 @@ def check(
     file: Annotated[Path, typer.Argument(metavar="FILE.usd", help="Any UsdPhysics file.")], as_json: Json = False
 ) -> None:
     """Check any UsdPhysics file, ours or not."""
-    from yellowiron.checks import check as check_file
     from yellowiron.report import finding_table
 
     with _progress(as_json) as progress:
         progress("Checking the file")
-        entries = [asdict(f) for f in check_file(file)]
+        entries = [asdict(f) for f in yellowiron.check(file)]
     sound = Text("Sound.", "bold green")
     _show({"findings": entries}, finding_table(entries) if entries else sound, as_json)
     raise typer.Exit(1 if any(e["severity"] == "error" for e in entries) else 0)
@@ -255,11 +254,11 @@ def simulate(
 ) -> None:
     """Drive every actuator in an engine, compare every step with the kinematics; drive about; test the hydraulics."""
     from yellowiron.report import simulation_table
-    from yellowiron.simulation import examine, parse_payload
 
-    load = parse_payload(payload, machine)
     with _progress(as_json) as progress:
-        document, _ = examine(machine, engine=engine, test=test, base=base, payload=load, dt=dt, progress=progress)
+        document = yellowiron.simulate(
+            machine, engine=engine, test=test, base=base, payload=payload, dt=dt, progress=progress
+        )
     _show(document, simulation_table(document), as_json)
     raise typer.Exit(1 if document["findings"] else 0)
 
@@ -272,17 +271,14 @@ def export(
     as_json: Json = False,
 ) -> None:
     """Write the same machine for another simulator."""
-    from yellowiron import usd
-    from yellowiron.exporters import export_mjcf
-    from yellowiron.support.output import output_folder
+    from yellowiron.exporters import find_exporter
 
-    if to != "mjcf":
-        raise YellowironError(f"There is no export to '{to}'", where="--to", hint="This version writes mjcf.")
-    with _progress(as_json) as progress, output_folder(out) as folder:
-        progress("Writing MJCF")
-        written = export_mjcf(usd.read_machine(machine), machine, folder)
-    files = {"machine": str(out / written.name), "scene": str(out / "scene.xml")}
-    _show(files, Text(f"{files['machine']}; scene.xml beside it is the machine on the ground"), as_json)
+    with _progress(as_json) as progress:
+        written = yellowiron.export(machine, out, to=to, progress=progress)
+    scene = find_exporter(to).scene
+    files = {"machine": str(written), **({"scene": str(out / scene)} if scene else {})}
+    said = f"{written}; {scene} beside it is the machine on the ground" if scene else str(written)
+    _show(files, Text(said), as_json)
 
 
 @templates.command("list")
@@ -344,20 +340,17 @@ def new_template(
     as_json: Json = False,
 ) -> None:
     """Propose a template from the joints and bodies that geometry finds in a CAD model."""
-    from yellowiron.new import new_template as propose
     from yellowiron.report import proposal_table
 
     with _progress(as_json) as progress:
-        document = propose(cad, out, like=like, progress=progress)
+        document = yellowiron.new_template(cad, out, like=like, progress=progress)
     _show(document, proposal_table(document), as_json)
     raise typer.Exit(1 if any(f["severity"] == "error" for f in document["findings"]) else 0)
 
 
 def _version(asked: bool) -> None:
     if asked:
-        from importlib.metadata import version
-
-        _print(Text(f"yellowiron {version('yellowiron')}"))
+        _print(Text(f"yellowiron {yellowiron.__version__}"))
         raise typer.Exit
 
 
@@ -372,9 +365,10 @@ def options(
 
 def main() -> None:
     """The console script: an unusable input is one sentence on stderr and exit code 2, never a traceback."""
-    # A terminated run leaves as an interrupted one does: its child ends, its temporary folders go.
-    signal.signal(signal.SIGTERM, lambda number, frame: sys.exit(128 + number))
     try:
+        require_supported_platform()
+        # A terminated run leaves as an interrupted one does: its child ends, its temporary folders go.
+        signal.signal(signal.SIGTERM, lambda number, frame: sys.exit(128 + number))
         app()
     except YellowironError as error:
         console = Console(stderr=True)
@@ -384,13 +378,6 @@ def main() -> None:
         if error.hint:
             console.print(Text.assemble(("hint:  ", "bold"), error.hint), soft_wrap=True)
         sys.exit(2)
-
-
-def _model(name: str, url: str, key: str, record: Path | None, replay: Path | None) -> Any:
-    """The language model that the options name; it is asked only where the extractor is one that asks."""
-    from yellowiron.specs import ModelOptions
-
-    return ModelOptions(name, url, key, record=record, replay=replay)
 
 
 @contextmanager

@@ -8,7 +8,7 @@ from importlib import resources
 import pytest
 
 from yellowiron.alignment.labelling.confidence import LIMIT, grounds, probability
-from yellowiron.alignment.labelling.propagation import Place
+from yellowiron.alignment.labelling.place import Place
 
 
 def place(strength: float = 0.9, how: str = "joints", said: float = 0.0) -> Place:

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from kit.machines.solids import bolt, box, lathe, place, plate, tube
-from yellowiron.alignment.features.contacts import covered, fits_of, flats_of, lines_of, neighbours
+from yellowiron.alignment.features.contacts import covered, fits_of, flats_of, neighbours, shared_axes_of
 from yellowiron.alignment.features.solids import Solid, flat_faces, solids_of
 from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.geometry import Shape
@@ -66,7 +66,7 @@ def test_a_pin_in_two_lugs(radius: float, play: float, seed: int) -> None:
     fits = fits_of(tuple(sorted(solids.values(), key=lambda s: s.index)), 1e-4 * radius)
     names = {s.index: n for n, s in solids.items()}
     assert {(names[f.inner], names[f.outer]) for f in fits} == {("pin", "one"), ("pin", "two")}
-    assert len(lines_of(fits, 1e-4 * radius)) == 1
+    assert len(shared_axes_of(fits, 1e-4 * radius)) == 1
     assert all(f.overlap == pytest.approx(radius, rel=1e-6) for f in fits)
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -14,6 +13,7 @@ import pytest
 from kit.machines.crawler import merged
 from kit.machines.excavators import excavator
 from kit.machines.synthetic import Machine, disguise, loader
+from yellowiron import pipeline
 from yellowiron.library import load_template
 from yellowiron.model.assembly import Part
 from yellowiron.report import fell_short
@@ -75,10 +75,9 @@ def built(
     machine = loader(1, hoses=hoses) if kind == "wheel_loader" else excavator(1)
     spoil(machine)
     assembly, truth, _ = disguise(machine, 1)
-    building = importlib.import_module("yellowiron.build")
-    monkeypatch.setattr(building.cad, "read_cad", lambda file: assembly)
-    monkeypatch.setattr(building.report, "page", lambda *a, **more: "")
-    result = building.build(kind, Path("machine.step"), out)
+    monkeypatch.setattr(pipeline.cad, "read_cad", lambda file: assembly)
+    monkeypatch.setattr(pipeline.report, "page", lambda *a, **more: "")
+    result = pipeline.build(kind, Path("machine.step"), out)
     assert (out / "scene.usda").exists()
     found = {p.part: p.body for p in result.alignment.parts}
     wrong = {part for part, (_, body) in truth.items() if body and found[part] != body}
@@ -87,7 +86,7 @@ def built(
 
 def named(result: Any) -> set[str]:
     """All that the findings and the list of missing roles speak of."""
-    return {*result.alignment.missing, *(f["where"] for f in result.report["findings"])}
+    return {*result.alignment.missing, *(f["where"] for f in result.document["findings"])}
 
 
 LOADER: dict[str, tuple[Spoil, set[str], set[str]]] = {
@@ -127,7 +126,7 @@ def test_hoses_everywhere(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> No
     result, silent = built("wheel_loader", lambda machine: None, monkeypatch, tmp_path / "out", hoses=20)
     assert silent == set()
     assert result.alignment.missing == ()
-    assert len(result.report["joints"]) == 26
+    assert len(result.document["joints"]) == 26
 
 
 def check(
@@ -137,4 +136,4 @@ def check(
     assert said <= named(result)
     assert left <= {a.name for a in result.mechanism.actuators}
     assert len(silent) <= 0.05 * len(result.alignment.parts)
-    assert fell_short(result.report)
+    assert fell_short(result.document)

@@ -9,9 +9,10 @@ import pytest
 
 from kit.machines.excavators import Features, any_features, excavator
 from kit.machines.synthetic import Machine, disguise
-from yellowiron import checks, kinematics, library, mechanism, usd
+from yellowiron import checks, kinematics, library, usd
 from yellowiron.alignment import align
 from yellowiron.library import load_template
+from yellowiron.mechanism import build_mechanism
 from yellowiron.model.alignment import Alignment
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.rows import expand
@@ -65,10 +66,10 @@ def build(assembly: Assembly, template: Template, found: Alignment, folder: Path
     chosen = choose(template, found.choices)
     for mobility in library.lint(chosen).mobility:
         assert mobility.computed == mobility.expected
-    machine = mechanism.build_mechanism(assembly, expand(chosen, found.counts), found, NOTHING, name="machine")
-    machine = kinematics.complete(kinematics.calibrate(machine))
-    assert [f for f in machine.findings if f.severity == "error"] == []
-    usd.write_machine(machine, assembly, folder, name="machine", frame=found.frame)
+    mechanism = build_mechanism(assembly, expand(chosen, found.counts), found, NOTHING, name="machine")
+    mechanism = kinematics.complete(kinematics.calibrate(mechanism))
+    assert [f for f in mechanism.findings if f.severity == "error"] == []
+    usd.write_machine(mechanism, assembly, folder, name="machine", frame=found.frame)
     assert [f for f in checks.check(folder / "scene.usda") if f.severity == "error"] == []
 
 

@@ -207,9 +207,9 @@ def test_explain(solved: Alignment) -> None:
     assert len(sentences) == 2
     assert "through bores of" in text
     assert "on both sides, coaxial within" in text
-    pin = solved.parts_of_role("rocker_pin")[0]
+    pin = next(p.part for p in solved.parts if p.role == "rocker_pin")
     assert "Moves with rocker" in explain(solved, pin)
-    rod = solved.parts_of_role("bucket_piston_rod")[0]
+    rod = next(p.part for p in solved.parts if p.role == "bucket_piston_rod")
     assert "Otherwise: " in explain(solved, "rocker")
     assert "  found by: joints\n" in explain(solved, rod)
     assert "the whole machine was found: 1" in explain(solved, rod)

@@ -14,7 +14,7 @@ from kit.machines.excavators import excavator
 from kit.machines.solids import box, place
 from kit.machines.synthetic import loader
 from yellowiron.alignment import align, read_alignment, write_alignment
-from yellowiron.alignment.files.revisions import prints_of, revised
+from yellowiron.alignment.files.revisions import match_parts, prints_of
 from yellowiron.library import load_template
 from yellowiron.model.alignment import Alignment, PartAssignment
 from yellowiron.model.assembly import Assembly, Part
@@ -106,7 +106,7 @@ def test_parts_are_found_again(machines: dict[str, Assembly], kind: str, revisio
     is gone unless it is its like."""
     assembly = machines[kind]
     later, ids = revision(assembly, np.random.default_rng(4))
-    found = revised(prints_of(assembly), prints_of(later))
+    found = match_parts(prints_of(assembly), prints_of(later))
     after = prints_of(later)
     lost = [i for i in ids if i not in found]
     wrong = [i for i in ids if i in found and after[found[i]] != after[ids[i]]]

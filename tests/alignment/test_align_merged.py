@@ -9,12 +9,12 @@ from kit.cadfiles.meshes import lumps
 from kit.machines.excavators import excavator
 from kit.machines.synthetic import Machine, disguise, loader
 from yellowiron.alignment import align
-from yellowiron.build import aligned
 from yellowiron.cad.mesh.assembly import Occurrence, assemble
 from yellowiron.library import load_template
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.geometry import Mesh
 from yellowiron.model.specification import Specifications
+from yellowiron.pipeline import find_roles
 
 
 def meshed(assembly: Assembly, groups: list[list[str]]) -> Assembly:
@@ -43,7 +43,7 @@ def wrong(machine: Machine, kind: str, merged: str, seed: int) -> list[str]:
     for number, part in enumerate(assembly.parts):
         key = {"part": str(number), "body": truth[part.id][1], "one": ""}[merged]
         groups.setdefault(key, []).append(part.id)
-    found, alignment = aligned(meshed(assembly, list(groups.values())), load_template(kind), Specifications())
+    found, alignment = find_roles(meshed(assembly, list(groups.values())), load_template(kind), Specifications())
     owner = owners(assembly, found)
     assert set(alignment.missing) <= set(align(assembly, load_template(kind), Specifications()).missing)
     silent = [p for p in alignment.parts if p.part not in alignment.to_review]
@@ -73,6 +73,6 @@ def test_bodies_without_pins_are_not_taken_apart() -> None:
     for part in assembly.parts:
         groups.setdefault(truth[part.id][1], []).append(part.id)
     merged = meshed(assembly, list(groups.values()))
-    found, alignment = aligned(merged, load_template("wheel_loader"), Specifications())
+    found, alignment = find_roles(merged, load_template("wheel_loader"), Specifications())
     assert alignment.missing
     assert found is merged

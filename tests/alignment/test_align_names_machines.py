@@ -12,7 +12,7 @@ from kit.machines.synthetic import disguise
 from yellowiron.alignment import align
 from yellowiron.alignment.assignment.cp_sat import Solution
 from yellowiron.alignment.assignment.names import concepts, name_scores, vocabulary
-from yellowiron.alignment.assignment.weights import heed
+from yellowiron.alignment.assignment.weights import name_agreement
 from yellowiron.alignment.structure.clusters import Cluster, Structure
 from yellowiron.library import load_template
 from yellowiron.model.alignment import Alignment
@@ -73,7 +73,7 @@ def test_every_body_is_known_by_what_it_is_called(kind: str, language: str) -> N
     assert wrong == []
 
 
-def test_heed_is_agreement_beyond_chance() -> None:
+def test_name_agreement_is_beyond_chance() -> None:
     """Ten parts of each of two bodies: all agree, half agree (as by chance), none agrees; few names prove little."""
     clusters = (Cluster(frozenset(range(10))), Cluster(frozenset(range(10, 20))))
     structure, solution = Structure(clusters), Solution({0: "boom", 1: "bucket"}, {}, {}, 0, 0, True)
@@ -83,8 +83,8 @@ def test_heed_is_agreement_beyond_chance() -> None:
         other = own[::-1]
         return [{(own if k % 10 < right else other)[k]: 1.0} for k in range(20)]
 
-    assert heed(structure, solution, scores(10)) == pytest.approx(1.0)
-    assert heed(structure, solution, scores(5)) == pytest.approx(6 / 26)
-    assert heed(structure, solution, scores(0)) == 0.0
-    assert heed(structure, solution, [{}] * 20) == 1.0
-    assert heed(structure, solution, [{"bucket": 1.0}, *[{}] * 19]) > 0.6
+    assert name_agreement(structure, solution, scores(10)) == pytest.approx(1.0)
+    assert name_agreement(structure, solution, scores(5)) == pytest.approx(6 / 26)
+    assert name_agreement(structure, solution, scores(0)) == 0.0
+    assert name_agreement(structure, solution, [{}] * 20) == 1.0
+    assert name_agreement(structure, solution, [{"bucket": 1.0}, *[{}] * 19]) > 0.6

@@ -9,10 +9,11 @@ import numpy as np
 import trimesh
 
 from yellowiron.alignment.features.contacts import Fit, fits_of
-from yellowiron.alignment.features.cylinders import Ram
+from yellowiron.alignment.features.cylinders import DrawnCylinder
 from yellowiron.alignment.features.distance import Touch
 from yellowiron.alignment.features.solids import Solid, solids_of
-from yellowiron.alignment.features.undrilled import pierced_fits_of, solid_rams_of
+from yellowiron.alignment.features.undrilled import pierced_fits_of
+from yellowiron.alignment.features.undrilled_cylinders import solid_cylinders_of
 from yellowiron.cad.mesh.assembly import shape_of
 from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.geometry import Floats, Mesh
@@ -52,9 +53,9 @@ def seen(**meshes: trimesh.Trimesh | list[trimesh.Trimesh]) -> tuple[tuple[Solid
     return solids, {s.part.id: s.index for s in solids}
 
 
-def pierced(solids: tuple[Solid, ...], rams: list[Ram]) -> set[tuple[str, str]]:
+def pierced(solids: tuple[Solid, ...], cylinders: list[DrawnCylinder]) -> set[tuple[str, str]]:
     fits: list[Fit] = fits_of(solids, TOLERANCE)
-    found = pierced_fits_of(solids, fits, rams, Touch(solids, TOLERANCE), SIZE)
+    found = pierced_fits_of(solids, fits, cylinders, Touch(solids, TOLERANCE), SIZE)
     return {(solids[f.inner].part.id, solids[f.outer].part.id) for f in found}
 
 
@@ -87,7 +88,7 @@ def test_models_with_holes_are_read_by_them() -> None:
     assert pierced(solids, []) == set()
 
 
-def ram(y: float) -> tuple[trimesh.Trimesh, trimesh.Trimesh]:
+def cylinder(y: float) -> tuple[trimesh.Trimesh, trimesh.Trimesh]:
     along = np.array([math.cos(0.7), 0.0, math.sin(0.7)])
     at = np.array([0.0, y, 0.0])
     return bar(0.07, at + 0.1 * along, at + 1.1 * along, 12), bar(0.03, at + 0.8 * along, at + 2.0 * along, 12)
@@ -102,9 +103,9 @@ def eyes() -> dict[str, trimesh.Trimesh]:
 
 
 def test_a_cylinder_without_a_bore() -> None:
-    barrel, rod = ram(0.0)
+    barrel, rod = cylinder(0.0)
     solids, index = seen(barrel=barrel, rod=rod, **eyes())
-    (found,) = solid_rams_of(solids, [], TOLERANCE)
+    (found,) = solid_cylinders_of(solids, [], TOLERANCE)
     assert (found.barrel, found.rod) == ({index["barrel"]}, {index["rod"]})
     assert not found.hollow
     assert found.count == 1
@@ -112,17 +113,17 @@ def test_a_cylinder_without_a_bore() -> None:
 
 
 def test_twins_in_two_parts_are_one_in_the_middle() -> None:
-    left, right = ram(0.3), ram(-0.3)
+    left, right = cylinder(0.3), cylinder(-0.3)
     solids, _ = seen(barrels=[left[0], right[0]], rods=[left[1], right[1]], **eyes())
-    (found,) = solid_rams_of(solids, [], TOLERANCE)
+    (found,) = solid_cylinders_of(solids, [], TOLERANCE)
     assert found.count == 2
     assert abs(found.origin[1]) < 1e-6
 
 
 def test_two_bars_in_line_without_eyes_are_no_cylinder() -> None:
-    barrel, rod = ram(0.0)
+    barrel, rod = cylinder(0.0)
     solids, _ = seen(barrel=barrel, rod=rod)
-    assert solid_rams_of(solids, [], TOLERANCE) == []
+    assert solid_cylinders_of(solids, [], TOLERANCE) == []
 
 
 def test_a_turntable() -> None:

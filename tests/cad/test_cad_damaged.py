@@ -8,6 +8,7 @@ import subprocess
 import sys
 import time
 import zipfile
+from dataclasses import replace
 from pathlib import Path
 
 import ezdxf
@@ -18,8 +19,7 @@ import yellowiron.cad
 from kit.cadfiles import blend as cad_blend
 from kit.cadfiles.exports import ITEMS, WRITERS
 from yellowiron import cli
-from yellowiron.cad import read as cad_reading
-from yellowiron.cad import read_cad
+from yellowiron.cad import formats, read_cad
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import CadError
 from yellowiron.support.guard import run_guarded
@@ -302,8 +302,8 @@ def test_a_ply_that_has_other_lines_than_it_says(tmp_path: Path) -> None:
     [
         ("STEP", "step:read_step"),
         ("IGES", "iges:read_iges"),
-        ("BREP", "occt:read_brep"),
-        ("FreeCAD", "occt:read_freecad"),
+        ("BREP", "brep_file:read_brep"),
+        ("FreeCAD", "freecad:read_freecad"),
     ],
 )
 def test_what_is_worked_on_for_ever_is_ended(name: str, target: str, tmp_path: Path) -> None:
@@ -311,9 +311,9 @@ def test_what_is_worked_on_for_ever_is_ended(name: str, target: str, tmp_path: P
     path = sound(name, tmp_path)
     module, function = target.split(":")
     code = (
-        f"from yellowiron.cad import {module}\n"
-        f"{module}._PATIENCE = {module}._PATIENCE_AFTER = 1.0\n"
-        f"{module}._SLOWEST_AFTER = 1e9\n"
+        f"from yellowiron.cad.readers.exact import {module}, patience\n"
+        "patience.SECONDS = patience.TEXT_SECONDS = 1.0\n"
+        "patience.BYTES_A_SECOND = 1e9\n"
         "def go_on(*_, **__):\n    while True: pass\n"
         f"{module}.products.assemble = go_on\n"
         f"{module}.{function}({str(path)!r})\n"
@@ -414,10 +414,11 @@ def test_a_reader_that_goes_on_for_ever_is_one_sentence(
 ) -> None:
     """By its own limit or by the guard's: the program ends with code 2."""
     work = "def work():\n    while True: pass\n"
-    text = f"from yellowiron.support.guard import must_end\n\n{work}\ndef read(path):\n    {body}\n"
+    text = f"from yellowiron.support.limits import must_end\n\n{work}\ndef read(path):\n    {body}\n"
     (tmp_path / "reader_without_end.py").write_text(text)
     monkeypatch.syspath_prepend(tmp_path)
-    monkeypatch.setitem(cad_reading._READERS, "OBJ", "reader_without_end:read")
+    endless = tuple(replace(f, reader="reader_without_end:read") if f.name == "OBJ" else f for f in formats.FORMATS)
+    monkeypatch.setattr(formats, "FORMATS", endless)
     monkeypatch.setattr(yellowiron.cad, "read_cad", functools.partial(read_cad, timeout_s=limit))
     path = sound("OBJ", tmp_path)
     monkeypatch.setattr(sys, "argv", ["yellowiron", "convert", str(path), "--out", str(tmp_path / "machine.usda")])

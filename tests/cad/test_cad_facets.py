@@ -221,4 +221,4 @@ def test_same_mesh_same_answer() -> None:
 
 
 def test_nothing_to_find() -> None:
-    assert facets.find(Mesh(np.eye(3), np.array([[0, 1, 2]], dtype=np.int32))) == facets.Found((), ())
+    assert facets.find(Mesh(np.eye(3), np.array([[0, 1, 2]], dtype=np.int32))) == facets.MeshFeatures((), ())

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import importlib
 import json
 import struct
 from collections.abc import Callable
 from pathlib import Path
+from pkgutil import resolve_name
 
 import numpy as np
 import pytest
@@ -14,8 +14,7 @@ from test_cad_gltf import packed
 
 from kit.cadfiles import fbx as cad_fbx
 from kit.cadfiles.step import box
-from yellowiron.cad import formats
-from yellowiron.cad.read import _READERS
+from yellowiron.cad.recognition import format_of
 from yellowiron.model.assembly import Assembly
 
 CORNERS = np.array([[x, y, z] for x in (0.0, 4.0) for y in (0.0, 3.0) for z in (0.0, 2.0)])
@@ -32,8 +31,7 @@ PLACES = (np.eye(4), MIRROR, DOUBLE)
 
 def read(path: Path) -> Assembly:
     """Read in this process: the files are our own."""
-    module, function = _READERS[formats.format_of(path)].split(":")
-    return getattr(importlib.import_module(module), function)(str(path))
+    return resolve_name(format_of(path).reader)(str(path))
 
 
 def glb(path: Path) -> None:

@@ -12,7 +12,7 @@ from yellowiron.cad import read_cad
 from yellowiron.exporters import export_mjcf
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.mechanism import Mechanism
-from yellowiron.usd import read_machine
+from yellowiron.usd import read_mechanism
 
 pytestmark = pytest.mark.usefixtures("read_here")
 
@@ -20,7 +20,7 @@ pytestmark = pytest.mark.usefixtures("read_here")
 @pytest.fixture(scope="module")
 def written(tmp_path_factory: pytest.TempPathFactory) -> tuple[Mechanism, Path]:
     file = small_machine.write(tmp_path_factory.mktemp("usd"))
-    return read_machine(file), file
+    return read_mechanism(file), file
 
 
 def check(read: Assembly, mechanism: Mechanism) -> None:

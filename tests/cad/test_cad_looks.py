@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import importlib
 import json
 import struct
 import zipfile
 from collections.abc import Callable
 from io import BytesIO
 from pathlib import Path
+from pkgutil import resolve_name
 
 import numpy as np
 import pytest
@@ -18,8 +18,7 @@ from test_cad_triangles import CORNERS, FACES, binary
 
 from kit.cadfiles import fbx as cad_fbx
 from kit.cadfiles.step import box, faces_of
-from yellowiron.cad import formats
-from yellowiron.cad.read import _READERS
+from yellowiron.cad.recognition import format_of
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.geometry import Mesh
 from yellowiron.usd import write_assembly
@@ -30,8 +29,7 @@ UVS = np.tile([[0.0, 0.0], [1.0, 0.0], [1.0, 0.25]], (len(FACES), 1)).reshape(-1
 
 def read_cad(path: Path) -> Assembly:
     """Read in this process: the files are our own."""
-    module, function = _READERS[formats.format_of(path)].split(":")
-    return getattr(importlib.import_module(module), function)(str(path))
+    return resolve_name(format_of(path).reader)(str(path))
 
 
 def picture(size: tuple[int, int] = (16, 16), form: str = "PNG") -> bytes:

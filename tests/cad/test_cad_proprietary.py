@@ -9,8 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from yellowiron.cad import formats, read_cad
+from yellowiron.cad import read_cad
 from yellowiron.cad.proprietary import PROGRAMS
+from yellowiron.cad.recognition import format_of
 from yellowiron.model.errors import CadError
 
 STEP = "STEP (AP214 or AP242)"
@@ -95,7 +96,7 @@ def test_a_container_that_is_broken_is_no_crash(tmp_path: Path) -> None:
 def test_dwg_goes_through_what_is_on_the_path(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = tmp_path / "machine.dwg"
     path.write_bytes(b"AC1032\x00\x00\x00")
-    assert formats.format_of(path) == "DWG"
+    assert format_of(path).name == "DWG"
     monkeypatch.setenv("PATH", str(tmp_path))
     error = fail(path)
     assert "another program" in error.message and "type STEP or IGES" in error.hint and "dwg2dxf" in error.hint

@@ -11,8 +11,8 @@ import pytest
 from pxr import Usd, UsdShade
 from test_cad_looks import picture
 
-from yellowiron.build import build
 from yellowiron.cad import read_cad
+from yellowiron.pipeline import build
 
 pytestmark = pytest.mark.slow
 INCH = 0.0254

@@ -17,6 +17,6 @@ def usd_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="session")
 def mjcf_file(usd_file: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     from yellowiron.exporters import export_mjcf
-    from yellowiron.usd import read_machine
+    from yellowiron.usd import read_mechanism
 
-    return export_mjcf(read_machine(usd_file), usd_file, tmp_path_factory.mktemp("mjcf"))
+    return export_mjcf(read_mechanism(usd_file), usd_file, tmp_path_factory.mktemp("mjcf"))

@@ -14,12 +14,12 @@ from kit.machines import small_machine
 from yellowiron.exporters import Geometry, actuator_names, export_mjcf, read_geometry
 from yellowiron.model.errors import MechanismError, YellowironError
 from yellowiron.model.mechanism import Joint, Mechanism
-from yellowiron.usd import read_machine
+from yellowiron.usd import read_mechanism
 
 
 @pytest.fixture(scope="module")
 def mechanism(usd_file: Path) -> Mechanism:
-    return read_machine(usd_file)
+    return read_mechanism(usd_file)
 
 
 @pytest.fixture(scope="module")
@@ -81,7 +81,7 @@ def test_a_negative_sign_turns_the_control_over(mechanism: Mechanism, tmp_path: 
 
 
 def test_the_same_bytes_every_time(mjcf_file: Path, usd_file: Path, tmp_path: Path) -> None:
-    export_mjcf(read_machine(usd_file), usd_file, tmp_path)
+    export_mjcf(read_mechanism(usd_file), usd_file, tmp_path)
     first = {
         p.relative_to(mjcf_file.parent): p.read_bytes() for p in sorted(mjcf_file.parent.rglob("*")) if p.is_file()
     }
@@ -120,7 +120,7 @@ def test_the_scene_stands_still(mjcf_file: Path) -> None:
 
 
 def test_a_ball_dropped_into_the_box_stays_in(mjcf_file: Path, usd_file: Path, tmp_path: Path) -> None:
-    file = export_mjcf(read_machine(usd_file), usd_file, tmp_path, base="fixed")
+    file = export_mjcf(read_mechanism(usd_file), usd_file, tmp_path, base="fixed")
     spec = mujoco.MjSpec.from_file(str(file))
     ball = spec.worldbody.add_body(name="ball", pos=(3.0, 0.2, 2.2))
     ball.add_freejoint()
@@ -134,7 +134,7 @@ def test_a_ball_dropped_into_the_box_stays_in(mjcf_file: Path, usd_file: Path, t
 
 
 def test_a_fixed_base_has_no_free_joint(usd_file: Path, tmp_path: Path) -> None:
-    model = mujoco.MjModel.from_xml_path(str(export_mjcf(read_machine(usd_file), usd_file, tmp_path, base="fixed")))
+    model = mujoco.MjModel.from_xml_path(str(export_mjcf(read_mechanism(usd_file), usd_file, tmp_path, base="fixed")))
     assert mujoco.mjtJoint.mjJNT_FREE not in model.jnt_type
     assert model.nkey == 1
 

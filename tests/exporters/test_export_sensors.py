@@ -12,7 +12,7 @@ import pytest
 from yellowiron.exporters import Geometry, export_mjcf
 from yellowiron.model.mechanism import Mechanism, Site
 from yellowiron.model.sensor import PARAMETERS, Sensor
-from yellowiron.usd import read_machine
+from yellowiron.usd import read_mechanism
 
 AXES = {"x_axis": (0.6, 0.0, -0.8), "z_axis": (0.8, 0.0, 0.6)}
 
@@ -24,7 +24,7 @@ def sensor(name: str, kind: str, **more: object) -> Sensor:
 
 @pytest.fixture(scope="module")
 def mechanism(usd_file: Path) -> Mechanism:
-    plain = read_machine(usd_file)
+    plain = read_mechanism(usd_file)
     cylinder = plain.cylinders[0]
     cut = next(j for j in plain.joints if j.cut)
     turning = next(j for j in plain.joints if j.type == "revolute" and not j.cut)

@@ -39,7 +39,7 @@ class Arm:
         return np.array(at)
 
 
-def mechanism(a: Arm) -> Mechanism:
+def arm_mechanism(a: Arm) -> Mechanism:
     """The arm on a turntable, drawn straight out: boom, arm and bucket level, which need not be legal."""
     pins = np.cumsum([a.x, a.boom, a.arm, a.bucket])
     names = ("upper", "boom", "arm", "bucket")

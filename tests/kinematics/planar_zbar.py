@@ -169,7 +169,7 @@ def _body(name: str, origin: Point, mass: float, centre: Point, hull: Point) -> 
     return Body(name, tuple(origin), mass, tuple(centre), inertia, (), hull)
 
 
-def mechanism(
+def zbar_mechanism(
     z: ZBar, travel: tuple[tuple[float, float], tuple[float, float]], *, lock: float = 0.6, size: float = 1.0
 ) -> Mechanism:
     """The loader as a `Mechanism`, cut by the rules: driven cylinders in the tree, structural pins and the passive

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
-from planar_zbar import ZBar, mechanism, sketch, strokes, wrapped
+from planar_zbar import ZBar, sketch, strokes, wrapped, zbar_mechanism
 
 from yellowiron.kinematics import ClosedChain, KinematicsError
 from yellowiron.model.errors import MechanismError
@@ -19,8 +19,8 @@ BAR = 1e-9
 
 def worst_errors(z: ZBar, travel, paths) -> tuple[float, float]:
     """Largest error in metres (pins, passive slides) and radians (every pivot) along paths of lift, tilt, steering."""
-    machine = mechanism(z, travel)
-    chain = ClosedChain(machine)
+    mechanism = zbar_mechanism(z, travel)
+    chain = ClosedChain(mechanism)
     lift, tilt, steer = paths
     states = chain.sweep({"lift_l": lift, "tilt": tilt, "steering_l": steer})
     assert len(states) == len(lift)
@@ -97,7 +97,7 @@ def test_any_linkage_agrees_with_the_planar_solution(wobble, boom, scale):
 
 def test_mobility_and_coordinates():
     z = sketch()
-    chain = ClosedChain(mechanism(z, strokes(z)))
+    chain = ClosedChain(zbar_mechanism(z, strokes(z)))
     assert chain.degrees_of_freedom == 8
     assert set(chain.independent) == {
         *("axle_joint", "steering_l", "lift_l", "tilt"),
@@ -109,7 +109,7 @@ def test_mobility_and_coordinates():
 
 def test_dead_point_keeps_the_last_good_state():
     z = sketch()
-    chain = ClosedChain(mechanism(z, strokes(z)))
+    chain = ClosedChain(zbar_mechanism(z, strokes(z)))
     with pytest.raises(KinematicsError) as caught:
         chain.solve({"lift_l": 2.0})
     reached = chain.coordinate(caught.value.reached, "lift_l")
@@ -124,7 +124,7 @@ def test_dead_point_keeps_the_last_good_state():
 
 def test_dead_point_is_where_the_circles_stop_to_meet():
     z = sketch()
-    chain = ClosedChain(mechanism(z, strokes(z)))
+    chain = ClosedChain(zbar_mechanism(z, strokes(z)))
     shortest = abs(np.hypot(*z.Q) - np.hypot(*z.P)) - z.steer
     state, _ = chain.reach({"steering_l": 2.0 * shortest})
     assert chain.coordinate(state, "steering_l") == pytest.approx(shortest, abs=1e-4)
@@ -134,7 +134,7 @@ def test_dead_point_is_where_the_circles_stop_to_meet():
 def test_there_and_back_is_the_same_pose():
     z = sketch()
     travel = strokes(z)
-    chain = ClosedChain(mechanism(z, travel))
+    chain = ClosedChain(zbar_mechanism(z, travel))
     away = chain.solve({"lift_l": travel[0][1], "tilt": travel[1][0], "steering_l": 0.15})
     back = chain.solve({"lift_l": 0.0, "tilt": 0.0, "steering_l": 0.0}, start=away)
     assert np.max(np.abs(back.position)) <= 1e-11
@@ -143,7 +143,7 @@ def test_there_and_back_is_the_same_pose():
 
 def test_coordinates_that_are_not_named_stay():
     z = sketch()
-    chain = ClosedChain(mechanism(z, strokes(z)))
+    chain = ClosedChain(zbar_mechanism(z, strokes(z)))
     first = chain.solve({"steering_l": 0.1, "axle_joint": 0.05})
     second = chain.solve({"lift_l": 0.1}, start=first)
     assert chain.coordinate(second, "steering_l") == 0.1
@@ -152,7 +152,7 @@ def test_coordinates_that_are_not_named_stay():
 
 def test_dependent_coordinates_cannot_be_given():
     z = sketch()
-    chain = ClosedChain(mechanism(z, strokes(z)))
+    chain = ClosedChain(zbar_mechanism(z, strokes(z)))
     with pytest.raises(MechanismError, match="follows from the loops"):
         chain.solve({"tilt_rod_joint": 0.1})
     with pytest.raises(MechanismError, match="no such joint"):
@@ -161,7 +161,7 @@ def test_dependent_coordinates_cannot_be_given():
 
 def test_rates_are_the_derivatives():
     z = sketch()
-    chain = ClosedChain(mechanism(z, strokes(z)))
+    chain = ClosedChain(zbar_mechanism(z, strokes(z)))
     state = chain.solve({"lift_l": 0.1, "tilt": -0.05, "steering_l": 0.08})
     for driven in ("lift_l", "tilt", "steering_l"):
         here, h = chain.coordinate(state, driven), 1e-6
@@ -174,11 +174,11 @@ def test_rates_are_the_derivatives():
 
 def test_a_wrong_tree_is_refused():
     z = sketch()
-    machine = mechanism(z, strokes(z))
+    mechanism = zbar_mechanism(z, strokes(z))
 
     def changed(name: str, **change):
-        joints = tuple(replace(j, **change) if j.name == name else j for j in machine.joints)
-        return replace(machine, joints=joints)
+        joints = tuple(replace(j, **change) if j.name == name else j for j in mechanism.joints)
+        return replace(mechanism, joints=joints)
 
     with pytest.raises(MechanismError, match="two tree joints lead to"):
         ClosedChain(changed("boom_pin", cut=False))
@@ -193,17 +193,17 @@ def test_a_wrong_tree_is_refused():
 @pytest.mark.parametrize("document", ["", "mine.json"])
 def test_a_loop_that_is_held_rigid_names_what_holds_it(document: str):
     z = sketch()
-    machine = mechanism(z, strokes(z))
-    plate = replace(machine.body("boom"), name="plate")
-    pin = machine.joint("boom_pin")
+    mechanism = zbar_mechanism(z, strokes(z))
+    plate = replace(mechanism.body("boom"), name="plate")
+    pin = mechanism.joint("boom_pin")
     weld = replace(pin, name="weld", type="fixed", body0="boom", body1="plate", cut=False, drive=None,
                    source={"document": document} if document else {})  # fmt: skip
     twice = replace(pin, name="twice", body0="boom", body1="plate", cut=True, drive=None)
     rigid = replace(
-        machine,
-        bodies=(*machine.bodies, plate),
-        joints=(*machine.joints, weld, twice),
-        loops=(*machine.loops, Loop(("weld", "twice"), "twice")),
+        mechanism,
+        bodies=(*mechanism.bodies, plate),
+        joints=(*mechanism.joints, weld, twice),
+        loops=(*mechanism.loops, Loop(("weld", "twice"), "twice")),
     )
     with pytest.raises(MechanismError, match="cannot move against each other") as caught:
         ClosedChain(rigid)
@@ -213,12 +213,12 @@ def test_a_loop_that_is_held_rigid_names_what_holds_it(document: str):
 
 def test_bodies_without_mass_and_spherical_cuts_are_fine():
     z = sketch()
-    machine = mechanism(z, strokes(z))
+    mechanism = zbar_mechanism(z, strokes(z))
     ball = replace(
-        machine,
-        bodies=tuple(replace(b, mass=0.0, inertia=np.zeros((3, 3))) for b in machine.bodies),
-        joints=tuple(replace(j, type="spherical") if j.cut else j for j in machine.joints),
+        mechanism,
+        bodies=tuple(replace(b, mass=0.0, inertia=np.zeros((3, 3))) for b in mechanism.bodies),
+        joints=tuple(replace(j, type="spherical") if j.cut else j for j in mechanism.joints),
     )
-    one, other = ClosedChain(machine), ClosedChain(ball)
+    one, other = ClosedChain(mechanism), ClosedChain(ball)
     target = {"lift_l": 0.2, "tilt": 0.1}
     assert np.max(np.abs(one.solve(target).position - other.solve(target).position)) <= 1e-11

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from planar_zbar import length, mechanism, sketch, strokes
+from planar_zbar import length, sketch, strokes, zbar_mechanism
 
 from yellowiron.kinematics import ClosedChain, branch_pivots, branch_sine, complete
 from yellowiron.kinematics.completion import ANGLE_MARGIN, FREQUENCY, SLIDE_MARGIN, position_gains
@@ -21,17 +21,17 @@ def planar():
 
 
 @pytest.fixture(scope="module")
-def machine(planar):
-    return mechanism(*planar)
+def mechanism(planar):
+    return zbar_mechanism(*planar)
 
 
 @pytest.fixture(scope="module")
-def done(machine):
-    return complete(machine)
+def done(mechanism):
+    return complete(mechanism)
 
 
-def changed(machine, name, **change):
-    return replace(machine, joints=tuple(replace(j, **change) if j.name == name else j for j in machine.joints))
+def changed(mechanism, name, **change):
+    return replace(mechanism, joints=tuple(replace(j, **change) if j.name == name else j for j in mechanism.joints))
 
 
 def test_a_sound_machine_has_no_findings(done):
@@ -43,14 +43,14 @@ def test_mobility(done):
     assert done.mobility.grubler < 8  # planar loops in space
 
 
-def test_a_missing_pivot_is_a_locked_loop(machine):
-    locked = complete(changed(machine, "steering_barrel_l_joint", type="fixed"))
+def test_a_missing_pivot_is_a_locked_loop(mechanism):
+    locked = complete(changed(mechanism, "steering_barrel_l_joint", type="fixed"))
     assert locked.mobility.computed == 7 and locked.mobility.expected == 8
     assert "KIN005" in [f.code for f in locked.findings]
 
 
-def test_what_nothing_holds_is_named(machine):
-    loose = complete(changed(machine, "axle_joint", free=False))
+def test_what_nothing_holds_is_named(mechanism):
+    loose = complete(changed(mechanism, "axle_joint", free=False))
     assert loose.mobility.computed == 8 and loose.mobility.expected == 7
     (finding,) = [f for f in loose.findings if f.code == "KIN005"]
     assert "axle_joint" in finding.hint
@@ -77,19 +77,19 @@ def test_limits_are_the_planar_ranges(planar, done):
     assert (twin.lower, twin.upper) == pytest.approx((l0 - SLIDE_MARGIN, l1 + SLIDE_MARGIN), abs=1e-9)
 
 
-def test_given_limits_stay(machine, done):
+def test_given_limits_stay(mechanism, done):
     for name in ("tilt", "lift_l", "axle_joint", "front_wheel_l_joint"):
         assert (done.joint(name).lower, done.joint(name).upper) == (
-            machine.joint(name).lower,
-            machine.joint(name).upper,
+            mechanism.joint(name).lower,
+            mechanism.joint(name).upper,
         )
-    narrow = complete(changed(machine, "tilt_barrel_joint", lower=-0.1, upper=0.1))
+    narrow = complete(changed(mechanism, "tilt_barrel_joint", lower=-0.1, upper=0.1))
     assert narrow.joint("tilt_barrel_joint").upper == 0.1
     assert [f.code for f in narrow.findings] == ["KIN006"]
 
 
-def test_without_a_stroke_nothing_is_limited(machine):
-    found = complete(changed(machine, "tilt", lower=None, upper=None))
+def test_without_a_stroke_nothing_is_limited(mechanism):
+    found = complete(changed(mechanism, "tilt", lower=None, upper=None))
     assert [f.code for f in found.findings] == ["KIN009"] and found.findings[0].where == "tilt"
     assert found.joint("rocker_link_pin").lower is None
     assert found.joint("steering_rod_l_joint").lower is not None
@@ -104,10 +104,10 @@ def test_completing_twice_changes_nothing(done):
         assert one.drive == two.drive
 
 
-def test_a_stroke_past_the_dead_point_is_cut_short(planar, machine):
+def test_a_stroke_past_the_dead_point_is_cut_short(planar, mechanism):
     z, ((l0, _), _) = planar
     longest = length(z.D, z.A) + length(z.A, z.C) - z.lift
-    found = complete(changed(machine, "lift_l", upper=longest + 0.2))
+    found = complete(changed(mechanism, "lift_l", upper=longest + 0.2))
     assert l0 < found.joint("lift_l").upper < longest
     assert "KIN001" in [f.code for f in found.findings]
     assert "dead point" in found.joint("lift_l").source["upper_reason"]
@@ -115,25 +115,25 @@ def test_a_stroke_past_the_dead_point_is_cut_short(planar, machine):
     chain.solve({"lift_l": found.joint("lift_l").upper})
 
 
-def test_pins_out_of_parallel_are_found(machine):
+def test_pins_out_of_parallel_are_found(mechanism):
     skew = (math.sin(0.01), math.cos(0.01), 0.0)
     for joint in ("bucket_pin", "tilt_rod_joint"):
-        assert "KIN008" in [f.code for f in complete(changed(machine, joint, axis=skew)).findings]
+        assert "KIN008" in [f.code for f in complete(changed(mechanism, joint, axis=skew)).findings]
     # A ball in its place does not care.
-    assert complete(changed(machine, "bucket_pin", axis=skew, type="spherical")).findings == ()
+    assert complete(changed(mechanism, "bucket_pin", axis=skew, type="spherical")).findings == ()
 
 
-def test_a_twin_of_another_stroke_is_found(machine):
+def test_a_twin_of_another_stroke_is_found(mechanism):
     cylinders = tuple(
-        replace(c, closed_length=c.closed_length + 0.05) if c.name == "lift_r" else c for c in machine.cylinders
+        replace(c, closed_length=c.closed_length + 0.05) if c.name == "lift_r" else c for c in mechanism.cylinders
     )
-    found = complete(replace(machine, cylinders=cylinders))
+    found = complete(replace(mechanism, cylinders=cylinders))
     (finding,) = found.findings
     assert finding.code == "KIN004" and finding.where == "lift_r" and "50.0 mm" in finding.message
 
 
-def test_branches_are_the_cylinders_triangles(machine, done):
-    pivots = branch_pivots(machine)
+def test_branches_are_the_cylinders_triangles(mechanism, done):
+    pivots = branch_pivots(mechanism)
     assert pivots["boom_pin"] == ("lift_barrel_l_joint", "lift_rod_l_joint", "boom_pin")
     assert pivots["lift_rod_r_joint"] == ("lift_barrel_r_joint", "lift_rod_r_joint", "boom_pin")
     assert pivots["articulation"] == ("steering_barrel_l_joint", "steering_rod_l_joint", "articulation")
@@ -142,9 +142,9 @@ def test_branches_are_the_cylinders_triangles(machine, done):
     assert all(loop.branch in (-1, 1) for loop in done.loops)
 
 
-def test_branch_sines_are_the_planar_ones(planar, machine):
+def test_branch_sines_are_the_planar_ones(planar, mechanism):
     z, _ = planar
-    chain = ClosedChain(machine)
+    chain = ClosedChain(mechanism)
     state = chain.solve({"lift_l": 0.1, "tilt": -0.05, "steering_l": 0.1})
     p = z.pose(z.lift + 0.1, z.tilt - 0.05)
 
@@ -152,7 +152,7 @@ def test_branch_sines_are_the_planar_ones(planar, machine):
         a, b = far - near, closing - near
         return (a[0] * b[1] - a[1] * b[0]) / (math.hypot(*a) * math.hypot(*b))
 
-    pivots = branch_pivots(machine)
+    pivots = branch_pivots(mechanism)
     for cut, pins in {
         "boom_pin": (z.C, p["D"], z.A),
         "rocker_pin": (z.E, p["F"], p["G"]),
@@ -196,8 +196,8 @@ def crane(angle: float) -> Mechanism:
 
 
 def test_the_mass_a_cylinder_sees_is_the_booms_over_its_lever():
-    machine = crane(0.5)
-    chain = ClosedChain(machine)
+    mechanism = crane(0.5)
+    chain = ClosedChain(mechanism)
     inertia = 750.0 + 1000.0 * 1.5**2
     c, a = np.array([1.0, -0.2]), np.zeros(2)
     for stroke in (-0.1, 0.0, 0.2):
@@ -210,33 +210,33 @@ def test_the_mass_a_cylinder_sees_is_the_booms_over_its_lever():
 
 
 def test_a_branch_near_its_dead_point_is_a_finding():
-    machine = crane(0.5)
-    longest = 1.0 + math.hypot(1.0, 0.2) - machine.cylinders[0].drawn_length
-    near = complete(changed(machine, "ram", upper=longest - 1e-4))
+    mechanism = crane(0.5)
+    longest = 1.0 + math.hypot(1.0, 0.2) - mechanism.cylinders[0].drawn_length
+    near = complete(changed(mechanism, "ram", upper=longest - 1e-4))
     (finding,) = near.findings
     assert finding.code == "KIN003" and finding.where == "boom_pin"
-    assert near.loops[0].branch == complete(machine).loops[0].branch != 0
+    assert near.loops[0].branch == complete(mechanism).loops[0].branch != 0
 
 
 def test_gains_hold_the_usual_mass_at_three_hertz():
-    machine = crane(0.5)
-    chain = ClosedChain(machine)
+    mechanism = crane(0.5)
+    chain = ClosedChain(mechanism)
     masses = [chain.effective_mass(s, "ram") for s in chain.sweep({"ram": np.linspace(-0.1, 0.3, 41)})]
-    drive = complete(machine).joint("ram").drive
+    drive = complete(mechanism).joint("ram").drive
     omega = math.tau * FREQUENCY
     assert drive.stiffness == pytest.approx(np.quantile(masses, 0.95) * omega**2, rel=1e-9)
     assert drive.damping == pytest.approx(2.0 * drive.stiffness / omega)
     assert "3 Hz" in drive.source and drive.max_force == 1e6
 
 
-def test_a_steering_cylinder_sees_the_boom_wherever_it_is(planar, machine):
+def test_a_steering_cylinder_sees_the_boom_wherever_it_is(planar, mechanism):
     _, travel = planar
-    chain = ClosedChain(machine)
-    drive = complete(machine).joint("steering_l").drive
+    chain = ClosedChain(mechanism)
+    drive = complete(mechanism).joint("steering_l").drive
     seen = drive.stiffness / (math.tau * FREQUENCY) ** 2
     masses = [
         chain.effective_mass(chain.solve({"steering_l": s, "lift_l": a, "tilt": b}), "steering_l")
-        for s in np.linspace(machine.joint("steering_l").lower, machine.joint("steering_l").upper, 9)
+        for s in np.linspace(mechanism.joint("steering_l").lower, mechanism.joint("steering_l").upper, 9)
         for a in np.linspace(*travel[0], 5)
         for b in np.linspace(*travel[1], 3)
     ]
@@ -261,18 +261,18 @@ def test_provisional_gains_do_not_stay_unless_the_template_states_them():
     assert partly.damping == 1e9 and partly.stiffness == pytest.approx(1e5 * omega**2)
 
 
-def test_velocity_drives_get_damping(machine, done):
+def test_velocity_drives_get_damping(mechanism, done):
     drive = done.joint("rear_wheel_l_joint").drive
     assert drive.stiffness == 0.0
     assert drive.damping == pytest.approx(drive.max_force / drive.max_velocity)
     weak = Drive("velocity", 0.0, 0.0, 0.0, 12.0)
-    assert [f.code for f in complete(changed(machine, "rear_wheel_l_joint", drive=weak)).findings] == ["KIN007"]
+    assert [f.code for f in complete(changed(mechanism, "rear_wheel_l_joint", drive=weak)).findings] == ["KIN007"]
 
 
 def test_a_machine_without_loops_is_complete_too():
-    machine = crane(0.5)
-    arm = replace(machine, joints=(replace(machine.joints[0], free=True),), bodies=machine.bodies[:2], cylinders=(),
-                  actuators=(), loops=())  # fmt: skip
+    mechanism = crane(0.5)
+    free = replace(mechanism.joints[0], free=True)
+    arm = replace(mechanism, joints=(free,), bodies=mechanism.bodies[:2], cylinders=(), actuators=(), loops=())
     done = complete(arm)
     assert done.mobility.computed == done.mobility.expected == done.mobility.grubler == 1
     assert done.findings == ()

@@ -25,7 +25,7 @@ LEFT = "steering_cylinder_barrel_l2steering_piston_rod_l_joint"
 
 
 @pytest.fixture(scope="module")
-def machine(example):
+def mechanism(example):
     """The mechanism of the example's STEP file, every part aligned as `truth.json` says."""
     truth = json.loads((example / "truth.json").read_text(encoding="utf-8"))
     assembly = cad.read_cad(example / "wheel_loader.step")
@@ -55,21 +55,21 @@ def wrapped(angle: float) -> float:
     return (angle + math.pi) % (2.0 * math.pi) - math.pi
 
 
-def test_the_example_has_no_loose_end(machine):
-    assert machine.mobility.computed == machine.mobility.expected == 8
-    assert [f for f in machine.findings if f.code.startswith("KIN")] == []
-    assert all(loop.branch in (-1, 1) for loop in machine.loops)
+def test_the_example_has_no_loose_end(mechanism):
+    assert mechanism.mobility.computed == mechanism.mobility.expected == 8
+    assert [f for f in mechanism.findings if f.code.startswith("KIN")] == []
+    assert all(loop.branch in (-1, 1) for loop in mechanism.loops)
 
 
-def planar(machine, linkage):
+def planar(mechanism, linkage):
     """The example's planar linkage with the pins where the mechanism has them (its own solver may end a nanometre off
     on another computer, and the drawing is from this one)."""
 
     def pin(joint):
-        anchor = machine.joint(joint).anchor
+        anchor = mechanism.joint(joint).anchor
         return np.array([anchor[0], anchor[2]]) * 1e3
 
-    edge = next(s for s in machine.sites if s.name == "bucket_edge")
+    edge = next(s for s in mechanism.sites if s.name == "bucket_edge")
     a, b, g = pin("front_frame2boom_joint"), pin("boom2bucket_joint"), pin("boom2rocker_joint")
     d, f, h = (
         pin("boom2boom_piston_rod_l_joint"),
@@ -94,18 +94,18 @@ def planar(machine, linkage):
     )
 
 
-def test_pins_are_where_the_linkage_has_them(machine, drawing):
+def test_pins_are_where_the_linkage_has_them(mechanism, drawing):
     linkage, _, _ = drawing
-    found, drawn = planar(machine, linkage), linkage.solve()
+    found, drawn = planar(mechanism, linkage), linkage.solve()
     for name in ("A", "C", "E", "boom", "D", "G", "rocker", "H", "link", "J", "T"):
         assert np.max(np.abs(getattr(found, name) - getattr(drawn, name))) <= 0.01, name  # millimetres
 
 
-def test_front_end_over_the_full_strokes(machine, drawing):
+def test_front_end_over_the_full_strokes(mechanism, drawing):
     linkage, draw, values = drawing
-    k = planar(machine, linkage)
+    k = planar(mechanism, linkage)
     drawn = k.pose(draw.LIFT_DRAWN, draw.TILT_DRAWN)
-    chain = ClosedChain(machine)
+    chain = ClosedChain(mechanism)
     lift = np.linspace(values.LIFT_CLOSED.value, values.LIFT_CLOSED.value + values.LIFT_STROKE.value, 200)
     wave = 0.5 - 0.5 * np.cos(np.linspace(0.0, 9.0 * np.pi, 200))
     tilt = values.TILT_CLOSED.value + values.TILT_STROKE.value * wave
@@ -129,10 +129,10 @@ def test_front_end_over_the_full_strokes(machine, drawing):
     assert metres <= 1e-9 and radians <= 1e-9
 
 
-def test_steering_over_the_full_stroke(machine, drawing):
+def test_steering_over_the_full_stroke(mechanism, drawing):
     linkage, _, _ = drawing
     s = linkage.solve_steering()
-    chain = ClosedChain(machine)
+    chain = ClosedChain(mechanism)
     straight = s.length(0.0)
     angles = np.radians(np.linspace(-40.0, 40.0, 81))
     strokes = np.array([s.length(-angle) - straight for angle in angles]) / 1e3  # the right one mirrors the left
@@ -148,9 +148,9 @@ def test_steering_over_the_full_stroke(machine, drawing):
     assert a <= 1e-9 and b <= 1e-9
 
 
-def test_measurements_meet_the_values_it_was_drawn_to(machine, drawing):
+def test_measurements_meet_the_values_it_was_drawn_to(mechanism, drawing):
     _, _, values = drawing
-    found = {m.name: m.model for m in measure(machine)}
+    found = {m.name: m.model for m in measure(mechanism)}
     lengths = {
         "Hinge Pin Height at Maximum Lift": values.HINGE_HEIGHT_MAX,
         "Hinge Pin Height at Carry": values.HINGE_HEIGHT_CARRY,

@@ -9,7 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from planar_arm import Arm, mechanism
+from planar_arm import Arm, arm_mechanism
 from scipy.optimize import brentq
 
 from yellowiron.kinematics import measure
@@ -35,7 +35,7 @@ def level(length: float, specification: str = ""):
 
 
 def value(arm: Arm, quantity, *steps) -> float:
-    bench = Bench(mechanism(arm))
+    bench = Bench(arm_mechanism(arm))
     return bench.value(quantity, bench.pose(steps))
 
 
@@ -101,8 +101,8 @@ def test_level_cut_is_as_deep_as_its_length_allows(arm: Arm) -> None:
 
 def test_level_cut_takes_the_length_that_the_sheet_prints(arm: Arm) -> None:
     sheet = {"Level Bottom Length": {"value": 2.0, "status": "ok"}}
-    machine = replace(mechanism(arm), specifications=sheet)
-    bench = Bench(machine)
+    mechanism = replace(arm_mechanism(arm), specifications=sheet)
+    bench = Bench(mechanism)
     printed = bench.value(HEIGHT, bench.pose([level(2.44, "Level Bottom Length")]))
     assert printed == pytest.approx(value(arm, HEIGHT, level(2.0)), abs=1e-7)
     assert printed < value(arm, HEIGHT, level(2.44))
@@ -158,12 +158,12 @@ def test_no_valley_is_missed_and_the_same_comes_out_again(arm: Arm) -> None:
 
 
 def test_strokes_that_lock_or_are_not_there_are_told(arm: Arm) -> None:
-    bench = Bench(mechanism(arm))
+    bench = Bench(arm_mechanism(arm))
     with pytest.raises(Unmeasurable, match="has no end of stroke"):
         Strokes(bench, ["swing"], bench.chain.drawn)
     with pytest.raises(Unmeasurable, match="no actuator 'lift'"):
         Strokes(bench, ["lift"], bench.chain.drawn)
-    stuck = Bench(mechanism(replace(arm, booms=(0.1, 0.1))))
+    stuck = Bench(arm_mechanism(replace(arm, booms=(0.1, 0.1))))
     with pytest.raises(Unmeasurable, match="no stroke between its ends"):
         Strokes(stuck, EQUIPMENT, stuck.chain.drawn)
 
@@ -191,7 +191,7 @@ def test_all_working_ranges_take_a_second_or_two(arm: Arm) -> None:
             )
         )
     ]  # fmt: skip
-    machine = replace(mechanism(arm), measurements=tuple(ranges))
+    mechanism = replace(arm_mechanism(arm), measurements=tuple(ranges))
     started = time.process_time()
-    assert all(m.model is not None for m in measure(machine))
+    assert all(m.model is not None for m in measure(mechanism))
     assert time.process_time() - started < 6.0

@@ -8,13 +8,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from planar_zbar import direction, mechanism, sketch, strokes, with_measurements
+from planar_zbar import direction, sketch, strokes, with_measurements, zbar_mechanism
 from scipy.optimize import brentq
 
 from yellowiron.kinematics import ClosedChain, calibrate, complete, key_poses, lever_table, measure
 from yellowiron.kinematics.measuring.quantities import KINDS, wheels
 from yellowiron.model.template import MeasurementTemplate
-from yellowiron.model.text import plain
+from yellowiron.support.text import plain
 
 DOWN = -math.radians(30.0)
 EDGE = {"kind": "height", "site": "edge"}
@@ -60,8 +60,8 @@ def planar():
 
 
 @pytest.fixture(scope="module")
-def machine(planar):
-    return with_measurements(mechanism(*planar), TEMPLATES, {"hinge at top": 3.0})
+def mechanism(planar):
+    return with_measurements(zbar_mechanism(*planar), TEMPLATES, {"hinge at top": 3.0})
 
 
 def expected(z, travel) -> dict[str, float]:
@@ -102,9 +102,9 @@ def expected(z, travel) -> dict[str, float]:
     }
 
 
-def test_measurements_agree_with_the_planar_solution(planar, machine):
+def test_measurements_agree_with_the_planar_solution(planar, mechanism):
     want = expected(*planar)
-    found = {m.name: m for m in measure(machine)}
+    found = {m.name: m for m in measure(mechanism)}
     assert list(found) == [t.name for t in TEMPLATES]
     for name, value in want.items():
         assert found[name].model == pytest.approx(value, abs=1e-9), (name, found[name].reason)
@@ -114,18 +114,18 @@ def test_measurements_agree_with_the_planar_solution(planar, machine):
     assert found["steering"].spec is None and found["steering"].error_percent is None
 
 
-def test_completing_does_not_change_what_is_measured(machine):
-    before, after = measure(machine), measure(complete(machine))
+def test_completing_does_not_change_what_is_measured(mechanism):
+    before, after = measure(mechanism), measure(complete(mechanism))
     assert [m.model for m in before] == pytest.approx([m.model for m in after], abs=1e-12)
 
 
-def test_a_drawing_may_show_the_machine_steered(planar, machine):
+def test_a_drawing_may_show_the_machine_steered(planar, mechanism):
     """The straight machine is where both steering cylinders are equally long, whatever the drawing shows."""
-    chain = ClosedChain(machine)
+    chain = ClosedChain(mechanism)
     bent = chain.solve({"steering_l": 0.1})
     moved = chain.pose(bent)
     joints = []
-    for j in machine.joints:
+    for j in mechanism.joints:
         pose = moved[j.body0]
         anchor = tuple(float(v) for v in (pose @ [*j.anchor, 1.0])[:3])
         axis = tuple(float(v) for v in pose[:3, :3] @ j.axis)
@@ -133,24 +133,24 @@ def test_a_drawing_may_show_the_machine_steered(planar, machine):
         limits = {} if j.lower is None or j.upper is None else {"lower": j.lower - shift, "upper": j.upper - shift}
         joints.append(replace(j, anchor=anchor, axis=axis, **limits))
     bodies = [
-        replace(b, origin=tuple(float(v) for v in (moved[b.name] @ [*b.origin, 1.0])[:3])) for b in machine.bodies
+        replace(b, origin=tuple(float(v) for v in (moved[b.name] @ [*b.origin, 1.0])[:3])) for b in mechanism.bodies
     ]
-    shifts = {c.name: chain.coordinate(bent, c.slide) for c in machine.cylinders}
-    cylinders = [replace(c, drawn_length=c.drawn_length + shifts[c.name]) for c in machine.cylinders]
-    steered = replace(machine, joints=tuple(joints), bodies=tuple(bodies), cylinders=tuple(cylinders))
+    shifts = {c.name: chain.coordinate(bent, c.slide) for c in mechanism.cylinders}
+    cylinders = [replace(c, drawn_length=c.drawn_length + shifts[c.name]) for c in mechanism.cylinders]
+    steered = replace(mechanism, joints=tuple(joints), bodies=tuple(bodies), cylinders=tuple(cylinders))
     found = {m.name: m.model for m in measure(steered)}
     assert found["steering"] == pytest.approx(0.6, abs=1e-9)
     assert found["right"] == pytest.approx(0.6, abs=1e-9)
 
 
-def test_what_cannot_be_measured_says_why(machine):
+def test_what_cannot_be_measured_says_why(mechanism):
     high = template("too high", EDGE, solve(("boom", EDGE, 9.0)))
     both = template("both too high", EDGE, solve(("boom", EDGE, 9.0), ("bucket", PITCH, 0.0)))
     no_site = template("no site", {"kind": "height", "site": "moon"})
     no_lever = template("no lever", EDGE, {"set": {"jib": "max"}})
     no_kind = template("no kind", {"kind": "weight"})
     motor = template("motor", EDGE, {"set": {"drive": "max"}})
-    odd = replace(machine, measurements=(high, both, no_site, no_lever, no_kind, motor))
+    odd = replace(mechanism, measurements=(high, both, no_site, no_lever, no_kind, motor))
     found = measure(odd)
     assert all(m.model is None and m.error_percent is None for m in found)
     for m, words in zip(
@@ -163,31 +163,31 @@ def test_what_cannot_be_measured_says_why(machine):
 
 
 @pytest.mark.parametrize("at", [0.0, 0.02])
-def test_a_stroke_without_length_is_told_and_does_not_crash(machine, at):
+def test_a_stroke_without_length_is_told_and_does_not_crash(mechanism, at):
     both = template("low", EDGE, solve(("boom", EDGE, 0.8), ("bucket", PITCH, 0.0)))
-    stuck = [replace(j, lower=at, upper=at) if j.name == "lift_l" else j for j in machine.joints]
-    found = complete(replace(machine, joints=tuple(stuck), measurements=(both, *TEMPLATES)))
+    stuck = [replace(j, lower=at, upper=at) if j.name == "lift_l" else j for j in mechanism.joints]
+    found = complete(replace(mechanism, joints=tuple(stuck), measurements=(both, *TEMPLATES)))
     assert [f.where for f in found.findings if f.code == "KIN009"] == ["lift_l"]
     values = {m.name: m for m in measure(found)}
     assert values["low"].model is None and "no stroke between its ends" in values["low"].reason
     assert values["wheelbase"].model == pytest.approx(3.4)
 
 
-def test_roles_and_status(machine):
+def test_roles_and_status(mechanism):
     known = {
         "Hinge at Top": {"value": 3.0, "unit": "m", "status": "ok", "example": True},
         "clearance": {"value": 2.0, "unit": "m", "status": "conflict"},
     }
-    found = {m.name: m for m in measure(replace(machine, specifications=known))}
+    found = {m.name: m for m in measure(replace(mechanism, specifications=known))}
     assert found["hinge at top"].role == "example" and found["hinge at top"].spec == 3.0
     assert found["clearance"].spec is None and "conflict" in found["clearance"].reason
 
 
-def shifted(machine, amounts):
+def shifted(mechanism, amounts):
     """The machine with the closed lengths of some cylinders forgotten: limits off by `amounts`, source unknown."""
     cylinders, limits = [], {}
-    for c in machine.cylinders:
-        actuator = next(a for a in machine.actuators if c.name in a.cylinders)
+    for c in mechanism.cylinders:
+        actuator = next(a for a in mechanism.actuators if c.name in a.cylinders)
         if actuator.name in amounts:
             by = amounts[actuator.name]
             limits[c.slide] = by
@@ -195,16 +195,16 @@ def shifted(machine, amounts):
         cylinders.append(c)
     joints = [
         replace(j, lower=j.lower + limits[j.name], upper=j.upper + limits[j.name]) if j.name in limits else j
-        for j in machine.joints
+        for j in mechanism.joints
     ]
-    return replace(machine, cylinders=tuple(cylinders), joints=tuple(joints))
+    return replace(mechanism, cylinders=tuple(cylinders), joints=tuple(joints))
 
 
-def test_calibration_finds_the_closed_lengths(planar, machine):
+def test_calibration_finds_the_closed_lengths(planar, mechanism):
     values = {
         k: v for k, v in expected(*planar).items() if k in ("hinge at top", "rack back at top", "clearance", "steering")
     }
-    known = with_measurements(machine, TEMPLATES, values)
+    known = with_measurements(mechanism, TEMPLATES, values)
     lost = shifted(known, {"boom": 0.06, "bucket": -0.04})
     found = calibrate(lost)
     for c, want in zip(found.cylinders, known.cylinders, strict=True):
@@ -217,20 +217,20 @@ def test_calibration_finds_the_closed_lengths(planar, machine):
     assert [f.code for f in found.findings] == ["KIN010", "KIN010"]
 
 
-def test_calibration_without_anything_to_go_by(machine):
-    lost = shifted(replace(machine, specifications={}), {"boom": 0.06})
+def test_calibration_without_anything_to_go_by(mechanism):
+    lost = shifted(replace(mechanism, specifications={}), {"boom": 0.06})
     found = calibrate(lost)
     assert [f.code for f in found.findings] == ["KIN011"]
     assert found.joints == lost.joints
 
 
-def test_known_closed_lengths_are_left_alone(machine):
-    assert calibrate(machine) is machine
+def test_known_closed_lengths_are_left_alone(mechanism):
+    assert calibrate(mechanism) is mechanism
 
 
-def test_lever_tables_are_what_the_planar_solution_says(planar, machine):
+def test_lever_tables_are_what_the_planar_solution_says(planar, mechanism):
     z, travel = planar
-    table = lever_table(machine, "boom", n=5)
+    table = lever_table(mechanism, "boom", n=5)
     assert table["joint"] == "lift_l"
     assert table["stroke"] == pytest.approx(np.linspace(*travel[0], 5).tolist())
     assert table["extension"][0] == pytest.approx(0.0, abs=1e-12)
@@ -240,20 +240,20 @@ def test_lever_tables_are_what_the_planar_solution_says(planar, machine):
         u = (p["D"] - z.C) / np.hypot(*(p["D"] - z.C))
         arm = p["D"] - z.A
         assert abs(lever) == pytest.approx(abs(arm[0] * u[1] - arm[1] * u[0]), abs=1e-9)
-    assert lever_table(machine, "drive") == {} and lever_table(machine, "moon") == {}
-    assert json.loads(json.dumps(plain(lever_table(machine, "bucket"))))["pivots"]["bucket_pin"]["lever"]
-    positive = lever_table(machine, "steering", n=3)["pivots"]["articulation"]["angle"]
+    assert lever_table(mechanism, "drive") == {} and lever_table(mechanism, "moon") == {}
+    assert json.loads(json.dumps(plain(lever_table(mechanism, "bucket"))))["pivots"]["bucket_pin"]["lever"]
+    positive = lever_table(mechanism, "steering", n=3)["pivots"]["articulation"]["angle"]
     assert positive == pytest.approx(sorted(positive)) and positive[-1] == pytest.approx(0.6, abs=1e-9)
 
 
-def test_key_poses_differ(machine):
-    poses = key_poses(machine)
+def test_key_poses_differ(mechanism):
+    poses = key_poses(mechanism)
     assert 2 <= len(poses) <= 4
-    assert all(set(pose) == {b.name for b in machine.bodies} for pose in poses.values())
+    assert all(set(pose) == {b.name for b in mechanism.bodies} for pose in poses.values())
 
 
-def test_wheels_are_found_by_what_they_are(machine):
-    found = wheels(machine)
+def test_wheels_are_found_by_what_they_are(mechanism):
+    found = wheels(mechanism)
     assert [joint.body1 for joint, _ in found] == ["front_wheel_l", "front_wheel_r", "rear_wheel_l", "rear_wheel_r"]
     assert all(radius == pytest.approx(0.8, abs=1e-12) for _, radius in found)
 

@@ -28,5 +28,7 @@ def test_every_name_is_there():
 
 def test_every_finding_is_documented(root):
     folder = root / "src" / "yellowiron" / "kinematics"
-    used = {code for path in sorted(folder.glob("*.py")) for code in re.findall(r'"(KIN\d+)"', path.read_text("utf-8"))}
+    used = {
+        code for path in sorted(folder.rglob("*.py")) for code in re.findall(r'"(KIN\d+)"', path.read_text("utf-8"))
+    }
     assert used and all(f"\n{code}  " in str(kinematics.__doc__) for code in used)

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from planar_zbar import mechanism, sketch, strokes
+from planar_zbar import sketch, strokes, zbar_mechanism
 from pose_reference import pose
 
 from yellowiron.kinematics import ClosedChain, pose_tables
@@ -19,7 +19,7 @@ AT_NODES = 1e-9
 @pytest.fixture(scope="module")
 def loader():
     z = sketch()
-    return mechanism(z, strokes(z))
+    return zbar_mechanism(z, strokes(z))
 
 
 def gap(chain, tables, given) -> float:

@@ -17,9 +17,9 @@ from yellowiron.model.template import JointTemplate, Role, Template
 
 
 def limited(name: str, lower: float, upper: float) -> Mechanism:
-    machine = crane()
-    joints = tuple(replace(j, lower=lower, upper=upper) if j.name == name else j for j in machine.joints)
-    return replace(machine, joints=joints)
+    mechanism = crane()
+    joints = tuple(replace(j, lower=lower, upper=upper) if j.name == name else j for j in mechanism.joints)
+    return replace(mechanism, joints=joints)
 
 
 def test_a_legal_drawn_pose_stays() -> None:
@@ -27,12 +27,12 @@ def test_a_legal_drawn_pose_stays() -> None:
 
 
 def test_a_slide_goes_just_inside_its_nearer_limit() -> None:
-    machine = limited("boom_ram", 0.1, 0.5)
-    start = legal_start(machine)
+    mechanism = limited("boom_ram", 0.1, 0.5)
+    start = legal_start(mechanism)
     assert start is not None
     assert start.coordinates == pytest.approx({"boom_ram": 0.104})
     assert [f.code for f in start.findings] == ["KIN012"]
-    chain = ClosedChain(machine)
+    chain = ClosedChain(mechanism)
     state = chain.solve({"boom_ram": 0.104})
     assert np.allclose(start.displacements["arm"], chain.displacement(state, "arm"))
     assert np.allclose(start.displacements["base"], np.eye(4))
@@ -47,10 +47,10 @@ def test_what_cannot_be_reached_is_said() -> None:
 
 def test_the_cad_model_moves_along() -> None:
     """A swing that may only be between 30° and 90°: parts, axes and limits count from there."""
-    machine = limited("swing", math.radians(30), math.radians(90))
+    mechanism = limited("swing", math.radians(30), math.radians(90))
     motor = Drive("position", 0.0, 0.0, 5e4, 1.0)
-    joints = tuple(replace(j, drive=motor) if j.name == "swing" else j for j in machine.joints)
-    start = legal_start(replace(machine, joints=joints))
+    joints = tuple(replace(j, drive=motor) if j.name == "swing" else j for j in mechanism.joints)
+    start = legal_start(replace(mechanism, joints=joints))
     assert start is not None
     by = start.coordinates["swing"]
     assert by == pytest.approx(math.radians(30.6))

@@ -70,6 +70,8 @@ DEFECTS = {
     "wanted.bounds": ("not below", "Lift Cylinder Stroke.minimum", ""),
     "wanted.bound_of_other_dimension": ("'2 kg'", "Lift Cylinder Stroke.minimum", "0.8 m"),
     "wanted.mass_of_nothing": ("'bom'", "Boom Weight.mass_of", "boom"),
+    "wanted.unknown_common": ("no common 'Operating Wieght'", "Operating Weight.common", "Operating Weight"),
+    "wanted.unknown_list": ("no common 'hydraulic'", "Lift Cylinder Stroke.sections", "hydraulics"),
     "actuators.unknown_joint": ("'barel2rod_joint'", "lift.cylinders[0].slide", "barrel2rod_joint"),
     "actuators.slide_turns": ("not prismatic", "lift.cylinders[0].slide", ""),
     "actuators.sign": ("'2'", "lift.cylinders[0].sign", "1, -1"),
@@ -87,7 +89,6 @@ DEFECTS = {
     "tests.unknown_step": ("'half'", "tests[0].steps[0].set.lift", ""),
     "words.unknown_role": ("'bom' is in no role's name", "bom cylinder", "boom"),
     "words.unknown_language": ("'dutch'", "boom", ""),
-    "reference.no_source": ("'source' is missing", "reference.json", ""),
 }
 
 

@@ -9,7 +9,7 @@ import math
 import pytest
 
 from yellowiron import library
-from yellowiron.library.load import library_folder
+from yellowiron.library.type_folders import library_folder
 from yellowiron.model.rows import expand, split_index
 from yellowiron.model.specification import fold
 from yellowiron.model.template import Template, choose

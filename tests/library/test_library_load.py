@@ -15,11 +15,11 @@ from hypothesis import strategies as st
 from rich.console import Console
 
 from yellowiron import library
-from yellowiron.library.load import DOCUMENTS, library_folder
-from yellowiron.library.parsing.quantities import limit, number_text, quantity
+from yellowiron.library.notation.quantities import limit, number_text, quantity
+from yellowiron.library.type_folders import DOCUMENTS, library_folder
 from yellowiron.model.errors import OutputError
 from yellowiron.model.template import Template, choose
-from yellowiron.model.units import SI_UNIT
+from yellowiron.support.units import SI_UNIT
 
 DATA = Path(__file__).resolve().parent.parent / "data" / "templates"
 FIG_A1 = DATA / "fig_a1_joints_template_cat982m.json"
@@ -49,7 +49,7 @@ def test_library_documents_are_valid_as_they_are_written(equipment_type: str) ->
 
 
 def test_schemas_are_schemas() -> None:
-    for kind in (*DOCUMENTS, "joint_overrides"):
+    for kind in (*DOCUMENTS, "joint_overrides", "common"):
         jsonschema.Draft202012Validator.check_schema(library.template_schema(kind))
 
 

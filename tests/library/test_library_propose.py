@@ -10,7 +10,7 @@ import pytest
 from yellowiron import library
 from yellowiron.library.proposal.naming import proposed_names
 from yellowiron.model.found import FoundBody, FoundJoint, FoundMachine
-from yellowiron.model.text import to_json
+from yellowiron.support.text import to_json
 
 ACROSS, UP = (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
+import json
+from collections import Counter, defaultdict
+from pathlib import Path
 
+import jsonschema
 import pytest
 from typer.testing import CliRunner
 
 from yellowiron import library
 from yellowiron.cli import app
+from yellowiron.library.type_folders import library_folder
 from yellowiron.model.errors import TemplateError
 from yellowiron.model.template import Template, Wanted
-from yellowiron.model.units import SI_UNIT
 from yellowiron.specs.language.vocabulary import has_cjk, squeezed, tokens
+from yellowiron.support.units import SI_UNIT
 
 LANGUAGES = {"en", "de", "fr", "es", "zh", "ja"}
 TYPES = library.list_templates()
@@ -104,3 +108,47 @@ def test_the_list_says_which_types_are_known_by_their_sheet_only() -> None:
     assert "excavator" in told and "backhoe_loader  sheet only" in told
     shown = CliRunner().invoke(app, ["templates", "show", "grader"]).output
     assert "asked of a sheet" in shown and "Wheel Lean Angle" in shown
+
+
+# ---- what types have in common ---------------------------------------------------------------------------------------
+COMMON = json.loads((library_folder() / "common.json").read_text(encoding="utf-8"))
+
+
+def test_the_common_document_is_valid_as_it_is_written() -> None:
+    jsonschema.validate(COMMON, library.template_schema("common"))
+
+
+def test_everything_common_is_used_more_than_once() -> None:
+    written = [
+        entry
+        for name in TYPES
+        for entry in json.loads((library_folder() / name / "wanted.json").read_text(encoding="utf-8")).values()
+    ]
+    entries = [*written, *COMMON["wanted"].values()]
+    assert min(Counter(e.get("common") for e in entries)[name] for name in COMMON["wanted"]) > 1
+    for key in ("sections", "forbidden"):
+        named = Counter(word for e in entries for word in e.get(key, ()))
+        assert all(named[f"@{name}"] > 1 for name in COMMON[key]), key
+
+
+def test_an_entry_states_only_what_differs_from_the_common_one(tmp_path: Path) -> None:
+    entry = {"common": "net_power", "minimum": "5 kW", "synonyms": {"de": ["Netto"]}, "sections": ["@engine", "data"]}
+    (tmp_path / "wanted.json").write_text(json.dumps({"Power": entry, "Net Power": {"common": "Net Power"}}))
+    mine, plain = library.load_template(tmp_path, sheet_only=True).wanted
+    assert (mine.name, mine.minimum, mine.maximum) == ("Power", 5000.0, plain.maximum)
+    assert mine.synonyms == {**plain.synonyms, "de": ("Netto",)}
+    assert mine.sections == (*COMMON["sections"]["engine"], "data") == (*plain.sections, "data")
+    assert (mine.use, mine.where, mine.dimension) == (plain.use, plain.where, "power")
+
+
+@pytest.mark.parametrize("equipment_type", TYPES)
+def test_a_copy_needs_nothing_of_the_library(equipment_type: str, tmp_path: Path) -> None:
+    folder = library.copy_template(equipment_type, tmp_path / equipment_type)
+    copied = json.loads((folder / "wanted.json").read_text(encoding="utf-8"))
+    for name, entry in copied.items():
+        assert "common" not in entry and "dimension" in entry, name
+        assert not any(word.startswith("@") for key in ("sections", "forbidden") for word in entry.get(key, ()))
+    assert (
+        library.load_template(folder, sheet_only=True).wanted
+        == library.load_template(equipment_type, sheet_only=True).wanted
+    )

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from yellowiron.mechanism.joints.axes import coaxial_groups, fit_line, machine_sense, on_line, symmetry_axis
+from yellowiron.mechanism.joints.axes import coaxial_groups, fit_axis, machine_sense, on_axis, symmetry_axis
 from yellowiron.mechanism.placement import Features
 
 coordinate = st.floats(-5.0, 5.0)
@@ -46,7 +46,7 @@ def test_exact_segments_of_one_axis_give_it(
     at = np.array([p for p, _, _ in places])
     length = np.array([ln for _, ln, _ in places])
     sense = np.array([1.0 if s else -1.0 for _, _, s in places])
-    line = fit_line(np.array(point) + at[:, None] * axis, sense[:, None] * axis, length, length)
+    line = fit_axis(np.array(point) + at[:, None] * axis, sense[:, None] * axis, length, length)
     assert np.linalg.norm(np.cross(line.direction, axis)) < 1e-9
     assert line.distance(np.array([point]))[0] < 1e-9
 
@@ -56,7 +56,7 @@ def test_two_halves_of_a_pin_steady_each_other() -> None:
     lean = math.radians(0.05)
     center = np.array([[0.0, -0.5, 0.0], [0.0, 0.5, 0.0]])
     direction = np.array([[lean, 1.0, 0.0], [lean, 1.0, 0.0]])
-    line = fit_line(center, direction, np.array([0.1, 0.1]), np.array([1.0, 1.0]))
+    line = fit_axis(center, direction, np.array([0.1, 0.1]), np.array([1.0, 1.0]))
     assert math.asin(np.linalg.norm(np.cross(line.direction, [0, 1, 0]))) < 0.1 * lean
 
 
@@ -69,10 +69,10 @@ def test_groups_part_axes_that_differ_and_keep_those_that_do_not() -> None:
 
 def test_a_fitted_feature_may_miss_by_more_the_farther_it_is() -> None:
     table = features(np.array([[0.0008, 1.0, 0.0]]), np.array([[0.0, 1.0, 0.0]]), np.array([0.1]))
-    line = fit_line(np.zeros((1, 3)), np.array([[0.0, 1.0, 0.0]]), np.array([0.2]), np.array([1.0]))
-    assert not on_line(table, line).any()
+    line = fit_axis(np.zeros((1, 3)), np.array([[0.0, 1.0, 0.0]]), np.array([0.2]), np.array([1.0]))
+    assert not on_axis(table, line).any()
     loose = features(table.center, table.direction, table.length, exact=False)
-    assert on_line(loose, line).all()
+    assert on_axis(loose, line).all()
 
 
 @pytest.mark.parametrize(

@@ -71,8 +71,8 @@ def test_a_bad_inertia_is_made_valid() -> None:
     assert np.linalg.eigvalsh(found.inertia).min() > 0.0
 
 
-def mass_of(machine: Mechanism, body: str) -> float:
-    return machine.body(body).mass
+def mass_of(mechanism: Mechanism, body: str) -> float:
+    return mechanism.body(body).mass
 
 
 def build(**values: float) -> Mechanism:

@@ -13,7 +13,7 @@ from yellowiron.model.finding import Finding
 from yellowiron.model.mechanism import Body, Drive, Joint, Measurement, Mechanism, Mobility
 from yellowiron.model.specification import Candidate, Evidence, Specification, Specifications
 from yellowiron.model.template import JointTemplate, Role, Template
-from yellowiron.report import fell_short, report_document, within_tolerance
+from yellowiron.report import BuildFacts, fell_short, report_document, within_tolerance
 
 TEMPLATE = Template(
     equipment_type="press",
@@ -49,7 +49,7 @@ STROKE = Specification("Press Stroke", 0.5, "m", "ok", evidence=Evidence("s.pdf"
 
 def document(specification: Specification = STROKE, *, mechanism: Mechanism = MECHANISM, measurements=()):  # type: ignore[no-untyped-def]
     values = Specifications({specification.name: specification})
-    return report_document(mechanism, TEMPLATE, ALIGNMENT, values, measurements)
+    return report_document(BuildFacts(mechanism, TEMPLATE, ALIGNMENT, values, measurements))
 
 
 def test_a_sound_build_leaves_nothing() -> None:

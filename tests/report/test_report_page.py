@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from yellowiron.report.html.joints import joint_marks, joint_rows
 from yellowiron.report.html.marks import spread
-from yellowiron.report.html.plots import Line, plot
+from yellowiron.report.html.plots import Chart, Curve, plot
 from yellowiron.report.html.sensors import field_of_view, sensor_marks, sensor_rows, views
 from yellowiron.report.html.simulation import in_a_sentence, simulation_tables
 from yellowiron.report.rows import in_rows
@@ -177,7 +177,7 @@ def test_driving_and_tests_are_shown_where_they_ran() -> None:
 
 def test_a_plot_stays_in_its_frame() -> None:
     times = np.linspace(0.1, 10.0, 50)
-    svg = plot([Line(times, 3.0 * np.sin(times))], title="Speed", unit="", low=-2.0, high=2.0, bar=1.0)
+    svg = plot([Curve(times, 3.0 * np.sin(times))], Chart("Speed", "", -2.0, 2.0, bar=1.0))
     points = re.search(r'points="([^"]*)"', svg)
     assert points
     y = [float(pair.split(",")[1]) for pair in points.group(1).split()]

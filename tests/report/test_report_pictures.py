@@ -10,25 +10,25 @@ import trimesh
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from yellowiron.report.html.pictures import Soup, encode, look_at, render
+from yellowiron.report.html.pictures import DrawnTriangles, encode, look_at, render
 
 
-def soup_of(*meshes: trimesh.Trimesh, colors: list[tuple[float, float, float]]) -> Soup:
+def triangles_of(*meshes: trimesh.Trimesh, colors: list[tuple[float, float, float]]) -> DrawnTriangles:
     corners = np.concatenate([m.vertices[m.faces] for m in meshes]).astype(np.float32)
     normals = np.concatenate([np.repeat(m.face_normals[:, None], 3, axis=1) for m in meshes]).astype(np.float32)
     counts = [len(m.faces) for m in meshes]
     painted = np.repeat(np.array(colors, dtype=np.float32), counts, axis=0)
-    return Soup(corners, normals, painted, np.repeat(np.arange(len(meshes), dtype=np.int32), counts))
+    return DrawnTriangles(corners, normals, painted, np.repeat(np.arange(len(meshes), dtype=np.int32), counts))
 
 
 @pytest.fixture(scope="module")
-def two_boxes() -> Soup:
+def two_boxes() -> DrawnTriangles:
     left = trimesh.creation.box((1, 1, 1), transform=trimesh.transformations.translation_matrix((0, 1, 0.5)))
     right = trimesh.creation.box((1, 1, 1), transform=trimesh.transformations.translation_matrix((0, -1, 0.5)))
-    return soup_of(left, right, colors=[(1.0, 0.0, 0.0), (0.0, 0.0, 1.0)])
+    return triangles_of(left, right, colors=[(1.0, 0.0, 0.0), (0.0, 0.0, 1.0)])
 
 
-def test_a_box_is_where_the_camera_projects_it(two_boxes: Soup) -> None:
+def test_a_box_is_where_the_camera_projects_it(two_boxes: DrawnTriangles) -> None:
     """Seen from the front (+X), the machine's left (+Y) is on the right of the picture."""
     camera = look_at(two_boxes.corners.reshape(-1, 3), azimuth=0.0, elevation=0.2, width=320, height=180)
     pixels = np.asarray(render(two_boxes, camera)).astype(int)
@@ -39,7 +39,7 @@ def test_a_box_is_where_the_camera_projects_it(two_boxes: Soup) -> None:
     assert camera.project(np.array([[0.5, 1.0, 0.5]]))[0, 0] > 160
 
 
-def test_the_same_scene_gives_the_same_bytes(two_boxes: Soup) -> None:
+def test_the_same_scene_gives_the_same_bytes(two_boxes: DrawnTriangles) -> None:
     camera = look_at(two_boxes.corners.reshape(-1, 3), width=160, height=90)
     assert encode(render(two_boxes, camera)) == encode(render(two_boxes, camera))
 

@@ -17,7 +17,7 @@ from yellowiron.model.mechanism import Actuator, ActuatorJoint, Body, BodyPart, 
 from yellowiron.model.poses import PoseTables
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import Role, Template
-from yellowiron.report import page, report_document
+from yellowiron.report import BuildFacts, page, report_document
 
 SHOES, ROLLERS, BOLTS = 49, 9, 4
 LENGTH, HIGH = 3.6, 0.9
@@ -98,7 +98,7 @@ def crawler() -> tuple[Mechanism, Assembly, Alignment]:
 def made(crawler: tuple[Mechanism, Assembly, Alignment]) -> str:
     mechanism, assembly, alignment = crawler
     template = Template("crawler", "", "undercarriage", (Role("undercarriage", None, True),), ())
-    document = report_document(mechanism, template, alignment, Specifications({}), ())
+    document = report_document(BuildFacts(mechanism, template, alignment, Specifications({})))
     tables = PoseTables(tuple(joint.name for joint in mechanism.joints), ())
     return page(document, mechanism, assembly, alignment, tables=tables)
 

@@ -18,9 +18,9 @@ def usd_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="session")
 def mechanism(usd_file: Path) -> Mechanism:
-    from yellowiron.usd import read_machine
+    from yellowiron.usd import read_mechanism
 
-    return read_machine(usd_file)
+    return read_mechanism(usd_file)
 
 
 @pytest.fixture(scope="session")

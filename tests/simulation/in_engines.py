@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from yellowiron.simulation.engine import ENGINES, Engine, Setup, load_engine
+from yellowiron.simulation.engine import Engine, Setup
+from yellowiron.simulation.registry import ENGINES, load_engine
 
 MODULES = {"mujoco": "mujoco", "newton": "newton", "physx": "ovphysx"}
 EVERY = [pytest.param(name, marks=() if name == "mujoco" else pytest.mark.slow) for name in ENGINES]

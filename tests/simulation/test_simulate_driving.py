@@ -19,9 +19,11 @@ from yellowiron.model.mechanism import Mechanism
 from yellowiron.model.rows import expand
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import choose
+from yellowiron.simulation.driving.result import driving_document, driving_findings
 from yellowiron.simulation.driving.tracked import course
-from yellowiron.simulation.driving.wheeled import circle_radius, drive, driving_document, driving_findings, wheels
-from yellowiron.simulation.engine import Block
+from yellowiron.simulation.driving.wheel import driven_wheels
+from yellowiron.simulation.driving.wheeled import circle_radius, drive
+from yellowiron.simulation.ground import Block
 from yellowiron.usd import write_machine
 
 
@@ -32,14 +34,14 @@ def test_a_circle_through_an_arc() -> None:
 
 
 def test_wheels_are_found_with_their_size(mechanism: Mechanism) -> None:
-    found = wheels(mechanism)
+    found = driven_wheels(mechanism)
     assert len(found) == 4
     assert all(w.radius == pytest.approx(0.5, rel=0.01) and w.half_width == pytest.approx(0.15) for w in found)
 
 
 def test_what_has_no_wheels_is_said(mechanism: Mechanism) -> None:
     with pytest.raises(YellowironError, match="no driven wheels"):
-        wheels(dataclasses.replace(mechanism, actuators=()))
+        driven_wheels(dataclasses.replace(mechanism, actuators=()))
 
 
 def test_a_blocks_surface_has_a_ramp_at_both_ends() -> None:
@@ -73,8 +75,8 @@ def test_a_crawler_drives_and_turns_on_the_spot(tmp_path: Path) -> None:
     template = load_template(write_tracked_template(tmp_path / "template"))
     aligned = drawn.aligned(shoes=False)
     chosen = expand(choose(template, {"tracks": "belt"}), aligned.counts)
-    machine = build_mechanism(drawn.assembly(), chosen, aligned, Specifications(), name="crawler")
-    file, *_ = write_machine(complete(machine), drawn.assembly(), tmp_path / "out", name="crawler")
+    mechanism = build_mechanism(drawn.assembly(), chosen, aligned, Specifications(), name="crawler")
+    file, *_ = write_machine(complete(mechanism), drawn.assembly(), tmp_path / "out", name="crawler")
     result = drive(file, engine="mujoco")
     assert result.distance == 2.0
     assert result.forward == pytest.approx(2.0, rel=0.05)

@@ -11,18 +11,11 @@ import numpy as np
 import pytest
 
 from yellowiron.simulation import drive, rated_payload, run_tests, simulate
-from yellowiron.simulation.driving.wheeled import driving_findings
-from yellowiron.simulation.engine import (
-    Base,
-    Setup,
-    find_engine,
-    import_engine,
-    load_engine,
-    poses,
-    standing_bodies,
-    tell,
-)
-from yellowiron.usd import read_machine
+from yellowiron.simulation.driving.result import driving_findings
+from yellowiron.simulation.engine import Base, Setup, poses, tell
+from yellowiron.simulation.ground import standing_bodies
+from yellowiron.simulation.registry import find_engine, import_engine, load_engine
+from yellowiron.usd import read_mechanism
 
 pytestmark = pytest.mark.slow
 
@@ -30,7 +23,7 @@ pytestmark = pytest.mark.slow
 @pytest.fixture(scope="module")
 def built(root: Path, tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
     """The machine's file by what its tracks are, each built once."""
-    from yellowiron.build import build
+    from yellowiron.pipeline import build
 
     example = root / "examples" / "excavator"
     cad, sheet = example / "excavator.step", example / "specifications.pdf"
@@ -65,7 +58,7 @@ def test_full_strokes_with_a_filled_bucket(
     in_engines.need(engine)
     import_engine(engine)  # before a stage opens: its schemas
     file = built("belt")
-    payload = rated_payload(read_machine(file))
+    payload = rated_payload(read_mechanism(file))
     assert payload.mass == pytest.approx(1530.0, rel=0.01)
     result = simulate(file, engine=engine, base=base, payload_kg=payload.mass, actuators=actuators)
     assert result.completed and result.branches_kept and len(result.branches) >= 4
@@ -106,7 +99,7 @@ def test_shoes_carry_the_machine_and_move_around_the_loop(built: Callable[[str],
     in_engines.need(engine)
     import_engine(engine)
     file = built("shoes")
-    mechanism = read_machine(file)
+    mechanism = read_mechanism(file)
     names, drawn = [b.name for b in mechanism.bodies], np.array([b.origin for b in mechanism.bodies])
     timestep = find_engine(engine).timestep
     standing = standing_bodies(mechanism)

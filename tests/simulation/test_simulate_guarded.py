@@ -49,7 +49,7 @@ class Engine:
         pass
 """
 STARTED = """
-import yellowiron.simulation.engine as engines
+import yellowiron.simulation.registry as engines
 
 engines.ENGINES = {
     **engines.ENGINES,

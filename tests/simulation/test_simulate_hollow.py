@@ -12,9 +12,9 @@ from plain_engines import drop_ball, play, world_with
 
 from yellowiron.exporters import export_mjcf
 from yellowiron.kinematics import ClosedChain
-from yellowiron.simulation.engine import ENGINES
 from yellowiron.simulation.payload import tool
-from yellowiron.usd import read_machine
+from yellowiron.simulation.registry import ENGINES
+from yellowiron.usd import read_mechanism
 
 pytestmark = pytest.mark.slow
 
@@ -27,7 +27,7 @@ def _fall(engine: str, file: Path, place: np.ndarray, gravity: np.ndarray, secon
         stage = world_with(file, gravity)
         ball = drop_ball(stage, place, RADIUS, MASS)
         return play(engine, stage, [ball], seconds)[ball]
-    spec = mujoco.MjSpec.from_file(str(export_mjcf(read_machine(file), file, folder, base="fixed")))
+    spec = mujoco.MjSpec.from_file(str(export_mjcf(read_mechanism(file), file, folder, base="fixed")))
     spec.option.gravity = 9.81 * gravity
     body = spec.worldbody.add_body(name="ball", pos=place)
     body.add_freejoint()
@@ -41,11 +41,11 @@ def _fall(engine: str, file: Path, place: np.ndarray, gravity: np.ndarray, secon
 def drop(engine: str, file: Path, folder: Path) -> tuple[np.ndarray, np.ndarray]:
     """Where the ball starts and where it is after three seconds, in the bucket's frame as drawn, from the lowest corner
     of its box. Gravity is turned instead of the bucket: it acts as on one that is rolled back."""
-    machine = read_machine(file)
-    bucket = tool(machine)
-    (actuator,) = (a for a in machine.actuators if a.name == bucket.name)
-    slide = machine.joint(actuator.joints[0].joint)
-    chain = ClosedChain(machine)
+    mechanism = read_mechanism(file)
+    bucket = tool(mechanism)
+    (actuator,) = (a for a in mechanism.actuators if a.name == bucket.name)
+    slide = mechanism.joint(actuator.joints[0].joint)
+    chain = ClosedChain(mechanism)
     state, _ = chain.reach({slide.name: slide.upper})
     gravity = chain.displacement(state, bucket.name)[:3, :3].T @ (0.0, 0.0, -1.0)
     points = np.asarray(bucket.hull)
@@ -57,7 +57,7 @@ def drop(engine: str, file: Path, folder: Path) -> tuple[np.ndarray, np.ndarray]
 
 @pytest.mark.parametrize("engine", list(ENGINES))
 def test_the_bucket_is_hollow(engine: str, wheel_loader: Path, tmp_path: Path) -> None:
-    size = np.ptp(np.asarray(tool(read_machine(wheel_loader)).hull), axis=0)
+    size = np.ptp(np.asarray(tool(read_mechanism(wheel_loader)).hull), axis=0)
     start, rest = drop(engine, wheel_loader, tmp_path)
     assert np.all(rest > 0.0) and np.all(rest < size)
     assert abs(rest[1] - start[1]) < RADIUS

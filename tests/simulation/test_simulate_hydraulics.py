@@ -12,7 +12,7 @@ from yellowiron.model.machine_tests import MachineTest
 from yellowiron.model.mechanism import Mechanism
 from yellowiron.simulation import examine, figures_document, run_tests
 from yellowiron.simulation.machine_tests.figures import Figure, beside_sheet, figure_findings
-from yellowiron.usd import read_machine
+from yellowiron.usd import read_mechanism
 
 
 def test_the_file_alone_carries_the_tests(mechanism: Mechanism) -> None:
@@ -52,8 +52,8 @@ def figure(mechanism: Mechanism, value: float, *, example: bool = False, calibra
         "Pressure": {"value": 2e7, "unit": "Pa", "status": "ok", "example": True, "page": 3},
     }
     test = MachineTest("Tipping", "tipping", specification="Tipping Load", inputs=("Pressure", "Weight"))
-    machine = dataclasses.replace(mechanism, specifications=specifications)
-    return beside_sheet(Figure(test, value, value), machine, calibrated=calibrated)
+    mechanism = dataclasses.replace(mechanism, specifications=specifications)
+    return beside_sheet(Figure(test, value, value), mechanism, calibrated=calibrated)
 
 
 def test_a_figure_off_the_sheet_is_a_finding(mechanism: Mechanism) -> None:
@@ -111,5 +111,5 @@ def test_the_wheel_loader_against_its_sheet(wheel_loader: Path, engine: str) -> 
 
 @pytest.mark.slow
 def test_a_load_lies_where_the_bucket_holds_it(wheel_loader: Path) -> None:
-    site = next(s for s in read_machine(wheel_loader).sites if s.name == "load")
+    site = next(s for s in read_mechanism(wheel_loader).sites if s.name == "load")
     assert site.body == "bucket" and "4.30 m³" in site.source

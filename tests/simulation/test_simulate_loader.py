@@ -11,14 +11,14 @@ from yellowiron.model.mechanism import Mechanism
 from yellowiron.simulation import rated_payload, simulate
 from yellowiron.simulation.driving.wheeled import drive
 from yellowiron.simulation.engine import Base
-from yellowiron.usd import read_machine
+from yellowiron.usd import read_mechanism
 
 pytestmark = pytest.mark.slow
 
 
 @pytest.fixture(scope="module")
 def loader(wheel_loader: Path) -> Mechanism:
-    return read_machine(wheel_loader)
+    return read_mechanism(wheel_loader)
 
 
 @pytest.mark.parametrize(("base", "bar"), [("fixed", 5e-5), ("floating", 1e-4)])

@@ -9,7 +9,7 @@ import pytest
 from yellowiron.simulation import rated_payload, simulate
 from yellowiron.simulation.driving.wheeled import drive
 from yellowiron.simulation.engine import Base
-from yellowiron.usd import read_machine
+from yellowiron.usd import read_mechanism
 
 pytest.importorskip("newton", reason="needs pip install 'yellowiron[newton]'")
 pytestmark = pytest.mark.slow
@@ -17,7 +17,7 @@ pytestmark = pytest.mark.slow
 
 @pytest.mark.parametrize(("base", "actuator"), [("fixed", "steering"), ("floating", "bucket")])
 def test_full_strokes_with_the_rated_payload(wheel_loader: Path, base: Base, actuator: str) -> None:
-    payload = rated_payload(read_machine(wheel_loader))
+    payload = rated_payload(read_mechanism(wheel_loader))
     result = simulate(wheel_loader, engine="newton", base=base, payload_kg=payload.mass, actuators=[actuator])
     assert result.completed and result.branches_kept
     assert not result.findings, result.findings

@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 from yellowiron.simulation import rated_payload, simulate
-from yellowiron.simulation.engine import ENGINES, Base, Setup, coordinates, tell
-from yellowiron.usd import read_machine
+from yellowiron.simulation.engine import Base, Setup, coordinates, tell
+from yellowiron.simulation.registry import ENGINES
+from yellowiron.usd import read_mechanism
 
 pytest.importorskip("ovphysx", reason="needs pip install 'yellowiron[physx]'")
 pytestmark = pytest.mark.slow
@@ -19,7 +20,7 @@ pytestmark = pytest.mark.slow
     ("base", "actuators"), [("fixed", ["boom"]), ("floating", ["bucket"]), ("floating", ["steering"])]
 )
 def test_full_strokes_with_the_rated_payload(wheel_loader: Path, base: Base, actuators: list[str]) -> None:
-    payload = rated_payload(read_machine(wheel_loader))
+    payload = rated_payload(read_mechanism(wheel_loader))
     result = simulate(wheel_loader, engine="physx", base=base, payload_kg=payload.mass, actuators=actuators)
     assert result.completed and result.branches_kept
     assert not result.findings, result.findings
@@ -29,7 +30,7 @@ def test_targets_reach_every_drive(wheel_loader: Path) -> None:
     """Wheels turn and cylinders move as they are told, in SI and in the joints' own sense."""
     from yellowiron.simulation.engines.physx import load
 
-    mechanism = read_machine(wheel_loader)
+    mechanism = read_mechanism(wheel_loader)
     driven = [j for j in mechanism.joints if j.drive is not None and not j.cut]
     step = ENGINES["physx"].timestep
     setup = Setup(wheel_loader, mechanism, "fixed", step, tuple(j.name for j in driven))

@@ -12,7 +12,7 @@ from yellowiron.simulation import rated_payload, simulate
 from yellowiron.simulation.commands import motions
 from yellowiron.simulation.driving.rolling import axle_speeds, rolling
 from yellowiron.simulation.strokes.comparison import Comparison
-from yellowiron.usd import read_machine
+from yellowiron.usd import read_mechanism
 
 
 def test_an_articulated_machine_bends_in_the_middle() -> None:
@@ -35,7 +35,7 @@ def test_what_moves_no_wheel_turns_none(mechanism: Mechanism) -> None:
 @pytest.mark.slow
 def test_a_loaded_loader_follows_its_steering_on_the_ground(wheel_loader: Path) -> None:
     """With its wheels held still its cylinder would fall 80 mm behind, at the limit of its force."""
-    payload = rated_payload(read_machine(wheel_loader)).mass
+    payload = rated_payload(read_mechanism(wheel_loader)).mass
     result = simulate(wheel_loader, engine="mujoco", base="floating", payload_kg=payload, actuators=["steering"])
     (steering,) = result.actuators
     assert steering.lag < 0.03 and not result.findings

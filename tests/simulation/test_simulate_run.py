@@ -15,9 +15,10 @@ from yellowiron.kinematics import ClosedChain, State
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Mechanism
-from yellowiron.simulation import engine as engines
 from yellowiron.simulation import rated_payload, simulate, simulation_document
-from yellowiron.simulation.engine import EngineEntry, Readings, Setup
+from yellowiron.simulation import registry as engines
+from yellowiron.simulation.engine import Base, Readings, Setup
+from yellowiron.simulation.registry import EngineEntry
 
 
 class Puppet:
@@ -185,7 +186,7 @@ def test_bad_orders_are_refused(usd_file: Path, more: dict[str, object], words: 
 
 
 @pytest.mark.parametrize("base", ["fixed", "floating"])
-def test_mujoco_keeps_the_small_machine_together(usd_file: Path, mechanism: Mechanism, base: engines.Base) -> None:
+def test_mujoco_keeps_the_small_machine_together(usd_file: Path, mechanism: Mechanism, base: Base) -> None:
     payload = rated_payload(mechanism)
     assert payload.mass == pytest.approx(90.0)
     result = simulate(usd_file, engine="mujoco", base=base, payload_kg=payload.mass, payload_source=payload.source)
@@ -236,13 +237,13 @@ def test_a_sweep_is_kept_to_be_looked_at(usd_file: Path, mechanism: Mechanism, p
     assert sweep.pin_error.max() == pytest.approx(0.002)
     assert len(sweep.times) == len(sweep.pin_error) == len(sweep.angle_error) <= 240
     assert sweep.times[-1] == pytest.approx(0.02 * result.phases[-1].steps)
-    assert [frame.share for frame in sweep.frames] == pytest.approx([0.02, 0.26, 0.5, 0.74, 0.98], abs=0.03)
-    (track,) = sweep.tracks
-    assert track.kind == "position" and np.abs(track.wanted - track.measured).max() < 0.05
+    assert [snapshot.share for snapshot in sweep.snapshots] == pytest.approx([0.02, 0.26, 0.5, 0.74, 0.98], abs=0.03)
+    (trace,) = sweep.traces
+    assert trace.kind == "position" and np.abs(trace.wanted - trace.measured).max() < 0.05
     chain = ClosedChain(mechanism)
-    joint = mechanism.joint(track.joint)
-    for frame in sweep.frames:
-        relative = np.linalg.inv(frame.poses[joint.body0]) @ frame.poses[joint.body1]
+    joint = mechanism.joint(trace.joint)
+    for snapshot in sweep.snapshots:
+        relative = np.linalg.inv(snapshot.poses[joint.body0]) @ snapshot.poses[joint.body1]
         stroke = float(relative[:3, 3] @ np.asarray(joint.axis))
         solved = chain.pose(chain.solve({joint.name: stroke}))
-        assert np.abs(frame.poses["boom"] - solved["boom"]).max() < 1e-6
+        assert np.abs(snapshot.poses["boom"] - solved["boom"]).max() < 1e-6

@@ -12,7 +12,9 @@ from in_engines import EVERY, load, need
 from kit.machines import simple_machines as simple
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.mechanism import Mechanism
-from yellowiron.simulation.engine import ENGINES, Base, Block, Setup, poses
+from yellowiron.simulation.engine import Base, Setup, poses
+from yellowiron.simulation.ground import Block
+from yellowiron.simulation.registry import ENGINES
 from yellowiron.usd.planning.collision import APPROXIMATIONS
 
 BLOCK = Block((0.0, 0.0), length=0.3, width=1.0, height=0.2, run=0.05)

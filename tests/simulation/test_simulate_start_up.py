@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 from in_engines import load
 
-from yellowiron.simulation.engine import ENGINES, Setup, poses
-from yellowiron.usd import read_machine
+from yellowiron.simulation.engine import Setup, poses
+from yellowiron.simulation.registry import ENGINES
+from yellowiron.usd import read_mechanism
 
 pytestmark = pytest.mark.slow
 
@@ -19,13 +20,13 @@ START_UP = 0.1
 
 @pytest.mark.parametrize("name", ["newton", "physx"])
 def test_start_up_is_at_rest_and_twice_the_same(name: str, wheel_loader: Path) -> None:
-    machine = read_machine(wheel_loader)
-    setup = Setup(wheel_loader, machine, "fixed", ENGINES[name].timestep, (machine.joints[0].name,))
+    mechanism = read_mechanism(wheel_loader)
+    setup = Setup(wheel_loader, mechanism, "fixed", ENGINES[name].timestep, (mechanism.joints[0].name,))
     ends = []
     for _ in range(2):
         engine = load(name, setup)
         try:
-            assert np.abs(poses(engine)[1] - [body.origin for body in machine.bodies]).max() < 1e-5
+            assert np.abs(poses(engine)[1] - [body.origin for body in mechanism.bodies]).max() < 1e-5
             engine.step()
             speeds = engine.velocities()  # type: ignore[attr-defined]  # by joint in PhysX
             assert max(map(abs, speeds.values() if isinstance(speeds, dict) else speeds)) < START_UP

@@ -8,7 +8,7 @@ import pytest
 from specs_layouts import canvas, put, template, wanted
 
 from yellowiron.specs.extraction import from_sheets
-from yellowiron.specs.language.numbers import decimal_style
+from yellowiron.specs.language.decimal_style import decimal_style
 from yellowiron.specs.layout.statement import Statement, is_unit
 from yellowiron.specs.reader import read_sheet
 from yellowiron.specs.values.claims import claims_of

@@ -9,7 +9,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from yellowiron.model.errors import YellowironError
-from yellowiron.specs.language.numbers import DecimalStyle, decimal_style, parse_one, read, same
+from yellowiron.specs.language.decimal_style import DecimalStyle, decimal_style
+from yellowiron.specs.language.numbers import parse_one, read
+from yellowiron.specs.language.quantities import same
 from yellowiron.specs.language.units import printed_unit
 from yellowiron.specs.language.vocabulary import tokens
 from yellowiron.specs.layout.statement import is_unit, looks_like_value, split_inline, unit_in_label, without_key

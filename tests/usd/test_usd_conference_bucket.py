@@ -19,7 +19,7 @@ from yellowiron.model.alignment import Alignment, PartAssignment
 from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import Role, Template
-from yellowiron.usd import read_machine, write_machine
+from yellowiron.usd import read_mechanism, write_machine
 
 BOLTS = [f"bucket bolt{number}" for number in range(1, 7)]
 
@@ -171,5 +171,5 @@ def test_json_4_gains(stage: Usd.Stage) -> None:
 
 
 def test_it_reads_back(folder: Path) -> None:
-    mechanism = read_machine(folder / "scene.usda")
+    mechanism = read_mechanism(folder / "scene.usda")
     assert {part.part for part in mechanism.body("bucket").parts} >= {f"EXCAVATOR/{bolt}" for bolt in BOLTS}

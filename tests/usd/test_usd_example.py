@@ -32,9 +32,9 @@ def test_it_reads_back(loader) -> None:
 
 
 def usd_read(out: Path):
-    from yellowiron.usd import read_machine
+    from yellowiron.usd import read_mechanism
 
-    return read_machine(out / "wheel_loader.usda")
+    return read_mechanism(out / "wheel_loader.usda")
 
 
 def test_joint_frames_agree_and_one_cut_a_loop(loader) -> None:

@@ -12,7 +12,7 @@ from pxr import Usd, UsdPhysics
 
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.mechanism import Mechanism
-from yellowiron.usd import read_machine
+from yellowiron.usd import read_mechanism
 from yellowiron.usd.authoring.metadata import to_json
 
 
@@ -45,7 +45,7 @@ def copy(written: Path, tmp_path: Path) -> Path:
 
 @pytest.mark.parametrize("file", ["test_machine.usda", "scene.usda"])
 def test_round_trip(written: Path, machine, file: str) -> None:
-    assert_same(read_machine(written / file), machine.mechanism)
+    assert_same(read_mechanism(written / file), machine.mechanism)
 
 
 def test_round_trip_where_physics_is_switched_off(copy: Path, machine) -> None:
@@ -53,7 +53,7 @@ def test_round_trip_where_physics_is_switched_off(copy: Path, machine) -> None:
     stage.GetDefaultPrim().GetVariantSet("Physics").SetVariantSelection("off")
     stage.GetDefaultPrim().GetVariantSet("Base").SetVariantSelection("fixed")
     stage.Save()
-    assert_same(read_machine(copy / "test_machine.usda"), machine.mechanism)
+    assert_same(read_mechanism(copy / "test_machine.usda"), machine.mechanism)
 
 
 def test_round_trip_of_a_moved_machine(copy: Path, machine) -> None:
@@ -63,7 +63,7 @@ def test_round_trip_of_a_moved_machine(copy: Path, machine) -> None:
     UsdGeom.XformCommonAPI(stage.GetPrimAtPath("/World/test_machine")).SetTranslate((100.0, 20.0, 3.0))
     UsdGeom.XformCommonAPI(stage.GetPrimAtPath("/World/test_machine")).SetRotate((0.0, 0.0, 30.0))
     stage.Save()
-    assert_same(read_machine(copy / "scene.usda"), machine.mechanism)
+    assert_same(read_mechanism(copy / "scene.usda"), machine.mechanism)
 
 
 def test_edited_attributes_win(copy: Path, machine) -> None:
@@ -75,7 +75,7 @@ def test_edited_attributes_win(copy: Path, machine) -> None:
     UsdPhysics.MassAPI(stage.GetDefaultPrim().GetChild("cab")).GetMassAttr().Set(5.0)
     UsdPhysics.MassAPI(stage.GetDefaultPrim().GetChild("cab")).GetDiagonalInertiaAttr().Set((1.0, 1.0, 1.0))
     stage.Save()
-    found = read_machine(copy / "test_machine.usda")
+    found = read_mechanism(copy / "test_machine.usda")
     assert found.joint("arm_joint").upper == pytest.approx(np.pi / 2, abs=1e-6)
     assert found.joint("arm_joint").lower == machine.mechanism.joint("arm_joint").lower
     assert found.joint("arm_joint").anchor == (1.5, 0.0, 1.25)
@@ -88,13 +88,13 @@ def test_a_joint_that_was_deactivated_is_gone(copy: Path, machine) -> None:
     stage = Usd.Stage.Open(str(copy / "test_machine.usda"))
     stage.GetDefaultPrim().GetChild("joints").GetChild("rope").SetActive(False)
     stage.Save()
-    found = read_machine(copy / "test_machine.usda")
+    found = read_mechanism(copy / "test_machine.usda")
     assert len(found.joints) == len(machine.mechanism.joints) - 1
 
 
 def fails(path: Path, message: str) -> YellowironError:
     with pytest.raises(YellowironError, match=message) as raised:
-        read_machine(path)
+        read_mechanism(path)
     assert raised.value.where
     assert raised.value.hint
     return raised.value
@@ -164,7 +164,7 @@ def test_random_damage_is_an_error_of_ours_or_none(copy: Path) -> None:
         data[generator.integers(0, len(data), size=10)] = generator.integers(0, 256, size=10)
         path.write_bytes(data.tobytes()[: generator.integers(1, len(data)) if round_ % 3 == 0 else None])
         try:
-            read_machine(copy / "test_machine.usda")
+            read_mechanism(copy / "test_machine.usda")
         except YellowironError as error:
             assert error.where and error.hint
         path.write_bytes(whole)

@@ -13,7 +13,7 @@ import pytest
 from pxr import Gf, Sdf, Usd, UsdGeom
 
 from yellowiron.model.sensor import Sensor
-from yellowiron.usd import read_machine, write_machine
+from yellowiron.usd import read_mechanism, write_machine
 
 MACHINE = "/test_machine"
 
@@ -121,7 +121,7 @@ def test_a_machine_without_sensors_has_no_layer_for_them(machine, tmp_path: Path
     bare = replace(machine.mechanism, sensors=())
     files = write_machine(bare, machine.assembly, tmp_path, name="bare", texture_folders=[machine.texture_folder])
     assert "sensors.usda" not in {f.name for f in files}
-    assert read_machine(tmp_path / "bare.usda").sensors == ()
+    assert read_mechanism(tmp_path / "bare.usda").sensors == ()
 
 
 @pytest.fixture
@@ -134,7 +134,7 @@ def edited(written: Path, tmp_path: Path) -> Callable[[Callable[[Usd.Stage], Non
         stage = Usd.Stage.Open(str(path))
         change(stage)
         stage.GetRootLayer().Export(str(tmp_path / "out" / "edited.usda"))
-        return {s.name: s for s in read_machine(tmp_path / "out" / "edited.usda").sensors}
+        return {s.name: s for s in read_mechanism(tmp_path / "out" / "edited.usda").sensors}
 
     return _edit
 

@@ -46,7 +46,7 @@ def machines(tmp_path_factory: pytest.TempPathFactory) -> dict[str, tuple[Mechan
 @pytest.mark.parametrize("tracks", ["belt", "shoes"])
 def test_comes_back(machines: dict[str, tuple[Mechanism, Path]], tracks: str) -> None:
     built, folder = machines[tracks]
-    read = usd.read_machine(folder / "crawler.usda")
+    read = usd.read_mechanism(folder / "crawler.usda")
     assert read.floating == built.floating
     assert [j.cut for j in read.joints] == [j.cut for j in built.joints]
     assert {b.name: b.shapes for b in read.bodies} == {b.name: b.shapes for b in built.bodies}

@@ -16,35 +16,37 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 
 import numpy as np
 
-from yellowiron.alignment.assignment.cp_sat import Solution, solve
+from yellowiron.alignment.assignment.answer import Answer, is_whole, rivals_of
+from yellowiron.alignment.assignment.cp_sat import solve
 from yellowiron.alignment.assignment.machine_frame import MachineFrame, machine_frame
-from yellowiron.alignment.assignment.root_fallback import grounded
-from yellowiron.alignment.assignment.search import BELIEVED, Search, is_whole, rivals_of
+from yellowiron.alignment.assignment.root_fallback import with_root
+from yellowiron.alignment.assignment.search import BELIEVED, Search
 from yellowiron.alignment.assignment.sheet_weights import sheet_findings
 from yellowiron.alignment.assignment.weights import side_weights
 from yellowiron.alignment.features.distance import Touch
-from yellowiron.alignment.features.separate_parts import islands
+from yellowiron.alignment.features.separate_parts import separate_parts
 from yellowiron.alignment.features.solids import solids_of
 from yellowiron.alignment.features.telescopes import Nest
-from yellowiron.alignment.features.tracks import Track, on_tracks, track_places, tracks_of, without_tracks
-from yellowiron.alignment.labelling.coupler import coupled
-from yellowiron.alignment.labelling.propagation import Spreader
-from yellowiron.alignment.labelling.result import reported
-from yellowiron.alignment.labelling.review import doubts, name_doubts
-from yellowiron.alignment.labelling.suspects import shaken
-from yellowiron.alignment.structure.clusters import Structure
-from yellowiron.alignment.structure.observation import CONTACT, Seen, see
+from yellowiron.alignment.features.tracks import Track, tracks_of
+from yellowiron.alignment.labelling.coupler import with_couplers
+from yellowiron.alignment.labelling.propagation import Propagation
+from yellowiron.alignment.labelling.result import Labels, to_alignment
+from yellowiron.alignment.labelling.review import name_findings, review_findings
+from yellowiron.alignment.labelling.suspects import suspect_bodies
+from yellowiron.alignment.labelling.track_places import on_tracks, track_places, without_tracks
+from yellowiron.alignment.structure.observation import Observation, observe
 from yellowiron.model.alignment import Alignment, Vector
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import AlignmentError
 from yellowiron.model.geometry import Floats
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import Template, choose
+from yellowiron.support.vectors import triple
 
 
 def align(
@@ -68,112 +70,101 @@ def align(
             "The CAD model has no parts", where=assembly.name, hint="Check that the file holds solids."
         )
     edited = _edited(assembly, template, edits)
-    apart = islands(assembly, [part for part, role in edited.items() if role])
-    machine = replace(assembly, parts=tuple(p for p in assembly.parts if p.id not in apart))
-    tracking = machine
+    apart = separate_parts(assembly, [part for part, role in edited.items() if role])
+    tracking = _without(assembly, apart)
     tracked, tracks = _tracked(tracking, template)
-    of_tracks = set(tracked.values())
-    machine = replace(machine, parts=tuple(p for p in machine.parts if p.id not in of_tracks))
+    machine = _without(tracking, set(tracked.values()))
     plain = without_tracks(template)
     up = _upright(tracks)
     search = Search(
-        lambda contact: replace(see(machine, plain, contact), up=up), plain, specifications, choices or {}, edited
+        lambda contact: replace(observe(machine, plain, contact), up=up), plain, specifications, choices or {}, edited
     )
-    answer, seen, scores = search.run()
-    structure, resolved, solution = answer.structure, answer.template, answer.solution
-    frame = machine_frame(seen.solids, structure, solution, seen.wheels, resolved, tracks) if seen.solids else None
-    if frame is not None and solution.body_of:
-        sided = side_weights(seen.solids, structure, resolved, solution, frame, answer.unary)
-        if sided != answer.unary:
-            solution = solve(structure, resolved, unary=sided, barred=answer.barred) or solution
-            frame = machine_frame(seen.solids, structure, solution, seen.wheels, resolved, tracks)
-    solution = grounded(solution, structure, seen.solids, resolved)
-    answer = replace(answer, solution=solution)
-    rivals = {} if is_whole(answer) else rivals_of(answer)
-    spreader = Spreader(
-        seen.solids,
-        structure,
-        solution,
-        resolved,
-        seen.flats,
-        seen.near,
-        seen.touch,
+    answer, observation, scores = search.run()
+    answer, frame = _framed(answer, observation, tracks)
+    propagation = Propagation(
+        observation,
+        answer,
         scores,
-        seen.size,
         frame.matrix[2, :3] if frame is not None else np.array([0.0, 0.0, 1.0]),
-        rivals,
-        shaken(solution, resolved, _surfaces(seen, structure, solution)),
+        rivals={} if is_whole(answer) else rivals_of(answer),
+        suspects=suspect_bodies(answer.solution, answer.template, _surfaces(observation, answer)),
     )
-    places = coupled(spreader.run(seen.wheels), seen.solids, structure, solution, resolved)
-    apart |= {seen.solids[i].part.id: metres for i, metres in spreader.apart.items()}
-    by_id = {seen.solids[i].part.id: place for i, place in places.items()}
+    places = with_couplers(propagation.run(), observation.solids, answer)
+    apart |= {observation.solids[i].part.id: metres for i, metres in propagation.apart.items()}
+    by_id = {observation.solids[i].part.id: place for i, place in places.items()}
     whole = choose(template, answer.choices)
     if tracks and frame is not None:
         rows = track_places(tracks, tracked, frame.matrix, whole)
-        all_solids = solids_of(tracking)
-        by_id |= on_tracks(by_id, rows, all_solids, Touch(all_solids, answer.contact * seen.size)) | rows
+        solids = solids_of(tracking)
+        by_id |= on_tracks(by_id, rows, solids, Touch(solids, answer.contact * observation.size)) | rows
     documents = {item.part: item.reason for item in edits.parts if item.source == "data"} if edits is not None else {}
-    return reported(
+    return to_alignment(
         assembly,
         whole,
-        solution,
-        by_id,
-        edited,
-        answer.choices,
+        answer,
+        Labels(by_id, apart, edited, documents),
         frame or MachineFrame(np.eye(4)),
-        documents=documents,
-        apart=apart,
-        axes=_axes(structure, solution, seen),
-        whole=is_whole(answer),
-        rung=CONTACT.index(answer.contact),
+        axes=_axes(answer, observation),
         remarks=[
             # What reading the file found; the rest was of an earlier model.
             *(f for f in (edits.findings if edits is not None else ()) if f.code in ("ALN012", "ALN013")),
-            *name_doubts(search.heed, BELIEVED, template.equipment_type),
-            *sheet_findings(structure, seen.rams, resolved, specifications, solution),
-            *doubts(
-                seen.solids,
-                structure,
-                solution,
-                resolved,
-                answer.sided,
-                spreader.loose,
-                {part: metres for part, metres in apart.items() if part not in edited},
-                frozenset(p.role for p in places.values()) | frozenset(edited.values()),
-                frozenset(edited),
+            *name_findings(search.agreement, BELIEVED, template.equipment_type),
+            *sheet_findings(answer.structure, observation.cylinders, answer.template, specifications, answer.solution),
+            *review_findings(
+                observation.solids,
+                answer,
+                loose=propagation.loose,
+                apart={part: metres for part, metres in apart.items() if part not in edited},
+                played=frozenset(p.role for p in places.values()) | frozenset(edited.values()),
+                settled=frozenset(edited),
             ),
         ],
     )
 
 
-def _surfaces(seen: Seen, structure: Structure, solution: Solution) -> dict[str, float]:
+def _without(assembly: Assembly, parts: Collection[str]) -> Assembly:
+    """The assembly without the parts of these ids."""
+    return replace(assembly, parts=tuple(p for p in assembly.parts if p.id not in parts))
+
+
+def _framed(answer: Answer, observation: Observation, tracks: list[Track]) -> tuple[Answer, MachineFrame | None]:
+    """The machine's frame, and the answer solved again with what that says of left and right; with a root in any case.
+    No frame where the model has no solids."""
+    solids, structure, template, solution = observation.solids, answer.structure, answer.template, answer.solution
+    frame = machine_frame(solids, structure, solution, observation.wheels, template, tracks) if solids else None
+    if frame is not None and solution.body_of:
+        sided = side_weights(solids, structure, template, solution, frame, answer.unary)
+        if sided != answer.unary:
+            solution = solve(structure, template, unary=sided, barred=answer.barred) or solution
+            frame = machine_frame(solids, structure, solution, observation.wheels, template, tracks)
+    return replace(answer, solution=with_root(solution, structure, solids, template)), frame
+
+
+def _surfaces(observation: Observation, answer: Answer) -> dict[str, float]:
     """Body → the surface of its cluster, m²."""
+    clusters = answer.structure.clusters
     return {
-        b: sum(seen.solids[i].surface for i in sorted(structure.clusters[c].members))
-        for c, b in solution.body_of.items()
+        b: sum(observation.solids[i].surface for i in sorted(clusters[c].members))
+        for c, b in answer.solution.body_of.items()
     }
 
 
-def _axes(structure: Structure, solution: Solution, seen: Seen) -> dict[str, tuple[Vector, Vector]]:
+def _axes(answer: Answer, observation: Observation) -> dict[str, tuple[Vector, Vector]]:
     """Joint → its axis, for the joints that no pin is drawn for and that no wheel turns on, for the slides whose rod is
     not drawn in its barrel, and for sections in each other."""
+    structure, cylinders = answer.structure, observation.cylinders
     found = {}
-    for joint, slide in sorted(solution.slide_of.items()):
+    for joint, slide in sorted(answer.solution.slide_of.items()):
         number = structure.slides[slide][2]
-        drawn = seen.rams[number] if number < len(seen.rams) else seen.nests[number - len(seen.rams)]
+        drawn = cylinders[number] if number < len(cylinders) else observation.nests[number - len(cylinders)]
         if isinstance(drawn, Nest) or drawn.apart:
-            found[joint] = (_vector(drawn.origin), _vector(drawn.direction))
-    for joint, number in sorted(solution.hinge_of.items()):
+            found[joint] = (triple(drawn.origin), triple(drawn.direction))
+    for joint, number in sorted(answer.solution.hinge_of.items()):
         hinge = structure.hinges[number]
         if not hinge.pins and not any(structure.clusters[c].kind == "wheel" for c in (hinge.a, hinge.b)):
-            line = structure.lines[hinge.line]
-            found[joint] = (_vector(line.origin), _vector(line.direction))
+            axis = structure.axes[hinge.axis]
+            found[joint] = (triple(axis.origin), triple(axis.direction))
     return found
-
-
-def _vector(values: Floats) -> Vector:
-    x, y, z = (float(v) for v in values)
-    return (x, y, z)
 
 
 def _upright(tracks: list[Track]) -> Floats | None:

@@ -1,4 +1,10 @@
-"""CAD files to an `Assembly`: `read_cad`; `taken_apart` for meshes that hold several parts."""
+"""CAD files to an `Assembly`: `read_cad`; `taken_apart` for meshes that hold several parts.
+
+In the order in which they build on each other: `naming` and `tolerances`; `appearance` and `mesh`; `brep`; then
+`formats` (the registry: one entry a format), `proprietary` (formats without an open reader) and `recognition` (which of
+them a file has); `readers`, one a format; and `read`, which has a reader work in a child process. A new format is an
+entry in `formats` and a module in `readers`, or in another package.
+"""
 
 from __future__ import annotations
 

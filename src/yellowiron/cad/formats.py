@@ -1,194 +1,171 @@
-"""What a file is, by its content first and its name second."""
+"""The registry of CAD formats: one entry a format, `CadFormat`.
+
+A new format is one entry and the module that reads it. The entry stands in `FORMATS`, or comes from another installed
+package by an entry point of the group `yellowiron.cad_formats` that names a `CadFormat`. What a file is,
+`yellowiron.cad.recognition` decides; the formats of this package come first, so that what it reads is read the same
+whatever else is installed.
+"""
 
 from __future__ import annotations
 
+import functools
 import re
-import zipfile
-from pathlib import Path
+import sys
+from dataclasses import dataclass
 
-from yellowiron.cad import proprietary
-from yellowiron.cad.proprietary import Program
-from yellowiron.model.errors import CadError
+from yellowiron.model.errors import CadError, YellowironError
+from yellowiron.model.finding import Finding
+from yellowiron.support.plugins import all_plugins
 
-_BOM = b"\xef\xbb\xbf"
-_HEAD = 65536
+GROUP = "yellowiron.cad_formats"
+"""The entry points that name the formats of other packages."""
+_FUNCTION = re.compile(r"[\w.]+:\w+")
+_SUFFIX = re.compile(r"\.[a-z0-9_]+")
 
-_OPEN = {
-    ".glb": "GLB",
-    ".gltf": "glTF",
-    ".stl": "STL",
-    ".obj": "OBJ",
-    ".ply": "PLY",
-    ".3mf": "3MF",
-    ".dae": "COLLADA",
-    ".fbx": "FBX",
-    ".igs": "IGES",
-    ".iges": "IGES",
-    ".ifc": "IFC",
-    ".dxf": "DXF",
-    ".dwg": "DWG",
-    ".fcstd": "FreeCAD",
-    ".usd": "USD",
-    ".usda": "USD",
-    ".usdc": "USD",
-    ".usdz": "USD",
-    ".urdf": "URDF",
-    ".mjcf": "MJCF",
-    ".blend": "Blender",
-    ".brep": "BREP",
-    ".brp": "BREP",
-}
-"""Open formats by extension."""
-_UNKNOWN_OLE = Program(
-    "this OLE container (SolidWorks, Inventor, Revit, …)", (), "STEP (AP214 or AP242)",
-    ("Open it in the program that made it", "File > Export or Save As, type STEP", "Give that file"),
+
+class NoReaderError(CadError):
+    """A CAD file that is whole as far as is known, and that nothing here can read: its hint says how to export."""
+
+
+@dataclass(frozen=True)
+class CadFormat:
+    """A format: how its files are recognised, and what reads them. `ValueError` for an entry that cannot work.
+
+    Functions are named "module:function", and imported when they are called: readers load large libraries.
+    """
+
+    name: str
+    """As messages and `Assembly.format` have it."""
+    suffixes: tuple[str, ...]
+    """Of its files, in small letters, each with its dot."""
+    reader: str
+    """`(path: str) -> Assembly` in metres, or a `CadError`. It runs in a child process."""
+    content: re.Pattern[bytes] | None = None
+    """Matches the beginning of a file (its first 64 kB) that has the format, whatever the file's name."""
+    member: re.Pattern[str] | None = None
+    """Is found in the name, in small letters, of a file in a zip archive that has the format."""
+    plausible: re.Pattern[bytes] | None = None
+    """Matches the beginning of every file whose suffix is to be believed; without it any is."""
+    meshes: str = ""
+    """`(file: Path, findings: list[Finding]) -> list[tuple[str, Dressed]]`, where the format has no unit of length: the
+    names and meshes in a file, in its own numbers, for a folder whose files are to share one guessed unit."""
+    needs: str = ""
+    """`(path: str) -> None`: raises `NoReaderError` where a program that the reader needs is not here."""
+    diagnosis: str = ""
+    """`(data: bytes) -> str`: what is wrong with a file at which the reader crashed or hung; "" if it cannot tell. It
+    runs in this process."""
+
+    def __post_init__(self) -> None:
+        if not self.name:
+            raise ValueError("a format needs a name")
+        for target in (self.reader, *filter(None, (self.meshes, self.needs, self.diagnosis))):
+            if not _FUNCTION.fullmatch(target):
+                raise ValueError(f"'{target}' is not of the form module:function")
+        for suffix in self.suffixes:
+            if not _SUFFIX.fullmatch(suffix):
+                raise ValueError(f"the suffix '{suffix}' is not a dot and small letters")
+        if not self.suffixes and self.content is None and self.member is None:
+            raise ValueError("nothing says how its files are recognised")
+
+
+_TEXT = rb"\A(?=[^\0]{4096}|[^\0]*\Z)"
+"""No zero byte in the first 4096."""
+_PLAIN = re.compile(_TEXT)
+_NEVER = re.compile(rb"(?!)")
+# A comment ends where it first can: the group gives nothing back.
+_PART21 = rb"\A\s*(?>/(?=\*).*?\*/\s*)*ISO-10303-21"
+_ROOT = rb"\A(?:\xef\xbb\xbf)?(?:\s|<\?.*?\?>|<!--.*?-->|<!DOCTYPE[^>]*>)*<(?:\w+:)?%s(?!\w)"
+"""An XML document by its root."""
+
+
+def _starts(pattern: bytes) -> re.Pattern[bytes]:
+    return re.compile(pattern, re.DOTALL)
+
+
+_MESHES, _EXACT = "yellowiron.cad.readers.meshes", "yellowiron.cad.readers.exact"
+_ROBOTS = "yellowiron.cad.readers.robots"
+
+FORMATS: tuple[CadFormat, ...] = (
+    CadFormat(
+        "IFC", (".ifc",), "yellowiron.cad.readers.ifc:read_ifc", plausible=_PLAIN,
+        content=_starts(rb"(?=%s).*?FILE_SCHEMA\s*\(\s*\(\s*'IFC" % _PART21),
+    ),
+    CadFormat(
+        "STEP", (".step", ".stp", ".p21"), f"{_EXACT}.step:read_step", content=_starts(_PART21), plausible=_NEVER,
+        diagnosis=f"{_EXACT}.part21:diagnose",
+    ),
+    CadFormat(
+        "DWG", (".dwg",), "yellowiron.cad.readers.dwg:read_dwg", content=_starts(rb"AC10\d\d"),
+        needs="yellowiron.cad.readers.dwg:require_program",
+    ),
+    CadFormat("FreeCAD", (".fcstd",), f"{_EXACT}.freecad:read_freecad", member=re.compile(r"\Adocument\.xml\Z")),
+    CadFormat("3MF", (".3mf",), f"{_MESHES}.threemf:read_3mf", member=re.compile(r"\.model\Z")),
+    CadFormat("GLB", (".glb",), f"{_MESHES}.gltf:read_gltf", content=_starts(rb"glTF")),
+    CadFormat(
+        "FBX", (".fbx",), f"{_MESHES}.assimp:read_fbx", content=_starts(rb"Kaydara FBX|\s*; FBX \d"),
+    ),
+    CadFormat(
+        "USD", (".usd", ".usda", ".usdc", ".usdz"), "yellowiron.cad.readers.usd.stage:read_usd",
+        content=_starts(rb"PXR-USDC|#usda"), member=re.compile(r"\.usd[ac]?\Z"),
+    ),
+    CadFormat("Blender", (".blend",), f"{_MESHES}.blend:read_blend", content=_starts(rb"BLENDER")),
+    CadFormat(
+        "PLY", (".ply",), f"{_MESHES}.ply:read_ply", content=_starts(rb"ply[ \t]*\r?\n"), plausible=_PLAIN,
+        meshes=f"{_MESHES}.ply:meshes_of",
+    ),
+    CadFormat(
+        "BREP", (".brep", ".brp"), f"{_EXACT}.brep_file:read_brep", plausible=_PLAIN,
+        content=_starts(rb"\s*(?:DBRep_DrawableShape|(?:Open )?CASCADE Topology V)"),
+    ),
+    CadFormat(
+        "DXF", (".dxf",), "yellowiron.cad.readers.dxf:read_dxf", plausible=_PLAIN,
+        content=re.compile(rb"AutoCAD Binary DXF|\s*(?:999\r?\n.*\r?\n)*\s*0\r?\n\s*SECTION\r?\n"),
+    ),
+    CadFormat(
+        "COLLADA", (".dae",), f"{_MESHES}.assimp:read_collada", content=_starts(_ROOT % b"COLLADA"), plausible=_PLAIN,
+    ),
+    CadFormat("URDF", (".urdf",), f"{_ROBOTS}.urdf:read_urdf", content=_starts(_ROOT % b"robot")),
+    CadFormat("MJCF", (".mjcf",), f"{_ROBOTS}.mjcf:read_mjcf", content=_starts(_ROOT % b"mujoco")),
+    CadFormat("IGES", (".igs", ".iges"), f"{_EXACT}.iges:read_iges", content=_starts(rb".{72}S {6}1[ \r\n]")),
+    CadFormat(
+        "glTF", (".gltf",), f"{_MESHES}.gltf:read_gltf", plausible=_starts(rb"[\xef\xbb\xbf \t\r\n]*\{"),
+    ),
+    CadFormat(
+        "STL", (".stl",), f"{_MESHES}.stl:read_stl", meshes=f"{_MESHES}.stl:meshes_of",
+        plausible=_starts(rb"\s*solid|(?=.{84})[^\0]{0,4095}\0"),
+    ),
+    CadFormat(
+        "OBJ", (".obj",), f"{_MESHES}.obj:read_obj", meshes=f"{_MESHES}.obj:meshes_of",
+        plausible=re.compile(_TEXT + rb"(?s:.*?)^[ \t]*(?:v|vn|vt|f|o|g|mtllib|usemtl)[ \t]", re.MULTILINE),
+    ),
 )  # fmt: skip
-READABLE = ("STEP", *dict.fromkeys(_OPEN.values()))
-"""The formats that are read here, by the names that `format_of` gives."""
-_IFC = re.compile(rb"FILE_SCHEMA\s*\(\s*\(\s*'IFC")
-_ROOTS = {b"COLLADA": "COLLADA", b"robot": "URDF", b"mujoco": "MJCF"}
-"""XML documents by their root."""
-_ROOT = re.compile(rb"\A(?:\s|<\?.*?\?>|<!--.*?-->|<!DOCTYPE[^>]*>)*<(?:\w+:)?(\w+)", re.DOTALL)
-
-_OBJ_LINE = re.compile(rb"^[ \t]*(?:v|vn|vt|f|o|g|mtllib|usemtl)[ \t]", re.MULTILINE)
-_STEP_XML = re.compile(rb"urn:oid:1\.0\.10303|<\s*(?:\w+:)?Uos\b|iso_10303_28")
+"""The formats of this package, in the order in which a file is tried for them."""
 
 
-def format_of(path: Path) -> str:
-    """Which of the `READABLE` formats a file has; for any other `CadError` says what it is and what to do."""
-    head = _head(path)
-    if _is_step(head):
-        return "IFC" if _IFC.search(head) else "STEP"
-    if head.startswith(_BOM) and _is_step(head.removeprefix(_BOM)):
-        raise CadError(
-            "The STEP file starts with a byte-order mark, which STEP does not have",
-            where=str(path),
-            hint="Save it again as plain text or UTF-8 without a signature.",
-        )
-    found = recognise(head, path)
-    if isinstance(found, str):
-        return found
-    if found is not None:
-        words = f"No open reader exists for {found.name}" + (f": export to {found.target}" if found.target else "")
-        raise CadError(words, where=str(path), hint=found.hint)
-    if path.suffix.lower() in (".step", ".stp", ".p21"):
-        raise CadError(
-            "This is not a STEP file, whatever its name says: it does not start with ISO-10303-21",
-            where=str(path),
-            hint="Export the model as STEP AP214 or AP242.",
-        )
-    raise CadError(
-        "This is no CAD file that is known here",
-        where=str(path),
-        hint="Give a STEP file (AP203, AP214 or AP242: .step, .stp); or IGES, a mesh (.glb, .stl, .obj, …), USD, URDF "
-        "or MJCF: docs/cad-files.md lists them all.",
-    )
+def others() -> tuple[tuple[CadFormat, ...], tuple[Finding, ...]]:
+    """The formats of other installed packages, in the order of their entry points' names; and a finding (CAD014) for
+    each that cannot be used: it does not load, or its name is another's."""
+    return _others(tuple(sys.path))
 
 
-def _head(path: Path) -> bytes:
-    if path.is_dir():
-        raise CadError("This is a folder, not a CAD file", where=str(path), hint="Name the STEP file in it.")
-    try:
-        with path.open("rb") as file:
-            head = file.read(_HEAD)
-    except FileNotFoundError as error:
-        raise CadError("There is no such CAD file", where=str(path), hint="Check the path.") from error
-    except OSError as error:
-        raise CadError(
-            f"The CAD file cannot be opened: {error.strerror}", where=str(path), hint="Check its permissions."
-        ) from error
-    if not head:
-        raise CadError("The CAD file is empty", where=str(path), hint="Copy or export it again.")
-    return head
-
-
-def _is_step(head: bytes) -> bool:
-    text = head.lstrip()
-    while text.startswith(b"/*") and b"*/" in text:
-        text = text[text.index(b"*/") + 2 :].lstrip()
-    return text.startswith(b"ISO-10303-21")
-
-
-def recognise(head: bytes, path: Path) -> str | Program | None:
-    """The format of a file that is not STEP, or whose it is; None for one that is not known."""
-    suffix = path.suffix.lower()
-    found = _by_content(head, path)
-    if found is not None:
-        return found
-    if not _is_text(head) and (program := proprietary.by_suffix(suffix)) is not None:
-        return program
-    return _OPEN[suffix] if suffix in _OPEN and _may_be(suffix, head) else None
-
-
-def _by_content(head: bytes, path: Path) -> str | Program | None:
-    program = proprietary.by_content(head, path)
-    if program is not None:
-        return program
-    if head.startswith(proprietary.OLE):
-        return proprietary.by_suffix(path.suffix.lower()) or _UNKNOWN_OLE
-    if re.match(rb"AC10\d\d", head):
-        return "DWG"
-    if head.startswith(b"glTF"):
-        return "GLB"
-    if head.startswith(b"Kaydara FBX"):
-        return "FBX"
-    if head.startswith((b"PXR-USDC", b"#usda")):
-        return "USD"
-    if head.startswith(b"BLENDER"):
-        return "Blender"
-    if re.match(rb"ply[ \t]*\r?\n", head):
-        return "PLY"
-    if head.lstrip().startswith((b"DBRep_DrawableShape", b"CASCADE Topology V", b"Open CASCADE Topology V")):
-        return "BREP"
-    if re.match(rb"\s*; FBX \d", head):
-        return "FBX"
-    if head.startswith(b"AutoCAD Binary DXF") or re.match(rb"\s*(?:999\r?\n.*\r?\n)*\s*0\r?\n\s*SECTION\r?\n", head):
-        return "DXF"
-    if head[:2] == b"\x1f\x8b":
-        return Program("a compressed file", (), "", ("unpack it (gunzip)", "give the STEP file inside"))
-    if head.startswith(b"PK\x03\x04"):
-        return _zip(path)
-    if _STEP_XML.search(head[:4096]):
-        return Program("STEP-XML", (), "STEP Part 21 (.step)", ("choose AP242 without XML", "give that file"))
-    root = _ROOT.match(head.removeprefix(_BOM))
-    if root and root.group(1) in _ROOTS:
-        return _ROOTS[root.group(1)]
-    if len(head) >= 80 and re.match(rb".{72}S {6}1[ \r\n]", head, re.DOTALL):
-        return "IGES"
-    return None
-
-
-def _zip(path: Path) -> str | Program:
-    try:
-        with zipfile.ZipFile(path) as archive:
-            names = [name.lower() for name in archive.namelist()]
-    except (zipfile.BadZipFile, OSError, NotImplementedError, ValueError):
-        return Program("a damaged zip archive", (), "", ("copy or export it again",))
-    if "document.xml" in names:
-        return "FreeCAD"
-    if any(name.endswith(".model") for name in names):
-        return "3MF"
-    if any(name.endswith((".usda", ".usdc", ".usd")) for name in names):
-        return "USD"
-    for mark, program in (("swxmlcontents", "SolidWorks"), ("fusionasset", "Fusion"), (".3drep", "CATIA")):
-        if any(mark in name for name in names):
-            return proprietary.PROGRAMS[program]
-    by_name = proprietary.by_suffix(path.suffix.lower())
-    return by_name or Program("a zip archive", (), "", ("unpack it", "give the CAD file inside"))
-
-
-def _is_text(head: bytes) -> bool:
-    return b"\x00" not in head[:4096]
-
-
-def _may_be(suffix: str, head: bytes) -> bool:
-    """False where an extension is a lie, as far as a few bytes can tell."""
-    if suffix == ".stl":
-        return head.lstrip().startswith(b"solid") or (len(head) >= 84 and not _is_text(head))
-    if suffix == ".gltf":
-        return head.lstrip(_BOM + b" \t\r\n").startswith(b"{")
-    if suffix == ".obj":
-        return _is_text(head) and _OBJ_LINE.search(head) is not None
-    if suffix in (".ply", ".dxf", ".dae", ".ifc", ".brep"):
-        return _is_text(head)
-    return True
+@functools.cache
+def _others(path: tuple[str, ...]) -> tuple[tuple[CadFormat, ...], tuple[Finding, ...]]:
+    """As above, once for every import path."""
+    taken = {known.name.casefold(): "yellowiron" for known in FORMATS}
+    formats, findings = [], []
+    for plugin in all_plugins(GROUP):
+        try:
+            found, reason = plugin.load(CadFormat), ""
+            if owner := taken.get(found.name.casefold()):
+                reason = f"{owner} has a format of the name {found.name}"
+        except YellowironError as error:
+            reason = error.message
+        if reason:
+            words = f"The CAD format of {plugin.package} cannot be used: {reason}"
+            findings.append(
+                Finding("CAD014", "warning", plugin.entry.value, words, "Update the package, or remove it.")
+            )
+        else:
+            taken[found.name.casefold()] = plugin.package
+            formats.append(found)
+    return tuple(formats), tuple(findings)

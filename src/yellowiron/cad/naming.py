@@ -47,7 +47,7 @@ def decode_text(data: bytes, names: Sequence[bytes]) -> tuple[str, str]:
     return data.decode(encoding, errors="replace"), encoding
 
 
-def remark(encoding: str, path: str) -> list[Finding]:
+def encoding_remarks(encoding: str, path: str) -> list[Finding]:
     """What to say of names in another encoding than the standard's (CAD010)."""
     if encoding == "utf-8":
         return []
@@ -151,3 +151,9 @@ def unique_ids(paths: Iterable[tuple[str, ...]]) -> list[str]:
         taken.add(candidate)
         ids.append(candidate)
     return ids
+
+
+def listed(names: Sequence[str], most: int = 5) -> str:
+    """The first few names, and how many more there are."""
+    more = f" and {len(names) - most} more" if len(names) > most else ""
+    return ", ".join(names[:most]) + more

@@ -1,10 +1,11 @@
-"""Formats without an open reader: what they are recognised by, and the export that is read, step by step."""
+"""Formats without an open reader, most of them a program's own: what they are recognised by, and the export that is
+read, step by step."""
 
 from __future__ import annotations
 
 import re
 import struct
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -81,6 +82,10 @@ PROGRAMS = {
     )
 }  # fmt: skip
 
+_UNKNOWN_OLE = Program(
+    "this OLE container (SolidWorks, Inventor, Revit, …)", (), _STEP,
+    ("Open it in the program that made it", "File > Export or Save As, type STEP", "Give that file"),
+)  # fmt: skip
 _STARTS: tuple[tuple[bytes, str], ...] = (
     (b"V5_CFV2", "CATIA"),
     (b"**ABCDEFGHIJKLMNOPQRSTUVWXYZ", "Parasolid"),
@@ -109,24 +114,57 @@ _STREAMS: tuple[tuple[str, str], ...] = (
     ("ClassDirectory", "3ds Max"), ("VideoPostQueue", "3ds Max"),
 )  # fmt: skip
 """Beginnings of the names of streams in OLE containers."""
+_MEMBERS: tuple[tuple[str, str], ...] = (
+    ("swxmlcontents", "SolidWorks"),
+    ("fusionasset", "Fusion"),
+    (".3drep", "CATIA"),
+)
+"""What stands in the names, in small letters, of files in zip archives."""
+_STEP_XML = re.compile(rb"urn:oid:1\.0\.10303|<\s*(?:\w+:)?Uos\b|iso_10303_28")
 OLE = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"
+ZIP = b"PK\x03\x04"
+_GZIP = b"\x1f\x8b"
 _MOST_SECTORS = 64
 _END = 0xFFFFFFF0
 
 
-def by_content(head: bytes, path: Path) -> Program | None:
-    """The program that a file's first bytes, or the streams in it, tell."""
-    if head.startswith(OLE):
-        streams = list(_streams(head, path))
-        for start, name in _STREAMS:
-            wide, plain = start.encode("utf-16-le"), start.encode()
-            if any(stream.startswith(start) for stream in streams) or wide in head or plain in head:
-                return PROGRAMS[name]
-        return None
+def by_content(head: bytes, path: Path, members: Sequence[str] | None) -> Program | None:
+    """The program whose format a file's first bytes tell, or the names of what is in it: streams, or the `members` of a
+    zip archive (in small letters; None: a damaged one)."""
     for magic, name in _STARTS:
         if head.startswith(magic):
             return PROGRAMS[name]
-    return next((PROGRAMS[name] for pattern, name in _PATTERNS if pattern.match(head)), None)
+    for pattern, name in _PATTERNS:
+        if pattern.match(head):
+            return PROGRAMS[name]
+    if head.startswith(OLE):
+        return _in_ole(head, path)
+    if head.startswith(_GZIP):
+        return Program("a compressed file", (), "", ("unpack it (gunzip)", "give the STEP file inside"))
+    if head.startswith(ZIP):
+        return _in_zip(path, members)
+    if _STEP_XML.search(head[:4096]):
+        return Program("STEP-XML", (), "STEP Part 21 (.step)", ("choose AP242 without XML", "give that file"))
+    return None
+
+
+def _in_ole(head: bytes, path: Path) -> Program:
+    streams = list(_streams(head, path))
+    for start, name in _STREAMS:
+        wide, plain = start.encode("utf-16-le"), start.encode()
+        if any(stream.startswith(start) for stream in streams) or wide in head or plain in head:
+            return PROGRAMS[name]
+    return by_suffix(path.suffix.lower()) or _UNKNOWN_OLE
+
+
+def _in_zip(path: Path, members: Sequence[str] | None) -> Program:
+    if members is None:
+        return Program("a damaged zip archive", (), "", ("copy or export it again",))
+    for mark, name in _MEMBERS:
+        if any(mark in member for member in members):
+            return PROGRAMS[name]
+    by_name = by_suffix(path.suffix.lower())
+    return by_name or Program("a zip archive", (), "", ("unpack it", "give the CAD file inside"))
 
 
 def by_suffix(suffix: str) -> Program | None:

@@ -19,58 +19,36 @@ Findings:
 | CAD011 | info     | a body of triangles without surfaces: its measures are theirs, its cylinders are fitted    |
 | CAD012 | info     | textures that could not be kept                                                            |
 | CAD013 | info     | meshes that hold several solids were taken apart (`taken_apart`)                           |
+| CAD014 | warning  | a format of another installed package that cannot be used                                  |
 """
 
 from __future__ import annotations
 
 from pathlib import Path
+from pkgutil import resolve_name
 
-from yellowiron.cad import formats
-from yellowiron.cad.readers.exact import part21
+from yellowiron.cad.recognition import format_of
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import CadError
 from yellowiron.support.guard import run_guarded
 
-_READERS = {
-    "STEP": "yellowiron.cad.readers.exact.step:read_step",
-    "IGES": "yellowiron.cad.readers.exact.iges:read_iges",
-    "BREP": "yellowiron.cad.readers.exact.occt:read_brep",
-    "FreeCAD": "yellowiron.cad.readers.exact.occt:read_freecad",
-    "GLB": "yellowiron.cad.readers.meshes.gltf:read_gltf",
-    "glTF": "yellowiron.cad.readers.meshes.gltf:read_gltf",
-    "STL": "yellowiron.cad.readers.meshes.stl:read_stl",
-    "OBJ": "yellowiron.cad.readers.meshes.obj:read_obj",
-    "PLY": "yellowiron.cad.readers.meshes.ply:read_ply",
-    "3MF": "yellowiron.cad.readers.meshes.threemf:read_3mf",
-    "COLLADA": "yellowiron.cad.readers.meshes.assimp:read_collada",
-    "FBX": "yellowiron.cad.readers.meshes.assimp:read_fbx",
-    "USD": "yellowiron.cad.readers.usd.stage:read_usd",
-    "URDF": "yellowiron.cad.readers.robots.urdf:read_urdf",
-    "MJCF": "yellowiron.cad.readers.robots.mjcf:read_mjcf",
-    "IFC": "yellowiron.cad.readers.ifc:read_ifc",
-    "DXF": "yellowiron.cad.readers.dxf:read_dxf",
-    "DWG": "yellowiron.cad.readers.dwg:read_dwg",
-    "Blender": "yellowiron.cad.readers.meshes.blend:read_blend",
-}
-"""Format → the function that reads it, in the child process."""
 _FOLDER = "yellowiron.cad.readers.folder:read_folder"
 
 
 def read_cad(path: str | Path, *, timeout_s: float = 600.0, memory_mb: int = 8192) -> Assembly:
     """The assembly in a CAD file, or in all those of a folder, in metres, in the file's own frame.
 
-    Which formats are read is `sniff.READABLE`; cylinders and planes of triangles are fitted to them.
+    Which formats are read is `formats.FORMATS` and what other packages add to it; cylinders and planes of triangles are
+    fitted to them.
     The reader may take `timeout_s` seconds and `memory_mb` MB. `CadError` for a file that is missing, empty, damaged,
     of no or of an unreadable CAD format, or without a part in it.
     """
     source = Path(path)
-    kind = "folder" if source.is_dir() else formats.format_of(source)
-    target, arguments = (_FOLDER, (_READERS,)) if source.is_dir() else (_READERS[kind], ())
+    known = None if source.is_dir() else format_of(source)
     try:
         assembly: Assembly = run_guarded(
-            target,
+            _FOLDER if known is None else known.reader,
             str(source),
-            *arguments,
             where=str(source),
             error=CadError,
             timeout_s=timeout_s,
@@ -78,8 +56,8 @@ def read_cad(path: str | Path, *, timeout_s: float = 600.0, memory_mb: int = 819
         )
     except CadError as error:
         # What the reader says itself is better than a guess; a crash or hang says nothing.
-        silent = kind == "STEP" and error.message.startswith("The reader")
-        cause = part21.diagnose(source.read_bytes()) if silent else ""
+        diagnosis = known.diagnosis if known is not None and error.message.startswith("The reader") else ""
+        cause = resolve_name(diagnosis)(source.read_bytes()) if diagnosis else ""
         if not cause:
             raise
         symptom = error.message[0].lower() + error.message[1:]

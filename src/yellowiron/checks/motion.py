@@ -9,24 +9,17 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from yellowiron.checks.view import Joint, direction
+from yellowiron.checks.loops import StageLoop
+from yellowiron.checks.tolerances import CLOSED, STILL
+from yellowiron.checks.values import StageJoint, direction
 from yellowiron.model.geometry import Floats
-
-if TYPE_CHECKING:
-    from yellowiron.checks.graph import Loop
-
-RANK_TOLERANCE = 2e-4
-"""Singular values below this close nothing: axes that differ by some hundredths of a degree still count as parallel."""
-STILL = 1e-6
-"""A joint whose share in every motion is below this cannot move."""
 
 
 @dataclass(frozen=True, eq=False)
-class Motion:
+class LoopMotion:
     """The motions of an island's loops: `space` (n, m), one orthonormal column a motion, one row a freedom; `rows` says
     which rows a joint's freedoms are. A slide's rows are in units of `size`."""
 
@@ -35,7 +28,7 @@ class Motion:
     size: float
 
     @staticmethod
-    def of(loops: Sequence[Loop], *, center: Floats, size: float) -> Motion | None:
+    def of(loops: Sequence[StageLoop], *, center: Floats, size: float) -> LoopMotion | None:
         """From the loops of an island; None where a frame is not a number."""
         scale = size if size > 0.0 else 1.0
         joints = {j.path: j for loop in loops for j in loop.joints}
@@ -51,27 +44,27 @@ class Motion:
                 closure[6 * index : 6 * index + 6, list(rows[step.joint.path])] += step.sign * block
         if not np.isfinite(closure).all():
             return None
-        return Motion(rows=rows, space=null_space(closure), size=scale)
+        return LoopMotion(rows=rows, space=null_space(closure), size=scale)
 
-    def moves(self, joint: Joint) -> bool:
+    def moves(self, joint: StageJoint) -> bool:
         """Whether a joint of a loop can move at all."""
         return bool(np.abs(self.space[list(self.rows[joint.path])]).max(initial=0.0) > STILL)
 
-    def part(self, joints: Iterable[Joint]) -> Floats:
+    def part(self, joints: Iterable[StageJoint]) -> Floats:
         """The rows of some joints, (k, m)."""
         return self.space[[r for j in joints if j.path in self.rows for r in self.rows[j.path]]]
 
-    def holding(self, joints: Iterable[Joint]) -> Motion:
+    def holding(self, joints: Iterable[StageJoint]) -> LoopMotion:
         """What is left while some joints hold still."""
-        return Motion(rows=self.rows, space=self.space @ null_space(self.part(joints)), size=self.size)
+        return LoopMotion(rows=self.rows, space=self.space @ null_space(self.part(joints)), size=self.size)
 
-    def rank(self, joints: Iterable[Joint]) -> int:
+    def rank(self, joints: Iterable[StageJoint]) -> int:
         """In how many independent ways some joints move."""
         part = self.part(joints)
-        return int(np.linalg.matrix_rank(part, tol=RANK_TOLERANCE)) if part.size else 0
+        return int(np.linalg.matrix_rank(part, tol=CLOSED)) if part.size else 0
 
 
-def screws(joint: Joint, *, center: Floats, scale: float) -> Floats:
+def screws(joint: StageJoint, *, center: Floats, scale: float) -> Floats:
     """The unit twists (6, k; angular, then linear at `center`) that a joint's freedoms give its second body."""
     columns = []
     arm = (joint.sides[0].position - center) / scale
@@ -87,4 +80,4 @@ def null_space(matrix: Floats) -> Floats:
     if matrix.shape[0] == 0 or matrix.shape[1] == 0:
         return np.eye(matrix.shape[1])
     _, values, rows = np.linalg.svd(matrix, full_matrices=True)
-    return np.asarray(rows[int((values > RANK_TOLERANCE).sum()) :].T, dtype=np.float64)
+    return np.asarray(rows[int((values > CLOSED).sum()) :].T, dtype=np.float64)

@@ -1,30 +1,46 @@
-"""Export: the same machine in other simulators' formats. MJCF first; the names here import what they need when used.
+"""Export: a `Mechanism` and its machine file → the same machine in another simulator's files, in a folder.
 
-One concept a module: `geometry` (a machine file's visuals and colliders), `assets` (mesh files), `mjcf` (the
-documents).
+In the order in which they build on each other: `geometry` (a machine file's visuals and colliders), `assets` (mesh
+files), `mjcf` (its documents), `registry` (which formats there are, ours and other packages'). The names here import
+what they need when used.
 """
 
 from __future__ import annotations
 
-import importlib
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from yellowiron.support.lazy import lazy_names
 
 if TYPE_CHECKING:
     from yellowiron.exporters.geometry import BodyGeometry, Geometry, read_geometry
     from yellowiron.exporters.mjcf.document import actuator_names, export_mjcf
+    from yellowiron.exporters.registry import EXPORTERS, Exporter, export, exporter_names, find_exporter
 
-__all__ = ["BodyGeometry", "Geometry", "actuator_names", "export_mjcf", "read_geometry"]
+__all__ = [
+    "EXPORTERS",
+    "BodyGeometry",
+    "Exporter",
+    "Geometry",
+    "actuator_names",
+    "export",
+    "export_mjcf",
+    "exporter_names",
+    "find_exporter",
+    "read_geometry",
+]
 
-_HOMES = {
-    "BodyGeometry": "geometry",
-    "Geometry": "geometry",
-    "actuator_names": "mjcf.document",
-    "export_mjcf": "mjcf.document",
-    "read_geometry": "geometry",
-}
-
-
-def __getattr__(name: str) -> Any:
-    if name not in _HOMES:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(importlib.import_module(f"{__name__}.{_HOMES[name]}"), name)
+__getattr__, __dir__ = lazy_names(
+    __name__,
+    {
+        "EXPORTERS": "registry",
+        "BodyGeometry": "geometry",
+        "Exporter": "registry",
+        "Geometry": "geometry",
+        "actuator_names": "mjcf.document",
+        "export": "registry",
+        "export_mjcf": "mjcf.document",
+        "exporter_names": "registry",
+        "find_exporter": "registry",
+        "read_geometry": "geometry",
+    },
+)

@@ -12,8 +12,9 @@ from pxr import Gf, Tf, Usd, UsdGeom, UsdPhysics, UsdShade
 
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.geometry import Color, Floats, Mesh
+from yellowiron.support.record import RECORD
+from yellowiron.support.vectors import triple
 
-_KEY = "yellowiron"
 _NEUTRAL: Color = (0.5, 0.5, 0.5)
 Kind = Literal["mesh", "cylinder", "capsule", "box", "sphere"]
 
@@ -95,7 +96,7 @@ def read_geometry(path: str | Path) -> Geometry:
 
 def _described(stage: Usd.Stage) -> Iterator[tuple[Usd.Prim, Mapping[str, object]]]:
     for prim in stage.Traverse():
-        data = prim.GetCustomDataByKey(_KEY)
+        data = prim.GetCustomDataByKey(RECORD)
         if data:
             yield prim, data
 
@@ -199,13 +200,9 @@ def _color(prim: Usd.Prim) -> Color:
         diffuse = shader.GetInput("diffuseColor") if shader else None
         value = diffuse.Get() if diffuse else None
         if value is not None:
-            return _rgb(value)
+            return triple(value)
     colors = UsdGeom.Gprim(prim).GetDisplayColorAttr().Get()
-    return _rgb(Gf.Vec3f(*np.array(colors).mean(axis=0).tolist())) if colors else _NEUTRAL
-
-
-def _rgb(value: Gf.Vec3f) -> Color:
-    return (float(value[0]), float(value[1]), float(value[2]))
+    return triple(Gf.Vec3f(*np.array(colors).mean(axis=0).tolist())) if colors else _NEUTRAL
 
 
 def _friction(prim: Usd.Prim) -> tuple[float | None, bool]:

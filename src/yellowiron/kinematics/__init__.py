@@ -1,8 +1,9 @@
 """Closed-chain kinematics: the loops solved, limits and gains that follow from them, and the machine measured.
 
-MuJoCo is imported with the first function that is asked for. One concept a module: `multibody` (mechanism → MuJoCo
-model), `chain` (the loops solved), `grid` (poses over the strokes), `branches`, `completion`, `bench` and `quantities`
-(how a measurement is made), `measurement`, `calibration`, `levers`, `poses`.
+`Mechanism` in; out come the mechanism completed (`complete`), calibrated (`calibrate`) or in a legal start pose
+(`started`), `Measurement`s, `PoseTables` and lever tables. MuJoCo is imported with the first function that is asked
+for. In order: `tolerances`, `solver` (the loops solved), `completion` (mobility, limits, branch signs, gains), `start`,
+`measuring` (measurements and calibration), `poses` and `levers` (tables for those who have no solver).
 
 Findings:
 
@@ -24,8 +25,9 @@ KIN012  a driven joint is drawn outside its limits; the machine starts in the ne
 
 from __future__ import annotations
 
-import importlib
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from yellowiron.support.lazy import lazy_names
 
 if TYPE_CHECKING:
     from yellowiron.kinematics.completion import complete
@@ -37,23 +39,6 @@ if TYPE_CHECKING:
     from yellowiron.kinematics.solver.chain import ClosedChain, KinematicsError, State
     from yellowiron.kinematics.solver.floating import attached
     from yellowiron.kinematics.start import legal_start, started
-
-_HOME = {
-    "ClosedChain": "solver.chain",
-    "KinematicsError": "solver.chain",
-    "State": "solver.chain",
-    "attached": "solver.floating",
-    "branch_pivots": "solver.branches",
-    "branch_sine": "solver.branches",
-    "calibrate": "measuring.calibration",
-    "complete": "completion",
-    "key_poses": "measuring.measurement",
-    "legal_start": "start",
-    "lever_table": "levers",
-    "measure": "measuring.measurement",
-    "pose_tables": "poses",
-    "started": "start",
-}
 
 __all__ = [
     "ClosedChain",
@@ -72,8 +57,22 @@ __all__ = [
     "started",
 ]
 
-
-def __getattr__(name: str) -> Any:
-    if name not in _HOME:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(importlib.import_module(f"{__name__}.{_HOME[name]}"), name)
+__getattr__, __dir__ = lazy_names(
+    __name__,
+    {
+        "ClosedChain": "solver.chain",
+        "KinematicsError": "solver.chain",
+        "State": "solver.chain",
+        "attached": "solver.floating",
+        "branch_pivots": "solver.branches",
+        "branch_sine": "solver.branches",
+        "calibrate": "measuring.calibration",
+        "complete": "completion",
+        "key_poses": "measuring.measurement",
+        "legal_start": "start",
+        "lever_table": "levers",
+        "measure": "measuring.measurement",
+        "pose_tables": "poses",
+        "started": "start",
+    },
+)

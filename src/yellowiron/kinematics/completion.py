@@ -10,11 +10,13 @@ from typing import Any
 import numpy as np
 
 from yellowiron.kinematics.solver.branches import branch_pivots, branch_sines
-from yellowiron.kinematics.solver.chain import ClosedChain, Component, State, independent_joints, suspects
-from yellowiron.kinematics.solver.grid import Grid, explore, joint_values
+from yellowiron.kinematics.solver.chain import ClosedChain, Component, State
+from yellowiron.kinematics.solver.independence import independent_joints, suspects
+from yellowiron.kinematics.solver.pose_grid import PoseGrid, explore, joint_values
+from yellowiron.kinematics.tolerances import PINS_APART
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
-from yellowiron.model.mechanism import Drive, Joint, Mechanism, Mobility
+from yellowiron.model.mechanism import PROVISIONAL, STATED, Drive, Joint, Mechanism, Mobility
 
 ANGLE_MARGIN = math.radians(0.5)
 """Radians added to a pivot's range from the loop, so that its limit never carries load."""
@@ -22,15 +24,14 @@ SLIDE_MARGIN = 2e-3
 """Metres added to a passive slide's range from the loop."""
 FREQUENCY = 3.0
 """Hertz of a position drive on the empty machine: with its payload about 2, which every engine holds."""
-PROVISIONAL = "gains provisional"
-"""In a drive's source: its gains wait for the mass that only the kinematics knows."""
-STATED = "template states "
-"""In a drive's source: before the names of the gains that stay all the same."""
 STRAIGHT = 0.05
 """|sine| at a triangle of pivots below which a loop is too near its dead point to have a branch."""
-PARALLEL = 1e-4
-"""Metres: gap at a loop's pins, half a metre along the axis included, that pins of a sound drawing do not leave."""
 _BACK = 2e-3
+"""Metres or radians by which a limit that was drawn in stands back from the dead point."""
+_EVEN = 1e-3
+"""Metres by which a passive twin may go past its own stroke."""
+_FLAT = 1e-6
+"""|sine| of a drawn triangle of pivots that is none: its loop has no branch."""
 _OWN, _OTHERS = 13, 25
 """Poses sampled for the mass a drive sees: of its own component, and of each other one."""
 _USUAL = 0.95
@@ -149,7 +150,7 @@ def _reachable(work: _Work, joint: Joint, end: str, limit: float) -> float:
     return stop
 
 
-def _report_unreachable(grid: Grid, work: _Work) -> None:
+def _report_unreachable(grid: PoseGrid, work: _Work) -> None:
     if not grid.unreachable:
         return
     share = 100.0 * len(grid.unreachable) / (len(grid.unreachable) + len(grid.states))
@@ -163,9 +164,9 @@ def _report_unreachable(grid: Grid, work: _Work) -> None:
     )
 
 
-def _report_gap(component: Component, grid: Grid, work: _Work) -> None:
+def _report_gap(component: Component, grid: PoseGrid, work: _Work) -> None:
     gap = max((state.closure for state in grid.states), default=0.0)
-    if gap > PARALLEL:
+    if gap > PINS_APART:
         work.find(
             "KIN008",
             "warning",
@@ -175,7 +176,7 @@ def _report_gap(component: Component, grid: Grid, work: _Work) -> None:
         )
 
 
-def _limit(component: Component, grid: Grid, rotations: Floats, work: _Work) -> None:
+def _limit(component: Component, grid: PoseGrid, rotations: Floats, work: _Work) -> None:
     """Limits of everything that moves with a component's drivers, once all of them have ends of stroke."""
     endless = [name for name in component.drivers if name not in grid.drivers]
     if endless:
@@ -223,7 +224,7 @@ def _check_twins(mechanism: Mechanism, work: _Work) -> None:
             continue
         short = -cylinder.extension - (slide.lower + SLIDE_MARGIN)
         long = (slide.upper - SLIDE_MARGIN) - (cylinder.stroke - cylinder.extension)
-        if max(short, long) > 1e-3:
+        if max(short, long) > _EVEN:
             work.find(
                 "KIN004",
                 "warning",
@@ -233,7 +234,7 @@ def _check_twins(mechanism: Mechanism, work: _Work) -> None:
             )
 
 
-def _branches(mechanism: Mechanism, grids: list[Grid], placed: list[tuple[Floats, Floats]], work: _Work) -> Any:
+def _branches(mechanism: Mechanism, grids: list[PoseGrid], placed: list[tuple[Floats, Floats]], work: _Work) -> Any:
     """The loops with their branch signs; a sign that changes over the strokes is a finding."""
     pivots = branch_pivots(mechanism)
     at = {cut: number for number, component in enumerate(work.chain.components()) for cut in component.cuts}
@@ -243,7 +244,7 @@ def _branches(mechanism: Mechanism, grids: list[Grid], placed: list[tuple[Floats
         branch = 0
         if loop.cut in pivots:
             sine = float(branch_sines(work.chain, pivots[loop.cut], *drawn)[0])
-            branch = int(math.copysign(1.0, sine)) if abs(sine) > 1e-6 else 0
+            branch = int(math.copysign(1.0, sine)) if abs(sine) > _FLAT else 0
             sines = branch_sines(work.chain, pivots[loop.cut], *placed[at[loop.cut]]) * branch
             least = float(sines.min(initial=abs(sine)))
             if branch and least < STRAIGHT:
@@ -262,7 +263,7 @@ def _branches(mechanism: Mechanism, grids: list[Grid], placed: list[tuple[Floats
     return tuple(loops)
 
 
-def _gains(mechanism: Mechanism, grids: list[Grid], work: _Work) -> None:
+def _gains(mechanism: Mechanism, grids: list[PoseGrid], work: _Work) -> None:
     masses = _seen_masses(work.chain, grids)
     for joint in mechanism.joints:
         drive = joint.drive
@@ -325,7 +326,7 @@ def _velocity_gain(drive: Drive, joint: Joint, work: _Work) -> Drive:
     )
 
 
-def _seen_masses(chain: ClosedChain, grids: list[Grid]) -> dict[str, float]:
+def _seen_masses(chain: ClosedChain, grids: list[PoseGrid]) -> dict[str, float]:
     """Driver → the mass it sees in all but the rarest poses of its own component and of the others (a steering cylinder
     turns a raised or outstretched boom too). The rarest are left out: at full lock a short lever makes it ten times the
     usual mass, and gains for that saturate and buzz everywhere else."""

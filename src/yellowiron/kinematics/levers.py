@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 from yellowiron.kinematics.measuring.bench import Bench
 from yellowiron.kinematics.measuring.quantities import Unmeasurable
-from yellowiron.kinematics.solver.chain import ClosedChain
+from yellowiron.kinematics.solver.chain import ClosedChain, State
 from yellowiron.model.mechanism import Mechanism
 
 _STILL = 1e-9
+"""Radians a metre of stroke below which a pivot stands still."""
 
 
 def lever_table(
@@ -36,10 +38,22 @@ def lever_table(
     reached, _ = chain.reach({entry.joint: low})
     path = np.linspace(chain.coordinate(reached, entry.joint), high, n)
     states = chain.sweep({entry.joint: path}, start=reached)
-    component = next((c for c in chain.components() if entry.joint in c.drivers), None)
+    strokes = [float(value) for value in path[: len(states)]]
+    extension = next((c.extension for c in mechanism.cylinders if c.slide == entry.joint), None)
+    return {
+        "joint": entry.joint,
+        "stroke": strokes,
+        "extension": [stroke + extension for stroke in strokes] if extension is not None else [],
+        "pivots": _pivots(mechanism, chain, entry.joint, states),
+    }
+
+
+def _pivots(mechanism: Mechanism, chain: ClosedChain, slide: str, states: Sequence[State]) -> dict[str, Any]:
+    """Angles and lever arms of the pivots that turn with a slide, in those states."""
+    component = next((c for c in chain.components() if slide in c.drivers), None)
     pins = {name for cylinder in mechanism.cylinders for name in (cylinder.barrel_joint, cylinder.rod_joint)}
     joints = {joint.name: joint for joint in mechanism.joints}
-    tangents = [chain.tangent(state, entry.joint) for state in states]
+    tangents = [chain.tangent(state, slide) for state in states]
     pivots: dict[str, Any] = {}
     for name in (*component.dependent, *component.cuts) if component else ():
         if joints[name].type != "revolute" or name in pins:
@@ -52,11 +66,4 @@ def lever_table(
             "angle": [float(angle) for angle in angles],
             "lever": [1.0 / rate if abs(rate) > _STILL else None for rate in rates],
         }
-    strokes = [float(value) for value in path[: len(states)]]
-    extension = next((c.extension for c in mechanism.cylinders if c.slide == entry.joint), None)
-    return {
-        "joint": entry.joint,
-        "stroke": strokes,
-        "extension": [stroke + extension for stroke in strokes] if extension is not None else [],
-        "pivots": pivots,
-    }
+    return pivots

@@ -9,7 +9,7 @@ import numpy as np
 from yellowiron.kinematics.measuring.bench import Bench
 from yellowiron.kinematics.measuring.quantities import Unmeasurable
 from yellowiron.kinematics.solver.chain import ClosedChain, Component, State
-from yellowiron.kinematics.solver.grid import explore
+from yellowiron.kinematics.solver.pose_grid import explore
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Joint, Mechanism
 from yellowiron.model.poses import PoseTable, PoseTables

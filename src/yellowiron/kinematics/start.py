@@ -14,11 +14,9 @@ from yellowiron.model.alignment import Alignment, Vector
 from yellowiron.model.assembly import Assembly, DeclaredJoint
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
-from yellowiron.model.mechanism import Joint, Mechanism
+from yellowiron.model.mechanism import DRAWN_OUTSIDE, Joint, Mechanism
 from yellowiron.model.template import Template
 
-OUTSIDE = 1e-6
-"""Metres or radians by which a joint may be drawn outside its limits."""
 INSIDE = 0.01
 """The start is this share of the joint's range inside its nearer limit."""
 
@@ -110,7 +108,7 @@ def _target(joint: Joint) -> float | None:
     """Where a driven joint that is drawn outside its limits should start; None for any other."""
     if joint.drive is None or joint.lower is None or joint.upper is None or joint.lower > joint.upper:
         return None
-    if joint.lower - OUTSIDE <= 0.0 <= joint.upper + OUTSIDE:
+    if joint.lower - DRAWN_OUTSIDE <= 0.0 <= joint.upper + DRAWN_OUTSIDE:
         return None
     margin = INSIDE * (joint.upper - joint.lower)
     return joint.lower + margin if joint.lower > 0.0 else joint.upper - margin

@@ -1,14 +1,25 @@
-"""The template library: templates from JSON, their lint, the user's own documents, and what is shown of them."""
+"""The template library: what is known of an equipment type before any CAD model is seen.
+
+In: the name of a type, or a folder of JSON documents; out: a `Template` (`load_template`), which every stage asks.
+Besides: its lint (`LintReport`), what the user's own documents change in it (`Documents`), a template proposed for a
+machine that has none (`propose`), a copy to edit, its joints with numbers filled in, and the tree that people see.
+
+`notation` is how documents are written, `type_folders` where they are, `parsing` what each says; `load` makes of them
+a template. On these stand `user_documents` (`--data`), `linting`, `proposal`, `copying`, `filled` and `show`, none of
+which knows another. `data` has a folder for each type, and `common.json`, what types ask a sheet for alike; `schema`
+the JSON Schema of every document. A type is a folder: none is named in code.
+"""
 
 from yellowiron.library.copying import copy_template
-from yellowiron.library.documents import Documents, apply_joints, apply_sensors, load_documents, with_relations
 from yellowiron.library.filled import filled_joints
 from yellowiron.library.linting.lint import LintReport, lint
-from yellowiron.library.load import is_sheet_only, list_templates, load_template
-from yellowiron.library.parsing.json_documents import template_schema
+from yellowiron.library.load import load_template
+from yellowiron.library.notation.validated_json import template_schema
 from yellowiron.library.proposal.likeness import Likeness, likeness
 from yellowiron.library.proposal.propose import propose
 from yellowiron.library.show import tree
+from yellowiron.library.type_folders import is_sheet_only, list_templates
+from yellowiron.library.user_documents import Documents, apply_joints, apply_sensors, load_documents, with_relations
 
 __all__ = [
     "Documents",

@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+import json
 import shutil
 from pathlib import Path
+from typing import Any
 
-from yellowiron.library.load import DOCUMENTS, find_template, load_template
+from yellowiron.library.load import load_template
+from yellowiron.library.notation.validated_json import read_document
+from yellowiron.library.parsing.wanted import complete
+from yellowiron.library.type_folders import DOCUMENTS, find_template
 from yellowiron.model.errors import OutputError
 from yellowiron.model.specification import fold
 
 
 def copy_template(type_or_folder: str | Path, folder: str | Path) -> Path:
     """Copies a template's documents, and the textures they name, into a folder that is new or empty, and returns it.
+    What `wanted.json` takes from the library is written out, so that the copy says everything itself.
     `OutputError` where the folder has something in it or cannot be written, or a texture lies outside the template;
     `TemplateError` where the template does not load."""
     source, target = find_template(type_or_folder), Path(folder)
@@ -38,7 +44,7 @@ def copy_template(type_or_folder: str | Path, folder: str | Path) -> Path:
     try:
         for name, file in files.items():
             (target / name).parent.mkdir(parents=True, exist_ok=True)
-            shutil.copyfile(file, target / name)
+            _copy(file, target / name)
     except OSError as error:
         raise OutputError(
             f"The template cannot be copied: {error.strerror}",
@@ -46,3 +52,22 @@ def copy_template(type_or_folder: str | Path, folder: str | Path) -> Path:
             hint="Name a folder you may write to.",
         ) from error
     return target
+
+
+def _copy(file: Path, target: Path) -> None:
+    if fold(file.stem) == "wanted":
+        document = read_document(file, "wanted")
+        whole = complete(document)
+        if whole != document:
+            target.write_text(_text(whole.data) + "\n", encoding="utf-8")
+            return
+    shutil.copyfile(file, target)
+
+
+def _text(value: Any, indent: str = "") -> str:
+    """JSON with one line for each key, and lists on one line, as the library's own documents are written."""
+    if not isinstance(value, dict):
+        return json.dumps(value, ensure_ascii=False)
+    inner = indent + "  "
+    lines = [f"{inner}{json.dumps(key, ensure_ascii=False)}: {_text(item, inner)}" for key, item in value.items()]
+    return "\n".join(("{", ",\n".join(lines), indent + "}"))

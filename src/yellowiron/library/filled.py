@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
+from yellowiron.library.notation.quantities import number_text
 from yellowiron.library.parsing.joints import DIMENSION, stated_gains
-from yellowiron.library.parsing.quantities import number_text
 from yellowiron.model.mechanism import Mechanism
 from yellowiron.model.specification import Specification, Specifications
 from yellowiron.model.template import JointTemplate, Template
-from yellowiron.model.units import SI_UNIT
+from yellowiron.support.units import SI_UNIT
 
 
 def filled_joints(

@@ -5,11 +5,11 @@ from __future__ import annotations
 from rich.text import Text
 from rich.tree import Tree
 
+from yellowiron.library.notation.quantities import number_text
 from yellowiron.library.parsing.joints import DIMENSION
-from yellowiron.library.parsing.quantities import number_text
 from yellowiron.model.rows import split_index
 from yellowiron.model.template import Choices, JointTemplate, Role, Template
-from yellowiron.model.units import SI_UNIT
+from yellowiron.support.units import SI_UNIT
 
 
 def tree(template: Template) -> Tree:
@@ -35,23 +35,35 @@ def tree(template: Template) -> Tree:
             if split_index(part)[0] == body and joint.name not in shown:
                 nodes[body].add(_joint(joint, next((b for b in bodies if b != body), body)))
                 shown.add(joint.name)
+    _actuators(top, template)
+    _sensors(top, template)
+    _variants(top, template)
+    return top
+
+
+def _actuators(top: Tree, template: Template) -> None:
     if template.actuators:
         levers = top.add(Text("actuators", style="italic"))
         for actuator in template.actuators:
             moved = [c.slide for c in actuator.cylinders] or list(actuator.joints)
             levers.add(Text.assemble((actuator.name, "bold"), f"  {actuator.kind}: {', '.join(moved)}"))
+
+
+def _sensors(top: Tree, template: Template) -> None:
     if template.sensors:
         sensed = top.add(Text("sensors", style="italic"))
         for sensor in template.sensors:
             kind, place = next(iter(sensor.mount.items()))
             notes = [f"{sensor.type} on {kind} {place}", *_when(sensor.when)]
             sensed.add(Text.assemble((sensor.name, "bold"), (f"  {', '.join(notes)}", "dim")))
+
+
+def _variants(top: Tree, template: Template) -> None:
     if template.variants:
         choices = top.add(Text("variants", style="italic"))
         for variant in template.variants:
             words = ", ".join(f"{c} (default)" if c == variant.default else c for c in variant.choices)
             choices.add(Text.assemble((variant.name, "bold"), f"  {words}; decided by {variant.decided_by}"))
-    return top
 
 
 def _role(role: Role, template: Template) -> Text:

@@ -1,9 +1,10 @@
 """Assembly × Template × Alignment × Specifications → Mechanism.
 
-One concept a module: `placement` (the aligned CAD in the machine frame), `axes` and `bearings` (lines through
-cylinder features), `frames` (where a joint is), `planarity` (parallel axes made exactly so), `tree` (loops and
-cuts), `values`, `rams` (what the CAD shows of a cylinder), `cylinders`, `drives`, `choice` (which document speaks
-for a part), `mass`, `body`, `sites`; `build` puts them in order.
+`build_mechanism` gives a `Mechanism` in SI units and the machine frame, without what follows from its loops: gains,
+pivot limits, mobility and branches are the kinematics'. In order: `tolerances`, `values` (of specifications, with their
+evidence), `declared` (joints that the CAD file declares; compared with those found once these are there), `placement`
+(the aligned CAD in the machine frame), `bodies` (what moves together and its mass), `joints` (where they are; tree,
+loops and cuts), `actuation` (cylinders and drives), `sites`, `sensors`; `build` puts them in order.
 
 A joint's `source` says `template` (its entry), `method`, `parts` (the CAD parts behind its axis), `residual_deg` and
 `residual_mm` (how far these are out of line), `planarity_deg` (how far its axis was turned to be parallel to its

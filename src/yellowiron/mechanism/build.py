@@ -14,7 +14,7 @@ from yellowiron.mechanism.actuation import cylinders, drives
 from yellowiron.mechanism.actuation.cylinders import FittedCylinder
 from yellowiron.mechanism.actuation.direct_drives import direct_drives, with_direct_hinges
 from yellowiron.mechanism.bodies import body, mass
-from yellowiron.mechanism.bodies.body import vector
+from yellowiron.mechanism.bodies.choice import Choice
 from yellowiron.mechanism.bodies.hidden_wheels import hidden_wheels, with_wheels
 from yellowiron.mechanism.joints import chains
 from yellowiron.mechanism.joints.frames import JointFrame, joint_frames, weld
@@ -29,6 +29,7 @@ from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Drive, Joint, Mechanism, Vector
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import JointTemplate, Material, Template
+from yellowiron.support.vectors import clean_triple
 
 
 class Documents(Protocol):
@@ -60,9 +61,6 @@ def build_mechanism(
 
     Pivot limits that follow from loops, gains, mobility and the branch signs of loops are the kinematics' part.
     """
-    by_document = documents.materials if documents is not None else {}
-    collision = documents.collision if documents is not None else {}
-
     # Where the parts and the joints are.
     placement, findings = place(assembly, template, alignment)
     template = _standing(template, placement, assembly.name, findings)
@@ -97,14 +95,13 @@ def build_mechanism(
     joints = tuple(_joint(frame, tree, slides, powered, specifications, findings) for frame in frames.values())
 
     # What everything weighs.
-    materials, used = mass.part_materials(placement, template, by_document)
-    moments = mass.part_moments(placement, materials, findings)
-    weights = {b: sum(moments[row].mass for row in placement.rows_of_body(b)) for b in tree.bodies}
-    factors = mass.reconcile(weights, template, specifications, findings)
+    by_document = documents.materials if documents is not None else {}
+    masses = mass.weigh(placement, template, specifications, by_document, tree.bodies, findings)
     drawn = [b for b in tree.bodies if b not in wheels]
-    origins = _origins(tree, frames) | {b: vector(_middle(placement, b)) for b in floating}
-    bodies = body.bodies(drawn, origins, placement, template, materials, moments, factors, collision, findings)
-    bodies = with_wheels(bodies, tree.bodies, wheels, placement, template, by_document, used, findings)
+    origins = _origins(tree, frames) | {b: clean_triple(_middle(placement, b)) for b in floating}
+    tokens = Choice(template, documents.collision if documents is not None else {}, template.collision)
+    bodies = body.bodies(drawn, origins, placement, masses, tokens, findings)
+    bodies = with_wheels(bodies, tree.bodies, wheels, placement, masses, findings)
 
     # What is named and what is sensed on it.
     named = sites.sites(template, frames, placement, findings)
@@ -121,7 +118,7 @@ def build_mechanism(
         actuators=actuators,
         loops=tree.loops,
         sites=named,
-        materials=used,
+        materials=masses.used,
         measurements=template.measurements,
         payload=template.payload,
         tests=template.tests,
@@ -215,8 +212,8 @@ def _joint(
         type=entry.type,
         body0=body0,
         body1=body1,
-        anchor=vector(frame.anchor),
-        axis=vector(-frame.axis if turned else frame.axis),
+        anchor=clean_triple(frame.anchor),
+        axis=clean_triple(-frame.axis if turned else frame.axis),
         lower=lower,
         upper=upper,
         cut=entry.name in tree.cuts,
@@ -247,7 +244,7 @@ def _limits(
 def _origins(tree: Tree, frames: Mapping[str, JointFrame]) -> dict[str, Vector]:
     """Each body's origin: the joint that leads to it; the root's is the machine's."""
     origins: dict[str, Vector] = dict.fromkeys(tree.bodies, (0.0, 0.0, 0.0))
-    return origins | {b: vector(frames[joint].anchor) for b, joint in tree.leading.items()}
+    return origins | {b: clean_triple(frames[joint].anchor) for b, joint in tree.leading.items()}
 
 
 def _middle(placement: Placement, name: str) -> Floats:

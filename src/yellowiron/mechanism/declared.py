@@ -16,6 +16,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from yellowiron.mechanism.tolerances import PARALLEL
 from yellowiron.model.alignment import Alignment
 from yellowiron.model.assembly import Assembly, DeclaredJoint, loop_axis
 from yellowiron.model.finding import Finding
@@ -23,11 +24,13 @@ from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Joint, Mechanism
 from yellowiron.model.specification import Specification, Specifications
 from yellowiron.model.template import Template
+from yellowiron.support.vectors import angle_between_lines
 
-ANGLE = math.radians(0.5)
-"""Declared and found axes agree within this, …"""
 OFFSET = 5e-4
-"""… and hinges if one runs past the other by less than this share of the machine's size."""
+"""A declared and a found hinge, `PARALLEL`, agree if one runs past the other by less than this share of the machine's
+size."""
+_SAME_PIN = 1e-3
+"""Metres by which the hinges of bodies that turn on one pin may run past each other."""
 _TYPES = ("revolute", "prismatic", "spherical", "fixed")
 
 
@@ -49,7 +52,7 @@ class ComparedJoint:
 
 
 @dataclass(frozen=True)
-class DeclaredLine:
+class DeclaredAxis:
     """A declared hinge or slide between two of the mechanism's bodies: a point on its axis and the unit vector, in the
     machine frame, metres."""
 
@@ -60,7 +63,7 @@ class DeclaredLine:
     axis: Floats
 
 
-def declared_lines(assembly: Assembly, alignment: Alignment) -> tuple[DeclaredLine, ...]:
+def declared_axes(assembly: Assembly, alignment: Alignment) -> tuple[DeclaredAxis, ...]:
     """The declared hinges and slides whose bodies the alignment knows."""
     played = _played(assembly, alignment) if assembly.joints else {}
     turn, move = alignment.frame[:3, :3], alignment.frame[:3, 3]
@@ -72,7 +75,7 @@ def declared_lines(assembly: Assembly, alignment: Alignment) -> tuple[DeclaredLi
         if one is None or other is None or axis is None or joint.type not in ("revolute", "prismatic", "spherical"):
             continue
         point, kind = turn @ np.array(joint.anchor) + move, "revolute" if closes else joint.type
-        found.append(DeclaredLine(joint.name, kind, frozenset((one, other)), point, turn @ np.array(axis)))
+        found.append(DeclaredAxis(joint.name, kind, frozenset((one, other)), point, turn @ np.array(axis)))
     return tuple(found)
 
 
@@ -210,17 +213,27 @@ def _compared(
     if found is None:
         words = f"{title}: no joint was found between '{ends[0]}' and '{ends[1]}'."
         return ComparedJoint(name, kind, bodies, agrees=False, words=words)
-    angle = _angle(found, axis) if kind in ("revolute", "prismatic") and found.type == kind else None
+    return _beside(declared, title, found, anchor, axis, OFFSET * size)
+
+
+def _beside(
+    declared: DeclaredJoint, title: str, found: Joint, anchor: Floats, axis: Floats, offset: float
+) -> ComparedJoint:
+    """A declared joint at `anchor` along `axis` in the machine frame, beside the one found, which may run past it by
+    `offset` metres."""
+    kind = declared.type
+    angle = angle_between_lines(found.axis, axis) if kind in ("revolute", "prismatic") and found.type == kind else None
     turns = kind in ("revolute", "spherical") and found.type in ("revolute", "spherical")
     distance = _distance(found, anchor) if turns else None
     # A point that closes a loop stands for a hinge: the rest of the loop holds its axis.
     alike = found.type == kind or (kind == "spherical" and found.type == "revolute")
-    agrees = alike and (angle or 0.0) <= ANGLE and (distance or 0.0) <= OFFSET * size
+    agrees = alike and (angle or 0.0) <= PARALLEL and (distance or 0.0) <= offset
     words = "" if agrees else f"{title}; found is a {found.type} joint"
     if not agrees and alike:
         words += f", its axis {math.degrees(angle):.2f}° off" if angle is not None else ""
         words += f", {1e3 * distance:.1f} mm beside" if distance is not None else ""
-    return ComparedJoint(name, kind, bodies, found.name, found.type, angle, distance, agrees, words and f"{words}.")
+    words = words and f"{words}."
+    return ComparedJoint(declared.name, kind, declared.bodies, found.name, found.type, angle, distance, agrees, words)
 
 
 def _across(mechanism: Mechanism, ends: tuple[str | None, str | None]) -> list[Joint]:
@@ -232,18 +245,17 @@ def _across(mechanism: Mechanism, ends: tuple[str | None, str | None]) -> list[J
             pairs = {one.body0, one.body1}, {other.body0, other.body1}
             if ends[0] not in pairs[0] or ends[1] not in pairs[1] or len(pairs[0] & pairs[1]) != 1 or one is other:
                 continue
-            same = _angle(one, np.array(other.axis)) < ANGLE and _distance(one, np.array(other.anchor)) < 1e-3
+            same = (
+                angle_between_lines(one.axis, other.axis) < PARALLEL
+                and _distance(one, np.array(other.anchor)) < _SAME_PIN
+            )
             if one.type == other.type == "revolute" and same:
                 found.append(one)
     return found
 
 
 def _rank(joint: Joint, kind: str, anchor: Floats, axis: Floats) -> tuple[bool, float, float]:
-    return joint.type != kind, round(_angle(joint, axis), 6), _distance(joint, anchor)
-
-
-def _angle(joint: Joint, axis: Floats) -> float:
-    return math.atan2(float(np.linalg.norm(np.cross(joint.axis, axis))), abs(float(np.dot(joint.axis, axis))))
+    return joint.type != kind, round(angle_between_lines(joint.axis, axis), 6), _distance(joint, anchor)
 
 
 def _distance(joint: Joint, anchor: Floats) -> float:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from yellowiron.mechanism.declared import DeclaredLine, declared_lines
+from yellowiron.mechanism.declared import DeclaredAxis, declared_axes
 from yellowiron.model.alignment import Alignment, Vector
 from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.finding import Finding
@@ -81,7 +81,7 @@ class Placement:
     bodies: tuple[str, ...]
     roles: tuple[str | None, ...]
     axes: Mapping[str, tuple[Floats, Floats]] = field(default_factory=dict)
-    declared: tuple[DeclaredLine, ...] = ()
+    declared: tuple[DeclaredAxis, ...] = ()
     _features: dict[int, Features] = field(default_factory=dict)
     _points: dict[int, Floats] = field(default_factory=dict)
 
@@ -156,7 +156,7 @@ def place(assembly: Assembly, template: Template, alignment: Alignment) -> tuple
         bodies=tuple(str(assigned[p.id].body) for p in kept),
         roles=tuple(assigned[p.id].role for p in kept),
         axes={name: _axis(alignment.frame, *axis) for name, axis in alignment.axes.items()},
-        declared=declared_lines(assembly, alignment),
+        declared=declared_axes(assembly, alignment),
     )
     return placement, findings
 

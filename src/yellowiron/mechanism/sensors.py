@@ -7,13 +7,13 @@ from collections.abc import Iterable, Iterator, Mapping
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from yellowiron.mechanism.bodies.body import vector
 from yellowiron.mechanism.placement import Placement
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Cylinder, Site
 from yellowiron.model.sensor import FRAME_TYPES, PARAMETERS, Sensor, SensorTemplate
 from yellowiron.model.template import ActuatorTemplate, Template
+from yellowiron.support.vectors import clean_triple
 
 _SIDES: Mapping[str, tuple[int, bool]] = {
     "top": (2, True),
@@ -117,9 +117,9 @@ def _framed(
         name=entry.name,
         type=entry.type,
         body=body,
-        position=vector(position),
-        x_axis=vector(axes[:, 0]),
-        z_axis=vector(axes[:, 2]),
+        position=clean_triple(position),
+        x_axis=clean_triple(axes[:, 0]),
+        z_axis=clean_triple(axes[:, 2]),
         parameters=_complete(entry),
         source="; ".join(text for text in (entry.source.rstrip("."), where) if text),
     )

@@ -9,14 +9,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
-from yellowiron.mechanism.bodies.body import vector
-from yellowiron.mechanism.joints.axes import Line
+from yellowiron.mechanism.joints.axes import Axis
 from yellowiron.mechanism.joints.frames import JointFrame
 from yellowiron.mechanism.placement import Placement, ancestors
+from yellowiron.mechanism.tolerances import PARALLEL
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Site
 from yellowiron.model.template import SiteTemplate, Template
+from yellowiron.support.vectors import clean_triple
 
 _EDGE = 5e-4
 """Points this near to the farthest one belong to the edge, metres."""
@@ -24,7 +25,7 @@ _ALIKE = 1e-3
 """Relative difference of the lengths by which parts are compared up to which they are congruent."""
 _ON_PLANE = 1e-3
 """A plane this near to the edge contains it, metres."""
-_ACROSS = math.sin(math.radians(0.5))
+_ACROSS = math.sin(PARALLEL)
 """Sine of the angle up to which a plane is parallel to the joint's axis."""
 
 
@@ -53,7 +54,12 @@ def _site(
 ) -> Site | None:
     rule = entry.rule
     if "point" in rule:
-        return Site(entry.name, entry.body, vector(np.array(rule["point"], dtype=np.float64)), source="template: point")
+        return Site(
+            entry.name,
+            entry.body,
+            clean_triple(np.array(rule["point"], dtype=np.float64)),
+            source="template: point",
+        )
     if "middle_of" in rule:
         return _middle_site(entry, placement)
     name = rule.get("joint", rule.get("edge_from", rule.get("inside_from")))
@@ -63,7 +69,7 @@ def _site(
     if frame is None:
         return None
     if "joint" in rule:
-        return Site(entry.name, entry.body, vector(frame.anchor), source=f"anchor of {name}")
+        return Site(entry.name, entry.body, clean_triple(frame.anchor), source=f"anchor of {name}")
     spanning = float(rule.get("spanning", 0.8))
     if "inside_from" in rule:
         return _inside_site(entry, frame, spanning, placement)
@@ -77,26 +83,26 @@ def _middle_site(entry: SiteTemplate, placement: Placement) -> Site | None:
     if not len(points):
         return None
     middle = 0.5 * (points.min(axis=0) + points.max(axis=0))
-    return Site(entry.name, entry.body, vector(middle), source=f"middle of {entry.rule['middle_of']}")
+    return Site(entry.name, entry.body, clean_triple(middle), source=f"middle of {entry.rule['middle_of']}")
 
 
 def _at_tip(edge: Site, frame: JointFrame, placement: Placement) -> Site:
     """The edge's site moved to the body's points farthest from the joint's axis (the teeth, whatever part they are
     of), in their middle along it."""
-    line = Line(frame.anchor, frame.axis)
+    line = Axis(frame.anchor, frame.axis)
     points = placement.points_of(placement.rows_of_body(edge.body))
     distance = line.distance(points)
     tip = _one_edge(points[distance > distance.max() - _EDGE], line)
     along = line.along(tip)
     position = tip.mean(axis=0) + (0.5 * (along.min() + along.max()) - along.mean()) * line.direction
-    return replace(edge, position=vector(position), source=f"{edge.source}; at the body's farthest point")
+    return replace(edge, position=clean_triple(position), source=f"{edge.source}; at the body's farthest point")
 
 
 def _inside_site(entry: SiteTemplate, frame: JointFrame, spanning: float, placement: Placement) -> Site | None:
     """The middle of what a body's wide parts enclose (a bucket's floor, back and edge; of rows such as teeth no part is
     wide): of their common hull without their own solids. All parts where none is wide."""
     rows = placement.rows_of_body(entry.body)
-    line = Line(frame.anchor, frame.axis)
+    line = Axis(frame.anchor, frame.axis)
     wide = [g[0] for g in _wide_groups(rows, line, spanning, placement) if len(g) == 1] or list(rows)
     points = placement.points_of(tuple(wide))
     try:
@@ -116,7 +122,7 @@ def _inside_site(entry: SiteTemplate, frame: JointFrame, spanning: float, placem
             first = first - solid * (matrix[:3, :3] @ shape.centroid + matrix[:3, 3])
     also = f" and {len(wide) - 1} more" if len(wide) > 1 else ""
     source = f"middle of the {volume:.2f} m³ that {placement.parts[wide[0]].id}{also} enclose"
-    return Site(entry.name, entry.body, vector(first / volume), source=source)
+    return Site(entry.name, entry.body, clean_triple(first / volume), source=source)
 
 
 @dataclass(frozen=True, eq=False)
@@ -145,7 +151,7 @@ def _edge_site(
     the widest plane ends, a bucket's floor; of the edges in that plane the farthest. Parts of an `edge` role, where the
     alignment knows any, rule other planes out.
     """
-    line = Line(frame.anchor, frame.axis)
+    line = Axis(frame.anchor, frame.axis)
     rows = placement.rows_of_body(entry.body)
     edges = [_far_edge(group, rows, line, placement) for group in _wide_groups(rows, line, spanning, placement)]
     if not edges:
@@ -170,14 +176,14 @@ def _edge_site(
     return Site(
         name=entry.name,
         body=entry.body,
-        position=vector(edge.position),
-        x_axis=vector(x_axis),
-        z_axis=vector(np.cross(x_axis, line.direction)),
+        position=clean_triple(edge.position),
+        x_axis=clean_triple(x_axis),
+        z_axis=clean_triple(np.cross(x_axis, line.direction)),
         source=f"edge of {placement.parts[edge.rows[0]].id}{also}, far from {frame.joint.name}",
     )
 
 
-def _far_edge(group: tuple[int, ...], rows: Sequence[int], line: Line, placement: Placement) -> _Edge:
+def _far_edge(group: tuple[int, ...], rows: Sequence[int], line: Axis, placement: Placement) -> _Edge:
     """The edge of a wide part, or row of equal parts, that is farthest from a line."""
     points = placement.points_of(group)
     distance = line.distance(points)
@@ -189,14 +195,14 @@ def _far_edge(group: tuple[int, ...], rows: Sequence[int], line: Line, placement
     return _Edge(group, position, float(distance.max()), normal, area)
 
 
-def _one_edge(tip: Floats, line: Line) -> Floats:
+def _one_edge(tip: Floats, line: Axis) -> Floats:
     """Of points equally far from a line those on one parallel to it: of several edges the foremost, then the lowest."""
     across = tip - np.outer(line.along(tip), line.direction)
     order = np.lexsort((across[:, 2], np.round(-across[:, 0] / _EDGE)))
     return np.asarray(tip[np.linalg.norm(across - across[order[0]], axis=1) < 4.0 * _EDGE], dtype=np.float64)
 
 
-def _wide_groups(rows: Sequence[int], line: Line, spanning: float, placement: Placement) -> list[tuple[int, ...]]:
+def _wide_groups(rows: Sequence[int], line: Axis, spanning: float, placement: Placement) -> list[tuple[int, ...]]:
     """Parts that span a share of the body's width along the axis, alone or as a row of congruent parts (a CAD model may
     draw every tooth as a part of its own, turned or mirrored)."""
     reach = {row: (line.along(p := placement.points(row)).min(), line.along(p).max()) for row in rows}
@@ -234,7 +240,7 @@ def _congruent(row: int, other: int, sizes: Mapping[int, Floats], placement: Pla
     return bool(np.all(np.abs(sizes[row] - sizes[other]) <= _ALIKE * np.maximum(sizes[row], sizes[other])))
 
 
-def _plane_at(position: Floats, line: Line, rows: Sequence[int], placement: Placement) -> tuple[Floats | None, float]:
+def _plane_at(position: Floats, line: Axis, rows: Sequence[int], placement: Placement) -> tuple[Floats | None, float]:
     """The plane through an edge, parallel to the axis, on which the body has most area: (normal, area), or (None,
     0)."""
     found: list[tuple[Floats, float]] = []
@@ -249,7 +255,7 @@ def _plane_at(position: Floats, line: Line, rows: Sequence[int], placement: Plac
     return max(found, key=lambda pair: pair[1]) if found else (None, 0.0)
 
 
-def _planes_through(position: Floats, line: Line, row: int, placement: Placement) -> list[tuple[Floats, float]]:
+def _planes_through(position: Floats, line: Axis, row: int, placement: Placement) -> list[tuple[Floats, float]]:
     """(normal, area) of one part's planes through the edge: its planar faces, else its facets."""
     shape, matrix = placement.shapes[row], placement.transforms[row]
     if shape.planes:

@@ -9,7 +9,7 @@ from typing import Any
 from yellowiron.model.finding import Finding
 from yellowiron.model.specification import Specification, Specifications
 from yellowiron.model.template import ActuatorTemplate
-from yellowiron.model.text import display
+from yellowiron.support.text import display
 
 DEFAULT = "template's default"
 """The source of a value that the template assumes."""

@@ -35,7 +35,7 @@ class PartAssignment:
 
 @dataclass(frozen=True, eq=False)
 class Alignment:
-    """Every part's role. `frame` (4, 4) takes CAD metres to the machine frame (DESIGN: frames).
+    """Every part's role. `frame` (4, 4) takes CAD metres to the machine frame (+X forward, +Y left, +Z up).
 
     `choices` are the template's variants as found in the CAD (`{"lift_cylinders": "twin"}`); `missing` lists roles
     that the template requires and no part plays; `to_review` the part ids and roles a person should look at. `counts`:
@@ -52,11 +52,3 @@ class Alignment:
     findings: tuple[Finding, ...] = ()
     counts: Mapping[str, int] = field(default_factory=dict)
     axes: Mapping[str, tuple[Vector, Vector]] = field(default_factory=dict)
-
-    def parts_of_body(self, body: str) -> tuple[str, ...]:
-        """Ids of the parts that move with a body, in CAD order."""
-        return tuple(a.part for a in self.parts if a.body == body)
-
-    def parts_of_role(self, role: str) -> tuple[str, ...]:
-        """Ids of the parts that play exactly this role, in CAD order."""
-        return tuple(a.part for a in self.parts if a.role == role)

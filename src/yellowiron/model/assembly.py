@@ -48,8 +48,8 @@ class DeclaredJoint:
     upper: float | None = None
 
 
-PARALLEL = 0.999
-"""Cosine from which two hinges of a loop are parallel."""
+PARALLEL_HINGES = 0.999
+"""Cosine from which two hinges of a loop are parallel (2.6°): descriptions print angles with few digits."""
 
 
 def loop_axis(point: DeclaredJoint, joints: Sequence[DeclaredJoint]) -> tuple[float, float, float] | None:
@@ -61,7 +61,7 @@ def loop_axis(point: DeclaredJoint, joints: Sequence[DeclaredJoint]) -> tuple[fl
         halves = {body, *(end for pair in slides if body in pair for end in pair)} - {""}
         hinges.append([j for j in joints if j.type == "revolute" and halves & set(j.bodies)])
     pairs = ((one.axis, other.axis) for one in hinges[0] for other in hinges[1])
-    return next((one for one, other in pairs if abs(float(np.dot(one, other))) > PARALLEL), None)
+    return next((one for one, other in pairs if abs(float(np.dot(one, other))) > PARALLEL_HINGES), None)
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,6 +15,16 @@ from yellowiron.model.template import JointType, Material, MeasurementTemplate
 
 Vector = tuple[float, float, float]
 
+DRAWN_OUTSIDE = 1e-6
+"""Metres or radians by which a joint may be drawn outside its limits: a micrometre is no more than round-off."""
+
+UNKNOWN = "unknown"
+"""How an entry of `Cylinder.sources` begins where nothing says the quantity; a closed length is then calibrated."""
+PROVISIONAL = "gains provisional"
+"""In `Drive.source`: its gains wait for the mass that only the kinematics knows."""
+STATED = "template states "
+"""In `Drive.source`: before the names of the gains that stay all the same."""
+
 
 @dataclass(frozen=True)
 class BodyPart:

@@ -23,7 +23,7 @@ FRAME_TYPES = ("camera", "lidar", "imu", "gnss", "contact")
 
 @dataclass(frozen=True)
 class Parameter:
-    """One parameter of a sensor type. `dimension` as in `model.units`, or `number`; bounds and default in SI."""
+    """One parameter of a sensor type. `dimension` as in `support.units`, or `number`; bounds and default in SI."""
 
     dimension: str
     default: float

@@ -10,7 +10,7 @@ from yellowiron.model.geometry import Floats
 
 
 @dataclass(frozen=True, eq=False)
-class Frame:
+class Snapshot:
     """The machine at one step: `time` in seconds from the sweep's start; `share` (0 … 1) of the way of what moves, None
     for motors; `poses`: body → (4, 4) displacement from the drawn pose, machine frame, the root's own included."""
 
@@ -20,7 +20,7 @@ class Frame:
 
 
 @dataclass(frozen=True, eq=False)
-class Track:
+class Trace:
     """A driven joint over the sweep's times: `wanted` and `measured` (n,), shares of the stroke (0: fully in) where
     `kind` is position, rad/s or m/s where it is velocity."""
 
@@ -33,12 +33,12 @@ class Track:
 @dataclass(frozen=True, eq=False)
 class Sweep:
     """One phase of a run: an actuator alone, or all `together`. `times` (n,) in seconds from its start; `pin_error`
-    (n,) metres and `angle_error` (n,) radians are each the worst since the time before; `frames` go from low to high.
-    """
+    (n,) metres and `angle_error` (n,) radians are each the worst since the time before; `snapshots` go from low to
+    high."""
 
     name: str
     times: Floats
     pin_error: Floats
     angle_error: Floats
-    tracks: tuple[Track, ...]
-    frames: tuple[Frame, ...]
+    traces: tuple[Trace, ...]
+    snapshots: tuple[Snapshot, ...]

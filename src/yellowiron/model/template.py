@@ -199,7 +199,6 @@ class Template:
     sites: tuple[SiteTemplate, ...] = ()
     measurements: tuple[MeasurementTemplate, ...] = ()
     variants: tuple[Variant, ...] = ()
-    reference: Mapping[str, Any] = field(default_factory=dict)
     sensors: tuple[SensorTemplate, ...] = ()
     payload: PayloadTemplate | None = None
     tests: tuple[MachineTest, ...] = ()

@@ -1,4 +1,8 @@
-"""The report: `report.json`, `report.html`, the tables of the command line and their pictures."""
+"""The report: what a build's stages gave (`BuildFacts`) → `report.json`, `report.html` and the command line's tables.
+
+In the order in which they build on each other: `words` and `rows` (how values, names and counted rows are worded),
+`document` (the report as one document; what fell short), `console` (tables for a terminal), `html` (the page).
+"""
 
 from yellowiron.report.console import (
     alignment_table,
@@ -11,6 +15,7 @@ from yellowiron.report.console import (
     specification_table,
 )
 from yellowiron.report.document import (
+    BuildFacts,
     alignment_entry,
     fell_short,
     missing_limits,
@@ -22,6 +27,7 @@ from yellowiron.report.document import (
 from yellowiron.report.html.page import page
 
 __all__ = [
+    "BuildFacts",
     "alignment_entry",
     "alignment_table",
     "build_summary",

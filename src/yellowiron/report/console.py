@@ -13,9 +13,9 @@ from rich.text import Text
 
 from yellowiron.model.alignment import Alignment, PartAssignment
 from yellowiron.model.mechanism import Measurement
-from yellowiron.model.text import display
 from yellowiron.report.document import within_tolerance
 from yellowiron.report.words import shown
+from yellowiron.support.text import display
 
 _STATUS = {"ok": "green", "review": "yellow", "conflict": "red", "missing": "dim", "unreadable": "red"}
 _SEVERITY = {"error": "red", "warning": "yellow", "info": "dim"}

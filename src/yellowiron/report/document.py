@@ -1,18 +1,18 @@
-"""`report.json`: everything a build decided and measured, as one document (DESIGN: the command line)."""
+"""`report.json`: everything a build decided and measured, as one document (docs/report.md)."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
 from yellowiron.model.alignment import Alignment
 from yellowiron.model.finding import Finding
-from yellowiron.model.mechanism import Joint, Measurement, Mechanism
+from yellowiron.model.mechanism import Body, Joint, Measurement, Mechanism
 from yellowiron.model.specification import Specification, Specifications
 from yellowiron.model.template import Template
-from yellowiron.model.text import to_json
+from yellowiron.support.text import to_json
 
 REVOLUTE_TOLERANCE = 0.1
 """Degrees: how far a measured angle may be from a published one before the build falls short."""
@@ -20,63 +20,49 @@ RELATIVE_TOLERANCE = 0.2
 """Percent: the same for every other quantity."""
 
 
-def report_document(
-    mechanism: Mechanism,
-    template: Template,
-    alignment: Alignment,
-    specifications: Specifications,
-    measurements: Sequence[Measurement],
-    *,
-    findings: Sequence[Finding] = (),
-    usd_counts: Mapping[str, int] | None = None,
-    levers: Mapping[str, Any] | None = None,
-    simulation: Mapping[str, Any] | None = None,
-    declared: Sequence[Any] = (),
-) -> dict[str, Any]:
+@dataclass(frozen=True, eq=False)
+class BuildFacts:
+    """What a build's stages gave, for its report. `findings`: those that no other value here carries; `usd_counts`: of
+    joints in the written file; `levers`: actuator → its table; `simulation`: engine → its document; `declared`: the
+    joints that the CAD file itself declares, beside what was found."""
+
+    mechanism: Mechanism
+    template: Template
+    alignment: Alignment
+    specifications: Specifications
+    measurements: Sequence[Measurement] = ()
+    findings: Sequence[Finding] = ()
+    usd_counts: Mapping[str, int] = field(default_factory=dict)
+    levers: Mapping[str, Any] = field(default_factory=dict)
+    simulation: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+    declared: Sequence[Any] = ()
+
+
+def report_document(facts: BuildFacts) -> dict[str, Any]:
     """The document behind `report.json` and `report.html`. SI units, machine frame, radians."""
-    everything = (*findings, *specifications.findings, *alignment.findings, *mechanism.findings)
+    mechanism, alignment = facts.mechanism, facts.alignment
+    everything = (*facts.findings, *facts.specifications.findings, *alignment.findings, *mechanism.findings)
     return {
         "machine": mechanism.name,
         "equipment_type": mechanism.equipment_type,
         "frame": alignment.frame,
-        "alignment": {
-            "parts": len(alignment.parts),
-            "assigned": sum(a.body is not None for a in alignment.parts),
-            "to_review": list(alignment.to_review),
-            "missing": list(alignment.missing),
-            "choices": dict(alignment.choices),
-        },
-        "specifications": [specification_entry(s) for s in specifications],
-        "bodies": [
-            {
-                "name": b.name,
-                "mass": b.mass,
-                "center_of_mass": b.center_of_mass,
-                "inertia": b.inertia,
-                "parts": [p.part for p in b.parts],
-                "source": b.source,
-            }
-            for b in mechanism.bodies
-        ],
+        "alignment": _alignment_counts(alignment),
+        "specifications": [specification_entry(s) for s in facts.specifications],
+        "bodies": [_body_entry(b) for b in mechanism.bodies],
         "joints": [_joint_entry(j) for j in mechanism.joints],
-        # What the CAD file itself declares, beside what was found.
-        "declared_joints": [asdict(d) for d in declared],
+        "declared_joints": [asdict(d) for d in facts.declared],
         "cylinders": [{**asdict(c), "extension": c.extension} for c in mechanism.cylinders],
         "actuators": [asdict(a) for a in mechanism.actuators],
         "loops": [asdict(loop) for loop in mechanism.loops],
-        "levers": dict(levers or {}),
+        "levers": dict(facts.levers),
         "sensors": [asdict(s) for s in mechanism.sensors],
-        "counts": _counts(mechanism, template),
-        "usd_counts": dict(usd_counts or {}),
+        "counts": _counts(mechanism, facts.template),
+        "usd_counts": dict(facts.usd_counts),
         "mobility": asdict(mechanism.mobility) if mechanism.mobility else None,
-        "measurements": [asdict(m) for m in measurements],
+        "measurements": [asdict(m) for m in facts.measurements],
         "findings": [asdict(f) for f in _unique(everything)],
-        # Steps per second differ from run to run: they belong to the console, not to a file that should not.
-        "simulation": {
-            engine: {key: value for key, value in run.items() if key != "steps_per_second"}
-            for engine, run in (simulation or {}).items()
-        },
-        "missing": missing_limits(template, specifications),
+        "simulation": {engine: _repeatable(run) for engine, run in facts.simulation.items()},
+        "missing": missing_limits(facts.template, facts.specifications),
     }
 
 
@@ -170,6 +156,33 @@ def _with_hint(message: str, hint: str) -> str:
 def write_document(document: Mapping[str, Any], path: Path) -> None:
     """Writes a document as JSON, the same bytes for the same content."""
     path.write_text(to_json(document), encoding="utf-8")
+
+
+def _repeatable(run: Mapping[str, Any]) -> dict[str, Any]:
+    """A simulation's document without its steps per second. They differ from run to run: they belong to the console,
+    not to a file that should not."""
+    return {key: value for key, value in run.items() if key != "steps_per_second"}
+
+
+def _alignment_counts(alignment: Alignment) -> dict[str, Any]:
+    return {
+        "parts": len(alignment.parts),
+        "assigned": sum(a.body is not None for a in alignment.parts),
+        "to_review": list(alignment.to_review),
+        "missing": list(alignment.missing),
+        "choices": dict(alignment.choices),
+    }
+
+
+def _body_entry(body: Body) -> dict[str, Any]:
+    return {
+        "name": body.name,
+        "mass": body.mass,
+        "center_of_mass": body.center_of_mass,
+        "inertia": body.inertia,
+        "parts": [p.part for p in body.parts],
+        "source": body.source,
+    }
 
 
 def _joint_entry(joint: Joint) -> dict[str, Any]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import Any
 
-from yellowiron.model.text import display
+from yellowiron.support.text import display
 
 MINUS = "\N{MINUS SIGN}"
 _SET = {"-": MINUS, " °": "°", "*": "\N{DOT OPERATOR}", "^2": "²", "^3": "³"}

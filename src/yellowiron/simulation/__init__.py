@@ -1,12 +1,13 @@
 """Simulation in real engines: every actuator driven, and every body's pose held against the closed-chain kinematics.
 
-A layer above the stages, like `build`: it may import `model`, `kinematics`, `usd` and `export`, and no stage imports
-it. Engines are imported only where they are used.
+A layer above the stages, like `build`: it may import `model`, `kinematics`, `usd` and `exporters`, and no stage imports
+it. In go a machine file and an engine's name, out come results as values and as JSON documents. Engines are imported
+only where they are used.
 
-One concept a module: `engine` (what an engine must do, and which there are), one module an engine, `payload`,
-`commands` (what the levers do), `loads` (what their drives must bear), `comparison` (engine against kinematics),
-`result`, `run`; `driving`; `hydraulics` (the template's tests), `rig` (a machine posed and pushed), `statics` (what it
-bears by calculation), `figures` (what came out); `suite` (all of it).
+In the order in which they build on each other: `ground` (what a machine stands on), `engine` (what an engine is given
+and must do), `registry` (which there are); `commands` (what the levers do), `loads` (what their drives must bear),
+`payload`; `engines` (one module an engine); `driving`, `strokes` and `machine_tests` (what a machine is put to);
+`suite` (all of it).
 
 Findings:
 
@@ -25,37 +26,21 @@ SIM009  driving: a distance, turning radius, turn on the spot or swing is off by
 
 from __future__ import annotations
 
-import importlib
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from yellowiron.support.lazy import lazy_names
 
 if TYPE_CHECKING:
-    from yellowiron.simulation.driving.wheeled import DrivingResult, drive, driving_document
-    from yellowiron.simulation.engine import ENGINES, Engine, Setup, installed_engines
+    from yellowiron.simulation.driving.result import DrivingResult, driving_document
+    from yellowiron.simulation.driving.wheeled import drive
+    from yellowiron.simulation.engine import Engine, Setup
     from yellowiron.simulation.machine_tests.figures import Figure, figures_document
     from yellowiron.simulation.machine_tests.hydraulics import run_tests
     from yellowiron.simulation.payload import parse_payload, rated_payload
+    from yellowiron.simulation.registry import ENGINES, installed_engines
     from yellowiron.simulation.strokes.result import SimulationResult, simulation_document
     from yellowiron.simulation.strokes.run import simulate
     from yellowiron.simulation.suite import examine
-
-_HOMES = {
-    "DrivingResult": "driving.wheeled",
-    "drive": "driving.wheeled",
-    "driving_document": "driving.wheeled",
-    "examine": "suite",
-    "ENGINES": "engine",
-    "Engine": "engine",
-    "Figure": "machine_tests.figures",
-    "Setup": "engine",
-    "SimulationResult": "strokes.result",
-    "installed_engines": "engine",
-    "parse_payload": "payload",
-    "rated_payload": "payload",
-    "run_tests": "machine_tests.hydraulics",
-    "simulate": "strokes.run",
-    "simulation_document": "strokes.result",
-    "figures_document": "machine_tests.figures",
-}
 
 __all__ = [
     "ENGINES",
@@ -76,8 +61,24 @@ __all__ = [
     "simulation_document",
 ]
 
-
-def __getattr__(name: str) -> Any:
-    if name not in _HOMES:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(importlib.import_module(f"{__name__}.{_HOMES[name]}"), name)
+__getattr__, __dir__ = lazy_names(
+    __name__,
+    {
+        "DrivingResult": "driving.result",
+        "ENGINES": "registry",
+        "Engine": "engine",
+        "Figure": "machine_tests.figures",
+        "Setup": "engine",
+        "SimulationResult": "strokes.result",
+        "drive": "driving.wheeled",
+        "driving_document": "driving.result",
+        "examine": "suite",
+        "figures_document": "machine_tests.figures",
+        "installed_engines": "registry",
+        "parse_payload": "payload",
+        "rated_payload": "payload",
+        "run_tests": "machine_tests.hydraulics",
+        "simulate": "strokes.run",
+        "simulation_document": "strokes.result",
+    },
+)

@@ -8,11 +8,12 @@ from dataclasses import dataclass
 from types import MappingProxyType
 
 import numpy as np
+from numpy.typing import NDArray
 
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Actuator, Mechanism, rolling
-from yellowiron.simulation.engine import standing_bodies
+from yellowiron.simulation.ground import standing_bodies
 
 SHARE = 0.02
 """Of the stroke, left at both ends."""
@@ -27,6 +28,8 @@ CRAWL = 0.1
 
 
 _GRID = 1001
+_SAMPLE = 0.05
+"""Seconds between two poses of a path that the kinematics is asked for."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -154,6 +157,11 @@ def _spin(speed: float, timestep: float, pace: Pace | None = None) -> Floats:
     time = 2.0 * RAMP if pace is None else max(2.0 * RAMP, abs(speed) / float(pace.limits.min()))
     up = np.linspace(0.0, 1.0, max(2, round(time / timestep)))
     return speed * np.concatenate([up, np.ones(round(HOLD / timestep)), up[::-1]])
+
+
+def sampled(count: int, timestep: float) -> NDArray[np.int64]:
+    """The steps (n,) of a path of `count` steps at which its pose is solved: every `_SAMPLE` seconds, and the last."""
+    return np.unique(np.append(np.arange(0, count, max(1, round(_SAMPLE / timestep))), count - 1))
 
 
 def travel(start: float, end: float, speed: float, timestep: float, pace: Pace | None = None) -> Floats:

@@ -1,63 +1,19 @@
-"""What an engine must do, and which engines there are."""
+"""What an engine is given, and what it must do."""
 
 from __future__ import annotations
 
-import importlib
-import importlib.util
-import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
-from types import MappingProxyType, ModuleType
-from typing import Any, Literal, NamedTuple, Protocol, cast
+from typing import Any, Literal, NamedTuple, Protocol
 
 import numpy as np
 
-from yellowiron.model.errors import YellowironError
 from yellowiron.model.geometry import Floats
-from yellowiron.model.mechanism import Body, Joint, Mechanism, chained, rolling
-
-TOUCHING = 0.02
-"""Metres: a body that comes this near to the ground as drawn stands on it."""
-UPRIGHT = 0.9
-"""Least vertical part of a unit axis about which a body slews."""
-
-GROUND_FRICTION = 0.7
-"""Of ground and blocks."""
+from yellowiron.model.mechanism import Body, Joint, Mechanism
+from yellowiron.simulation.ground import Block
 
 Base = Literal["fixed", "floating"]
-
-
-@dataclass(frozen=True, eq=False)
-class Block:
-    """A block on the ground, fixed to the world, with a ramp at both ends in x: its `middle` on the ground (x, y), the
-    `length` of its top, its `width`, `height` and the length `run` of each ramp, metres. Engines differ in what a wheel
-    does at a sharp edge, and agree on a ramp."""
-
-    middle: tuple[float, float]
-    length: float
-    width: float
-    height: float
-    run: float
-
-    @property
-    def corners(self) -> Floats:
-        """(8, 3), world frame: the convex hull is the block."""
-        x, y = self.middle
-        low, high = 0.5 * self.length + self.run, 0.5 * self.length
-        rows = [
-            (x + sx * half, y + sy * 0.5 * self.width, z)
-            for half, z in ((low, 0.0), (high, self.height))
-            for sx in (-1.0, 1.0)
-            for sy in (-1.0, 1.0)
-        ]
-        return np.array(rows, dtype=np.float64)
-
-    def surface(self, x: Floats, y: Floats) -> Floats:
-        """Height of ground and block at points."""
-        ramp = (0.5 * self.length + self.run - np.abs(x - self.middle[0])) / self.run
-        inside = np.abs(y - self.middle[1]) <= 0.5 * self.width
-        return np.asarray(np.where(inside, self.height * np.clip(ramp, 0.0, 1.0), 0.0), dtype=np.float64)
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,16 +34,6 @@ class Setup:
     driven: tuple[Joint, ...] = ()
     standing: tuple[str, ...] = ()
     blocks: tuple[Block, ...] = ()
-
-
-def standing_bodies(mechanism: Mechanism) -> tuple[str, ...]:
-    """The bodies whose lowest point is on the ground (z = 0) in the drawn pose: wheels, tracks, feet. Of a machine that
-    lies in rings of track shoes every shoe, and the wheels that they run on."""
-    down = {b.name for b in mechanism.bodies if len(b.hull) and float(np.asarray(b.hull)[:, 2].min()) < TOUCHING}
-    if mechanism.floating:
-        slewing = {j.body1 for j in mechanism.joints if abs(j.axis[2]) > UPRIGHT}
-        down |= chained(mechanism) | (rolling(mechanism) - slewing)
-    return tuple(b.name for b in mechanism.bodies if b.name in down)
 
 
 class Readings(NamedTuple):
@@ -145,76 +91,3 @@ def poses(engine: Engine) -> tuple[Floats, Floats]:
 def coordinates(engine: Engine) -> Floats:
     """Coordinates (measured,) now."""
     return engine.read([engine.state()]).coordinates[0]
-
-
-@dataclass(frozen=True)
-class EngineEntry:
-    """An engine there is: its `module` has `load(setup) -> Engine`. `timestep` is the default, seconds; bars are metres
-    (fixed and floating base) and radians; `install` says what to install where the module's imports fail; `needs` are
-    the modules of other projects that it imports."""
-
-    module: str
-    timestep: float
-    pin_bars: Mapping[Base, float] = field(default_factory=dict)
-    angle_bar: float = 1.7453292519943296e-4
-    install: str = ""
-    needs: tuple[str, ...] = ()
-
-
-ENGINES: Mapping[str, EngineEntry] = MappingProxyType(
-    {
-        "mujoco": EngineEntry(
-            "yellowiron.simulation.engines.mujoco",
-            0.001,
-            {"fixed": 5e-5, "floating": 1e-4},
-            install="pip install mujoco",
-            needs=("mujoco",),
-        ),
-        "newton": EngineEntry(
-            "yellowiron.simulation.engines.newton",
-            0.001,
-            {"fixed": 5e-5, "floating": 1e-4},
-            install="pip install 'yellowiron[newton]'",
-            needs=("newton", "newton_usd_schemas", "physx_usd_schemas", "warp"),
-        ),
-        "physx": EngineEntry(
-            "yellowiron.simulation.engines.physx",
-            1.0 / 120.0,
-            {"fixed": 2.5e-4, "floating": 2.5e-4},
-            angle_bar=math.radians(0.06),
-            install="pip install 'yellowiron[physx]'",
-            needs=("ovphysx", "ovstage", "newton_usd_schemas", "physx_usd_schemas", "warp"),
-        ),
-    }
-)
-
-
-def find_engine(name: str) -> EngineEntry:
-    """The engine of that name; `YellowironError` where there is none."""
-    if name not in ENGINES:
-        raise YellowironError(f"There is no engine '{name}'", hint=f"Known: {', '.join(ENGINES)}.")
-    return ENGINES[name]
-
-
-def import_engine(name: str) -> ModuleType:
-    """The engine's module; `YellowironError` that says what to install where it is not there.
-
-    Called before the first stage is opened: some engines bring USD schemas, which USD looks up only once.
-    """
-    entry = find_engine(name)
-    try:
-        return importlib.import_module(entry.module)
-    except ModuleNotFoundError as error:
-        raise YellowironError(
-            f"The engine '{name}' needs the module '{error.name}', which is not installed", hint=f"{entry.install}"
-        ) from error
-
-
-def installed_engines() -> tuple[str, ...]:
-    """The engines that are there, in the order of `ENGINES`. Nothing of them is imported."""
-    return tuple(name for name, entry in ENGINES.items() if all(map(importlib.util.find_spec, entry.needs)))
-
-
-def load_engine(name: str, setup: Setup) -> Engine:
-    """The engine with the machine loaded; errors as in `import_engine`."""
-    return cast(Engine, import_engine(name).load(setup))

@@ -9,22 +9,28 @@ import numpy as np
 
 from yellowiron.kinematics import ClosedChain, State
 from yellowiron.model.geometry import Floats
-from yellowiron.simulation.commands import Motion, Pace
+from yellowiron.simulation.commands import Motion, Pace, sampled
 
 GRAVITY = 9.81
 SPARE = 0.8
 """Share of a drive's force, less the weight it holds, that the targets' acceleration may ask for."""
 _POINTS = 13
-_SAMPLE = 0.05
 _STEP = 1e-4
+"""Metres or radians to either side of a coordinate: for slopes."""
+
+
+def beside(chain: ClosedChain, state: State, joint: str) -> tuple[list[State], float]:
+    """The states a little below and above one along a joint's coordinate, and how far they are apart; 0 or less where
+    the linkage locks."""
+    place = chain.coordinate(state, joint)
+    ends = [chain.reach({joint: place + step}, start=state)[0] for step in (-_STEP, _STEP)]
+    return ends, chain.coordinate(ends[1], joint) - chain.coordinate(ends[0], joint)
 
 
 def weight(chain: ClosedChain, state: State, joint: str) -> float:
     """Force (N) or torque (N·m) along a joint's coordinate that holds the machine's weight: the potential energy's
     slope, the root upright."""
-    place = chain.coordinate(state, joint)
-    ends = [chain.reach({joint: place + step}, start=state)[0] for step in (-_STEP, _STEP)]
-    way = chain.coordinate(ends[1], joint) - chain.coordinate(ends[0], joint)
+    ends, way = beside(chain, state, joint)
     if way <= 0.0:
         return 0.0
     rotations, origins = chain.placements(ends)
@@ -43,7 +49,7 @@ def carried(
 
     A position drive is a spring: it holds a weight only some way short of its target, so it is sent that much further,
     as an operator does, but never past its joint's limits. Cylinders that no target is given for hold the drawn pose.
-    Weights are those of the target pose, sampled every `_SAMPLE` seconds.
+    Weights are those of the target pose, at the steps of `sampled`.
     """
     count = max((len(values) for values in targets.values()), default=0)
     told = dict(targets)
@@ -51,14 +57,14 @@ def carried(
     if not held or not count:
         return told
     wanted = {m.joint: targets.get(m.joint, np.zeros(count)) for m in held}
-    sampled = np.unique(np.append(np.arange(0, count, max(1, round(_SAMPLE / timestep))), count - 1))
-    states = chain.sweep({joint: values[sampled] for joint, values in wanted.items()})
+    steps = sampled(count, timestep)
+    states = chain.sweep({joint: values[steps] for joint, values in wanted.items()})
     for motion in held if states else ():
         joint = chain.mechanism.joint(motion.joint)
         if joint.drive is None or joint.drive.stiffness <= 0.0:
             continue
         sags = [weight(chain, state, motion.joint) / joint.drive.stiffness for state in states]
-        further = np.interp(np.arange(count), sampled[: len(sags)], sags)
+        further = np.interp(np.arange(count), steps[: len(sags)], sags)
         told[motion.joint] = np.clip(wanted[motion.joint] + further, joint.lower, joint.upper)
     return told
 

@@ -10,7 +10,7 @@ import numpy as np
 from yellowiron.kinematics.measuring.sheet import specified
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.mechanism import Body, Mechanism, Site
-from yellowiron.model.units import parse_quantity
+from yellowiron.support.units import parse_quantity
 
 MATERIAL_DENSITY = 1800.0
 """kg/m³ of loose earth and gravel: how large a ball a payload is."""
@@ -39,9 +39,9 @@ def rated_payload(mechanism: Mechanism) -> RatedPayload:
 def parse_payload(text: str, usd_path: str | Path) -> RatedPayload:
     """A payload as a person gives it: kilograms, or `rated` for the machine file's own (`rated_payload`)."""
     if text.strip().casefold() == "rated":
-        from yellowiron.usd import read_machine
+        from yellowiron.usd import read_mechanism
 
-        return rated_payload(read_machine(usd_path))
+        return rated_payload(read_mechanism(usd_path))
     try:
         value, unit = parse_quantity(text, where="--payload")
     except YellowironError:

@@ -13,11 +13,14 @@ from yellowiron import usd
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.finding import Finding
 from yellowiron.model.sweep import Sweep
-from yellowiron.simulation.driving.wheeled import drive, driving_document, driving_findings, wheels
-from yellowiron.simulation.engine import Base, find_engine, import_engine
+from yellowiron.simulation.driving.result import driving_document, driving_findings
+from yellowiron.simulation.driving.wheel import driven_wheels
+from yellowiron.simulation.driving.wheeled import drive
+from yellowiron.simulation.engine import Base
 from yellowiron.simulation.machine_tests.figures import figure_findings, figures_document
 from yellowiron.simulation.machine_tests.hydraulics import run_tests
 from yellowiron.simulation.payload import RatedPayload
+from yellowiron.simulation.registry import find_engine, import_engine
 from yellowiron.simulation.strokes.result import simulation_document
 from yellowiron.simulation.strokes.run import simulate
 from yellowiron.support.guard import beat, run_guarded
@@ -106,7 +109,7 @@ def _driven(
     usd_path: str | Path, engine: str, dt: float | None, progress: Callable[[str], None]
 ) -> tuple[dict[str, Any], Sequence[Finding]]:
     try:
-        wheels(usd.read_machine(usd_path))
+        driven_wheels(usd.read_mechanism(usd_path))
     except YellowironError as error:
         return {"driving": None, "driving_reason": error.message}, ()
     progress(f"Driving in {engine}")

@@ -3,6 +3,10 @@
 `extract` reads sheets by rules, without any network, or with a language model that the user names; `parse_settings`
 takes values a person gives; `merge` decides between sources; `draw_evidence` shows on pictures of the pages where each
 value stands; `missing_values` says what a person can still give.
+
+In: paths of PDFs and a `Template`; out: `Specifications`. `pages` (what is drawn) and `language` (what words and
+numbers mean) ← `layout` (statements) ← `values` (claims, matches, decisions) ← `llm`; `reader` and `ocr` read a PDF's
+pages in a guarded child process, `extraction` goes the whole way and `findings` tells of it, `evidence_images` draws.
 """
 
 from __future__ import annotations

@@ -20,7 +20,7 @@ Mark = tuple[int, tuple[float, float, float, float], str, str]
 """Page, box in points, kind (a key of the colours), caption."""
 
 
-def draw_evidence(pdfs: Sequence[Path], specifications: Specifications, folder: Path) -> tuple[Path, ...]:
+def draw_evidence(sheets: Sequence[Path], specifications: Specifications, folder: Path) -> tuple[Path, ...]:
     """Writes a PNG of each page that gave evidence into `folder`, with a captioned box around each value.
 
     Green: `ok`; blue: an example value; orange: to review; red: one candidate of a conflict. Returns the paths written.
@@ -34,17 +34,17 @@ def draw_evidence(pdfs: Sequence[Path], specifications: Specifications, folder: 
             f"{folder.name} cannot be made: {error.strerror or error}", where=str(folder), hint="Choose another folder."
         ) from error
     written: list[Path] = []
-    for pdf in pdfs:
-        marks = _marks(specifications, Path(pdf).name)
+    for sheet in sheets:
+        marks = _marks(specifications, Path(sheet).name)
         if not marks:
             continue
-        check_file(Path(pdf))
+        check_file(Path(sheet))
         pages = run_guarded(
             "yellowiron.specs.evidence_images:draw_pages",
-            Path(pdf).resolve(),
+            Path(sheet).resolve(),
             marks,
             folder.resolve(),
-            where=str(pdf),
+            where=str(sheet),
             error=SheetError,
             timeout_s=TIMEOUT_S,
             memory_mb=MEMORY_MB,
@@ -67,16 +67,16 @@ def _marks(specifications: Specifications, file: str) -> list[Mark]:
     return marks
 
 
-def draw_pages(pdf: Path, marks: Sequence[Mark], folder: Path) -> list[str]:
-    """Draws the marked pages of one PDF (runs in the guarded child); the names of the files written."""
+def draw_pages(sheet: Path, marks: Sequence[Mark], folder: Path) -> list[str]:
+    """Draws the marked pages of one sheet (runs in the guarded child); the names of the files written."""
     import pypdfium2
     from PIL import Image, ImageDraw
 
     names: list[str] = []
-    document = pypdfium2.PdfDocument(pdf)
+    document = pypdfium2.PdfDocument(sheet)
     try:
         for number in sorted({mark[0] for mark in marks}):
-            beat(f"Drawing page {number} of {pdf.name}")
+            beat(f"Drawing page {number} of {sheet.name}")
             opened = document[number - 1]
             width, height = opened.get_size()
             scale = min(_SCALE, (_MOST_PIXELS / max(width * height, 1.0)) ** 0.5)
@@ -85,7 +85,7 @@ def draw_pages(pdf: Path, marks: Sequence[Mark], folder: Path) -> list[str]:
             image = Image.new("RGB", (page.width + 2 * _MARGIN, page.height), (250, 250, 250))
             image.paste(page, (_MARGIN, 0))
             _draw(ImageDraw.Draw(image, "RGBA"), page.width, scale, [m for m in marks if m[0] == number])
-            name = f"{pdf.stem}-page-{number}.png"
+            name = f"{sheet.stem}-page-{number}.png"
             image.save(folder / name)
             names.append(name)
     finally:

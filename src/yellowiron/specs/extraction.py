@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import functools
+from collections.abc import Callable, Mapping, Sequence
 from collections.abc import Set as AbstractSet
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
 
@@ -13,7 +14,8 @@ from yellowiron.model.finding import Finding
 from yellowiron.model.specification import Specification, Specifications
 from yellowiron.model.template import Template, Wanted
 from yellowiron.specs import ocr
-from yellowiron.specs.language.numbers import DecimalStyle, decimal_style
+from yellowiron.specs.findings import ignored_phrases, model_cost, model_failure, unread_pages
+from yellowiron.specs.language.decimal_style import DecimalStyle, decimal_style
 from yellowiron.specs.layout.nearest import Near
 from yellowiron.specs.llm.agreement import agreed
 from yellowiron.specs.llm.endpoint import Endpoint, EndpointError, ModelOptions
@@ -21,21 +23,19 @@ from yellowiron.specs.llm.extractor import find
 from yellowiron.specs.reader import MEMORY_MB, TIMEOUT_S, Sheet, check_file
 from yellowiron.specs.values.claims import Claim, claims_of, configured
 from yellowiron.specs.values.cross_check import second_reading, stands_in
-from yellowiron.specs.values.decision import Sheets, decide, quantity_words, unmatched, unreadable
+from yellowiron.specs.values.decision import Column, Sheets, decide, quantity_words, unreadable
 from yellowiron.specs.values.matching import match
 from yellowiron.specs.values.requested import asked
+from yellowiron.specs.values.tolerances import DOUBTFUL
 from yellowiron.specs.values.values_in_labels import in_label
 from yellowiron.support.guard import run_guarded
 
 Extractor = Literal["rules", "llm", "both"]
-_INSTALL = "Install the program tesseract (tesseract-ocr) to have it read"
-_MOST_COLUMNS = 20
-"""Columns that a hint names."""
 
 
 def extract(
     template: Template,
-    pdfs: Sequence[Path],
+    sheets: Sequence[Path],
     *,
     config: str = "",
     extractor: Extractor = "rules",
@@ -55,7 +55,7 @@ def extract(
     """
     return from_sheets(
         template,
-        [read(path, progress=progress) for path in pdfs],
+        [read(path, progress=progress) for path in sheets],
         config=config,
         extractor=extractor,
         model=model,
@@ -119,51 +119,97 @@ def from_sheets(
 ) -> Specifications:
     """`extract` on sheets that are already read."""
     wanted = asked(template)
-    claims: list[Claim] = []
-    guessed: list[Claim] = []
-    files: dict[int, str] = {}
-    columns: dict[int, frozenset[str]] = {}
+    sheets = [_numbered(sheet, number) for number, sheet in enumerate(sheets)]
+    claimed, known = _claimed(sheets, config), _known(sheets)
+    style = sheets[0].style if sheets else "point"
+    values = _by_rules(wanted, claimed.printed, known, config, style)
+    values = second_reading(wanted, values, claimed.near, known, config)
+    if claimed.recognised:
+        # Words read from a picture have a say only where no text has.
+        open_ = [w for w in wanted if values[w.name].status == "missing"]
+        values |= _by_rules(open_, claimed.recognised, known, config, style)
+    claims = [*claimed.printed, *claimed.recognised]
+    findings = [*unread_pages(sheets), *ignored_phrases(config, claims, known, sheets)]
+    if extractor != "rules":
+        ask = functools.partial(find, wanted, claims, known, config=config, style=style, progress=progress)
+        pointed, more = _by_model(ask, model, alone=extractor == "llm")
+        both = {w.name: agreed(w, values[w.name], pointed[w.name]) for w in wanted if w.name in pointed}
+        values |= pointed if extractor == "llm" else both
+        findings += more
+    return Specifications(_of_pictures(wanted, values, sheets), tuple(findings))
+
+
+def _numbered(sheet: Sheet, number: int) -> Sheet:
+    """The sheet with its number among those read together in its statements."""
+    return replace(
+        sheet,
+        statements=tuple(replace(s, sheet=number) for s in sheet.statements),
+        near=tuple(replace(n, statement=replace(n.statement, sheet=number)) for n in sheet.near),
+    )
+
+
+@dataclass(frozen=True)
+class _Claimed:
+    """What the sheets claim of the configuration that is meant: `printed` in their text, `recognised` on pictures of
+    pages; `near`: of each sheet the second reading's values that stand in no cell of another configuration."""
+
+    printed: Sequence[Claim]
+    recognised: Sequence[Claim]
+    near: Sequence[tuple[Sequence[Near], DecimalStyle]]
+
+
+def _claimed(sheets: Sequence[Sheet], config: str) -> _Claimed:
+    printed: list[Claim] = []
+    recognised: list[Claim] = []
     near: list[tuple[list[Near], DecimalStyle]] = []
     for sheet in sheets:
         every = claims_of(sheet.statements, sheet.style)
         meant = configured(every, config)
         for claim in meant:
-            (guessed if claim.statement.page in sheet.recognised else claims).append(claim)
-        kept = {id(claim.statement) for claim in meant}
-        others = [claim.statement for claim in every if id(claim.statement) not in kept]
+            (recognised if claim.statement.page in sheet.recognised else printed).append(claim)
+        kept = {claim.statement for claim in meant}
+        others = [claim.statement for claim in every if claim.statement not in kept]
         near.append(([n for n in sheet.near if not any(stands_in(n.statement, s) for s in others)], sheet.style))
-        files.update((id(s), sheet.file) for s in (*sheet.statements, *(n.statement for n in sheet.near)))
-        columns.update(_columns(sheet))
-    stated = tuple(one for sheet in sheets for one in sheet.stated)
-    known = Sheets(files, columns, stated)
-    style = sheets[0].style if sheets else "point"
-    values = _by_rules(wanted, claims, known, config, style)
-    values = second_reading(wanted, values, near, known, config)
-    if guessed:
-        # Words read from a picture have a say only where no text has.
-        open_ = [w for w in wanted if values[w.name].status == "missing"]
-        values |= _by_rules(open_, guessed, known, config, style)
-        claims += guessed
-    findings = [*_findings(sheets), *_ignored(config, claims, known, sheets)]
-    if extractor != "rules":
-        with Endpoint(model or ModelOptions("")) as endpoint:
-            try:
-                pointed = find(wanted, claims, known, endpoint, config=config, style=style, progress=progress)
-            except EndpointError as error:
-                if extractor == "llm":
-                    raise
-                findings.append(_unanswered(error))
-                pointed = {}
-            findings.append(_cost(endpoint))
-        both = {w.name: agreed(w, values[w.name], pointed[w.name]) for w in wanted if w.name in pointed}
-        values |= pointed if extractor == "llm" else both
+    return _Claimed(printed, recognised, near)
+
+
+def _known(sheets: Sequence[Sheet]) -> Sheets:
+    """The sheets' files, the quantities of each column's cells, the sentences that state a configuration."""
+    columns: dict[Column, frozenset[str]] = {}
+    for sheet in sheets:
+        for one in sheet.statements:
+            if one.column:
+                place = (one.sheet, one.page, one.column)
+                columns[place] = columns.get(place, frozenset()) | quantity_words(one.text, one.unit, sheet.style)
+    return Sheets(tuple(s.file for s in sheets), columns, tuple(one for sheet in sheets for one in sheet.stated))
+
+
+def _by_model(
+    ask: Callable[[Endpoint], dict[str, Specification]], model: ModelOptions | None, *, alone: bool
+) -> tuple[dict[str, Specification], list[Finding]]:
+    """What the language model points to, and findings of what it cost; `alone`: an endpoint that fails is an error."""
+    with Endpoint(model or ModelOptions("")) as endpoint:
+        try:
+            return ask(endpoint), [model_cost(endpoint)]
+        except EndpointError as error:
+            if alone:
+                raise
+            return {}, [model_failure(error), model_cost(endpoint)]
+
+
+def _of_pictures(
+    wanted: Sequence[Wanted], values: Mapping[str, Specification], sheets: Sequence[Sheet]
+) -> dict[str, Specification]:
+    """The values with those from pictures of pages to review at most, and those that may stand on pages without text
+    `unreadable`."""
     pictures = {(s.file, number) for s in sheets for number in s.recognised}
     silent = [s.file for s in sheets if s.silent and all(one.page in s.recognised for one in s.statements)]
+    found = dict(values)
     for one in wanted:
-        values[one.name] = _at_most_review(values[one.name], pictures)
-        if silent and values[one.name].status == "missing":
-            values[one.name] = unreadable(one, silent)
-    return Specifications(values, tuple(findings))
+        found[one.name] = _at_most_review(found[one.name], pictures)
+        if silent and found[one.name].status == "missing":
+            found[one.name] = unreadable(one, silent)
+    return found
 
 
 def _by_rules(
@@ -188,104 +234,7 @@ def _at_most_review(value: Specification, pictures: AbstractSet[tuple[str, int]]
     return replace(
         value,
         status="review",
-        confidence=min(value.confidence, 0.5),
+        confidence=min(value.confidence, DOUBTFUL),
         reason=f"page {seen.page} is a picture: its text is what tesseract makes of it; {value.reason}",
         hint=f'Compare it with the page; settle it with --set "{value.name}=VALUE UNIT".',
     )
-
-
-def _ignored(config: str, claims: Sequence[Claim], known: Sheets, sheets: Sequence[Sheet]) -> list[Finding]:
-    """A finding for every phrase of the configuration that no sheet says, with the columns there are."""
-    if not claims:
-        return []
-    heads = [", ".join(s.column) for sheet in sheets for s in sheet.statements if s.column]
-    columns = list(dict.fromkeys(heads))
-    named = " | ".join(columns[:_MOST_COLUMNS]) + (" | …" if len(columns) > _MOST_COLUMNS else "")
-    return [
-        Finding(
-            code="SPC002",
-            severity="warning",
-            where=f"--config {phrase}",
-            message=f"No column, heading or label of the sheets says '{phrase}': it chooses nothing",
-            hint=f"The columns there are: {named}." if columns else "The sheets have no columns to choose from.",
-        )
-        for phrase in unmatched(config, claims, known)
-    ]
-
-
-def _cost(endpoint: Endpoint) -> Finding:
-    options = endpoint.options
-    return Finding(
-        code="SPC004",
-        severity="info",
-        where=options.url or str(options.replay),
-        message=f"The language model {options.model} was asked: {endpoint.usage}",
-    )
-
-
-def _unanswered(error: EndpointError) -> Finding:
-    return Finding(
-        code="SPC003",
-        severity="warning",
-        where=error.where,
-        message=f"{error.message}: the rules alone read the sheets",
-        hint=error.hint,
-    )
-
-
-def _columns(sheet: Sheet) -> dict[int, frozenset[str]]:
-    """For each statement in a column of a table, by identity: the quantities of that column's cells."""
-    words: dict[tuple[int, tuple[str, ...]], set[str]] = {}
-    for statement in sheet.statements:
-        if statement.column:
-            found = words.setdefault((statement.page, statement.column), set())
-            found.update(quantity_words(statement.text, statement.unit, sheet.style))
-    return {id(s): frozenset(words[s.page, s.column]) for s in sheet.statements if s.column}
-
-
-def _findings(sheets: Sequence[Sheet]) -> list[Finding]:
-    findings = []
-    for sheet in sheets:
-        if sheet.recognised:
-            pages = _pages(sheet.recognised)
-            findings.append(
-                Finding(
-                    code="SPC005",
-                    severity="info",
-                    where=f"{sheet.file}, {pages}",
-                    message=f"{sheet.file} has no text layer on {pages}: read there through tesseract",
-                    hint="Compare the values to review with the pages.",
-                )
-            )
-        if not sheet.silent:
-            continue
-        pages = _pages(sheet.silent)
-        whole = all(one.page in sheet.recognised for one in sheet.statements)
-        message = f"{sheet.file} has no text layer on {pages}: nothing could be read there"
-        message += f"; {sheet.unrecognised}" if sheet.unrecognised else ""
-        installed = "Run it through text recognition (OCR) first" if ocr.program() else _INSTALL
-        findings.append(
-            Finding(
-                code="SPC001",
-                severity="warning" if whole else "info",
-                where=f"{sheet.file}, {pages}",
-                message=message,
-                hint=f"{installed}, or give the values with --set."
-                if whole
-                else f"Only if these pages hold specifications: {installed[0].lower()}{installed[1:]}.",
-            )
-        )
-    return findings
-
-
-def _pages(numbers: Sequence[int]) -> str:
-    parts: list[str] = []
-    start = previous = numbers[0]
-    for number in [*numbers[1:], None]:
-        if number is not None and number == previous + 1:
-            previous = number
-            continue
-        parts.append(f"{start}" if start == previous else f"{start}–{previous}")
-        if number is not None:
-            start = previous = number
-    return f"page{'s' if len(numbers) > 1 else ''} {', '.join(parts)}"

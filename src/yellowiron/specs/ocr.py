@@ -112,12 +112,10 @@ def _meant(text: str, confidence: float) -> bool:
 
 def _line(rows: Sequence[dict[str, str]], scale: float) -> list[Word]:
     """A recognised line's words on one baseline, in one size."""
-    tops = {id(r): int(r["top"]) for r in rows}
-    ends = {id(r): int(r["top"]) + int(r["height"]) for r in rows}
     standing = [r for r in rows if not _LOW & set(r["text"])] or rows
     full = [r for r in standing if any(c.isupper() or c in _HIGH or ord(c) > 0x2E7F for c in r["text"])] or standing
-    baseline = statistics.median(ends[id(r)] for r in standing) / scale
-    size = statistics.median(ends[id(r)] - tops[id(r)] for r in full) / scale / _CAP
+    baseline = statistics.median(int(r["top"]) + int(r["height"]) for r in standing) / scale
+    size = statistics.median(int(r["height"]) for r in full) / scale / _CAP
     return [
         Word(r["text"].strip(), int(r["left"]) / scale, (int(r["left"]) + int(r["width"])) / scale, baseline, size)
         for r in rows

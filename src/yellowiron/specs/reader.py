@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from yellowiron.model.errors import SheetError
-from yellowiron.specs.language.numbers import DecimalStyle, decimal_style
+from yellowiron.specs.language.decimal_style import DecimalStyle, decimal_style
 from yellowiron.specs.layout.nearest import Near, nearest_of
 from yellowiron.specs.layout.router import statements_of
 from yellowiron.specs.layout.statement import Statement

@@ -4,25 +4,22 @@ here."""
 from __future__ import annotations
 
 import contextlib
-import importlib
-import math
 import os
 import pickle
-import resource
 import selectors
 import signal
 import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
+from pkgutil import resolve_name
 from typing import IO, Any, cast
 
 from yellowiron.model.errors import YellowironError
+from yellowiron.support import limits
 
-_PR_SET_PDEATHSIG = 1
-"""linux/prctl.h."""
 _CRASH_HINT = "The file is damaged, or made to break its reader; open it in its own program and export it again."
 _BEAT = 1.0
 """Seconds between two signs of life."""
@@ -45,8 +42,10 @@ def run_guarded(
 
     A `YellowironError` raised there is raised here. A crash, more than `timeout_s` seconds without a sign of life
     (`beat`; readers give none) or more than `memory_mb` of address space raise `error`, naming `where`. `progress` is
-    called with what the child says of itself; `who`, `late` and `hint` word the errors.
+    called with what the child says of itself; `who`, `late` and `hint` word the errors. `YellowironError` on a system
+    without the processes and limits that this takes (`yellowiron.support.limits` says which has what).
     """
+    limits.require_supported_platform()
     with tempfile.TemporaryDirectory(prefix="yellowiron-") as folder:
         call, answer = Path(folder, "call"), Path(folder, "answer")
         life, told = os.pipe()
@@ -134,19 +133,6 @@ def beat(words: str = "") -> None:
         os.write(_life, f"{words}\n".encode())
 
 
-@contextlib.contextmanager
-def must_end(seconds: float) -> Iterator[None]:
-    """Ends the process, a guarded child, where what is inside takes more than so many seconds of the processor: for
-    readers that go round in a circle on some damage, and whose time is known from the file's size."""
-    before = resource.getrlimit(resource.RLIMIT_CPU)
-    latest = math.ceil(time.process_time() + seconds)
-    resource.setrlimit(resource.RLIMIT_CPU, (latest, before[1]))
-    try:
-        yield
-    finally:
-        resource.setrlimit(resource.RLIMIT_CPU, before)
-
-
 def _obituary(who: str, returncode: int, noise: bytes) -> str:
     if returncode == -signal.SIGXCPU:
         return f"{who} came to no end"
@@ -158,26 +144,16 @@ def _obituary(who: str, returncode: int, noise: bytes) -> str:
     return f"{who} ended with code {returncode} and no result{detail}"
 
 
-def _die_with_parent() -> None:
-    """Asks the kernel to end this process when its parent ends, however that ends (Linux; elsewhere it may linger)."""
-    import ctypes
-
-    with contextlib.suppress(AttributeError, OSError):
-        ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
-
-
 def _child(call: Path) -> None:
     global _life
-    _die_with_parent()
+    limits.die_with_parent()
     target, args, memory_mb, answer, _life = pickle.loads(call.read_bytes())
     if memory_mb is not None:
-        limit = memory_mb * 1024 * 1024
-        resource.setrlimit(resource.RLIMIT_AS, (limit, limit))
-    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    module_name, function_name = target.split(":")
+        limits.limit_memory(memory_mb)
+    limits.leave_no_core()
     outcome: tuple[str, Any]
     try:
-        outcome = ("value", getattr(importlib.import_module(module_name), function_name)(*args))
+        outcome = ("value", resolve_name(target)(*args))
     except YellowironError as error:
         outcome = ("error", error)
     except MemoryError:

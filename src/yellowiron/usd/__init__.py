@@ -1,24 +1,31 @@
-"""USD: machines and plain assemblies written, machines read back. The names here import `pxr` when they are used."""
+"""USD: machines and plain assemblies written, machines read back.
+
+`Mechanism` × `Assembly` → a machine's files (`write_machine`), `Assembly` → plain USD (`write_assembly`), a machine's
+file → `Mechanism` (`read_mechanism`) or what it counts (`count_joints`). The names here import `pxr` when they are
+used. In order: `authoring` (how anything is written), `planning` (what is written where), `layers` (one concept a
+layer), `write`, `convert`, `read`, `counts`.
+"""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from yellowiron.support.lazy import lazy_names
 
 if TYPE_CHECKING:
     from yellowiron.usd.convert import write_assembly
     from yellowiron.usd.counts import count_joints
-    from yellowiron.usd.read import read_machine
+    from yellowiron.usd.read import read_mechanism
     from yellowiron.usd.write import write_machine
 
-__all__ = ["count_joints", "read_machine", "write_assembly", "write_machine"]
+__all__ = ["count_joints", "read_mechanism", "write_assembly", "write_machine"]
 
-_HOMES = {"count_joints": "counts", "read_machine": "read", "write_assembly": "convert", "write_machine": "write"}
-
-
-def __getattr__(name: str) -> Any:
-    """The public functions, imported on first use."""
-    if name not in _HOMES:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    import importlib
-
-    return getattr(importlib.import_module(f"{__name__}.{_HOMES[name]}"), name)
+__getattr__, __dir__ = lazy_names(
+    __name__,
+    {
+        "count_joints": "counts",
+        "read_mechanism": "read",
+        "write_assembly": "convert",
+        "write_machine": "write",
+    },
+)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from pxr import Usd, UsdPhysics
 
-from yellowiron.usd.authoring.metadata import KEY
+from yellowiron.support.record import RECORD
 from yellowiron.usd.read import open_stage
 
 _TYPES = {
@@ -36,5 +36,5 @@ def count_joints(path: str | Path) -> dict[str, int]:
 
 def _in_ring(joint: UsdPhysics.Joint) -> bool:
     """Whether a joint is in the tree of a chain that no joint ties to the machine."""
-    record = joint.GetPrim().GetCustomDataByKey(KEY) or {}
+    record = joint.GetPrim().GetCustomDataByKey(RECORD) or {}
     return bool(record.get("floating")) and not record.get("cut")

@@ -17,13 +17,15 @@ from pxr import Gf, Sdf, Tf, Usd, UsdGeom, UsdPhysics, UsdUtils
 
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.geometry import Floats
-from yellowiron.model.mechanism import Body, BodyPart, BodyShape, Drive, Joint, Mechanism, Site, Vector
+from yellowiron.model.mechanism import Body, BodyPart, BodyShape, Drive, Joint, Mechanism, Site
 from yellowiron.model.template import JointType
-from yellowiron.usd.authoring.metadata import DOCUMENTS, FORMAT, KEY, from_json
+from yellowiron.support.record import RECORD
+from yellowiron.support.vectors import triple
+from yellowiron.usd.authoring.metadata import DOCUMENTS, FORMAT, from_json
 from yellowiron.usd.authoring.rotation import axis_of, principal_axes
 from yellowiron.usd.layers.drives import INSTANCES, per_usd_unit, to_usd_unit
 from yellowiron.usd.layers.sensors import read_sensors
-from yellowiron.usd.planning.pin_links import KIND as END
+from yellowiron.usd.planning.pin_links import KIND as PIN_LINK
 from yellowiron.usd.planning.plan import HULL, JOINTS, VISUALS
 
 _SUFFIXES = {".usd", ".usda", ".usdc", ".usdz"}
@@ -32,7 +34,7 @@ _SINGLE = 2.0**-22
 """Relative distance within which a double and a single-precision attribute say the same."""
 
 
-def read_machine(path: str | Path) -> Mechanism:
+def read_mechanism(path: str | Path) -> Mechanism:
     """The mechanism in a machine file, or in a scene that holds one. SI, machine frame, drawn pose.
 
     `YellowironError` where the file is no USD, references that it needs are missing, or there is no machine of ours.
@@ -110,7 +112,7 @@ def find_machine(stage: Usd.Stage, where: str) -> Usd.Prim:
     if default:
         candidates = (default, *default.GetChildren(), *candidates)
     for prim in candidates:
-        data = prim.GetCustomDataByKey(KEY)
+        data = prim.GetCustomDataByKey(RECORD)
         if data and "equipmentType" in data:
             if data.get("format") != FORMAT:
                 raise YellowironError(
@@ -132,10 +134,10 @@ class _Reader:
         self._names: dict[Sdf.Path, str] = {}
 
     def read(self) -> Mechanism:
-        data = self._prim.GetCustomDataByKey(KEY)
+        data = self._prim.GetCustomDataByKey(RECORD)
         body_prims = [p for p in self._prim.GetChildren() if _kind(p) == "body"]
         self._names = {p.GetPath(): str(_data(p)["name"]) for p in body_prims}
-        self._names |= {p.GetPath(): str(_data(p)["name"]) for p in self._prim.GetChildren() if _kind(p) == END}
+        self._names |= {p.GetPath(): str(_data(p)["name"]) for p in self._prim.GetChildren() if _kind(p) == PIN_LINK}
         bodies = tuple(self._body(p) for p in body_prims)
         scope = self._prim.GetChild(JOINTS)
         joint_prims = [p for p in scope.GetChildren() if _kind(p) == "joint"] if scope else []
@@ -167,9 +169,9 @@ class _Reader:
             inertia = columns @ np.diag(written) @ columns.T
         return Body(
             name=str(data["name"]),
-            origin=_vector(origin),
+            origin=triple(origin),
             mass=_number(mass.GetMassAttr(), data["mass"]),
-            center_of_mass=_vector(center),
+            center_of_mass=triple(center),
             inertia=inertia,
             parts=tuple(self._parts(prim)),
             hull=self._hull(prim, origin),
@@ -209,9 +211,9 @@ class _Reader:
                 yield Site(
                     name=str(data["name"]),
                     body=self._names[body.GetPath()],
-                    position=_vector(_exact(np.array(matrix.ExtractTranslation()), np.array(data["position"]))),
-                    x_axis=_vector(_exact(np.array(x), np.array(data["xAxis"]), scale=1.0)),
-                    z_axis=_vector(_exact(np.array(z), np.array(data["zAxis"]), scale=1.0)),
+                    position=triple(_exact(np.array(matrix.ExtractTranslation()), np.array(data["position"]))),
+                    x_axis=triple(_exact(np.array(x), np.array(data["xAxis"]), scale=1.0)),
+                    z_axis=triple(_exact(np.array(z), np.array(data["zAxis"]), scale=1.0)),
                     source=str(data.get("source", "")),
                 )
 
@@ -233,8 +235,8 @@ class _Reader:
             type=kind,
             body0=names[0],
             body1=names[1],
-            anchor=_vector(_exact(anchor, recorded, scale=np.abs(recorded - origin))),
-            axis=_vector(_exact(axis, np.array(data["axis"]), scale=1.0)),
+            anchor=triple(_exact(anchor, recorded, scale=np.abs(recorded - origin))),
+            axis=triple(_exact(axis, np.array(data["axis"]), scale=1.0)),
             lower=lower,
             upper=upper,
             cut=bool(joint.GetExcludeFromArticulationAttr().Get())
@@ -300,20 +302,16 @@ def _drive(prim: Usd.Prim, kind: str, recorded: Drive) -> Drive:
 
 
 def _kind(prim: Usd.Prim) -> str:
-    data = prim.GetCustomDataByKey(KEY)
+    data = prim.GetCustomDataByKey(RECORD)
     return str(data.get("kind", "")) if data else ""
 
 
 def _data(prim: Usd.Prim) -> Any:
-    return prim.GetCustomDataByKey(KEY)
+    return prim.GetCustomDataByKey(RECORD)
 
 
 def _array(attribute: Usd.Attribute) -> Floats:
     return np.array(attribute.Get(), dtype=np.float64)
-
-
-def _vector(values: Floats) -> Vector:
-    return (float(values[0]), float(values[1]), float(values[2]))
 
 
 def _same(written: Floats | float, recorded: Floats | float, scale: Floats | float | None = None) -> bool:

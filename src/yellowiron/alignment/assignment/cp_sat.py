@@ -7,15 +7,20 @@ local-polytope form (the z that share an x sum to at most that x) the relaxation
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from yellowiron.alignment.structure.clusters import Structure
 from yellowiron.model.template import JointTemplate, Template
 
 JOINT_WEIGHT = 100
+"""What a joint counts that is found; `weights` are measured against it."""
 MISSING_WEIGHT = 60
+"""What a body counts that is not found, or a wheel or half of a hydraulic cylinder that is no body."""
+TYPED = ("wheel", "barrel", "rod")
+"""Kinds of clusters that are told by their shape, and play nothing but bodies of that kind."""
 SEED = 1
+"""The same answer every time."""
 EFFORT = 30.0
 """CP-SAT's deterministic time, in its own seconds: the answer does not depend on the machine's load."""
 
@@ -32,6 +37,18 @@ class Solution:
     score: int
     objective: int
     proven: bool
+
+
+@dataclass(frozen=True, eq=False)
+class _Program:
+    """The integer program: the CP-SAT model, `x[c, b]`, for each (joint, hinge) and (joint, slide) its `pivots` and
+    `slides`, one z for each way round, and the (weight, variable) `terms` of what is maximised."""
+
+    model: Any
+    x: dict[tuple[int, str], Any] = field(default_factory=dict)
+    pivots: dict[tuple[str, int], list[Any]] = field(default_factory=dict)
+    slides: dict[tuple[str, int], list[Any]] = field(default_factory=dict)
+    terms: list[tuple[int, Any]] = field(default_factory=list)
 
 
 def solve(
@@ -51,17 +68,43 @@ def solve(
     """
     from ortools.sat.python import cp_model
 
+    # The search depends on the order in which variables and constraints are made: the steps below fix it.
     unary = unary or {}
-    bodies = {r.name: r for r in template.roles if r.rigid}
-    model = cp_model.CpModel()
-    x: dict[tuple[int, str], Any] = {}
+    program = _Program(cp_model.CpModel())
     linked = {i for h in structure.hinges for i in (h.a, h.b)} | {i for s in structure.slides for i in s[:2]}
-    named = {c for (c, _), weight in unary.items() if weight > 0}
+    _add_bodies(program, structure, template, linked | {c for (c, _), weight in unary.items() if weight > 0})
+    for joint in template.joints:
+        _add_joint(program, joint, structure, template, barred)
+    _add_one_joint_each(program)
+    _add_weights(program, unary, linked)
+    if without in program.x:
+        program.model.add(program.x[without] == 0)
+    total = sum(weight * v for weight, v in program.terms)
+    if at_least is not None:
+        program.model.add(total >= at_least)
+    program.model.maximize(total)
+
+    solver = cp_model.CpSolver()
+    solver.parameters.num_workers = 1
+    solver.parameters.random_seed = SEED
+    solver.parameters.max_deterministic_time = EFFORT
+    status = solver.solve(program.model)
+    if status in (cp_model.OPTIMAL, cp_model.FEASIBLE):
+        return _solution(program, solver, structure, template, proven=status == cp_model.OPTIMAL)
+    if at_least is not None:
+        return None
+    return Solution({}, {}, {}, -MISSING_WEIGHT * sum(r.rigid for r in template.roles), 0, False)
+
+
+def _add_bodies(program: _Program, structure: Structure, template: Template, clusters: Collection[int]) -> None:
+    """x for every cluster of `clusters` and body of its kind; a cluster plays one body at most, and the other way."""
+    model, x = program.model, program.x
+    bodies = {r.name: r for r in template.roles if r.rigid}
     for c, cluster in enumerate(structure.clusters):
-        if c not in linked and c not in named:
+        if c not in clusters:
             continue
         for name, role in bodies.items():
-            typed = role.kind if role.kind in ("wheel", "barrel", "rod") else ""
+            typed = role.kind if role.kind in TYPED else ""
             if cluster.kind == typed:
                 x[c, name] = model.new_bool_var(f"x_{c}_{name}")
     for c in range(len(structure.clusters)):
@@ -69,65 +112,70 @@ def solve(
     for name in bodies:
         model.add_at_most_one([v for (_, b), v in x.items() if b == name])
 
-    terms: list[tuple[int, Any]] = []
-    pivots: dict[tuple[str, int], list[Any]] = {}
-    slides: dict[tuple[str, int], list[Any]] = {}
-    for joint in template.joints:
-        first, second = template.bodies_of(joint)
-        if first is None or second is None or first == second:
+
+def _add_joint(
+    program: _Program,
+    joint: JointTemplate,
+    structure: Structure,
+    template: Template,
+    barred: Collection[tuple[str, int]],
+) -> None:
+    """z for every hinge or slide that a joint can be, each way round: one of them at most, and only between clusters
+    that play the joint's bodies."""
+    first, second = template.bodies_of(joint)
+    if first is None or second is None or first == second:
+        return
+    model, x = program.model, program.x
+    table = program.slides if joint.type == "prismatic" else program.pivots
+    by_end: dict[tuple[int, str], list[Any]] = {}
+    every = []
+    for number, (a, b) in _edges(joint, structure):
+        if joint.type != "prismatic" and (joint.name, number) in barred:
             continue
-        edges = [e for e in _edges(joint, structure) if joint.type == "prismatic" or (joint.name, e[0]) not in barred]
-        by_end: dict[tuple[int, str], list[Any]] = {}
-        every = []
-        for number, (a, b) in edges:
-            for ca, cb in ((a, b), (b, a)):
-                if (ca, first) not in x or (cb, second) not in x:
-                    continue
-                z = model.new_bool_var(f"z_{joint.name}_{number}_{ca}")
-                every.append(z)
-                by_end.setdefault((ca, first), []).append(z)
-                by_end.setdefault((cb, second), []).append(z)
-                table = slides if joint.type == "prismatic" else pivots
-                table.setdefault((joint.name, number), []).append(z)
-                terms.append((JOINT_WEIGHT, z))
-        model.add_at_most_one(every)
-        for end, group in by_end.items():
-            model.add(sum(group) <= x[end])
-    for table in (pivots, slides):
+        for ca, cb in ((a, b), (b, a)):
+            if (ca, first) not in x or (cb, second) not in x:
+                continue
+            z = model.new_bool_var(f"z_{joint.name}_{number}_{ca}")
+            every.append(z)
+            by_end.setdefault((ca, first), []).append(z)
+            by_end.setdefault((cb, second), []).append(z)
+            table.setdefault((joint.name, number), []).append(z)
+            program.terms.append((JOINT_WEIGHT, z))
+    model.add_at_most_one(every)
+    for end, group in by_end.items():
+        model.add(sum(group) <= x[end])
+
+
+def _add_one_joint_each(program: _Program) -> None:
+    """A hinge or slide is one joint at most."""
+    for table in (program.pivots, program.slides):
         by_number: dict[int, list[Any]] = {}
         for (_, number), group in table.items():
             by_number.setdefault(number, []).extend(group)
         for group in by_number.values():
-            model.add_at_most_one(group)
-    terms += [(weight, x[key]) for key, weight in sorted(unary.items()) if key in x and weight]
-    terms += [(1, v) for (c, _), v in sorted(x.items()) if c in linked]
-    if without in x:
-        model.add(x[without] == 0)
-    total = sum(weight * v for weight, v in terms)
-    if at_least is not None:
-        model.add(total >= at_least)
-    model.maximize(total)
+            program.model.add_at_most_one(group)
 
-    solver = cp_model.CpSolver()
-    solver.parameters.num_workers = 1
-    solver.parameters.random_seed = SEED
-    solver.parameters.max_deterministic_time = EFFORT
-    status = solver.solve(model)
-    if status not in (cp_model.OPTIMAL, cp_model.FEASIBLE):
-        if at_least is not None:
-            return None
-        return Solution({}, {}, {}, -MISSING_WEIGHT * len(bodies), 0, False)
-    body_of = {c: b for (c, b), v in x.items() if solver.boolean_value(v)}
-    missing = sum(1 for name, role in bodies.items() if not role.optional and name not in body_of.values())
-    idle = sum(1 for c, k in enumerate(structure.clusters) if k.kind in ("barrel", "rod", "wheel") and c not in body_of)
-    return Solution(
-        body_of,
-        {j: n for (j, n), group in pivots.items() if any(solver.boolean_value(z) for z in group)},
-        {j: n for (j, n), group in slides.items() if any(solver.boolean_value(z) for z in group)},
-        round(solver.objective_value) - MISSING_WEIGHT * (missing + idle),
-        round(solver.objective_value),
-        status == cp_model.OPTIMAL,
-    )
+
+def _add_weights(program: _Program, unary: Mapping[tuple[int, str], int], linked: Collection[int]) -> None:
+    """What speaks for a cluster being a body besides its joints; and a little for every linked cluster that is one."""
+    x = program.x
+    program.terms.extend((weight, x[key]) for key, weight in sorted(unary.items()) if key in x and weight)
+    program.terms.extend((1, v) for (c, _), v in sorted(x.items()) if c in linked)
+
+
+def _solution(program: _Program, solver: Any, structure: Structure, template: Template, *, proven: bool) -> Solution:
+    """What the solver found."""
+    body_of = {c: b for (c, b), v in program.x.items() if solver.boolean_value(v)}
+    played = set(body_of.values())
+    missing = sum(1 for r in template.roles if r.rigid and not r.optional and r.name not in played)
+    idle = sum(1 for c, k in enumerate(structure.clusters) if k.kind in TYPED and c not in body_of)
+
+    def chosen(table: dict[tuple[str, int], list[Any]]) -> dict[str, int]:
+        return {j: n for (j, n), group in table.items() if any(solver.boolean_value(z) for z in group)}
+
+    objective = round(solver.objective_value)
+    score = objective - MISSING_WEIGHT * (missing + idle)
+    return Solution(body_of, chosen(program.pivots), chosen(program.slides), score, objective, proven)
 
 
 def _edges(joint: JointTemplate, structure: Structure) -> list[tuple[int, tuple[int, int]]]:

@@ -1,4 +1,4 @@
-"""The machine's frame from the solved roles: +X forward, +Y left, +Z up, z = 0 under the wheels (DESIGN: frames)."""
+"""The machine frame from solved roles: +X forward, +Y left, +Z up, z = 0 under the wheels (docs/architecture.md)."""
 
 from __future__ import annotations
 
@@ -8,13 +8,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from yellowiron.alignment.assignment.cp_sat import Solution
-from yellowiron.alignment.features.contacts import Line
+from yellowiron.alignment.features.contacts import SharedAxis
 from yellowiron.alignment.features.solids import Solid
 from yellowiron.alignment.features.tracks import Track
 from yellowiron.alignment.features.wheels import Wheel
 from yellowiron.alignment.structure.clusters import Structure
+from yellowiron.alignment.tolerances import SAME_DIRECTION
 from yellowiron.model.geometry import Floats
-from yellowiron.model.template import JointTemplate, Template
+from yellowiron.model.template import Template
+from yellowiron.support.vectors import unit
 
 RUN = 0.05
 """Shoes this near to the lowest, as a share of the track's height, are on the ground."""
@@ -30,63 +32,83 @@ class MachineFrame:
     doubts: tuple[str, ...] = ()
 
 
+@dataclass(frozen=True, eq=False)
+class _Scene:
+    """What a frame is read from: joint → its axis, body → its cluster, role → its kind, the wheels that are bodies
+    (`rolling`) among all `wheels`."""
+
+    solids: tuple[Solid, ...]
+    structure: Structure
+    template: Template
+    wheels: list[Wheel]
+    tracks: Sequence[Track]
+    axes: dict[str, SharedAxis]
+    cluster_of: dict[str, int]
+    kinds: dict[str, str]
+    rolling: list[Wheel]
+
+    def members(self, body: str) -> frozenset[int]:
+        """The solids of a body's cluster."""
+        return self.structure.clusters[self.cluster_of[body]].members
+
+
 def machine_frame(
     solids: tuple[Solid, ...], structure: Structure, solution: Solution, wheels: list[Wheel], template: Template,
     tracks: Sequence[Track] = (),
 ) -> MachineFrame:  # fmt: skip
     """The frame: up along the axis about which the machine turns or bends, left along the root's wheels or across its
     tracks, forward towards the working arms. What is not there is guessed and said so."""
-    doubts: list[str] = []
-    lines = {j: structure.lines[structure.hinges[h].line] for j, h in solution.hinge_of.items()}
+    axes = {j: structure.axes[structure.hinges[h].axis] for j, h in solution.hinge_of.items()}
     cluster_of = {b: c for c, b in solution.body_of.items()}
+    turning = [structure.clusters[c] for _, c in sorted(cluster_of.items())]
+    rolling = [wheels[cluster.number] for cluster in turning if cluster.kind == "wheel"]
     kinds = {r.name: r.kind for r in template.roles}
-    rolling = [
-        wheels[structure.clusters[c].number]
-        for b, c in sorted(cluster_of.items())
-        if structure.clusters[c].kind == "wheel"
-    ]
+    scene = _Scene(solids, structure, template, wheels, tracks, axes, cluster_of, kinds, rolling)
+    doubts: list[str] = []
     flat = _ground_normal(rolling) if not tracks else np.cross(tracks[0].axis, tracks[0].along)
-    swing = _swing(template, lines, kinds, flat)
-    if swing is not None:
-        up = lines[swing].direction
-    elif flat is not None:
-        up = flat
-        doubts.append("up is the normal of the wheels' plane")
-    else:
-        pitch = _common_direction(list(lines.values()))
-        up = _up_guess(pitch)
-        if lines:
-            doubts.append("up is guessed: no wheels and no swing axis were found")
-    if rolling or tracks:
-        below = np.mean([*(w.center for w in rolling), *(t.center for t in tracks)], axis=0)
-        above = _middle([s for s in solids if all(s.index not in w.members for w in wheels)])
-        if float((above - below) @ up) < 0:
-            up = -up
-    elif lines and "wheel" in kinds.values():
-        doubts.append("no wheels were found, so the ground is taken under the lowest part")
-    left = tracks[0].axis if tracks else _left(template, structure, cluster_of, wheels, lines, swing, up)
+    swing = _swing(scene, flat)
+    up = _up(scene, swing, flat, doubts)
+    left = tracks[0].axis if tracks else _left(scene, swing, up)
     if left is None:
-        if not lines and not rolling:
+        if not axes and not rolling:
             return MachineFrame(np.eye(4), ("no joints and no wheels were found: the CAD file's own axes are taken",))
         left = np.eye(3)[int(np.argmin(np.abs(up)))]
         doubts.append("left is guessed: no wheel or pitch axis was found")
-    left = _unit(left - (left @ up) * up)
+    left = unit(left - (left @ up) * up)
     forward = np.cross(left, up)
-    sense = _forward_sense(solids, structure, cluster_of, template, kinds, forward)
+    sense = _forward_sense(scene, forward)
     if sense == 0:
         doubts.append("forward is guessed: no arm and no other body tells it")
     elif sense < 0:
         forward, left = -forward, -left
     rotation = _snapped(np.array([forward, left, up]))
-    origin = _origin(solids, structure, cluster_of, template, lines[swing] if swing else None, rolling, up, tracks)
+    origin = _origin(scene, axes[swing] if swing else None, up)
     matrix = np.eye(4)
     matrix[:3, :3] = rotation
     matrix[:3, 3] = np.round(-rotation @ origin, 12) + 0.0
     return MachineFrame(matrix, tuple(doubts))
 
 
-def _unit(v: Floats) -> Floats:
-    return np.asarray(v / np.linalg.norm(v), dtype=np.float64)
+def _up(scene: _Scene, swing: str | None, flat: Floats | None, doubts: list[str]) -> Floats:
+    """The swing axis, else the normal of the ground (`flat`), else a guess; away from the wheels or tracks. What had to
+    be guessed goes to `doubts`."""
+    if swing is not None:
+        up = scene.axes[swing].direction
+    elif flat is not None:
+        up = flat
+        doubts.append("up is the normal of the wheels' plane")
+    else:
+        up = _up_guess(_common_direction(list(scene.axes.values())))
+        if scene.axes:
+            doubts.append("up is guessed: no wheels and no swing axis were found")
+    if scene.rolling or scene.tracks:
+        below = np.mean([*(w.center for w in scene.rolling), *(t.center for t in scene.tracks)], axis=0)
+        above = _middle([s for s in scene.solids if all(s.index not in w.members for w in scene.wheels)])
+        if float((above - below) @ up) < 0:
+            up = -up
+    elif scene.axes and "wheel" in scene.kinds.values():
+        doubts.append("no wheels were found, so the ground is taken under the lowest part")
+    return up
 
 
 def _middle(solids: list[Solid]) -> Floats:
@@ -104,10 +126,11 @@ def _ground_normal(wheels: list[Wheel]) -> Floats | None:
     return np.asarray(axes[2], dtype=np.float64) if spread[1] > 0.2 * spread[0] else None
 
 
-def _swing(template: Template, lines: dict[str, Line], kinds: dict[str, str], flat: Floats | None) -> str | None:
+def _swing(scene: _Scene, flat: Floats | None) -> str | None:
     """The root's joint about the vertical: the one along the wheels' plane's normal, else the one to another frame."""
+    template, axes, kinds = scene.template, scene.axes, scene.kinds
     best: tuple[float, str] | None = None
-    for name in sorted(lines):
+    for name in sorted(axes):
         joint = template.joint(name)
         bodies = template.bodies_of(joint)
         if template.root not in bodies:
@@ -115,17 +138,17 @@ def _swing(template: Template, lines: dict[str, Line], kinds: dict[str, str], fl
         other = bodies[1] if bodies[0] == template.root else bodies[0]
         if other is None or kinds[other] in ("barrel", "rod", "wheel"):
             continue
-        score = abs(float(lines[name].direction @ flat)) if flat is not None else float(kinds[other] == "frame")
+        score = abs(float(axes[name].direction @ flat)) if flat is not None else float(kinds[other] == "frame")
         if score > 0.8 and (best is None or score > best[0]):
             best = (score, name)
     return best[1] if best is not None else None
 
 
-def _common_direction(lines: list[Line]) -> Floats | None:
-    if not lines:
+def _common_direction(axes: list[SharedAxis]) -> Floats | None:
+    if not axes:
         return None
-    directions = np.array([ln.direction for ln in lines])
-    alike = (np.abs(directions @ directions.T) > 0.999).sum(axis=1)
+    directions = np.array([ln.direction for ln in axes])
+    alike = (np.abs(directions @ directions.T) > SAME_DIRECTION).sum(axis=1)
     return np.asarray(directions[int(np.argmax(alike))], dtype=np.float64)
 
 
@@ -133,19 +156,31 @@ def _up_guess(pitch: Floats | None) -> Floats:
     """CAD's z, unless the joints turn about it; then y."""
     z = np.array([0.0, 0.0, 1.0])
     if pitch is None or abs(float(pitch @ z)) < 0.7:
-        return z if pitch is None else _unit(z - (z @ pitch) * pitch)
+        return z if pitch is None else unit(z - (z @ pitch) * pitch)
     y = np.array([0.0, 1.0, 0.0])
-    return _unit(y - (y @ pitch) * pitch)
+    return unit(y - (y @ pitch) * pitch)
 
 
-def _left(
-    template: Template, structure: Structure, cluster_of: dict[str, int], wheels: list[Wheel],
-    lines: dict[str, Line], swing: str | None, up: Floats,
-) -> Floats | None:  # fmt: skip
+def _left(scene: _Scene, swing: str | None, up: Floats) -> Floats | None:
     """The axis of the wheels on the root's side of the swing, else the commonest joint axis across `up`."""
-    reached = {template.root}
-    joints: list[JointTemplate] = [j for j in template.joints if j.type != "prismatic" and j.name != swing]
+    found = [
+        scene.wheels[scene.structure.clusters[scene.cluster_of[b]].number]
+        for b in sorted(_joined_to_root(scene.template, swing))
+        if b in scene.cluster_of and scene.structure.clusters[scene.cluster_of[b]].kind == "wheel"
+    ]
+    if found:
+        first = found[0].direction
+        total = np.sum([w.direction if w.direction @ first > 0 else -w.direction for w in found], axis=0)
+        return np.asarray(total, dtype=np.float64)
+    across = [ln for ln in scene.axes.values() if abs(float(ln.direction @ up)) < 0.3]
+    return _common_direction(across)
+
+
+def _joined_to_root(template: Template, swing: str | None) -> set[str]:
+    """The bodies that joints other than the swing and those of rods join to the root."""
+    joints = [j for j in template.joints if j.type != "prismatic" and j.name != swing]
     kinds = {r.name: r.kind for r in template.roles}
+    reached = {template.root}
     grown = True
     while grown:
         grown = False
@@ -155,28 +190,16 @@ def _left(
                 continue
             reached |= {a, b}
             grown = True
-    found = [
-        wheels[structure.clusters[cluster_of[b]].number]
-        for b in sorted(reached)
-        if b in cluster_of and structure.clusters[cluster_of[b]].kind == "wheel"
-    ]
-    if found:
-        first = found[0].direction
-        total = np.sum([w.direction if w.direction @ first > 0 else -w.direction for w in found], axis=0)
-        return np.asarray(total, dtype=np.float64)
-    across = [ln for ln in lines.values() if abs(float(ln.direction @ up)) < 0.3]
-    return _common_direction(across)
+    return reached
 
 
-def _forward_sense(
-    solids: tuple[Solid, ...], structure: Structure, cluster_of: dict[str, int], template: Template,
-    kinds: dict[str, str], forward: Floats,
-) -> int:  # fmt: skip
+def _forward_sense(scene: _Scene, forward: Floats) -> int:
     """Whether the arms lie ahead of the root (+1) or behind it (−1); without arms, the names `front` and `rear`."""
+    kinds, template = scene.kinds, scene.template
 
     def centre(bodies: list[str]) -> Floats | None:
-        members = [i for b in bodies if b in cluster_of for i in structure.clusters[cluster_of[b]].members]
-        return _middle([solids[i] for i in sorted(members)]) if members else None
+        members = [i for b in bodies if b in scene.cluster_of for i in scene.members(b)]
+        return _middle([scene.solids[i] for i in sorted(members)]) if members else None
 
     root = centre([template.root])
     arms = centre([b for b in kinds if kinds[b] == "arm" and template.role(b).rigid])
@@ -195,21 +218,17 @@ def _snapped(rotation: Floats) -> Floats:
     return rotation
 
 
-def _origin(
-    solids: tuple[Solid, ...], structure: Structure, cluster_of: dict[str, int], template: Template,
-    axis: Line | None, wheels: list[Wheel], up: Floats, tracks: Sequence[Track],
-) -> Floats:  # fmt: skip
+def _origin(scene: _Scene, swing: SharedAxis | None, up: Floats) -> Floats:
     """The ground under the swing axis, else under the root's centre."""
-    if axis is not None:
-        point = axis.origin
+    solids, root = scene.solids, scene.template.root
+    if swing is not None:
+        point = swing.origin
     else:
-        root = (
-            structure.clusters[cluster_of[template.root]].members if template.root in cluster_of else range(len(solids))
-        )
-        low = np.min([solids[i].low for i in root], axis=0)
-        high = np.max([solids[i].high for i in root], axis=0)
+        members = scene.members(root) if root in scene.cluster_of else range(len(solids))
+        low = np.min([solids[i].low for i in members], axis=0)
+        high = np.max([solids[i].high for i in members], axis=0)
         point = 0.5 * (low + high)
-    heights = [_lowest(w, up) for w in wheels] + [_level(t, up) for t in tracks] or [
+    heights = [_lowest(w, up) for w in scene.rolling] + [_level(t, up) for t in scene.tracks] or [
         float((s.points @ up).min()) for s in solids
     ]
     ground = min(heights)

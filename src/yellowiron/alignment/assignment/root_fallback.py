@@ -10,7 +10,7 @@ from yellowiron.alignment.structure.clusters import Structure
 from yellowiron.model.template import Template
 
 
-def grounded(solution: Solution, structure: Structure, solids: tuple[Solid, ...], template: Template) -> Solution:
+def with_root(solution: Solution, structure: Structure, solids: tuple[Solid, ...], template: Template) -> Solution:
     """The solution, with the largest cluster that nothing else is played by as the template's root where that has none.
     No joint speaks for it, so that it comes out as doubtful."""
     root = template.role(template.root)

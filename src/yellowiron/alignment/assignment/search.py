@@ -12,97 +12,57 @@ import itertools
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 
-from yellowiron.alignment.assignment.cp_sat import MISSING_WEIGHT, Solution, solve
+from yellowiron.alignment.assignment.answer import Answer, is_whole
+from yellowiron.alignment.assignment.cp_sat import MISSING_WEIGHT, solve
 from yellowiron.alignment.assignment.names import name_scores
+from yellowiron.alignment.assignment.one_sided import one_sided
 from yellowiron.alignment.assignment.sheet_weights import sheet_weights
-from yellowiron.alignment.assignment.weights import Weights, heed, name_weights, size_weights
-from yellowiron.alignment.labelling.review import one_sided
+from yellowiron.alignment.assignment.weights import name_agreement, name_weights, size_weights
 from yellowiron.alignment.structure.clusters import Structure, loose_ends, structure_of
-from yellowiron.alignment.structure.observation import CONTACT, Seen, slewing_joints
+from yellowiron.alignment.structure.observation import Observation, slewing_joints
+from yellowiron.alignment.tolerances import CONTACT, UPRIGHT
 from yellowiron.model.errors import AlignmentError
 from yellowiron.model.geometry import Floats
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import Template, choose
 
-MARGIN = 20
-"""An assignment is doubtful if the best without it scores this little less: less than a name is worth."""
-UPRIGHT = 0.98
-"""A line whose cosine to the upright is less is not upright."""
-SIDED_WEIGHT = 4 * MISSING_WEIGHT
-"""What a variant loses for a cylinder that stands to one side where it should be in the middle."""
 HOPELESS = 200
 """A reading that cannot come nearer than this to the best one's score is not looked at any further."""
-
-
 BELIEVED = 0.6
 """Names that agree less with the joints than this have no say in the search."""
 
 
-@dataclass(frozen=True, eq=False)
-class Answer:
-    """One reading of the welds and one variant of the template, solved. `contact`: the tolerance of the contacts, as a
-    share of the machine's diagonal."""
-
-    contact: float
-    structure: Structure
-    choices: dict[str, str]
-    template: Template
-    solution: Solution
-    unary: Weights
-    sided: tuple[str, ...]
-    barred: frozenset[tuple[str, int]]
-
-    @property
-    def score(self) -> int:
-        """What variants and readings are compared by: a cylinder at the wrong place is worse than a missing one."""
-        return self.solution.score - SIDED_WEIGHT * len(self.sided)
-
-
-def rivals_of(answer: Answer) -> dict[int, str | None]:
-    """Clusters that could as well be another body (or none), and which: where a machine is not whole, its joints alone
-    may not tell."""
-    found = {}
-    for cluster, body in sorted(answer.solution.body_of.items()):
-        other = solve(
-            answer.structure, answer.template, unary=answer.unary, barred=answer.barred, without=(cluster, body),
-            at_least=answer.solution.objective - MARGIN - MISSING_WEIGHT,
-        )  # fmt: skip
-        if other is not None and answer.solution.score - other.score < MARGIN:
-            found[cluster] = other.body_of.get(cluster)
-    return found
-
-
 @dataclass
 class Search:
-    """One search: `look` gives what geometry shows with a contact tolerance; the rest as for `align`. `heed`: how far
-    the names agreed with what was found, 0 to 1."""
+    """One search: `look` gives what geometry shows with a contact tolerance; the rest as for `align`. `agreement`: how
+    far the names agreed with what was found, 0 to 1."""
 
-    look: Callable[[float], Seen]
+    look: Callable[[float], Observation]
     template: Template
     specifications: Specifications
     choices: Mapping[str, str]
     edited: Mapping[str, str]
     best: Answer | None = None
-    heed: float = 1.0
+    agreement: float = 1.0
     _named: bool = True
-    _looked: dict[float, tuple[Seen, list[dict[str, float]], list[Structure]]] = field(default_factory=dict)
+    _looked: dict[float, tuple[Observation, list[dict[str, float]], list[Structure]]] = field(default_factory=dict)
 
-    def run(self) -> tuple[Answer, Seen, list[dict[str, float]]]:
-        """The best answer, what was seen with its tolerance, and what the names say of each solid there, as far as
+    def run(self) -> tuple[Answer, Observation, list[dict[str, float]]]:
+        """The best answer, what was observed with its tolerance, and what the names say of each solid there, as far as
         they are to be believed: where they contradict the joints, the search is made again without them."""
-        answer, seen, scores = self._run()
-        self.heed = heed(answer.structure, answer.solution, scores)
-        believed = [{body: self.heed * score for body, score in of.items()} for of in scores]
-        if self.heed < BELIEVED:
+        answer, observation, scores = self._run()
+        self.agreement = name_agreement(answer.structure, answer.solution, scores)
+        believed = [{body: self.agreement * score for body, score in of.items()} for of in scores]
+        if self.agreement < BELIEVED:
             self.best = None
             self._looked = {c: (s, [{} for _ in s.solids], known) for c, (s, _, known) in self._looked.items()}
             self._named = False
-            answer, seen, _ = self._run()
-            if len(believed) != len(seen.solids):
-                believed = [{} for _ in seen.solids]
-        return answer, seen, believed
+            answer, observation, _ = self._run()
+            if len(believed) != len(observation.solids):
+                believed = [{} for _ in observation.solids]
+        return answer, observation, believed
 
-    def _run(self) -> tuple[Answer, Seen, list[dict[str, float]]]:
+    def _run(self) -> tuple[Answer, Observation, list[dict[str, float]]]:
         variants = _variants(self.template, self.choices)
         for others, careful in ((False, True), (False, False), (True, True)):
             # The other variants only under the tolerance that did best.
@@ -115,38 +75,38 @@ class Search:
                         return self._result()
         return self._result()
 
-    def _result(self) -> tuple[Answer, Seen, list[dict[str, float]]]:
+    def _result(self) -> tuple[Answer, Observation, list[dict[str, float]]]:
         assert self.best is not None
-        seen, scores, _ = self._looked[self.best.contact]
-        return self.best, seen, scores
+        observation, scores, _ = self._looked[self.best.contact]
+        return self.best, observation, scores
 
     def _readings(self, contact: float, *, careful: bool) -> Iterator[Structure]:
         """The readings of the welds that were not looked at before (of the careful ones: all)."""
         if contact not in self._looked:
-            seen = self.look(contact)
-            parts = tuple(s.part for s in seen.solids)
+            observation = self.look(contact)
+            parts = tuple(s.part for s in observation.solids)
             scores = name_scores(parts, self.template) if self._named else [{} for _ in parts]
-            self._looked[contact] = (seen, scores, [])
-        seen, _, known = self._looked[contact]
+            self._looked[contact] = (observation, scores, [])
+        observation, _, known = self._looked[contact]
         if careful and known:
             yield from list(known)
             return
-        for structure in _structures(seen, self.template, careful=careful):
+        for structure in _structures(observation, self.template, careful=careful):
             if not any(_equal(structure, other) for other in known):
                 known.append(structure)
                 yield structure
 
     def _try(self, contact: float, structure: Structure, chosen: dict[str, str]) -> None:
-        seen, scores, _ = self._looked[contact]
+        observation, scores, _ = self._looked[contact]
         resolved = choose(self.template, chosen)
-        unary = name_weights(seen.solids, structure, resolved, scores, self.edited)
+        unary = name_weights(observation.solids, structure, resolved, scores, self.edited)
         for more in (
-            sheet_weights(structure, seen.rams, resolved, self.specifications),
-            size_weights(seen.solids, structure, resolved),
+            sheet_weights(structure, observation.cylinders, resolved, self.specifications),
+            size_weights(observation.solids, structure, resolved),
         ):
             for key, weight in more.items():
                 unary[key] = unary.get(key, 0) + weight
-        barred = _barred(structure, resolved, seen.up)
+        barred = _barred(structure, resolved, observation.up)
         least = None
         if self.best is not None:
             barrels = sum(1 for r in resolved.roles if r.rigid and not r.optional and r.kind == "barrel")
@@ -155,7 +115,7 @@ class Search:
         solution = solve(structure, resolved, unary=unary, barred=barred, at_least=least)
         if solution is None:
             return
-        sided = one_sided(seen.solids, structure, solution, seen.rams, self.template, resolved)
+        sided = one_sided(observation, structure, solution, self.template, resolved)
         answer = Answer(contact, structure, chosen, resolved, solution, unary, sided, barred)
         if self.best is None or (is_whole(answer), answer.score) > (is_whole(self.best), self.best.score):
             self.best = answer
@@ -175,30 +135,19 @@ def _by_cylinders(variants: list[dict[str, str]], template: Template, drawn: int
     return [groups[apart] for apart in sorted(groups)]
 
 
-def _structures(seen: Seen, template: Template, *, careful: bool) -> Iterator[Structure]:
+def _structures(observation: Observation, template: Template, *, careful: bool) -> Iterator[Structure]:
     """Readings of the welds, likeliest first: flat contact alone, unless that leaves far more pieces than bodies; then
     also what touches; each first with wide round things fast in their bores, then turning in them. `careful`: without
     the welds that lock a pin."""
-    if not seen.evidence:
+    if not observation.evidence:
         yield Structure()
         return
     read = functools.cache(functools.partial(structure_of, leaves=_has_leaves(template), careful=careful))
     bodies = sum(1 for r in choose(template, {}).roles if r.rigid)
-    broken = loose_ends(read(seen.evidence[0], weak=False)) > 1.3 * bodies + 4
+    broken = loose_ends(read(observation.evidence[0], weak=False)) > 1.3 * bodies + 4
     for weak in (broken, not broken):
-        for evidence in seen.evidence:
+        for evidence in observation.evidence:
             yield read(evidence, weak=weak)
-
-
-def is_whole(answer: Answer) -> bool:
-    """True where every body is played and every joint found, each at a place it may have, and no hydraulic cylinder is
-    left over."""
-    found = {*answer.solution.hinge_of, *answer.solution.slide_of}
-    joints = {j.name for j in answer.template.joints if j.type in ("revolute", "prismatic")}
-    bodies = {r.name for r in answer.template.roles if r.rigid and not r.optional}
-    rams = {c for slide in answer.structure.slides for c in slide[:2]}
-    played = answer.solution.body_of
-    return not answer.sided and joints <= found and bodies <= set(played.values()) and rams <= set(played)
 
 
 def _barred(structure: Structure, template: Template, up: Floats | None) -> frozenset[tuple[str, int]]:
@@ -206,9 +155,7 @@ def _barred(structure: Structure, template: Template, up: Floats | None) -> froz
     if up is None:
         return frozenset()
     lying = [
-        k
-        for k, hinge in enumerate(structure.hinges)
-        if abs(float(structure.lines[hinge.line].direction @ up)) < UPRIGHT
+        k for k, hinge in enumerate(structure.hinges) if abs(float(structure.axes[hinge.axis].direction @ up)) < UPRIGHT
     ]
     return frozenset((name, k) for name in slewing_joints(template) for k in lying)
 

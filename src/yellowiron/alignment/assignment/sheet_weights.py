@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from yellowiron.alignment.assignment.cp_sat import Solution
-from yellowiron.alignment.features.cylinders import Ram
+from yellowiron.alignment.features.cylinders import DrawnCylinder
 from yellowiron.alignment.structure.clusters import Structure
 from yellowiron.model.finding import Finding
 from yellowiron.model.specification import Specifications
@@ -17,13 +17,13 @@ SHEET_WEIGHT = 15
 
 
 def sheet_weights(
-    structure: Structure, rams: tuple[Ram, ...], template: Template, specifications: Specifications
+    structure: Structure, cylinders: tuple[DrawnCylinder, ...], template: Template, specifications: Specifications
 ) -> dict[tuple[int, str], int]:
     """Weights of (cluster, body) for barrels and rods whose drawn diameters are the sheet's."""
     weights: dict[tuple[int, str], int] = {}
     for barrel, rod, quantity, _, value in _known(template, specifications):
         for barrel_cluster, rod_cluster, number in structure.slides:
-            drawn = _drawn(rams[number], quantity) if number < len(rams) else None
+            drawn = _drawn(cylinders[number], quantity) if number < len(cylinders) else None
             if drawn is not None and abs(drawn - value) <= AGREE * value:
                 for key in ((barrel_cluster, barrel), (rod_cluster, rod)):
                     weights[key] = weights.get(key, 0) + SHEET_WEIGHT
@@ -32,7 +32,7 @@ def sheet_weights(
 
 def sheet_findings(
     structure: Structure,
-    rams: tuple[Ram, ...],
+    cylinders: tuple[DrawnCylinder, ...],
     template: Template,
     specifications: Specifications,
     solution: Solution,
@@ -43,7 +43,7 @@ def sheet_findings(
     for barrel, _, quantity, name, value in _known(template, specifications):
         if barrel not in slides:
             continue
-        drawn = _drawn(rams[slides[barrel]], quantity)
+        drawn = _drawn(cylinders[slides[barrel]], quantity)
         if drawn is not None and abs(drawn - value) > AGREE * value:
             text = f"{name} is {1e3 * value:.4g} mm on the sheet and {1e3 * drawn:.4g} mm in the CAD model"
             hint = "Check the sheet's value, the model's unit, and the cylinder's role."
@@ -69,8 +69,8 @@ def _known(template: Template, specifications: Specifications) -> Iterator[tuple
                     yield barrel, rod, quantity, name, value
 
 
-def _drawn(ram: Ram, quantity: str) -> float | None:
+def _drawn(cylinder: DrawnCylinder, quantity: str) -> float | None:
     """A diameter as it is drawn; None for the bore of a barrel that has none."""
     if quantity == "bore":
-        return 2 * ram.bore if ram.hollow else None
-    return 2 * ram.rod_radius
+        return 2 * cylinder.bore if cylinder.hollow else None
+    return 2 * cylinder.rod_radius

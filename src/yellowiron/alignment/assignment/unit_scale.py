@@ -10,10 +10,10 @@ import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 from scipy.spatial.distance import pdist
 
-from yellowiron.alignment.features.cylinders import rams_of
-from yellowiron.alignment.features.separate_parts import islands
-from yellowiron.alignment.features.solids import solids_of
-from yellowiron.alignment.structure.observation import CONTACT
+from yellowiron.alignment.features.cylinders import cylinders_of
+from yellowiron.alignment.features.separate_parts import separate_parts
+from yellowiron.alignment.features.solids import size_of, solids_of
+from yellowiron.alignment.tolerances import CONTACT
 from yellowiron.model.assembly import Assembly, DeclaredJoint
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import CylinderFeature, PlaneFeature, Shape
@@ -50,15 +50,15 @@ def to_scale(assembly: Assembly, template: Template, specifications: Specificati
     if fitting:
         true, factor = min(fitting.items(), key=lambda item: abs(math.log(item[1] * drawn / length)))
         if by_diameters is None or abs(factor / by_diameters - 1) < AGREE:
-            return _told(assembly, factor, f"{read}: its numbers are {true}; scaled by {factor:.6g}")
+            return _rescaled(assembly, factor, f"{read}: its numbers are {true}; scaled by {factor:.6g}")
     if by_diameters is not None:
         words = f"{read}: scaled by {by_diameters:.6g}, with which its hydraulic cylinders are the sheet's"
-        return _told(assembly, by_diameters, words)
+        return _rescaled(assembly, by_diameters, words)
     factor = length / drawn
-    return _told(assembly, factor, f"{read}, and no unit explains that: scaled by {factor:.4g}, which is a guess")
+    return _rescaled(assembly, factor, f"{read}, and no unit explains that: scaled by {factor:.4g}, which is a guess")
 
 
-def _told(assembly: Assembly, factor: float, words: str) -> Assembly:
+def _rescaled(assembly: Assembly, factor: float, words: str) -> Assembly:
     hint = "Check the unit that the model was exported in, and the sheet's overall length."
     finding = Finding("ALN014", "warning", assembly.name, words, hint)
     return replace(scaled(assembly, factor), findings=(*assembly.findings, finding))
@@ -66,7 +66,7 @@ def _told(assembly: Assembly, factor: float, words: str) -> Assembly:
 
 def _extent(assembly: Assembly) -> float:
     """Metres between the two points of the machine that are farthest apart; what stands apart does not count."""
-    apart = islands(assembly)
+    apart = separate_parts(assembly)
     clouds = [assembly.points_of(p) for p in assembly.parts if p.id not in apart]
     clouds = [c for c in clouds if len(c)]
     if not clouds:
@@ -86,8 +86,10 @@ def _by_diameters(assembly: Assembly, template: Template, specifications: Specif
     solids = solids_of(assembly)
     if not values or not solids:
         return None
-    size = float(np.linalg.norm(np.max([s.high for s in solids], axis=0) - np.min([s.low for s in solids], axis=0)))
-    drawn = sorted({2 * r for ram in rams_of(solids, CONTACT[0] * size) for r in (ram.bore, ram.rod_radius)})
+    size = size_of(solids)
+    drawn = sorted(
+        {2 * r for cylinder in cylinders_of(solids, CONTACT[0] * size) for r in (cylinder.bore, cylinder.rod_radius)}
+    )
     best: tuple[int, float, float] | None = None
     for first in (v / d for v in values for d in drawn if POSES[0] < v / d / near < POSES[1]):
         pairs = [v / d for v in values for d in drawn if abs(v / d / first - 1) < AGREE]

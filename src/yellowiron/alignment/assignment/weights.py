@@ -60,7 +60,7 @@ def name_weights(
     return unary
 
 
-def heed(structure: Structure, solution: Solution, scores: list[dict[str, float]]) -> float:
+def name_agreement(structure: Structure, solution: Solution, scores: list[dict[str, float]]) -> float:
     """How far the names of a machine are to be believed, 0 to 1: Cohen's kappa of what the parts are called and what
     the joints make of them, their agreement beyond that of names dealt out at random (Cohen 1960)."""
     pairs: list[tuple[frozenset[str], str]] = []

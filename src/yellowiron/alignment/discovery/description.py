@@ -1,4 +1,4 @@
-"""From clusters and hinges to a machine that can be told: its root, its tree, what each body is and why."""
+"""From clusters and hinges to a machine that can be described: its root, its tree, what each body is and why."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ import numpy as np
 from yellowiron.alignment.features.tracks import Track
 from yellowiron.alignment.structure.clusters import Structure
 from yellowiron.alignment.structure.loops import Edge, bridges, components
-from yellowiron.alignment.structure.observation import Seen
+from yellowiron.alignment.structure.observation import Observation
+from yellowiron.alignment.tolerances import SAME_DIRECTION, UPRIGHT
 from yellowiron.model.finding import Finding
-from yellowiron.model.found import FoundBody, FoundJoint, FoundMachine, Vector
+from yellowiron.model.found import FoundBody, FoundJoint, FoundMachine
 from yellowiron.model.geometry import Floats
+from yellowiron.support.vectors import triple
 
 STANDS = 0.05
 """What reaches down to this share of the machine's height stands on the ground."""
-UPRIGHT = 0.98
-"""Cosine from which an axis is upright."""
 LEVER = 0.01
 """A piece of less than this share of the machine's surface is a latch or lever of it."""
 KIN = 0.6
@@ -26,38 +26,32 @@ KIN = 0.6
 SOME = 3
 
 
-def told(
-    name: str, seen: Seen, structure: Structure, edges: Sequence[Edge], tracks: Sequence[Track], apart: int
-) -> FoundMachine:
+def describe(
+    name: str, observation: Observation, structure: Structure, edges: Sequence[Edge], tracks: Sequence[Track],
+    apart: int,
+) -> FoundMachine:  # fmt: skip
     """The machine with its root first and its bodies from there outward; pieces that no joint ties together are welded,
-    with a finding."""
-    total = sum(surface(seen, structure, c) for c in range(len(structure.clusters)))
-    large = [p for p in components(edges) if sum(surface(seen, structure, c) for c in p) > LEVER * total]
-    pieces = large or components(edges)
+    with a finding. `apart`: how many parts were left out."""
+    pieces = _pieces(observation, structure, edges)
     bodies = sorted(c for p in pieces for c in p)
     edges = [e for e in edges if e.a in bodies]
-    up = _up(seen, structure, edges, tracks)
-    root = _root(seen, structure, edges, bodies, up, tracks)
-    welds = _welds(seen, structure, pieces, root)
+    up = _up(observation, structure, edges, tracks)
+    root = _root(observation, structure, edges, bodies, up, tracks)
+    welds = _welds(observation, structure, pieces, root)
     order = _outward(root, [*((e.a, e.b) for e in edges), *welds])
     number = {c: k for k, c in enumerate(order)}
     single = bridges(edges)
-    upright = {e for e in edges if not e.slide and abs(float(structure.lines[e.line].direction @ up)) > UPRIGHT}
-    frames = {c for e in upright for c in (e.a, e.b) if root in (e.a, e.b)}
-    rolling = {
-        c for e in edges if "wheel" in (structure.clusters[e.a].kind, structure.clusters[e.b].kind) for c in (e.a, e.b)
-    }
-    swinging = {c for e in edges if not e.slide and e not in upright for c in (e.a, e.b)} - rolling
-    found = []
-    for c in order:
-        kind = structure.clusters[c].kind or ("frame" if c == root or c in frames else "arm" if c in swinging else "")
-        found.append(_body(seen, structure, c, kind, c == root, bool(tracks)))
+    upright = {e for e in edges if not e.slide and abs(float(structure.axes[e.axis].direction @ up)) > UPRIGHT}
+    kinds = _kinds(structure, edges, root, upright)
+    found = [_body(observation, structure, c, kinds.get(c, ""), c == root, bool(tracks)) for c in order]
 
     def rank(e: Edge) -> tuple[int, int, bool]:
         return max(number[e.a], number[e.b]), min(number[e.a], number[e.b]), e.slide
 
-    joints = [_joint(seen, structure, e, number, e not in single, e in upright) for e in sorted(edges, key=rank)]
-    findings = _remarks(seen, structure, found, number, edges, tracks, apart)
+    joints = [
+        _joint(observation, structure, e, number, e not in single, e in upright) for e in sorted(edges, key=rank)
+    ]  # fmt: skip
+    findings = _remarks(observation, structure, found, number, edges, tracks, apart)
     for a, b in sorted(tuple(sorted((number[a], number[b]))) for a, b in welds):
         nowhere = (0.0, 0.0, 0.0)
         reason = "no pin, bore or rod was found that joins them"
@@ -68,9 +62,29 @@ def told(
     return FoundMachine(name, tuple(found), 0, tuple(joints), len(tracks), tuple(findings))
 
 
-def surface(seen: Seen, structure: Structure, c: int) -> float:
+def _pieces(observation: Observation, structure: Structure, edges: Sequence[Edge]) -> list[set[int]]:
+    """The pieces of the machine that joints tie together, without its latches and levers, unless it has only these."""
+    total = sum(surface(observation, structure, c) for c in range(len(structure.clusters)))
+    pieces = components(edges)
+    large = [p for p in pieces if sum(surface(observation, structure, c) for c in p) > LEVER * total]
+    return large or pieces
+
+
+def _kinds(structure: Structure, edges: Sequence[Edge], root: int, upright: set[Edge]) -> dict[int, str]:
+    """Cluster → what body it is, for those that are told by their shape or joints: a frame is the root, or turns
+    upright on it; an arm swings."""
+    frames = {root} | {c for e in upright if root in (e.a, e.b) for c in (e.a, e.b)}
+    rolling = {
+        c for e in edges if "wheel" in (structure.clusters[e.a].kind, structure.clusters[e.b].kind) for c in (e.a, e.b)
+    }
+    swinging = {c for e in edges if not e.slide and e not in upright for c in (e.a, e.b)} - rolling
+    kinds = dict.fromkeys(swinging, "arm") | dict.fromkeys(frames, "frame")
+    return kinds | {c: cluster.kind for c, cluster in enumerate(structure.clusters) if cluster.kind}
+
+
+def surface(observation: Observation, structure: Structure, c: int) -> float:
     """The surface of a cluster, m²."""
-    return sum(seen.solids[i].surface for i in sorted(structure.clusters[c].members))
+    return sum(observation.solids[i].surface for i in sorted(structure.clusters[c].members))
 
 
 def across(axis: Floats) -> Floats:
@@ -86,21 +100,21 @@ def some(names: Sequence[str]) -> str:
     return ", ".join(names[:SOME]) + (", …" if len(names) > SOME else "")
 
 
-def _up(seen: Seen, structure: Structure, edges: Sequence[Edge], tracks: Sequence[Track]) -> Floats:
+def _up(observation: Observation, structure: Structure, edges: Sequence[Edge], tracks: Sequence[Track]) -> Floats:
     """The upright: across the tracks, or the wheels' plane; else the axis of the widest hinge in no chain that lies
     across the others; else what `across` says."""
-    lines = [structure.lines[e.line] for e in edges if not e.slide]
+    axes = [structure.axes[e.axis] for e in edges if not e.slide]
     pitch = np.eye(3)[1]
-    if lines:
-        directions = np.array([ln.direction for ln in lines])
-        pitch = directions[int(np.argmax((np.abs(directions @ directions.T) > 0.999).sum(axis=1)))]
+    if axes:
+        directions = np.array([ln.direction for ln in axes])
+        pitch = directions[int(np.argmax((np.abs(directions @ directions.T) > SAME_DIRECTION).sum(axis=1)))]
     if tracks:
         up = np.cross(tracks[0].axis, tracks[0].along)
-    elif len(seen.wheels) > 2:
-        centers = np.array([w.center for w in seen.wheels])
+    elif len(observation.wheels) > 2:
+        centers = np.array([w.center for w in observation.wheels])
         up = np.linalg.svd(centers - centers.mean(axis=0))[2][2]
     else:
-        alone = [structure.lines[e.line] for e in sorted(bridges(edges), key=lambda e: e.number) if not e.slide]
+        alone = [structure.axes[e.axis] for e in sorted(bridges(edges), key=lambda e: e.number) if not e.slide]
         tall = [ln for ln in alone if abs(float(ln.direction @ pitch)) < 0.1]
         up = max(tall, key=lambda ln: round(ln.radius, 9)).direction if tall else across(pitch)
     sense = up[int(np.argmax(np.abs(up)))]
@@ -108,36 +122,49 @@ def _up(seen: Seen, structure: Structure, edges: Sequence[Edge], tracks: Sequenc
 
 
 def _root(
-    seen: Seen, structure: Structure, edges: Sequence[Edge], bodies: list[int], up: Floats, tracks: Sequence[Track]
-) -> int:
+    observation: Observation, structure: Structure, edges: Sequence[Edge], bodies: list[int], up: Floats,
+    tracks: Sequence[Track],
+) -> int:  # fmt: skip
     """The body that carries the machine: the one nearest to the tracks' middle; the largest of those on wheels, or on
     what is on wheels; else the largest of those that reach down to the ground."""
     plain = [c for c in bodies if not structure.clusters[c].kind] or bodies
-    size = {c: (round(surface(seen, structure, c), 9), -c) for c in plain}
     if tracks:
         middle = np.mean([t.center for t in tracks], axis=0)
-        gap = {c: float(np.linalg.norm(np.mean(_box(seen, structure, c), axis=0) - middle)) for c in plain}
+        gap = {c: float(np.linalg.norm(np.mean(_box(observation, structure, c), axis=0) - middle)) for c in plain}
         return min(plain, key=lambda c: (round(gap[c], 6), c))
+    standing = _on_wheels(structure, edges, bodies) or _on_ground(observation, structure, plain, up)
+    return max((c for c in plain if c in standing), key=lambda c: (round(surface(observation, structure, c), 9), -c))
+
+
+def _on_wheels(structure: Structure, edges: Sequence[Edge], bodies: list[int]) -> set[int]:
+    """The wheels, what hinges on them, and what hinges on that."""
     near = {c for c in bodies if structure.clusters[c].kind == "wheel"}
-    if near:
-        for _ in range(2):
-            near |= {c for e in edges if not e.slide and {e.a, e.b} & near for c in (e.a, e.b)}
-        return max((c for c in plain if c in near), key=lambda c: size[c])
-    low = {c: min(float((seen.solids[i].points @ up).min()) for i in structure.clusters[c].members) for c in plain}
+    for _ in range(2):
+        near |= {c for e in edges if not e.slide and {e.a, e.b} & near for c in (e.a, e.b)}
+    return near
+
+
+def _on_ground(observation: Observation, structure: Structure, bodies: list[int], up: Floats) -> set[int]:
+    """Those of the bodies that reach down to the lowest one's bottom."""
+    low = {
+        c: min(float((observation.solids[i].points @ up).min()) for i in structure.clusters[c].members) for c in bodies
+    }
     ground = min(low.values())
-    height = max(float((s.points @ up).max()) for s in seen.solids) - ground
-    return max((c for c in plain if low[c] < ground + STANDS * height), key=lambda c: size[c])
+    height = max(float((s.points @ up).max()) for s in observation.solids) - ground
+    return {c for c in bodies if low[c] < ground + STANDS * height}
 
 
-def _box(seen: Seen, structure: Structure, c: int) -> Floats:
+def _box(observation: Observation, structure: Structure, c: int) -> Floats:
     """(2, 3) corners of a cluster's box."""
-    members = [seen.solids[i] for i in structure.clusters[c].members]
+    members = [observation.solids[i] for i in structure.clusters[c].members]
     return np.array([np.min([s.low for s in members], axis=0), np.max([s.high for s in members], axis=0)])
 
 
-def _welds(seen: Seen, structure: Structure, pieces: Sequence[set[int]], root: int) -> list[tuple[int, int]]:
+def _welds(
+    observation: Observation, structure: Structure, pieces: Sequence[set[int]], root: int
+) -> list[tuple[int, int]]:
     """A weld for every piece that the root is not in, to the nearest body of those that are tied to it already."""
-    boxes = {c: _box(seen, structure, c) for p in pieces for c in p}
+    boxes = {c: _box(observation, structure, c) for p in pieces for c in p}
     joined = set().union(*(p for p in pieces if root in p))
     left = [p for p in pieces if root not in p]
     welds = []
@@ -167,10 +194,10 @@ def _outward(root: int, pairs: Sequence[tuple[int, int]]) -> list[int]:
     return order
 
 
-def _body(seen: Seen, structure: Structure, c: int, kind: str, root: bool, tracked: bool) -> FoundBody:
+def _body(observation: Observation, structure: Structure, c: int, kind: str, root: bool, tracked: bool) -> FoundBody:
     cluster = structure.clusters[c]
-    members = sorted(cluster.members, key=lambda i: (-round(float(seen.solids[i].shape.area), 9), i))
-    on = sorted({h.line for h in structure.hinges if c in (h.a, h.b)})
+    members = sorted(cluster.members, key=lambda i: (-round(float(observation.solids[i].shape.area), 9), i))
+    on = sorted({h.axis for h in structure.hinges if c in (h.a, h.b)})
     reasons = {
         "barrel": "a long bore with a rod in it, and an eye across",
         "rod": "a bar in line with a barrel's bore, with an eye across",
@@ -181,60 +208,68 @@ def _body(seen: Seen, structure: Structure, c: int, kind: str, root: bool, track
         reason = (
             f"the body that stands on the ground or its {'tracks' if tracked else 'wheels'}, and the largest; {reason}"
         )
-    return FoundBody(tuple(seen.solids[i].part.id for i in members), kind, _labels(seen, members), reason)
+    return FoundBody(tuple(observation.solids[i].part.id for i in members), kind, _labels(observation, members), reason)
 
 
-def _labels(seen: Seen, members: list[int]) -> tuple[str, ...]:
+def _labels(observation: Observation, members: list[int]) -> tuple[str, ...]:
     """Assemblies that most of a body is in, innermost first, then the names of its parts, largest first."""
-    area = {i: float(seen.solids[i].shape.area) for i in members}
+    area = {i: float(observation.solids[i].shape.area) for i in members}
     share: dict[tuple[int, str], float] = {}
     for i in members:
-        for depth, above in enumerate(seen.solids[i].part.path[1:]):
+        for depth, above in enumerate(observation.solids[i].part.path[1:]):
             share[depth, above] = share.get((depth, above), 0.0) + area[i] / sum(area.values())
     inside = [text for (_, text), part in sorted(share.items(), key=lambda x: -x[0][0]) if part > KIN]
-    names = [seen.solids[i].part.name for i in members[:SOME]]
+    names = [observation.solids[i].part.name for i in members[:SOME]]
     return tuple(dict.fromkeys([*inside, *names] if len(members) > 1 else names))
 
 
-def _joint(seen: Seen, structure: Structure, e: Edge, number: dict[int, int], loop: bool, upright: bool) -> FoundJoint:
+def _joint(
+    observation: Observation, structure: Structure, e: Edge, number: dict[int, int], loop: bool, upright: bool
+) -> FoundJoint:
     a, b = sorted((e.a, e.b), key=lambda c: number[c])
     if e.slide and not e.driven:
-        nest = seen.nests[e.number - len(seen.rams)]
+        nest = observation.nests[e.number - len(observation.cylinders)]
         reason = "a long box close inside the walls of another"
-        point, direction = _vector(nest.origin), _vector(nest.direction)
+        point, direction = triple(nest.origin), triple(nest.direction)
         return FoundJoint("prismatic", number[a], number[b], point, direction, 0.0, (), reason, loop=loop)
     if e.slide:
-        ram = seen.rams[e.number]
-        place = "drawn beside its bore" if ram.apart else "in its bore" if ram.hollow else "out of its barrel's end"
-        reason = f"rod Ø{2e3 * ram.rod_radius:.4g} mm in line with a barrel, {place}"
+        cylinder = observation.cylinders[e.number]
+        place = (
+            "drawn beside its bore"
+            if cylinder.apart
+            else "in its bore"
+            if cylinder.hollow
+            else "out of its barrel's end"
+        )
+        reason = f"rod Ø{2e3 * cylinder.rod_radius:.4g} mm in line with a barrel, {place}"
         return FoundJoint(
             "prismatic",
             number[a],
             number[b],
-            _vector(ram.origin),
-            _vector(ram.direction),
-            ram.rod_radius,
+            triple(cylinder.origin),
+            triple(cylinder.direction),
+            cylinder.rod_radius,
             (),
             reason,
             loop=loop,
         )
-    hinge, line = structure.hinges[e.number], structure.lines[e.line]
-    pins = tuple(seen.solids[i].part.id for i in hinge.pins)
+    hinge, axis = structure.hinges[e.number], structure.axes[e.axis]
+    pins = tuple(observation.solids[i].part.id for i in hinge.pins)
     if "wheel" in (structure.clusters[a].kind, structure.clusters[b].kind):
         reason = "a wheel on its axle"
     elif pins:
-        reason = f"pin Ø{2e3 * line.radius:.4g} mm through both"
-    elif e.line in structure.races:
-        reason = f"rings of a slewing bearing, Ø{2e3 * line.radius:.4g} mm"
+        reason = f"pin Ø{2e3 * axis.radius:.4g} mm through both"
+    elif e.axis in structure.races:
+        reason = f"rings of a slewing bearing, Ø{2e3 * axis.radius:.4g} mm"
     else:
-        reason = f"coaxial round faces of both, Ø{2e3 * line.radius:.4g} mm; no pin of its own"
+        reason = f"coaxial round faces of both, Ø{2e3 * axis.radius:.4g} mm; no pin of its own"
     return FoundJoint(
         "revolute",
         number[a],
         number[b],
-        _vector(line.origin),
-        _vector(line.direction),
-        line.radius,
+        triple(axis.origin),
+        triple(axis.direction),
+        axis.radius,
         pins,
         reason,
         loop,
@@ -243,7 +278,7 @@ def _joint(seen: Seen, structure: Structure, e: Edge, number: dict[int, int], lo
 
 
 def _remarks(
-    seen: Seen,
+    observation: Observation,
     structure: Structure,
     found: Sequence[FoundBody],
     number: dict[int, int],
@@ -251,7 +286,7 @@ def _remarks(
     tracks: Sequence[Track],
     apart: int,
 ) -> list[Finding]:
-    """What could not be told: rods on nothing, tracks, parts that stand apart."""
+    """What remains open: rods on nothing, tracks, parts that stand apart."""
     findings = []
     hinged = {c for e in edges if not e.slide for c in (e.a, e.b)}
     for e in edges:
@@ -260,7 +295,9 @@ def _remarks(
         for c in (e.a, e.b):
             if c not in hinged:
                 astray = (
-                    "it is drawn out of its barrel's place" if seen.rams[e.number].apart else "no eye meets another"
+                    "it is drawn out of its barrel's place"
+                    if observation.cylinders[e.number].apart
+                    else "no eye meets another"
                 )
                 words = f"The {structure.clusters[c].kind} hangs on nothing: {astray}, so its chain is open."
                 hint = (
@@ -275,8 +312,3 @@ def _remarks(
         words = f"{apart} parts stand apart from the machine and are left out."
         findings.append(Finding("ALN023", "info", some(found[0].parts), words, "Hand in one machine a file."))
     return findings
-
-
-def _vector(values: Floats) -> Vector:
-    x, y, z = (float(v) for v in values)
-    return (x, y, z)

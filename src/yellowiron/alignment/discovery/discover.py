@@ -15,13 +15,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from yellowiron.alignment.discovery.description import UPRIGHT, across, surface, told
-from yellowiron.alignment.features.separate_parts import islands
+from yellowiron.alignment.discovery.description import across, describe, surface
+from yellowiron.alignment.features.separate_parts import separate_parts
 from yellowiron.alignment.features.solids import solids_of
 from yellowiron.alignment.features.tracks import Track, tracks_of
-from yellowiron.alignment.structure.clusters import LONG, Structure, hangs, structure_of
+from yellowiron.alignment.structure.clusters import LONG, Structure, reaches_out, structure_of
 from yellowiron.alignment.structure.loops import Edge, bridges, components, freedoms
-from yellowiron.alignment.structure.observation import CONTACT, Seen, see
+from yellowiron.alignment.structure.observation import Observation, observe
+from yellowiron.alignment.tolerances import CONTACT, UPRIGHT
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import AlignmentError
 from yellowiron.model.found import FoundMachine
@@ -33,7 +34,7 @@ NOTHING = 1000
 """The rank of a reading without a single joint."""
 HALF = 0.05
 """A slewing bearing has at least this share of the machine's surface on either side."""
-STURDY = 0.5
+STOUT = 0.5
 """A pivot is at least this share of the machine's usual pin radius: thinner ones are of doors and levers."""
 
 
@@ -65,7 +66,7 @@ def discover(assembly: Assembly) -> FoundMachine:
         raise AlignmentError(
             "The CAD model has no parts", where=assembly.name, hint="Check that the file holds solids."
         )
-    apart = islands(assembly)
+    apart = separate_parts(assembly)
     machine = replace(assembly, parts=tuple(p for p in assembly.parts if p.id not in apart))
     solids = solids_of(machine)
     tracks = tracks_of(solids)
@@ -73,12 +74,12 @@ def discover(assembly: Assembly) -> FoundMachine:
         solids[i].part.id for t in tracks for group in (*t.shoes, *(w.members for w in t.wheels)) for i in group
     }
     machine = replace(machine, parts=tuple(p for p in machine.parts if p.id not in of_tracks))
-    best: tuple[Seen, _Reading] | None = None
+    best: tuple[Observation, _Reading] | None = None
     for contact in CONTACT:
-        seen = _looked(machine, contact)
-        for reading in _readings(seen, _upright(seen, tracks)):
+        observation = _observed(machine, contact)
+        for reading in _readings(observation, _upright(observation, tracks)):
             if best is None or reading.rank < best[1].rank:
-                best = (seen, reading)
+                best = (observation, reading)
         if best is not None and best[1].rank[0] == 0:
             break
     if best is None or not best[1].edges:
@@ -87,17 +88,17 @@ def discover(assembly: Assembly) -> FoundMachine:
             where=assembly.name,
             hint="Pins, bores or hydraulic cylinders are what joints are found by; or copy a template and edit it.",
         )
-    seen, reading = best
-    return told(assembly.name, seen, reading.structure, reading.edges, tracks, len(apart))
+    observation, reading = best
+    return describe(assembly.name, observation, reading.structure, reading.edges, tracks, len(apart))
 
 
-def _looked(assembly: Assembly, contact: float) -> Seen:
+def _observed(assembly: Assembly, contact: float) -> Observation:
     """What geometry shows where everything is asked for; wheels only where all of them stand on one plane."""
     for count in (MOST_WHEELS, 0):
-        seen = see(assembly, _anything(count), contact)
-        if not seen.wheels or _rolling(seen):
+        observation = observe(assembly, _anything(count), contact)
+        if not observation.wheels or _rolling(observation):
             break
-    return seen
+    return observation
 
 
 def _anything(wheels: int) -> Template:
@@ -110,18 +111,18 @@ def _anything(wheels: int) -> Template:
     return Template("machine", "", "base", roles, (swing, section))
 
 
-def _rolling(seen: Seen) -> bool:
+def _rolling(observation: Observation) -> bool:
     """True if the equal round things are wheels: all reach down to one plane that nothing goes through."""
-    centers = np.array([w.center for w in seen.wheels])
-    axis = seen.wheels[0].direction
-    if len(centers) < 2 or any(abs(float(w.direction @ axis)) < 0.7 for w in seen.wheels):
+    centers = np.array([w.center for w in observation.wheels])
+    axis = observation.wheels[0].direction
+    if len(centers) < 2 or any(abs(float(w.direction @ axis)) < 0.7 for w in observation.wheels):
         return False
     spread = np.linalg.svd(centers - centers.mean(axis=0))
     normal = spread[2][2] if len(centers) > 2 and spread[1][1] > 0.2 * spread[1][0] else across(axis)
-    radius = min(w.radius for w in seen.wheels)
+    radius = min(w.radius for w in observation.wheels)
     level = centers @ normal
-    inside = {i for w in seen.wheels for i in w.members}
-    others = [s for s in seen.solids if s.index not in inside]
+    inside = {i for w in observation.wheels for i in w.members}
+    others = [s for s in observation.solids if s.index not in inside]
     if np.ptp(level) > 0.2 * radius or not others:
         return False
     depth = min(float((s.points @ normal).min()) for s in others) - float(level.mean())
@@ -129,102 +130,106 @@ def _rolling(seen: Seen) -> bool:
     return max(depth, height) > -radius
 
 
-def _readings(seen: Seen, up: Floats | None) -> Iterator[_Reading]:
+def _readings(observation: Observation, up: Floats | None) -> Iterator[_Reading]:
     read = functools.cache(functools.partial(structure_of, leaves=True))
     known = set()
     for careful in (True, False):
         for weak in (False, True):
-            for evidence in seen.evidence:
+            for evidence in observation.evidence:
                 structure = read(evidence, weak=weak, careful=careful)
                 if (key := (structure.clusters, structure.hinges, structure.slides)) not in known:
                     known.add(key)
-                    yield _reading(seen, structure, up)
+                    yield _reading(observation, structure, up)
 
 
-def _reading(seen: Seen, structure: Structure, up: Floats | None) -> _Reading:
+def _reading(observation: Observation, structure: Structure, up: Floats | None) -> _Reading:
     """The joints of a structure: hinges of bodies, and slides."""
-    slides = [Edge(a, b, -1, k, True, k < len(seen.rams)) for a, b, k in structure.slides if a != b]
-    pivots = _pivots(seen, structure)
-    bodies = _bodies(seen, structure, pivots)
+    slides = [Edge(a, b, -1, k, True, k < len(observation.cylinders)) for a, b, k in structure.slides if a != b]
+    pivots = _pivots(observation, structure)
+    bodies = _bodies(observation, structure, pivots)
     hinges = [e for e in pivots if e.a in bodies and e.b in bodies]
     sliding = {frozenset((e.a, e.b)) for e in slides}
     hinges = [e for e in hinges if frozenset((e.a, e.b)) not in sliding]
-    edges = (*slides, *_independent(seen, structure, hinges))
-    return _Reading(structure, tuple(sorted(bodies)), edges, _slewing(seen, structure, edges, up))
+    edges = (*slides, *_independent(observation, structure, hinges))
+    return _Reading(structure, tuple(sorted(bodies)), edges, _slewing(observation, structure, edges, up))
 
 
-def _slewing(seen: Seen, structure: Structure, edges: tuple[Edge, ...], up: Floats | None) -> int:
+def _slewing(observation: Observation, structure: Structure, edges: tuple[Edge, ...], up: Floats | None) -> int:
     """How many slewing bearings there are: upright races, in no chain, between two large halves of the machine."""
-    total = sum(surface(seen, structure, c) for c in range(len(structure.clusters)))
+    total = sum(surface(observation, structure, c) for c in range(len(structure.clusters)))
     found = 0
     for edge in bridges(edges):
-        if edge.slide or edge.line not in structure.races:
+        if edge.slide or edge.axis not in structure.races:
             continue
-        turning = up is None or abs(float(structure.lines[edge.line].direction @ up)) > UPRIGHT
+        turning = up is None or abs(float(structure.axes[edge.axis].direction @ up)) > UPRIGHT
         rest = components([e for e in edges if e is not edge]) if turning else []
         halves = [{c for piece in rest if end in piece for c in piece} | {end} for end in (edge.a, edge.b)]
-        found += turning and min(sum(surface(seen, structure, c) for c in half) for half in halves) > HALF * total
+        found += (
+            turning and min(sum(surface(observation, structure, c) for c in half) for half in halves) > HALF * total
+        )
     return found
 
 
-def _upright(seen: Seen, tracks: list[Track]) -> Floats | None:
+def _upright(observation: Observation, tracks: list[Track]) -> Floats | None:
     """The direction across the tracks, or the plane of three wheels or more; None where there are none."""
     if tracks:
         return np.asarray(np.cross(tracks[0].axis, tracks[0].along), dtype=np.float64)
-    if len(seen.wheels) < 3:
+    if len(observation.wheels) < 3:
         return None
-    centers = np.array([w.center for w in seen.wheels])
+    centers = np.array([w.center for w in observation.wheels])
     return np.asarray(np.linalg.svd(centers - centers.mean(axis=0))[2][2], dtype=np.float64)
 
 
-def _pivots(seen: Seen, structure: Structure) -> list[Edge]:
-    """The hinges on lines stout enough to be a pivot of the machine's, not of a door's or a bolt."""
-    used = {h.line for h in structure.hinges}
+def _pivots(observation: Observation, structure: Structure) -> list[Edge]:
+    """The hinges on axes stout enough to be a pivot of the machine's, not of a door's or a bolt."""
+    used = {h.axis for h in structure.hinges}
     wheels = {
-        h.line for h in structure.hinges if "wheel" in (structure.clusters[h.a].kind, structure.clusters[h.b].kind)
+        h.axis for h in structure.hinges if "wheel" in (structure.clusters[h.a].kind, structure.clusters[h.b].kind)
     }
     ends = {c for s in structure.slides for c in s[:2]}
-    own = [structure.lines[h.line].radius for h in structure.hinges if {h.a, h.b} & ends]
-    usual = float(np.median(own or [structure.lines[k].radius for k in sorted(used - wheels)] or [0.0]))
+    own = [structure.axes[h.axis].radius for h in structure.hinges if {h.a, h.b} & ends]
+    usual = float(np.median(own or [structure.axes[k].radius for k in sorted(used - wheels)] or [0.0]))
     return [
-        Edge(h.a, h.b, h.line, k, False)
+        Edge(h.a, h.b, h.axis, k, False)
         for k, h in enumerate(structure.hinges)
-        if h.line in wheels or structure.lines[h.line].radius >= STURDY * usual
+        if h.axis in wheels or structure.axes[h.axis].radius >= STOUT * usual
     ]
 
 
-def _bodies(seen: Seen, structure: Structure, pivots: list[Edge]) -> set[int]:
-    """Clusters that are bodies: halves of cylinders, wheels, what is on two lines, and what hangs far out from one."""
-    lines: dict[int, set[int]] = {}
+def _bodies(observation: Observation, structure: Structure, pivots: list[Edge]) -> set[int]:
+    """Clusters that are bodies: halves of cylinders, wheels, what is on two axes, and what hangs far out from one."""
+    axes: dict[int, set[int]] = {}
     for edge in pivots:
         for c in (edge.a, edge.b):
-            lines.setdefault(c, set()).add(edge.line)
+            axes.setdefault(c, set()).add(edge.axis)
     found = {c for s in structure.slides for c in s[:2]}
-    for c, on in lines.items():
+    for c, on in axes.items():
         cluster = structure.clusters[c]
-        reach = any(hangs(seen.solids, cluster.members, structure.lines[k]) for k in on)
-        wide = any(structure.lines[k].radius * LONG > 0.1 * seen.size for k in on)
+        reach = any(reaches_out(observation.solids, cluster.members, structure.axes[k]) for k in on)
+        wide = any(structure.axes[k].radius * LONG > 0.1 * observation.size for k in on)
         if cluster.kind or len(on) > 1 or reach or wide:
             found.add(c)
     return found
 
 
-def _independent(seen: Seen, structure: Structure, hinges: list[Edge]) -> list[Edge]:
-    """Of the pairs that share a line, as many as join all bodies on it: each with the largest, which has the pin."""
-    by_line: dict[int, list[Edge]] = {}
+def _independent(observation: Observation, structure: Structure, hinges: list[Edge]) -> list[Edge]:
+    """Of the pairs that share an axis, as many as join all bodies on it: each with the largest, which has the pin."""
+    by_axis: dict[int, list[Edge]] = {}
     for edge in hinges:
-        by_line.setdefault(edge.line, []).append(edge)
+        by_axis.setdefault(edge.axis, []).append(edge)
     kept = []
-    for line in sorted(by_line):
-        on = sorted({c for e in by_line[line] for c in (e.a, e.b)}, key=lambda c: (-_carrying(seen, structure, c), c))
+    for axis in sorted(by_axis):
+        on = sorted(
+            {c for e in by_axis[axis] for c in (e.a, e.b)}, key=lambda c: (-_carrying(observation, structure, c), c)
+        )
         joined = {on[0]}
         for c in on[1:]:
-            found = [e for hub in on if hub in joined for e in by_line[line] if {e.a, e.b} == {hub, c}]
+            found = [e for hub in on if hub in joined for e in by_axis[axis] if {e.a, e.b} == {hub, c}]
             kept += found[:1]
             joined.add(c)
     return kept
 
 
-def _carrying(seen: Seen, structure: Structure, c: int) -> float:
+def _carrying(observation: Observation, structure: Structure, c: int) -> float:
     """The surface of a cluster; hydraulics and wheels count nothing: they carry no pin of others."""
-    return 0.0 if structure.clusters[c].kind else surface(seen, structure, c)
+    return 0.0 if structure.clusters[c].kind else surface(observation, structure, c)

@@ -14,16 +14,18 @@ from typing import Literal
 
 import numpy as np
 
-from yellowiron.alignment.discovery.description import UPRIGHT, across, some
+from yellowiron.alignment.discovery.description import across, some
 from yellowiron.alignment.discovery.discover import discover
 from yellowiron.alignment.structure.loops import Edge, bridges, components, freedoms
+from yellowiron.alignment.tolerances import UPRIGHT
 from yellowiron.model.alignment import Alignment, PartAssignment
-from yellowiron.model.assembly import PARALLEL, Assembly, DeclaredJoint, loop_axis
+from yellowiron.model.assembly import PARALLEL_HINGES, Assembly, DeclaredJoint, Part, loop_axis
 from yellowiron.model.errors import AlignmentError
 from yellowiron.model.finding import Finding
 from yellowiron.model.found import FoundBody, FoundJoint, FoundMachine, Vector
 from yellowiron.model.geometry import Floats
 from yellowiron.model.template import Template
+from yellowiron.support.graphs import LedSets
 
 BESIDE = 0.01
 """Metres up to which two hinges are on one line."""
@@ -45,6 +47,38 @@ class _Joint:
     axis: Vector
     reason: str
     pins: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class _Links:
+    """The file's links: link → its parts, for those that draw something; link → m² of these; link → the first link of
+    those that are one body with it (`group`), which stands for the body."""
+
+    assembly: Assembly
+    parts: Mapping[str, Sequence[Part]]
+    area: Mapping[str, float]
+    group: Mapping[str, str]
+
+    def ends(self, joint: _Joint) -> tuple[str, str]:
+        """The two bodies of a joint."""
+        return self.group[joint.a], self.group[joint.b]
+
+    def drawn(self, body: str) -> list[str]:
+        """The links of a body that draw something."""
+        return [link for link in self.parts if self.group[link] == body]
+
+    def surface(self, body: str) -> float:
+        """The surface of a body, m²."""
+        return sum(a for link, a in self.area.items() if self.group[link] == body)
+
+    def title(self, body: str) -> str:
+        """A body is called after its link, of several the largest."""
+        return max(self.drawn(body), key=lambda link: self.area[link])
+
+    def ids(self, body: str) -> tuple[str, ...]:
+        """The ids of a body's parts, in CAD order."""
+        drawn = self.drawn(body)
+        return tuple(p.id for p in self.assembly.parts if any(p in self.parts[link] for link in drawn))
 
 
 def declared_roles(assembly: Assembly, template: Template, found: Alignment) -> tuple[PartAssignment, ...]:
@@ -73,24 +107,23 @@ def robot(assembly: Assembly, geometry: FoundMachine | None) -> FoundMachine | N
 
     `geometry` is what `discover` finds in the same model, if anything. Findings: ALN024, ALN025.
     """
-    links = assembly.links()
-    area = {name: sum(assembly.shape_of(p).area for p in parts) for name, parts in links.items()}
+    parts = assembly.links()
+    area = {name: sum(assembly.shape_of(p).area for p in drawn) for name, drawn in parts.items()}
     shown = _between_links(assembly, geometry)
     apart = {frozenset((j.a, j.b)) for j in shown}
     names = list(dict.fromkeys(b for j in assembly.joints for b in j.bodies if b))
-    group = _groups(assembly.joints, names, links, apart)
-    joints = [j for j in _declared(assembly.joints) if group[j.a] != group[j.b]]
-    drawn = {group[name] for name in links}
-    left = [j.name for j in joints if not {group[j.a], group[j.b]} <= drawn]
-    joints = [j for j in joints if j.name not in left]
+    links = _Links(assembly, parts, area, _groups(assembly.joints, names, parts, apart))
+    moving = [j for j in _declared(assembly.joints) if len(set(links.ends(j))) == 2]
+    drawn = {links.group[name] for name in parts}
+    left = [j.name for j in moving if not set(links.ends(j)) <= drawn]
+    joints = [_with_pins(j, shown, links) for j in moving if j.name not in left]
     if not joints:
         return None
-    joints = [_with_pins(j, shown, group) for j in joints]
-    extra = [j for j in shown if group[j.a] != group[j.b] and {group[j.a], group[j.b]} <= drawn]
-    extra = [j for j in extra if not _is_known(j, joints, group)]
-    if freedoms(_edges([*joints, *extra], group))[0] <= freedoms(_edges(joints, group))[0]:
+    extra = [j for j in shown if len(set(links.ends(j))) == 2 and set(links.ends(j)) <= drawn]
+    extra = [j for j in extra if not _is_known(j, joints, links)]
+    if freedoms(_edges([*joints, *extra], links))[0] <= freedoms(_edges(joints, links))[0]:
         joints += extra
-    return _told(assembly, links, area, group, joints, left, geometry)
+    return _describe(links, joints, left, geometry)
 
 
 def _between_links(assembly: Assembly, geometry: FoundMachine | None) -> list[_Joint]:
@@ -120,25 +153,22 @@ def _groups(
     declared: Sequence[DeclaredJoint], names: Sequence[str], links: Mapping[str, object], apart: set[frozenset[str]]
 ) -> dict[str, str]:
     """Link → the first link of those that are one body with it."""
-    group = {name: name for name in names}
-
-    def unite(one: str, other: str) -> None:
-        first, second = group[one], group[other]
-        for name in group:
-            group[name] = first if group[name] == second else group[name]
-
+    groups = LedSets(names)
     for joint in declared:
         one, other = joint.bodies
         if joint.type == "fixed" and one and other and frozenset((one, other)) not in apart:
-            unite(one, other)
+            groups.join(one, other)
     for joint in declared:
         # A link without a shape between two that have one: it goes with the one it hangs on.
         one, other = joint.bodies
-        drawn = {group[name] for name in links}
-        onward = [j for j in declared if j.bodies[0] and group[j.bodies[0]] == group.get(other)]
-        if joint.type in _MOVING and one and other and group[other] not in drawn and onward:
-            unite(one, other)
-    return group
+        if joint.type not in _MOVING or not one or not other:
+            continue
+        drawn = {groups.leader(name) for name in links}
+        hung = groups.leader(other)
+        onward = any(j.bodies[0] and groups.leader(j.bodies[0]) == hung for j in declared)
+        if hung not in drawn and onward:
+            groups.join(one, other)
+    return {name: groups.leader(name) for name in names}
 
 
 def _declared(joints: Sequence[DeclaredJoint]) -> Iterator[_Joint]:
@@ -160,18 +190,17 @@ def _declared(joints: Sequence[DeclaredJoint]) -> Iterator[_Joint]:
             yield _Joint(joint.name, "revolute", one, other, joint.anchor, axis, reason)
 
 
-def _edges(joints: Sequence[_Joint], group: Mapping[str, str]) -> list[Edge]:
-    number = {name: k for k, name in enumerate(dict.fromkeys(group.values()))}
-    return [
-        Edge(number[group[j.a]], number[group[j.b]], k, k, j.type == "prismatic", j.type == "prismatic")
-        for k, j in enumerate(joints)
-    ]
+def _edges(joints: Sequence[_Joint], links: _Links) -> list[Edge]:
+    number = {name: k for k, name in enumerate(dict.fromkeys(links.group.values()))}
+    ends = [links.ends(j) for j in joints]
+    sliding = [j.type == "prismatic" for j in joints]
+    return [Edge(number[a], number[b], k, k, sliding[k], sliding[k]) for k, (a, b) in enumerate(ends)]
 
 
-def _with_pins(joint: _Joint, shown: Sequence[_Joint], group: Mapping[str, str]) -> _Joint:
+def _with_pins(joint: _Joint, shown: Sequence[_Joint], links: _Links) -> _Joint:
     """A declared hinge with the pins that geometry finds on its line."""
-    ends = {group[joint.a], group[joint.b]}
-    same = (s for s in shown if {group[s.a], group[s.b]} == ends and s.pins and _in_line(joint, s))
+    ends = set(links.ends(joint))
+    same = (s for s in shown if set(links.ends(s)) == ends and s.pins and _in_line(joint, s))
     found = next(same, None) if joint.type == "revolute" else None
     return joint if found is None else replace(joint, pins=found.pins)
 
@@ -181,12 +210,12 @@ def _in_line(one: _Joint, other: _Joint) -> bool:
     return one.type == other.type == "revolute" and beside < BESIDE and _along(one.axis, other.axis)
 
 
-def _is_known(extra: _Joint, joints: Sequence[_Joint], group: Mapping[str, str]) -> bool:
+def _is_known(extra: _Joint, joints: Sequence[_Joint], links: _Links) -> bool:
     """Whether there is a joint between these bodies, or both turn on the same line already."""
-    ends = {group[extra.a], group[extra.b]}
+    ends = set(links.ends(extra))
     on = set()
     for joint in joints:
-        pair = {group[joint.a], group[joint.b]}
+        pair = set(links.ends(joint))
         if pair == ends:
             return True
         if _in_line(joint, extra):
@@ -195,64 +224,70 @@ def _is_known(extra: _Joint, joints: Sequence[_Joint], group: Mapping[str, str])
 
 
 def _along(one: Vector, other: Vector) -> bool:
-    return abs(float(np.dot(one, other))) > PARALLEL
+    return abs(float(np.dot(one, other))) > PARALLEL_HINGES
 
 
-def _told(
-    assembly: Assembly,
-    links: Mapping[str, Sequence[object]],
-    area: Mapping[str, float],
-    group: Mapping[str, str],
-    joints: Sequence[_Joint],
-    left: Sequence[str],
-    geometry: FoundMachine | None,
+def _describe(
+    links: _Links, joints: Sequence[_Joint], left: Sequence[str], geometry: FoundMachine | None
 ) -> FoundMachine:
-    """The machine, its root first and its bodies from there outward."""
-    edges = _edges(joints, group)
-    names = list(dict.fromkeys(group.values()))
-    largest = max(components(edges), key=lambda piece: sum(_area(names[k], area, group) for k in piece))
+    """The machine, its root first and its bodies from there outward. `left`: names of the joints left out."""
+    edges = _edges(joints, links)
+    names = list(dict.fromkeys(links.group.values()))
+    largest = max(components(edges), key=lambda piece: sum(links.surface(names[k]) for k in piece))
     joints = [j for j, e in zip(joints, edges, strict=True) if e.a in largest]
     edges = [e for e in edges if e.a in largest]
-    children = {group[j.bodies[1]] for j in assembly.joints if j.type in _MOVING and all(j.bodies)}
-    heads = [n for k, n in enumerate(names) if k in largest and n not in children]
-    root = max(heads or [names[k] for k in sorted(largest)], key=lambda n: _area(n, area, group))
+    order = _outward(_root([names[k] for k in sorted(largest)], links), joints, links)
+    up = _upright(joints)
+    ids = {n: links.ids(n) for n in order}
+    kinds = _kinds(links, order, ids, joints, up, geometry)
+    bodies = [FoundBody(ids[n], kinds[n], (n,), _reason(n, links), name=links.title(n)) for n in order]
+    single = bridges(edges)
+    found = [
+        _found_joint(joint, order, ids, up, links, in_chain=edge not in single)
+        for joint, edge in zip(joints, edges, strict=True)
+    ]
+    found.sort(key=lambda j: (j.b, j.a))
+    findings = _remarks(links, ids, left)
+    return FoundMachine(links.assembly.name, tuple(bodies), 0, tuple(found), 0, findings)
+
+
+def _root(bodies: Sequence[str], links: _Links) -> str:
+    """The largest body that is no joint's child, if there is one; else the largest."""
+    declared = links.assembly.joints
+    children = {links.group[j.bodies[1]] for j in declared if j.type in _MOVING and all(j.bodies)}
+    heads = [n for n in dict.fromkeys(links.group.values()) if n in bodies and n not in children]
+    return max(heads or bodies, key=links.surface)
+
+
+def _outward(root: str, joints: Sequence[_Joint], links: _Links) -> list[str]:
+    """The bodies from the root outward."""
     order = [root]
+    pairs = [links.ends(j) for j in joints]
     for here in order:
         order += dict.fromkeys(
-            other
-            for j in joints
-            for one, other in ((group[j.a], group[j.b]), (group[j.b], group[j.a]))
-            if one == here and other not in order
+            other for a, b in pairs for one, other in ((a, b), (b, a)) if one == here and other not in order
         )
-    single = bridges(edges)
-    up = _upright(joints)
-    ids = {n: tuple(p.id for p in assembly.parts if any(p in links[m] for m in links if group[m] == n)) for n in order}
-    kinds = _kinds(assembly, order, ids, joints, group, up, geometry)
-    bodies = [FoundBody(ids[n], kinds[n], (n,), _why(n, group, links), name=_title(n, group, area)) for n in order]
-    found = []
-    for joint, edge in zip(joints, edges, strict=True):
-        a, b = sorted((order.index(group[joint.a]), order.index(group[joint.b])))
-        upright = joint.type == "revolute" and abs(float(np.dot(joint.axis, up))) > UPRIGHT
-        axis = joint.axis
-        if joint.type == "prismatic":
-            ahead = _middle(assembly, ids[order[b]]) - _middle(assembly, ids[order[a]])
-            axis = axis if float(ahead @ np.array(axis)) >= 0.0 else (-axis[0], -axis[1], -axis[2])
-        found.append(
-            FoundJoint(
-                joint.type,
-                a,
-                b,
-                joint.point,
-                axis,
-                0.0,
-                joint.pins,
-                joint.reason,
-                edge not in single,
-                upright,
-                joint.name,
-            )
-        )
-    findings = []
+    return order
+
+
+def _found_joint(
+    joint: _Joint, order: Sequence[str], ids: Mapping[str, Sequence[str]], up: Floats, links: _Links, *, in_chain: bool
+) -> FoundJoint:
+    """A joint with its bodies' numbers in `order`; a slide's axis points from the first to the second."""
+    a, b = sorted(order.index(body) for body in links.ends(joint))
+    upright = joint.type == "revolute" and abs(float(np.dot(joint.axis, up))) > UPRIGHT
+    axis = joint.axis
+    if joint.type == "prismatic":
+        ahead = _middle(links.assembly, ids[order[b]]) - _middle(links.assembly, ids[order[a]])
+        axis = axis if float(ahead @ np.array(axis)) >= 0.0 else (-axis[0], -axis[1], -axis[2])
+    return FoundJoint(
+        joint.type, a, b, joint.point, axis, 0.0, joint.pins, joint.reason, in_chain, upright, joint.name
+    )  # fmt: skip
+
+
+def _remarks(links: _Links, ids: Mapping[str, Sequence[str]], left: Sequence[str]) -> tuple[Finding, ...]:
+    """What of the file is not in the machine: joints (`left`) and parts."""
+    assembly, findings = links.assembly, []
     if left:
         words = f"Nothing is drawn for a body of theirs: {some(left)}. These joints are left out."
         findings.append(Finding("ALN024", "info", assembly.name, words))
@@ -260,21 +295,11 @@ def _told(
     if unlinked:
         words = f"Declared joints tie them to nothing: {some(unlinked)}. They are left out."
         findings.append(Finding("ALN025", "warning", assembly.name, words, "Give them a body in the alignment."))
-    order_of = sorted(range(len(found)), key=lambda k: (found[k].b, found[k].a, k))
-    return FoundMachine(assembly.name, tuple(bodies), 0, tuple(found[k] for k in order_of), 0, tuple(findings))
+    return tuple(findings)
 
 
-def _area(name: str, area: Mapping[str, float], group: Mapping[str, str]) -> float:
-    return sum(a for link, a in area.items() if group[link] == name)
-
-
-def _title(name: str, group: Mapping[str, str], area: Mapping[str, float]) -> str:
-    """A body is called after its link, of several the largest."""
-    return max((link for link in area if group[link] == name), key=lambda link: area[link])
-
-
-def _why(name: str, group: Mapping[str, str], links: Mapping[str, object]) -> str:
-    welded = [link for link in links if group[link] == name]
+def _reason(body: str, links: _Links) -> str:
+    welded = links.drawn(body)
     return f"declared by the file: {' and '.join(f'{link!r}' for link in welded[:3])}" + (
         f" and {len(welded) - 3} more welded to it" if len(welded) > 3 else ""
     )
@@ -283,7 +308,7 @@ def _why(name: str, group: Mapping[str, str], links: Mapping[str, object]) -> st
 def _upright(joints: Sequence[_Joint]) -> Floats:
     """Across most of the hinges."""
     axes = np.array([j.axis for j in joints if j.type == "revolute"] or [(0.0, 1.0, 0.0)])
-    pitch = axes[int(np.argmax((np.abs(axes @ axes.T) > PARALLEL).sum(axis=1)))]
+    pitch = axes[int(np.argmax((np.abs(axes @ axes.T) > PARALLEL_HINGES).sum(axis=1)))]
     return across(pitch)
 
 
@@ -293,32 +318,30 @@ def _middle(assembly: Assembly, ids: Sequence[str]) -> Floats:
 
 
 def _kinds(
-    assembly: Assembly,
-    order: Sequence[str],
-    ids: Mapping[str, Sequence[str]],
-    joints: Sequence[_Joint],
-    group: Mapping[str, str],
-    up: Floats,
+    links: _Links, order: Sequence[str], ids: Mapping[str, Sequence[str]], joints: Sequence[_Joint], up: Floats,
     geometry: FoundMachine | None,
-) -> dict[str, str]:
+) -> dict[str, str]:  # fmt: skip
     """What each body is: the halves of a cylinder hang on a hinge each, a wheel is round about its one joint."""
-    on: dict[str, list[_Joint]] = {n: [j for j in joints if n in (group[j.a], group[j.b])] for n in order}
+    on: dict[str, list[_Joint]] = {n: [j for j in joints if n in links.ends(j)] for n in order}
     hinged = {n: [j for j in js if j.type == "revolute"] for n, js in on.items()}
     shown = {p: b.kind for b in geometry.bodies for p in b.parts} if geometry is not None else {}
     kinds = dict.fromkeys(order, "")
     for n in order[1:]:
         swings = any(abs(float(np.dot(j.axis, up))) < UPRIGHT for j in hinged[n])
         kinds[n] = "arm" if swings else "frame" if hinged[n] else ""
-        if len(on[n]) == 1 and hinged[n] and _round(assembly, ids[n], hinged[n][0]):
+        if len(on[n]) == 1 and hinged[n] and _round(links.assembly, ids[n], hinged[n][0]):
             kinds[n] = "wheel"
     kinds[order[0]] = "frame"
     for slide in (j for j in joints if j.type == "prismatic"):
-        ends = sorted((group[slide.a], group[slide.b]), key=order.index)
+        ends = sorted(links.ends(slide), key=order.index)
         if all(hinged[n] for n in ends):
-            said = [shown.get(p) for p in ids[ends[0]]]
-            halves = ("rod", "barrel") if "rod" in said and "barrel" not in said else ("barrel", "rod")
-            kinds |= dict(zip(ends, halves, strict=True))
+            kinds |= dict(zip(ends, _halves([shown.get(p) for p in ids[ends[0]]]), strict=True))
     return kinds
+
+
+def _halves(said: Sequence[str | None]) -> tuple[str, str]:
+    """What the two bodies of a slide are, by what geometry says of the first one's parts: its barrel, if in doubt."""
+    return ("rod", "barrel") if "rod" in said and "barrel" not in said else ("barrel", "rod")
 
 
 def _round(assembly: Assembly, ids: Sequence[str], joint: _Joint) -> bool:

@@ -1,4 +1,4 @@
-"""What touches what: shafts in bores, the lines they share, and flat faces that lie on each other.
+"""What touches what: shafts in bores, the axes they share, and flat faces that lie on each other.
 
 Facets of cylindrical faces never count as flat contact (a bore would look like a weld): only the planes that the CAD
 reader found do, and only over the area that both really cover.
@@ -13,11 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from yellowiron.alignment.features.solids import Cyl, Patch, Solid, patch
+from yellowiron.alignment.features.solids import Cyl, Patch, Solid, flat_faces, patch, size_of
+from yellowiron.alignment.tolerances import FACING, PARALLEL, ROUND_ARC
 from yellowiron.model.geometry import Floats
+from yellowiron.support.vectors import distance_from_line
 
-PARALLEL = 1 - 2e-5
-"""Cosine beyond which two lines are parallel (0.36°)."""
 BESIDE = 1.5
 """Two bores that a pin is missing in are this many radii apart at most (or half as far as the longer one is long)."""
 LOOSEST = 0.84
@@ -37,7 +37,7 @@ class Fit:
 
 
 @dataclass(frozen=True, eq=False)
-class Line:
+class SharedAxis:
     """An axis that fits share: `fits` are indices into the list of fits."""
 
     origin: Floats
@@ -46,9 +46,8 @@ class Line:
     fits: tuple[int, ...]
 
     def off(self, point: Floats) -> float:
-        """Distance of a point from the line, metres."""
-        delta = point - self.origin
-        return float(np.linalg.norm(delta - (delta @ self.direction) * self.direction))
+        """Distance of a point from the axis, metres."""
+        return distance_from_line(point, self.origin, self.direction)
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,10 +84,10 @@ def neighbours(solids: tuple[Solid, ...], slack: float) -> list[tuple[int, int]]
 def fits_of(solids: tuple[Solid, ...], tolerance: float) -> list[Fit]:
     """Every shaft in a bore of another part: parallel, concentric, of like radius, overlapping along the axis."""
     shafts = [(s.index, c) for s in solids for c in s.cylinders if c.full and not c.inner]
-    bores = [(s.index, c) for s in solids for c in s.cylinders if c.inner and c.arc > 2.0]
+    bores = [(s.index, c) for s in solids for c in s.cylinders if c.inner and c.arc > ROUND_ARC]
     if not shafts or not bores:
         return []
-    size = float(np.linalg.norm(np.max([s.high for s in solids], axis=0) - np.min([s.low for s in solids], axis=0)))
+    size = size_of(solids)
     origin = np.mean([s.center for s in solids], axis=0)
     tree = cKDTree(_coordinates([c for _, c in bores], origin, size))
     ahead = _coordinates([c for _, c in shafts], origin, size)
@@ -160,7 +159,7 @@ def _fit(inner: int, shaft: Cyl, outer: int, bore: Cyl, tolerance: float) -> Fit
 
 
 def _strongest(fits: list[Fit]) -> list[Fit]:
-    """One fit for each pair of parts and line: the longest."""
+    """One fit for each pair of parts and axis: the longest."""
     kept: list[Fit] = []
     by_pair: dict[tuple[int, int], list[Fit]] = {}
     for fit in sorted(fits, key=lambda f: (f.inner, f.outer, -round(f.overlap, 7), round(f.gap, 7))):
@@ -175,7 +174,7 @@ def _skew(a: Cyl, b: Cyl) -> bool:
     return abs(float(a.direction @ b.direction)) < PARALLEL
 
 
-def lines_of(fits: list[Fit], tolerance: float) -> list[Line]:
+def shared_axes_of(fits: list[Fit], tolerance: float) -> list[SharedAxis]:
     """The distinct axes of fits: parallel and within a few per cent of a radius of each other."""
     origins: list[Floats] = []
     directions: list[Floats] = []
@@ -200,7 +199,9 @@ def lines_of(fits: list[Fit], tolerance: float) -> list[Line]:
         else:
             members[found].append(k)
             radii[found] = max(radii[found], shaft.radius)
-    return [Line(o, d, r, tuple(sorted(m))) for o, d, r, m in zip(origins, directions, radii, members, strict=True)]
+    return [
+        SharedAxis(o, d, r, tuple(sorted(m))) for o, d, r, m in zip(origins, directions, radii, members, strict=True)
+    ]
 
 
 class Patches:
@@ -212,8 +213,6 @@ class Patches:
 
     def _find(self, solid: Solid, plane: int) -> Patch:
         if not solid.shape.planes:
-            from yellowiron.alignment.features.solids import flat_faces
-
             return patch(solid.shape, flat_faces(solid.shape)[plane], self.tolerance)
         return patch(solid.shape, solid.shape.planes[plane], self.tolerance)
 
@@ -238,7 +237,7 @@ def flats_of(solids: tuple[Solid, ...], pairs: list[tuple[int, int]], tolerance:
         kb = _crossing(sb, low, high)
         if not len(ka) or not len(kb):
             continue
-        opposed = sa.plane_normals[ka] @ sb.plane_normals[kb].T < -0.99995
+        opposed = sa.plane_normals[ka] @ sb.plane_normals[kb].T < -FACING
         apart = np.abs(
             np.einsum("ij,ij->i", sa.plane_normals[ka], sa.plane_points[ka])[:, None]
             - sa.plane_normals[ka] @ sb.plane_points[kb].T

@@ -7,15 +7,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from yellowiron.alignment.features.solids import Cyl, Solid, coaxial
+from yellowiron.alignment.tolerances import ACROSS, PARALLEL_TWINS, TWIN
 from yellowiron.model.geometry import Floats
-
-PARALLEL = 0.9995
-TWIN = 0.02
-"""Two cylinders of one part are twins if their radii, and how far their rods are out, are equal within this share."""
 
 
 @dataclass(frozen=True, eq=False)
-class Ram:
+class DrawnCylinder:
     """One cylinder: indices of the solids of its barrel and of its rod (those about its own axis; eyes come later), the
     axis from the closed end towards the rod's eye, and the two radii. Where the barrel is not `hollow`, `bore` is its
     outer radius. `count` twins side by side are one. A rod that is drawn `apart`, in line with its barrel but not in
@@ -44,38 +41,35 @@ class Pair:
     score: float
 
 
-def rams_of(solids: tuple[Solid, ...], tolerance: float) -> list[Ram]:
+def cylinders_of(solids: tuple[Solid, ...], tolerance: float) -> list[DrawnCylinder]:
     """Every hydraulic cylinder, longest first; no solid belongs to two. Twins that share their two parts are one, in
     the middle between them."""
-    bores = [
-        (s, c)
-        for s in solids
-        for c in s.cylinders
-        if c.inner and c.full and 2 * c.half > 3.5 * c.radius and c.radius < 0.25 * s.size
-    ]
-    shafts = [(s, c) for s in solids for c in s.cylinders if not c.inner and c.full and 2 * c.half > 4 * c.radius]
-    eyes = [c for s in solids for c in s.cylinders if c.inner and c.full]
-    pairs = []
-    for tube, bore in bores:
-        for bar, shaft in shafts:
-            pair = _pair(tube, bore, bar, shaft, eyes, tolerance)
-            if pair is not None:
-                pairs.append(pair)
-    rams: list[Ram] = []
+    pairs = _rods_in_bores(solids, tolerance)
+    cylinders: list[DrawnCylinder] = []
     used: set[int] = set()
     for pair in sorted(pairs, key=lambda p: (-round(p.score, 6), p.tube.index, p.bar.index)):
         if pair.tube.index in used or pair.bar.index in used:
             continue
         twins = [p for p in pairs if p.tube is pair.tube and p.bar is pair.bar and _alike(p, pair)]
-        halves = [grown(p, solids, used, tolerance) for p in twins]
+        halves = [with_coaxial_parts(p, solids, used, tolerance) for p in twins]
         rod = frozenset().union(*(r.rod for r in halves))
-        ram = replace(
+        cylinder = replace(
             halves[0], barrel=frozenset().union(*(r.barrel for r in halves)) - rod, rod=rod,
             origin=np.asarray(np.mean([r.origin for r in halves], axis=0)), count=len(halves),
         )  # fmt: skip
-        used |= ram.barrel | ram.rod
-        rams.append(ram)
-    return rams
+        used |= cylinder.barrel | cylinder.rod
+        cylinders.append(cylinder)
+    return cylinders
+
+
+def _rods_in_bores(solids: tuple[Solid, ...], tolerance: float) -> list[Pair]:
+    """Every long bore with a long shaft of another part in it."""
+    faces = [(s, c) for s in solids for c in s.cylinders if c.full]
+    bores = [(s, c) for s, c in faces if c.inner and 2 * c.half > 3.5 * c.radius and c.radius < 0.25 * s.size]
+    shafts = [(s, c) for s, c in faces if not c.inner and 2 * c.half > 4 * c.radius]
+    eyes = [c for _, c in faces if c.inner]
+    pairs = (_pair(tube, bore, bar, shaft, eyes, tolerance) for tube, bore in bores for bar, shaft in shafts)
+    return [pair for pair in pairs if pair is not None]
 
 
 def _alike(one: Pair, other: Pair) -> bool:
@@ -85,7 +79,7 @@ def _alike(one: Pair, other: Pair) -> bool:
     apart = one.bore is not other.bore and one.bore.off(other.bore.center) > other.bore.radius
     delta = float((one.shaft.center - one.bore.center) @ other.direction)
     delta -= float((other.shaft.center - other.bore.center) @ other.direction)
-    as_far = abs(delta) < TWIN * other.tube.size and float(one.direction @ other.direction) > PARALLEL
+    as_far = abs(delta) < TWIN * other.tube.size and float(one.direction @ other.direction) > PARALLEL_TWINS
     return one is other or (same and apart and as_far and one.shaft is not other.shaft)
 
 
@@ -116,7 +110,7 @@ def _pair(tube: Solid, bore: Cyl, bar: Solid, shaft: Cyl, eyes: list[Cyl], toler
 
 def crossing(eye: Cyl, origin: Floats, direction: Floats, radius: float) -> float | None:
     """Where along a line a bore crosses it at right angles, or None."""
-    if abs(float(eye.direction @ direction)) > 0.05:
+    if abs(float(eye.direction @ direction)) > ACROSS:
         return None
     normal = np.cross(eye.direction, direction)
     delta = eye.center - origin
@@ -124,7 +118,7 @@ def crossing(eye: Cyl, origin: Floats, direction: Floats, radius: float) -> floa
     return float(delta @ direction) if skew < 0.5 * radius and abs(float(delta @ eye.direction)) < 12 * radius else None
 
 
-def grown(pair: Pair, solids: tuple[Solid, ...], used: set[int], tolerance: float) -> Ram:
+def with_coaxial_parts(pair: Pair, solids: tuple[Solid, ...], used: set[int], tolerance: float) -> DrawnCylinder:
     """The parts turned about the cylinder's axis, each to the barrel or to the rod."""
     origin, d, r = pair.bore.center, pair.direction, pair.bore.radius
     mouth, bottom = pair.bore.half, -pair.bore.half
@@ -147,7 +141,7 @@ def grown(pair: Pair, solids: tuple[Solid, ...], used: set[int], tolerance: floa
             rod.add(s.index)
         else:
             barrel.add(s.index)
-    return Ram(frozenset(barrel), frozenset(rod), origin, d, r, pair.shaft.radius)
+    return DrawnCylinder(frozenset(barrel), frozenset(rod), origin, d, r, pair.shaft.radius)
 
 
 def _radius(solid: Solid, origin: Floats, direction: Floats) -> float:

@@ -10,16 +10,17 @@ from dataclasses import replace
 
 import numpy as np
 
-from yellowiron.alignment.features.contacts import PARALLEL, Fit, Line, lines_of
-from yellowiron.alignment.features.cylinders import Ram
+from yellowiron.alignment.features.contacts import Fit, SharedAxis, shared_axes_of
+from yellowiron.alignment.features.cylinders import DrawnCylinder
 from yellowiron.alignment.features.distance import Touch
 from yellowiron.alignment.features.solids import Cyl, Solid, coaxial
+from yellowiron.alignment.tolerances import LEAST_PIVOT, PARALLEL
 from yellowiron.model.template import Template
 
 ARC = 1.5
 """Radians that an end is round at least."""
-LEAST, MOST = 0.002, 0.025
-"""An end's radius in machine sizes."""
+MOST = 0.025
+"""An end's radius in machine sizes, at most."""
 LONG = 6.0
 """A hole longer than this many radii is a barrel's."""
 BESIDE = (0.25, 0.5, 1.0)
@@ -30,38 +31,38 @@ PIN = 0.5
 """A pin has about this share of the radius of the end around it."""
 
 
-def bored(solids: tuple[Solid, ...], template: Template, size: float) -> bool:
+def has_drilled_pivots(solids: tuple[Solid, ...], template: Template, size: float) -> bool:
     """Whether a model's pivots are drawn with holes: as many stout ones as the template has hinges, or more."""
     hinges = sum(1 for j in template.joints if j.type == "revolute")
     holes = sum(
-        c.inner and c.full and LEAST * size < c.radius < MOST * size and 2 * c.half < LONG * c.radius
+        c.inner and c.full and LEAST_PIVOT * size < c.radius < MOST * size and 2 * c.half < LONG * c.radius
         for s in solids
         for c in s.cylinders
     )
     return holes >= hinges
 
 
-def ended_fits_of(
-    solids: tuple[Solid, ...], fits: Iterable[Fit], rams: Iterable[Ram], touch: Touch, size: float
+def round_end_fits_of(
+    solids: tuple[Solid, ...], fits: Iterable[Fit], cylinders: Iterable[DrawnCylinder], touch: Touch, size: float
 ) -> list[Fit]:
     """A fit for every part right beside a round end of another, for pairs of parts without one. `inner` is the part
     with the end; the shaft is the pin that is not drawn."""
-    rams = list(rams)
+    cylinders = list(cylinders)
     joined = {frozenset((f.inner, f.outer)) for f in fits}
-    of_ram = {i: ram for ram in rams for i in ram.barrel | ram.rod}
+    of_cylinder = {i: cylinder for cylinder in cylinders for i in cylinder.barrel | cylinder.rod}
     found: dict[tuple[int, int], Fit] = {}
     for solid in solids:
         if (
             solid.axis is not None
-            or (solid.shaft is not None and solid.index not in of_ram)
+            or (solid.shaft is not None and solid.index not in of_cylinder)
             or (solid.slight and solid.shape.closed)
         ):
             continue
         for end in (*solid.cylinders, *solid.knuckles):
-            if end.inner or end.arc < ARC or not LEAST * size < end.radius < MOST * size:
+            if end.inner or end.arc < ARC or not LEAST_PIVOT * size < end.radius < MOST * size:
                 continue
-            ram = of_ram.get(solid.index)
-            if ram is not None and abs(float(end.direction @ ram.direction)) > PARALLEL:
+            cylinder = of_cylinder.get(solid.index)
+            if cylinder is not None and abs(float(end.direction @ cylinder.direction)) > PARALLEL:
                 continue
             for side in (1.0, -1.0):
                 for other, bore in _beside(solid, end, side, solids, touch):
@@ -74,20 +75,20 @@ def ended_fits_of(
     return _chained([found[pair] for pair in sorted(found)], joined)
 
 
-def stays_of(pierced: Iterable[Fit], ended: list[Fit], solids: tuple[Solid, ...], touch: Touch) -> frozenset[int]:
+def stay_bars_of(pierced: Iterable[Fit], ended: list[Fit], solids: tuple[Solid, ...], touch: Touch) -> frozenset[int]:
     """Bars through parts that hold them together and are no pins: where few of the round ends have a pin, those between
     whose ends and other parts there is no room."""
     pins = sorted({f.inner for f in pierced if solids[f.inner].shaft is not None})
-    lines = lines_of(ended, 0.0)
+    axes = shared_axes_of(ended, 0.0)
     bars = {i: shaft for i in pins if (shaft := solids[i].shaft) is not None}
-    on = [ln for ln in lines if any(_along(bar, ln) for bar in bars.values())]
-    if 2 * len(on) >= len(lines):
+    on = [ln for ln in axes if any(_along(bar, ln) for bar in bars.values())]
+    if 2 * len(on) >= len(axes):
         return frozenset()
     return frozenset(i for i, bar in bars.items() if not any(_along(bar, ln) for ln in on) and _held(i, bar, touch))
 
 
-def _along(bar: Cyl, line: Line) -> bool:
-    return abs(float(bar.direction @ line.direction)) > PARALLEL and line.off(bar.center) < 0.1 * line.radius
+def _along(bar: Cyl, axis: SharedAxis) -> bool:
+    return abs(float(bar.direction @ axis.direction)) > PARALLEL and axis.off(bar.center) < 0.1 * axis.radius
 
 
 def _held(index: int, bar: Cyl, touch: Touch) -> bool:

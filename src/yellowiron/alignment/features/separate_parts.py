@@ -7,14 +7,12 @@ from collections.abc import Collection
 import numpy as np
 from numpy.typing import NDArray
 
+from yellowiron.alignment.tolerances import FAR
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.geometry import Floats
 
-FAR = 0.05
-"""What is further than this from every part of the machine, in machine sizes, is no part of it."""
 
-
-def islands(assembly: Assembly, wanted: Collection[str] = ()) -> dict[str, float]:
+def separate_parts(assembly: Assembly, wanted: Collection[str] = ()) -> dict[str, float]:
     """Part id → metres (between boxes) to the machine, for the parts that stand apart from it.
 
     The machine is the group of most parts (then of most volume) of which each is near another; groups that hold one of

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 import weakref
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.geometry import CylinderFeature, Floats, Ints, PlaneFeature, Shape
+from yellowiron.support.vectors import distance_from_line, triple
 
 FULL_ARC = 0.6 * 2 * math.pi
 """Radians around: more is taken for a whole cylinder (bores and shafts are often split, slotted or cross-drilled)."""
@@ -40,8 +42,7 @@ class Cyl:
 
     def off(self, point: Floats) -> float:
         """Distance of a point from its axis, metres."""
-        delta = point - self.center
-        return float(np.linalg.norm(delta - (delta @ self.direction) * self.direction))
+        return distance_from_line(point, self.center, self.direction)
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,6 +118,11 @@ def coaxial(a: Cyl, b: Cyl, slack: float, tolerance: float = 0.0) -> bool:
     if abs(float(a.direction @ b.direction)) < 1 - 5e-6 * (1 + 100 * slack):
         return False
     return b.off(a.center) <= max(tolerance, slack * min(a.radius, b.radius))
+
+
+def size_of(solids: Sequence[Solid]) -> float:
+    """The machine's size, metres: the diagonal of the box around its solids, of which there is at least one."""
+    return float(np.linalg.norm(np.max([s.high for s in solids], axis=0) - np.min([s.low for s in solids], axis=0)))
 
 
 _known: weakref.WeakKeyDictionary[Assembly, tuple[Solid, ...]] = weakref.WeakKeyDictionary()
@@ -266,7 +272,7 @@ def flat_faces(shape: Shape) -> tuple[PlaneFeature, ...]:
         normal = weights @ normals[good][rows]
         point = weights @ centres[rows]
         normal = normal / np.linalg.norm(normal)
-        planes.append(PlaneFeature(_triple(point), _triple(normal), float(total[k])))
+        planes.append(PlaneFeature(triple(point), triple(normal), float(total[k])))
     return tuple(planes)
 
 
@@ -281,7 +287,3 @@ def patch(shape: Shape, plane: PlaneFeature, tolerance: float) -> Patch:
     double = np.linalg.norm(cross, axis=1)
     facing = (cross @ normal > 0.99 * double) & (double > 1e-14)
     return Patch(corners[facing], float(0.5 * double[facing].sum()))
-
-
-def _triple(v: Floats) -> tuple[float, float, float]:
-    return (float(v[0]), float(v[1]), float(v[2]))

@@ -9,11 +9,11 @@ import numpy as np
 
 from yellowiron.alignment.features.contacts import Flat
 from yellowiron.alignment.features.solids import Solid
+from yellowiron.alignment.tolerances import PARALLEL_WALLS
 from yellowiron.model.geometry import Floats
 
-PARALLEL = 0.9998
-ACROSS = 0.02
-"""Cosine up to which a wall is along the boom."""
+SQUARE = 0.02
+"""Cosine up to which two walls, or a wall and the boom's end, are square to each other."""
 LONG = 2.5
 """A section is this many times longer than wide …"""
 SIZED = 0.04
@@ -43,7 +43,7 @@ def nests_of(solids: tuple[Solid, ...], size: float, tolerance: float) -> list[N
     best: dict[int, tuple[float, Nest]] = {}
     for a, axes in sorted(frames.items()):
         for b, others in sorted(frames.items()):
-            if a == b or abs(float(axes[0] @ others[0])) < PARALLEL:
+            if a == b or abs(float(axes[0] @ others[0])) < PARALLEL_WALLS:
                 continue
             gap = _gap(solids[a], solids[b], axes, tolerance)
             if gap is not None and (b not in best or gap < best[b][0]):
@@ -57,11 +57,11 @@ def _section(solid: Solid, size: float) -> Floats | None:
     if len(normals) < 4 or solid.size < SIZED * size:
         return None
     long = np.linalg.svd(solid.points - solid.points.mean(axis=0), full_matrices=False)[2][0]
-    walls = normals[np.abs(normals @ long) < 5 * ACROSS]
+    walls = normals[np.abs(normals @ long) < 5 * SQUARE]
     if len(walls) < 4:
         return None
-    u = walls[int(np.argmax((np.abs(walls @ walls.T) > PARALLEL).sum(axis=1)))]
-    square = walls[np.abs(walls @ u) < ACROSS]
+    u = walls[int(np.argmax((np.abs(walls @ walls.T) > PARALLEL_WALLS).sum(axis=1)))]
+    square = walls[np.abs(walls @ u) < SQUARE]
     if not len(square):
         return None
     v = square[0] - (square[0] @ u) * u
@@ -86,7 +86,7 @@ def _gap(outer: Solid, inner: Solid, axes: Floats, tolerance: float) -> float | 
             edge = _wall(inner, normal)
             if edge is None:
                 continue
-            heights = outer.plane_points[outer.plane_normals @ normal < -PARALLEL] @ normal
+            heights = outer.plane_points[outer.plane_normals @ normal < -PARALLEL_WALLS] @ normal
             near = heights[(heights > edge - tolerance) & (heights < edge + LOOSE * width.max())]
             if len(near):
                 gaps.append(max(0.0, float(min(near)) - edge))
@@ -96,7 +96,7 @@ def _gap(outer: Solid, inner: Solid, axes: Floats, tolerance: float) -> float | 
 
 def _wall(solid: Solid, normal: Floats) -> float | None:
     """How far out the outermost wall of a section is that faces a way."""
-    facing = solid.plane_normals @ normal > PARALLEL
+    facing = solid.plane_normals @ normal > PARALLEL_WALLS
     return float((solid.plane_points[facing] @ normal).max()) if facing.any() else None
 
 

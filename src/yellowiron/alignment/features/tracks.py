@@ -2,24 +2,22 @@
 and the round things inside the row are its wheels.
 
 A row is closed where each part has two neighbours at about the same distance and all lie in one plane. Its pins are
-between two shoes: they go with the shoe that holds them tightest. The wheel with teeth is the sprocket, the one at the
-other end the idler; rollers lie on the ground's side, carrier rollers on the other.
+between two shoes: they go with the shoe that holds them tightest. Which wheel is which is told in
+`labelling.track_places`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.spatial import cKDTree
 
-from yellowiron.alignment.features.distance import Touch
-from yellowiron.alignment.features.solids import Solid, coaxial
-from yellowiron.alignment.labelling.propagation import DOUBTFUL, Place
+from yellowiron.alignment.features.solids import Solid
+from yellowiron.alignment.features.track_wheels import TrackWheel, track_wheels_of
+from yellowiron.alignment.tolerances import PARALLEL_TWINS
 from yellowiron.model.geometry import Floats
-from yellowiron.model.rows import member, split_index
-from yellowiron.model.template import Role, Template
 
 LEAST = 20
 """Fewer equal parts in a row are no track."""
@@ -31,25 +29,6 @@ FLAT = 0.03
 """How far a row may be from a plane, as a share of its length."""
 PLACE = 0.3
 """Two parts sit at the same place of their shoes if their places differ by less than this many pitches."""
-PLAIN = 0.02
-"""The rims of two wheels differ if one reaches this share of its radius further out than the other's."""
-PARALLEL = 0.9995
-SURE = 0.95
-"""Confidence of a part of a track."""
-ON = 0.5
-"""What stands on a track is smaller than this share of its largest part."""
-KINDS = ("shoe", "sprocket", "idler", "roller", "carrier")
-
-
-@dataclass(frozen=True, eq=False)
-class TrackWheel:
-    """A wheel inside a track: its solids, a point of its axis, its radius in metres, and the radius of its rim as a
-    share of it: 1 for a smooth one, less for teeth."""
-
-    members: tuple[int, ...]
-    center: Floats
-    radius: float
-    rim: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,16 +76,12 @@ def tracks_of(solids: Sequence[Solid]) -> list[Track]:
         found.append((row, shoes))
     tracks = []
     for row, shoes in found:
-        centers = np.array([_middle(solids[i]) for i in row])
+        centers = np.array([solids[i].center for i in row])
         axis = np.linalg.svd(centers - centers.mean(axis=0))[2][2]
-        wheels = _wheels(row, axis, solids, taken)
+        wheels = track_wheels_of(row, axis, solids, taken)
         points = tuple(np.concatenate([solids[i].points for i in shoe]) for shoe in shoes)
         tracks.append(Track(tuple(shoes), centers, axis, tuple(wheels), points))
     return tracks
-
-
-def _middle(solid: Solid) -> Floats:
-    return solid.center
 
 
 # ---- rows ----
@@ -132,7 +107,7 @@ def _rows(members: list[int], solids: Sequence[Solid]) -> list[list[int]]:
     """The closed rows among equal parts, each in order around the loop."""
     if len(members) < LEAST:
         return []
-    points = np.array([_middle(solids[i]) for i in members])
+    points = np.array([solids[i].center for i in members])
     tree = cKDTree(points)
     apart = np.asarray(tree.query(points, k=3)[0])
     reach = NEXT * float(np.median(apart[:, 2]))
@@ -140,21 +115,25 @@ def _rows(members: list[int], solids: Sequence[Solid]) -> list[list[int]]:
     left = {i for i, near in enumerate(neighbours) if len(near) == 2}
     rows = []
     while left:
-        start = min(left)
-        row, before, here = [start], -1, start
-        while True:
-            onward = [j for j in neighbours[here] if j != before and j in left]
-            if not onward or (onward[0] == start and len(row) > 2):
-                break
-            before, here = here, min(onward) if before < 0 else onward[0]
-            if here in row:
-                break
-            row.append(here)
+        row = _walk(min(left), neighbours, left)
         left -= set(row)
         closed = len(row) >= LEAST and row[0] in neighbours[row[-1]]
         if closed and _in_plane(points[row]):
             rows.append([members[i] for i in row])
     return rows
+
+
+def _walk(start: int, neighbours: list[list[int]], left: set[int]) -> list[int]:
+    """The parts from one neighbour to the next, until there is none or the first one comes again."""
+    row, before, here = [start], -1, start
+    while True:
+        onward = [j for j in neighbours[here] if j != before and j in left]
+        if not onward or (onward[0] == start and len(row) > 2):
+            return row
+        before, here = here, min(onward) if before < 0 else onward[0]
+        if here in row:
+            return row
+        row.append(here)
 
 
 def _in_plane(points: Floats) -> bool:
@@ -163,9 +142,20 @@ def _in_plane(points: Floats) -> bool:
 
 
 # ---- what goes with a shoe ----
-def _frames(row: list[int], solids: Sequence[Solid]) -> tuple[Floats, Floats, float]:
-    """Places (n, 3) and axes (n, 3, 3; rows: along the row, outwards, across) of the shoes, and the pitch."""
-    centers = np.array([_middle(solids[i]) for i in row])
+@dataclass(frozen=True, eq=False)
+class _Row:
+    """The shoes of a row: places (n, 3) of their main parts, axes (n, 3, 3; rows: along the row, outwards, across) and
+    extents along them (3,), the pitch, and what finds the nearest. Metres."""
+
+    centers: Floats
+    axes: Floats
+    extents: Floats
+    pitch: float
+    tree: cKDTree
+
+
+def _row(row: list[int], solids: Sequence[Solid]) -> _Row:
+    centers = np.array([solids[i].center for i in row])
     along = np.roll(centers, -1, axis=0) - np.roll(centers, 1, axis=0)
     along /= np.linalg.norm(along, axis=1)[:, None]
     across = np.linalg.svd(centers - centers.mean(axis=0))[2][2]
@@ -174,7 +164,9 @@ def _frames(row: list[int], solids: Sequence[Solid]) -> tuple[Floats, Floats, fl
     if float(np.einsum("ij,ij->i", outwards, centers - centers.mean(axis=0)).sum()) < 0:
         outwards = -outwards
     pitch = float(np.median(np.linalg.norm(np.roll(centers, -1, axis=0) - centers, axis=1)))
-    return centers, np.stack([along, outwards, np.broadcast_to(across, along.shape)], axis=1), pitch
+    axes = np.stack([along, outwards, np.broadcast_to(across, along.shape)], axis=1)
+    few = [np.ptp((solids[i].points - centers[k]) @ axes[k].T, axis=0) for k, i in enumerate(row[:3])]
+    return _Row(centers, axes, np.max(few, axis=0), pitch, cKDTree(centers))
 
 
 def _companions(
@@ -182,58 +174,40 @@ def _companions(
 ) -> list[tuple[int, ...]]:
     """For every shoe of a row its solids, main one first: of each class of which there are as many near the row as
     shoes, or twice, three times as many, the part that sits at the same place of each."""
-    centers, axes, pitch = _frames(row, solids)
-    count = len(row)
-    tree = cKDTree(centers)
-    high = np.max([np.ptp((solids[i].points - centers[k]) @ axes[k].T, axis=0) for k, i in enumerate(row[:3])], axis=0)
+    along = _row(row, solids)
     shoes: list[list[int]] = [[i] for i in row]
     for members in classes:
-        near = [i for i in members if i not in taken and i not in row and _beside(solids[i], tree, axes, high, pitch)]
-        if not near or len(near) % count:
+        near = [i for i in members if i not in taken and i not in row and _beside(solids[i], along)]
+        if not near or len(near) % len(row):
             continue
-        for slot in _slots(near, count, centers, axes, tree, pitch, solids, shoes):
+        for slot in _slots(near, along, solids, shoes):
             for k, i in slot.items():
                 shoes[k].append(i)
     return [tuple(shoe) for shoe in shoes]
 
 
-def _beside(solid: Solid, tree: cKDTree, axes: Floats, high: Floats, pitch: float) -> bool:
+def _beside(solid: Solid, row: _Row) -> bool:
     """Whether a solid is within the shoes' width and about a pitch of their middle."""
-    middle = _middle(solid)
-    _, k = tree.query(middle)
-    local = axes[k] @ (middle - tree.data[k])
-    small = solid.size < 1.5 * float(np.linalg.norm(high)) + pitch
-    return bool(small and abs(local[2]) <= 0.55 * high[2] and abs(local[0]) < 0.8 * pitch and abs(local[1]) < pitch)
+    middle = solid.center
+    _, k = row.tree.query(middle)
+    local = row.axes[k] @ (middle - row.tree.data[k])
+    small = solid.size < 1.5 * float(np.linalg.norm(row.extents)) + row.pitch
+    near = abs(local[0]) < 0.8 * row.pitch and abs(local[1]) < row.pitch
+    return bool(small and abs(local[2]) <= 0.55 * row.extents[2] and near)
 
 
-def _slots(
-    near: list[int], count: int, centers: Floats, axes: Floats, tree: cKDTree, pitch: float,
-    solids: Sequence[Solid], shoes: list[list[int]],
-) -> list[dict[int, int]]:  # fmt: skip
+def _slots(near: list[int], row: _Row, solids: Sequence[Solid], shoes: list[list[int]]) -> list[dict[int, int]]:
     """Places of a shoe at which every shoe has one of these parts: shoe → part, a place each, all parts used once.
 
     A part between two shoes is at a place of either: that of the shoe with the tighter fit is taken.
     """
-    combos = []
-    for i in near:
-        _, nearest = tree.query(_middle(solids[i]), k=3)
-        for k in np.atleast_1d(nearest):
-            local = axes[k] @ (_middle(solids[i]) - centers[k])
-            if abs(local[0]) < 0.8 * pitch:
-                combos.append((i, int(k), local))
-    places: list[tuple[Floats, list[tuple[int, int]]]] = []
-    for i, k, local in combos:
-        found = [p for p in places if float(np.linalg.norm(p[0] - local)) < PLACE * pitch * 0.5]
-        if found:
-            found[0][1].append((i, k))
-        else:
-            places.append((local, [(i, k)]))
     whole = []
-    for local, members in places:
+    for local, members in _places(near, row, solids):
         by_shoe = {k: i for i, k in reversed(members)}
-        if len(by_shoe) == count and len(set(by_shoe.values())) == count:
+        if len(by_shoe) == len(shoes) and len(set(by_shoe.values())) == len(shoes):
             loose = _looseness(next(iter(by_shoe.items())), solids, shoes)
-            whole.append((round(loose, 6), round(float(np.linalg.norm(local)) / pitch, 2), float(local[0]), by_shoe))
+            away = round(float(np.linalg.norm(local)) / row.pitch, 2)
+            whole.append((round(loose, 6), away, float(local[0]), by_shoe))
     chosen: list[dict[int, int]] = []
     used: set[int] = set()
     for *_, by_shoe in sorted(whole, key=lambda w: w[:3]):
@@ -241,6 +215,23 @@ def _slots(
             chosen.append(by_shoe)
             used |= set(by_shoe.values())
     return chosen
+
+
+def _places(near: list[int], row: _Row, solids: Sequence[Solid]) -> list[tuple[Floats, list[tuple[int, int]]]]:
+    """Places (3,) in a shoe's axes, each with the (part, shoe) that are there; a part may be at places of several."""
+    places: list[tuple[Floats, list[tuple[int, int]]]] = []
+    for i in near:
+        _, nearest = row.tree.query(solids[i].center, k=3)
+        for k in np.atleast_1d(nearest):
+            local = row.axes[k] @ (solids[i].center - row.centers[k])
+            if abs(local[0]) >= 0.8 * row.pitch:
+                continue
+            found = [p for p in places if float(np.linalg.norm(p[0] - local)) < PLACE * row.pitch * 0.5]
+            if found:
+                found[0][1].append((i, int(k)))
+            else:
+                places.append((local, [(i, int(k))]))
+    return places
 
 
 def _looseness(pair: tuple[int, int], solids: Sequence[Solid], shoes: list[list[int]]) -> float:
@@ -252,193 +243,10 @@ def _looseness(pair: tuple[int, int], solids: Sequence[Solid], shoes: list[list[
             continue
         for j in shoes[k]:
             for bore in solids[j].cylinders:
-                if not bore.inner or abs(float(bore.direction @ shaft.direction)) < PARALLEL:
+                if not bore.inner or abs(float(bore.direction @ shaft.direction)) < PARALLEL_TWINS:
                     continue
                 low, high = bore.interval(shaft.center, shaft.direction)
                 apart = max(low - shaft.half, -shaft.half - high)
                 if apart < 0 and bore.off(shaft.center) < 0.1 * shaft.radius and bore.radius > 0.99 * shaft.radius:
                     least = min(least, bore.radius - shaft.radius)
     return max(0.0, least)
-
-
-# ---- wheels ----
-def _wheels(row: list[int], axis: Floats, solids: Sequence[Solid], taken: set[int]) -> list[TrackWheel]:
-    """The round hollow things inside a loop that turn about lines across it, those on one line together; where nothing
-    there is hollow, as in models drawn to be looked at, the widest solid one on each line."""
-    centers = np.array([_middle(solids[i]) for i in row])
-    middle = centers.mean(axis=0)
-    plane = np.linalg.svd(axis[None, :])[2][1:]
-    loop = (centers - middle) @ plane.T
-    width = max(float(np.ptp(solids[i].points @ axis)) for i in row[:3])
-    pitch = float(np.median(np.linalg.norm(np.roll(loop, -1, axis=0) - loop, axis=1)))
-    rings: list[tuple[Floats, list[int]]] = []
-    for s in solids:
-        if s.index in taken or s.axis is None or abs(float(s.axis.direction @ axis)) < PARALLEL:
-            continue
-        place = plane @ (s.axis.center - middle)
-        low, high = s.span(middle, axis)
-        across = min(high, 0.5 * width) - max(low, -0.5 * width)
-        if across < 0.5 * (high - low) or not _inside(place, loop):
-            continue
-        for at, members in rings:
-            if float(np.linalg.norm(at - place)) < 0.05 * pitch:
-                members.append(s.index)
-                break
-        else:
-            rings.append((place, [s.index]))
-    hollow = [(place, [i for i in members if solids[i].hole > 0.0]) for place, members in rings]
-    if any(members for _, members in hollow):
-        rings = [(place, members) for place, members in hollow if members]
-    else:
-        rings = [(place, [max(members, key=lambda i: (round(solids[i].reach, 5), -i))]) for place, members in rings]
-    wheels = []
-    for place, members in rings:
-        main = max(members, key=lambda i: (round(solids[i].reach, 5), -i))
-        radius = solids[main].reach
-        gap = float(np.linalg.norm(loop - place, axis=1).min()) - radius
-        if gap < 1.2 * pitch and radius > 0.15 * pitch:
-            bolts = _bolted(place, radius, middle, plane, axis, width, solids, taken | set(members))
-            center = middle + place @ plane
-            wheels.append(
-                TrackWheel((main, *(i for i in members if i != main), *bolts), center, radius, _rim(solids[main]))
-            )
-    return wheels
-
-
-def _inside(point: Floats, loop: Floats) -> bool:
-    """Whether a point (2,) is inside a closed polygon (n, 2)."""
-    a, b = loop, np.roll(loop, -1, axis=0)
-    crosses = (a[:, 1] > point[1]) != (b[:, 1] > point[1])
-    with np.errstate(divide="ignore", invalid="ignore"):
-        at = a[:, 0] + (point[1] - a[:, 1]) * (b[:, 0] - a[:, 0]) / (b[:, 1] - a[:, 1])
-    return bool(np.count_nonzero(crosses & (point[0] < at)) % 2)
-
-
-def _bolted(
-    place: Floats, radius: float, middle: Floats, plane: Floats, axis: Floats, width: float,
-    solids: Sequence[Solid], others: set[int],
-) -> list[int]:  # fmt: skip
-    """Bolts of a wheel: three or more equal bars along its axis, at one distance from it and within its rim."""
-    circles: dict[tuple[float, float, float], list[int]] = {}
-    for s in solids:
-        if s.index in others or s.shaft is None or abs(float(s.shaft.direction @ axis)) < PARALLEL:
-            continue
-        away = float(np.linalg.norm(plane @ (s.shaft.center - middle) - place))
-        low, high = s.span(middle, axis)
-        if 0.05 * radius < away < radius and abs(0.5 * (low + high)) < 0.5 * width:
-            circles.setdefault((round(s.volume, 8), round(away, 3), round(s.shaft.radius, 4)), []).append(s.index)
-    return [i for members in circles.values() if len(members) >= 3 for i in members]
-
-
-def _rim(solid: Solid) -> float:
-    """Radius of the outermost whole cylinder about its axis, as a share of its reach."""
-    assert solid.axis is not None
-    outer = [c.radius for c in solid.cylinders if not c.inner and c.full and coaxial(c, solid.axis, 0.05)]
-    return max(outer, default=0.0) / solid.reach
-
-
-# ---- roles ----
-def without_tracks(template: Template) -> Template:
-    """The template without the parts of tracks, which are found by themselves, and without hidden bodies."""
-    gone = {r.name for r in template.roles if r.many or r.kind in KINDS}
-    return replace(
-        template,
-        roles=tuple(r for r in template.roles if r.name not in gone),
-        joints=tuple(j for j in template.joints if not gone & {split_index(p)[0] for p in j.parts}),
-    )
-
-
-def track_places(
-    tracks: Sequence[Track], ids: Mapping[int, str], frame: Floats, template: Template
-) -> dict[str, Place]:
-    """Part id → place, for all parts of tracks. `ids`: solid → part id; `frame` (4, 4): CAD → machine; `template` has
-    its variants decided."""
-    places: dict[str, Place] = {}
-    level = [float(frame[1, :3] @ t.center + frame[1, 3]) for t in tracks]
-    for track, y in zip(tracks, level, strict=True):
-        left = y > 0 if len(tracks) == 1 else y > np.mean(level)
-        rows = {r.kind: r for r in template.roles if r.kind in KINDS and (_side(r) in ("", "l" if left else "r"))}
-        for kind, words, groups in _parts(track, frame):
-            role = rows.get(kind)
-            if role is None:
-                continue
-            for number, group in enumerate(groups, 1):
-                name = member(role.name, number) if role.many else role.name
-                body = template.body_of(name)
-                if body is not None:
-                    said = f"{words} of {len(groups)}" if role.many else words
-                    places |= {ids[i]: Place(name, body, SURE, said, how="track") for i in group}
-    return places
-
-
-def on_tracks(
-    found: Mapping[str, Place], placed: Mapping[str, Place], solids: Sequence[Solid], touch: Touch
-) -> dict[str, Place]:
-    """Part id → place, for parts that stand on a track: whose place in `found` (or none) rests on no more than what
-    they touch or are near to, and which touch a part of a track in `placed` and are as deep in it."""
-    where = {s.part.id: s.index for s in solids}
-    rows = {where[part] for part in placed}
-    result: dict[str, Place] = {}
-    waiting = [
-        s.index
-        for s in solids
-        if s.index not in rows and (s.part.id not in found or found[s.part.id].how in ("touch", "near"))
-    ]
-    waiting = [i for i in waiting if solids[i].size < ON * max((solids[j].size for j in rows), default=0.0)]
-    bodies = {where[part]: place for part, place in placed.items()}
-    others = {where[part]: place.body for part, place in found.items() if where[part] not in waiting}
-    while True:
-        grown: dict[int, Place] = {}
-        for i in waiting:
-            near = [j for j in touch.reaching(solids[i].low, solids[i].high) if j != i and touch.touching(i, j)]
-            tracks = [j for j in near if j in bodies]
-            if not tracks:
-                continue
-            best = max(tracks, key=lambda j: (round(touch.sunk(i, j), 3), -j))
-            rival = max((touch.sunk(i, j) for j in near if j in others), default=-1.0)
-            own, body, words = found.get(solids[i].part.id), bodies[best].body, f"stands on {bodies[best].role}"
-            if own is not None and own.body == body:
-                grown[i] = replace(own, confidence=max(own.confidence, SURE), reason=words)
-            elif own is not None and rival > touch.sunk(i, best):
-                words = f"{own.reason}; but it {words}"
-                grown[i] = replace(own, confidence=DOUBTFUL, reason=words, runner_up=body)
-            else:
-                grown[i] = Place(body, body, SURE if rival < 0.0 else DOUBTFUL, words, how="touch")
-        if not grown:
-            return result
-        bodies |= {i: place for i, place in grown.items() if place.confidence >= SURE}
-        result |= {solids[i].part.id: place for i, place in grown.items()}
-        waiting = [i for i in waiting if i not in grown]
-
-
-def _side(role: Role) -> str:
-    ends = role.name.rpartition("_")[2]
-    return role.side or (ends if ends in ("l", "r") else "")
-
-
-def _parts(track: Track, frame: Floats) -> list[tuple[str, str, list[tuple[int, ...]]]]:
-    """(kind, words, solids of each) of a track's parts in order: wheels front to rear, shoes around the loop, forward
-    on the ground, the first being the first ahead of the track's middle."""
-    centers = track.centers @ frame[:3, :3].T + frame[:3, 3]
-    middle = 0.5 * (centers.min(axis=0) + centers.max(axis=0))
-    order = list(range(len(centers)))
-    low = [k for k in order if centers[k, 2] < middle[2]]
-    forward = sum(float(centers[(k + 1) % len(order)][0] - centers[k][0]) for k in low)
-    if forward < 0:
-        order.reverse()
-    first = min((k for k in low if centers[k, 0] >= middle[0]), key=lambda k: float(centers[k, 0]), default=order[0])
-    at = order.index(first)
-    shoes = [track.shoes[k] for k in (*order[at:], *order[:at])]
-    placed = sorted(((frame[:3, :3] @ w.center + frame[:3, 3], w) for w in track.wheels), key=lambda p: -float(p[0][0]))
-    found = [("shoe", "one of a closed row", shoes)]
-    if len(placed) >= 2:
-        (_, front), *inner, (_, rear) = placed
-        sprocket, idler = (front, rear) if front.rim < rear.rim - PLAIN else (rear, front)
-        teeth = "the toothed wheel" if abs(front.rim - rear.rim) > PLAIN else "the rear wheel"
-        found += [
-            ("sprocket", f"{teeth} at an end of the track", [sprocket.members]),
-            ("idler", "the other wheel at an end of the track", [idler.members]),
-            ("roller", "one on the lower run, front to rear,", [w.members for p, w in inner if p[2] < middle[2]]),
-            ("carrier", "one under the upper run, front to rear,", [w.members for p, w in inner if p[2] >= middle[2]]),
-        ]
-    return found

@@ -1,113 +1,146 @@
-"""Machines that are drawn to be looked at: pins without holes for them, hydraulic cylinders without a bore.
+"""Pivots of machines that are drawn to be looked at, without holes for their pins.
 
-Such a model shows a pin as a bar that runs through solid plates, and a barrel as a solid bar with a thinner one in line
-with it. What a bar runs through, near its axis, it may turn in.
+Such a model shows a pin as a bar that runs through solid plates. What a bar runs through, near its axis, it may turn
+in. Hydraulic cylinders of such models: `undrilled_cylinders`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import replace
+from collections.abc import Collection, Iterable, Iterator
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from yellowiron.alignment.features.contacts import PARALLEL, Fit
-from yellowiron.alignment.features.cylinders import Pair, Ram, crossing, grown
+from yellowiron.alignment.features.contacts import Fit
+from yellowiron.alignment.features.cylinders import DrawnCylinder
 from yellowiron.alignment.features.distance import Touch
 from yellowiron.alignment.features.solids import Cyl, Solid, coaxial
+from yellowiron.alignment.tolerances import (
+    LEAST_PIVOT,
+    LEAST_SLEWING,
+    PARALLEL,
+    PARALLEL_BY_EYE,
+)
 from yellowiron.model.geometry import Floats
 
 CORE = 0.6
-"""A bar runs through a part that is within this share of its radius from its axis …"""
-STOUT = 0.002
-"""… and is a pivot only from this radius on, in machine sizes."""
+"""A bar runs through a part that is within this share of its radius from its axis."""
 LEAST = 0.1
 """A bar runs through a part over at least this share of its radius; less is a part that it ends at."""
 RIM = 0.12
 """Points of a hole's edge are this near to the bar's surface, as a share of its radius …"""
 SECTORS = 6
 """… in all sectors around it but one."""
-TABLE = 0.02
-"""A round base is a turntable from this radius on, in machine sizes …"""
 NEAR = 0.05
-"""… if what stands on it is no further from it than this share of its radius."""
-FILLING = 0.85
-"""A rod that is not in its barrel fills the bore that it belongs to: it has at least this share of its radius."""
+"""What stands on a turntable is no further from it than this share of its radius."""
 WHOLE = 0.5
 """The pieces of a bar make up at least this share of it."""
-TWIN = 0.02
-"""Two bars of one part are twins if their radii and lengths are equal within this share."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Model:
+    """What is looked at: the solids, what tells which of them a line pierces, the machine's size in metres, and of the
+    hydraulic cylinders the solids (`taken`) and directions."""
+
+    solids: tuple[Solid, ...]
+    touch: Touch
+    size: float
+    taken: frozenset[int]
+    directions: tuple[Floats, ...]
 
 
 def pierced_fits_of(
-    solids: tuple[Solid, ...], fits: list[Fit], rams: Iterable[Ram], touch: Touch, size: float
+    solids: tuple[Solid, ...], fits: list[Fit], cylinders: Collection[DrawnCylinder], touch: Touch, size: float
 ) -> list[Fit]:
     """A fit for every part that a pin without a single hole runs through; and for two parts that have no pin between
     them, where the bar that one of them has runs through the other. None in a model that has holes for its pins.
 
     `inner` is the pin, or the part that has the bar.
     """
-    taken = {i for ram in rams for i in ram.barrel | ram.rod}
+    taken = frozenset(i for cylinder in cylinders for i in cylinder.barrel | cylinder.rod)
+    model = _Model(solids, touch, size, taken, tuple(cylinder.direction for cylinder in cylinders))
     held = {f.inner for f in fits}
     pins = [s for s in solids if s.shaft is not None and s.index not in taken | held]
-    found = [fit for pin in pins for fit in _through(pin, _bars(pin, size), solids, touch)]
-    # A pin runs through two parts at least; what is in one only is a boss or a knob of it.
+    through = [fit for pin in pins for fit in _through(pin, _bars(pin, size), solids, touch)]
     hosts: dict[int, set[int]] = {}
-    for fit in found:
+    for fit in through:
         hosts.setdefault(fit.inner, set()).add(fit.outer)
-    found = [fit for fit in found if len(hosts[fit.inner]) > 1]
-    if _bored(solids, fits) > sum(len(around) > 1 for around in hosts.values()):
+    # A pin runs through two parts at least; what is in one only is a boss or a knob of it.
+    hosted = {pin: around for pin, around in hosts.items() if len(around) > 1}
+    if _pins_in_holes(solids, fits) > len(hosted):
         return []
-    pinned = {frozenset((a, b)) for around in hosts.values() if len(around) > 1 for a in around for b in around}
-    pinned |= {frozenset((f.inner, f.outer)) for f in fits}
-    loose = {s.index for s in pins if len(hosts.get(s.index, ())) < 2}
-    axes = [ram.direction for ram in rams]
-    for solid in solids:
-        if solid.index in loose or (solid.shaft is not None and solid.index not in taken):
+    found = [fit for fit in through if fit.inner in hosted]
+    pinned = {frozenset((a, b)) for around in hosted.values() for a in around for b in around} | _pairs(fits)
+    loose = {s.index for s in pins} - set(hosted)
+    found += [fit for fit in _on_own_bars(model, loose) if _ends(fit) not in pinned and fit.outer not in hosts]
+    return found + _without_a_pin(model, pinned | _pairs(found))
+
+
+def _on_own_bars(model: _Model, loose: Collection[int]) -> Iterator[Fit]:
+    """What the bars run through that parts have which are no pins; not those along a hydraulic cylinder of one."""
+    for solid in model.solids:
+        of_cylinder = solid.index in model.taken
+        if solid.index in loose or (solid.shaft is not None and not of_cylinder):
             continue
-        bars = [c for c in _bars(solid, size) if not (solid.index in taken and _along(c, axes))]
-        for fit in _through(solid, bars, solids, touch):
-            if frozenset((fit.inner, fit.outer)) not in pinned and fit.outer not in hosts:
-                found.append(fit)
-    apart = {s.index for s in solids if s.index in taken or s.shaft is not None or s.axis is not None}
-    joined = pinned | {frozenset((f.inner, f.outer)) for f in found}
-    bodies = [s for s in solids if s.index not in apart]
-    tables = _turntables(bodies, touch, size)
-    found += [fit for fit in tables if frozenset((fit.inner, fit.outer)) not in joined]
-    joined |= {frozenset((f.inner, f.outer)) for f in tables}
-    eyes = [fit for s in bodies for fit in _through(s, _between_knuckles(s, size), solids, touch)]
-    return found + [f for f in eyes if f.outer not in apart and frozenset((f.inner, f.outer)) not in joined]
+        bars = [c for c in _bars(solid, model.size) if not (of_cylinder and _along(c, model.directions))]
+        yield from _through(solid, bars, model.solids, model.touch)
+
+
+def _without_a_pin(model: _Model, joined: set[frozenset[int]]) -> list[Fit]:
+    """Turntables, and forks around another part, between parts that are not `joined` yet."""
+    apart = {s.index for s in model.solids if s.index in model.taken or s.shaft is not None or s.axis is not None}
+    bodies = [s for s in model.solids if s.index not in apart]
+    tables = _turntables(bodies, model.touch, model.size)
+    found = [fit for fit in tables if _ends(fit) not in joined]
+    joined = joined | _pairs(tables)
+    for solid in bodies:
+        forks = _through(solid, _between_knuckles(solid, model.size), model.solids, model.touch)
+        found += [f for f in forks if f.outer not in apart and _ends(f) not in joined]
+    return found
+
+
+def _ends(fit: Fit) -> frozenset[int]:
+    return frozenset((fit.inner, fit.outer))
+
+
+def _pairs(fits: Iterable[Fit]) -> set[frozenset[int]]:
+    return {_ends(fit) for fit in fits}
 
 
 def interrupted_fits_of(solids: tuple[Solid, ...], fits: list[Fit], tolerance: float) -> list[Fit]:
     """A fit for every empty bore on a bar of which only pieces are drawn: equal ones in line of one part, what is
     between them being inside of that part's other shapes. For pairs of parts without a fit."""
-    joined = {frozenset((f.inner, f.outer)) for f in fits}
+    joined = _pairs(fits)
     filled = {id(f.bore) for f in fits}
     empty = [(s.index, c) for s in solids for c in s.cylinders if c.inner and c.full and id(c) not in filled]
     found: dict[tuple[int, int], Fit] = {}
     for solid in solids:
-        pieces = [c for c in solid.cylinders if c.full and not c.inner]
-        for k, one in enumerate(pieces):
-            bar = _whole_bar(one, pieces[k + 1 :], tolerance)
-            if bar is None:
-                continue
+        for bar in _whole_bars(solid, tolerance):
             for outer, bore in empty:
-                pair = frozenset((solid.index, outer))
-                if (
-                    outer == solid.index
-                    or pair in joined
-                    or abs(bore.radius - bar.radius) > max(tolerance, 0.03 * bar.radius)
-                ):
+                pair = (solid.index, outer)
+                if outer == solid.index or frozenset(pair) in joined or not _on_bar(bore, bar, tolerance):
                     continue
-                low, high = bore.interval(bar.center, bar.direction)
-                inside = low > -bar.half - tolerance and high < bar.half + tolerance
-                if not inside or not coaxial(bar, bore, 0.03, tolerance):
-                    continue
-                best = found.get((solid.index, outer))
-                if best is None or 2 * bore.half > best.overlap:
-                    found[solid.index, outer] = Fit(solid.index, outer, bar, bore, 2 * bore.half, bore.off(bar.center))
+                if pair not in found or 2 * bore.half > found[pair].overlap:
+                    found[pair] = Fit(solid.index, outer, bar, bore, 2 * bore.half, bore.off(bar.center))
     return [found[key] for key in sorted(found)]
+
+
+def _on_bar(bore: Cyl, bar: Cyl, tolerance: float) -> bool:
+    """True for a bore as wide as a bar, about its axis and between its ends."""
+    if abs(bore.radius - bar.radius) > max(tolerance, 0.03 * bar.radius):
+        return False
+    low, high = bore.interval(bar.center, bar.direction)
+    inside = low > -bar.half - tolerance and high < bar.half + tolerance
+    return inside and coaxial(bar, bore, 0.03, tolerance)
+
+
+def _whole_bars(solid: Solid, tolerance: float) -> Iterator[Cyl]:
+    """The bars of which a part shows several pieces."""
+    pieces = [c for c in solid.cylinders if c.full and not c.inner]
+    for k, one in enumerate(pieces):
+        bar = _whole_bar(one, pieces[k + 1 :], tolerance)
+        if bar is not None:
+            yield bar
 
 
 def _whole_bar(one: Cyl, others: list[Cyl], tolerance: float) -> Cyl | None:
@@ -123,14 +156,14 @@ def _whole_bar(one: Cyl, others: list[Cyl], tolerance: float) -> Cyl | None:
 
 def _between_knuckles(solid: Solid, size: float) -> list[Cyl]:
     """Bars between two like knuckles of a part that are in line, as of a fork: from one's outer end to the other's."""
-    stout = [k for k in solid.knuckles if STOUT * size < k.radius < TABLE * size]
+    stout = [k for k in solid.knuckles if LEAST_PIVOT * size < k.radius < LEAST_SLEWING * size]
     bars = []
     for i, one in enumerate(stout):
         for other in stout[i + 1 :]:
             delta = other.center - one.center
             apart = float(np.linalg.norm(delta))
             alike = abs(one.radius - other.radius) < 0.1 * one.radius and apart > one.half + other.half
-            if not alike or abs(float(one.direction @ other.direction)) < 1 - 100 * (1 - PARALLEL):
+            if not alike or abs(float(one.direction @ other.direction)) < PARALLEL_BY_EYE:
                 continue
             if one.off(other.center) > 0.3 * one.radius:
                 continue
@@ -144,7 +177,7 @@ def _turntables(solids: list[Solid], touch: Touch, size: float) -> list[Fit]:
     best: dict[frozenset[int], Fit] = {}
     for solid in solids:
         for base in solid.cylinders:
-            if base.inner or not base.full or base.radius < TABLE * size:
+            if base.inner or not base.full or base.radius < LEAST_SLEWING * size:
                 continue
             gap = NEAR * base.radius
             reach = base.half * np.abs(base.direction) + gap
@@ -165,7 +198,7 @@ def _turntables(solids: list[Solid], touch: Touch, size: float) -> list[Fit]:
     return [best[pair] for pair in sorted(best, key=sorted)]
 
 
-def _bored(solids: tuple[Solid, ...], fits: list[Fit]) -> int:
+def _pins_in_holes(solids: tuple[Solid, ...], fits: list[Fit]) -> int:
     """How many pins there are that run through holes of two parts or more."""
     hosts: dict[int, set[int]] = {}
     for fit in fits:
@@ -176,13 +209,13 @@ def _bored(solids: tuple[Solid, ...], fits: list[Fit]) -> int:
 
 def _bars(solid: Solid, size: float) -> list[Cyl]:
     """The solid round bars of a part that are stout enough for a pivot."""
-    bars = [c for c in solid.cylinders if c.full and not c.inner and c.radius > STOUT * size]
+    bars = [c for c in solid.cylinders if c.full and not c.inner and c.radius > LEAST_PIVOT * size]
     holes = [c for c in solid.cylinders if c.inner and c.full]
     return [c for c in bars if not any(h.radius > 0.4 * c.radius and coaxial(h, c, 0.1) for h in holes)]
 
 
-def _along(bar: Cyl, axes: list[Floats]) -> bool:
-    return any(abs(float(bar.direction @ d)) > PARALLEL for d in axes)
+def _along(bar: Cyl, directions: Iterable[Floats]) -> bool:
+    return any(abs(float(bar.direction @ d)) > PARALLEL for d in directions)
 
 
 def _through(solid: Solid, bars: list[Cyl], solids: tuple[Solid, ...], touch: Touch) -> list[Fit]:
@@ -221,133 +254,3 @@ def _rimmed(solid: Solid, bar: Cyl) -> bool:
     u, v = np.linalg.svd(bar.direction[None, :])[2][1:]
     turn = np.arctan2(across[rim] @ v, across[rim] @ u)
     return len(set(np.floor((turn + np.pi) / (2 * np.pi) * SECTORS).astype(int) % SECTORS)) >= SECTORS - 1
-
-
-def solid_rams_of(solids: tuple[Solid, ...], rams: list[Ram], tolerance: float) -> list[Ram]:
-    """Hydraulic cylinders drawn without a bore: a bar, and in line with it a thinner one that comes out of its end.
-
-    Twins that share their two parts are one cylinder, in the middle between them. `bore` is the barrel's outer radius.
-    """
-    taken = {i for ram in rams for i in ram.barrel | ram.rod}
-    bars = [
-        (s, c)
-        for s in solids
-        if s.index not in taken
-        for c in s.cylinders
-        if c.full and not c.inner and c.half > c.radius
-    ]
-    eyes = [c for s in solids for c in s.cylinders if c.arc > 2.0]
-    centers = np.array([c.center for _, c in bars]).reshape(-1, 3)
-    directions = np.array([c.direction for _, c in bars]).reshape(-1, 3)
-    radii = np.array([c.radius for _, c in bars])
-    pairs = []
-    for tube, thick in bars:
-        if thick.half <= 2 * thick.radius:
-            continue
-        delta = centers - thick.center
-        off = np.linalg.norm(delta - np.outer(delta @ thick.direction, thick.direction), axis=1)
-        in_line = (off <= max(tolerance, 0.05 * thick.radius)) & (np.abs(directions @ thick.direction) > PARALLEL**9)
-        for k in np.flatnonzero(in_line & (radii < thick.radius)).tolist():
-            bar, thin = bars[k]
-            if tube.index != bar.index and (score := _pair(thick, thin, eyes, tolerance)) > 0.0:
-                pairs.append((score, tube, thick, bar, thin))
-    found: list[Ram] = []
-    for score, tube, thick, bar, thin in sorted(pairs, key=lambda p: (-round(p[0], 6), p[1].index, p[3].index)):
-        if tube.index in taken or bar.index in taken:
-            continue
-        taken |= {tube.index, bar.index}
-        twins = [
-            (t, b)
-            for value, one, t, other, b in pairs
-            if (one.index, other.index) == (tube.index, bar.index)
-            and value > 0.5 * score
-            and abs(float(t.direction @ thick.direction)) > PARALLEL
-            and abs(t.radius - thick.radius) < TWIN * thick.radius
-            and abs(b.radius - thin.radius) < TWIN * thin.radius
-        ]
-        direction = thick.direction if float((thin.center - thick.center) @ thick.direction) > 0 else -thick.direction
-        halves = [grown(Pair(tube, t, bar, b, direction, 0.0), solids, taken, tolerance) for t, b in twins]
-        rod = frozenset().union(*(h.rod for h in halves))
-        barrel = frozenset().union(*(h.barrel for h in halves)) - rod
-        taken |= barrel | rod
-        origin = np.mean([t.center for t, _ in twins], axis=0)
-        found.append(
-            Ram(
-                barrel, rod, np.asarray(origin), direction, thick.radius, thin.radius, hollow=False, count=len(twins)
-            )
-        )  # fmt: skip
-    return found
-
-
-def apart_rams_of(solids: tuple[Solid, ...], rams: list[Ram], tolerance: float) -> list[Ram]:
-    """Hydraulic cylinders whose rod is not drawn in its place: a long bore, and in line with it a long bar of another
-    part that fills it, beside it or in it, each part with an eye across.
-
-    The barrel's eye says which end is closed: the direction is from it through the bore.
-    """
-    taken = {i for ram in rams for i in ram.barrel | ram.rod}
-    free = [s for s in solids if s.index not in taken]
-    tubes = [(s, c) for s in free for c in s.cylinders if c.inner and c.full and 2 * c.half > 3.5 * c.radius]
-    shafts = [
-        (s, c)
-        for s in free
-        if s.shaft is not None
-        for c in [s.shaft]
-        if 2 * c.half > 4 * c.radius and 2 * c.half > 0.4 * s.size
-    ]
-    pairs = []
-    for tube, bore in tubes:
-        for bar, shaft in shafts:
-            if (
-                bar.index == tube.index
-                or not FILLING * bore.radius < shaft.radius < 1.004 * bore.radius + 0.2 * tolerance
-            ):
-                continue
-            if not coaxial(bore, shaft, 0.02, tolerance):
-                continue
-            low, high = bar.span(bore.center, bore.direction)
-            near, far = tube.span(bore.center, bore.direction)
-            own = _eye(tube, bore)
-            if own is None or _eye(bar, bore) is None or max(low - far, near - high) > far - near:
-                continue
-            direction = bore.direction if own < 0 else -bore.direction
-            pairs.append((min(bore.half, shaft.half) * bore.radius, tube, bore, bar, shaft, direction))
-    found: list[Ram] = []
-    for _, tube, bore, bar, shaft, direction in sorted(pairs, key=lambda p: (-round(p[0], 9), p[1].index, p[3].index)):
-        if {tube.index, bar.index} & taken:
-            continue
-        taken |= {tube.index, bar.index}
-        ends = frozenset({tube.index}), frozenset({bar.index})
-        reach = shaft.interval(bore.center, direction)
-        inside = min(reach[1], bore.half) - max(reach[0], -bore.half) > bore.radius and reach[1] > bore.half
-        found.append(Ram(*ends, bore.center, direction, bore.radius, shaft.radius, apart=not inside))
-    return found
-
-
-def _eye(solid: Solid, line: Cyl) -> float | None:
-    """Where along a cylinder's axis a part has a round eye across it: the outermost, from the cylinder's middle."""
-    places = [
-        place
-        for c in solid.cylinders
-        if c.full and (place := crossing(c, line.center, line.direction, line.radius)) is not None
-    ]
-    return max(places, key=abs, default=None)
-
-
-def _pair(thick: Cyl, thin: Cyl, eyes: list[Cyl], tolerance: float) -> float:
-    """How much speaks for a barrel and its rod: the shorter one's length; 0 where they are none."""
-    if not 0.2 * thick.radius < thin.radius < 0.95 * thick.radius or not coaxial(thick, thin, 0.05, tolerance):
-        return 0.0
-    direction = thick.direction
-    low, high = thin.interval(thick.center, direction)
-    if low + high < 0:
-        direction, low, high = -direction, -high, -low
-    end = thick.half
-    # The rod starts in the barrel, or right before it, and comes out.
-    if low > end + 1.5 * thick.radius or high < end + thin.radius or low < -end - thick.radius:
-        return 0.0
-    reach = 6.0 * thick.radius
-    places = [p for e in eyes if (p := crossing(e, thick.center, direction, thick.radius)) is not None]
-    behind = any(-end - reach < p < 0.0 for p in places)
-    ahead = any(max(end, high - reach) < p < high + reach for p in places)
-    return 2.0 * min(thick.half, thin.half) if behind and ahead else 0.0

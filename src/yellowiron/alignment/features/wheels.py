@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from yellowiron.alignment.features.solids import Cyl, Solid, coaxial
+from yellowiron.alignment.features.solids import Cyl, Solid, coaxial, size_of
+from yellowiron.alignment.tolerances import SAME_DIRECTION
 from yellowiron.model.geometry import Floats
 
 
@@ -33,7 +34,7 @@ def wheels_of(solids: tuple[Solid, ...], count: int, taken: set[int], tolerance:
     """
     if count == 0:
         return []
-    size = float(np.linalg.norm(np.max([s.high for s in solids], axis=0) - np.min([s.low for s in solids], axis=0)))
+    size = size_of(solids)
     round_ones = [s for s in solids if s.axis is not None and s.index not in taken and s.reach > LEAST * size]
     round_ones.sort(key=lambda s: (-round(s.reach, 5), s.index))
     found: list[Wheel] = []
@@ -48,11 +49,11 @@ def wheels_of(solids: tuple[Solid, ...], count: int, taken: set[int], tolerance:
             break
         found.append(Wheel(frozenset({s.index}), s.index, centre, s.axis.direction, s.reach, width))
     equal = [w for w in found if any(v is not w and abs(v.radius - w.radius) < 0.02 * w.radius for v in found)]
-    return [_grown(w, solids, taken, tolerance) for w in equal[:count]] if len(equal) >= 2 else []
+    return [_with_coaxial_parts(w, solids, taken, tolerance) for w in equal[:count]] if len(equal) >= 2 else []
 
 
 def _same_place(wheel: Wheel, axis: Cyl, centre: Floats) -> bool:
-    if abs(float(axis.direction @ wheel.direction)) < 0.999:
+    if abs(float(axis.direction @ wheel.direction)) < SAME_DIRECTION:
         return False
     delta = centre - wheel.center
     along = abs(float(delta @ wheel.direction))
@@ -60,7 +61,7 @@ def _same_place(wheel: Wheel, axis: Cyl, centre: Floats) -> bool:
     return off < 0.1 * wheel.radius and along < wheel.width
 
 
-def _grown(wheel: Wheel, solids: tuple[Solid, ...], taken: set[int], tolerance: float) -> Wheel:
+def _with_coaxial_parts(wheel: Wheel, solids: tuple[Solid, ...], taken: set[int], tolerance: float) -> Wheel:
     """Everything round about the wheel's axis that is mostly between its sides."""
     axis = solids[wheel.tyre].axis
     assert axis is not None

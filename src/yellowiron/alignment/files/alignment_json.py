@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from yellowiron.alignment.files.revisions import Print, prints_of, revised
+from yellowiron.alignment.files.revisions import Print, match_parts, prints_of
 from yellowiron.model.alignment import Alignment, PartAssignment
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import AlignmentError, OutputError
@@ -92,27 +92,11 @@ def read_alignment(path: str | Path, assembly: Assembly, template: Template) -> 
             hint="Build that type, or delete the file: it is written anew.",
         )  # fmt: skip
     parts = {p.id: k for k, p in enumerate(assembly.parts)}
-    roles = {r.name for r in template.roles}
     again = _again(document["parts"], assembly)
-    seen: set[str] = set()
     read: list[PartAssignment] = []
     findings: list[Finding] = []
-    for number, entry in enumerate(document["parts"]):
-        where = f"{source}: parts[{number}]"
-        if not isinstance(entry, Mapping) or not isinstance(entry.get("part"), str):
-            raise AlignmentError("An entry has no part", where=where, hint='Each needs "part" and "role".')
+    for where, entry in _known_entries(document["parts"], source, template):
         part, role, edited = entry["part"], entry.get("role"), _is_edit(entry)
-        known = template.knows(role) if isinstance(role, str) else role is None
-        if not edited and not known:
-            continue
-        if not known:
-            raise AlignmentError(
-                f"'{role}' is no role of the template {template.equipment_type}", where=where,
-                hint=_near(str(role), roles) or "`yellowiron templates show TYPE` lists the roles.",
-            )  # fmt: skip
-        if part in seen:
-            raise AlignmentError(f"The part '{part}' is there twice", where=where, hint="Keep one entry.")
-        seen.add(part)
         now = again.get(part) if _print(entry) is not None else part if part in parts else None
         if now is None and edited and _print(entry) is None:
             raise AlignmentError(
@@ -137,10 +121,33 @@ def read_alignment(path: str | Path, assembly: Assembly, template: Template) -> 
     )
 
 
+def _known_entries(entries: list[Any], source: Path, template: Template) -> Iterator[tuple[str, Mapping[str, Any]]]:
+    """(where it is, entry) of the entries whose role the template has, a part once. A person's entry of another role,
+    and a part that is there twice, are errors."""
+    taken: set[str] = set()
+    for number, entry in enumerate(entries):
+        where = f"{source}: parts[{number}]"
+        if not isinstance(entry, Mapping) or not isinstance(entry.get("part"), str):
+            raise AlignmentError("An entry has no part", where=where, hint='Each needs "part" and "role".')
+        part, role = entry["part"], entry.get("role")
+        if not (template.knows(role) if isinstance(role, str) else role is None):
+            if not _is_edit(entry):
+                continue
+            raise AlignmentError(
+                f"'{role}' is no role of the template {template.equipment_type}", where=where,
+                hint=_near(str(role), {r.name for r in template.roles})
+                or "`yellowiron templates show TYPE` lists the roles.",
+            )  # fmt: skip
+        if part in taken:
+            raise AlignmentError(f"The part '{part}' is there twice", where=where, hint="Keep one entry.")
+        taken.add(part)
+        yield where, entry
+
+
 def _again(entries: list[Any], assembly: Assembly) -> dict[str, str]:
     """Part id of the file → part id of the CAD model, for the entries with shape and place."""
     earlier = {str(e.get("part")): known for e in entries if isinstance(e, Mapping) and (known := _print(e))}
-    return revised(earlier, prints_of(assembly)) if earlier else {}
+    return match_parts(earlier, prints_of(assembly)) if earlier else {}
 
 
 def _print(entry: Mapping[str, Any]) -> Print | None:

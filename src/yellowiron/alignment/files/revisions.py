@@ -70,7 +70,7 @@ def _moments(mesh: Mesh) -> tuple[Floats, Floats]:
     return centre, np.sqrt(np.maximum(np.linalg.eigvalsh(spread / total), 0.0))
 
 
-def revised(earlier: Mapping[str, Print], later: Mapping[str, Print]) -> dict[str, str]:
+def match_parts(earlier: Mapping[str, Print], later: Mapping[str, Print]) -> dict[str, str]:
     """Earlier part id → later part id, one to one, for the parts that are found again. Surest first: the same shape in
     its place; the same id with the same shape; a shape that is there once; then changed parts near their place."""
     if not earlier or not later:

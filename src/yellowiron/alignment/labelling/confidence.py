@@ -9,7 +9,7 @@ import math
 from collections.abc import Mapping
 from importlib import resources
 
-from yellowiron.alignment.labelling.propagation import Place
+from yellowiron.alignment.labelling.place import Place
 
 Grounds = Mapping[str, float]
 """What a probability rests on, by name; see `grounds`."""

@@ -7,24 +7,19 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from yellowiron.alignment.assignment.cp_sat import Solution
+from yellowiron.alignment.assignment.answer import Answer
 from yellowiron.alignment.assignment.names import exact_role, exact_roles
-from yellowiron.alignment.features.contacts import Fit, Flat
-from yellowiron.alignment.features.distance import Touch
-from yellowiron.alignment.features.separate_parts import FAR
-from yellowiron.alignment.features.solids import Solid
-from yellowiron.alignment.features.wheels import Wheel
-from yellowiron.alignment.labelling.review import STURDY, has_tyre, next_bodies, unheld
-from yellowiron.alignment.structure.clusters import Structure
+from yellowiron.alignment.features.contacts import Fit
+from yellowiron.alignment.labelling.place import DOUBTFUL, Place, pin_role
+from yellowiron.alignment.labelling.review import STURDY, has_tyre, next_bodies, solids_without_a_body
+from yellowiron.alignment.structure.observation import Observation
+from yellowiron.alignment.tolerances import FAR
 from yellowiron.model.geometry import Floats
-from yellowiron.model.template import JointTemplate, Template
 
 NEIGHBOURHOOD = 0.04
 """How far, in machine sizes, a floating part looks for a neighbour."""
 CLOSE = 0.01
 """How far, in machine sizes, a floating part may be from its neighbour without a person's look."""
-DOUBTFUL = 0.4
-"""Confidence of what a person should look at."""
 ALOOF = 0.4
 """How much less than with others a floating part goes with a hydraulic cylinder or a wheel."""
 TORN = 0.8
@@ -35,48 +30,31 @@ NAMED = 0.9
 """Confidence of a role whose very name the part bears, where geometry does not speak against it."""
 
 
-@dataclass(frozen=True)
-class Place:
-    """What is known of one part: role, body, strength of the evidence (0 to 1, no probability: see `confidence`),
-    reason, runner-up (a body), whether a name decided it, and what it was found by: `joints`, `pin`, `bores`, `flat`,
-    `ring`, `touch`, `near`, `name` or `track`. `said`: how much more its names speak of the body than of any other;
-    `lead`: how many more of its joints hold than of the runner-up's, as a share."""
-
-    role: str
-    body: str
-    confidence: float
-    reason: str
-    runner_up: str | None = None
-    by_name: bool = False
-    how: str = "joints"
-    said: float = 0.0
-    lead: float = 1.0
-
-
 @dataclass
-class Spreader:
-    """The state of the spreading: what each solid was found to be so far."""
+class Propagation:
+    """The state of the spreading: what each solid was found to be so far (`places`), the solids that no body is left
+    for (`loose`), and those that stand `apart`, with the metres to the rest.
 
-    solids: tuple[Solid, ...]
-    structure: Structure
-    solution: Solution
-    template: Template
-    flats: list[Flat]
-    near: list[tuple[int, int]]
-    touch: Touch
+    `scores`: what the names say of each solid; `up`: the upright, CAD frame; `rivals`: cluster → the body it could as
+    well be; `suspects`: body → why it is doubtful."""
+
+    observation: Observation
+    answer: Answer
     scores: list[dict[str, float]]
-    size: float
     up: Floats
     rivals: Mapping[int, str | None] = field(default_factory=dict)
-    shaken: Mapping[str, str] = field(default_factory=dict)
+    suspects: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
+        self.solids, self.touch = self.observation.solids, self.observation.touch
+        self.structure, self.solution = self.answer.structure, self.answer.solution
+        self.template = self.answer.template
         self.places: dict[int, Place] = {}
-        self.loose = unheld(self.solids, self.structure, self.solution)
+        self.loose = solids_without_a_body(self.solids, self.structure, self.solution)
         self.apart: dict[int, float] = {}
         self.cluster_of = {b: c for c, b in self.solution.body_of.items()}
 
-    def run(self, wheels: list[Wheel]) -> dict[int, Place]:
+    def run(self) -> dict[int, Place]:
         """Every solid's place; solids that nothing speaks for are absent, and those far from all others (`apart`)."""
         self._bodies()
         self._torn()
@@ -88,7 +66,7 @@ class Spreader:
         self._by_touch()
         self._by_exact_name()
         self._nearest()
-        self._specific(wheels)
+        self._specific()
         for i, place in self.places.items():
             others = max((v for b, v in self.scores[i].items() if b != place.body), default=0.0)
             self.places[i] = replace(place, said=self.scores[i].get(place.body, 0.0) - others)
@@ -110,8 +88,8 @@ class Spreader:
             doubt = self.rivals.get(c) if c in self.rivals else None
             if c in self.rivals:
                 confidence, words = min(confidence, 0.45), f"{words}; but it could as well be {doubt or 'none'}"
-            if body in self.shaken:
-                confidence, words = min(confidence, 0.45), f"{words}; but {self.shaken[body]}"
+            if body in self.suspects:
+                confidence, words = min(confidence, 0.45), f"{words}; but {self.suspects[body]}"
             for i in self.structure.clusters[c].members:
                 rival = self._named_other(i, body)
                 drop = 0.1 if rival else 0.0
@@ -120,7 +98,7 @@ class Spreader:
     def _torn(self) -> None:
         """Parts that hold to two bodies about as firmly: the one chosen is a guess."""
         ties: dict[int, dict[str, float]] = {}
-        for flat in self.flats:
+        for flat in self.observation.flats:
             for i, j in ((flat.a, flat.b), (flat.b, flat.a)):
                 if i in self.places and j in self.places:
                     body = self.places[j].body
@@ -152,7 +130,7 @@ class Spreader:
                 continue
             body = self.template.body_of(role) or role
             a, b = self.template.bodies_of(joint)
-            self._race(self.structure.hinges[hinge].line, role, body)
+            self._race(self.structure.hinges[hinge].axis, role, body)
             for pin in self.structure.hinges[hinge].pins:
                 if pin in self.places:
                     continue
@@ -175,10 +153,10 @@ class Spreader:
         pairs = [(x, y) for a, x in at.items() for b, y in at.items() if a != b]
         return any(min(x) < min(y) and max(y) < max(x) for x, y in pairs)
 
-    def _race(self, line: int, role: str, body: str) -> None:
+    def _race(self, axis: int, role: str, body: str) -> None:
         """Of a slewing bearing the race of the body that carries it is the joint's pin; where the race is drawn in one
         with other things, that part is no pin."""
-        for i in self.structure.races.get(line, ()):
+        for i in self.structure.races.get(axis, ()):
             place = self.places.get(i)
             if place is not None and place.body == body and self.solids[i].axis is not None:
                 self.places[i] = replace(place, role=role, reason=f"{place.reason}; a race of the bearing it turns in")
@@ -206,7 +184,7 @@ class Spreader:
     def _unplayed(self, pin: int, hosts: set[str]) -> None:
         """A pin as stout as the machine's, in a body that has a pin's role of its own left, may be that pin."""
         least = STURDY * min(
-            (self.structure.lines[self.structure.hinges[h].line].radius for h in self.solution.hinge_of.values()),
+            (self.structure.axes[self.structure.hinges[h].axis].radius for h in self.solution.hinge_of.values()),
             default=0.0,
         )
         radius = max(f.shaft.radius for f in self.structure.hosts[pin])
@@ -250,7 +228,7 @@ class Spreader:
     def _by_contact(self) -> None:
         """Flat contact with placed parts, spreading outward in rounds."""
         across: dict[int, list[tuple[int, float]]] = {}
-        for flat in self.flats:
+        for flat in self.observation.flats:
             across.setdefault(flat.a, []).append((flat.b, flat.area))
             across.setdefault(flat.b, []).append((flat.a, flat.area))
         self._rounds(lambda i: across.get(i, []), 0.97, "lies flat against {body}", "flat")
@@ -258,7 +236,7 @@ class Spreader:
     def _by_touch(self) -> None:
         """Meshes that touch or cut each other, parts counted, those that a part is sunk in for more."""
         beside: dict[int, list[int]] = {}
-        for a, b in self.near:
+        for a, b in self.observation.near:
             beside.setdefault(a, []).append(b)
             beside.setdefault(b, []).append(a)
 
@@ -323,7 +301,7 @@ class Spreader:
         for pin, fits in self.structure.hosts.items():
             for fit in fits:
                 around.setdefault(fit.outer, []).append((pin, fit.overlap))
-        for flat in self.flats:
+        for flat in self.observation.flats:
             for i, pin in ((flat.a, flat.b), (flat.b, flat.a)):
                 if self._is_pin(pin):
                     around.setdefault(i, []).append((pin, flat.width))
@@ -415,9 +393,9 @@ class Spreader:
         return role if body is not None and self.scores[i].get(body, 0.0) > 1.0 else None
 
     # ---- the most specific role ----
-    def _specific(self, wheels: list[Wheel]) -> None:
+    def _specific(self) -> None:
         """Tyres, edges, and exact names of roles that move with the body found."""
-        roles = exact_roles(self.template)
+        roles, wheels = exact_roles(self.template), self.observation.wheels
         for i, place in sorted(self.places.items()):
             named = self._bears(i, roles)
             if place.role != place.body:
@@ -445,28 +423,20 @@ class Spreader:
 
     def _edge(self, body: str) -> int | None:
         """The lowest of the parts that span most of a body's width along its hinge and lie far out from it."""
-        lines = [
-            self.structure.lines[self.structure.hinges[self.solution.hinge_of[j.name]].line]
+        axes = [
+            self.structure.axes[self.structure.hinges[self.solution.hinge_of[j.name]].axis]
             for j in self.template.joints
             if body in self.template.bodies_of(j) and j.name in self.solution.hinge_of
         ]
         members = [i for i, p in sorted(self.places.items()) if p.body == body and p.role == body]
-        if not lines or not members:
+        if not axes or not members:
             return None
-        line = lines[-1]
-        spans = {i: self.solids[i].span(line.origin, line.direction) for i in members}
+        axis = axes[-1]
+        spans = {i: self.solids[i].span(axis.origin, axis.direction) for i in members}
         width = max(b for _, b in spans.values()) - min(a for a, _ in spans.values())
         wide = [i for i in members if spans[i][1] - spans[i][0] > 0.75 * width]
 
         middle = {i: 0.5 * (self.solids[i].low + self.solids[i].high) for i in wide}
-        far = max((line.off(middle[i]) for i in wide), default=0.0)
-        out = [i for i in wide if line.off(middle[i]) > 0.7 * far]
+        far = max((axis.off(middle[i]) for i in wide), default=0.0)
+        out = [i for i in wide if axis.off(middle[i]) > 0.7 * far]
         return min(out, key=lambda i: (round(float(middle[i] @ self.up), 6), i)) if len(wide) > 1 else None
-
-
-def pin_role(joint: JointTemplate, template: Template) -> str | None:
-    """The role of a joint's pin: the one of its two parts that is no body."""
-    for name in joint.parts:
-        if not template.role(name.partition("[")[0]).rigid:
-            return name
-    return None

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
+from yellowiron.alignment.assignment.answer import Answer, is_whole
 from yellowiron.alignment.assignment.cp_sat import Solution
 from yellowiron.alignment.assignment.machine_frame import MachineFrame
 from yellowiron.alignment.labelling.confidence import REVIEW, grounds, probability
-from yellowiron.alignment.labelling.propagation import Place, pin_role
+from yellowiron.alignment.labelling.place import Place, pin_role
+from yellowiron.alignment.tolerances import CONTACT
 from yellowiron.model.alignment import Alignment, PartAssignment, Vector
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.finding import Finding
@@ -18,75 +21,79 @@ APART = 0.6
 """Confidence that a part which stands apart is no part of the machine: one remark speaks for all of them."""
 
 
-def reported(
+@dataclass(frozen=True, eq=False)
+class Labels:
+    """What is known of the parts, by part id: their `places`; metres from the rest of those that stand `apart` and are
+    left out; the roles that a person gave (`edited`, "": none), which win; and for those of them that a document
+    placed, why (`documents`)."""
+
+    places: Mapping[str, Place]
+    apart: Mapping[str, float]
+    edited: Mapping[str, str]
+    documents: Mapping[str, str]
+
+
+def to_alignment(
     assembly: Assembly,
     template: Template,
-    solution: Solution,
-    places: Mapping[str, Place],
-    edited: Mapping[str, str],
-    chosen: Mapping[str, str],
+    answer: Answer,
+    labels: Labels,
     frame: MachineFrame,
     *,
-    documents: Mapping[str, str] | None = None,
-    apart: Mapping[str, float] | None = None,
-    remarks: Sequence[Finding] = (),
-    axes: Mapping[str, tuple[Vector, Vector]] | None = None,
-    whole: bool = True,
-    rung: int = 0,
+    axes: Mapping[str, tuple[Vector, Vector]],
+    remarks: Sequence[Finding],
 ) -> Alignment:
-    """The alignment. `places` by part id; `edited`: part id → the role a person gave it ("": none), which wins;
-    `documents`: part id → why, for those of them that a document placed; `apart`: part id → metres from the rest, for
-    those left out; `remarks`: further findings; `axes`: the alignment's; `whole`, `rung`: see `confidence.grounds`."""
-    parts: list[PartAssignment] = []
-    doubted: set[str] = set()
-    for part in assembly.parts:
-        place = places.get(part.id)
-        if part.id in edited:
-            said = edited[part.id] or None
-            body = template.body_of(said) if said is not None and template.knows(said) else None
-            before = place.role if place is not None and place.role != said else None
-            if documents is not None and part.id in documents:
-                parts.append(PartAssignment(part.id, said, body, 1.0, documents[part.id], "data", before))
-            else:
-                parts.append(PartAssignment(part.id, said, body, 1.0, "set by a person", "edited", before))
-        elif apart is not None and part.id in apart:
-            words = f"stands {apart[part.id]:.3g} m from every part of the machine"
-            parts.append(PartAssignment(part.id, None, None, APART, words))
-        elif place is None:
-            parts.append(PartAssignment(part.id, None, None, 0.0, "nothing speaks for any role"))
-            doubted.add(part.id)
-        else:
-            if place.confidence < REVIEW:
-                doubted.add(part.id)
-            evidence = grounds(place, whole=whole, rung=rung)
-            confidence = round(probability(evidence), 3)
-            parts.append(
-                PartAssignment(
-                    part.id,
-                    place.role,
-                    place.body,
-                    confidence,
-                    place.reason,
-                    "name" if place.by_name else "solved",
-                    place.runner_up,
-                    evidence,
-                )
-            )
+    """The alignment. `template` has the answer's choices, with its tracks; `axes`: the alignment's; `remarks`: further
+    findings."""
+    whole, rung = is_whole(answer), CONTACT.index(answer.contact)
+    parts = [_assignment(part.id, template, labels, whole=whole, rung=rung) for part in assembly.parts]
+    doubted = {p.id for p in assembly.parts if _is_doubted(p.id, labels)}
     played = {p.role for p in parts} | {p.body for p in parts}
     missing = tuple(r.name for r in template.roles if _required(r.name, template) and r.name not in played)
     doubtful = tuple(p.part for p in sorted(parts, key=lambda p: p.confidence) if p.part in doubted)
-    findings = (*_findings(template, solution, missing, frame, edited), *remarks)
+    findings = (*_findings(template, answer.solution, missing, frame, labels.edited), *remarks)
     return Alignment(
         template.equipment_type,
         frame.matrix,
         tuple(parts),
-        dict(chosen),
+        dict(answer.choices),
         missing,
         (*missing, *doubtful),
         findings,
         count_members((p.role for p in parts), template),
-        dict(axes or {}),
+        dict(axes),
     )
+
+
+def _assignment(part: str, template: Template, labels: Labels, *, whole: bool, rung: int) -> PartAssignment:
+    """The role of a part: a person's, none for one that stands apart, else that of its place. `whole`, `rung`: see
+    `confidence.grounds`."""
+    place = labels.places.get(part)
+    if part in labels.edited:
+        said = labels.edited[part] or None
+        body = template.body_of(said) if said is not None and template.knows(said) else None
+        before = place.role if place is not None and place.role != said else None
+        if part in labels.documents:
+            return PartAssignment(part, said, body, 1.0, labels.documents[part], "data", before)
+        return PartAssignment(part, said, body, 1.0, "set by a person", "edited", before)
+    if part in labels.apart:
+        words = f"stands {labels.apart[part]:.3g} m from every part of the machine"
+        return PartAssignment(part, None, None, APART, words)
+    if place is None:
+        return PartAssignment(part, None, None, 0.0, "nothing speaks for any role")
+    evidence = grounds(place, whole=whole, rung=rung)
+    return PartAssignment(
+        part, place.role, place.body, round(probability(evidence), 3), place.reason,
+        "name" if place.by_name else "solved", place.runner_up, evidence,
+    )  # fmt: skip
+
+
+def _is_doubted(part: str, labels: Labels) -> bool:
+    """True for what a person should look at: a part without a place, or with a weak one."""
+    if part in labels.edited or part in labels.apart:
+        return False
+    place = labels.places.get(part)
+    return place is None or place.confidence < REVIEW
 
 
 def _required(name: str, template: Template) -> bool:

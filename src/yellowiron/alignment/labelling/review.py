@@ -3,20 +3,16 @@ body, parts that stand apart, wheels without tyres."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
-import numpy as np
-
+from yellowiron.alignment.assignment.answer import Answer
 from yellowiron.alignment.assignment.cp_sat import Solution
-from yellowiron.alignment.features.cylinders import Ram
 from yellowiron.alignment.features.solids import Solid
 from yellowiron.alignment.features.wheels import Wheel
-from yellowiron.alignment.structure.clusters import Structure, hangs
+from yellowiron.alignment.structure.clusters import Structure, reaches_out
 from yellowiron.model.finding import Finding
 from yellowiron.model.template import Template
 
-ONE_SIDED = 0.12
-"""A cylinder further than this share of its bodies' width from their middle is to one side."""
 STURDY = 0.7
 """Pins of at least this share of the thinnest of the machine's are pivots, not those of a door."""
 RIM = 0.65
@@ -26,63 +22,21 @@ SECOND = 0.2
 SOME = 6
 
 
-def one_sided(
-    solids: tuple[Solid, ...],
-    structure: Structure,
-    solution: Solution,
-    rams: tuple[Ram, ...],
-    template: Template,
-    resolved: Template,
-) -> tuple[str, ...]:
-    """Barrels without a side, which another variant of `template` has left and right, that are not in the middle of the
-    bodies they hinge on."""
-    sided = {r.name for r in template.roles}
-    kinds = {r.name: r.kind for r in resolved.roles}
-    cluster_of = {b: c for c, b in solution.body_of.items()}
-    found = []
-    for joint in resolved.joints:
-        slide = solution.slide_of.get(joint.name)
-        ends = [b for b in resolved.bodies_of(joint) if b is not None]
-        barrel = next((b for b in ends if kinds.get(b) == "barrel"), None)
-        if slide is None or barrel is None or f"{barrel}_l" not in sided:
-            continue
-        ram = rams[structure.slides[slide][2]]
-        shares = []
-        for pivot in resolved.joints:
-            bodies = [b for b in resolved.bodies_of(pivot) if b is not None]
-            host = next((b for b in bodies if b not in ends), None)
-            hinge = solution.hinge_of.get(pivot.name)
-            if hinge is None or host not in cluster_of or not set(bodies) & set(ends):
-                continue
-            along = structure.lines[structure.hinges[hinge].line].direction
-            reach = [p for i in structure.clusters[cluster_of[host]].members for p in _ends(solids[i], along)]
-            low, high = min(reach), max(reach)
-            shares.append(abs(float(ram.origin @ along) - 0.5 * (low + high)) / max(high - low, 1e-9))
-        if shares and min(shares) > ONE_SIDED:
-            found.append(barrel)
-    return tuple(found)
-
-
-def _ends(solid: Solid, along: np.ndarray[tuple[int], np.dtype[np.float64]]) -> tuple[float, float]:
-    run = solid.points @ along
-    return float(run.min()), float(run.max())
-
-
-def unheld(solids: tuple[Solid, ...], structure: Structure, solution: Solution) -> frozenset[int]:
+def solids_without_a_body(solids: tuple[Solid, ...], structure: Structure, solution: Solution) -> frozenset[int]:
     """Solids of clusters that no body of the template is left for, though they could move: halves of a hydraulic
     cylinder, and what hangs far out from a pin as sturdy as the machine's own."""
-    pivots = [structure.lines[structure.hinges[h].line].radius for h in solution.hinge_of.values()]
+    pivots = [structure.axes[structure.hinges[h].axis].radius for h in solution.hinge_of.values()]
     least = STURDY * min((r for r in pivots if r > 0), default=0.0)
-    lines: dict[int, set[int]] = {}
+    axes: dict[int, set[int]] = {}
     for hinge in structure.hinges:
         for c in (hinge.a, hinge.b):
-            lines.setdefault(c, set()).add(hinge.line)
+            axes.setdefault(c, set()).add(hinge.axis)
     found: set[int] = set()
     for c, cluster in enumerate(structure.clusters):
         if c in solution.body_of or cluster.kind == "wheel":
             continue
-        on = [structure.lines[k] for k in sorted(lines.get(c, set()))]
-        if cluster.kind or any(line.radius >= least and hangs(solids, cluster.members, line) for line in on):
+        on = [structure.axes[k] for k in sorted(axes.get(c, set()))]
+        if cluster.kind or any(axis.radius >= least and reaches_out(solids, cluster.members, axis) for axis in on):
             found |= cluster.members
     return frozenset(found)
 
@@ -124,54 +78,68 @@ def has_tyre(wheel: Wheel, solids: tuple[Solid, ...]) -> bool:
     return inner < RIM * wheel.radius
 
 
-def doubts(
-    solids: tuple[Solid, ...],
-    structure: Structure,
-    solution: Solution,
-    template: Template,
-    sided: Sequence[str],
+def review_findings(
+    solids: Sequence[Solid],
+    answer: Answer,
+    *,
     loose: frozenset[int],
     apart: Mapping[str, float],
     played: frozenset[str],
     settled: frozenset[str],
 ) -> list[Finding]:
-    """The remarks: ALN007 (`loose` solids), ALN008 (`sided` barrels), ALN009 and ALN010 (`apart`: part id → metres
-    from the rest), ALN011. `played` are the roles that parts have; `settled` part ids are a person's, of which nothing
-    is said."""
-    where = template.equipment_type
-    findings = []
-    left = [i for i in sorted(loose) if solids[i].part.id not in {*settled, *apart}]
+    """The remarks: ALN007 (`loose` solids), ALN008 (the answer's barrels to one side), ALN009 and ALN010 (`apart`: part
+    id → metres from the rest), ALN011. `played` are the roles that parts have; `settled` part ids are a person's, of
+    which nothing is said."""
+    return [
+        *_without_a_body([solids[i].part.id for i in sorted(loose)], {*settled, *apart}, answer.template),
+        *_to_one_side(answer.sided),
+        *_standing_apart(apart, len(solids), answer.template),
+        *_without_tyres(answer, played),
+    ]
+
+
+def _without_a_body(loose: Sequence[str], settled: set[str], template: Template) -> Iterator[Finding]:
+    left = [part for part in loose if part not in settled]
     if left:
-        names = _some([solids[i].part.id for i in left])
-        text = f"No body is left for {len(left)} parts that could move on their own: {names}"
+        text = f"No body is left for {len(left)} parts that could move on their own: {_some(left)}"
         hint = "Set their roles in alignment.json, choose another variant, or complete the hydraulic cylinder in CAD."
-        findings.append(Finding("ALN007", "warning", where, text, hint))
-    for barrel in sided:
+        yield Finding("ALN007", "warning", template.equipment_type, text, hint)
+
+
+def _to_one_side(barrels: Sequence[str]) -> Iterator[Finding]:
+    for barrel in barrels:
         text = f"{barrel} is to one side of the machine, where the variant has one in the middle"
         hint = "Choose the variant with a left and a right one, or check whether the CAD model lacks the other."
-        findings.append(Finding("ALN008", "warning", barrel, text, hint))
+        yield Finding("ALN008", "warning", barrel, text, hint)
+
+
+def _standing_apart(apart: Mapping[str, float], count: int, template: Template) -> Iterator[Finding]:
+    where = template.equipment_type
     if apart:
         least = min(apart.values())
         text = f"{len(apart)} parts stand {least:.3g} m or more from the machine: {_some(sorted(apart))}"
         hint = "They are left out of the machine; set their role in alignment.json (null: left out)."
-        findings.append(Finding("ALN009", "warning", where, text, hint))
-    if len(apart) > SECOND * len(solids):
+        yield Finding("ALN009", "warning", where, text, hint)
+    if len(apart) > SECOND * count:
         text = f"The CAD model seems to hold more than one machine: {len(apart)} parts stand apart"
         hint = "Hand in one machine a file; the parts of the others are left out."
-        findings.append(Finding("ALN010", "warning", where, text, hint))
-    tyres = {r.name for r in template.roles if r.kind == "tyre"}
-    rolling = [c for c in solution.body_of if structure.clusters[c].kind == "wheel"]
+        yield Finding("ALN010", "warning", where, text, hint)
+
+
+def _without_tyres(answer: Answer, played: frozenset[str]) -> Iterator[Finding]:
+    tyres = {r.name for r in answer.template.roles if r.kind == "tyre"}
+    rolling = [c for c in answer.solution.body_of if answer.structure.clusters[c].kind == "wheel"]
     if tyres and rolling and not tyres & played:
         text = "The wheels have no tyres: the ground is taken under the rims"
-        findings.append(Finding("ALN011", "warning", where, text, "Check that the CAD model has the tyres."))
-    return findings
+        hint = "Check that the CAD model has the tyres."
+        yield Finding("ALN011", "warning", answer.template.equipment_type, text, hint)
 
 
-def name_doubts(heed: float, believed: float, where: str) -> list[Finding]:
-    """ALN015 for names that agree with the joints (`weights.heed`) less than is `believed`."""
-    if heed >= believed:
+def name_findings(agreement: float, believed: float, where: str) -> list[Finding]:
+    """ALN015 for names that agree with the joints (`weights.name_agreement`) less than is `believed`."""
+    if agreement >= believed:
         return []
-    text = f"The parts' names contradict the joints (they agree to {heed:.0%}, chance taken off): they have no say"
+    text = f"The parts' names contradict the joints (they agree to {agreement:.0%}, chance taken off): they have no say"
     return [Finding("ALN015", "info", where, text, "Check the names if they should be right, or the equipment type.")]
 
 

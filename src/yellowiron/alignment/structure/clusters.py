@@ -8,18 +8,20 @@ with nothing to turn is refused (`careful`) as long as the machine is whole with
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 import numpy as np
 
-from yellowiron.alignment.features.contacts import PARALLEL, Fit, Line
+from yellowiron.alignment.features.contacts import Fit, SharedAxis
 from yellowiron.alignment.features.solids import Solid
 from yellowiron.alignment.features.wheels import Wheel
-from yellowiron.alignment.structure.contact_evidence import Evidence, crosses
+from yellowiron.alignment.structure.contact_evidence import Evidence, runs_across
 from yellowiron.alignment.structure.min_cut import false_welds, strength
 from yellowiron.alignment.structure.rigid_groups import Groups
-from yellowiron.alignment.structure.welds import Pairs, join_doubly_pinned, lines_by_group, weld
+from yellowiron.alignment.structure.welds import Pairs, axes_by_group, join_doubly_pinned, weld
+from yellowiron.alignment.tolerances import PARALLEL, ROUND_ARC
 
 ROUNDS = 4
 """How often a careful reading starts again without the false welds it found."""
@@ -38,11 +40,11 @@ class Cluster:
 
 @dataclass(frozen=True)
 class Hinge:
-    """Clusters `a` < `b` turn against each other about line `line`; `pins` are the solids through both."""
+    """Clusters `a` < `b` turn against each other about axis `axis`; `pins` are the solids through both."""
 
     a: int
     b: int
-    line: int
+    axis: int
     pins: tuple[int, ...]
 
 
@@ -50,14 +52,14 @@ class Hinge:
 class Structure:
     """What geometry alone says: clusters, hinges between them, slides (barrel, rod, number of the hydraulic
     cylinder; then sections in each other, numbered on),
-    lines (the wheels' axes behind those of the evidence), for each pin and bolt its hosts, and the pairs of solids that
+    axes (the wheels' axes behind those of the evidence), for each pin and bolt its hosts, and the pairs of solids that
     touch but were not welded, since a pin would have nothing to turn on, with the strength of their contact;
-    and the hoses and such that hold nothing; and line → the races of a slewing bearing on it."""
+    and the hoses and such that hold nothing; and axis → the races of a slewing bearing on it."""
 
     clusters: tuple[Cluster, ...] = ()
     hinges: tuple[Hinge, ...] = ()
     slides: tuple[tuple[int, int, int], ...] = ()
-    lines: tuple[Line, ...] = ()
+    axes: tuple[SharedAxis, ...] = ()
     hosts: dict[int, tuple[Fit, ...]] = field(default_factory=dict)
     refused: tuple[tuple[int, int, float], ...] = ()
     slight: frozenset[int] = frozenset()
@@ -92,9 +94,9 @@ def structure_of(evidence: Evidence, *, leaves: bool, weak: bool, careful: bool)
 def _tagged(evidence: Evidence) -> Groups:
     """Groups of what is certain: barrels, rods, wheels, rings in their bores."""
     groups = Groups(len(evidence.solids))
-    for k, ram in enumerate(evidence.rams):
-        groups.tag(ram.barrel, ("barrel", k))
-        groups.tag(ram.rod, ("rod", k))
+    for k, cylinder in enumerate(evidence.cylinders):
+        groups.tag(cylinder.barrel, ("barrel", k))
+        groups.tag(cylinder.rod, ("rod", k))
     for k, wheel in enumerate(evidence.wheels):
         groups.tag(wheel.members, ("wheel", k))
     for ring, around in evidence.pressed:
@@ -109,7 +111,7 @@ def loose_ends(structure: Structure) -> int:
 
 
 def _touching(groups: Groups, evidence: Evidence) -> list[tuple[int, int]]:
-    """Pairs in different groups whose meshes touch and that lie about no common line."""
+    """Pairs in different groups whose meshes touch and that lie about no common axis."""
     sliding = {(min(n.outer, n.inner), max(n.outer, n.inner)) for n in evidence.nests}
     return [
         (a, b)
@@ -125,16 +127,16 @@ def _touching(groups: Groups, evidence: Evidence) -> list[tuple[int, int]]:
 
 def _attach_eyes(groups: Groups, evidence: Evidence) -> None:
     """A barrel or rod without a pin line across it takes the touching group that has one."""
-    for ram in evidence.rams:
-        for part in (ram.barrel,) if ram.apart else (ram.barrel, ram.rod):
+    for cylinder in evidence.cylinders:
+        for part in (cylinder.barrel,) if cylinder.apart else (cylinder.barrel, cylinder.rod):
             root = groups.find(min(part))
             mine = {s.index for s in evidence.solids if groups.find(s.index) == root}
-            if any(crosses(evidence.lines[k], ram) for i in mine for k in evidence.pinned[i]):
+            if any(runs_across(evidence.axes[k], cylinder) for i in mine for k in evidence.pinned[i]):
                 continue
             beside = {(a, b) if b in mine else (b, a) for a, b in evidence.near if (a in mine) != (b in mine)}
             for other, own in sorted(beside):
                 if other in evidence.fasteners or not any(
-                    crosses(evidence.lines[k], ram) for k in evidence.pinned[other]
+                    runs_across(evidence.axes[k], cylinder) for k in evidence.pinned[other]
                 ):
                     continue
                 if groups.may_join(own, other) and evidence.touching(own, other) and groups.join(own, other):
@@ -144,7 +146,7 @@ def _attach_eyes(groups: Groups, evidence: Evidence) -> None:
 def _beside(s: Solid, wheel: Wheel) -> bool:
     """True if a part has a cylinder about a wheel's axis, near that wheel."""
     for c in s.cylinders:
-        if c.arc < 2.0 or abs(float(c.direction @ wheel.direction)) < PARALLEL:
+        if c.arc < ROUND_ARC or abs(float(c.direction @ wheel.direction)) < PARALLEL:
             continue
         low, high = c.interval(wheel.center, wheel.direction)
         if low < wheel.width and high > -wheel.width and c.off(wheel.center) < 0.02 * wheel.radius:
@@ -153,40 +155,46 @@ def _beside(s: Solid, wheel: Wheel) -> bool:
 
 
 def _absorb_leaves(groups: Groups, evidence: Evidence, *, leaves: bool) -> None:
-    """Rings and spacers on a single line go with the only group they lie against."""
-    on = lines_by_group(groups, evidence)
-    partners: dict[int, set[int]] = {}
+    """Rings and spacers on a single axis go with the only group they lie against."""
+    on = axes_by_group(groups, evidence)
+    partners = _turning_partners(groups, evidence)
     members: dict[int, list[int]] = {}
-    wheel_axes: dict[int, set[int]] = {}
+    wheels: dict[int, set[int]] = {}
     for s in evidence.solids:
         group = groups.find(s.index)
         members.setdefault(group, []).append(s.index)
         if groups.kind(group) != "wheel" and s.index not in evidence.fasteners:
-            wheel_axes.setdefault(group, set()).update(k for k, w in enumerate(evidence.wheels) if _beside(s, w))
+            wheels.setdefault(group, set()).update(k for k, w in enumerate(evidence.wheels) if _beside(s, w))
+    slewing = {k for k, _ in evidence.races}
+    for group in sorted(partners):
+        if groups.kind(group) or groups.find(group) != group:
+            continue
+        axes, own_wheels = on.get(group, set()), wheels.get(group, set())
+        rings = all(evidence.solids[i].axis is not None for i in members[group])
+        if axes & slewing and not rings:
+            continue  # what stands on a slewing bearing reaches no further than it, and turns
+        if any(reaches_out(evidence.solids, members[group], evidence.axes[k]) for k in axes):
+            continue
+        found = {groups.find(p) for p in partners[group]} - {group}
+        leaf = len(axes) + len(own_wheels) <= 1 and (rings or not (leaves or own_wheels))
+        if leaf and len(found) == 1:
+            groups.join(group, found.pop())
+
+
+def _turning_partners(groups: Groups, evidence: Evidence) -> dict[int, set[int]]:
+    """Group → those that it lies against and may turn on, wheels left out."""
+    partners: dict[int, set[int]] = {}
     for flat in evidence.turning:
         a, b = groups.find(flat.a), groups.find(flat.b)
         if a != b and "wheel" not in (groups.kind(a), groups.kind(b)):
             partners.setdefault(a, set()).add(b)
             partners.setdefault(b, set()).add(a)
-    slewing = {k for k, _ in evidence.races}
-    for group in sorted(partners):
-        if groups.kind(group) or groups.find(group) != group:
-            continue
-        axes = wheel_axes.get(group, set())
-        rings = all(evidence.solids[i].axis is not None for i in members[group])
-        if on.get(group, set()) & slewing and not rings:
-            continue  # what stands on a slewing bearing reaches no further than it, and turns
-        found = {groups.find(p) for p in partners[group]} - {group}
-        lines = [evidence.lines[k] for k in on.get(group, set())]
-        if any(hangs(evidence.solids, members[group], line) for line in lines):
-            continue
-        if len(on.get(group, set())) + len(axes) <= 1 and (rings or (not leaves and not axes)) and len(found) == 1:
-            groups.join(group, found.pop())
+    return partners
 
 
 def _absorb_bosses(groups: Groups, evidence: Evidence) -> None:
     """A ring on a single pin line that is drawn into another part, and touches one group only, goes with it."""
-    on = lines_by_group(groups, evidence)
+    on = axes_by_group(groups, evidence)
     beside: dict[int, set[int]] = {}
     for a, b in evidence.near:
         if groups.find(a) != groups.find(b) and not {a, b} & (evidence.fasteners | evidence.slight):
@@ -202,50 +210,61 @@ def _absorb_bosses(groups: Groups, evidence: Evidence) -> None:
             groups.join(group, found.pop())
 
 
-def hangs(solids: tuple[Solid, ...], members: Iterable[int], line: Line) -> bool:
-    """True for solids that reach far out from a pin's line: no rings and spacers on it, but something that turns."""
-    points = np.concatenate([solids[i].points for i in sorted(members)]) - line.origin
-    off = np.linalg.norm(points - np.outer(points @ line.direction, line.direction), axis=1)
-    return float(off.max()) > LONG * line.radius
+def reaches_out(solids: tuple[Solid, ...], members: Iterable[int], axis: SharedAxis) -> bool:
+    """True for solids that reach far out from a pin's axis: no rings and spacers on it, but something that turns."""
+    points = np.concatenate([solids[i].points for i in sorted(members)]) - axis.origin
+    off = np.linalg.norm(points - np.outer(points @ axis.direction, axis.direction), axis=1)
+    return float(off.max()) > LONG * axis.radius
 
 
 def _collected(groups: Groups, evidence: Evidence, refused: Pairs) -> Structure:
+    """The structure that groups make: every group but the fasteners' is a cluster."""
     gathered: dict[int, set[int]] = {}
     for s in evidence.solids:
         if s.index not in evidence.fasteners:
             gathered.setdefault(groups.find(s.index), set()).add(s.index)
     roots = sorted(gathered)
-    number = {root: k for k, root in enumerate(roots)}
     clusters = tuple(Cluster(frozenset(gathered[r]), *groups.label(r)) for r in roots)
-
-    def cluster(i: int) -> int:
-        return number[groups.find(i)]
-
-    pins: dict[tuple[int, int, int], set[int]] = {}
-    for pin, around in evidence.hosts.items():
-        found = sorted({cluster(f.outer) for f in around if f.outer not in evidence.fasteners})
-        for k in evidence.line_of[pin]:
-            for x, a in enumerate(found):
-                for b in found[x + 1 :]:
-                    pins.setdefault((a, b, k), set()).add(pin)
-    for k, fit in evidence.direct:
-        a, b = sorted((cluster(fit.inner), cluster(fit.outer)))
-        if a != b:
-            pins.setdefault((a, b, k), set())
-    lines = list(evidence.lines)
-    for wheel in evidence.wheels:
-        own = cluster(wheel.tyre)
-        beside = {cluster(s.index) for s in evidence.solids if s.index not in evidence.fasteners and _beside(s, wheel)}
-        for other in sorted(beside - {own}):
+    cluster_of = {i: k for k, r in enumerate(roots) for i in gathered[r]}
+    pins = _pinned_pairs(evidence, cluster_of)
+    for number, wheel in enumerate(evidence.wheels, len(evidence.axes)):
+        own = cluster_of[wheel.tyre]
+        beside = {c for i, c in cluster_of.items() if _beside(evidence.solids[i], wheel)} - {own}
+        for other in sorted(beside):
             if clusters[other].kind != "wheel":
-                pins.setdefault((min(own, other), max(own, other), len(lines)), set())
-        lines.append(Line(wheel.center, wheel.direction, wheel.radius, ()))
-    hinges = tuple(Hinge(a, b, k, tuple(sorted(p))) for (a, b, k), p in sorted(pins.items()))
-    slides = tuple((cluster(min(r.barrel)), cluster(min(r.rod)), k) for k, r in enumerate(evidence.rams))
-    sections = [(cluster(n.outer), cluster(n.inner)) for n in evidence.nests]
-    slides += tuple((a, b, len(slides) + k) for k, (a, b) in enumerate(sections) if a != b)
-    apart = tuple((a, b, strength(evidence, a, b)) for a, b in refused if groups.find(a) != groups.find(b))
+                pins.setdefault((min(own, other), max(own, other), number), set())
     races: dict[int, tuple[int, ...]] = {}
     for k, fit in evidence.races:
         races[k] = (*races.get(k, ()), fit.inner, fit.outer)
-    return Structure(clusters, hinges, slides, tuple(lines), dict(evidence.hosts), apart, evidence.slight, races)
+    return Structure(
+        clusters,
+        hinges=tuple(Hinge(a, b, k, tuple(sorted(p))) for (a, b, k), p in sorted(pins.items())),
+        slides=_slides(evidence, cluster_of),
+        axes=(*evidence.axes, *(SharedAxis(w.center, w.direction, w.radius, ()) for w in evidence.wheels)),
+        hosts=dict(evidence.hosts),
+        refused=tuple((a, b, strength(evidence, a, b)) for a, b in refused if groups.find(a) != groups.find(b)),
+        slight=evidence.slight,
+        races=races,
+    )
+
+
+def _pinned_pairs(evidence: Evidence, cluster_of: dict[int, int]) -> dict[tuple[int, int, int], set[int]]:
+    """(cluster, cluster, axis) of what turns on each other → the pins through both; none for a part's own shaft."""
+    pins: dict[tuple[int, int, int], set[int]] = {}
+    for pin, around in evidence.hosts.items():
+        found = sorted({cluster_of[f.outer] for f in around if f.outer not in evidence.fasteners})
+        for k in evidence.axes_of[pin]:
+            for a, b in itertools.combinations(found, 2):
+                pins.setdefault((a, b, k), set()).add(pin)
+    for k, fit in evidence.direct:
+        a, b = sorted((cluster_of[fit.inner], cluster_of[fit.outer]))
+        if a != b:
+            pins.setdefault((a, b, k), set())
+    return pins
+
+
+def _slides(evidence: Evidence, cluster_of: dict[int, int]) -> tuple[tuple[int, int, int], ...]:
+    """Barrels and rods, then sections in each other, as `Structure` has them."""
+    slides = [(cluster_of[min(c.barrel)], cluster_of[min(c.rod)], k) for k, c in enumerate(evidence.cylinders)]
+    sections = [(cluster_of[n.outer], cluster_of[n.inner]) for n in evidence.nests]
+    return (*slides, *((a, b, len(slides) + k) for k, (a, b) in enumerate(sections) if a != b))

@@ -5,61 +5,25 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from yellowiron.support import graphs
+
 
 @dataclass(frozen=True)
 class Edge:
-    """A joint of clusters `a` and `b`: a hinge (`number`) on a `line`, or a slide of that hydraulic cylinder (`driven`)
-    or of that section in another."""
+    """A joint of clusters `a` and `b`: a hinge (`number`) on a shared `axis`, or a slide of that hydraulic cylinder
+    (`driven`) or of that section in another."""
 
     a: int
     b: int
-    line: int
+    axis: int
     number: int
     slide: bool
     driven: bool = False
 
 
 def blocks(edges: Sequence[Edge]) -> list[list[Edge]]:
-    """The edges in groups that closed chains hold together; an edge of no chain is alone (Tarjan's biconnected
-    components)."""
-    beside: dict[int, list[int]] = {}
-    for k, e in enumerate(edges):
-        beside.setdefault(e.a, []).append(k)
-        beside.setdefault(e.b, []).append(k)
-    order: dict[int, int] = {}
-    low: dict[int, int] = {}
-    found: list[list[Edge]] = []
-    stack: list[int] = []
-    done: set[int] = set()
-    for start in sorted(beside):
-        if start in order:
-            continue
-        order[start] = low[start] = len(order)
-        path = [(start, -1, iter(beside[start]))]
-        while path:
-            node, by, rest = path[-1]
-            k = next(rest, -1)
-            if k < 0:
-                path.pop()
-                if path:
-                    above = path[-1][0]
-                    low[above] = min(low[above], low[node])
-                    if low[node] >= order[above]:
-                        cut = stack.index(by)
-                        found.append([edges[i] for i in sorted(stack[cut:])])
-                        del stack[cut:]
-                continue
-            if k in done:
-                continue
-            done.add(k)
-            stack.append(k)
-            other = edges[k].b if edges[k].a == node else edges[k].a
-            if other in order:
-                low[node] = min(low[node], order[other])
-            else:
-                order[other] = low[other] = len(order)
-                path.append((other, k, iter(beside[other])))
-    return found
+    """The edges in groups that closed chains hold together; an edge of no chain is alone."""
+    return [[edges[k] for k in block] for block in graphs.blocks({k: (e.a, e.b) for k, e in enumerate(edges)})]
 
 
 def bridges(edges: Sequence[Edge]) -> set[Edge]:
@@ -86,10 +50,5 @@ def freedoms(edges: Sequence[Edge]) -> tuple[int, int]:
 
 def components(edges: Sequence[Edge]) -> list[set[int]]:
     """The bodies in groups that joints hold together, in the order of their least."""
-    group: dict[int, set[int]] = {}
-    for e in edges:
-        one, other = group.setdefault(e.a, {e.a}), group.setdefault(e.b, {e.b})
-        if one is not other:
-            one |= other
-            group.update(dict.fromkeys(other, one))
-    return sorted({id(g): g for g in group.values()}.values(), key=min)
+    bodies = sorted({body for e in edges for body in (e.a, e.b)})
+    return [set(group) for group in graphs.components(bodies, ((e.a, e.b) for e in edges))]

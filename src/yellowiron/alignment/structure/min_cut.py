@@ -10,7 +10,7 @@ from scipy.sparse.csgraph import maximum_flow
 
 from yellowiron.alignment.structure.contact_evidence import Evidence
 from yellowiron.alignment.structure.rigid_groups import Groups
-from yellowiron.alignment.structure.welds import Pairs, lines_by_group
+from yellowiron.alignment.structure.welds import Pairs, axes_by_group
 
 FIRM = 20_000_000
 SCALE = 1e6
@@ -33,10 +33,10 @@ def strength(evidence: Evidence, a: int, b: int) -> float:
 def false_welds(groups: Groups, evidence: Evidence, pairs: Pairs, refused: Pairs) -> set[tuple[int, int]]:
     """Pairs to leave apart, so that what careful welding kept back can hold.
 
-    A kept-back pair would have joined all that turns about some line. Then two of the parts on that line are of
+    A kept-back pair would have joined all that turns about some axis. Then two of the parts on that axis are of
     different bodies, and the cheapest cut between any two of them is the false weld, unless the pair itself is cheaper.
     """
-    on = lines_by_group(groups, evidence, without=evidence.bolted)
+    on = axes_by_group(groups, evidence, without=evidence.bolted)
     result: set[tuple[int, int]] = set()
     done: set[tuple[int, int, int]] = set()
     graph = _graph(evidence, pairs)
@@ -50,9 +50,7 @@ def false_welds(groups: Groups, evidence: Evidence, pairs: Pairs, refused: Pairs
             if (ga, gb, k) in done:
                 continue
             done.add((ga, gb, k))
-            sides = [
-                [i for i, lines in evidence.pinned.items() if k in lines and groups.find(i) == g] for g in (ga, gb)
-            ]
+            sides = [[i for i, axes in evidence.pinned.items() if k in axes and groups.find(i) == g] for g in (ga, gb)]
             cuts = [_cut(graph, pairs, i, j) for i in sides[0] for j in sides[1]]
             cuts = [c for c in cuts if c and sum(strength(evidence, *p) for p in c) < limit]
             if cuts:

@@ -3,36 +3,40 @@ contact can mean."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-import numpy as np
-
-from yellowiron.alignment.features.contacts import Fit, Flat, bare_fits_of, fits_of, flats_of, lines_of, neighbours
-from yellowiron.alignment.features.cylinders import Ram, rams_of
+from yellowiron.alignment.features.contacts import (
+    Flat,
+    bare_fits_of,
+    fits_of,
+    flats_of,
+    neighbours,
+)
+from yellowiron.alignment.features.cylinders import DrawnCylinder, cylinders_of
 from yellowiron.alignment.features.distance import Touch
-from yellowiron.alignment.features.pinless_pivots import bored, ended_fits_of, stays_of
-from yellowiron.alignment.features.solids import Solid, solids_of
+from yellowiron.alignment.features.pinless_pivots import has_drilled_pivots, round_end_fits_of, stay_bars_of
+from yellowiron.alignment.features.solids import Solid, size_of, solids_of
 from yellowiron.alignment.features.telescopes import Nest, nests_of
-from yellowiron.alignment.features.undrilled import apart_rams_of, interrupted_fits_of, pierced_fits_of, solid_rams_of
+from yellowiron.alignment.features.undrilled import interrupted_fits_of, pierced_fits_of
+from yellowiron.alignment.features.undrilled_cylinders import apart_cylinders_of, solid_cylinders_of
 from yellowiron.alignment.features.wheels import Wheel, wheels_of
-from yellowiron.alignment.structure.contact_evidence import Evidence, evidence_of, tables_of
+from yellowiron.alignment.structure.contact_evidence import Contacts, Evidence, evidence_of, tables_of
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.geometry import Floats
 from yellowiron.model.template import Template
 
-CONTACT = (4e-5, 3e-4, 1e-3)
-"""Two faces touch within this share of the machine's diagonal (0.4 mm on 10 m); the wider ones are for machines that
-the first does not find whole (moved or shrunk parts)."""
-
 
 @dataclass(frozen=True, eq=False)
-class Seen:
-    """What geometry shows, before any role."""
+class Observation:
+    """What geometry shows, before any role: the solids, flat contacts and `near` pairs of them, hydraulic cylinders,
+    wheels, sections in each other (`nests`), what the contacts can mean (`evidence`: the usual reading first, then, if
+    it differs, the one with slewing bearings), what asks for distances (`touch`), the machine's size in metres, and the
+    upright where it is known. CAD frame."""
 
     solids: tuple[Solid, ...]
     flats: list[Flat]
     near: list[tuple[int, int]]
-    rams: tuple[Ram, ...]
+    cylinders: tuple[DrawnCylinder, ...]
     wheels: list[Wheel]
     evidence: tuple[Evidence, ...]
     touch: Touch
@@ -41,60 +45,44 @@ class Seen:
     nests: tuple[Nest, ...] = ()
 
 
-def see(assembly: Assembly, template: Template, contact: float) -> Seen:
+def observe(assembly: Assembly, template: Template, contact: float) -> Observation:
     """Looks at a model with a contact tolerance (share of its diagonal); `template` says what to look for: hydraulic
     cylinders, how many wheels, a slewing bearing."""
     solids = solids_of(assembly)
     if not solids:
-        return Seen((), [], [], (), [], (), Touch((), 0.0), 0.0)
-    size = float(np.linalg.norm(np.max([s.high for s in solids], axis=0) - np.min([s.low for s in solids], axis=0)))
+        return Observation((), [], [], (), [], (), Touch((), 0.0), 0.0)
+    size = size_of(solids)
     tolerance = contact * size
     touch = Touch(solids, tolerance)
-    rams = rams_of(solids, tolerance) if any(r.kind in ("barrel", "rod") for r in template.roles) else []
+    cylinders = cylinders_of(solids, tolerance) if any(r.kind in ("barrel", "rod") for r in template.roles) else []
     if any(r.kind == "barrel" for r in template.roles):
-        rams += solid_rams_of(solids, rams, tolerance)
-        rams += apart_rams_of(solids, rams, tolerance)
+        cylinders += solid_cylinders_of(solids, cylinders, tolerance)
+        cylinders += apart_cylinders_of(solids, cylinders, tolerance)
     fits = fits_of(solids, tolerance)
     fits += interrupted_fits_of(solids, fits, tolerance)
-    pierced = pierced_fits_of(solids, fits, rams, touch, size)
+    pierced = pierced_fits_of(solids, fits, cylinders, touch, size)
     fits += pierced
     stays: frozenset[int] = frozenset()
-    holes = bored(solids, template, size)
+    holes = has_drilled_pivots(solids, template, size)
     if not holes:
-        ended = ended_fits_of(solids, fits, rams, touch, size)
-        stays = stays_of(pierced, ended, solids, touch)
+        ended = round_end_fits_of(solids, fits, cylinders, touch, size)
+        stays = stay_bars_of(pierced, ended, solids, touch)
         fits += ended
     bare = bare_fits_of(solids, fits, tolerance)
     near = neighbours(solids, tolerance)
     flats = flats_of(solids, near, tolerance)
     nests = tuple(nests_of(solids, size, tolerance)) if _sections(template) else ()
-    taken = {i for r in rams for i in r.barrel | r.rod}
+    taken = {i for r in cylinders for i in r.barrel | r.rod}
     wheels = wheels_of(solids, sum(1 for r in template.roles if r.kind == "wheel" and r.rigid), taken, tolerance)
 
-    def sorted_out(fits: list[Fit], *, slewing: bool) -> Evidence:
-        lines = lines_of([*fits, *bare], tolerance)
-        return evidence_of(
-            solids,
-            fits,
-            bare,
-            lines,
-            flats,
-            rams,
-            wheels,
-            near,
-            touch.touching,
-            tolerance,
-            slewing=slewing,
-            nests=nests,
-            stays=stays,
-            holes=holes,
-        )
-
-    evidence = [sorted_out(fits, slewing=False)]
-    tables = tables_of(solids, flats) if slewing_joints(template) else []
-    other = sorted_out([*fits, *tables], slewing=True) if slewing_joints(template) else evidence[0]
-    evidence += [other] if len(other.races) > len(evidence[0].races) else []
-    return Seen(solids, flats, near, tuple(rams), wheels, tuple(evidence), touch, size, nests=nests)
+    contacts = Contacts(
+        solids, fits, bare, flats, cylinders, wheels, near, touch.touching, tolerance, nests, stays, holes
+    )  # fmt: skip
+    evidence = [evidence_of(contacts)]
+    if slewing_joints(template):
+        other = evidence_of(replace(contacts, fits=[*fits, *tables_of(solids, flats)]), slewing=True)
+        evidence += [other] if len(other.races) > len(evidence[0].races) else []
+    return Observation(solids, flats, near, tuple(cylinders), wheels, tuple(evidence), touch, size, nests=nests)
 
 
 def _sections(template: Template) -> bool:

@@ -1,29 +1,28 @@
-"""Union-find over solids that knows what must stay apart."""
+"""Groups of solids that know what must stay apart."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
+
+from yellowiron.support.graphs import LedSets
 
 
 class Groups:
     """Groups of solids. Two labelled groups (wheel, barrel, rod) never join; wheels take nothing in."""
 
     def __init__(self, count: int) -> None:
-        self._parent = list(range(count))
+        self._sets = LedSets(range(count))
         self._label: dict[int, tuple[str, int]] = {}
 
     def find(self, i: int) -> int:
         """The group of a solid: its smallest member so far."""
-        while self._parent[i] != i:
-            self._parent[i] = self._parent[self._parent[i]]
-            i = self._parent[i]
-        return i
+        return self._sets.leader(i)
 
     def tag(self, members: Iterable[int], label: tuple[str, int]) -> None:
         """Makes one labelled group of solids."""
         first, *rest = sorted(members)
         for other in rest:
-            self._parent[self.find(other)] = self.find(first)
+            self._sets.join(first, other)
         self._label[self.find(first)] = label
 
     def label(self, i: int) -> tuple[str, int]:
@@ -48,7 +47,7 @@ class Groups:
             return False
         a, b = min(a, b), max(a, b)
         label = self._label.pop(b, None) or self._label.get(a)
-        self._parent[b] = a
+        self._sets.join(a, b)
         if label is not None:
             self._label[a] = label
         return True

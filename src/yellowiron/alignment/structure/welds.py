@@ -6,19 +6,19 @@ joins first what raises no suspicion, then the least suspicious, and keeps back 
 
 from __future__ import annotations
 
-from yellowiron.alignment.features.contacts import Line
+from yellowiron.alignment.features.contacts import SharedAxis
 from yellowiron.alignment.features.solids import Solid
 from yellowiron.alignment.structure.contact_evidence import Evidence
 from yellowiron.alignment.structure.rigid_groups import Groups
 
 Pairs = list[tuple[int, int]]
-Lines = dict[int, set[int]]
+AxesByGroup = dict[int, set[int]]
 """Group → the pin lines it is on."""
 
 
-def lines_by_group(groups: Groups, evidence: Evidence, *, without: frozenset[int] = frozenset()) -> Lines:
-    """Group → the lines that its members share with pins and bolts, save those `without`."""
-    result: Lines = {}
+def axes_by_group(groups: Groups, evidence: Evidence, *, without: frozenset[int] = frozenset()) -> AxesByGroup:
+    """Group → the axes that its members share with pins and bolts, save those `without`."""
+    result: AxesByGroup = {}
     for i, on in evidence.pinned.items():
         if i not in evidence.fasteners and on - without:
             result.setdefault(groups.find(i), set()).update(on - without)
@@ -26,12 +26,12 @@ def lines_by_group(groups: Groups, evidence: Evidence, *, without: frozenset[int
 
 
 def join_doubly_pinned(groups: Groups, evidence: Evidence) -> None:
-    """Two distinct lines in common weld, again and again until nothing changes."""
+    """Two distinct axes in common weld, again and again until nothing changes."""
     changed = True
     while changed:
         changed = False
-        on = lines_by_group(groups, evidence)
-        pairs = {(a, b) for found in _by_line(on).values() for a in found for b in found if a < b}
+        on = axes_by_group(groups, evidence)
+        pairs = {(a, b) for found in _by_axis(on).values() for a in found for b in found if a < b}
         for a, b in sorted(pairs):
             if groups.find(a) != groups.find(b) and len(on[a] & on[b]) >= 2 and groups.join(a, b):
                 changed = True
@@ -58,7 +58,7 @@ def weld(groups: Groups, evidence: Evidence, pairs: Pairs, *, careful: bool) -> 
         join_doubly_pinned(groups, evidence)
 
 
-def _by_line(on: Lines) -> dict[int, list[int]]:
+def _by_axis(on: AxesByGroup) -> dict[int, list[int]]:
     result: dict[int, list[int]] = {}
     for group in sorted(on):
         for k in on[group]:
@@ -68,16 +68,16 @@ def _by_line(on: Lines) -> dict[int, list[int]]:
 
 def _plain(groups: Groups, evidence: Evidence, pairs: Pairs) -> Pairs:
     """Joins the pairs whose groups share no pin line and hinge on no common third; returns the others."""
-    on = lines_by_group(groups, evidence, without=evidence.bolted)
-    by_line = _by_line(on)
+    on = axes_by_group(groups, evidence, without=evidence.bolted)
+    by_axis = _by_axis(on)
     rest: Pairs = []
     for a, b in pairs:
         ga, gb = groups.find(a), groups.find(b)
         if ga == gb or not groups.may_join(ga, gb):
             continue
         la, lb = on.get(ga, set()), on.get(gb, set())
-        beside_a = {groups.find(g) for k in la for g in by_line[k]}
-        beside_b = {groups.find(g) for k in lb for g in by_line[k]}
+        beside_a = {groups.find(g) for k in la for g in by_axis[k]}
+        beside_b = {groups.find(g) for k in lb for g in by_axis[k]}
         if la and lb and (la & lb or (beside_a & beside_b) - {ga, gb}):
             rest.append((a, b))
             continue
@@ -89,13 +89,13 @@ def _plain(groups: Groups, evidence: Evidence, pairs: Pairs) -> Pairs:
 
 
 def _least_suspicious(groups: Groups, evidence: Evidence, pairs: Pairs) -> tuple[int, int] | None:
-    """The pair whose smaller group is on the fewest lines, among those that leave something turning on each line."""
-    on = lines_by_group(groups, evidence, without=evidence.bolted)
-    by_line = _by_line(on)
+    """The pair whose smaller group is on the fewest axes, among those that leave something turning on each axis."""
+    on = axes_by_group(groups, evidence, without=evidence.bolted)
+    by_axis = _by_axis(on)
     members: dict[int, list[Solid]] = {}
     for s in evidence.solids:
         members.setdefault(groups.find(s.index), []).append(s)
-    loose = {k: {g for g in found if _loose(members.get(g, []), evidence.lines[k])} for k, found in by_line.items()}
+    loose = {k: {g for g in found if _loose(members.get(g, []), evidence.axes[k])} for k, found in by_axis.items()}
     best: tuple[tuple[int, int, int], tuple[int, int]] | None = None
     for order, (a, b) in enumerate(pairs):
         ga, gb = groups.find(a), groups.find(b)
@@ -106,7 +106,7 @@ def _least_suspicious(groups: Groups, evidence: Evidence, pairs: Pairs) -> tuple
         if len(common) != 1 or groups.kind(ga) or groups.kind(gb):
             continue
         k = next(iter(common))
-        if not set(by_line[k]) - {ga, gb} - loose[k]:
+        if not set(by_axis[k]) - {ga, gb} - loose[k]:
             continue
         key = (min(len(la), len(lb)), len(la) + len(lb), order)
         if best is None or key < best[0]:
@@ -114,10 +114,10 @@ def _least_suspicious(groups: Groups, evidence: Evidence, pairs: Pairs) -> tuple
     return best[1] if best is not None else None
 
 
-def _loose(members: list[Solid], line: Line) -> bool:
-    """True for washers and spacers: groups of nothing but rings about the line."""
-    return all(_turned_about(s, line) for s in members)
+def _loose(members: list[Solid], axis: SharedAxis) -> bool:
+    """True for washers and spacers: groups of nothing but rings about the axis."""
+    return all(_turned_about(s, axis) for s in members)
 
 
-def _turned_about(s: Solid, line: Line) -> bool:
-    return s.axis is not None and line.off(s.axis.center) < 0.1 * line.radius
+def _turned_about(s: Solid, axis: SharedAxis) -> bool:
+    return s.axis is not None and axis.off(s.axis.center) < 0.1 * axis.radius

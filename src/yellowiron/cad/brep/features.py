@@ -28,6 +28,7 @@ from OCP.TopLoc import TopLoc_Location
 from OCP.TopoDS import TopoDS
 
 from yellowiron.cad.brep.tessellate import MILLIMETRE
+from yellowiron.cad.tolerances import PARALLEL
 from yellowiron.model.geometry import CylinderFeature, Floats, PlaneFeature
 
 RECOGNITION = (1e-3, 1e-2)
@@ -50,11 +51,10 @@ _PLANE, _CYLINDER, _CONE, _SPHERE, _TORUS, _FREE = range(6)
 _KINDS = {GeomAbs_Plane: _PLANE, GeomAbs_Cylinder: _CYLINDER, GeomAbs_Cone: _CONE, GeomAbs_Sphere: _SPHERE}
 _KINDS[GeomAbs_Torus] = _TORUS
 _EDGE_SAMPLES = 24
-_TURN = 2.0 * math.pi
 
 
 @dataclass(frozen=True, eq=False)
-class Patch:
+class CylindricalFace:
     """One cylindrical face, mm: `origin` on the axis, unit `axis`, ends along it, and the angles it covers.
 
     `intervals` (k, 2) are angles about `axis`, counted from `zero`; together they cover the face. `inner`: material
@@ -77,15 +77,14 @@ class Patch:
 class Face:
     """What is known of one face, mm: kind of surface, area, centre of area, and the plane's or cylinder's data.
 
-    `kind` is what the surface was recognised as; `freeform` says that the file has it as a spline or the like.
+    `kind` is what the surface was recognised as.
     """
 
     kind: int
     area: float
     center: tuple[float, float, float]
     normal: tuple[float, float, float] | None = None
-    patch: Patch | None = None
-    freeform: bool = False
+    patch: CylindricalFace | None = None
 
 
 def survey(faces: Sequence[Any], box: Floats) -> tuple[list[Face], Any]:
@@ -175,12 +174,12 @@ def _recognise(face: Any, surface: Any, area: float, center: tuple[float, float,
     recognition = ShapeAnalysis_CanonicalRecognition(face)
     plane, cylinder = gp_Pln(), gp_Cylinder()
     if recognition.IsPlane(tolerance, plane):
-        return Face(_PLANE, area, center, normal=_outward(face, surface), freeform=True)
+        return Face(_PLANE, area, center, normal=_outward(face, surface))
     if recognition.IsCylinder(tolerance, cylinder):
         patch = _sampled_patch(face, surface, cylinder, area)
         if patch is not None:
-            return Face(_CYLINDER, area, center, patch=patch, freeform=True)
-    return Face(_FREE, area, center, freeform=True)
+            return Face(_CYLINDER, area, center, patch=patch)
+    return Face(_FREE, area, center)
 
 
 def _plane_normal(face: Any, surface: Any) -> tuple[float, float, float]:
@@ -212,7 +211,7 @@ def _bounds(face: Any) -> tuple[float, float, float, float]:
     return u0, u1, v0, v1
 
 
-def _cylinder_patch(face: Any, surface: Any, area: float) -> Patch:
+def _cylinder_patch(face: Any, surface: Any, area: float) -> CylindricalFace:
     cylinder = surface.Cylinder()
     position = cylinder.Position()
     u0, u1, v0, v1 = _bounds(face)
@@ -220,7 +219,7 @@ def _cylinder_patch(face: Any, surface: Any, area: float) -> Patch:
     # A left-handed frame turns the parameter round: the interval then runs backwards about the axis.
     turn = 1.0 if position.Direct() else -1.0
     inner = (turn < 0.0) != (face.Orientation() == TopAbs_REVERSED)
-    return Patch(
+    return CylindricalFace(
         origin=np.array(position.Location().Coord()),
         axis=axis,
         zero=np.array(position.XDirection().Coord()),
@@ -234,7 +233,7 @@ def _cylinder_patch(face: Any, surface: Any, area: float) -> Patch:
     )
 
 
-def _sampled_patch(face: Any, surface: Any, cylinder: Any, area: float) -> Patch | None:
+def _sampled_patch(face: Any, surface: Any, cylinder: Any, area: float) -> CylindricalFace | None:
     """The patch of a free-form face on a recognised cylinder; its extents come from its boundary."""
     position = cylinder.Position()
     origin = np.array(position.Location().Coord())
@@ -246,14 +245,14 @@ def _sampled_patch(face: Any, surface: Any, cylinder: Any, area: float) -> Patch
     along = (points - origin) @ axis
     angles = np.arctan2((points - origin) @ np.cross(axis, zero), (points - origin) @ zero)
     # The boundary runs round wherever the face does; from one sample to the next it takes the short way.
-    steps = (np.diff(angles, axis=1) + math.pi) % _TURN - math.pi
+    steps = (np.diff(angles, axis=1) + math.pi) % math.tau - math.pi
     starts = angles[:, :-1]
     intervals = np.stack([np.minimum(starts, starts + steps), np.maximum(starts, starts + steps)], axis=-1)
     u0, u1, v0, v1 = _bounds(face)
     uv = (0.5 * (u0 + u1), 0.5 * (v0 + v1))
     middle = np.array(surface.Value(*uv).Coord()) - origin
     outward = np.array(_outward(face, surface, uv))
-    return Patch(
+    return CylindricalFace(
         origin=origin,
         axis=axis,
         zero=zero,
@@ -298,7 +297,7 @@ def cylinders(faces: Sequence[Face]) -> tuple[CylinderFeature, ...]:
 
     Ordered by the group's first face, then along the axis. A feature's point is the middle of its axis.
     """
-    groups: list[list[Patch]] = []
+    groups: list[list[CylindricalFace]] = []
     for face in faces:
         if face.patch is None:
             continue
@@ -311,17 +310,17 @@ def cylinders(faces: Sequence[Face]) -> tuple[CylinderFeature, ...]:
     return tuple(feature for group in groups for feature in _features(group))
 
 
-def _same_cylinder(one: Patch, other: Patch) -> bool:
+def _same_cylinder(one: CylindricalFace, other: CylindricalFace) -> bool:
     if one.inner != other.inner or abs(one.radius - other.radius) > SAME_CYLINDER:
         return False
     ends = other.origin + np.outer((other.lower, other.upper), other.axis) - one.origin
     off = ends - np.outer(ends @ one.axis, one.axis)
     if float(np.abs(off).max()) > SAME_CYLINDER:
         return False
-    return abs(float(one.axis @ other.axis)) > 0.999
+    return abs(float(one.axis @ other.axis)) > PARALLEL
 
 
-def _features(group: Sequence[Patch]) -> list[CylinderFeature]:
+def _features(group: Sequence[CylindricalFace]) -> list[CylinderFeature]:
     """Features of faces on one cylinder. The exact axis is the largest analytic face's."""
     main = max(group, key=lambda patch: (patch.analytic, patch.area))
     axis = _canonical(main.axis)
@@ -331,7 +330,7 @@ def _features(group: Sequence[Patch]) -> list[CylinderFeature]:
         ends = sorted(float((patch.origin + t * patch.axis - main.origin) @ axis) for t in (patch.lower, patch.upper))
         pieces.append((ends[0], ends[1], patch))
     pieces.sort(key=lambda piece: piece[:2])
-    runs: list[list[tuple[float, float, Patch]]] = []
+    runs: list[list[tuple[float, float, CylindricalFace]]] = []
     for piece in pieces:
         if runs and piece[0] <= max(p[1] for p in runs[-1]) + ABUT:
             runs[-1].append(piece)
@@ -364,7 +363,7 @@ def _canonical(axis: Floats) -> Floats:
     return axis
 
 
-def _intervals(patch: Patch, axis: Floats, zero: Floats) -> list[tuple[float, float]]:
+def _intervals(patch: CylindricalFace, axis: Floats, zero: Floats) -> list[tuple[float, float]]:
     """The angles a patch covers about `axis`, counted from `zero`."""
     side = np.cross(axis, zero)
     shift = math.atan2(float(patch.zero @ side), float(patch.zero @ zero))
@@ -376,18 +375,18 @@ def _coverage(intervals: Sequence[tuple[float, float]]) -> float:
     """The measure of a union of angular intervals, at most a full turn."""
     flat: list[tuple[float, float]] = []
     for first, last in intervals:
-        if last - first >= _TURN - 1e-9:
-            return _TURN
-        start = first % _TURN
+        if last - first >= math.tau - 1e-9:
+            return math.tau
+        start = first % math.tau
         end = start + last - first
-        flat.append((start, min(end, _TURN)))
-        if end > _TURN:
-            flat.append((0.0, end - _TURN))
+        flat.append((start, min(end, math.tau)))
+        if end > math.tau:
+            flat.append((0.0, end - math.tau))
     covered = reach = 0.0
     for start, end in sorted(flat):
         covered += max(0.0, end - max(start, reach))
         reach = max(reach, end)
-    return _TURN if covered > _TURN - 1e-6 else covered
+    return math.tau if covered > math.tau - 1e-6 else covered
 
 
 def _metres(point: Sequence[float] | Floats) -> tuple[float, float, float]:

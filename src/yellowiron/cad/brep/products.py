@@ -1,5 +1,5 @@
-"""The products of an XCAF document to an `Assembly`: every solid and sheet of every occurrence. What the readers of
-boundary representations end with; runs in the guard's child process."""
+"""The products of an XCAF document to an `Assembly`: every solid and open shell of every occurrence. What the readers
+of boundary representations end with; runs in the guard's child process."""
 
 from __future__ import annotations
 
@@ -17,8 +17,10 @@ from OCP.XCAFDoc import XCAFDoc_ShapeTool
 
 from yellowiron.cad.brep import to_shape
 from yellowiron.cad.brep.tessellate import MILLIMETRE, compound, mesh_shapes
-from yellowiron.cad.brep.xcaf import EXPORT_AGAIN, Leaf, Styles, Tree, label_color, label_entry
-from yellowiron.cad.naming import is_generic, unique_ids
+from yellowiron.cad.brep.xcaf import EXPORT_AGAIN, Leaf, ProductTree, Styles, label_color, label_entry
+from yellowiron.cad.mesh import measures
+from yellowiron.cad.naming import is_generic, listed, unique_ids
+from yellowiron.cad.tolerances import LARGEST, SMALLEST
 from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.errors import CadError
 from yellowiron.model.finding import Finding
@@ -27,10 +29,10 @@ from yellowiron.model.geometry import Color, Floats, Shape
 
 @dataclass(frozen=True, eq=False)
 class Piece:
-    """One solid or sheet of a product, in its own frame, with where the product has it and in which colour."""
+    """One solid or open shell of a product, in its own frame, with where the product has it and in which colour."""
 
     name: str
-    body: to_shape.Body
+    solid: to_shape.MeasuredSolid
     location: Any
     color: Color | None
 
@@ -40,7 +42,7 @@ Missing = Callable[[Sequence[Leaf], Sequence[Sequence[Piece]]], list[Finding]]
 
 
 def assemble(
-    tree: Tree,
+    tree: ProductTree,
     *,
     path: str,
     format: str,
@@ -51,10 +53,10 @@ def assemble(
 ) -> Assembly:
     """The assembly of a document's products; `unit` (metres) is the file's own. `CadError` if nothing is a part."""
     leaves = list(tree.leaves())
-    collector = _Bodies(tree)
+    collector = _MeasuredSolids(tree)
     pieces = [collector.pieces(leaf) for leaf in leaves]
     remarks = [*findings, *missing(leaves, pieces), *collector.findings]
-    shapes, shape_findings = _shapes(collector.bodies)
+    shapes, shape_findings = _shapes(collector.solids)
     remarks += shape_findings
     parts = _parts(leaves, pieces, shapes)
     if not parts:
@@ -74,19 +76,19 @@ def assemble(
     return replace(assembly, findings=(*remarks, *_plausibility(assembly, path)))
 
 
-class _Bodies:
-    """The distinct solids and sheets of a document, each measured once, however many products or instances have it."""
+class _MeasuredSolids:
+    """The distinct solids and open shells of a document, each measured once, however many products have it."""
 
-    def __init__(self, tree: Tree) -> None:
+    def __init__(self, tree: ProductTree) -> None:
         self.tree = tree
-        self.bodies: list[to_shape.Body] = []
+        self.solids: list[to_shape.MeasuredSolid] = []
         self.findings: list[Finding] = []
         self._known = IndexedMap_TopoDS_Shape_TopTools_ShapeMapHasher()
-        self._measured: list[to_shape.Body | None] = []
+        self._measured: list[to_shape.MeasuredSolid | None] = []
         self._pieces: dict[str, list[Piece]] = {}
 
     def pieces(self, leaf: Leaf) -> list[Piece]:
-        """The solids and sheets of a leaf's product, in the product's frame."""
+        """The solids and open shells of a leaf's product, in the product's frame."""
         shape = XCAFDoc_ShapeTool.GetShape_s(leaf.label)
         if shape is None or shape.IsNull():
             return []
@@ -103,36 +105,36 @@ class _Bodies:
         for number, unit in enumerate(units, start=1):
             name, color = styles.of(unit)
             color = color or label_color(leaf.label)
-            body_name = name if len(units) > 1 and name else product
+            title = name if len(units) > 1 and name else product
             local = unit.Located(TopLoc_Location())
             known = self._known.FindIndex(local)
             if known == 0:
                 known = self._known.Add(local)
-                self._measured.append(self._measure(body_name, local, color, styles))
-            body = self._measured[known - 1]
-            if body is None:
+                self._measured.append(self._measure(title, local, color, styles))
+            solid = self._measured[known - 1]
+            if solid is None:
                 continue
             suffix = f"#{number}" if len(units) > 1 else ""
             own = name if name and not is_generic(name) and len(units) > 1 else ""
-            pieces.append(Piece(own or suffix, body, unit.Location(), color))
+            pieces.append(Piece(own or suffix, solid, unit.Location(), color))
         return pieces
 
-    def _measure(self, name: str, shape: Any, color: Color | None, styles: Styles) -> to_shape.Body | None:
+    def _measure(self, name: str, shape: Any, color: Color | None, styles: Styles) -> to_shape.MeasuredSolid | None:
         face_colors = styles.of_faces(to_shape.subshapes(shape, TopAbs_FACE))
         try:
-            body = to_shape.measure(name, shape, color=color, face_colors=face_colors)
+            solid = to_shape.measure(name, shape, color=color, face_colors=face_colors)
         except ValueError as error:
             self.findings.append(Finding("CAD003", "error", name, f"Left out: {error}", EXPORT_AGAIN))
             return None
-        self.bodies.append(body)
-        return body
+        self.solids.append(solid)
+        return solid
 
 
 def _units(shape: Any) -> list[Any]:
-    """What becomes a part each: every solid, compsolid and closed shell, and all open sheets as one."""
-    bodies = [part for part in _members(shape) if not to_shape.is_sheet(part)]
-    sheets = [part for part in _members(shape) if to_shape.is_sheet(part)]
-    return [*bodies, *([compound(sheets)] if len(sheets) > 1 else sheets)]
+    """What becomes a part each: every solid, compsolid and closed shell, and all open shells as one."""
+    solids = [part for part in _members(shape) if not to_shape.is_open_shell(part)]
+    shells = [part for part in _members(shape) if to_shape.is_open_shell(part)]
+    return [*solids, *([compound(shells)] if len(shells) > 1 else shells)]
 
 
 def _members(shape: Any) -> Iterator[Any]:
@@ -147,32 +149,26 @@ def _members(shape: Any) -> Iterator[Any]:
             children.Next()
 
 
-def listed(names: Sequence[str], most: int = 5) -> str:
-    """The first few names, and how many more there are."""
-    more = f" and {len(names) - most} more" if len(names) > most else ""
-    return ", ".join(names[:most]) + more
-
-
-def _shapes(bodies: Sequence[to_shape.Body]) -> tuple[dict[str, Shape], list[Finding]]:
-    """Distinct sound bodies by key, meshed; equal ones are meshed once."""
-    distinct: dict[str, to_shape.Body] = {}
-    for body in bodies:
-        distinct.setdefault(body.key, body)
-    mesh_shapes((body.shape, body.diagonal) for body in distinct.values() if not body.tessellated)
+def _shapes(solids: Sequence[to_shape.MeasuredSolid]) -> tuple[dict[str, Shape], list[Finding]]:
+    """Distinct sound solids by key, meshed; equal ones are meshed once."""
+    distinct: dict[str, to_shape.MeasuredSolid] = {}
+    for solid in solids:
+        distinct.setdefault(solid.key, solid)
+    mesh_shapes((solid.shape, solid.diagonal) for solid in distinct.values() if not solid.tessellated)
     shapes, findings = {}, []
-    for key, body in distinct.items():
-        shape, missing = to_shape.finish(body)
+    for key, solid in distinct.items():
+        shape, missing = to_shape.finish(solid)
         if missing:
             findings.append(
-                Finding("CAD006", "warning", body.name, f"{missing} of {len(body.faces)} faces could not be meshed")
+                Finding("CAD006", "warning", solid.name, f"{missing} of {len(solid.faces)} faces could not be meshed")
             )
-        if body.tessellated:
+        if solid.tessellated:
             findings.append(
-                Finding("CAD011", "info", body.name, "Triangles without surfaces: its cylinders are fitted to them")
+                Finding("CAD011", "info", solid.name, "Triangles without surfaces: its cylinders are fitted to them")
             )
         elif not shape.exact:
             findings.append(
-                Finding("CAD007", "warning", body.name, "The solid's exact volume is not usable; its mesh's was taken")
+                Finding("CAD007", "warning", solid.name, "The solid's exact volume is not usable; its mesh's was taken")
             )
         if len(shape.mesh.triangles):
             shapes[key] = shape
@@ -187,7 +183,7 @@ def _parts(
     found: list[tuple[str, tuple[str, ...], str, Floats, Color | None]] = []
     for leaf, own in zip(leaves, pieces, strict=True):
         for piece in own:
-            key = piece.body.key
+            key = piece.solid.key
             if key not in shapes:
                 continue
             path, name = leaf.path, leaf.name
@@ -201,7 +197,7 @@ def _parts(
                     path,
                     key,
                     _matrix(leaf.location * piece.location),
-                    leaf.color or piece.color or piece.body.color or leaf.inherited,
+                    leaf.color or piece.color or piece.solid.color or leaf.inherited,
                 )
             )
     ids = unique_ids((*path, name) for name, path, *_ in found)
@@ -219,23 +215,12 @@ def _matrix(location: Any) -> Floats:
 
 def _plausibility(assembly: Assembly, path: str) -> list[Finding]:
     findings = []
-    sheets = [part.name for part in assembly.parts if not assembly.shapes[part.shape].closed]
-    if sheets:
-        findings.append(
-            Finding("CAD005", "info", path, f"Not closed, so without a volume: {listed(list(dict.fromkeys(sheets)))}")
-        )
-    corners = np.concatenate([_corners(assembly, part) for part in assembly.parts])
-    size = float(np.linalg.norm(np.ptp(corners, axis=0)))
-    if not 1e-3 < size < to_shape.LARGEST * MILLIMETRE:
+    shells = list(dict.fromkeys(p.name for p in assembly.parts if not assembly.shapes[p.shape].closed))
+    if shells:
+        findings.append(Finding("CAD005", "info", path, f"Not closed, so without a volume: {listed(shells)}"))
+    size = measures.extent((assembly.shapes[p.shape].bounds, p.transform) for p in assembly.parts)
+    if not SMALLEST < size < LARGEST:
         findings.append(
             Finding("CAD004", "warning", path, f"The model is {size:.3g} m large: check the unit it was exported in")
         )
     return findings
-
-
-def _corners(assembly: Assembly, part: Part) -> Floats:
-    low, high = assembly.shapes[part.shape].bounds
-    corners = np.array(
-        [[(low, high)[i][0], (low, high)[j][1], (low, high)[k][2]] for i in (0, 1) for j in (0, 1) for k in (0, 1)]
-    )
-    return np.asarray(corners @ part.transform[:3, :3].T + part.transform[:3, 3])

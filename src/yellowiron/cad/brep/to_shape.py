@@ -1,4 +1,4 @@
-"""A B-rep solid or sheet to a `Shape`: exact mass properties, features, content key, mesh."""
+"""A B-rep solid or open shell to a `Shape`: exact mass properties, features, content key, mesh."""
 
 from __future__ import annotations
 
@@ -25,14 +25,15 @@ from yellowiron.cad.brep import features
 from yellowiron.cad.brep.tessellate import MILLIMETRE, mesh_of
 from yellowiron.cad.mesh import measures
 from yellowiron.cad.mesh.features import facets
+from yellowiron.cad.tolerances import LARGEST
 from yellowiron.model.geometry import Color, Floats, Shape
 
 
 @dataclass(eq=False)
-class Body:
-    """One distinct solid or sheet, measured but not yet meshed. Lengths in mm, as Open CASCADE keeps them.
+class MeasuredSolid:
+    """One distinct solid or open shell, measured but not yet meshed. Lengths in mm, as Open CASCADE keeps them.
 
-    The first 32 characters of `key` are a hash of the geometry alone; coloured bodies have 9 more, so that one key
+    The first 32 characters of `key` are a hash of the geometry alone; coloured solids have 9 more, so that one key
     is one look too. `tessellated`: the file has triangles and no surfaces.
     """
 
@@ -61,29 +62,25 @@ class Body:
         return float(np.linalg.norm(self.box[1] - self.box[0]))
 
 
-LARGEST = 1e6
-"""Millimetres. Nothing in a machine is larger: a wrong unit, or a coordinate that is damaged."""
-
-
 def measure(
     name: str, shape: Any, *, color: Color | None = None, face_colors: Sequence[Color | None] | None = None
-) -> Body:
-    """A body from a solid, compsolid, shell or compound of faces in its own frame.
+) -> MeasuredSolid:
+    """The measures of a solid, compsolid, shell or compound of faces in its own frame.
 
     A closed shell counts as the solid it bounds; a solid turned inside out is turned back. `ValueError`, its text a
     predicate ("its geometry is broken"), if the shape cannot be a part.
     """
     try:
-        body = _measure(name, shape, color, face_colors)
+        solid = _measure(name, shape, color, face_colors)
     except Standard_Failure as error:
         raise ValueError("its geometry is broken") from error
-    numbers = (body.box, body.volume, body.area, body.centroid, body.inertia)
+    numbers = (solid.box, solid.volume, solid.area, solid.centroid, solid.inertia)
     if not all(bool(np.isfinite(value).all()) for value in numbers):
         raise ValueError("its measures are not finite numbers")
-    return body
+    return solid
 
 
-def _measure(name: str, shape: Any, color: Color | None, face_colors: Sequence[Color | None] | None) -> Body:
+def _measure(name: str, shape: Any, color: Color | None, face_colors: Sequence[Color | None] | None) -> MeasuredSolid:
     shape, closed = _close(shape)
     _check_size(shape)
     box = _box(shape, optimal=True)
@@ -104,12 +101,12 @@ def _measure(name: str, shape: Any, color: Color | None, face_colors: Sequence[C
         matrix = properties.MatrixOfInertia()
         inertia = np.array([[matrix.Value(i, j) for j in (1, 2, 3)] for i in (1, 2, 3)])
     else:
-        # The centre of a sheet is that of its area; what it weighs is not in the file.
+        # The centre of an open shell is that of its area; what it weighs is not in the file.
         weights = np.array([face.area for face in surveyed])
         centers = np.array([face.center for face in surveyed]).reshape(-1, 3)
         centroid = weights @ centers / weights.sum() if weights.sum() > 0.0 else box.mean(axis=0)
         inertia = np.zeros((3, 3))
-    return Body(
+    return MeasuredSolid(
         name=name,
         shape=shape,
         faces=faces,
@@ -127,8 +124,8 @@ def _measure(name: str, shape: Any, color: Color | None, face_colors: Sequence[C
 
 def _tessellated(
     name: str, shape: Any, faces: list[Any], color: Color | None, face_colors: list[Color | None] | None
-) -> Body:
-    """A body whose faces are triangles and have no surface (AP242 tessellated solids)."""
+) -> MeasuredSolid:
+    """A solid whose faces are triangles and have no surface (AP242 tessellated solids)."""
     mesh, _ = mesh_of(faces)
     if not len(mesh.triangles):
         raise ValueError("it has neither surfaces nor triangles")
@@ -137,7 +134,7 @@ def _tessellated(
     volume, inertia = 0.0, np.zeros((3, 3))
     if closed:
         volume, centroid, inertia = measures.volume_properties(mesh)
-    return Body(
+    return MeasuredSolid(
         name=name,
         shape=shape,
         faces=faces,
@@ -171,7 +168,7 @@ def subshapes(shape: Any, kind: Any) -> list[Any]:
     return found
 
 
-def is_sheet(shape: Any) -> bool:
+def is_open_shell(shape: Any) -> bool:
     """True for a face and an open shell."""
     return shape.ShapeType() == TopAbs_FACE or (shape.ShapeType() == TopAbs_SHELL and not BRep_Tool.IsClosed_s(shape))
 
@@ -189,7 +186,7 @@ def _check_size(shape: Any) -> None:
     size = float(np.linalg.norm(np.ptp(_box(shape, optimal=False), axis=0)))
     if not math.isfinite(size):
         raise ValueError("its coordinates are not finite numbers")
-    if size > LARGEST:
+    if size * MILLIMETRE > LARGEST:
         raise ValueError(f"it would be {size * MILLIMETRE:.3g} m large")
 
 
@@ -206,32 +203,32 @@ def _box(shape: Any, *, optimal: bool) -> Floats:
     return np.array([low.Coord(), high.Coord()])
 
 
-def _key(body: Body) -> str:
-    """A hash of what the body is: its faces' kinds, areas and centres, its volume and inertia.
+def _key(solid: MeasuredSolid) -> str:
+    """A hash of what the solid is: its faces' kinds, areas and centres, its volume and inertia.
 
     Lengths are taken to 1e-4 mm or a millionth of the size, whichever is more, so that the last digits of another
     export or unit do not matter.
     """
-    size = body.diagonal
+    size = solid.diagonal
     step = max(1e-4, 1e-6 * size)
     # The size itself goes in too: measured in steps of itself, a shape twice as large is the same.
     rows = sorted(
-        (face.kind, round(face.area / (step * size)), *(round(c / step) for c in face.center)) for face in body.survey
+        (face.kind, round(face.area / (step * size)), *(round(c / step) for c in face.center)) for face in solid.survey
     )
     whole = [
         round(math.log10(size) * 1e5),
-        round(body.volume / (step * size**2)),
-        *(round(c / step) for c in body.centroid),
+        round(solid.volume / (step * size**2)),
+        *(round(c / step) for c in solid.centroid),
     ]
-    whole += [round(float(value) / (step * size**4)) for value in body.inertia.ravel()]
-    return hashlib.sha256(repr((rows, whole, body.closed)).encode()).hexdigest()[:32]
+    whole += [round(float(value) / (step * size**4)) for value in solid.inertia.ravel()]
+    return hashlib.sha256(repr((rows, whole, solid.closed)).encode()).hexdigest()[:32]
 
 
-def _painted(geometry: str, body: Body) -> str:
-    """A key with the body's colours, if it has any."""
-    if body.color is None and body.face_colors is None:
+def _painted(geometry: str, solid: MeasuredSolid) -> str:
+    """A key with the solid's colours, if it has any."""
+    if solid.color is None and solid.face_colors is None:
         return geometry
-    paint = repr((_rounded(body.color), [_rounded(color) for color in body.face_colors or ()]))
+    paint = repr((_rounded(solid.color), [_rounded(color) for color in solid.face_colors or ()]))
     return f"{geometry}-{hashlib.sha256(paint.encode()).hexdigest()[:8]}"
 
 
@@ -239,33 +236,33 @@ def _rounded(color: Color | None) -> tuple[float, ...] | None:
     return None if color is None else tuple(round(channel, 4) for channel in color)
 
 
-def finish(body: Body) -> tuple[Shape, int]:
-    """The shape of a meshed body, in metres; and how many of its faces could not be meshed."""
-    colors = body.face_colors
+def finish(solid: MeasuredSolid) -> tuple[Shape, int]:
+    """The shape of a meshed solid, in metres; and how many of its faces could not be meshed."""
+    colors = solid.face_colors
     if colors is not None:
-        colors = [color or body.color for color in colors]
-    mesh, missing = mesh_of(body.faces, colors)
-    volume, centroid = body.volume, body.centroid * MILLIMETRE
-    inertia, exact = body.inertia * MILLIMETRE**5, not body.tessellated
+        colors = [color or solid.color for color in colors]
+    mesh, missing = mesh_of(solid.faces, colors)
+    volume, centroid = solid.volume, solid.centroid * MILLIMETRE
+    inertia, exact = solid.inertia * MILLIMETRE**5, not solid.tessellated
     volume *= MILLIMETRE**3
-    if exact and body.closed and not 0.0 < body.volume <= float(np.prod(body.box[1] - body.box[0])) * (1.0 + 1e-6):
+    if exact and solid.closed and not 0.0 < solid.volume <= float(np.prod(solid.box[1] - solid.box[0])) * (1.0 + 1e-6):
         volume, centroid, inertia = measures.volume_properties(mesh)
         exact = False
-    found = facets.find(mesh) if body.tessellated and len(mesh.triangles) else None
+    found = facets.find(mesh) if solid.tessellated and len(mesh.triangles) else None
     shape = Shape(
-        key=body.key,
-        name=body.name,
+        key=solid.key,
+        name=solid.name,
         mesh=mesh,
         volume=volume,
-        area=body.area * MILLIMETRE**2,
+        area=solid.area * MILLIMETRE**2,
         centroid=centroid,
         inertia=inertia,
-        closed=body.closed,
+        closed=solid.closed,
         exact=exact,
-        color=body.color,
-        cylinders=features.cylinders(body.survey) if found is None else found.cylinders,
-        planes=features.planes(body.survey) if found is None else found.planes,
-        bounds=body.box * MILLIMETRE,
+        color=solid.color,
+        cylinders=features.cylinders(solid.survey) if found is None else found.cylinders,
+        planes=features.planes(solid.survey) if found is None else found.planes,
+        bounds=solid.box * MILLIMETRE,
         knuckles=() if found is None else found.knuckles,
     )
     return shape, missing

@@ -52,7 +52,7 @@ class Leaf:
     inherited: Color | None = None
 
 
-def open_step(path: str, encoding: str, *, inner_names: bool = True) -> tuple[Tree, list[str]]:
+def open_step(path: str, encoding: str, *, inner_names: bool = True) -> tuple[ProductTree, list[str]]:
     """The product tree of a STEP file, and the names of the units of length in it. `CadError` if it has no content.
 
     `inner_names`: those of the solids inside of products are kept, too.
@@ -84,7 +84,7 @@ def open_step(path: str, encoding: str, *, inner_names: bool = True) -> tuple[Tr
         raise CadError(
             f"The reader delivered units of {unit.GetUnitValue():g} m, not mm", where=path, hint=EXPORT_AGAIN
         )
-    return Tree(document, encoding), names
+    return ProductTree(document, encoding), names
 
 
 def new_document() -> Any:
@@ -146,7 +146,7 @@ def add_products(document: Any, roots: Sequence[Product]) -> None:
     shapes.UpdateAssemblies()
 
 
-class Tree:
+class ProductTree:
     """The product tree of an XCAF document."""
 
     def __init__(self, document: Any, encoding: str) -> None:
@@ -223,7 +223,7 @@ def label_color(label: Any) -> Color | None:
 class Styles:
     """Names and colours that a product gives to its sub-shapes."""
 
-    def __init__(self, tree: Tree, label: Any) -> None:
+    def __init__(self, tree: ProductTree, label: Any) -> None:
         self._map = IndexedMap_TopoDS_Shape_TopTools_ShapeMapHasher()
         self._styles: list[tuple[str, Color | None]] = []
         self.has_face_colors = False

@@ -10,14 +10,13 @@ import numpy as np
 
 from yellowiron.cad.mesh import copies, measures, shells
 from yellowiron.cad.mesh.features import facets
-from yellowiron.cad.naming import unique_ids
+from yellowiron.cad.naming import listed, unique_ids
+from yellowiron.cad.tolerances import LARGEST, SMALLEST
 from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.errors import CadError
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Color, Finish, Floats, Mesh, Shape
 
-LARGEST = 1e3
-"""Metres. Nothing in a machine is larger: a wrong unit, or a coordinate that is damaged."""
 _AGAIN = "Export the file again."
 
 
@@ -76,7 +75,7 @@ def assemble(
                 raise CadError(f"Nothing can be read: {finding.message}", where=finding.where, hint=finding.hint)
         raise CadError("The file holds no triangles", where=path, hint="Export the machine's parts with it.")
     if empty:
-        remarks.append(Finding("CAD002", "info", path, f"Without usable geometry: {_listed(empty)}"))
+        remarks.append(Finding("CAD002", "info", path, f"Without usable geometry: {listed(empty)}"))
     ids = unique_ids((*item.path, item.name) for item, _ in found)
     parts = tuple(
         Part(id, item.name, item.path, shape.key, item.transform, item.color)
@@ -101,7 +100,7 @@ def _shared(occurrences: Sequence[Occurrence]) -> list[Occurrence]:
 def shape_of(mesh: Mesh, name: str, color: Color | None = None, finishes: tuple[Finish, ...] = ()) -> Shape:
     """The shape of a mesh of triangles: measured, turned right side out, with the cylinders and planes that fit it.
 
-    A closed mesh has its volume, centre and inertia; one that is open anywhere counts as a sheet, whose centre is
+    A closed mesh has its volume, centre and inertia; one that is open anywhere counts as a shell, whose centre is
     that of its area and whose volume is that of its closed pieces. `mesh` has no triangle without an area.
     """
     number = measures.welded(mesh)
@@ -188,28 +187,15 @@ def _painted(key: str, mesh: Mesh, color: Color | None, finishes: tuple[Finish, 
 
 def _plausibility(parts: Sequence[Part], shapes: dict[str, Shape], path: str) -> list[Finding]:
     findings = []
-    sheets = list(dict.fromkeys(p.name for p in parts if not shapes[p.shape].closed))
-    if sheets:
-        words = f"Not closed, so they weigh as sheets: {_listed(sheets)}"
+    open_shells = list(dict.fromkeys(p.name for p in parts if not shapes[p.shape].closed))
+    if open_shells:
+        words = f"Not closed, so they weigh as sheets: {listed(open_shells)}"
         findings.append(Finding("CAD005", "info", path, words))
-    corners = np.concatenate(
-        [_corners(shapes[p.shape].bounds) @ p.transform[:3, :3].T + p.transform[:3, 3] for p in parts]
-    )
-    size = float(np.linalg.norm(np.ptp(corners, axis=0)))
-    if size < 1e-3:
+    size = measures.extent((shapes[p.shape].bounds, p.transform) for p in parts)
+    if size < SMALLEST:
         words = f"The model is {size:.3g} m large: check the unit it was exported in"
         findings.append(Finding("CAD004", "warning", path, words))
     return findings
-
-
-def _corners(bounds: Floats) -> Floats:
-    x, y, z = np.meshgrid(*bounds.T, indexing="ij")
-    return np.stack([x.ravel(), y.ravel(), z.ravel()], axis=1)
-
-
-def _listed(names: Sequence[str], most: int = 5) -> str:
-    more = f" and {len(names) - most} more" if len(names) > most else ""
-    return ", ".join(names[:most]) + more
 
 
 MILLIMETRES = 60.0
@@ -228,7 +214,7 @@ def guessed_unit(points: Sequence[Floats], path: str) -> tuple[float, list[Findi
 
 
 def pieces(mesh: Mesh) -> list[Mesh]:
-    """The solids and sheets of a mesh, in the order of their first triangles."""
+    """The solids and open shells of a mesh, in the order of their first triangles."""
     if not len(mesh.triangles):
         return []
     label = shells.solids(mesh)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -126,3 +127,12 @@ def chosen(mesh: Mesh, rows: NDArray[Any]) -> Mesh:
         uvs=None if mesh.uvs is None else mesh.uvs[rows],
         triangle_finishes=None if mesh.triangle_finishes is None else mesh.triangle_finishes[rows],
     )
+
+
+def extent(placed: Iterable[tuple[Floats, Floats]]) -> float:
+    """The diagonal, metres, of the box around boxes (2, 3) at their places (4, 4)."""
+    corners = []
+    for bounds, place in placed:
+        x, y, z = np.meshgrid(*bounds.T, indexing="ij")
+        corners.append(np.stack([x.ravel(), y.ravel(), z.ravel()], axis=1) @ place[:3, :3].T + place[:3, 3])
+    return float(np.linalg.norm(np.ptp(np.concatenate(corners), axis=0)))

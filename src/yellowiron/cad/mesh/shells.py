@@ -6,6 +6,8 @@ edge from a triangle through the material behind it, the first triangle that fac
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -15,7 +17,6 @@ from yellowiron.model.geometry import Floats, Mesh
 
 _THIN = 0.02
 """Two triangles that face each other within this angle, radians, have no material between them."""
-_TURN = 2.0 * np.pi
 Indices = NDArray[np.int64]
 
 
@@ -90,8 +91,8 @@ def _mates(points: Floats, low: Indices, high: Indices, far: Indices, forward: N
     v = np.cross(edge[:, :1], u)
     angle = np.arctan2((side * v).sum(axis=2), (side * u).sum(axis=2))
     # Seen along the edge, the material of a triangle that runs along it lies clockwise behind it.
-    through = (angle[:, :, None] - angle[:, None, :]) % _TURN
-    through = np.where((through < _THIN) | (through > _TURN - _THIN), _TURN, through)
+    through = (angle[:, :, None] - angle[:, None, :]) % math.tau
+    through = np.where((through < _THIN) | (through > math.tau - _THIN), math.tau, through)
     through = np.where(forward[:, :, None] & ~forward[:, None, :], through, np.inf)
     finite = np.isfinite(through)
     return (
@@ -102,8 +103,8 @@ def _mates(points: Floats, low: Indices, high: Indices, far: Indices, forward: N
 
 
 def solids(mesh: Mesh) -> Indices:
-    """(m,) for every triangle the number of the solid or sheet it belongs to: a piece of connected triangles, with the
-    hollows within it."""
+    """(m,) for every triangle the number of the solid or open shell it belongs to: a piece of connected triangles, with
+    the hollows within it."""
     number = welded(mesh)
     label = components(mesh, number)
     count = int(label.max()) + 1 if len(label) else 0
@@ -146,7 +147,7 @@ def _winding(corners: Floats, point: Floats) -> float:
     la, lb, lc = (np.linalg.norm(v, axis=1) for v in (a, b, c))
     over = np.einsum("ij,ij->i", a, cross(b, c))
     below = la * lb * lc + (a * b).sum(axis=1) * lc + (b * c).sum(axis=1) * la + (c * a).sum(axis=1) * lb
-    return float(np.arctan2(over, below).sum() / (2.0 * np.pi))
+    return float(np.arctan2(over, below).sum() / (math.tau))
 
 
 def right_side_out(mesh: Mesh, number: Indices | None = None) -> tuple[Mesh, float, bool]:

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from yellowiron.model.assembly import DeclaredJoint
+from yellowiron.support.vectors import triple
 
 
 def declared_joint(
@@ -22,9 +23,3 @@ def declared_joint(
     size = float(np.linalg.norm(direction))
     unit = direction / size if size > 0.0 else np.array([1.0, 0.0, 0.0])
     return DeclaredJoint(name, kind, bodies, triple(anchor), triple(unit), *limits)
-
-
-def triple(values: Any) -> tuple[float, float, float]:
-    """Three numbers as such."""
-    x, y, z = (float(v) for v in values)
-    return x, y, z

@@ -15,22 +15,24 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
+from yellowiron.cad.formats import NoReaderError
 from yellowiron.cad.readers import dxf
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import CadError
 
-STEPS = (
+_STEPS = (
     "1. Open the drawing in AutoCAD or BricsCAD; 2. solids: File > Export, type STEP or IGES; meshes: File > Save As, "
     "type DXF; 3. give that file. Or install LibreDWG (dwg2dxf) or ODA File Converter: meshes are then read from the "
     "DWG file itself"
 )
-"""What to do with a DWG file, for a hint."""
 _LIBRE = "dwg2dxf"
 
 
-def is_readable() -> bool:
-    """Whether anything is here that reads DWG files."""
-    return shutil.which(_LIBRE) is not None or _has_oda()
+def require_program(path: str) -> None:
+    """`NoReaderError` where nothing is here that reads DWG files."""
+    if shutil.which(_LIBRE) is None and not _has_oda():
+        words = "A DWG file is read through another program, and none is here"
+        raise NoReaderError(words, where=path, hint=f"{_STEPS}.")
 
 
 def read_dwg(path: str) -> Assembly:
@@ -43,14 +45,13 @@ def read_dwg(path: str) -> Assembly:
 @contextmanager
 def _opened(path: str) -> Iterator[Any]:
     """The drawing, by the first reader that is here."""
+    require_program(path)
     if shutil.which(_LIBRE) is not None:
         with TemporaryDirectory(prefix="yellowiron-") as folder:
             copy = Path(folder, "drawing.dxf")
             _by_libredwg(path, copy)
             yield dxf.opened(str(copy), path)[0]
         return
-    if not _has_oda():
-        raise CadError("A DWG file is read through another program, and none is here", where=path, hint=f"{STEPS}.")
     from ezdxf.addons import odafc
 
     try:
@@ -76,4 +77,4 @@ def _by_libredwg(path: str, copy: Path) -> None:
 
 def _broken(path: str, reader: str, cause: object) -> CadError:
     words = " ".join(str(cause).split())[:200]
-    return CadError(f"The DWG file cannot be read ({reader}): {words}", where=path, hint=f"{STEPS}.")
+    return CadError(f"The DWG file cannot be read ({reader}): {words}", where=path, hint=f"{_STEPS}.")

@@ -7,19 +7,18 @@ without a unit get one for all of them, guessed from the whole: a single bolt wo
 
 from __future__ import annotations
 
-import importlib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
+from pkgutil import resolve_name
 
 import numpy as np
 
-from yellowiron.cad import formats
-from yellowiron.cad.appearance.looks import Dressed, repainted
+from yellowiron.cad.appearance.looks import Dressed
+from yellowiron.cad.formats import CadFormat, NoReaderError, others
 from yellowiron.cad.mesh.assembly import Occurrence, assemble, guessed_unit
 from yellowiron.cad.naming import decode_name, is_generic, unique_ids
-from yellowiron.cad.readers import dwg
-from yellowiron.cad.readers.meshes import obj, ply, stl
+from yellowiron.cad.recognition import format_of
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import CadError
 from yellowiron.model.finding import Finding
@@ -28,22 +27,20 @@ _MOST = 5000
 """Files of a folder."""
 _LARGEST_TEXT = 64 * 1024**2
 """Bytes of a file that is looked through for the names of others."""
-_UNITLESS = ("STL", "OBJ", "PLY")
 
 
-def read_folder(path: str, readers: dict[str, str]) -> Assembly:
-    """The assembly in all CAD files of a folder and those below; `readers` are the formats' functions. `CadError` if
-    it holds none that is readable, or one of them is damaged."""
+def read_folder(path: str) -> Assembly:
+    """The assembly in all CAD files of a folder and those below. `CadError` if it holds none that is readable, or one
+    of them is damaged."""
     folder = Path(path)
-    kinds, findings = _known(folder)
-    named = _referred(list(kinds))
-    files = [file for file in kinds if file not in named]
-    loose = [file for file in files if kinds[file] in _UNITLESS]
+    known, findings = _known(folder)
+    named = _referred(list(known))
+    files = {file: one for file, one in known.items() if file not in named}
+    loose = {file: one for file, one in files.items() if one.meshes}
     read = [_loose(loose, folder)] if loose else []
-    for file in files:
-        if kinds[file] not in _UNITLESS:
-            module, function = readers[kinds[file]].split(":")
-            assembly: Assembly = getattr(importlib.import_module(module), function)(str(file))
+    for file, one in files.items():
+        if not one.meshes:
+            assembly: Assembly = resolve_name(one.reader)(str(file))
             read.append(_below(assembly, _names(file, folder)))
     if not read:
         words = "The folder holds no CAD file that is readable"
@@ -51,9 +48,9 @@ def read_folder(path: str, readers: dict[str, str]) -> Assembly:
     return _joined(read, folder, findings)
 
 
-def _known(folder: Path) -> tuple[dict[Path, str], list[Finding]]:
+def _known(folder: Path) -> tuple[dict[Path, CadFormat], list[Finding]]:
     """The folder's readable CAD files with their formats, and remarks about those that are not."""
-    kinds: dict[Path, str] = {}
+    known: dict[Path, CadFormat] = {}
     findings = []
     found = sorted(f for f in folder.rglob("*") if f.is_file() and f.resolve().is_relative_to(folder.resolve()))
     if len(found) > _MOST:
@@ -61,16 +58,16 @@ def _known(folder: Path) -> tuple[dict[Path, str], list[Finding]]:
         raise CadError(words, where=str(folder), hint="Name the folder with the machine's own files.")
     for file in found:
         try:
-            kind = formats.format_of(file)
-            if kind == "DWG" and not dwg.is_readable():
-                words = "A DWG file is read through another program, and none is here"
-                findings.append(Finding("CAD008", "warning", str(file), words, f"{dwg.STEPS}."))
-                continue
-            kinds[file] = kind
-        except CadError as error:
-            if error.message.startswith("No open reader"):
-                findings.append(Finding("CAD008", "warning", str(file), error.message, error.hint))
-    return kinds, findings
+            one = format_of(file)
+            if one.needs:
+                resolve_name(one.needs)(str(file))
+            known[file] = one
+        except NoReaderError as error:
+            findings.append(Finding("CAD008", "warning", str(file), error.message, error.hint))
+        except CadError:
+            continue
+    # A broken package matters where a file may be of its format.
+    return known, [*findings, *(others()[1] if len(known) < len(found) else ())]
 
 
 def _referred(files: Sequence[Path]) -> set[Path]:
@@ -90,20 +87,13 @@ def _names(file: Path, folder: Path) -> tuple[str, ...]:
     return tuple(decode_name(p, "utf-8") for p in parts)
 
 
-def _loose(files: Sequence[Path], folder: Path) -> Assembly:
+def _loose(files: Mapping[Path, CadFormat], folder: Path) -> Assembly:
     """Files of triangles without a unit, each piece a part."""
     raw: list[tuple[tuple[str, ...], str, Dressed]] = []
     findings: list[Finding] = []
-    for file in files:
+    for file, known in files.items():
         names = _names(file, folder)
-        if file.suffix.lower() == ".obj":
-            raw += [(names, name, one) for name, one in obj.meshes_of(file, findings)]
-            continue
-        if file.suffix.lower() == ".stl":
-            meshes = [mesh for _, mesh in stl.solids_of(file, findings)]
-        else:
-            meshes = [ply.mesh_of(file, findings)]
-        raw += [(names, "", repainted(mesh)) for mesh in meshes]
+        raw += [(names, name, dressed) for name, dressed in resolve_name(known.meshes)(file, findings)]
     unit, remarks = guessed_unit([one.mesh.points for _, _, one in raw], str(folder))
     findings += remarks
     occurrences = []

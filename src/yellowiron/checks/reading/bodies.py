@@ -10,10 +10,10 @@ import numpy as np
 from pxr import Gf, Tf, Usd, UsdGeom, UsdPhysics, UsdShade
 
 from yellowiron.checks.reading.attributes import axis_token, number, quaternion, vector
-from yellowiron.checks.view import Body, Collider, Material, Units, union
+from yellowiron.checks.values import StageBody, StageCollider, StageMaterial, Units, union
 from yellowiron.model.geometry import Floats
+from yellowiron.support.record import RECORD
 
-RECORD = "yellowiron"
 _FIELDS = {
     "Sphere": ("radius",),
     "Cylinder": ("radius", "height"),
@@ -93,8 +93,8 @@ def body_of(prim: Usd.Prim) -> str:
 
 
 def read_bodies(
-    prims: Iterable[Usd.Prim], colliders: Iterable[Collider], poses: Poses, units: Units
-) -> dict[str, Body]:
+    prims: Iterable[Usd.Prim], colliders: Iterable[StageCollider], poses: Poses, units: Units
+) -> dict[str, StageBody]:
     """Path → body, in the stage's order. Bodies that are switched off are included, and say so."""
     solid: dict[str, list[Floats]] = {}
     owners = set()
@@ -106,7 +106,9 @@ def read_bodies(
     return {str(p.GetPath()): _read_body(p, solid, owners, poses, units) for p in made}
 
 
-def _read_body(prim: Usd.Prim, solid: dict[str, list[Floats]], owners: set[str], poses: Poses, units: Units) -> Body:
+def _read_body(
+    prim: Usd.Prim, solid: dict[str, list[Floats]], owners: set[str], poses: Poses, units: Units
+) -> StageBody:
     path = str(prim.GetPath())
     matrix = poses.matrix(prim)
     rotation, scale, sheared, mirrored = rotation_and_scale(matrix)
@@ -120,7 +122,7 @@ def _read_body(prim: Usd.Prim, solid: dict[str, list[Floats]], owners: set[str],
     local = vector(prim, "physics:centerOfMass")
     moments = vector(prim, "physics:diagonalInertia")
     filtered = prim.GetRelationship("physics:filteredPairs")
-    return Body(
+    return StageBody(
         path=path,
         parent_body=body_of(prim.GetParent()),
         pose=pose,
@@ -180,7 +182,7 @@ def _boxes(prim: Usd.Prim, poses: Poses) -> list[Floats]:
     return found
 
 
-def read_colliders(prims: Iterable[Usd.Prim], poses: Poses, units: Units) -> tuple[Collider, ...]:
+def read_colliders(prims: Iterable[Usd.Prim], poses: Poses, units: Units) -> tuple[StageCollider, ...]:
     """Every enabled collider, in the stage's order."""
     enabled = (
         p
@@ -190,7 +192,7 @@ def read_colliders(prims: Iterable[Usd.Prim], poses: Poses, units: Units) -> tup
     return tuple(_read_collider(p, poses, units) for p in enabled)
 
 
-def _read_collider(prim: Usd.Prim, poses: Poses, units: Units) -> Collider:
+def _read_collider(prim: Usd.Prim, poses: Poses, units: Units) -> StageCollider:
     shape = str(prim.GetTypeName())
     approximation = None
     if prim.HasAPI(UsdPhysics.MeshCollisionAPI):
@@ -203,7 +205,7 @@ def _read_collider(prim: Usd.Prim, poses: Poses, units: Units) -> Collider:
     per_volume = units.kilograms_per_unit / units.meters_per_unit**3
     if density is None and material:
         density = number(prim.GetStage().GetPrimAtPath(material), "physics:density")
-    return Collider(
+    return StageCollider(
         path=str(prim.GetPath()),
         body=body_of(prim),
         shape=shape,
@@ -240,7 +242,7 @@ def _physics_material(prim: Usd.Prim) -> tuple[str, bool]:
     return (str(bound.GetPath()) if bound else ""), False
 
 
-def read_materials(prims: Iterable[Usd.Prim], units: Units) -> tuple[Material, ...]:
+def read_materials(prims: Iterable[Usd.Prim], units: Units) -> tuple[StageMaterial, ...]:
     """Every physics material."""
     per_volume = units.kilograms_per_unit / units.meters_per_unit**3
     found = []
@@ -248,7 +250,7 @@ def read_materials(prims: Iterable[Usd.Prim], units: Units) -> tuple[Material, .
         if prim.HasAPI(UsdPhysics.MaterialAPI):
             density = number(prim, "physics:density")
             found.append(
-                Material(
+                StageMaterial(
                     path=str(prim.GetPath()),
                     static_friction=number(prim, "physics:staticFriction"),
                     dynamic_friction=number(prim, "physics:dynamicFriction"),

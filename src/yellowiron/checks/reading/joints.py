@@ -10,7 +10,7 @@ from pxr import Gf, Usd, UsdPhysics
 
 from yellowiron.checks.reading.attributes import axis_token, number, quaternion, vector
 from yellowiron.checks.reading.bodies import Poses, body_of, record_of, rotation_and_scale
-from yellowiron.checks.view import ANGULAR, LINEAR, Drive, Joint, Side, Units
+from yellowiron.checks.values import ANGULAR, LINEAR, Side, StageDrive, StageJoint, Units
 
 _TYPES = {
     "PhysicsFixedJoint": "fixed",
@@ -36,7 +36,7 @@ _ACTUATORS = {"MjcActuator": "mjc:target", "NewtonActuator": "newton:targets"}
 _TENDON = "mjc:path"
 
 
-def read_joints(prims: list[Usd.Prim], poses: Poses, units: Units) -> tuple[Joint, ...]:
+def read_joints(prims: list[Usd.Prim], poses: Poses, units: Units) -> tuple[StageJoint, ...]:
     """Every joint, in the stage's order."""
     moved = _actuated(prims)
     return tuple(_read_joint(p, poses, units, moved) for p in prims if p.IsA(UsdPhysics.Joint))
@@ -60,14 +60,14 @@ def _actuated(prims: Iterable[Usd.Prim]) -> set[str]:
     return found
 
 
-def _read_joint(prim: Usd.Prim, poses: Poses, units: Units, actuated: set[str]) -> Joint:
+def _read_joint(prim: Usd.Prim, poses: Poses, units: Units, actuated: set[str]) -> StageJoint:
     api = UsdPhysics.Joint(prim)
     kind = _TYPES.get(str(prim.GetTypeName()), "other")
     freedoms = _freedoms(prim, kind)
     drives = tuple(_read_drive(prim, i, units) for i in _instances(prim, "PhysicsDriveAPI"))
     lower, upper = _limits(prim, kind, freedoms, units)
     schemas = prim.GetAppliedSchemas()
-    return Joint(
+    return StageJoint(
         path=str(prim.GetPath()),
         type=_as_simple(kind, freedoms),
         sides=(_read_side(prim, 0, poses), _read_side(prim, 1, poses)),
@@ -132,7 +132,7 @@ def _limits(prim: Usd.Prim, kind: str, freedoms: tuple[str, ...], units: Units) 
     return lower, upper
 
 
-def _read_drive(prim: Usd.Prim, instance: str, units: Units) -> Drive:
+def _read_drive(prim: Usd.Prim, instance: str, units: Units) -> StageDrive:
     def value(name: str, default: float) -> float:
         found = number(prim, f"drive:{instance}:physics:{name}")
         return default if found is None else found
@@ -141,13 +141,12 @@ def _read_drive(prim: Usd.Prim, instance: str, units: Units) -> Drive:
     angular = instance in _ANGULAR_DRIVES
     gain = kilograms * meters**2 * math.degrees(1.0) if angular else kilograms
     target = math.radians(1.0) if angular else meters
-    return Drive(
+    return StageDrive(
         instance=instance,
         stiffness=value("stiffness", 0.0) * gain,
         damping=value("damping", 0.0) * gain,
         max_force=value("maxForce", math.inf) * kilograms * (meters**2 if angular else meters),
         target_position=value("targetPosition", 0.0) * target,
-        target_velocity=value("targetVelocity", 0.0) * target,
     )
 
 

@@ -9,7 +9,7 @@ from pathlib import PurePosixPath, PureWindowsPath
 from pxr import Sdf, Usd, UsdGeom, UsdPhysics
 
 from yellowiron.checks.reading.bodies import record_of
-from yellowiron.checks.view import Units
+from yellowiron.checks.values import Units
 
 VARIANTS = "Physics"
 _OFF = "off"

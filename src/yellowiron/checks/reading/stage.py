@@ -9,13 +9,14 @@ from typing import Any
 import numpy as np
 from pxr import Gf, Tf, Usd, UsdGeom, UsdPhysics, Vt
 
-from yellowiron.checks.graph import build_islands
+from yellowiron.checks.islands import build_islands
 from yellowiron.checks.reading import layers
 from yellowiron.checks.reading.attributes import number
 from yellowiron.checks.reading.bodies import Poses, read_bodies, read_colliders, read_materials, record_of
 from yellowiron.checks.reading.bodies import rotation_and_scale as split
 from yellowiron.checks.reading.joints import read_joints
-from yellowiron.checks.view import Units, View
+from yellowiron.checks.values import Units
+from yellowiron.checks.view import View
 from yellowiron.model.geometry import Floats
 
 _SELF_COLLISION = ("physxArticulation:enabledSelfCollisions", "newton:selfCollisionEnabled")

@@ -1,7 +1,15 @@
-"""The rules, in the order of their codes. A topic a module, a rule a function."""
+"""The rules, in the order of their codes: `View` → remarks, each with a stable code.
+
+A topic a module, a rule a function under `@rule`: a rule is added by writing it in its topic's module, a topic by
+naming its module here.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from types import ModuleType
+
+from yellowiron.checks.rule import Rule
 from yellowiron.checks.rules import (
     articulation,
     bodies,
@@ -18,18 +26,26 @@ from yellowiron.checks.rules import (
     stage,
 )
 
-RULES = (
-    *stage.RULES,
-    *references.RULES,
-    *bodies.RULES,
-    *mass.RULES,
-    *joints.RULES,
-    *frames.RULES,
-    *limits.RULES,
-    *drives.RULES,
-    *articulation.RULES,
-    *loops.RULES,
-    *collision.RULES,
-    *materials.RULES,
-    *records.RULES,
+TOPICS = (
+    stage,
+    references,
+    bodies,
+    mass,
+    joints,
+    frames,
+    limits,
+    drives,
+    articulation,
+    loops,
+    collision,
+    materials,
+    records,
 )
+
+
+def rules_of(topics: Iterable[ModuleType]) -> tuple[Rule, ...]:
+    """The rules that modules define, in the order in which they are written."""
+    return tuple(value for topic in topics for value in vars(topic).values() if isinstance(value, Rule))
+
+
+RULES = rules_of(TOPICS)

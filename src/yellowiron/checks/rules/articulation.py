@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from yellowiron.checks.graph import KINDS, Island, reversed_joints, root_body
+from yellowiron.checks.islands import Island, reversed_joints, root_body
+from yellowiron.checks.loops import KINDS
 from yellowiron.checks.rule import Remarks, rule
-from yellowiron.checks.view import WORLD, View
+from yellowiron.checks.values import WORLD, leaf
+from yellowiron.checks.view import View
 
 
 @rule(
@@ -45,10 +47,9 @@ def uncut_loop(view: View) -> Remarks:
     for island in view.islands:
         if not island.roots:
             continue
-        for joint in island.uncut:
-            loop = next(found for found in island.loops if found.steps[0].joint is joint)
+        for loop in island.uncut:
             names = ", ".join(j.name for j in loop.joints)
-            yield joint.path, f"The joints {names} make a loop, and none of them is cut."
+            yield loop.closing.path, f"The joints {names} make a loop, and none of them is cut."
 
 
 @rule(
@@ -61,7 +62,7 @@ def cut_in_two(view: View) -> Remarks:
     for island in view.islands:
         for part in _severed(island):
             cut = next(j for j in island.joints if j.cut and set(part).intersection(j.bodies))
-            names = ", ".join(b.rsplit("/", 1)[-1] for b in part[:4])
+            names = ", ".join(leaf(b) for b in part[:4])
             yield cut.path, f"Only cut joints hold {names}{' …' if len(part) > 4 else ''}."
 
 
@@ -109,7 +110,4 @@ def reversed_joint(view: View) -> Remarks:
         for tree in island.trees:
             of_tree = [j for j in joints if set(tree).intersection(j.bodies)]
             for joint in reversed_joints(of_tree, root_body(island, tree, recorded)):
-                yield joint.path, f"Its body0 {joint.bodies[0].rsplit('/', 1)[-1]} hangs from its body1."
-
-
-RULES = (no_root, several_roots, uncut_loop, cut_in_two, cut_slide, reversed_joint)
+                yield joint.path, f"Its body0 {leaf(joint.bodies[0])} hangs from its body1."

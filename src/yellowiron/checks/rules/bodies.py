@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 
+from yellowiron.checks.islands import Island
 from yellowiron.checks.rule import Remarks, rule
+from yellowiron.checks.values import leaf
 from yellowiron.checks.view import View
 
 _UNIFORM = 1e-4
@@ -81,19 +85,24 @@ def disabled(view: View) -> Remarks:
 )
 def loose(view: View) -> Remarks:
     """A body of a machine is held by no joint."""
+    held = {b.path for i in view.islands for b in i.bodies}
     for root in map(view.scope, view.roots):
-        inside = [i for i in view.islands if any(b.path == root or b.path.startswith(f"{root}/") for b in i.bodies)]
-        groups = [i for i in inside if not i.floating]
-        if len(groups) > 1:
-            largest = max(groups, key=lambda i: len(i.bodies))
-            for island in groups:
-                if island is not largest:
-                    names = ", ".join(b.path.rsplit("/", 1)[-1] for b in island.bodies[:4])
-                    yield island.bodies[0].path, f"{names}: no joint holds these to the rest of {root}."
-        held = {b.path for i in view.islands for b in i.bodies}
+        groups = [i for i in _inside(root, view.islands) if not i.floating]
+        if not groups:
+            continue
+        largest = max(groups, key=lambda i: len(i.bodies))
+        for island in groups:
+            if island is not largest:
+                names = ", ".join(leaf(b.path) for b in island.bodies[:4])
+                yield island.bodies[0].path, f"{names}: no joint holds these to the rest of {root}."
         for body in view.bodies.values():
-            if groups and body.enabled and body.path not in held and body.path.startswith(f"{root}/"):
+            if body.enabled and body.path not in held and body.path.startswith(f"{root}/"):
                 yield body.path, f"No joint holds it to the rest of {root}."
+
+
+def _inside(root: str, islands: Iterable[Island]) -> list[Island]:
+    """The islands with a body at or under a prim."""
+    return [i for i in islands if any(b.path == root or b.path.startswith(f"{root}/") for b in i.bodies)]
 
 
 @rule(
@@ -114,7 +123,7 @@ def stranded_collider(view: View) -> Remarks:
         link = next(("/".join(parts[: n + 1]) for n in range(len(parts)) if "/".join(parts[:n]) in links), "")
         if root and link and link.startswith(f"{root}/") and link not in said:
             said.add(link)
-            yield link, f"Its collider {collider.path.rsplit('/', 1)[-1]} has no rigid body above it."
+            yield link, f"Its collider {leaf(collider.path)} has no rigid body above it."
 
 
 @rule(
@@ -126,6 +135,3 @@ def no_physics(view: View) -> Remarks:
     """There is no physics."""
     if not view.bodies and not view.broken:
         yield view.name, "The file has no rigid body."
-
-
-RULES = (nested, stretched, mirrored, kinematic, disabled, loose, stranded_collider, no_physics)

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from yellowiron.checks.graph import Island
+from yellowiron.checks.islands import Island
 from yellowiron.checks.rule import Remarks, rule
-from yellowiron.checks.view import Body, View
+from yellowiron.checks.values import StageBody, leaf
+from yellowiron.checks.view import View
 
 _TOKENS = (
     "none",
@@ -90,14 +91,14 @@ def overlapping(view: View) -> Remarks:
             continue
         pairs = list(_overlaps(island))
         if pairs:
-            names = [f"{a.path.rsplit('/', 1)[-1]}–{b.path.rsplit('/', 1)[-1]}" for a, b in pairs[:3]]
+            names = [f"{leaf(a.path)}–{leaf(b.path)}" for a, b in pairs[:3]]
             yield (
                 pairs[0][0].path,
                 f"Boxes of {len(pairs)} unjointed pair(s) overlap in the drawn pose: {', '.join(names)}.",
             )
 
 
-def _overlaps(island: Island) -> list[tuple[Body, Body]]:
+def _overlaps(island: Island) -> list[tuple[StageBody, StageBody]]:
     """Pairs of bodies, neither jointed nor filtered, whose collider boxes interpenetrate."""
     joined = {frozenset(j.bodies) for j in island.joints}
     solid = [b for b in island.bodies if b.solid is not None]
@@ -112,6 +113,3 @@ def _overlaps(island: Island) -> list[tuple[Body, Body]]:
             if a is not None and b is not None and (np.minimum(a[1], b[1]) - np.maximum(a[0], b[0])).min() > _OVERLAP:
                 found.append((first, second))
     return found
-
-
-RULES = (no_collider, exact_mesh, unknown_token, empty, overlapping)

@@ -5,14 +5,15 @@ from __future__ import annotations
 import math
 
 from yellowiron.checks.rule import Remarks, rule
-from yellowiron.checks.view import ANGULAR, LINEAR, Joint, View
+from yellowiron.checks.values import ANGULAR, LINEAR, StageJoint
+from yellowiron.checks.view import View
 
 _KNOWN = ("linear", "angular", *LINEAR, *ANGULAR)
 _STIFFEST = 200.0
 """Hz, of the whole machine's mass on the drive's spring: no hydraulics comes near, and no step of a simulation."""
 
 
-def _fits(joint: Joint, instance: str) -> bool:
+def _fits(joint: StageJoint, instance: str) -> bool:
     if joint.type == "revolute":
         return instance in ("angular", *joint.freedoms)
     if joint.type == "prismatic":
@@ -165,17 +166,3 @@ def no_gain(view: View) -> Remarks:
         for drive in joint.drives:
             if not drive.acts:
                 yield joint.path, f"Its {drive.instance} drive has neither stiffness nor damping."
-
-
-RULES = (
-    unknown_instance,
-    misfit,
-    no_force,
-    negative_gain,
-    too_stiff,
-    target_outside,
-    no_velocity,
-    no_damping,
-    driven_cut,
-    no_gain,
-)

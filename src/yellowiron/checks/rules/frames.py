@@ -6,12 +6,12 @@ import math
 
 import numpy as np
 
-from yellowiron.checks.graph import KINDS
+from yellowiron.checks.loops import KINDS
 from yellowiron.checks.rule import Remarks, rule
-from yellowiron.checks.view import LINEAR, Joint, View, direction
+from yellowiron.checks.tolerances import FRAMES_APART
+from yellowiron.checks.values import LINEAR, StageJoint, direction
+from yellowiron.checks.view import View
 
-_APART = 1e-4
-"""Metres, and of the machine's size where that is more than 10 m: SimReady's DJ.003."""
 _TURNED = 1e-3
 """Radians."""
 _UNIT = 1e-3
@@ -20,7 +20,7 @@ _AT_ZERO = (1e-3, 1e-3)
 _MOST = 4
 
 
-def _joined(view: View) -> list[Joint]:
+def _joined(view: View) -> list[StageJoint]:
     """Joints whose both ends are somewhere, with frames that are numbers."""
     return [
         j
@@ -48,7 +48,7 @@ def apart(view: View) -> Remarks:
                 offset = offset - (offset @ axis) * axis
         distance = float(np.linalg.norm(offset))
         reach = float(np.abs(joint.sides[0].position).max())
-        if distance > _APART * max(1.0, reach / 10.0):
+        if distance > FRAMES_APART * max(1.0, reach / 10.0):
             beside = " beside its axis" if joint.type == "prismatic" else ""
             yield joint.path, f"Its frames are {1e3 * distance:.4g} mm apart{beside}."
 
@@ -104,6 +104,3 @@ def odd_zero(view: View) -> Remarks:
                 else f"{math.degrees(joint.coordinate):.4g}°"
             )
             yield joint.path, f"It is drawn at {value}, all others at 0."
-
-
-RULES = (apart, turned, no_rotation, odd_zero)

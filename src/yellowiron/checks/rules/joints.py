@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from yellowiron.checks.rule import Remarks, rule
-from yellowiron.checks.view import WORLD, View
+from yellowiron.checks.values import WORLD
+from yellowiron.checks.view import View
 
 _ENDS = ("body0", "body1")
 
@@ -91,6 +92,3 @@ def disabled(view: View) -> Remarks:
     for joint in view.joints:
         if not joint.enabled:
             yield joint.path, "jointEnabled is false."
-
-
-RULES = (no_bodies, no_such_body, same_body, several_bodies, no_rigid_body, disabled)

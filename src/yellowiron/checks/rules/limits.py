@@ -7,9 +7,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from yellowiron.checks.graph import cylinders
+from yellowiron.checks.islands import cylinders
 from yellowiron.checks.rule import Remarks, rule
-from yellowiron.checks.view import WORLD, Joint, View
+from yellowiron.checks.tolerances import DEPENDENT
+from yellowiron.checks.values import WORLD, StageJoint
+from yellowiron.checks.view import View
 
 _ROUND = 0.02
 """Degrees within which a limit is a whole number of degrees."""
@@ -21,14 +23,14 @@ _STAGES = 5.0
 _RADIANS = 2.0 * math.pi
 
 
-def _limited(view: View) -> Iterator[tuple[Joint, float, float]]:
+def _limited(view: View) -> Iterator[tuple[StageJoint, float, float]]:
     """Hinges and slides with both limits, in order."""
     for joint in view.joints:
         if joint.lower is not None and joint.upper is not None and joint.lower <= joint.upper:
             yield joint, joint.lower, joint.upper
 
 
-def _say(joint: Joint, value: float) -> str:
+def _say(joint: StageJoint, value: float) -> str:
     return f"{1e3 * value:.5g} mm" if joint.type == "prismatic" else f"{math.degrees(value):.5g}°"
 
 
@@ -91,7 +93,7 @@ def _all_round(written: tuple[float, float]) -> bool:
     return turned and not plain
 
 
-def _needed(view: View, joint: Joint) -> float | None:
+def _needed(view: View, joint: StageJoint) -> float | None:
     """Roughly the range (rad) that a hinge of a loop needs for the full strokes of the driven slides: the rates of the
     drawn pose, each slide alone. None where the loop has no such drives."""
     for island in view.islands:
@@ -106,7 +108,7 @@ def _needed(view: View, joint: Joint) -> float | None:
             for j in driven
         ]
         rates = motion.part(driven)
-        if not any(strokes) or np.linalg.matrix_rank(rates, tol=1e-3) < len(driven):
+        if not any(strokes) or np.linalg.matrix_rank(rates, tol=DEPENDENT) < len(driven):
             return None
         share = motion.part([joint]) @ np.linalg.pinv(rates)
         return float(np.abs(share[0] * np.array(strokes)).max())
@@ -191,15 +193,3 @@ def outside(view: View) -> Remarks:
                 joint.path,
                 f"It is drawn at {_say(joint, value)}, its limits are {_say(joint, lower)} and {_say(joint, upper)}.",
             )
-
-
-RULES = (
-    swapped,
-    no_range,
-    radians,
-    beyond_a_turn,
-    unlimited_slide,
-    long_stroke,
-    beyond_reach,
-    outside,
-)

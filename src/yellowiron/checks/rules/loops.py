@@ -7,11 +7,15 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from yellowiron.checks.graph import Island, cylinders
-from yellowiron.checks.motion import STILL, Motion
+from yellowiron.checks.islands import Island, cylinders
+from yellowiron.checks.loops import StageLoop
+from yellowiron.checks.motion import LoopMotion
 from yellowiron.checks.rule import Remarks, rule
-from yellowiron.checks.view import WORLD, Body, Joint, View
+from yellowiron.checks.tolerances import DEPENDENT, STILL
+from yellowiron.checks.values import WORLD, StageBody, StageJoint, leaf
+from yellowiron.checks.view import View
 from yellowiron.model.geometry import Floats
+from yellowiron.support.vectors import angle_between_lines
 
 _PARALLEL = math.radians(0.1)
 _OFF_PINS = 3.0
@@ -23,37 +27,39 @@ _BALANCED = 0.02
 """Of the size of what hangs on a hinge: with its centre of mass this close to the axis it does not swing."""
 
 
-def _angle(a: Floats, b: Floats) -> float:
-    """The angle between two lines, rad, 0 … π/2."""
-    return math.atan2(float(np.linalg.norm(np.cross(a, b))), abs(float(a @ b)))
-
-
-def _skewed(island: Island) -> list[tuple[Joint, float]]:
+def _skewed(island: Island) -> list[tuple[StageJoint, float]]:
     """Hinges and slides of planar loops that are out of plane and cannot move, with the angle (rad)."""
     motion = island.motion
     if motion is None:
         return []
-    found: dict[str, tuple[Joint, float]] = {}
-    for loop in island.loops:
-        paths = {j.path for j in loop.joints}
-        near = [o for o in island.loops if paths.intersection(j.path for j in o.joints)]
-        context = list({j.path: j for o in near for j in o.joints}.values())
-        hinges = [j for j in loop.joints if j.type == "revolute"]
-        if len(loop.joints) < 4 or len(hinges) < 2:
-            continue
-        normal = max((j.axis for j in hinges), key=lambda d: sum(_tilt(j, d) < _PARALLEL for j in context))
-        off = [(j, _tilt(j, normal)) for j in loop.joints if j.type in ("revolute", "prismatic")]
-        out = [(j, angle) for j, angle in off if angle > _PARALLEL]
-        if len(out) * 2 <= len(off):
-            found.update({j.path: (j, a) for j, a in out if not motion.moves(j)})
-    return list(found.values())
+    out = [pair for loop in island.loops for pair in _out_of_plane(loop, island)]
+    return list({joint.path: (joint, angle) for joint, angle in out if not motion.moves(joint)}.values())
 
 
-def _tilt(joint: Joint, normal: Floats) -> float:
+def _out_of_plane(loop: StageLoop, island: Island) -> list[tuple[StageJoint, float]]:
+    """The few hinges and slides of a planar loop that are out of its plane, with the angle (rad)."""
+    hinges = [j for j in loop.joints if j.type == "revolute"]
+    if len(loop.joints) < 4 or len(hinges) < 2:
+        return []
+    near = _with_neighbours(loop, island)
+    normal = max((j.axis for j in hinges), key=lambda d: sum(_tilt(j, d) < _PARALLEL for j in near))
+    off = [(j, _tilt(j, normal)) for j in loop.joints if j.type in ("revolute", "prismatic")]
+    out = [(j, angle) for j, angle in off if angle > _PARALLEL]
+    return out if len(out) * 2 <= len(off) else []
+
+
+def _with_neighbours(loop: StageLoop, island: Island) -> list[StageJoint]:
+    """The joints of a loop and of those that share one with it."""
+    paths = {j.path for j in loop.joints}
+    near = [o for o in island.loops if paths.intersection(j.path for j in o.joints)]
+    return list({j.path: j for o in near for j in o.joints}.values())
+
+
+def _tilt(joint: StageJoint, normal: Floats) -> float:
     """How far a hinge is from parallel, or a slide from square, to a plane's normal; π/2 for other joints."""
     if joint.type == "revolute":
-        return _angle(joint.axis, normal)
-    return math.pi / 2.0 - _angle(joint.axis, normal) if joint.type == "prismatic" else math.pi / 2.0
+        return angle_between_lines(joint.axis, normal)
+    return math.pi / 2.0 - angle_between_lines(joint.axis, normal) if joint.type == "prismatic" else math.pi / 2.0
 
 
 @rule(
@@ -106,7 +112,7 @@ def skewed(view: View) -> Remarks:
             )
 
 
-def _of_loops(island: Island) -> list[Joint]:
+def _of_loops(island: Island) -> list[StageJoint]:
     return [j for j in island.joints if j.path in island.in_loops and j.freedoms]
 
 
@@ -126,7 +132,7 @@ def unheld(view: View) -> Remarks:
             yield group[0].path, f"With every drive at rest these still move: {names}{' …' if len(group) > 5 else ''}."
 
 
-def _open(island: Island) -> Iterator[Joint]:
+def _open(island: Island) -> Iterator[StageJoint]:
     """Joints outside any loop that nothing drives or holds and that do not stay where they are by balance."""
     for joint in island.joints:
         if joint.path in island.in_loops or joint.cut or joint.driven or joint.held or WORLD in joint.bodies:
@@ -137,7 +143,7 @@ def _open(island: Island) -> Iterator[Joint]:
             yield joint
 
 
-def _balanced(joint: Joint, beyond: tuple[Body, ...]) -> bool:
+def _balanced(joint: StageJoint, beyond: tuple[StageBody, ...]) -> bool:
     """Whether what a hinge carries has its centre of mass on the axis, like a wheel; unknown masses are given that."""
     if not beyond or any(b.center_of_mass is None or not b.mass for b in beyond):
         return True
@@ -149,7 +155,7 @@ def _balanced(joint: Joint, beyond: tuple[Body, ...]) -> bool:
     return bool(np.linalg.norm(arm) <= _BALANCED * size)
 
 
-def _undetermined(island: Island) -> list[Joint]:
+def _undetermined(island: Island) -> list[StageJoint]:
     """Hinges and slides of loops that still move with every driven one held."""
     motion = island.motion
     if motion is None or not motion.space.size:
@@ -160,9 +166,9 @@ def _undetermined(island: Island) -> list[Joint]:
     return [j for j in joints if j.type in ("revolute", "prismatic") and j not in holding and rest.moves(j)]
 
 
-def _adjacent(joints: list[Joint]) -> list[list[Joint]]:
+def _adjacent(joints: list[StageJoint]) -> list[list[StageJoint]]:
     """Joints in groups that share bodies."""
-    groups: list[list[Joint]] = []
+    groups: list[list[StageJoint]] = []
     for joint in joints:
         touching = [g for g in groups if any(set(joint.bodies).intersection(o.bodies) - {WORLD} for o in g)]
         merged = [*(j for g in touching for j in g), joint]
@@ -192,11 +198,11 @@ def fighting(view: View) -> Remarks:
             )
 
 
-def _dependent(motion: Motion, joints: list[Joint]) -> list[Joint]:
+def _dependent(motion: LoopMotion, joints: list[StageJoint]) -> list[StageJoint]:
     """The joints whose motions depend on each other's."""
     rows = motion.part(joints)
     left, values, _ = np.linalg.svd(rows)
-    lost = left[:, int((values > 1e-3).sum()) :]
+    lost = left[:, int((values > DEPENDENT).sum()) :]
     return [j for j, share in zip(joints, np.abs(lost).max(axis=1, initial=0.0), strict=True) if share > STILL]
 
 
@@ -216,7 +222,7 @@ def off_pins(view: View) -> Remarks:
                 line, axis = line - (line @ hinge) * hinge, axis - (axis @ hinge) * hinge
             if np.linalg.norm(line) < 1e-3 * island.size or np.linalg.norm(axis) < 0.1:
                 continue
-            angle = math.degrees(_angle(axis, line))
+            angle = math.degrees(angle_between_lines(axis, line))
             if angle > _OFF_PINS:
                 yield slide.path, f"It slides {angle:.4g}° off the line between {before.name} and {after.name}."
 
@@ -235,11 +241,11 @@ def off_wheel(view: View) -> Remarks:
             for path in joint.bodies:
                 for center, radius, axis in _discs(view, path):
                     near = float(np.linalg.norm(center - joint.sides[0].position)) < _CENTRED * radius
-                    angle = _angle(axis, joint.axis)
+                    angle = angle_between_lines(axis, joint.axis)
                     if near and angle > _OFF_WHEEL:
                         yield (
                             joint.path,
-                            f"It turns {path.rsplit('/', 1)[-1]} about an axis {math.degrees(angle):.4g}° off its own.",
+                            f"It turns {leaf(path)} about an axis {math.degrees(angle):.4g}° off its own.",
                         )
                         break
 
@@ -255,6 +261,3 @@ def _discs(view: View, path: str) -> Iterator[tuple[Floats, float, Floats]]:
             yield collider.bounds.mean(axis=0), collider.radius, collider.axis
     if body.disc_axis is not None and body.center_of_mass is not None and body.bounds is not None:
         yield body.center_of_mass, 0.5 * float((body.bounds[1] - body.bounds[0]).max()), body.disc_axis
-
-
-RULES = (locked, still, skewed, unheld, fighting, off_pins, off_wheel)

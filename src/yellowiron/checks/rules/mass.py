@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from yellowiron.checks.rule import Remarks, rule
-from yellowiron.checks.view import Body, View, extent
+from yellowiron.checks.values import StageBody, extent
+from yellowiron.checks.view import View
 
 _TRIANGLE = 1e-2
 _LIGHTEST = 1.2
@@ -93,7 +94,7 @@ def _volume(box: np.ndarray[tuple[int, int], np.dtype[np.float64]] | None) -> fl
     return 0.0 if box is None else float(np.prod(box[1] - box[0]))
 
 
-def _density(body: Body) -> float | None:
+def _density(body: StageBody) -> float | None:
     """Mass over the box around the body's geometry, kg/m³: the box is never smaller than the body. None if flat."""
     volume = _volume(body.bounds)
     edges = body.bounds[1] - body.bounds[0] if body.bounds is not None else np.zeros(3)
@@ -154,15 +155,3 @@ def center_outside(view: View) -> Remarks:
         distance = float(np.linalg.norm(body.center_of_mass - nearest))
         if distance > 0.5 * extent(body.bounds):
             yield body.path, f"It is {distance:.3g} m outside a body that is {extent(body.bounds):.3g} m across."
-
-
-RULES = (
-    negative,
-    massless,
-    guessed,
-    too_light,
-    too_heavy,
-    impossible_inertia,
-    misfit_inertia,
-    center_outside,
-)

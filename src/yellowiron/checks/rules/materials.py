@@ -44,6 +44,3 @@ def missing(view: View) -> Remarks:
     for collider in view.colliders:
         if collider.material_missing:
             yield collider.path, "material:binding:physics leads nowhere."
-
-
-RULES = (impossible, inverted, missing)

@@ -9,12 +9,15 @@ from typing import Any
 
 import numpy as np
 
-from yellowiron.checks.graph import KINDS
+from yellowiron.checks.islands import Island
+from yellowiron.checks.loops import KINDS
 from yellowiron.checks.rule import Remarks, rule
-from yellowiron.checks.view import WORLD, Joint, View, direction
+from yellowiron.checks.tolerances import FRAMES_APART
+from yellowiron.checks.values import WORLD, StageJoint, direction
+from yellowiron.checks.view import View
 from yellowiron.model.geometry import Floats
+from yellowiron.support.vectors import angle_between
 
-_MOVED = 1e-4
 _TURNED = math.radians(0.01)
 _EDITED = 1e-4
 """Relative: what is written in single precision differs by less."""
@@ -50,7 +53,7 @@ def _vector(value: Any) -> Floats | None:
     return found if found.shape == (3,) and np.isfinite(found).all() else None
 
 
-def _recorded(view: View) -> Iterator[tuple[Joint, Mapping[str, Any]]]:
+def _recorded(view: View) -> Iterator[tuple[StageJoint, Mapping[str, Any]]]:
     for joint in view.joints:
         if joint.record.get("kind") == "joint":
             yield joint, joint.record
@@ -65,18 +68,21 @@ def gone(view: View) -> Remarks:
     """A joint that the build made is gone."""
     if not view.bodies:  # Physics=off: CHK027
         return
-    named: dict[str, None] = {}
-    for loop in _entries(view, "loops"):
-        named.update(dict.fromkeys(str(j) for j in _list(loop.get("joints"))))
-    for cylinder in _entries(view, "cylinders"):
-        named.update(dict.fromkeys(str(cylinder[k]) for k in ("slide", "barrel_joint", "rod_joint") if k in cylinder))
-    for actuator in _entries(view, "actuators"):
-        moved = (j.get("joint") for j in _list(actuator.get("joints")) if isinstance(j, dict))
-        named.update(dict.fromkeys(str(j) for j in moved if j))
     there = {str(j.record.get("name")) for j in view.joints if j.enabled}
-    for name in named:
+    for name in dict.fromkeys(_named_joints(view)):
         if name not in there:
             yield view.machine, f"The build recorded the joint '{name}', and it is not there or is switched off."
+
+
+def _named_joints(view: View) -> Iterator[str]:
+    """The joints that the record's loops, cylinders and actuators name."""
+    for loop in _entries(view, "loops"):
+        yield from (str(j) for j in _list(loop.get("joints")))
+    for cylinder in _entries(view, "cylinders"):
+        yield from (str(cylinder[k]) for k in ("slide", "barrel_joint", "rod_joint") if k in cylinder)
+    for actuator in _entries(view, "actuators"):
+        moved = (j.get("joint") for j in _list(actuator.get("joints")) if isinstance(j, dict))
+        yield from (str(j) for j in moved if j)
 
 
 @rule(
@@ -95,13 +101,21 @@ def changed(view: View) -> Remarks:
         # The joints of a ring of shoes are excluded from the articulation too, and no cuts.
         if bool(record.get("cut") or record.get("floating")) != joint.cut:
             yield joint.path, f"It is {'cut' if joint.cut else 'not cut'}, and was built the other way."
-        built = (str(record.get("body0")), str(record.get("body1")))
-        found = tuple(names.get(b, "") for b in joint.bodies)
-        lost = [name for name, there in zip(built, found, strict=True) if not there]
-        if "body0" in record and lost:
-            yield joint.path, f"It joins {built[0]} and {built[1]}, and {lost[0]} is no rigid body any more."
-        elif "body0" in record and found != built:
-            yield joint.path, f"It joins {found[0]} and {found[1]}, and was built to join {built[0]} and {built[1]}."
+        if "body0" in record:
+            built = (str(record.get("body0")), str(record.get("body1")))
+            said = _other_bodies(built, tuple(names.get(b, "") for b in joint.bodies))
+            if said:
+                yield joint.path, said
+
+
+def _other_bodies(built: tuple[str, ...], found: tuple[str, ...]) -> str:
+    """What there is to say of the bodies that a joint joins, by their names; "" where they are those of the build."""
+    lost = [name for name, there in zip(built, found, strict=True) if not there]
+    if lost:
+        return f"It joins {built[0]} and {built[1]}, and {lost[0]} is no rigid body any more."
+    if found != built:
+        return f"It joins {found[0]} and {found[1]}, and was built to join {built[0]} and {built[1]}."
+    return ""
 
 
 @rule(
@@ -122,8 +136,8 @@ def moved(view: View) -> Remarks:
                 continue
             distance = float(np.linalg.norm(side.position - anchor))
             found = direction(side.rotation, joint.freedoms[0]) if len(joint.freedoms) == 1 else side.rotation[:, 0]
-            angle = math.atan2(float(np.linalg.norm(np.cross(found, axis))), float(found @ axis))
-            if distance > _MOVED * max(1.0, float(np.abs(anchor).max()) / 10.0):
+            angle = angle_between(found, axis)
+            if distance > FRAMES_APART * max(1.0, float(np.abs(anchor).max()) / 10.0):
                 yield joint.path, f"Its frame on body{end} is {1e3 * distance:.4g} mm from there."
             elif angle > _TURNED and joint.type != "fixed":
                 yield joint.path, f"Its axis on body{end} is {math.degrees(angle):.4g}° off."
@@ -202,20 +216,20 @@ def mobility(view: View) -> Remarks:
     built = _document(view, "mobility")
     if not view.bodies or not isinstance(built, dict) or not isinstance(built.get("computed"), int):
         return
-    freedoms = 0
-    for island in view.islands:
-        if (
-            island.floating
-            or island.motion is None
-            or not any(b.path.startswith(f"{view.machine}/") for b in island.bodies)
-        ):
-            continue
-        tree = [j for j in island.joints if j.path not in island.in_loops and j.type in KINDS]
-        loose = [j for j in tree if WORLD not in j.bodies]
-        one_way = [j for j in island.joints if j.type in ("revolute", "prismatic")]
-        freedoms += sum(len(j.freedoms) for j in loose) + island.motion.rank(one_way)
+    own = [i for i in view.islands if any(b.path.startswith(f"{view.machine}/") for b in i.bodies)]
+    freedoms = sum(_freedoms(island) for island in own if not island.floating)
     if freedoms != built["computed"]:
         yield view.machine, f"It moves in {freedoms} way(s), and was built to move in {built['computed']}."
+
+
+def _freedoms(island: Island) -> int:
+    """In how many ways the joints of an island move, its base held; 0 where a frame is not a number."""
+    if island.motion is None:
+        return 0
+    tree = [j for j in island.joints if j.path not in island.in_loops and j.type in KINDS]
+    loose = [j for j in tree if WORLD not in j.bodies]
+    one_way = [j for j in island.joints if j.type in ("revolute", "prismatic")]
+    return sum(len(j.freedoms) for j in loose) + island.motion.rank(one_way)
 
 
 def _same(value: float | None, built: float | None) -> bool:
@@ -226,6 +240,3 @@ def _same(value: float | None, built: float | None) -> bool:
 
 def _say(value: float | None) -> str:
     return "none" if value is None else f"{value:.5g}"
-
-
-RULES = (gone, changed, moved, edited_limits, edited_drive, edited_mass, mobility)

@@ -49,6 +49,3 @@ def stray_physics(view: View) -> Remarks:
     if view.stray_physics:
         first, count = view.stray_physics[0], len(view.stray_physics)
         yield first, f"With Physics=off, {count} prim(s) still have physics, this one first."
-
-
-RULES = (broken_reference, missing_asset, absolute_path, stray_physics)

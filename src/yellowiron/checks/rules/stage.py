@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 
 from yellowiron.checks.rule import Remarks, rule
-from yellowiron.checks.view import View, extent, union
+from yellowiron.checks.values import extent, union
+from yellowiron.checks.view import View
 
 _SIZES = (0.01, 500.0)
 """Machines are between a centimetre and half a kilometre."""
@@ -121,16 +122,3 @@ def no_kilograms_per_unit(view: View) -> Remarks:
     """The stage does not say how heavy its unit is."""
     if view.bodies and view.units.kilograms is None:
         yield view.name, "kilogramsPerUnit is not written, so masses are read in kilograms."
-
-
-RULES = (
-    unusable_units,
-    no_meters_per_unit,
-    no_up_axis,
-    not_a_number,
-    implausible_size,
-    no_scene,
-    strange_gravity,
-    layers_differ,
-    no_kilograms_per_unit,
-)

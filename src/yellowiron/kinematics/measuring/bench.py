@@ -13,13 +13,13 @@ from yellowiron.kinematics.measuring.extremes import Strokes, extreme, level_cut
 from yellowiron.kinematics.measuring.quantities import Posed, Unmeasurable, evaluate, wheels
 from yellowiron.kinematics.measuring.sheet import specified
 from yellowiron.kinematics.solver.chain import ClosedChain, KinematicsError, State
-from yellowiron.kinematics.solver.grid import Grid, explore
+from yellowiron.kinematics.solver.pose_grid import PoseGrid, explore
+from yellowiron.kinematics.tolerances import REACHED
 from yellowiron.model.mechanism import Actuator, Mechanism
-from yellowiron.model.units import parse_quantity
+from yellowiron.support.units import parse_quantity
 
-REACHED = 1e-9
-"""Metres or radians: how exactly the conditions of a `solve` step are met."""
 _SAMPLES = 17
+"""Poses over a stroke between which a root is looked for."""
 
 
 class Bench:
@@ -39,7 +39,7 @@ class Bench:
         self._joints = {joint.name: joint for joint in mechanism.joints}
         self._cylinders = {cylinder.name: cylinder for cylinder in mechanism.cylinders}
         self._wheels = wheels(mechanism)
-        self._grids: dict[tuple[str, ...], Grid] = {}
+        self._grids: dict[tuple[str, ...], PoseGrid] = {}
         self._strokes: dict[tuple[tuple[str, ...], bytes], Strokes] = {}
         self._states: dict[str, State] = {}
         self._straight: State | None = None

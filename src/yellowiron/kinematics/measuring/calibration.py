@@ -14,17 +14,21 @@ from yellowiron.kinematics.measuring.quantities import Unmeasurable
 from yellowiron.kinematics.measuring.sheet import specified
 from yellowiron.kinematics.solver.chain import ClosedChain
 from yellowiron.model.finding import Finding
-from yellowiron.model.mechanism import Cylinder, Joint, Mechanism
+from yellowiron.model.mechanism import UNKNOWN, Cylinder, Joint, Mechanism
 from yellowiron.model.template import MeasurementTemplate
 
-UNKNOWN = "unknown"
-"""How a cylinder's `sources["closed_length"]` begins where nothing says it."""
-_SCALE = {"m": 1e-3, "rad": 1e-3}
+_SCALE = 1e-3
+"""A millimetre weighs as much as a milliradian: residuals are in them."""
 _LOST = 1e3
+"""The residual of a specification that cannot be measured, and the largest of any other."""
 _COARSE = 17
+"""Shares of the stroke at which the search starts."""
 _NUDGE = 1e-3
+"""Metres by which a closed length is moved to see …"""
 _MOVED = 1e-3
+"""… which specifications depend on it: their residual changes by more than this."""
 _GOOD = 10.0
+"""The worst residual, millimetres or milliradians, of a good fit."""
 
 
 @dataclass(frozen=True)
@@ -39,7 +43,7 @@ class _Unknown:
 def calibrate(mechanism: Mechanism) -> Mechanism:
     """The mechanism with every unknown closed length placed where the specifications that depend on it come out best.
 
-    Only cylinders whose `sources["closed_length"]` begins with "unknown" are touched; the cylinders of one actuator
+    Only cylinders whose `sources["closed_length"]` begins with `UNKNOWN` are touched; the cylinders of one actuator
     share one closed length. Used are measurements that set the actuator to a share of its stroke, those that solve for
     several actuators at once only where there is no other; published and example values weigh alike, a millimetre as
     much as a milliradian. The slides' limits become −extension … stroke − extension; the source then begins with
@@ -134,7 +138,7 @@ def _residuals(
         spec = specified(mechanism, template.specification)[0] or 0.0
         try:
             model = bench.value(template.quantity, bench.pose(template.steps))
-            values.append((model - spec) / _SCALE.get(template.unit, 1e-3))
+            values.append((model - spec) / _SCALE)
         except Unmeasurable:
             values.append(_LOST)
     return np.array(values)

@@ -16,13 +16,12 @@ from scipy.optimize import brentq, least_squares, minimize
 
 from yellowiron.kinematics.measuring.quantities import Unmeasurable
 from yellowiron.kinematics.solver.chain import ClosedChain, Component, State
-from yellowiron.kinematics.solver.grid import explore
+from yellowiron.kinematics.solver.pose_grid import explore
+from yellowiron.kinematics.tolerances import MET
 from yellowiron.model.geometry import Floats
 
 POINTS = {1: 33, 2: 21, 3: 13, 4: 7}
 """Lattice points per actuator, by how many there are."""
-MET = 1e-6
-"""Metres or radians: how exactly a subject is met."""
 _TRIES = 5
 """Valleys of the lattice that are searched."""
 _STEP = 1e-6
@@ -36,10 +35,8 @@ _WALKED = 1e-3
 _STOPS = 12
 """Poses between the ends of a level cut at which the tooth is looked for."""
 
-Measured = Callable[[State], float]
 
-
-class Machine(Protocol):
+class StrokeBench(Protocol):
     """What is needed of a bench: `range` gives a driven coordinate's two ends, `driven` the joint an actuator drives,
     `value` a quantity in a state (SI)."""
 
@@ -56,12 +53,12 @@ class Strokes:
     """The poses of several actuators over their strokes, all others as in `start`. Coordinates are shares (n,) of the
     strokes, 0 to 1, from the shorter end of each driven slide."""
 
-    def __init__(self, machine: Machine, actuators: Sequence[str], start: State) -> None:
+    def __init__(self, bench: StrokeBench, actuators: Sequence[str], start: State) -> None:
         """`Unmeasurable` where an actuator is not there or has no stroke."""
-        self._machine = machine
-        self._chain = machine.chain
-        self.joints = tuple(machine.driven(name) for name in actuators)
-        ends = np.array([sorted(machine.range(name)) for name in actuators]).reshape(-1, 2)
+        self._bench = bench
+        self._chain = bench.chain
+        self.joints = tuple(bench.driven(name) for name in actuators)
+        ends = np.array([sorted(bench.range(name)) for name in actuators]).reshape(-1, 2)
         self._low, self._span = ends[:, 0], ends[:, 1] - ends[:, 0]
         for name, width in zip(actuators, self._span, strict=True):
             if not width > 0.0:
@@ -75,25 +72,8 @@ class Strokes:
 
     def _lattice(self, start: State, count: int) -> np.ndarray:
         """States (count, …), None where the linkage locks. Loops that share no coordinate are solved apart."""
-        groups: list[tuple[Component, list[int]]] = []
-        left = list(range(len(self.joints)))
-        for component in self._chain.components():
-            own = [k for k in left if self.joints[k] in component.drivers]
-            if own:
-                groups.append((component, own))
-                left = [k for k in left if k not in own]
-        groups += [(Component((self.joints[k],), (), ()), [k]) for k in left]
-        found: list[dict[tuple[int, ...], State]] = []
-        for component, own in groups:
-            ranges = {self.joints[k]: (self._low[k], self._low[k] + self._span[k]) for k in own}
-            grid = explore(self._chain, ranges, points=count)
-            steps = np.rint((grid.values - self._low[own]) / self._span[own] * (count - 1)).astype(int)
-            # The grid is solved from the drawn pose: what else drives these loops is brought to where it stands.
-            others = {n: self._chain.coordinate(start, n) for n in component.drivers if n not in ranges}
-            away = {name: at for name, at in others.items() if at != 0.0}
-            solved = [self._chain.reach(away, start=state) if away else (state, 1.0) for state in grid.states]
-            nodes = map(tuple, steps.tolist())
-            found.append({node: state for node, (state, way) in zip(nodes, solved, strict=True) if way == 1.0})
+        groups = self._groups()
+        found = [self._explored(component, own, start, count) for component, own in groups]
         lattice = np.empty((count,) * len(self.joints), dtype=object)
         for chosen in itertools.product(*(sorted(own) for own in found)):
             state, index = start, [0] * len(self.joints)
@@ -106,11 +86,35 @@ class Strokes:
             raise Unmeasurable("the linkage locks")
         return lattice
 
+    def _groups(self) -> list[tuple[Component, list[int]]]:
+        """The actuators, by number, that each component of the loops couples; one that is in no loop has a component
+        of its own."""
+        groups: list[tuple[Component, list[int]]] = []
+        left = list(range(len(self.joints)))
+        for component in self._chain.components():
+            own = [k for k in left if self.joints[k] in component.drivers]
+            if own:
+                groups.append((component, own))
+                left = [k for k in left if k not in own]
+        return groups + [(Component((self.joints[k],), (), ()), [k]) for k in left]
+
+    def _explored(self, component: Component, own: list[int], start: State, count: int) -> dict[tuple[int, ...], State]:
+        """Node of a component's own lattice → its state; without those where the linkage locks."""
+        ranges = {self.joints[k]: (self._low[k], self._low[k] + self._span[k]) for k in own}
+        grid = explore(self._chain, ranges, points=count)
+        steps = np.rint((grid.values - self._low[own]) / self._span[own] * (count - 1)).astype(int)
+        # The grid is solved from the drawn pose: what else drives these loops is brought to where it stands.
+        others = {n: self._chain.coordinate(start, n) for n in component.drivers if n not in ranges}
+        away = {name: at for name, at in others.items() if at != 0.0}
+        solved = [self._chain.reach(away, start=state) if away else (state, 1.0) for state in grid.states]
+        nodes = map(tuple, steps.tolist())
+        return {node: state for node, (state, way) in zip(nodes, solved, strict=True) if way == 1.0}
+
     def on_lattice(self, quantity: Mapping[str, Any]) -> Floats:
         """A quantity on the lattice (count, …); NaN where the linkage locks."""
         key = repr(quantity)
         if key not in self._values:
-            value = self._machine.value
+            value = self._bench.value
             flat = [math.nan if state is None else value(quantity, state) for state in self.states.ravel()]
             self._values[key] = np.array(flat).reshape(self.states.shape)
         return self._values[key]
@@ -135,7 +139,7 @@ class Strokes:
 
     def measured(self, quantity: Mapping[str, Any]) -> Callable[[Floats], float]:
         """A quantity as a function of the shares."""
-        return lambda shares: self._machine.value(quantity, self.at(shares))
+        return lambda shares: self._bench.value(quantity, self.at(shares))
 
     def begin(self, index: Sequence[int]) -> Floats:
         """The shares of a lattice point, from which the next state is reached."""

@@ -15,19 +15,22 @@ import mujoco
 import numpy as np
 
 from yellowiron.kinematics.solver.floating import attached
+from yellowiron.kinematics.solver.independence import independent_joints, square_system, suspects
 from yellowiron.kinematics.solver.multibody import build, transverse
+from yellowiron.kinematics.tolerances import CLOSED, RANK
 from yellowiron.model.errors import MechanismError
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Mechanism, chained
 
-CLOSED = 1e-12
-"""Metres: largest gap left in a loop's independent closure equations, for machines up to 10 m; it grows beyond."""
-RANK = 1e-3
-"""Relative size below which a closure equation counts as dependent on the others."""
 _STEP = {"prismatic": 0.2, "revolute": 0.35}
+"""Longest step between solved states, metres or radians, so that they stay on the branch."""
 _ITERATIONS = 12
+"""Newton's, after which a step is halved."""
 _SHORTEST = 1e-7
+"""Share of the way below which a halved step is a dead point."""
 _NEAR, _SMALL = 1e-3, 0.05
+"""Metres or radians: a row of a sweep is tried in one step where the last states lead this near to it, and it is no
+farther than that from the last one."""
 
 
 class KinematicsError(MechanismError):
@@ -98,23 +101,14 @@ class ClosedChain:
         for name in given:
             fixed[self._dofs(name)] = True
         loose = np.flatnonzero(~fixed)
-        jacobian = self._jacobian[:, loose]
-        first = [point for points in self._body.cuts.values() for point in points[:1]]
-        further = [point for points in self._body.cuts.values() for point in points[1:]]
-        tiers = [np.array([3 * p + row for p in points for row in (1, 2, 0)], dtype=int) for points in (first, further)]
-        self._rows = _independent_rows(jacobian, tiers)
-        chosen = _independent_rows(jacobian[self._rows].T, [np.arange(len(loose))])
-        if len(chosen) < len(self._rows):  # a drawn pose next to a dead point
-            self._rows = self._rows[
-                _independent_rows(jacobian[np.ix_(self._rows, chosen)], [np.arange(len(self._rows))])
-            ]
-        if len(chosen) != len(self._rows):
+        system = square_system(self._jacobian, loose, self._body.cuts.values())
+        if system is None:
             raise MechanismError(
                 "the drawn pose is at a dead point of a loop",
                 where=", ".join(self._body.cuts),
                 hint=suspects(self.mechanism) or "Draw another pose.",
             )
-        self._columns = loose[chosen]
+        self._rows, self._columns = system
         self._block = np.ix_(self._rows, self._columns)
         dependent = {int(column) for column in self._columns}
         self.independent: tuple[str, ...] = tuple(given)
@@ -422,54 +416,6 @@ class ClosedChain:
         return float(velocity @ momentum)
 
 
-def suspects(mechanism: Mechanism, among: Sequence[str] | None = None) -> str:
-    """A hint at the joints that a user's document added or changed, the likely cause where loops lock; "" without any.
-    `among`: joints that alone come into question."""
-    stated = [
-        f"'{joint.name}' of {joint.source['document']}"
-        for joint in mechanism.joints
-        if "document" in joint.source and (among is None or joint.name in among)
-    ]
-    return f"The likely cause is the joint {'; '.join(stated)}: remove or correct it." if stated else ""
-
-
-def independent_joints(mechanism: Mechanism) -> tuple[str, ...]:
-    """Tree joints with a coordinate of their own: the driven slide of each cylinder actuator, every motor joint, every
-    driven joint besides, and the joints declared free; in the mechanism's order."""
-    passive = {cylinder.slide for cylinder in mechanism.cylinders if cylinder.passive}
-    actuated = {
-        entry.joint
-        for actuator in mechanism.actuators
-        for entry in (actuator.joints[:1] if actuator.kind == "cylinder" else actuator.joints)
-    }
-    return tuple(
-        joint.name
-        for joint in mechanism.joints
-        if not joint.cut
-        and joint.name not in passive
-        and (joint.name in actuated or joint.free or joint.drive is not None)
-    )
-
-
 def _continued(states: Sequence[State]) -> Floats:
     """Where the last three positions of a sweep lead to: a parabola through them, one step on."""
     return 3.0 * (states[-1].position - states[-2].position) + states[-3].position
-
-
-def _independent_rows(matrix: Floats, tiers: Sequence[np.ndarray]) -> np.ndarray:
-    """Indices of independent rows, earlier tiers first, the largest remaining row first (pivoted Gram-Schmidt)."""
-    scale = max(1.0, float(np.linalg.norm(matrix, axis=1).max(initial=0.0)))
-    rest = matrix.copy()
-    picked: list[int] = []
-    for tier in tiers:
-        while len(tier):
-            norms = np.linalg.norm(rest[tier], axis=1)
-            best = int(np.argmax(norms))
-            if norms[best] <= RANK * scale:
-                break
-            row = int(tier[best])
-            picked.append(row)
-            unit = rest[row] / norms[best]
-            rest -= np.outer(rest @ unit, unit)
-            rest[row] = 0.0
-    return np.array(sorted(picked), dtype=int)

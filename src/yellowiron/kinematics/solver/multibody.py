@@ -37,6 +37,7 @@ class Multibody:
 def build(mechanism: Mechanism) -> Multibody:
     """The model of a mechanism in its drawn pose. `MechanismError` where its joints are no tree from the root, or a
     joint's type has no place in one."""
+    _check_joints(mechanism)
     leading = _leading_joints(mechanism)
     spec = mujoco.MjSpec()
     spec.option.jacobian = mujoco.mjtJacobian.mjJAC_DENSE
@@ -79,9 +80,8 @@ def transverse(axis: Sequence[float]) -> Floats:
     return np.array([a, b, np.cross(a, b)])
 
 
-def _leading_joints(mechanism: Mechanism) -> dict[str, Joint]:
-    """Body → the tree joint that leads to it, parents before children."""
-    tree = [joint for joint in mechanism.joints if not joint.cut]
+def _check_joints(mechanism: Mechanism) -> None:
+    """`MechanismError` where a joint names no body, a slide is cut or a distance joint is not."""
     known = {body.name for body in mechanism.bodies}
     if mechanism.root not in known:
         raise MechanismError(f"the root body '{mechanism.root}' does not exist", where=mechanism.name)
@@ -93,13 +93,17 @@ def _leading_joints(mechanism: Mechanism) -> dict[str, Joint]:
             raise MechanismError(
                 "a slide is cut, and cylinders must stay in the tree", where=joint.name, hint="Cut a pivot of its loop."
             )
-    for joint in tree:
-        if joint.type == "distance":
+    for joint in mechanism.joints:
+        if joint.type == "distance" and not joint.cut:
             raise MechanismError(
                 "a distance joint cannot hold a body in the tree", where=joint.name, hint="Mark it as a cut."
             )
+
+
+def _leading_joints(mechanism: Mechanism) -> dict[str, Joint]:
+    """Body → the tree joint that leads to it, parents before children. `MechanismError` where there is no such tree."""
     leading: dict[str, Joint] = {}
-    for joint in tree:
+    for joint in (joint for joint in mechanism.joints if not joint.cut):
         if joint.body1 in leading or joint.body1 == mechanism.root:
             raise MechanismError(
                 f"two tree joints lead to the body '{joint.body1}'", where=joint.name, hint="Cut one of them."

@@ -15,12 +15,15 @@ import numpy as np
 from yellowiron.model.geometry import Floats
 from yellowiron.model.rows import split_index
 from yellowiron.model.template import JointTemplate, Template
+from yellowiron.support.graphs import blocks, components
 
-SPATIAL_FREEDOM: Mapping[str, int] = {"fixed": 0, "distance": 5, "spherical": 3, "revolute": 1, "prismatic": 1}
+_SPATIAL_FREEDOM: Mapping[str, int] = {"fixed": 0, "distance": 5, "spherical": 3, "revolute": 1, "prismatic": 1}
 """Joint type → its degrees of freedom in space."""
 _PLANAR_FREEDOM: Mapping[str, int] = {"distance": 2, "spherical": 1, "revolute": 1, "prismatic": 1}
 _SAMPLES = 3
+"""Random poses looked at: one already has the generic rank with probability 1."""
 _RANK_TOLERANCE = 1e-9
+"""Singular values below it are 0: of the library's types the least that is not is 3e-3, and round-off 1e-15."""
 
 
 @dataclass(frozen=True)
@@ -58,30 +61,30 @@ def mobility(template: Template, choices: Mapping[str, str]) -> TemplateMobility
     that are not expanded."""
     joints = [j for j in template.joints if not j.ring and not any(split_index(p)[1] for p in j.parts)]
     ends = welded_ends(template, joints)
-    coordinates = coordinates_of(template)
+    coordinates = _coordinates_of(template)
     groups, loose = [], []
     computed = planar = 0
     for names in blocks(ends):
         members = [template.joint(n) for n in names]
         if len(members) == 1:
-            computed += SPATIAL_FREEDOM[members[0].type]
-            planar += SPATIAL_FREEDOM[members[0].type]
+            computed += _SPATIAL_FREEDOM[members[0].type]
+            planar += _SPATIAL_FREEDOM[members[0].type]
             loose += [n for n in names if n not in coordinates]
             continue
         bodies = tuple(dict.fromkeys(b for n in names for b in ends[n]))
         count = 3 * (len(bodies) - 1) - sum(3 - _PLANAR_FREEDOM[j.type] for j in members)
-        free = generic_freedom(bodies, members, ends)
+        free = _generic_freedom(bodies, members, ends)
         given = frozenset(names) & frozenset(coordinates)
-        left = generic_freedom(bodies, members, ends, held=given)
+        left = _generic_freedom(bodies, members, ends, held=given)
         groups.append(Group(bodies, names, count, free, len(given), left))
         computed += free
         planar += count
     bodies = tuple(dict.fromkeys(b for pair in ends.values() for b in pair))
-    spatial = 6 * (len(bodies) - 1) - sum(6 - SPATIAL_FREEDOM[template.joint(n).type] for n in ends)
+    spatial = 6 * (len(bodies) - 1) - sum(6 - _SPATIAL_FREEDOM[template.joint(n).type] for n in ends)
     return TemplateMobility(choices, computed, len(coordinates), planar, spatial, tuple(groups), tuple(loose))
 
 
-def coordinates_of(template: Template) -> tuple[str, ...]:
+def _coordinates_of(template: Template) -> tuple[str, ...]:
     """The joints whose coordinates are given from outside: the driven cylinders' slides (not their passive twins'),
     motor joints, and free joints."""
     slides = [c.slide for a in template.actuators for c in a.cylinders if not c.passive]
@@ -96,70 +99,21 @@ def coordinates_of(template: Template) -> tuple[str, ...]:
 
 def welded_ends(template: Template, joints: Iterable[JointTemplate]) -> dict[str, tuple[str, str]]:
     """Joint → its two bodies, bodies that fixed joints weld together being one; without the fixed joints."""
-    leader: dict[str, str] = {}
-
-    def find(body: str) -> str:
-        while body in leader:
-            body = leader[body]
-        return body
-
+    joints = tuple(joints)
     pairs = {}
     for joint in joints:
         first, second = template.bodies_of(joint)
-        if first is None or second is None:
-            continue
-        if joint.type == "fixed":
-            if find(first) != find(second):
-                leader[find(second)] = find(first)
-        else:
+        if first is not None and second is not None:
             pairs[joint.name] = (first, second)
-    welded = {name: (find(a), find(b)) for name, (a, b) in pairs.items()}
+    fixed = {joint.name for joint in joints if joint.type == "fixed"}
+    bodies = (body for pair in pairs.values() for body in pair)
+    groups = components(bodies, (pair for name, pair in pairs.items() if name in fixed))
+    one = {body: group[0] for group in groups for body in group}
+    welded = {name: (one[a], one[b]) for name, (a, b) in pairs.items() if name not in fixed}
     return {name: pair for name, pair in welded.items() if pair[0] != pair[1]}
 
 
-def blocks(ends: Mapping[str, tuple[str, str]]) -> tuple[tuple[str, ...], ...]:
-    """The joints by common loops (the graph's biconnected components), each in the given order; a joint in no loop is a
-    block of its own. J. Hopcroft, R. Tarjan: Algorithm 447, CACM 16 (1973)."""
-    neighbours: dict[str, list[tuple[str, str]]] = {}
-    for name, (a, b) in ends.items():
-        neighbours.setdefault(a, []).append((name, b))
-        neighbours.setdefault(b, []).append((name, a))
-    order = {name: i for i, name in enumerate(ends)}
-    depth: dict[str, int] = {}
-    low: dict[str, int] = {}
-    open_joints: list[str] = []
-    found: list[tuple[str, ...]] = []
-    for start in neighbours:
-        if start in depth:
-            continue
-        depth[start] = low[start] = 0
-        stack = [(start, "", iter(neighbours[start]))]
-        while stack:
-            body, by, rest = stack[-1]
-            step = next(rest, None)
-            if step is None:
-                stack.pop()
-                if stack:
-                    parent = stack[-1][0]
-                    low[parent] = min(low[parent], low[body])
-                    if low[body] >= depth[parent]:
-                        cut = open_joints.index(by)
-                        found.append(tuple(sorted(open_joints[cut:], key=order.__getitem__)))
-                        del open_joints[cut:]
-                continue
-            name, other = step
-            if name == by or (other in depth and depth[other] > depth[body]):
-                continue
-            open_joints.append(name)
-            if other in depth:
-                low[body] = min(low[body], depth[other])
-            else:
-                depth[other] = low[other] = depth[body] + 1
-                stack.append((other, name, iter(neighbours[other])))
-    return tuple(sorted(found, key=lambda names: order[names[0]]))
-
-
-def generic_freedom(
+def _generic_freedom(
     bodies: tuple[str, ...],
     joints: Iterable[JointTemplate],
     ends: Mapping[str, tuple[str, str]],

@@ -6,10 +6,12 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from yellowiron.library.parsing.json_documents import Document, near
+from yellowiron.library.notation.quantities import yes
+from yellowiron.library.notation.validated_json import Document, near
+from yellowiron.library.parsing.variants import choices_of
 from yellowiron.model.errors import TemplateError
 from yellowiron.model.specification import fold
-from yellowiron.model.template import Choices, JointTemplate, Role
+from yellowiron.model.template import JointTemplate, Role
 
 _ROW = "[*]"
 _HIDDEN = {"radius": 0.9, "mass": 1.0, "above": 0.0}
@@ -91,16 +93,6 @@ def root_of(roles: tuple[Role, ...]) -> str | None:
         if role.rigid and parent is None:
             return role.name
     return None
-
-
-def choices_of(entry: Mapping[str, Any], key: str) -> Choices:
-    """`{"lift_cylinders": "twin"}` as variant → tuple of choices."""
-    return {k: (v,) if isinstance(v, str) else tuple(v) for k, v in entry.get(key, {}).items()}
-
-
-def yes(value: object) -> bool:
-    """`"Y"` or true."""
-    return value is True or value == "Y"
 
 
 def _bare(name: str) -> str:

@@ -10,10 +10,11 @@ import re
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
-from yellowiron.library.parsing.json_documents import Document
+from yellowiron.library.notation.validated_json import Document
 from yellowiron.model.errors import TemplateError
 from yellowiron.model.rows import split_index
 from yellowiron.model.template import ActuatorTemplate, CylinderTemplate, JointTemplate, Role, Template
+from yellowiron.support.graphs import bridges
 
 _SIDE = re.compile(r"_([lr])(?=_|2|$)")
 _KINDS = (("pin", "pin"), ("barrel", "barrel"), ("rod", "rod"), ("wheel", "wheel"), ("wheels", "wheel"),
@@ -49,7 +50,7 @@ def infer_roles(
     roles += [_role(name, carrier, rigid=False) for name, carrier in carriers.items()]
     # Parents first.
     ordered = sorted(roles, key=lambda r: r.parent is not None)
-    loose = _bridges({n: _through(welded, e) for n, e in ends.items()})
+    loose = bridges({n: _through(welded, e) for n, e in ends.items()})
     return tuple(ordered), tuple(replace(j, free=j.free or (j.drive is None and j.name in loose)) for j in joints), root
 
 
@@ -78,30 +79,30 @@ def infer_actuators(template: Template) -> tuple[ActuatorTemplate, ...]:
     )
 
 
-def pivots(template: Template, body: str | None) -> list[JointTemplate]:
+def _pivots(template: Template, body: str | None) -> list[JointTemplate]:
     """The joints of a body that are not prismatic."""
     return [j for j in template.joints if j.type != "prismatic" and body in template.bodies_of(j)]
 
 
-def words_of(name: str) -> list[str]:
+def _words_of(name: str) -> list[str]:
     """`steering_piston_rod_l` → its words."""
     return [w for w in re.split(r"[\s_-]+", name.casefold()) if w]
 
 
 def _joined(name: str) -> str:
     """A name in lower case, its words joined by one `_`."""
-    return "_".join(words_of(name))
+    return "_".join(_words_of(name))
 
 
 def _begins(name: str, words: str) -> bool:
     """Whether a name begins with all of some words: `front_frame` with `front`."""
-    return bool(words_of(words)) and words_of(name)[: len(words_of(words))] == words_of(words)
+    return bool(_words_of(words)) and _words_of(name)[: len(_words_of(words))] == _words_of(words)
 
 
 def _pivot(template: Template, slide: JointTemplate, part: str) -> str:
     """The joint by which a barrel or rod turns on its frame; empty where it is welded to it."""
     role = template.role(split_index(part)[0])
-    found = pivots(template, role.name) if role.rigid else []
+    found = _pivots(template, role.name) if role.rigid else []
     same = [j for j in found if j.when == slide.when] or found
     return same[0].name if same else ""
 
@@ -149,7 +150,7 @@ def _named(name: str, other: str, bodies: list[str]) -> str:
     for body in bodies:
         if _joined(body) == _joined(name):
             return body
-    frames = [b for b in bodies if b != other and _begins(b, name) and words_of(b)[-1] in _BASES]
+    frames = [b for b in bodies if b != other and _begins(b, name) and _words_of(b)[-1] in _BASES]
     return (frames or [name])[0]
 
 
@@ -213,26 +214,8 @@ def _through(welded: Mapping[str, str], pair: tuple[str, ...]) -> tuple[str, str
     return (welded.get(pair[0], pair[0]), welded.get(pair[1], pair[1]))
 
 
-def _bridges(ends: Mapping[str, tuple[str, str]]) -> set[str]:
-    """Joints that are in no loop: without them their two bodies are not connected."""
-    return {name for name, pair in ends.items() if not _connected(pair, [e for n, e in ends.items() if n != name])}
-
-
-def _connected(pair: tuple[str, str], edges: list[tuple[str, str]]) -> bool:
-    seen, front = {pair[0]}, [pair[0]]
-    while front:
-        body = front.pop()
-        for a, b in edges:
-            if body in (a, b):
-                other = b if body == a else a
-                if other not in seen:
-                    seen.add(other)
-                    front.append(other)
-    return pair[1] in seen
-
-
 def _role(name: str, parent: str | None, *, rigid: bool) -> Role:
-    words = words_of(name)
+    words = _words_of(name)
     kind = next((kind for word, kind in _KINDS if word in words), "")
     side = next((w for w in reversed(words) if w in ("l", "r")), "")
     return Role(name, parent, rigid, kind=kind, side=side)

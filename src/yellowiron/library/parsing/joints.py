@@ -6,9 +6,9 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any, cast
 
-from yellowiron.library.parsing.hierarchy import choices_of, yes
-from yellowiron.library.parsing.json_documents import Document, near
-from yellowiron.library.parsing.quantities import limit
+from yellowiron.library.notation.quantities import limit, yes
+from yellowiron.library.notation.validated_json import Document, near
+from yellowiron.library.parsing.variants import choices_of
 from yellowiron.model.errors import TemplateError
 from yellowiron.model.rows import split_index
 from yellowiron.model.specification import fold
@@ -22,7 +22,7 @@ DIMENSION: Mapping[str, str] = {
     "fixed": "length",
 }
 """Joint type → the dimension of its limits."""
-GAINS = ("stiffness", "damping", "max_force", "max_velocity")
+_GAINS = ("stiffness", "damping", "max_force", "max_velocity")
 """The keys of JSON-4, all in SI units."""
 _DRIVABLE: Mapping[str, str] = {"linear": "prismatic", "angular": "revolute"}
 
@@ -50,7 +50,7 @@ def read_joint(document: Document, name: str, entry: Mapping[str, Any], base: Jo
     kind = cast(JointType, entry["joint_type"].lower()) if "joint_type" in entry else base.type
     lower, upper = _limits(document, name, entry["Limit"], kind) if "Limit" in entry else (base.lower, base.upper)
     body = entry.get("Body", base.parts)
-    gains = {key: float(entry[key]) for key in GAINS if key in entry}
+    gains = {key: float(entry[key]) for key in _GAINS if key in entry}
     joint = replace(
         base,
         type=kind,
@@ -80,7 +80,7 @@ def read_joint(document: Document, name: str, entry: Mapping[str, Any], base: Jo
 
 def stated_gains(joint: JointTemplate) -> Iterator[tuple[str, float]]:
     """The gains that a joint entry states, SI."""
-    for key in GAINS:
+    for key in _GAINS:
         value = getattr(joint, key)
         if value is not None:
             yield key, value

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 
-from yellowiron.library.parsing.details import in_si
-from yellowiron.library.parsing.hierarchy import yes
-from yellowiron.library.parsing.json_documents import Document, near
-from yellowiron.library.parsing.quantities import quantity
+from yellowiron.library.notation.quantities import quantity, yes
+from yellowiron.library.notation.validated_json import Document
+from yellowiron.library.parsing.measurements import in_si
 from yellowiron.model.errors import TemplateError
-from yellowiron.model.finding import Finding
 from yellowiron.model.machine_tests import MachineTest, PayloadTemplate, RatedLoad
 from yellowiron.model.specification import fold
-from yellowiron.model.template import Template
 
 _NEEDED: Mapping[str, tuple[str, ...]] = {
     "tipping": ("site",),
@@ -60,33 +57,3 @@ def read_tests(document: Document) -> tuple[PayloadTemplate | None, tuple[Machin
             )
         )
     return payload, tuple(tests)
-
-
-def lint_tests(template: Template) -> Iterator[Finding]:
-    """TPL019 for every name in the tests that the template does not have, TPL020 for what a sheet is not asked for."""
-    sites = {site.name for site in template.sites}
-    actuators = {actuator.name for actuator in template.actuators}
-    wanted = {fold(w.name): w.name for w in template.wanted}
-
-    def missing(where: str, kind: str, name: str, known: set[str]) -> Iterator[Finding]:
-        if name and name not in known:
-            yield Finding("TPL019", "error", where, f"There is no {kind} '{name}'.", near(name, sorted(known)))
-
-    def unasked(where: str, name: str) -> Iterator[Finding]:
-        if name and fold(name) not in wanted:
-            words = f"'{name}' is not in wanted.json: no sheet gives it."
-            yield Finding("TPL020", "warning", where, words, near(name, wanted.values()))
-
-    if template.payload is not None:
-        yield from missing("payload", "site", template.payload.site, sites)
-        for rated in template.payload.rated:
-            yield from unasked("payload", rated.specification)
-    for test in template.tests:
-        yield from missing(test.name, "site", test.site, sites)
-        named = [test.actuator, *test.best, *(name for step in test.steps for name in step.get("set", {}))]
-        named += [goal["actuator"] for step in test.steps for goal in step.get("solve", ())]
-        named += [name for step in test.steps for name in step.get("extreme", {}).get("actuators", ())]
-        for name in dict.fromkeys(named):
-            yield from missing(test.name, "actuator", name, actuators)
-        for name in dict.fromkeys((test.specification, test.flow, *test.inputs)):
-            yield from unasked(test.name, name)

@@ -4,18 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import replace
 from typing import Any
 
-from yellowiron.library.parsing.hierarchy import choices_of
-from yellowiron.library.parsing.json_documents import Document, near
-from yellowiron.library.parsing.quantities import quantity
+from yellowiron.library.notation.quantities import quantity
+from yellowiron.library.notation.validated_json import Document, near
+from yellowiron.library.parsing.variants import choices_of
 from yellowiron.model.errors import TemplateError
 from yellowiron.model.sensor import FRAME_TYPES, PARAMETERS, SensorTemplate
 from yellowiron.model.specification import fold
 from yellowiron.model.template import Template
 
-PLACES = ("site", "role", "joint", "cylinder", "actuator")
+_PLACES = ("site", "role", "joint", "cylinder", "actuator")
 """The keys of a mount, of which it has one."""
 _POSE = {"site": ("offset", "orientation"), "role": ("position", "at", "on", "offset", "orientation")}
 
@@ -58,13 +57,6 @@ def read_sensor(
     )
 
 
-def merged(template: Template, stated: Mapping[str, SensorTemplate]) -> Template:
-    """The template with the sensors stated: theirs replace those of the same name, new ones come after."""
-    sensors = [stated.get(s.name, s) for s in template.sensors]
-    known = {s.name for s in template.sensors}
-    return replace(template, sensors=(*sensors, *(s for name, s in stated.items() if name not in known)))
-
-
 def _parameters(document: Document, name: str, sensor_type: str, entry: Mapping[str, Any]) -> dict[str, float]:
     known = {fold(key): key for key in PARAMETERS[sensor_type]}
     result: dict[str, float] = {}
@@ -90,12 +82,12 @@ def _parameters(document: Document, name: str, sensor_type: str, entry: Mapping[
 def _mount(document: Document, name: str, entry: Mapping[str, Any], template: Template) -> dict[str, Any]:
     """A mount with its names as the template spells them and its numbers in SI."""
     where = document.at(name, "mount")
-    places = [key for key in PLACES if key in entry]
+    places = [key for key in _PLACES if key in entry]
     if len(places) != 1:
         raise TemplateError(
             f"The mount of sensor '{name}' needs one place, and names {len(places)}",
             where=where,
-            hint=f"One of: {', '.join(PLACES)}.",
+            hint=f"One of: {', '.join(_PLACES)}.",
         )
     place = places[0]
     for key in entry:
@@ -143,7 +135,8 @@ def _check_place(document: Document, name: str, sensor_type: str, mount: Mapping
     else:
         allowed = ("joint",) if sensor_type == "joint_encoder" else ("cylinder", "actuator")
     if not any(key in mount for key in allowed):
+        place = next(key for key in _PLACES if key in mount)
         raise TemplateError(
-            f"A {sensor_type} is mounted on a {' or '.join(allowed)}, not on a {next(k for k in PLACES if k in mount)}",
+            f"A {sensor_type} is mounted on a {' or '.join(allowed)}, not on a {place}",
             where=document.at(name, "mount"),
         )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from yellowiron.library.parsing.json_documents import Document, near
+from yellowiron.library.notation.validated_json import Document, near
 from yellowiron.model.errors import TemplateError
 from yellowiron.model.specification import fold
 from yellowiron.model.template import Role

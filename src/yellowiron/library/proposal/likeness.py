@@ -7,8 +7,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from yellowiron.library.load import find_template, load_template
-from yellowiron.library.parsing.json_documents import read_document
+from yellowiron.library.load import load_template
+from yellowiron.library.notation.validated_json import read_document
+from yellowiron.library.parsing.wanted import complete
+from yellowiron.library.type_folders import find_template
 from yellowiron.model.alignment import Alignment
 from yellowiron.model.template import choose
 
@@ -109,7 +111,10 @@ def likeness(equipment_type: str | Path, alignment: Alignment) -> Likeness:
 
     def document(kind: str) -> Json:
         path = folder / f"{kind}.json"
-        return dict(read_document(path, kind).data) if path.is_file() else {}
+        if not path.is_file():
+            return {}
+        written = read_document(path, kind)
+        return dict((complete(written) if kind == "wanted" else written).data)
 
     return Likeness(
         template.equipment_type,

@@ -29,7 +29,7 @@ def proposed_names(machine: FoundMachine) -> tuple[list[str], list[str]]:
     words = [[_name(label, common) for label in body.labels] for body in machine.bodies]
     names, reasons = [], []
     for k, body in enumerate(machine.bodies):
-        if given := plain(body.name):
+        if given := snake_case(body.name):
             names.append(given)
             reasons.append(f"the file calls it '{body.name}'")
             continue
@@ -43,7 +43,7 @@ def proposed_names(machine: FoundMachine) -> tuple[list[str], list[str]]:
     return _distinct(_filled(names, machine)), reasons
 
 
-def plain(name: str) -> str:
+def snake_case(name: str) -> str:
     """A name as a template has it: `Boom Link.001` → `boom_link_001`."""
     return re.sub(r"\W+", "_", name).strip("_").casefold()
 

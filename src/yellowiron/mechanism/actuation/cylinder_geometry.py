@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from yellowiron.mechanism.joints.axes import Line, on_line
+from yellowiron.mechanism.joints.axes import Axis, on_axis
 from yellowiron.mechanism.placement import Features, Placement
 from yellowiron.model.geometry import Floats
 
@@ -36,7 +36,7 @@ _HEAD = 1.5
 
 
 @dataclass(frozen=True)
-class Ram:
+class CylinderGeometry:
     """What the CAD shows; None where it does not. Diameters, and distances along the axis, metres.
 
     `to_base`: piston to the barrel's bottom, so how far the cylinder is out if it closes on the piston; `to_gland`:
@@ -60,23 +60,24 @@ class Ram:
         return self.to_base + self.to_gland
 
 
-def measure_ram(placement: Placement, barrel: str, rod: str, line: Line) -> Ram:
+def measure_cylinder(placement: Placement, barrel: str, rod: str, line: Axis) -> CylinderGeometry:
     """The cylinder of the bodies `barrel` and `rod` about a line that points from barrel pivot to rod pivot."""
     barrel_rows, rod_rows = placement.rows_of_body(barrel), placement.rows_of_body(rod)
     inside, outside = placement.features(barrel_rows), placement.features(rod_rows)
-    line, count = _own_line(inside, line)
-    bores = inside.take(on_line(inside, line) & inside.inner)
-    shafts = outside.take(on_line(outside, line) & ~outside.inner)
+    line, count = _own_axis(inside, line)
+    bores = inside.take(on_axis(inside, line) & inside.inner)
+    shafts = outside.take(on_axis(outside, line) & ~outside.inner)
     shell = placement.points_of(barrel_rows)
     if len(bores) == 0 and len(shell):
-        tubes = inside.take(on_line(inside, line) & ~inside.inner)
-        return _solid(tubes, shafts, shell, placement.points_of(rod_rows), line, count) if len(tubes) else Ram()
-    if len(shell) == 0:
-        return Ram()
+        tubes = inside.take(on_axis(inside, line) & ~inside.inner)
+        if len(tubes):
+            return _solid(tubes, shafts, shell, placement.points_of(rod_rows), line, count)
+    if len(bores) == 0 or len(shell) == 0:
+        return CylinderGeometry()
     start, head = _extent(shell, line, _HEAD * float(bores.radius.max()))
     bore = _bore(bores, shafts, line, start, head)
     if bore is None:
-        return Ram()
+        return CylinderGeometry()
 
     # The rod is what comes out of the barrel: the longest shaft that reaches beyond its head.
     thin = shafts.take(shafts.radius < bore / _FIT)
@@ -100,31 +101,31 @@ def measure_ram(placement: Placement, barrel: str, rod: str, line: Line) -> Ram:
     if len(eye):
         to_eye = max(0.0, float(eye.min() - head))
     rod_diameter = 2.0 * shaft if shaft is not None else None
-    return Ram(2.0 * bore, rod_diameter, to_base, to_gland, to_eye, count=count)
+    return CylinderGeometry(2.0 * bore, rod_diameter, to_base, to_gland, to_eye, count=count)
 
 
-def _own_line(inside: Features, line: Line) -> tuple[Line, int]:
+def _own_axis(inside: Features, line: Axis) -> tuple[Axis, int]:
     """The line of a cylinder in the barrel, and how many equal ones there are: the line given, or, where that is midway
     between twins, one of theirs."""
     parallel = inside.take(np.linalg.norm(np.cross(inside.direction, line.direction), axis=1) < _LEAN)
-    if len(parallel) == 0 or bool(parallel.exact.any() and on_line(parallel, line).any()):
+    if len(parallel) == 0 or bool(parallel.exact.any() and on_axis(parallel, line).any()):
         return line, 1
     close = parallel.take(line.distance(parallel.center) < _CLOSE * parallel.radius)
     if len(close):
         own = close.center[int(np.argmax(close.area))]
-        return Line(own + float((line.point - own) @ line.direction) * line.direction, line.direction), 1
+        return Axis(own + float((line.point - own) @ line.direction) * line.direction, line.direction), 1
     main = int(np.argmax(parallel.area))
     alike = np.abs(parallel.radius - parallel.radius[main]) < _TWIN * parallel.radius[main]
     alike &= np.abs(parallel.length - parallel.length[main]) < _TWIN * parallel.length[main]
-    lines: list[Line] = []
+    lines: list[Axis] = []
     for row in np.flatnonzero(alike):
         if all(one.distance(parallel.center[row][None])[0] > parallel.radius[row] for one in lines):
-            lines.append(Line(parallel.center[row], line.direction))
-    own = Line(parallel.center[main], line.direction)
-    return Line(own.foot(line.point), own.direction), len(lines)
+            lines.append(Axis(parallel.center[row], line.direction))
+    own = Axis(parallel.center[main], line.direction)
+    return Axis(own.foot(line.point), own.direction), len(lines)
 
 
-def _solid(tubes: Features, shafts: Features, shell: Floats, rod: Floats, line: Line, count: int) -> Ram:
+def _solid(tubes: Features, shafts: Features, shell: Floats, rod: Floats, line: Axis, count: int) -> CylinderGeometry:
     """What a cylinder shows whose barrel is drawn without a bore."""
     outer = float(tubes.radius[int(np.argmax(tubes.area))])
     head = _extent(shell, line, _FIT * outer)[1]
@@ -141,10 +142,11 @@ def _solid(tubes: Features, shafts: Features, shell: Floats, rod: Floats, line: 
             else along[:0]
         )
         to_eye = max(0.0, float(eye.min() - head)) if len(eye) else None
-    return Ram(None, 2.0 * shaft if shaft is not None else None, to_eye=to_eye, outer=2.0 * outer, count=count)
+    rod_diameter = 2.0 * shaft if shaft is not None else None
+    return CylinderGeometry(None, rod_diameter, to_eye=to_eye, outer=2.0 * outer, count=count)
 
 
-def _bore(bores: Features, shafts: Features, line: Line, start: float, head: float) -> float | None:
+def _bore(bores: Features, shafts: Features, line: Axis, start: float, head: float) -> float | None:
     """Radius of the cylinder's bore: that of the barrel's longest hole, or of a piston inside that is larger. A hole
     that runs through less than a third of the barrel is a gland or a cap."""
     within = np.abs(line.along(shafts.center) - 0.5 * (start + head)) + shafts.length / 2 < 0.5 * (head - start)
@@ -156,7 +158,7 @@ def _bore(bores: Features, shafts: Features, line: Line, start: float, head: flo
     return piston if piston > largest * _FIT else largest
 
 
-def _extent(shell: Floats, line: Line, radius: float) -> tuple[float, float]:
+def _extent(shell: Floats, line: Axis, radius: float) -> tuple[float, float]:
     """From where to where a barrel reaches along its line; ports and pipes farther out than a radius left out."""
     along = line.along(shell)[line.distance(shell) < radius]
     return (float(along.min()), float(along.max())) if len(along) else (0.0, 0.0)
@@ -169,7 +171,7 @@ def _gland(bores: Features, bore: float) -> float | None:
 
 
 def _face(
-    placement: Placement, rows: tuple[int, ...], line: Line, radius: float, *, sense: float, before: float
+    placement: Placement, rows: tuple[int, ...], line: Axis, radius: float, *, sense: float, before: float
 ) -> float | None:
     """The last face within a radius of the line that faces along `sense`, in coordinates that run along `sense`, not
     beyond `before`; None if there is none. (With sense −1 coordinates are the negatives of the line's.)"""

@@ -14,17 +14,18 @@ from typing import Any
 
 import numpy as np
 
-from yellowiron.mechanism.actuation.cylinder_geometry import Ram, measure_ram
-from yellowiron.mechanism.joints.axes import Line
+from yellowiron.mechanism.actuation.cylinder_geometry import CylinderGeometry, measure_cylinder
+from yellowiron.mechanism.joints.axes import Axis
 from yellowiron.mechanism.joints.frames import JointFrame
 from yellowiron.mechanism.placement import Placement
+from yellowiron.mechanism.tolerances import PARALLEL
 from yellowiron.mechanism.values import Known, default, known, limit
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
-from yellowiron.model.mechanism import Cylinder
+from yellowiron.model.mechanism import DRAWN_OUTSIDE, UNKNOWN, Cylinder
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import ActuatorTemplate, CylinderTemplate, JointTemplate, Template
-from yellowiron.model.text import display
+from yellowiron.support.text import display
 
 _SIZE_TOLERANCE = 0.02
 """Relative difference of bore or rod between sheet and CAD that is worth a finding."""
@@ -32,15 +33,9 @@ _STROKE_TOLERANCE, _STROKE_SHARE = 5e-4, 0.002
 """Difference of the piston's travel in CAD and the stroke that is worth a finding: metres, and relative."""
 _PASSIVE_ROOM = 0.05
 """A passive cylinder's limits are wider than its stroke by this share at each end: it must never stop its twin."""
-_DRAWN_OUTSIDE = 1e-6
-"""How far outside its limits a cylinder may be drawn before it is a finding, metres."""
-_PARALLEL = math.radians(0.5)
-"""Pivots within this angle are parallel."""
 _BY_EYE = "geometry: rod eye against gland"
 WALL = 0.82
 """Bore over outer diameter of a barrel that shows none: welded cylinders have walls of about a tenth of their bore."""
-UNKNOWN = "unknown"
-"""How the source of a quantity begins that nothing gives."""
 
 
 @dataclass(frozen=True)
@@ -90,17 +85,17 @@ class _Sizes:
     template: CylinderTemplate
     barrel: str
     rod: str
-    ram: Ram
+    geometry: CylinderGeometry
     bore: Known
     rod_diameter: Known
 
     @property
     def push_area(self) -> float:
-        return self.ram.count * math.pi / 4.0 * self.bore.value**2
+        return self.geometry.count * math.pi / 4.0 * self.bore.value**2
 
     @property
     def pull_area(self) -> float:
-        return self.ram.count * math.pi / 4.0 * (self.bore.value**2 - self.rod_diameter.value**2)
+        return self.geometry.count * math.pi / 4.0 * (self.bore.value**2 - self.rod_diameter.value**2)
 
 
 def with_leaders(template: Template, frames: Mapping[str, JointFrame], findings: list[Finding]) -> Template:
@@ -136,11 +131,11 @@ def fit_cylinders(
     return fitted, findings
 
 
-def extension_line(entry: CylinderTemplate, frames: Mapping[str, JointFrame]) -> Line:
+def extension_axis(entry: CylinderTemplate, frames: Mapping[str, JointFrame]) -> Axis:
     """A slide's line, from the foot of the barrel's pivot towards the rod's pivot."""
     slide, hung, held = frames[entry.slide], frames[entry.barrel_joint], frames[entry.rod_joint]
     axis = slide.axis if (held.anchor - hung.anchor) @ slide.axis >= 0.0 else -slide.axis
-    return Line(Line(slide.anchor, axis).foot(hung.anchor), axis)
+    return Axis(Axis(slide.anchor, axis).foot(hung.anchor), axis)
 
 
 def pivot_distance(hung: JointFrame, held: JointFrame) -> float:
@@ -148,7 +143,7 @@ def pivot_distance(hung: JointFrame, held: JointFrame) -> float:
     anchors."""
     between: Floats = held.anchor - hung.anchor
     hinges = hung.joint.type == "revolute" and held.joint.type == "revolute"
-    if hinges and np.linalg.norm(np.cross(hung.axis, held.axis)) < math.sin(_PARALLEL):
+    if hinges and np.linalg.norm(np.cross(hung.axis, held.axis)) < math.sin(PARALLEL):
         between = between - (between @ hung.axis) * hung.axis
     return float(np.linalg.norm(between))
 
@@ -157,16 +152,17 @@ def _sizes(entry: CylinderTemplate, work: _Work) -> _Sizes:
     slide, hung = work.frames[entry.slide], work.frames[entry.barrel_joint]
     barrel = next((b for b in slide.bodies if b in hung.bodies), slide.bodies[0])
     rod = next(b for b in slide.bodies if b != barrel)
-    ram = measure_ram(work.placement, barrel, rod, extension_line(entry, work.frames))
-    bore = _size("bore", ram.bore, entry.slide, work)
-    if bore.value == 0.0 and ram.outer is not None:
-        bore = Known(WALL * ram.outer, f"geometry: {WALL:g} of the barrel's outer {_mm(ram.outer)}, without a bore")
+    geometry = measure_cylinder(work.placement, barrel, rod, extension_axis(entry, work.frames))
+    bore = _size("bore", geometry.bore, entry.slide, work)
+    if bore.value == 0.0 and geometry.outer is not None:
+        outer = _mm(geometry.outer)
+        bore = Known(WALL * geometry.outer, f"geometry: {WALL:g} of the barrel's outer {outer}, without a bore")
         words = f"The barrel is drawn without its bore: {_mm(bore.value)} was taken, {WALL:g} of its outer diameter."
         name = work.actuator.specifications.get("bore", "bore")
         work.warn("MEC029", entry.slide, words, f'--set "{name}=… mm"')
-    if ram.count > 1:
-        bore = Known(bore.value, f"{bore.source}; {ram.count} cylinders drawn as one")
-    return _Sizes(entry, barrel, rod, ram, bore, _size("rod_diameter", ram.rod_diameter, entry.slide, work))
+    if geometry.count > 1:
+        bore = Known(bore.value, f"{bore.source}; {geometry.count} cylinders drawn as one")
+    return _Sizes(entry, barrel, rod, geometry, bore, _size("rod_diameter", geometry.rod_diameter, entry.slide, work))
 
 
 def _size(quantity: str, drawn: float | None, slide: str, work: _Work) -> Known:
@@ -226,7 +222,7 @@ def _fit(one: _Sizes, group: list[_Sizes], work: _Work) -> FittedCylinder:
 def _stroke(one: _Sizes, work: _Work) -> Known:
     """The stroke: set by hand, else a document's limit of the slide, else the sheet's, else the template's limit, else
     the piston's travel in the CAD model, else the template's default; 0 where nothing gives it."""
-    printed, travel, slide = work.printed("stroke"), one.ram.travel, one.template.slide
+    printed, travel, slide = work.printed("stroke"), one.geometry.travel, one.template.slide
     joint = work.frames[slide].joint
     limited = _limited(joint, work)
     if limited is not None and (printed is None or ("limit" in joint.documents and not _by_hand(printed.source))):
@@ -269,10 +265,10 @@ def _closed_length(one: _Sizes, drawn: float, stroke: float, work: _Work) -> Kno
     """The closed length by the best way there is; the source names what every other way gives."""
     printed = work.printed("closed_length")
     ways = [printed] if printed is not None else []
-    if one.ram.to_base is not None:
-        ways.append(Known(drawn - one.ram.to_base, "geometry: piston against base"))
-    if one.ram.to_eye is not None:
-        ways.append(Known(drawn - one.ram.to_eye, _BY_EYE))
+    if one.geometry.to_base is not None:
+        ways.append(Known(drawn - one.geometry.to_base, "geometry: piston against base"))
+    if one.geometry.to_eye is not None:
+        ways.append(Known(drawn - one.geometry.to_eye, _BY_EYE))
     slide, hint = one.template.slide, work.setting("closed_length")
     if not ways:
         words = "Neither sheet nor CAD model shows its closed length: drawn at mid-stroke until it is calibrated."
@@ -348,7 +344,7 @@ def _limits(cylinder: Cylinder, work: _Work) -> tuple[float | None, float | None
         high = cylinder.stroke
     if high is None:
         return None, None, evidence
-    if not low - _DRAWN_OUTSIDE <= cylinder.extension <= high + _DRAWN_OUTSIDE:
+    if not low - DRAWN_OUTSIDE <= cylinder.extension <= high + DRAWN_OUTSIDE:
         words = f"The cylinder is drawn {_mm(cylinder.extension)} out, outside {_mm(low)} … {_mm(high)}."
         work.warn("MEC024", cylinder.slide, words, "Check stroke and closed length; a legal start pose is used.")
     room = _PASSIVE_ROOM * (high - low) if cylinder.passive else 0.0

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from yellowiron.mechanism.joints.frames import JointFrame
 from yellowiron.model.finding import Finding
-from yellowiron.model.mechanism import Drive
+from yellowiron.model.mechanism import PROVISIONAL, STATED, Drive
 from yellowiron.model.template import ActuatorTemplate, CylinderTemplate, JointTemplate, Template
 
 _LONGEST = 6
@@ -53,8 +53,8 @@ def direct_drives(direct: frozenset[str], frames: Mapping[str, JointFrame]) -> d
         speed = joint.max_velocity if joint.max_velocity is not None else math.inf
         stiffness, damping = joint.stiffness or 0.0, joint.damping or 0.0
         stated = [key for key, value in (("stiffness", stiffness), ("damping", damping)) if value]
-        source = "driven directly, without its cylinder; gains provisional"
-        source += f"; template states {', '.join(stated)}" if stated else ""
+        source = f"driven directly, without its cylinder; {PROVISIONAL}"
+        source += f"; {STATED}{', '.join(stated)}" if stated else ""
         drives[name] = Drive("position", stiffness, damping, force, speed, source)
     return drives
 

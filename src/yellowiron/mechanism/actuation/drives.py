@@ -1,7 +1,7 @@
 """Drives and actuators: what moves a joint, and how hard it can push.
 
-Gains of slides are provisional here; the kinematics sets them from the mass that the cylinder moves (FINDINGS
-section 6, rule 4). The template's own gains win over both.
+Gains of slides are provisional here; the kinematics sets them from the mass that the cylinder moves. The template's own
+gains win over both.
 """
 
 from __future__ import annotations
@@ -11,12 +11,12 @@ from collections.abc import Mapping, Sequence
 from typing import Literal
 
 from yellowiron.mechanism.actuation.cylinders import FittedCylinder
-from yellowiron.mechanism.joints.axes import Line
+from yellowiron.mechanism.joints.axes import Axis
 from yellowiron.mechanism.joints.frames import JointFrame
 from yellowiron.mechanism.placement import Placement
 from yellowiron.mechanism.values import DEFAULT, Known, default, known
 from yellowiron.model.finding import Finding
-from yellowiron.model.mechanism import Actuator, ActuatorJoint, Drive
+from yellowiron.model.mechanism import PROVISIONAL, STATED, Actuator, ActuatorJoint, Drive
 from yellowiron.model.specification import Specifications, fold
 from yellowiron.model.template import ActuatorTemplate, JointTemplate, Template
 
@@ -58,9 +58,7 @@ def _cylinder_drive(
         t.cylinder.pull_force if t.sign == one.sign else t.cylinder.push_force for t in twins
     )
     share = f" with {len(twins)} passive twin(s)" if twins else ""
-    source = (
-        f"pressure times area{share}: {out / 1e3:.1f} kN extending, {back / 1e3:.1f} kN retracting; gains provisional"
-    )
+    source = f"pressure times area{share}: {out / 1e3:.1f} kN extending, {back / 1e3:.1f} kN retracting; {PROVISIONAL}"
     force = max(out, back)
     if force <= 0.0:
         _no_limit(actuator, "bore or pressure", findings)
@@ -133,7 +131,7 @@ def stated_drives(template: Template, frames: Mapping[str, JointFrame], findings
         holds = joint.stiffness is not None or joint.lower is not None or joint.upper is not None
         source = "stated in the template"
         if holds:
-            drive = Drive("position", 0.0, 0.0, math.inf, math.inf, f"{source}; gains provisional")
+            drive = Drive("position", 0.0, 0.0, math.inf, math.inf, f"{source}; {PROVISIONAL}")
         else:
             drive = Drive("velocity", 0.0, 1e4, math.inf, math.inf, source)
         if joint.max_force is None:
@@ -210,7 +208,7 @@ def _wanted_as(actuator: ActuatorTemplate, quantity: str, dimension: str, templa
 
 def _rim(frame: JointFrame, placement: Placement, moved: str) -> float:
     """The largest radius of a body about a joint's axis, metres."""
-    line = Line(frame.anchor, frame.axis)
+    line = Axis(frame.anchor, frame.axis)
     return max(float(line.distance(placement.points(row)).max()) for row in placement.rows_of_body(moved))
 
 
@@ -231,7 +229,7 @@ def _overridden(joint: JointTemplate, drive: Drive) -> Drive:
     if not stated:
         return drive
     values = {n: stated.get(n, getattr(drive, n)) for n in ("stiffness", "damping", "max_force", "max_velocity")}
-    return Drive(drive.kind, **values, source=f"{drive.source}; template states {', '.join(stated)}")
+    return Drive(drive.kind, **values, source=f"{drive.source}; {STATED}{', '.join(stated)}")
 
 
 def _no_limit(actuator: ActuatorTemplate, what: str, findings: list[Finding]) -> None:

@@ -7,12 +7,12 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from yellowiron.mechanism.bodies.choice import Choice
-from yellowiron.mechanism.bodies.mass import Factor, Moments, PartMaterial, combine
+from yellowiron.mechanism.bodies.mass import Factor, Masses, Moments, combine
 from yellowiron.mechanism.placement import Placement
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats, Mesh
 from yellowiron.model.mechanism import Body, BodyPart, Vector
-from yellowiron.model.template import Template
+from yellowiron.support.vectors import clean_triple
 
 COLLISION = "convexHull"
 """The collision approximation of a part that neither document nor template names."""
@@ -22,48 +22,30 @@ def bodies(
     names: Sequence[str],
     origins: Mapping[str, Vector],
     placement: Placement,
-    template: Template,
-    materials: Sequence[PartMaterial],
-    moments: Sequence[Moments],
-    factors: Mapping[str, Factor],
-    collision: Mapping[str, str],
+    masses: Masses,
+    tokens: Choice[str],
     findings: list[Finding],
 ) -> tuple[Body, ...]:
-    """The bodies of those names, in that order, machine frame. `collision` are the documents' tokens by part or
-    role."""
+    """The bodies of those names, in that order, machine frame. `tokens` choose each part's collision
+    approximation."""
     hulls = _Hulls()
-    tokens = Choice(template, collision, template.collision)
     result = []
     for name in names:
         rows = placement.rows_of_body(name)
-        factor = factors[name]
-        whole = combine(moments[row] for row in rows).scaled(factor.value)
+        factor = masses.factors[name]
+        whole = combine(masses.moments[row] for row in rows).scaled(factor.value)
         if whole.mass <= 0.0:
             whole = Moments(1.0, placement.points_of(rows).mean(axis=0), np.zeros((3, 3)))
             words = "The body has neither volume nor area: it weighs 1 kg."
             findings.append(Finding("MEC034", "warning", name, words, "Check its parts in the CAD model."))
-        parts = []
-        for row in rows:
-            part, role = placement.parts[row], placement.roles[row]
-            token, told = tokens.of(part.name, role) or (COLLISION, "default")
-            parts.append(
-                BodyPart(
-                    part=part.id,
-                    role=role,
-                    material=materials[row].key,
-                    collision=token,
-                    mass=moments[row].mass * factor.value,
-                    source=f"material {materials[row].source}; collision {told}",
-                )
-            )
         result.append(
             Body(
                 name=name,
                 origin=origins[name],
                 mass=whole.mass,
-                center_of_mass=vector(whole.center),
+                center_of_mass=clean_triple(whole.center),
                 inertia=whole.inertia,
-                parts=tuple(parts),
+                parts=tuple(_part(row, placement, masses, factor, tokens) for row in rows),
                 hull=np.concatenate([hulls.placed(placement, row) for row in rows]),
                 source=factor.source,
             )
@@ -71,10 +53,17 @@ def bodies(
     return tuple(result)
 
 
-def vector(values: Floats) -> Vector:
-    """(3,) array as a tuple, without negative zeros."""
-    x, y, z = (float(v) + 0.0 for v in values)
-    return (x, y, z)
+def _part(row: int, placement: Placement, masses: Masses, factor: Factor, tokens: Choice[str]) -> BodyPart:
+    part, role, material = placement.parts[row], placement.roles[row], masses.parts[row]
+    token, told = tokens.of(part.name, role) or (COLLISION, "default")
+    return BodyPart(
+        part=part.id,
+        role=role,
+        material=material.key,
+        collision=token,
+        mass=masses.moments[row].mass * factor.value,
+        source=f"material {material.source}; collision {told}",
+    )
 
 
 def hull_corners(mesh: Mesh) -> Floats:

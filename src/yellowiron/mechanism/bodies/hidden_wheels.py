@@ -15,14 +15,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from yellowiron.mechanism.bodies.body import hull_corners, vector
-from yellowiron.mechanism.bodies.choice import Choice
-from yellowiron.mechanism.bodies.mass import STEEL, Moments, combine, key_of
+from yellowiron.mechanism.bodies.body import hull_corners
+from yellowiron.mechanism.bodies.mass import Masses, Moments, combine
 from yellowiron.mechanism.placement import Placement
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats, Ints, Mesh
 from yellowiron.model.mechanism import Body, BodyShape
-from yellowiron.model.template import Material, Role, Template
+from yellowiron.model.template import Role, Template
+from yellowiron.support.vectors import clean_triple
 
 MIDDLE = 2.0 / 3.0
 """Share of the room between two tracks, drawn in one with their frame, that is surely the frame's."""
@@ -126,22 +126,18 @@ def with_wheels(
     order: Sequence[str],
     wheels: Mapping[str, HiddenWheel],
     placement: Placement,
-    template: Template,
-    by_document: Mapping[str, Material],
-    used: dict[str, Material],
+    weighed: Masses,
     findings: list[Finding],
 ) -> tuple[Body, ...]:
     """The bodies in their `order`, hidden wheels among them; those that carry the tracks are lighter by them, and the
-    tracks' parts have no colliders. The wheels' materials come into `used`."""
+    tracks' parts have no colliders. The wheels' materials come into those that `weighed` has in use."""
     if not wheels:
         return tuple(bodies)
     by_name = {b.name: b for b in bodies}
     masses = {p.part: p.mass for b in bodies for p in b.parts}
-    choice = Choice(template, by_document, template.materials)
     for name, wheel in wheels.items():
         mass = wheel.share * sum(masses[placement.parts[row].id] for row in wheel.rows)
-        material, _ = choice.of("", name) or (Material("steel", density=STEEL), "default")
-        by_name[name] = _wheel(wheel, mass, key_of(material, used))
+        by_name[name] = _wheel(wheel, mass, weighed.key_of_role(name))
     for carrier in dict.fromkeys(w.carrier for w in wheels.values()):
         made = [by_name[n] for n, w in wheels.items() if w.carrier == carrier]
         stood_for = frozenset(placement.ids(row for w in wheels.values() if w.carrier == carrier for row in w.rows))
@@ -166,7 +162,7 @@ def _between(body: Body, wheels: Sequence[HiddenWheel], placement: Placement) ->
         return body
     first, last = points.min(axis=0), points.max(axis=0)
     material = next(p.material for p in body.parts if p.part in placement.ids(rows))
-    size, center = vector(np.maximum(last - first, 1e-3)), vector(0.5 * (first + last))
+    size, center = clean_triple(np.maximum(last - first, 1e-3)), clean_triple(0.5 * (first + last))
     box = BodyShape(f"{body.name}_between_tracks", center, 0.5 * max(size), material, size)
     return replace(body, hull=np.concatenate([body.hull, points]), shapes=(*body.shapes, box))
 
@@ -194,7 +190,7 @@ def _bare(body: Body, parts: frozenset[str]) -> Body:
 
 
 def _wheel(wheel: HiddenWheel, mass: float, material: str) -> Body:
-    center, r = vector(wheel.center), wheel.radius
+    center, r = clean_triple(wheel.center), wheel.radius
     # A hoop as wide as its radius: m r² about its axle, m r²/2 + m r²/12 across it.
     across = 7.0 / 12.0
     inertia = mass * r * r * np.diag([across, 1.0, across])
@@ -227,7 +223,7 @@ def _lighter(body: Body, wheels: Sequence[Body], findings: list[Finding]) -> Bod
     return replace(
         body,
         mass=mass,
-        center_of_mass=vector(center),
+        center_of_mass=clean_triple(center),
         inertia=left.inertia,
         source=f"{body.source}; less {theirs.mass:.5g} kg of hidden wheels",
     )

@@ -19,7 +19,7 @@ from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats, Shape
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import Material, Template
-from yellowiron.model.text import display
+from yellowiron.support.text import display
 
 STEEL = 7850.0
 """Density where a material states none, kg/m³."""
@@ -103,17 +103,62 @@ class PartMaterial:
     source: str
 
 
-def part_materials(
-    placement: Placement, template: Template, by_document: Mapping[str, Material]
-) -> tuple[tuple[PartMaterial, ...], dict[str, Material]]:
-    """The material of every placed part, and the materials in use by key (their name; numbered where two differ)."""
-    keys: dict[str, Material] = {}
-    chosen = []
+@dataclass(frozen=True)
+class Factor:
+    """By how much a body's mass was scaled, and why."""
+
+    value: float
+    source: str
+
+
+@dataclass(frozen=True, eq=False)
+class Masses:
+    """What everything weighs: of every placed part its material and its `moments` by volume and density, machine
+    frame; by body the factor to published weights. `used` are the materials in use by key."""
+
+    parts: tuple[PartMaterial, ...]
+    moments: tuple[Moments, ...]
+    factors: Mapping[str, Factor]
+    used: dict[str, Material]
+    choice: Choice[Material]
+
+    def key_of_role(self, role: str) -> str:
+        """The key of the material of a role that no part plays; it comes into `used`."""
+        return key_of(_material(self.choice, "", role)[0], self.used)
+
+
+def weigh(
+    placement: Placement,
+    template: Template,
+    specifications: Specifications,
+    by_document: Mapping[str, Material],
+    bodies: Sequence[str],
+    findings: list[Finding],
+) -> Masses:
+    """The masses of the parts and of the `bodies` of those names. A user's documents (`by_document`: materials by part
+    or role) win over the template."""
     choice = Choice(template, by_document, template.materials)
+    used: dict[str, Material] = {}
+    materials = _part_materials(placement, choice, used)
+    moments = _part_moments(placement, materials, findings)
+    weights = {b: sum(moments[row].mass for row in placement.rows_of_body(b)) for b in bodies}
+    return Masses(materials, moments, _factors(weights, template, specifications, findings), used, choice)
+
+
+def _material(choice: Choice[Material], part: str, role: str | None) -> tuple[Material, str]:
+    """The material of a part of that name and role, and what chose it."""
+    return choice.of(part, role) or (Material("steel", density=STEEL), "default")
+
+
+def _part_materials(
+    placement: Placement, choice: Choice[Material], used: dict[str, Material]
+) -> tuple[PartMaterial, ...]:
+    """The material of every placed part; those in use come into `used`."""
+    chosen = []
     for part, role in zip(placement.parts, placement.roles, strict=True):
-        material, source = choice.of(part.name, role) or (Material("steel", density=STEEL), "default")
-        chosen.append(PartMaterial(key_of(material, keys), material, source))
-    return tuple(chosen), keys
+        material, source = _material(choice, part.name, role)
+        chosen.append(PartMaterial(key_of(material, used), material, source))
+    return tuple(chosen)
 
 
 def key_of(material: Material, keys: dict[str, Material]) -> str:
@@ -124,7 +169,7 @@ def key_of(material: Material, keys: dict[str, Material]) -> str:
     return key
 
 
-def part_moments(
+def _part_moments(
     placement: Placement, materials: Sequence[PartMaterial], findings: list[Finding]
 ) -> tuple[Moments, ...]:
     """The mass of every placed part by its volume and density, machine frame."""
@@ -151,15 +196,7 @@ def part_moments(
     return tuple(result)
 
 
-@dataclass(frozen=True)
-class Factor:
-    """By how much a body's mass was scaled, and why."""
-
-    value: float
-    source: str
-
-
-def reconcile(
+def _factors(
     masses: Mapping[str, float], template: Template, specifications: Specifications, findings: list[Finding]
 ) -> dict[str, Factor]:
     """The factor of each body's mass: to its published weight where there is one, and to what these leave of the

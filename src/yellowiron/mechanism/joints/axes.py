@@ -9,12 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from yellowiron.mechanism.placement import Features
+from yellowiron.mechanism.tolerances import SAME_ANGLE, SAME_OFFSET
 from yellowiron.model.geometry import Floats
 
-SAME_ANGLE = math.radians(0.3)
-"""Two features may be on one axis if their directions differ by less than this …"""
-SAME_OFFSET = 5e-4
-"""… and the middle of one is nearer to the other's axis than this, metres."""
 _FITTED_WEIGHT = 0.01
 """Weight of a feature fitted to triangles beside an exact one."""
 _FITTED_LEAN = 1e-3
@@ -22,7 +19,7 @@ _FITTED_LEAN = 1e-3
 
 
 @dataclass(frozen=True, eq=False)
-class Line:
+class Axis:
     """A line through `point` along the unit vector `direction`."""
 
     point: Floats
@@ -45,12 +42,12 @@ class Line:
         """The point at a coordinate along the line."""
         return self.point + coordinate * self.direction
 
-    def flipped(self) -> Line:
+    def flipped(self) -> Axis:
         """The same line, the other way round."""
-        return Line(self.point, -self.direction)
+        return Axis(self.point, -self.direction)
 
 
-def fit_line(center: Floats, direction: Floats, length: Floats, weight: Floats) -> Line:
+def fit_axis(center: Floats, direction: Floats, length: Floats, weight: Floats) -> Axis:
     """The least-squares line through axis segments: the total least-squares line of points spread evenly over them.
 
     `center` (n, 3), `direction` (n, 3) unit, `length` (n,), `weight` (n,) > 0. Minimises Σ wᵢ · mean squared distance
@@ -64,16 +61,16 @@ def fit_line(center: Floats, direction: Floats, length: Floats, weight: Floats) 
     spread = (arm * share[:, None]).T @ arm + (direction * (share * length**2 / 12.0)[:, None]).T @ direction
     axis = np.linalg.eigh(spread)[1][:, -1]
     sense = direction[int(np.argmax(weight))]
-    return Line(middle, axis if axis @ sense >= 0.0 else -axis)
+    return Axis(middle, axis if axis @ sense >= 0.0 else -axis)
 
 
-def axis_of(features: Features) -> Line:
+def axis_of(features: Features) -> Axis:
     """The joint axis of coaxial features, weighted by area, exact ones a hundredfold."""
     weight = features.area * np.where(features.exact, 1.0, _FITTED_WEIGHT)
-    return fit_line(features.center, features.direction, features.length, weight)
+    return fit_axis(features.center, features.direction, features.length, weight)
 
 
-def on_line(features: Features, line: Line) -> NDArray[np.bool_]:
+def on_axis(features: Features, line: Axis) -> NDArray[np.bool_]:
     """(n,) which features lie on a line, within `SAME_ANGLE` and `SAME_OFFSET` (fitted ones: more, with the
     distance)."""
     sine = np.linalg.norm(np.cross(features.direction, line.direction), axis=1)
@@ -89,14 +86,14 @@ def coaxial_groups(features: Features) -> list[NDArray[np.int64]]:
     while len(left):
         seed = left[0]
         rest = features.take(left)
-        same = on_line(rest, Line(features.center[seed], features.direction[seed]))
+        same = on_axis(rest, Axis(features.center[seed], features.direction[seed]))
         same[0] = True
         groups.append(left[same])
         left = left[~same]
     return groups
 
 
-def residuals(features: Features, line: Line) -> tuple[float, float]:
+def residuals(features: Features, line: Axis) -> tuple[float, float]:
     """How far features are out of line: (largest angle in radians, largest offset in metres); exact ones where there
     are any."""
     judged = features.take(features.exact) if features.exact.any() else features
@@ -104,23 +101,23 @@ def residuals(features: Features, line: Line) -> tuple[float, float]:
     return float(np.arcsin(np.minimum(1.0, sine)).max()), float(line.distance(judged.center).max())
 
 
-def span(features: Features, line: Line) -> tuple[float, float]:
+def span(features: Features, line: Axis) -> tuple[float, float]:
     """From where to where coaxial features reach along their line."""
     middle = line.along(features.center)
     return float((middle - features.length / 2).min()), float((middle + features.length / 2).max())
 
 
-def symmetry_axis(points: Floats) -> Line:
+def symmetry_axis(points: Floats) -> Axis:
     """A guess at the axis of a round part without features: the principal axis whose spread differs most from the
     others'."""
     middle = 0.5 * (points.min(axis=0) + points.max(axis=0))
     values, vectors = np.linalg.eigh(np.cov((points - middle).T))
     odd = 0 if values[1] - values[0] > values[2] - values[1] else 2
-    return Line(middle, vectors[:, odd])
+    return Axis(middle, vectors[:, odd])
 
 
 def machine_sense(direction: Floats) -> Floats:
-    """A pivot's axis the way DESIGN wants it: pitch to +Y, vertical to +Z, lengthwise to +X; round-off becomes zero."""
+    """A pivot's axis as all of ours point: pitch to +Y, vertical to +Z, lengthwise to +X; round-off becomes zero."""
     size = np.abs(direction)
     # Near a tie the vertical wins, then the lateral: the order must not hang on round-off.
     main = next(i for i in (2, 1, 0) if size[i] > size.max() - 1e-3)

@@ -10,17 +10,16 @@ from typing import Any
 import numpy as np
 
 from yellowiron.mechanism.joints.axes import (
-    SAME_ANGLE,
-    SAME_OFFSET,
-    Line,
+    Axis,
     axis_of,
     coaxial_groups,
-    on_line,
+    on_axis,
     residuals,
     span,
     symmetry_axis,
 )
 from yellowiron.mechanism.placement import Features, Placement, join
+from yellowiron.mechanism.tolerances import SAME_ANGLE, SAME_OFFSET
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
 
@@ -41,7 +40,7 @@ class Bearing:
     """An axis with the features it was fitted to and how it was found. `doubt` is a finding's (code, words), or
     None."""
 
-    line: Line
+    line: Axis
     features: Features
     method: str
     doubt: tuple[str, str] | None = None
@@ -95,7 +94,7 @@ def pin_bearing(placement: Placement, pins: Sequence[int], bodies: tuple[str, st
     around = placement.features(row for b in bodies for row in placement.rows_of_body(b) if row not in pins)
 
     def rank(group: Features) -> tuple[int, int, float]:
-        holders = around.take(on_line(around, axis_of(group)))
+        holders = around.take(on_axis(around, axis_of(group)))
         held = {placement.bodies[int(row)] for row in holders.part}
         return len(held), len(set(group.part.tolist())), float(group.area.sum())
 
@@ -121,7 +120,7 @@ def shared_bearing(placement: Placement, bodies: tuple[str, str], *, near: Float
     for group in coaxial_groups(few):
         mine = few.take(group)
         line = axis_of(mine)
-        theirs = many.take(on_line(many, line))
+        theirs = many.take(on_axis(many, line))
         if len(theirs) == 0 or _gap(span(mine, line), span(theirs, line)) > _GAP:
             continue
         shared = min(float(mine.area.sum()), float(theirs.area.sum()))
@@ -136,12 +135,12 @@ def shared_bearing(placement: Placement, bodies: tuple[str, str], *, near: Float
     return Bearing(axis_of(features), features, method, doubt)
 
 
-def lone_bearing(placement: Placement, bodies: tuple[str, str], line: Line) -> Bearing:
+def lone_bearing(placement: Placement, bodies: tuple[str, str], line: Axis) -> Bearing:
     """The axis that the alignment found for two bodies of which only one has a round face there (or none that fits):
     through the cylinders of either on that line, else the line itself."""
     rows = [row for body in bodies for row in placement.rows_of_body(body)]
     features = placement.features(rows)
-    features = features.take(on_line(features, line))
+    features = features.take(on_axis(features, line))
     doubt = ("MEC009", "No pin and no common bore is drawn: one body is taken to turn on what is round of the other.")
     if len(features) == 0:
         return Bearing(line, features, "alignment: where one body ends at the other", doubt)
@@ -149,11 +148,11 @@ def lone_bearing(placement: Placement, bodies: tuple[str, str], line: Line) -> B
     return Bearing(axis_of(features), features, method, doubt)
 
 
-def lone_slide(placement: Placement, bodies: tuple[str, str], line: Line) -> Bearing:
+def lone_slide(placement: Placement, bodies: tuple[str, str], line: Axis) -> Bearing:
     """The axis that the alignment found for a slide of which no bore and rod show it: through the cylinders of both on
     that line, else the line itself."""
     features = placement.features(row for body in bodies for row in placement.rows_of_body(body))
-    features = features.take(on_line(features, line))
+    features = features.take(on_axis(features, line))
     doubt = ("MEC014", "No rod in its bore shows the axis: the slide is along the line that both its bodies are on.")
     if len(features) == 0:
         return Bearing(line, features, "alignment: the line that both bodies are along", doubt)
@@ -167,10 +166,10 @@ def declared_bearing(placement: Placement, bodies: tuple[str, str], kind: str) -
         return None
     words = "Nothing that is drawn shows its axis: it is where the CAD file declares it."
     method = f"declared by the CAD file: joint '{found.name}'"
-    return Bearing(Line(found.point, found.axis), placement.features(()), method, ("MEC016", words))
+    return Bearing(Axis(found.point, found.axis), placement.features(()), method, ("MEC016", words))
 
 
-def agree(one: Line, other: Line) -> bool:
+def agree(one: Axis, other: Axis) -> bool:
     """Whether two lines may be one joint's axis: within a degree and two centimetres."""
     lean = float(np.linalg.norm(np.cross(one.direction, other.direction)))
     return lean < _SAME_JOINT[0] and float(one.distance(other.point[None])[0]) < _SAME_JOINT[1]
@@ -204,7 +203,7 @@ def slide_bearing(
         return None
     words = "Its barrel and rod share no bore: the axis is the line between their pivots."
     return Bearing(
-        Line(ends[0], between / length), placement.features(()), "line between its pivots", ("MEC003", words)
+        Axis(ends[0], between / length), placement.features(()), "line between its pivots", ("MEC003", words)
     )
 
 
@@ -212,7 +211,7 @@ def _between_twins(placement: Placement, bodies: tuple[str, str], bore: Bearing)
     """A slide's axis where both bodies have equal pairs of coaxial cylinders side by side (twins drawn as one): midway
     between them."""
     one, other = (placement.features(placement.rows_of_body(b)) for b in bodies)
-    largest = [_largest(features.take(on_line(features, bore.line))) for features in (one, other)]
+    largest = [_largest(features.take(on_axis(features, bore.line))) for features in (one, other)]
     feet = [bore.line.point]
     for group in coaxial_groups(one):
         mine = one.take(group)
@@ -220,14 +219,14 @@ def _between_twins(placement: Placement, bodies: tuple[str, str], bore: Bearing)
         lean = float(np.linalg.norm(np.cross(line.direction, bore.line.direction)))
         if lean > _SAME_JOINT[0] or not _equal(_largest(mine), largest[0]):
             continue
-        if not _equal(_largest(other.take(on_line(other, line))), largest[1]):
+        if not _equal(_largest(other.take(on_axis(other, line))), largest[1]):
             continue
         foot = line.foot(bore.line.point)
         if min(float(np.linalg.norm(foot - f)) for f in feet) > largest[0][0]:
             feet.append(foot)
     if len(feet) == 1:
         return bore
-    line = Line(np.mean(feet, axis=0), bore.line.direction)
+    line = Axis(np.mean(feet, axis=0), bore.line.direction)
     method = f"midway between {len(feet)} equal cylinders: {bore.method}"
     return Bearing(line, placement.features(()), method)
 
@@ -254,7 +253,7 @@ def _steadied(bore: Bearing, start: Floats, end: Floats, hinge: Floats | None) -
     length = float(np.linalg.norm(across))
     if length == 0.0:
         return bore
-    line = Line(start + ((bore.line.point - start) @ hinge) * hinge, across / length)
+    line = Axis(start + ((bore.line.point - start) @ hinge) * hinge, across / length)
     lean = float(np.linalg.norm(np.cross(line.direction, bore.line.direction)))
     apart = float(line.distance(bore.line.point[None])[0])
     if lean > math.sin(SAME_ANGLE) or apart > 2.0 * SAME_OFFSET:

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from yellowiron.mechanism.joints.axes import Line
+from yellowiron.mechanism.joints.axes import Axis
 from yellowiron.mechanism.joints.frames import JointFrame
 from yellowiron.mechanism.joints.tree import Link, Tree, links, loose_bodies, span_tree
 from yellowiron.mechanism.placement import Placement
@@ -44,7 +44,7 @@ def pitch_radii(placement: Placement, template: Template, frames: Mapping[str, J
         for body in frame.bodies:
             if template.role(body).kind == "sprocket" and anchors and placement.has_body(body):
                 across = abs(frame.axis @ np.array([0.0, 1.0, 0.0]))
-                line = Line(frame.anchor, frame.axis)
+                line = Axis(frame.anchor, frame.axis)
                 near = [a for a in anchors.values() if np.sign(a[1]) == np.sign(frame.anchor[1])]
                 if near and across > 0.9:
                     found[body] = float(line.distance(np.array(near)).min())

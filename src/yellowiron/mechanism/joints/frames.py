@@ -1,5 +1,4 @@
-"""Where a joint is: its axis and anchor, from its pin, else from the bores its two bodies share (DESIGN, "Where a joint
-is").
+"""Where a joint is: its axis and anchor, from its pin, else from the bores its two bodies share.
 
 Pivots first, then slides, which run from one pivot of their cylinder to the other. Machine frame, metres.
 """
@@ -13,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from yellowiron.mechanism.bodies.hidden_wheels import HiddenWheel
-from yellowiron.mechanism.joints.axes import Line, machine_sense
+from yellowiron.mechanism.joints.axes import Axis, machine_sense
 from yellowiron.mechanism.joints.bearings import (
     Bearing,
     agree,
@@ -133,7 +132,7 @@ def _pivot(
     wheel = next((part for part in joint.parts if template.role(part).kind in WHEELS), None)
     bearing = pin_bearing(placement, pins, bodies) or shared_bearing(placement, bodies)
     if not pins and joint.name in placement.axes:
-        found = Line(*placement.axes[joint.name])
+        found = Axis(*placement.axes[joint.name])
         if bearing is None or not agree(bearing.line, found):
             bearing = lone_bearing(placement, bodies, found)
     bearing = bearing or declared_bearing(placement, bodies, "revolute")
@@ -165,7 +164,7 @@ def _slide(
     bearing = slide_bearing(placement, bodies, (tips[0], tips[1]), hinge)
     sense = None
     if joint.name in placement.axes:
-        found = Line(*placement.axes[joint.name])
+        found = Axis(*placement.axes[joint.name])
         sense = found.direction
         if bearing is None or not agree(bearing.line, found):
             bearing = lone_slide(placement, bodies, found)
@@ -193,7 +192,7 @@ def _end_pivot(body: str, slide: tuple[str, str], pivots: Mapping[str, JointFram
     return next((p for p in pivots.values() if body in p.bodies and other not in p.bodies), None)
 
 
-def _wheel_middle(placement: Placement, wheel: str, line: Line) -> Floats:
+def _wheel_middle(placement: Placement, wheel: str, line: Axis) -> Floats:
     """Where a wheel's axis meets its mid-plane: the middle of the part that reaches farthest from the axis."""
     rows = placement.rows_of_body(wheel)
     tyre = max(rows, key=lambda row: float(line.distance(placement.points(row)).max()))

@@ -10,14 +10,13 @@ import numpy as np
 
 from yellowiron.mechanism.joints.axes import machine_sense
 from yellowiron.mechanism.joints.frames import JointFrame
+from yellowiron.mechanism.tolerances import PARALLEL
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
 
 _ACCURACY = {True: math.radians(0.01), False: math.radians(0.05)}
-"""Axes that differ by less than this were meant to be parallel, and nothing is said; exact ones, and fitted ones."""
-_MEANT_PARALLEL = math.radians(0.5)
-"""Up to here they are made parallel with a finding; beyond it the loop is taken to be spatial."""
-
+"""Axes that differ by less than this are made parallel and nothing is said; exact ones, and fitted ones. Up to
+`PARALLEL` they are, with a finding."""
 _IN_A_PLANE = math.radians(2.0)
 """Up to here the pivots of an open arm are made parallel to its first."""
 
@@ -66,7 +65,7 @@ def _families(pivots: Mapping[str, JointFrame]) -> list[list[JointFrame]]:
     left = sorted(pivots.values(), key=lambda f: -f.weight)
     families = []
     while left:
-        near = [f for f in left if np.linalg.norm(np.cross(left[0].axis, f.axis)) < math.sin(_MEANT_PARALLEL)]
+        near = [f for f in left if np.linalg.norm(np.cross(left[0].axis, f.axis)) < math.sin(PARALLEL)]
         families.append(near)
         left = [f for f in left if all(f is not n for n in near)]
     return families
@@ -84,7 +83,7 @@ def _flatten(
 ) -> None:
     for normal in normals:
         lean = float(slide.axis @ normal)
-        if abs(lean) < math.sin(_MEANT_PARALLEL):
+        if abs(lean) < math.sin(PARALLEL):
             flat = slide.axis - lean * normal
             _turn(result, slide, flat / np.linalg.norm(flat), findings)
 

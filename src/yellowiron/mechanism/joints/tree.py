@@ -1,7 +1,7 @@
 """Loops and cuts: which joints make the articulation's tree, and the one joint of each loop that is cut.
 
 The tree is the cheapest spanning tree of the joint graph (Kruskal), so that what closes a loop is always the joint
-least fit to be in it. What stays first, after FINDINGS section 6:
+least fit to be in it. What stays first, as engines hold loops best (docs/architecture.md):
 
 1. slides and welds: a slide is never cut;
 2. motors, then both pins of every driven cylinder: they carry the load;
@@ -20,6 +20,7 @@ from typing import Literal
 from yellowiron.mechanism.joints.frames import JointFrame
 from yellowiron.model.mechanism import Loop
 from yellowiron.model.template import Template
+from yellowiron.support.graphs import spanning_forest
 
 LinkKind = Literal["weld", "slide", "motor", "driven", "hung", "pin", "loose"]
 _PLACE: Mapping[LinkKind, int] = {"weld": 0, "slide": 0, "motor": 1, "driven": 2, "hung": 3, "pin": 4, "loose": 5}
@@ -79,7 +80,8 @@ def span_tree(root: str, edges: Sequence[Link]) -> Tree:
         return min(structure.get(b, far) for b in edge.bodies)
 
     order = {e.name: i for i, e in enumerate(edges)}
-    kept, closing = _kruskal(sorted(edges, key=lambda e: (_PLACE[e.kind], -reach(e), order[e.name])))
+    fittest = sorted(edges, key=lambda e: (_PLACE[e.kind], -reach(e), order[e.name]))
+    kept, closing = spanning_forest(fittest, lambda e: e.bodies)
     kept.sort(key=lambda e: order[e.name])
     depth = _distances(root, kept)
 
@@ -122,24 +124,6 @@ def loop_groups(loops: Sequence[Loop]) -> tuple[frozenset[str], ...]:
                 apart.append(group)
         groups = [*apart, joined]
     return tuple(groups)
-
-
-def _kruskal(edges: Sequence[Link]) -> tuple[list[Link], list[Link]]:
-    """(edges of the spanning tree, edges that close a loop), taking edges in the order given."""
-    top: dict[str, str] = {}
-
-    def find(body: str) -> str:
-        while (above := top.setdefault(body, body)) != body:
-            body = above
-        return body
-
-    kept: list[Link] = []
-    closing: list[Link] = []
-    for edge in edges:
-        a, b = (find(body) for body in edge.bodies)
-        (kept if a != b else closing).append(edge)
-        top[a] = b
-    return kept, closing
 
 
 def _distances(root: str, edges: Sequence[Link]) -> dict[str, int]:

@@ -17,7 +17,7 @@ from yellowiron.model.poses import PoseTables
 from yellowiron.report.document import fell_short, within_tolerance
 from yellowiron.report.html.joints import joint_marks, joint_rows
 from yellowiron.report.html.marks import overlay
-from yellowiron.report.html.pictures import Soup, data_uri, look_at, machine_soup, outline, posed, render
+from yellowiron.report.html.pictures import DrawnTriangles, data_uri, look_at, machine_triangles, outline, posed, render
 from yellowiron.report.html.sensors import sensor_marks, sensor_rows, view_svg, views
 from yellowiron.report.html.simulation import engine_name, in_a_sentence, simulation_tables
 from yellowiron.report.html.sweeps import Sweeps, sweep_entries
@@ -60,7 +60,7 @@ def page(
     folder = resources.files("yellowiron.report").joinpath("data")
     source, style = (folder.joinpath(name).read_text(encoding="utf-8") for name in ("page.html.j2", "page.css"))
     frame = np.asarray(alignment.frame, dtype=np.float64)
-    soup = machine_soup(mechanism, assembly, frame)
+    drawn = machine_triangles(mechanism, assembly, frame)
     reasons = _in_short(fell_short(document))
     joints = joint_rows(document)
     return environment.from_string(source).render(
@@ -72,16 +72,16 @@ def page(
         ready=_ready(document),
         driven=in_a_sentence(document["simulation"]),
         figures=_figures(document),
-        machine=_machine(mechanism, soup),
-        poses=[(caption, _pose(mechanism, soup, moved)) for caption, moved in (poses or {}).items()],
+        machine=_machine(mechanism, drawn),
+        poses=[(caption, _pose(mechanism, drawn, moved)) for caption, moved in (poses or {}).items()],
         viewer=viewer(mechanism, assembly, alignment, tables, poses=poses) if tables is not None else None,
         measurements=[_measurement(m) for m in document["measurements"]],
         simulation=simulation_tables(document["simulation"]),
-        sweeps=sweep_entries(sweeps or {}, document, mechanism, soup),
+        sweeps=sweep_entries(sweeps or {}, document, mechanism, drawn),
         sensors=sensor_rows(document),
-        sensor_svg=_sensor_svg(document, mechanism, soup) if document["sensors"] else "",
+        sensor_svg=_sensor_svg(document, mechanism, drawn) if document["sensors"] else "",
         joints=joints,
-        joint_svg=_joint_svg(joints, mechanism, soup),
+        joint_svg=_joint_svg(joints, mechanism, drawn),
         cylinders=[_cylinder(c) for c in document["cylinders"]],
         specifications=[s for s in map(_specification, document["specifications"]) if s["status"] != "missing"],
         not_given=[s for s in map(_specification, document["specifications"]) if s["status"] == "missing"],
@@ -89,23 +89,23 @@ def page(
     )
 
 
-def _machine(mechanism: Mechanism, soup: Soup) -> str:
+def _machine(mechanism: Mechanism, drawn: DrawnTriangles) -> str:
     camera = look_at(outline(mechanism), azimuth=-0.75, elevation=0.3, width=SIZE[0], height=SIZE[1])
-    return data_uri(render(soup, camera))
+    return data_uri(render(drawn, camera))
 
 
-def _pose(mechanism: Mechanism, soup: Soup, moved: Mapping[str, Floats]) -> str:
+def _pose(mechanism: Mechanism, drawn: DrawnTriangles, moved: Mapping[str, Floats]) -> str:
     camera = look_at(outline(mechanism, moved), azimuth=-1.1, elevation=0.2, width=480, height=360)
-    return data_uri(render(posed(soup, moved), camera))
+    return data_uri(render(posed(drawn, moved), camera))
 
 
-def _joint_svg(rows: Sequence[Mapping[str, Any]], mechanism: Mechanism, soup: Soup) -> Any:
+def _joint_svg(rows: Sequence[Mapping[str, Any]], mechanism: Mechanism, drawn: DrawnTriangles) -> Any:
     camera = look_at(outline(mechanism), azimuth=-math.pi / 2 + 0.12, elevation=0.18, width=SIZE[0], height=SIZE[1])
-    picture = data_uri(render(soup, camera, colors=soup.by_body(mechanism)))
+    picture = data_uri(render(drawn, camera, colors=drawn.by_body(mechanism)))
     return overlay(camera, picture, joint_marks(rows), alt="Joints on the machine")
 
 
-def _sensor_svg(document: Mapping[str, Any], mechanism: Mechanism, soup: Soup) -> Any:
+def _sensor_svg(document: Mapping[str, Any], mechanism: Mechanism, drawn: DrawnTriangles) -> Any:
     corners = outline(mechanism)
     size = float(np.linalg.norm(np.ptp(corners, axis=0))) if len(corners) else 1.0
     outlines = views(document["sensors"], size)
@@ -116,7 +116,7 @@ def _sensor_svg(document: Mapping[str, Any], mechanism: Mechanism, soup: Soup) -
         width=SIZE[0],
         height=SIZE[1],
     )
-    picture = data_uri(render(soup, camera))
+    picture = data_uri(render(drawn, camera))
     under = view_svg(outlines, camera)
     return overlay(camera, picture, sensor_marks(document), alt="Sensors on the machine", under=under)
 

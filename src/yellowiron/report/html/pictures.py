@@ -38,7 +38,7 @@ _DISPLAY = (255.0 * np.linspace(0.0, 1.0, 65536) ** (1.0 / 2.2) + 0.5).astype(np
 
 
 @dataclass(frozen=True, eq=False)
-class Soup:
+class DrawnTriangles:
     """Triangles to draw: corners (m, 3, 3) in metres, corner normals (m, 3, 3), colours (m, 3), part numbers (m,).
     `spans`: body → its first triangle and the one after its last."""
 
@@ -50,7 +50,7 @@ class Soup:
 
     @cached_property
     def scene(self) -> Any:
-        """Embree's, for rays; every picture of the soup asks the same."""
+        """Embree's, for rays; every picture of the same triangles asks it."""
         from embreex import rtcore_scene
         from embreex.mesh_construction import TriangleMesh
 
@@ -94,13 +94,13 @@ class Camera:
         return np.stack([x, y], axis=1)
 
 
-def machine_soup(
+def machine_triangles(
     mechanism: Mechanism,
     assembly: Assembly,
     frame: Floats,
     *,
     poses: Mapping[str, Floats] | None = None,
-) -> Soup:
+) -> DrawnTriangles:
     """All parts of a mechanism's bodies in their CAD colours.
 
     `frame` (4, 4): CAD → machine; `poses`: body → (4, 4) displacement from the drawn pose, machine frame.
@@ -123,8 +123,8 @@ def machine_soup(
             if np.linalg.det(place[:3, :3]) < 0:
                 triangles = triangles[:, ::-1]
             points = shape.mesh.points @ place[:3, :3].T + place[:3, 3]
-            soup = points[triangles]
-            facet = np.cross(soup[:, 1] - soup[:, 0], soup[:, 2] - soup[:, 0])
+            placed = points[triangles]
+            facet = np.cross(placed[:, 1] - placed[:, 0], placed[:, 2] - placed[:, 0])
             facet /= np.maximum(np.linalg.norm(facet, axis=1, keepdims=True), 1e-30)
             if shape.mesh.normals is None:
                 corner_normals = np.repeat(facet[:, None, :], 3, axis=1)
@@ -133,29 +133,29 @@ def machine_soup(
                 turned /= np.maximum(np.linalg.norm(turned, axis=1, keepdims=True), 1e-30)
                 corner_normals = turned[triangles]
             color = part.color or shape.color or YELLOW
-            corners.append(soup.astype(np.float32))
+            corners.append(placed.astype(np.float32))
             normals.append(corner_normals.astype(np.float32))
-            colors.append(np.broadcast_to(np.asarray(color, dtype=np.float32), (len(soup), 3)))
-            numbers.append(np.full(len(soup), len(numbers), dtype=np.int32))
-            count += len(soup)
+            colors.append(np.broadcast_to(np.asarray(color, dtype=np.float32), (len(placed), 3)))
+            numbers.append(np.full(len(placed), len(numbers), dtype=np.int32))
+            count += len(placed)
         spans[body.name] = (first, count)
     if not corners:
         nothing = np.zeros((0, 3, 3), dtype=np.float32)
-        return Soup(nothing, nothing, nothing[:, 0], np.zeros(0, dtype=np.int32))
-    return Soup(
+        return DrawnTriangles(nothing, nothing, nothing[:, 0], np.zeros(0, dtype=np.int32))
+    return DrawnTriangles(
         np.concatenate(corners), np.concatenate(normals), np.concatenate(colors), np.concatenate(numbers), spans
     )
 
 
-def posed(soup: Soup, poses: Mapping[str, Floats]) -> Soup:
+def posed(drawn: DrawnTriangles, poses: Mapping[str, Floats]) -> DrawnTriangles:
     """A machine's triangles with its bodies moved: body → (4, 4) displacement."""
-    corners, normals = soup.corners.copy(), soup.normals.copy()
-    for name, (first, last) in soup.spans.items():
+    corners, normals = drawn.corners.copy(), drawn.normals.copy()
+    for name, (first, last) in drawn.spans.items():
         if name in poses:
             turn, way = poses[name][:3, :3].astype(np.float32), poses[name][:3, 3].astype(np.float32)
             corners[first:last] = corners[first:last] @ turn.T + way
             normals[first:last] = normals[first:last] @ turn.T
-    return replace(soup, corners=corners, normals=normals)
+    return replace(drawn, corners=corners, normals=normals)
 
 
 def look_at(
@@ -197,10 +197,12 @@ def outline(mechanism: Mechanism, poses: Mapping[str, Floats] | None = None) -> 
     return np.concatenate([np.zeros((0, 3)), *(hull @ place[:3, :3].T + place[:3, 3] for hull, place in hulls)])
 
 
-def render(soup: Soup, camera: Camera, *, colors: Singles | None = None, supersample: int = 2) -> Image.Image:
+def render(
+    drawn: DrawnTriangles, camera: Camera, *, colors: Singles | None = None, supersample: int = 2
+) -> Image.Image:
     """The picture: sun with shadow, sky light, a ground plane, and lines where parts or creases meet. `colors` (m, 3)
-    take the place of the soup's."""
-    own = soup.colors if colors is None else colors
+    take the place of their own."""
+    own = drawn.colors if colors is None else colors
     width, height = camera.width * supersample, camera.height * supersample
     image = np.empty((height, width, 3), dtype=np.float32)
     normals = np.empty_like(image)
@@ -209,11 +211,11 @@ def render(soup: Soup, camera: Camera, *, colors: Singles | None = None, supersa
     for top in range(0, height, _BAND):
         band = slice(top, top + _BAND)
         directions = _rays(camera, supersample, np.arange(height, dtype=np.float32)[band] + np.float32(0.5))
-        colored, facing, met = _shade(soup, own, camera.eye.astype(np.float32), directions)
+        colored, facing, met = _shade(drawn, own, camera.eye.astype(np.float32), directions)
         image[band], normals[band] = colored.reshape(-1, width, 3), facing.reshape(-1, width, 3)
         face[band] = met.reshape(-1, width)
     seen = face >= 0
-    label = np.where(seen, soup.parts[np.maximum(face, 0)] if len(soup.parts) else -1, -1)
+    label = np.where(seen, drawn.parts[np.maximum(face, 0)] if len(drawn.parts) else -1, -1)
     image[_edges(label, normals, seen)] *= 0.2
     pixels = _DISPLAY[(65535.0 * np.clip(image, 0.0, 1.0)).astype(np.uint16)]
     return Image.fromarray(pixels).resize((camera.width, camera.height), Image.Resampling.BOX)
@@ -230,13 +232,15 @@ def _rays(camera: Camera, supersample: int, rows: Singles) -> Singles:
     return np.asarray(directions / np.sqrt(np.einsum("ij,ij->i", directions, directions))[:, None])
 
 
-def _shade(soup: Soup, own: Singles, eye: Singles, directions: Singles) -> tuple[Singles, Singles, NDArray[np.int32]]:
+def _shade(
+    drawn: DrawnTriangles, own: Singles, eye: Singles, directions: Singles
+) -> tuple[Singles, Singles, NDArray[np.int32]]:
     """What each ray (n, 3) meets: a part, else the ground, else the sky. Linear colours (n, 3), normals (n, 3) and
     triangles (n,), -1 where it is none."""
-    hit = soup.scene.run(np.broadcast_to(eye, directions.shape).copy(), directions, output=True)
+    hit = drawn.scene.run(np.broadcast_to(eye, directions.shape).copy(), directions, output=True)
     face = hit["primID"]
     color, normals = np.tile(_SKY, (len(directions), 1)), np.zeros_like(directions)
-    limits = _shadow(soup)
+    limits = _shadow(drawn)
 
     def light(points: Singles, facing: Singles) -> Singles:
         sun = np.clip(facing @ _SUN, 0.0, 1.0)
@@ -246,13 +250,13 @@ def _shade(soup: Soup, own: Singles, eye: Singles, directions: Singles) -> tuple
         if len(asked):
             start = points[asked] + facing[asked] * np.float32(2e-3)
             towards = np.broadcast_to(_SUN, start.shape).copy()
-            sun[asked[soup.scene.run(start, towards, query="OCCLUDED") >= 0]] = 0.0
+            sun[asked[drawn.scene.run(start, towards, query="OCCLUDED") >= 0]] = 0.0
         return np.asarray(0.34 + 0.12 * facing[:, 2] + 0.62 * sun)[:, None]
 
     seen = np.flatnonzero(face >= 0)
     if len(seen):
         u, v, met, rays = hit["u"][seen, None], hit["v"][seen, None], face[seen], directions[seen]
-        corner = soup.normals[met]
+        corner = drawn.normals[met]
         normal = (1 - u - v) * corner[:, 0] + u * corner[:, 1] + v * corner[:, 2]
         normal /= np.maximum(np.sqrt(np.einsum("ij,ij->i", normal, normal)), 1e-12)[:, None]
         normal *= np.where(np.einsum("ij,ij->i", normal, rays) > 0, np.float32(-1.0), np.float32(1.0))[:, None]
@@ -263,7 +267,7 @@ def _shade(soup: Soup, own: Singles, eye: Singles, directions: Singles) -> tuple
         normals[ground] = _UP
         points = eye - directions[ground] * (eye[2] / directions[ground, 2:])
         # The ground fades into the sky, so that it has no edge.
-        middle, reach = _extent(soup)
+        middle, reach = _extent(drawn)
         fade = np.clip(np.linalg.norm(points[:, :2] - middle, axis=1) / reach, 0.0, 1.0)[:, None] ** 2
         color[ground] = _GROUND * light(points, normals[ground]) * (1 - fade) + _SKY * fade
     return color, normals, face
@@ -304,17 +308,17 @@ def body_color(index: int) -> tuple[float, float, float]:
     return (red**2.2, green**2.2, blue**2.2)
 
 
-def _extent(soup: Soup) -> tuple[Singles, np.float32]:
+def _extent(drawn: DrawnTriangles) -> tuple[Singles, np.float32]:
     """The middle on the ground, and how far from it the ground is seen: a little more than the machine's size."""
-    if not len(soup.corners):
+    if not len(drawn.corners):
         return np.zeros(2, dtype=np.float32), np.float32(1.0)
-    low, high = soup.box
+    low, high = drawn.box
     return (0.5 * (low + high))[:2], np.float32(1.4 * np.linalg.norm(high - low))
 
 
-def _shadow(soup: Soup) -> Singles:
+def _shadow(drawn: DrawnTriangles) -> Singles:
     """From where to where (2, 2) along x and y the machine, and its shadow on the ground, may be."""
-    corners = np.array(list(itertools.product(*zip(*soup.box, strict=True))), dtype=np.float32)
+    corners = np.array(list(itertools.product(*zip(*drawn.box, strict=True))), dtype=np.float32)
     below = corners - corners[:, 2:] / _SUN[2] * _SUN
     both = np.concatenate([corners, below])[:, :2]
     return np.array([both.min(axis=0), both.max(axis=0)])

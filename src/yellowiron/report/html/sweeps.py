@@ -1,4 +1,4 @@
-"""The page's sweeps: what an engine did with each actuator, as a strip of pictures and as lines over time."""
+"""The page's sweeps: what an engine did with each actuator, as a strip of pictures and as curves over time."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ import numpy as np
 
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Mechanism
-from yellowiron.model.sweep import Frame, Sweep
-from yellowiron.report.html.pictures import Soup, data_uri, look_at, outline, posed, render
-from yellowiron.report.html.plots import Line, plot
+from yellowiron.model.sweep import Snapshot, Sweep
+from yellowiron.report.html.pictures import DrawnTriangles, data_uri, look_at, outline, posed, render
+from yellowiron.report.html.plots import Chart, Curve, plot
 from yellowiron.report.html.simulation import engine_name
 from yellowiron.report.words import sentence
 
@@ -25,9 +25,9 @@ SEEN = 0.01
 
 
 def sweep_entries(
-    sweeps: Sweeps, document: Mapping[str, Any], mechanism: Mechanism, soup: Soup
+    sweeps: Sweeps, document: Mapping[str, Any], mechanism: Mechanism, drawn: DrawnTriangles
 ) -> list[dict[str, Any]]:
-    """One entry a sweep: the pictures are the first engine's, the lines every engine's that made the same sweep."""
+    """One entry a sweep: the pictures are the first engine's, the curves every engine's that made the same sweep."""
     if not sweeps:
         return []
     engine, first = next(iter(sweeps.items()))
@@ -36,7 +36,7 @@ def sweep_entries(
         {
             "name": sentence(sweep.name) if sweep.name != "together" else "All together",
             "engine": engine,
-            "frames": _frames(sweep, mechanism, soup),
+            "frames": _frames(sweep, mechanism, drawn),
             "position": _positions(sweep, document),
             "errors": _errors([(e, s) for e, each in sweeps.items() for s in each if s.name == sweep.name], runs),
         }
@@ -44,31 +44,31 @@ def sweep_entries(
     ]
 
 
-def _frames(sweep: Sweep, mechanism: Mechanism, soup: Soup) -> list[dict[str, Any]]:
-    if not _moves(sweep.frames, mechanism):
+def _frames(sweep: Sweep, mechanism: Mechanism, drawn: DrawnTriangles) -> list[dict[str, Any]]:
+    if not _moves(sweep.snapshots, mechanism):
         return []
     # One camera for all of a strip: what moves is the machine.
-    points = np.concatenate([outline(mechanism, frame.poses) for frame in sweep.frames])
+    points = np.concatenate([outline(mechanism, snapshot.poses) for snapshot in sweep.snapshots])
     camera = look_at(points, azimuth=-1.1, elevation=0.2, width=WIDTH, height=HEIGHT)
     return [
         {
-            "picture": data_uri(render(posed(soup, frame.poses), camera)),
-            "share": "" if frame.share is None else f"{100.0 * frame.share:.0f} %",
-            "time": f"{frame.time:.1f} s",
+            "picture": data_uri(render(posed(drawn, snapshot.poses), camera)),
+            "share": "" if snapshot.share is None else f"{100.0 * snapshot.share:.0f} %",
+            "time": f"{snapshot.time:.1f} s",
         }
-        for frame in sweep.frames
+        for snapshot in sweep.snapshots
     ]
 
 
-def _moves(frames: Sequence[Frame], mechanism: Mechanism) -> bool:
+def _moves(snapshots: Sequence[Snapshot], mechanism: Mechanism) -> bool:
     """Whether anything leaves its place: a wheel that turns on the spot looks the same in every picture."""
     hulls = {b.name: np.asarray(b.hull, dtype=np.float64) for b in mechanism.bodies if len(b.hull)}
-    if not frames or not hulls:
+    if not snapshots or not hulls:
         return False
     size = float(np.linalg.norm(np.ptp(np.concatenate(list(hulls.values())), axis=0)))
     for name, hull in hulls.items():
         middle = np.append(0.5 * (hull.min(axis=0) + hull.max(axis=0)), 1.0)
-        places = np.array([(frame.poses[name] @ middle)[:3] for frame in frames if name in frame.poses])
+        places = np.array([(snapshot.poses[name] @ middle)[:3] for snapshot in snapshots if name in snapshot.poses])
         if len(places) and float(np.linalg.norm(np.ptp(places, axis=0))) > SEEN * size:
             return True
     return False
@@ -77,50 +77,46 @@ def _moves(frames: Sequence[Frame], mechanism: Mechanism) -> bool:
 def _positions(sweep: Sweep, document: Mapping[str, Any]) -> dict[str, Any]:
     """Where each driven joint was, against where it was told to be."""
     names = {j["joint"]: a["name"] for a in document["actuators"] for j in a["joints"]}
-    tracks = [track for track in sweep.tracks if track.kind == "position"] or list(sweep.tracks)
-    # The joints of a motor turn alike: one line says it.
-    first = {names.get(track.joint, track.joint): track for track in reversed(tracks)}
-    lines, legend = [], []
-    for number, (name, track) in enumerate(reversed(first.items())):
-        scale = 100.0 if track.kind == "position" else 1.0
-        lines.append(Line(sweep.times, scale * track.wanted, f"{name}, wanted", number, wanted=True))
-        lines.append(Line(sweep.times, scale * track.measured, name, number))
+    traces = [trace for trace in sweep.traces if trace.kind == "position"] or list(sweep.traces)
+    # The joints of a motor turn alike: one curve says it.
+    first = {names.get(trace.joint, trace.joint): trace for trace in reversed(traces)}
+    curves, legend = [], []
+    for number, (name, trace) in enumerate(reversed(first.items())):
+        scale = 100.0 if trace.kind == "position" else 1.0
+        curves.append(Curve(sweep.times, scale * trace.wanted, f"{name}, wanted", number, wanted=True))
+        curves.append(Curve(sweep.times, scale * trace.measured, name, number))
         legend.append((number, sentence(name)))
-    moments = [frame.time for frame in sweep.frames]
-    if tracks and tracks[0].kind == "position":
-        svg = plot(lines, title="Stroke: wanted (dashed) and measured", unit=" %", low=0.0, high=100.0, moments=moments)
+    moments = [snapshot.time for snapshot in sweep.snapshots]
+    if traces and traces[0].kind == "position":
+        chart = Chart("Stroke: wanted (dashed) and measured", " %", 0.0, 100.0, moments=moments)
     else:
-        most = max((float(np.abs(line.values).max(initial=0.0)) for line in lines), default=0.0) or 1.0
-        svg = plot(lines, title="Speed, rad/s: wanted (dashed) and measured", unit="", low=-most, high=most)
-    return {"svg": svg, "legend": legend if len(legend) > 1 else []}
+        most = max((float(np.abs(curve.values).max(initial=0.0)) for curve in curves), default=0.0) or 1.0
+        chart = Chart("Speed, rad/s: wanted (dashed) and measured", "", -most, most)
+    return {"svg": plot(curves, chart), "legend": legend if len(legend) > 1 else []}
 
 
 def _errors(runs: Sequence[tuple[str, Sweep]], documents: Mapping[str, Any]) -> dict[str, Any]:
     """Every engine's worst pin over time: against its own bar where all have one, else in millimetres."""
     bars = [documents.get(engine, {}).get("pin_bar_mm") for engine, _ in runs]
-    lines, legend = [], []
+    curves, legend = [], []
     relative = all(bars) and len(set(bars)) > 1
     for number, ((engine, sweep), bar) in enumerate(zip(runs, bars, strict=True)):
         values: Floats = 1e3 * sweep.pin_error
         legend.append(
             (number, f"{engine_name(engine)}: {values.max(initial=0.0):.3f} mm" + (f", bar {bar:g} mm" if bar else ""))
         )
-        lines.append(Line(sweep.times, 100.0 * values / bar if relative and bar else values, engine, number))
-    worst = max((float(line.values.max(initial=0.0)) for line in lines), default=0.0)
+        curves.append(Curve(sweep.times, 100.0 * values / bar if relative and bar else values, engine, number))
+    worst = max((float(curve.values.max(initial=0.0)) for curve in curves), default=0.0)
     if relative:
         high = max(110.0, 1.05 * worst)
-        svg = plot(
-            lines, title="Worst pin, share of the engine's bar", unit=" %", low=0.0, high=high, bar=100.0,
-            bar_label="bar", ticks=(0.0, 50.0, 100.0) if high < 200.0 else (),
-        )  # fmt: skip
+        shares = (0.0, 50.0, 100.0) if high < 200.0 else ()
+        chart = Chart("Worst pin, share of the engine's bar", " %", 0.0, high, 100.0, "bar", shares)
     else:
         bar = bars[0] if bars else None
         ticks = (0.0, 0.5 * bar, bar) if bar and worst <= bar else (0.0, _round_up(max(worst, 1e-6)))
         label = f"bar {bar:g} mm" if bar else ""
-        svg = plot(
-            lines, title="Worst pin, mm", unit="", low=0.0, high=1.12 * ticks[-1], bar=bar, bar_label=label, ticks=ticks
-        )  # fmt: skip
-    return {"svg": svg, "legend": legend}
+        chart = Chart("Worst pin, mm", "", 0.0, 1.12 * ticks[-1], bar, label, ticks)
+    return {"svg": plot(curves, chart), "legend": legend}
 
 
 def _round_up(value: float) -> float:

@@ -12,7 +12,7 @@ import gzip
 import json
 import math
 import struct
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from importlib import resources
 from typing import Any
@@ -54,9 +54,9 @@ def viewer(
 ) -> Viewer | None:
     """The 3D view of a machine, None where it has nothing to see. `poses` (caption → body → (4, 4) displacement) become
     buttons that set the sliders."""
-    block = _Block()
+    binary = _Binary()
     colors = body_colors(mechanism)
-    parts, shapes, left_out = _parts(mechanism, assembly, alignment, block)
+    parts, shapes, left_out = _parts(mechanism, assembly, alignment, binary)
     if not parts:
         return None
     tilting = {m.quantity.get("site") for m in mechanism.measurements if m.quantity.get("kind") == "angle"}
@@ -72,7 +72,7 @@ def viewer(
                 "drivers": table.drivers,
                 "axes": [[float(axis[0]), float(axis[-1]), len(axis)] for axis in table.axes],
                 "dependent": table.dependent,
-                "values": block.add(table.values.astype("<f4")),
+                "values": binary.add(table.values.astype("<f4")),
             }
             for table in tables.tables
         ],
@@ -90,7 +90,7 @@ def viewer(
     }
     text = json.dumps(header, separators=(",", ":"), sort_keys=True, ensure_ascii=False).encode("utf-8")
     text += b" " * (-(4 + len(text)) % 8)
-    packed = gzip.compress(struct.pack("<I", len(text)) + text + block.bytes(), compresslevel=9, mtime=0)
+    packed = gzip.compress(struct.pack("<I", len(text)) + text + binary.bytes(), compresslevel=9, mtime=0)
     folder = resources.files("yellowiron.report").joinpath("data")
     script, style = (
         "".join(folder.joinpath(name).read_text(encoding="utf-8") for name in names) for names in (_SCRIPTS, _STYLES)
@@ -98,7 +98,7 @@ def viewer(
     return Viewer(base64.b64encode(packed).decode("ascii"), script, style)
 
 
-class _Block:
+class _Binary:
     """Arrays one after the other, each aligned to 8 bytes."""
 
     def __init__(self) -> None:
@@ -119,7 +119,7 @@ class _Block:
 
 
 def _parts(
-    mechanism: Mechanism, assembly: Assembly, alignment: Alignment, block: _Block
+    mechanism: Mechanism, assembly: Assembly, alignment: Alignment, binary: _Binary
 ) -> tuple[list[dict[str, Any]], list[dict[str, Any]], int]:
     """Every drawn part, the shapes that they share, and how many parts are left out for their size."""
     frame = np.asarray(alignment.frame, dtype=np.float64)
@@ -149,7 +149,7 @@ def _parts(
                 "review": part.id in review,
             }
         )
-    shapes = [_mesh(assembly.shapes[key].mesh, block) for key in numbers]
+    shapes = [_mesh(assembly.shapes[key].mesh, binary) for key in numbers]
     return parts, shapes, len(wanted) - len(parts)
 
 
@@ -170,7 +170,7 @@ def _largest(assembly: Assembly, keys: Sequence[str]) -> dict[str, int]:
     return {key: number for number, key in enumerate(key for key in keys if key in kept)}
 
 
-def _mesh(mesh: Mesh, block: _Block) -> dict[str, Any]:
+def _mesh(mesh: Mesh, binary: _Binary) -> dict[str, Any]:
     """A mesh quantised to its own box: positions to 16 bits (planes of differences, which pack well), normals to two
     bytes (octahedral), indices as differences."""
     points = np.asarray(mesh.points, dtype=np.float64)
@@ -184,9 +184,9 @@ def _mesh(mesh: Mesh, block: _Block) -> dict[str, Any]:
     return {
         "low": [float(f"{x:.7g}") for x in low],
         "size": [float(f"{x:.7g}") for x in size],
-        "points": block.add((steps.T % 65536).astype("<u2")),
-        "indices": block.add((jumps % 65536).astype("<u2") if narrow else jumps.astype("<i4")),
-        "normals": None if mesh.normals is None else block.add(_octahedral(mesh.normals).T.astype("i1")),
+        "points": binary.add((steps.T % 65536).astype("<u2")),
+        "indices": binary.add((jumps % 65536).astype("<u2") if narrow else jumps.astype("<i4")),
+        "normals": None if mesh.normals is None else binary.add(_octahedral(mesh.normals).T.astype("i1")),
     }
 
 
@@ -223,33 +223,35 @@ def _joint(joint: Joint, tables: PoseTables) -> dict[str, Any]:
 
 def _sliders(mechanism: Mechanism, tables: PoseTables) -> list[dict[str, Any]]:
     """One for each cylinder actuator that has a table, for each other actuator, and for each free joint besides."""
-    joints = {joint.name: joint for joint in mechanism.joints}
+    return [*_actuator_sliders(mechanism, tables), *_free_sliders(mechanism, tables)]
+
+
+def _actuator_sliders(mechanism: Mechanism, tables: PoseTables) -> Iterator[dict[str, Any]]:
     cylinders = {cylinder.slide: cylinder for cylinder in mechanism.cylinders}
     tabled = {driver for table in tables.tables for driver in table.drivers}
-    taken: set[str] = set()
-    sliders = []
     for actuator in mechanism.actuators:
         moved = [entry for entry in actuator.joints if entry.joint in tables.independent]
-        first = joints[moved[0].joint] if moved else None
-        taken.update(entry.joint for entry in actuator.joints)
         # Without a table, a coupled joint would tear its loop open.
-        if first is None or (actuator.kind == "cylinder" and first.name not in tabled):
+        if not moved or (actuator.kind == "cylinder" and moved[0].joint not in tabled):
             continue
-        cylinder = cylinders.get(first.name)
-        sliders.append(
-            {
-                **_slider(actuator.name, first, moved[0].sign),
-                "joints": [[entry.joint, entry.sign * moved[0].sign] for entry in _together(actuator, moved)],
-                "extension": cylinder.extension if cylinder and math.isfinite(cylinder.extension) else None,
-                "stroke": cylinder.stroke if cylinder else None,
-            }
-        )
+        cylinder = cylinders.get(moved[0].joint)
+        yield {
+            **_slider(actuator.name, mechanism.joint(moved[0].joint), moved[0].sign),
+            "joints": [[entry.joint, entry.sign * moved[0].sign] for entry in _together(actuator, moved)],
+            "extension": cylinder.extension if cylinder and math.isfinite(cylinder.extension) else None,
+            "stroke": cylinder.stroke if cylinder else None,
+        }
+
+
+def _free_sliders(mechanism: Mechanism, tables: PoseTables) -> Iterator[dict[str, Any]]:
+    """Of the independent joints that no actuator moves."""
+    joints = {joint.name: joint for joint in mechanism.joints}
+    taken = {entry.joint for actuator in mechanism.actuators for entry in actuator.joints}
     # A roller or shoe of a counted row is nothing to set by hand.
     rows = {mechanism.joints[p].name for places in in_rows(list(joints)).values() if len(places) > 1 for p in places}
     for name in tables.independent:
         if name not in taken and name not in rows and joints[name].type in ("revolute", "prismatic"):
-            sliders.append({**_slider(name, joints[name], 1), "joints": [[name, 1]], "extension": None, "stroke": None})
-    return sliders
+            yield {**_slider(name, joints[name], 1), "joints": [[name, 1]], "extension": None, "stroke": None}
 
 
 def _together(actuator: Actuator, moved: Sequence[Any]) -> Sequence[Any]:

@@ -11,16 +11,15 @@ import numpy as np
 
 from yellowiron.kinematics import ClosedChain
 from yellowiron.model.geometry import Floats
-from yellowiron.simulation.commands import Motion
-from yellowiron.simulation.driving.wheeled import Wheel
+from yellowiron.simulation.commands import Motion, sampled
+from yellowiron.simulation.driving.wheel import DrivenWheel
 
-_SAMPLE = 0.05
 _LEAST = 1e-6
 
 
 def rolling(
     chain: ClosedChain,
-    wheels: Sequence[Wheel],
+    wheels: Sequence[DrivenWheel],
     moves: Sequence[Motion],
     targets: Mapping[str, Floats],
     timestep: float,
@@ -35,8 +34,8 @@ def rolling(
     if not paths or not wheels:
         return {}
     count = max(len(values) for values in paths.values())
-    sampled = np.unique(np.append(np.arange(0, count, max(1, round(_SAMPLE / timestep))), count - 1))
-    states = chain.sweep({joint: values[sampled] for joint, values in paths.items()})
+    steps = sampled(count, timestep)
+    states = chain.sweep({joint: values[steps] for joint, values in paths.items()})
     if len(states) < 2:
         return {}
     # Hubs, the root at rest: (states, wheels, 4, 4).
@@ -44,7 +43,7 @@ def rolling(
     middles = np.einsum("swij,wj->swi", hubs, [[*wheel.middle, 1.0] for wheel in wheels])[..., :2]
     axes = np.einsum("swij,wj->swi", hubs[..., :3, :3], [wheel.axis for wheel in wheels])[..., :2]
     axes /= np.linalg.norm(axes, axis=2, keepdims=True)
-    seconds = sampled[: len(states)] * timestep
+    seconds = steps[: len(states)] * timestep
     drift = np.gradient(middles, seconds, axis=0)
     if float(np.abs(drift).max()) < _LEAST:
         return {}

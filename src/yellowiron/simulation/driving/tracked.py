@@ -4,55 +4,26 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from yellowiron.kinematics import ClosedChain
 from yellowiron.model.geometry import Floats
-from yellowiron.model.mechanism import Joint, Mechanism, chained
+from yellowiron.model.mechanism import Mechanism
 from yellowiron.simulation.commands import motions
-from yellowiron.simulation.engine import GROUND_FRICTION, UPRIGHT, Engine, poses, tell
+from yellowiron.simulation.driving.wheel import DrivenWheel
+from yellowiron.simulation.engine import Engine, poses, tell
+from yellowiron.simulation.ground import GROUND_FRICTION, UPRIGHT
 from yellowiron.simulation.loads import GRAVITY, SPARE, paces
-
-if TYPE_CHECKING:
-    from yellowiron.simulation.driving.wheeled import Wheel
 
 DISTANCE, SPIN, SWING = 2.0, math.radians(45.0), math.radians(90.0)
 """What it does, at the speeds of its motors: metres forward and back, radians on the spot and of its slewing body."""
-SPIN_BAR, SWING_BAR = 0.1 * SPIN, math.radians(1.0)
 _RAMP = 1.0
 _REST = 1.0
 
 
-def sides(found: Sequence[Wheel]) -> tuple[tuple[Wheel, ...], ...]:
-    """The wheels of the left and of the right where each side has an actuator of its own, else none."""
-    each = [tuple(w for w in found if w.actuator == name) for name in dict.fromkeys(w.actuator for w in found)]
-    places = [float(np.mean([w.middle[1] for w in side])) for side in each]
-    if len(each) != 2 or places[0] * places[1] >= 0.0:
-        return ()
-    return tuple(each) if places[0] > 0.0 else (each[1], each[0])
-
-
-def pitch_radius(mechanism: Mechanism, sprocket: Joint) -> float | None:
-    """Radius on which the pins of a ring of track shoes run around a sprocket's axis; None where there is no ring on
-    its side."""
-    loose = chained(mechanism)
-    anchor, axis = np.asarray(sprocket.anchor), np.asarray(sprocket.axis)
-    pins = np.array([j.anchor for j in mechanism.joints if j.body1 in loose and j.anchor[1] * anchor[1] > 0.0])
-    if not len(pins):
-        return None
-    return float(np.linalg.norm(np.cross(pins - anchor, axis), axis=1).min())
-
-
-def top_speed(found: Sequence[Wheel], otherwise: float) -> float:
-    """Speed at the ground of the slowest wheel's motor, m/s."""
-    speeds = [w.joint.drive.max_velocity * w.radius for w in found if w.joint.drive is not None]
-    return min(speed if math.isfinite(speed) else otherwise for speed in speeds)
-
-
 def spin(
-    engine: Engine, mechanism: Mechanism, both: Sequence[Sequence[Wheel]], top: float, timestep: float
+    engine: Engine, mechanism: Mechanism, both: Sequence[Sequence[DrivenWheel]], top: float, timestep: float
 ) -> dict[str, float]:
     """The two sides against each other at up to `top` (m/s): how far the root turned to the left.
 
@@ -70,7 +41,7 @@ def spin(
 
 
 def swing(
-    engine: Engine, chain: ClosedChain, mechanism: Mechanism, found: Sequence[Wheel], timestep: float
+    engine: Engine, chain: ClosedChain, mechanism: Mechanism, found: Sequence[DrivenWheel], timestep: float
 ) -> dict[str, float]:
     """The body that a motor turns about the vertical, to the left; nothing where there is none."""
     driving = {w.joint.name for w in found}
@@ -111,7 +82,7 @@ def _turned(engine: Engine, targets: Mapping[str, float], body: int) -> float:
     return math.atan2(across[1, 0], across[0, 0])
 
 
-def _push(mechanism: Mechanism, found: Sequence[Wheel]) -> float:
+def _push(mechanism: Mechanism, found: Sequence[DrivenWheel]) -> float:
     """Newtons with which the wheels together can push: their motors', at most the ground's friction."""
     forces = [w.joint.drive.max_force / w.radius for w in found if w.joint.drive is not None]
     return min(sum(forces), GROUND_FRICTION * GRAVITY * sum(body.mass for body in mechanism.bodies))

@@ -6,7 +6,7 @@ Every wheel with a motor turns at the speed of its own circle, as differentials 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -14,33 +14,21 @@ from typing import Any
 import numpy as np
 
 from yellowiron.kinematics import ClosedChain
-from yellowiron.model.errors import YellowironError
-from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Body, Joint, Mechanism
 from yellowiron.simulation.commands import SHARE, Motion, motions, travel
 from yellowiron.simulation.driving import tracked
-from yellowiron.simulation.engine import (
-    Block,
-    Engine,
-    Setup,
-    coordinates,
-    find_engine,
-    load_engine,
-    poses,
-    standing_bodies,
-    tell,
-)
+from yellowiron.simulation.driving.result import BLOCK_HEIGHT, DISTANCE, DrivingResult
+from yellowiron.simulation.driving.wheel import DrivenWheel, driven_wheels, sides, top_speed
+from yellowiron.simulation.engine import Engine, Setup, coordinates, poses, tell
+from yellowiron.simulation.ground import Block, standing_bodies
 from yellowiron.simulation.loads import paces
 from yellowiron.simulation.payload import with_payload
-from yellowiron.usd import read_machine
+from yellowiron.simulation.registry import find_engine, load_engine
+from yellowiron.usd import read_mechanism
 
-DISTANCE = 5.0
 SPEED = 1.0
 """m/s at the machine's middle."""
-BLOCK_HEIGHT = 0.15
-DISTANCE_BAR, RADIUS_BAR, LIFTED = 0.03, 0.05, 0.02
-"""Shares by which a distance and the turning radius may be off, and metres that a wheel may rise."""
 _SETTLE = 2.0
 _RAMP = 1.0
 _TURN = math.radians(120.0)
@@ -51,142 +39,6 @@ _LOCK = 0.998
 _ROOM = 0.05
 
 
-@dataclass(frozen=True)
-class DrivingResult:
-    """Metres, radians, seconds. `sunk` and `creep`: how far the root came down and its speed after settling. Travel is
-    the root's; `turning_radius` is that of the outermost wheel's middle, `geometry_radius` where the axles' lines meet
-    at the measured lock. `spin`: the turn on the spot of a machine that steers by its two sides' speeds, against
-    `spin_geometry`, that of wheels which do not slip; tracks do. `swing`: by how much the slewing body's heading, seen
-    from the ground, changed, against what its motor was told. `axle_angle`: the free axle's coordinate with one
-    wheel on a block, `axle_geometry` what block and tread make of it; `highest_wheel`: the most that a wheel ever rose
-    from what it stood on. None: not driven."""
-
-    engine: str
-    dt: float
-    payload: float
-    sunk: float
-    creep: float
-    forward: float
-    backward: float
-    sideways: float
-    distance: float = DISTANCE
-    lock: float | None = None
-    turning_radius: float | None = None
-    geometry_radius: float | None = None
-    spin: float | None = None
-    spin_geometry: float | None = None
-    swing: float | None = None
-    swing_geometry: float | None = None
-    axle_angle: float | None = None
-    axle_geometry: float | None = None
-    highest_wheel: float | None = None
-
-
-def driving_document(result: DrivingResult) -> dict[str, Any]:
-    """The result as JSON: metres, degrees where the name says so, percentages against the geometry."""
-    radius = None
-    if result.turning_radius is not None and result.geometry_radius:
-        radius = 100.0 * (result.turning_radius / result.geometry_radius - 1.0)
-    return {
-        "payload_kg": result.payload,
-        "sunk_mm": 1e3 * result.sunk,
-        "creep_mm_s": 1e3 * result.creep,
-        "distance_m": result.distance,
-        "forward_m": result.forward,
-        "forward_error_percent": 100.0 * (result.forward / result.distance - 1.0),
-        "backward_m": result.backward,
-        "backward_error_percent": 100.0 * (result.backward / result.distance - 1.0),
-        "sideways_m": result.sideways,
-        "lock_deg": None if result.lock is None else math.degrees(result.lock),
-        "turning_radius_m": result.turning_radius,
-        "geometry_radius_m": result.geometry_radius,
-        "radius_error_percent": radius,
-        "spin_deg": None if result.spin is None else math.degrees(result.spin),
-        "spin_geometry_deg": None if result.spin_geometry is None else math.degrees(result.spin_geometry),
-        "swing_deg": None if result.swing is None else math.degrees(result.swing),
-        "swing_geometry_deg": None if result.swing_geometry is None else math.degrees(result.swing_geometry),
-        "block_m": BLOCK_HEIGHT,
-        "axle_angle_deg": None if result.axle_angle is None else math.degrees(result.axle_angle),
-        "axle_geometry_deg": None if result.axle_geometry is None else math.degrees(result.axle_geometry),
-        "highest_wheel_mm": None if result.highest_wheel is None else 1e3 * result.highest_wheel,
-    }
-
-
-def driving_findings(result: DrivingResult) -> Iterator[Finding]:
-    """SIM009 for what is off by more than its bar."""
-    figures = [
-        ("forward", result.forward, result.distance, DISTANCE_BAR),
-        ("backward", result.backward, result.distance, DISTANCE_BAR),
-    ]
-    if result.turning_radius is not None and result.geometry_radius is not None:
-        figures.append(("turning radius", result.turning_radius, result.geometry_radius, RADIUS_BAR))
-    for what, value, wanted, bar in figures:
-        if not abs(value / wanted - 1.0) <= bar:
-            words = f"{value:.3f} m against {wanted:.3f} m, more than {100.0 * bar:g} % off"
-            yield Finding("SIM009", "warning", what, words, "Check wheels, their torque and the ground's friction.")
-    for what, turned, meant, bar in (
-        ("turn on the spot", result.spin, result.spin_geometry, tracked.SPIN_BAR),
-        ("swing", result.swing, result.swing_geometry, tracked.SWING_BAR),
-    ):
-        if turned is not None and meant is not None and not abs(turned - meant) <= bar:
-            words = (
-                f"{math.degrees(turned):.1f}° against {math.degrees(meant):.1f}°, more than {math.degrees(bar):g}° off"
-            )
-            yield Finding("SIM009", "warning", what, words, "Check torques and the ground's friction.")
-    if result.highest_wheel is not None and result.highest_wheel > LIFTED:
-        words = f"a wheel rose {1e3 * result.highest_wheel:.0f} mm from what it stood on"
-        yield Finding("SIM009", "warning", "block", words, "Check the axle's range and the machine's masses.")
-    if result.axle_angle is not None and result.axle_geometry and result.axle_angle < 0.5 * result.axle_geometry:
-        words = f"the axle turned {math.degrees(result.axle_angle):.1f}°, not {math.degrees(result.axle_geometry):.1f}°"
-        yield Finding("SIM009", "warning", "axle", words, "Check that the axle's joint is free.")
-
-
-@dataclass(frozen=True, eq=False)
-class Wheel:
-    """A driven wheel: its joint, its body's place among the bodies, middle and unit axis (machine frame, drawn pose),
-    radius and half its width, and the sign of its joint in the actuator's positive sense."""
-
-    joint: Joint
-    body: int
-    middle: Floats
-    axis: Floats
-    radius: float
-    half_width: float
-    sign: int
-    actuator: str
-
-
-def wheels(mechanism: Mechanism) -> tuple[Wheel, ...]:
-    """The wheels that motors drive, on the ground in the drawn pose.
-
-    `YellowironError` where there are fewer than three, but for one on either side with a motor of its own: what has
-    none (a crane) does not drive.
-    """
-    number = {body.name: index for index, body in enumerate(mechanism.bodies)}
-    standing = standing_bodies(mechanism)
-    found = []
-    for actuator in mechanism.actuators:
-        for entry in actuator.joints if actuator.kind == "motor" else ():
-            joint = mechanism.joint(entry.joint)
-            if joint.drive is None or joint.drive.kind != "velocity" or joint.body1 not in standing:
-                continue
-            axis = np.asarray(joint.axis, dtype=np.float64)
-            offset = np.asarray(mechanism.body(joint.body1).hull) - np.asarray(joint.anchor)
-            along = offset @ axis
-            reach = float(np.linalg.norm(offset - np.outer(along, axis), axis=1).max())
-            radius = tracked.pitch_radius(mechanism, joint) or reach
-            half, center = 0.5 * float(np.ptp(along)), 0.5 * (float(along.min()) + float(along.max()))
-            middle = np.asarray(joint.anchor) + center * axis
-            found.append(Wheel(joint, number[joint.body1], middle, axis, radius, half, entry.sign, actuator.name))
-    if len(found) < 3 and not tracked.sides(found):
-        raise YellowironError(
-            "The machine has no driven wheels to drive on",
-            where=mechanism.name,
-            hint="Driving needs a motor actuator whose joints lead to wheels on the ground.",
-        )
-    return tuple(found)
-
-
 def drive(usd_path: str | Path, *, engine: str, payload_kg: float = 0.0, dt: float | None = None) -> DrivingResult:
     """Lets a wheeled machine settle, drive 5 m forward and back, turn at full lock, and climb a 150 mm block with one
     wheel of its free axle, where it has one. One that steers by its two sides' speeds drives 2 m, turns on the spot by
@@ -195,7 +47,7 @@ def drive(usd_path: str | Path, *, engine: str, payload_kg: float = 0.0, dt: flo
     Raises `YellowironError` for an unknown engine, one that is not installed, and a machine without driven wheels.
     """
     entry = find_engine(engine)
-    read = read_machine(usd_path)
+    read = read_mechanism(usd_path)
     mechanism = with_payload(read, payload_kg)
     heavier = tuple(b for b, old in zip(mechanism.bodies, read.bodies, strict=True) if b is not old)
     trip = _Trip(engine, Path(usd_path), mechanism, heavier, entry.timestep if dt is None else dt)
@@ -213,15 +65,15 @@ class _Trip:
     heavier: tuple[Body, ...]
     timestep: float
     chain: ClosedChain = field(init=False)
-    wheels: tuple[Wheel, ...] = field(init=False)
+    wheels: tuple[DrivenWheel, ...] = field(init=False)
 
     def __post_init__(self) -> None:
-        self.wheels = wheels(self.mechanism)
+        self.wheels = driven_wheels(self.mechanism)
         self.chain = ClosedChain(self.mechanism)
         names = [body.name for body in self.mechanism.bodies]
         self._root = names.index(self.mechanism.root)
         self._steer = self._steering()
-        self._sides = () if self._steer is not None else tracked.sides(self.wheels)
+        self._sides = () if self._steer is not None else sides(self.wheels)
         self._origin = np.asarray(self.mechanism.body(self.mechanism.root).origin)
 
     def _load(self, *blocks: Block) -> Engine:
@@ -288,7 +140,7 @@ class _Trip:
         engine = self._load()
         distance, speed = DISTANCE, SPEED
         if self._sides:
-            distance, speed = tracked.DISTANCE, tracked.top_speed(self.wheels, SPEED)
+            distance, speed = tracked.DISTANCE, top_speed(self.wheels, SPEED)
         try:
             creep = self._rest(engine, _SETTLE)
             rest = poses(engine)[1][self._root]
@@ -329,7 +181,7 @@ class _Trip:
     def _axes(self, state: Any) -> list[Floats]:
         return [self._apply(state, w)[:3, :3] @ w.axis for w in self.wheels]
 
-    def _apply(self, state: Any, wheel: Wheel) -> Floats:
+    def _apply(self, state: Any, wheel: DrivenWheel) -> Floats:
         return self.chain.displacement(state, wheel.joint.body0)
 
     def _circles(self, coordinates: Mapping[str, float]) -> Floats:

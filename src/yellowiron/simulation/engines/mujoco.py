@@ -13,7 +13,8 @@ import numpy as np
 
 from yellowiron.exporters import BodyGeometry, Geometry, actuator_names, export_mjcf, read_geometry
 from yellowiron.model.geometry import Floats
-from yellowiron.simulation.engine import GROUND_FRICTION, Readings, Setup
+from yellowiron.simulation.engine import Readings, Setup
+from yellowiron.simulation.ground import GROUND_FRICTION
 from yellowiron.support import guard
 
 

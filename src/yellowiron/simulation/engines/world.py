@@ -16,9 +16,10 @@ from pxr import Gf, Sdf, Usd, UsdPhysics, Vt
 from scipy.spatial import ConvexHull
 
 from yellowiron.model.mechanism import Joint
-from yellowiron.simulation.engine import GROUND_FRICTION, Block, Setup
+from yellowiron.simulation.engine import Setup
+from yellowiron.simulation.ground import GROUND_FRICTION, Block
 from yellowiron.simulation.loads import GRAVITY
-from yellowiron.usd.authoring.metadata import KEY
+from yellowiron.support.record import RECORD
 from yellowiron.usd.authoring.stage import (
     Types,
     add_reference,
@@ -100,7 +101,7 @@ def save(world: World, folder: Path) -> Path:
 def _names(stage: Usd.Stage) -> Iterator[tuple[tuple[str, str], str]]:
     """(kind, name) and path of everything of ours in the machine."""
     for prim in Usd.PrimRange(stage.GetPrimAtPath(MACHINE)):
-        data = prim.GetCustomDataByKey(KEY)
+        data = prim.GetCustomDataByKey(RECORD)
         if data and "kind" in data and "name" in data:
             yield (str(data["kind"]), str(data["name"])), str(prim.GetPath())
 

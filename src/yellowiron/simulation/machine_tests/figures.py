@@ -11,7 +11,7 @@ from yellowiron.model.finding import Finding
 from yellowiron.model.machine_tests import MachineTest
 from yellowiron.model.mechanism import Mechanism
 from yellowiron.model.specification import fold
-from yellowiron.model.text import display
+from yellowiron.support.text import display
 
 BARS: Mapping[str, float] = {"tipping": 10.0, "force": 10.0, "time": 15.0}
 """Percent by which a figure may miss the published one, by kind."""

@@ -19,7 +19,6 @@ from yellowiron.model.geometry import Floats
 from yellowiron.model.machine_tests import MachineTest
 from yellowiron.model.mechanism import Drive, Mechanism, Site
 from yellowiron.simulation.commands import SHARE, travel
-from yellowiron.simulation.engine import find_engine, import_engine
 from yellowiron.simulation.loads import GRAVITY, carried, paces, weight
 from yellowiron.simulation.machine_tests.figures import Figure, beside_sheet
 from yellowiron.simulation.machine_tests.rig import Rig, locked
@@ -32,6 +31,7 @@ from yellowiron.simulation.machine_tests.statics import (
     tipping_force,
 )
 from yellowiron.simulation.payload import rated_payload, with_payload
+from yellowiron.simulation.registry import find_engine, import_engine
 
 LEAN = math.radians(0.1)
 """Radians: a machine that leans by more than this since the load came on is tipping; on its tyres it gives a tenth."""
@@ -63,7 +63,7 @@ def run_tests(
     """
     step = find_engine(engine).timestep if dt is None else dt
     import_engine(engine)
-    mechanism = attached(usd.read_machine(usd_path))
+    mechanism = attached(usd.read_mechanism(usd_path))
     known = [test.name for test in mechanism.tests]
     for name in names or ():
         if name not in known:
@@ -74,23 +74,23 @@ def run_tests(
     for test in mechanism.tests:
         if names is None or test.name in names:
             progress(f"Testing in {engine}: {test.name}")
-            figures.append(_tested(_Bench(engine, Path(usd_path), mechanism, test, step)))
+            figures.append(_tested(_Trial(engine, Path(usd_path), mechanism, test, step)))
     return tuple(figures)
 
 
-def _tested(bench: _Bench) -> Figure:
-    made = {"tipping": _tipping, "force": _force, "time": _time, "lift": _lift}[bench.test.kind]
+def _tested(trial: _Trial) -> Figure:
+    made = {"tipping": _tipping, "force": _force, "time": _time, "lift": _lift}[trial.test.kind]
     try:
-        if bench.test.payload and not bench.payload:
+        if trial.test.payload and not trial.payload:
             raise Unmeasurable("the machine's rated payload is not known")
-        figure = made(bench)
+        figure = made(trial)
     except Unmeasurable as why:
-        figure = Figure(bench.test, None, None, reason=str(why))
-    return beside_sheet(figure, bench.read, calibrated=bench.test.kind == "time" and bench.flow is None)
+        figure = Figure(trial.test, None, None, reason=str(why))
+    return beside_sheet(figure, trial.read, calibrated=trial.test.kind == "time" and trial.flow is None)
 
 
 @dataclass
-class _Bench:
+class _Trial:
     """One test of one machine: what all kinds need. `read` is the machine as in the file."""
 
     engine: str
@@ -170,58 +170,60 @@ class _Bench:
 
 
 # ---- loads and forces that grow -------------------------------------------------------------------------------------
-def _tipping(b: _Bench) -> Figure:
-    bench, state = b.pose()
-    site = b.site()
-    statics = tipping_force(b.mechanism, bench.chain, state, place(bench.chain, state, site), _DOWN)
-    rig = b.rig(b.drives())
+def _tipping(trial: _Trial) -> Figure:
+    bench, state = trial.pose()
+    site = trial.site()
+    statics = tipping_force(trial.mechanism, bench.chain, state, place(bench.chain, state, site), _DOWN)
+    rig = trial.rig(trial.drives())
     try:
         force, why = _grow(rig, state, site, 0.0, _DOWN, statics, slide=None)
     finally:
         rig.close()
     value = None if force is None else force / GRAVITY
-    return Figure(b.test, value, statics / GRAVITY, reason=why)
+    return Figure(trial.test, value, statics / GRAVITY, reason=why)
 
 
-def _force(b: _Bench) -> Figure:
-    bench, state = b.pose()
-    site, offset = b.site(), b.test.offset
-    for name in b.test.best:
-        state = _strongest(b, bench, state, name)
-    statics, along = _pushed(b, bench, state, b.test.actuator)
+def _force(trial: _Trial) -> Figure:
+    bench, state = trial.pose()
+    site, offset = trial.site(), trial.test.offset
+    for name in trial.test.best:
+        state = _strongest(trial, bench, state, name)
+    statics, along = _pushed(trial, bench, state, trial.test.actuator)
     if statics <= 0.0:
-        raise Unmeasurable(f"{b.test.actuator} does not push '{site.name}' that way, or bears no more than its weight")
+        raise Unmeasurable(
+            f"{trial.test.actuator} does not push '{site.name}' that way, or bears no more than its weight"
+        )
     limit = ""
-    if b.test.base == "floating":
-        tips = tipping_force(b.mechanism, bench.chain, state, place(bench.chain, state, site, offset), -along)
+    if trial.test.base == "floating":
+        tips = tipping_force(trial.mechanism, bench.chain, state, place(bench.chain, state, site, offset), -along)
         if tips < statics:
-            limit = f"statics: the machine tips; {b.test.actuator} alone would give {statics / 1e3:.0f} kN"
+            limit = f"statics: the machine tips; {trial.test.actuator} alone would give {statics / 1e3:.0f} kN"
             statics = tips
-    rig = b.rig(b.drives(**{b.driven: replace(locked(b.drive()), max_force=b.force)}))
+    rig = trial.rig(trial.drives(**{trial.driven: replace(locked(trial.drive()), max_force=trial.force)}))
     try:
-        value, why = _grow(rig, state, site, offset, -along, statics, slide=(b.driven, b.sense))
+        value, why = _grow(rig, state, site, offset, -along, statics, slide=(trial.driven, trial.sense))
     finally:
         rig.close()
-    return Figure(b.test, value, statics, reason="; ".join(text for text in (why, limit) if text))
+    return Figure(trial.test, value, statics, reason="; ".join(text for text in (why, limit) if text))
 
 
-def _pushed(b: _Bench, bench: Bench, state: State, name: str) -> tuple[float, Floats]:
+def _pushed(trial: _Trial, bench: Bench, state: State, name: str) -> tuple[float, Floats]:
     """Force (N) of an actuator at the test's site, less the weight it carries, and its unit direction (3,); 0 where the
     site does not move that way."""
     entry = bench.actuator(name).joints[0]
-    positive = name != b.test.actuator or b.test.to == "max"
+    positive = name != trial.test.actuator or trial.test.to == "max"
     sense = float(entry.sign) * (1.0 if positive else -1.0)
-    moved = sense * motion(bench.chain, state, entry.joint, b.site(), b.test.offset)
+    moved = sense * motion(bench.chain, state, entry.joint, trial.site(), trial.test.offset)
     speed = float(np.linalg.norm(moved))
-    along = -_DOWN if b.test.direction == "up" or speed == 0.0 else moved / speed
+    along = -_DOWN if trial.test.direction == "up" or speed == 0.0 else moved / speed
     rate = float(moved @ along)
     if rate <= 1e-6:
         return 0.0, along
-    force = actuator_force(b.mechanism, name, positive=positive)
+    force = actuator_force(trial.mechanism, name, positive=positive)
     return (force - sense * weight(bench.chain, state, entry.joint)) / rate, along
 
 
-def _strongest(b: _Bench, bench: Bench, state: State, name: str) -> State:
+def _strongest(trial: _Trial, bench: Bench, state: State, name: str) -> State:
     """The state in which an actuator stands where, over its stroke, its force at the site is greatest."""
     joint, (low, high) = bench.actuator(name).joints[0].joint, sorted(bench.range(name))
     start, _ = bench.chain.reach({joint: low}, start=state)
@@ -230,7 +232,7 @@ def _strongest(b: _Bench, bench: Bench, state: State, name: str) -> State:
     states = bench.chain.sweep({joint: inner}, start=start)
     if not states:
         raise Unmeasurable(f"the linkage locks on the way of {name}")
-    return max(states, key=lambda each: _pushed(b, bench, each, name)[0])
+    return max(states, key=lambda each: _pushed(trial, bench, each, name)[0])
 
 
 def _grow(
@@ -272,63 +274,69 @@ def _grow(
 
 
 # ---- motion ---------------------------------------------------------------------------------------------------------
-def _time(b: _Bench) -> Figure:
-    _, state = b.pose()
-    drive, speed = b.drive(), b.speed()
+def _time(trial: _Trial) -> Figure:
+    _, state = trial.pose()
+    drive, speed = trial.drive(), trial.speed()
     quick = replace(drive, max_velocity=max(drive.max_velocity, 1.2 * speed))
-    way, seconds, share, why = _run(b, state, speed, {b.driven: quick}, watch=False)
+    way, seconds, share, why = _run(trial, state, speed, {trial.driven: quick}, watch=False)
     if share < 1.0 - SHARE:
-        return Figure(b.test, None, way / speed, reason=f"it came {100.0 * share:.0f} % of the way: {why}")
-    source = f"at {b.test.flow}" if b.flow is not None else "at the cylinder's own speed, which the sheet's time gave"
-    return Figure(b.test, seconds, way / speed, reason=source)
+        return Figure(trial.test, None, way / speed, reason=f"it came {100.0 * share:.0f} % of the way: {why}")
+    source = (
+        f"at {trial.test.flow}"
+        if trial.flow is not None
+        else "at the cylinder's own speed, which the sheet's time gave"
+    )
+    return Figure(trial.test, seconds, way / speed, reason=source)
 
 
-def _lift(b: _Bench) -> Figure:
-    bench, state = b.pose()
-    statics = _lifted(b, bench, state)
-    drive, speed = b.drive(), b.speed()
-    strong = replace(drive, max_force=b.force, max_velocity=max(drive.max_velocity, 1.2 * speed))
-    _, _, share, why = _run(b, state, speed, b.drives(**{b.driven: strong}), watch=True)
+def _lift(trial: _Trial) -> Figure:
+    bench, state = trial.pose()
+    statics = _lifted(trial, bench, state)
+    drive, speed = trial.drive(), trial.speed()
+    strong = replace(drive, max_force=trial.force, max_velocity=max(drive.max_velocity, 1.2 * speed))
+    _, _, share, why = _run(trial, state, speed, trial.drives(**{trial.driven: strong}), watch=True)
     arrived = share >= 1.0 - SHARE
-    return Figure(b.test, 1.0 if arrived else share, statics, reason=f"{b.payload:.0f} kg; {why}", arrived=arrived)
+    return Figure(
+        trial.test, 1.0 if arrived else share, statics, reason=f"{trial.payload:.0f} kg; {why}", arrived=arrived
+    )
 
 
-def _ends(b: _Bench, bench: Bench, state: State) -> tuple[float, float]:
+def _ends(trial: _Trial, bench: Bench, state: State) -> tuple[float, float]:
     """The tested slide's coordinate in the test's first pose, and where it is sent."""
-    low, high = bench.range(b.test.actuator)
-    return bench.chain.coordinate(state, b.driven), high if b.test.to == "max" else low
+    low, high = bench.range(trial.test.actuator)
+    return bench.chain.coordinate(state, trial.driven), high if trial.test.to == "max" else low
 
 
-def _lifted(b: _Bench, bench: Bench, state: State) -> float:
+def _lifted(trial: _Trial, bench: Bench, state: State) -> float:
     """Share of the way along which, by statics, the actuator bears the weight and the machine stands."""
-    start, end = _ends(b, bench, state)
-    states = bench.chain.sweep({b.driven: np.linspace(start, end, _SAMPLES)}, start=state)
+    start, end = _ends(trial, bench, state)
+    states = bench.chain.sweep({trial.driven: np.linspace(start, end, _SAMPLES)}, start=state)
     for number, each in enumerate(states):
-        bears = b.sense * weight(bench.chain, each, b.driven) <= b.force
-        if not bears or (b.test.base == "floating" and not stands(b.mechanism, bench.chain, each)):
+        bears = trial.sense * weight(bench.chain, each, trial.driven) <= trial.force
+        if not bears or (trial.test.base == "floating" and not stands(trial.mechanism, bench.chain, each)):
             return max(0, number - 1) / (_SAMPLES - 1)
     return (len(states) - 1) / (_SAMPLES - 1)
 
 
 def _run(
-    b: _Bench, state: State, speed: float, drives: dict[str, Drive], *, watch: bool
+    trial: _Trial, state: State, speed: float, drives: dict[str, Drive], *, watch: bool
 ) -> tuple[float, float, float, str]:
     """The tested actuator sent to its end at a speed: (length of the way, seconds until it was there, share of the way
     that it made, what ended it). `watch`: a machine that tips has not lifted."""
-    rig = b.rig(drives)
+    rig = trial.rig(drives)
     try:
         rig.pose(state)
         bench = Bench(rig.mechanism, chain=rig.chain)
-        start, end = _ends(b, bench, state)
+        start, end = _ends(trial, bench, state)
         way = abs(end - start)
         if way == 0.0:
             raise Unmeasurable("the actuator is at its end already")
-        pace = paces(rig.chain, tuple(m for m in rig.moves if m.joint == b.driven))[b.driven]
+        pace = paces(rig.chain, tuple(m for m in rig.moves if m.joint == trial.driven))[trial.driven]
         # The lever stays open to the end of the stroke: no slowing down before it.
         path = np.clip(travel(start, 2.0 * end - start, speed, rig.timestep, pace), min(start, end), max(start, end))
         path = np.append(path, np.full(rig.steps(way / speed + 2.0), end))
         targets = {m.joint: np.full(len(path), rig.chain.coordinate(state, m.joint)) for m in rig.moves}
-        told = carried(rig.chain, rig.moves, {**targets, b.driven: path}, rig.timestep)
+        told = carried(rig.chain, rig.moves, {**targets, trial.driven: path}, rig.timestep)
         upright, share, best, since = rig.upright(), 0.0, 0.0, 0.0
         look = max(1, round(_LOOK / rig.timestep))
         for number in range(len(path)):
@@ -336,7 +344,7 @@ def _run(
             if number % look:
                 continue
             now = (number + 1) * rig.timestep
-            share = (rig.coordinate(b.driven) - start) / (end - start)
+            share = (rig.coordinate(trial.driven) - start) / (end - start)
             if not math.isfinite(share):
                 raise Unmeasurable("the simulation broke down")
             if share >= 1.0 - SHARE:

@@ -13,9 +13,11 @@ from yellowiron.kinematics import ClosedChain, State
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Body, Drive, Joint, Mechanism, Site
 from yellowiron.simulation.commands import Motion, motions, travel
-from yellowiron.simulation.engine import Base, Setup, coordinates, load_engine, poses, standing_bodies, tell
+from yellowiron.simulation.engine import Base, Setup, coordinates, poses, tell
+from yellowiron.simulation.ground import standing_bodies
 from yellowiron.simulation.loads import carried, paces, weight
 from yellowiron.simulation.machine_tests.statics import motion
+from yellowiron.simulation.registry import load_engine
 
 SETTLE = 1.0
 """Seconds of rest before the machine is posed, and after."""

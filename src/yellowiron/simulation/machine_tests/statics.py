@@ -12,10 +12,8 @@ from yellowiron.kinematics import ClosedChain, State
 from yellowiron.kinematics.measuring.quantities import Unmeasurable, wheels
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Mechanism, Site
-from yellowiron.simulation.engine import TOUCHING, standing_bodies
-from yellowiron.simulation.loads import GRAVITY
-
-_STEP = 1e-4
+from yellowiron.simulation.ground import TOUCHING, standing_bodies
+from yellowiron.simulation.loads import GRAVITY, beside
 
 
 def place(chain: ClosedChain, state: State, site: Site, offset: float = 0.0) -> Floats:
@@ -27,9 +25,7 @@ def place(chain: ClosedChain, state: State, site: Site, offset: float = 0.0) -> 
 
 def motion(chain: ClosedChain, state: State, joint: str, site: Site, offset: float = 0.0) -> Floats:
     """Velocity (3,) of a site per unit velocity of an independent coordinate, the others held."""
-    at = chain.coordinate(state, joint)
-    ends = [chain.reach({joint: at + step}, start=state)[0] for step in (-_STEP, _STEP)]
-    way = chain.coordinate(ends[1], joint) - chain.coordinate(ends[0], joint)
+    ends, way = beside(chain, state, joint)
     if way <= 0.0:
         raise Unmeasurable(f"the linkage locks at '{joint}'")
     return (place(chain, ends[1], site, offset) - place(chain, ends[0], site, offset)) / way

@@ -11,7 +11,7 @@ from yellowiron import usd
 from yellowiron.kinematics import attached
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.mechanism import Body, Joint, Mechanism, chained
-from yellowiron.simulation.driving.tracked import pitch_radius
+from yellowiron.simulation.driving.wheel import pitch_radius
 from yellowiron.simulation.engine import Base
 
 
@@ -19,7 +19,7 @@ def held_machine(usd_path: str | Path, base: Base) -> tuple[Mechanism, tuple[Bod
     """The machine without bodies that nothing holds, and its bodies that differ from the file's: a sprocket has the
     inertia of the ring that would run around with it, as a hoop. Bare, it is so light that a motor's torque takes it
     past its speed within a step. `YellowironError` for a machine that would stand on them."""
-    mechanism = usd.read_machine(usd_path)
+    mechanism = usd.read_mechanism(usd_path)
     if mechanism.floating and base == "floating":
         raise YellowironError(
             "The machine stands on track shoes that are bodies of their own, which this test does not follow",

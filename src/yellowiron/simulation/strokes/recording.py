@@ -9,12 +9,12 @@ from numpy.typing import NDArray
 
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Mechanism
-from yellowiron.model.sweep import Frame, Sweep, Track
+from yellowiron.model.sweep import Snapshot, Sweep, Trace
 from yellowiron.simulation.commands import Motion, Phase
 
 POINTS = 240
 """Times kept of a sweep."""
-FRAMES = 5
+SNAPSHOTS = 5
 """Poses kept of a sweep, from low to high."""
 
 
@@ -40,13 +40,13 @@ def record(
         times=np.asarray((ends + 1) * timestep, dtype=np.float64),
         pin_error=_worst(pins, starts),
         angle_error=_worst(angles, starts),
-        tracks=tuple(
-            _track(motion, phase.targets[motion.joint], measured[:, column], ends, timestep)
+        traces=tuple(
+            _trace(motion, phase.targets[motion.joint], measured[:, column], ends, timestep)
             for column, motion in enumerate(moves)
             if motion.joint in phase.targets
         ),
-        frames=tuple(
-            Frame((step + 1) * timestep, share, _poses(mechanism, rotations[step], origins[step]))
+        snapshots=tuple(
+            Snapshot((step + 1) * timestep, share, _poses(mechanism, rotations[step], origins[step]))
             for step, share in _steps(phase, moves, measured[:count])
         ),
     )
@@ -59,15 +59,15 @@ def _worst(values: Floats, starts: NDArray[np.int64]) -> Floats:
     return np.maximum.reduceat(values, starts) if len(starts) else np.zeros(0)
 
 
-def _track(motion: Motion, targets: Floats, values: Floats, ends: NDArray[np.int64], timestep: float) -> Track:
+def _trace(motion: Motion, targets: Floats, values: Floats, ends: NDArray[np.int64], timestep: float) -> Trace:
     if motion.position:
-        return Track(motion.joint, "position", _share(motion, targets[ends]), _share(motion, values[ends]))
+        return Trace(motion.joint, "position", _share(motion, targets[ends]), _share(motion, values[ends]))
     # A speed between two kept times, against the mean target between them.
     begins = np.concatenate([[0], ends[:-1]]) if len(ends) else ends
     gone = np.maximum(ends - begins, 1)
     sums = np.concatenate([[0.0], np.cumsum(targets)])
     wanted = (sums[ends + 1] - sums[begins + 1]) / gone
-    return Track(motion.joint, "velocity", wanted, (values[ends] - values[begins]) / (gone * timestep))
+    return Trace(motion.joint, "velocity", wanted, (values[ends] - values[begins]) / (gone * timestep))
 
 
 def _share(motion: Motion, values: Floats) -> Floats:
@@ -87,9 +87,9 @@ def _steps(phase: Phase, moves: Sequence[Motion], measured: Floats) -> list[tupl
         if motion.joint in phase.targets and motion.position
     ]
     if not shares:
-        return [(int(step), None) for step in np.linspace(first, last, FRAMES).round()]
+        return [(int(step), None) for step in np.linspace(first, last, SNAPSHOTS).round()]
     way = np.mean(shares, axis=0)
-    wanted = np.linspace(way[0], way[-1], FRAMES)
+    wanted = np.linspace(way[0], way[-1], SNAPSHOTS)
     return [(first + at, float(way[at])) for at in (int(np.abs(way - share).argmin()) for share in wanted)]
 
 

@@ -18,19 +18,12 @@ from yellowiron.model.mechanism import Mechanism
 from yellowiron.model.sweep import Sweep
 from yellowiron.simulation.commands import Motion, Phase, motions, phases
 from yellowiron.simulation.driving.rolling import rolling
-from yellowiron.simulation.driving.wheeled import Wheel, wheels
-from yellowiron.simulation.engine import (
-    Base,
-    Engine,
-    Readings,
-    Setup,
-    find_engine,
-    import_engine,
-    load_engine,
-    standing_bodies,
-)
+from yellowiron.simulation.driving.wheel import DrivenWheel, driven_wheels
+from yellowiron.simulation.engine import Base, Engine, Readings, Setup
+from yellowiron.simulation.ground import standing_bodies
 from yellowiron.simulation.loads import carried, paces
 from yellowiron.simulation.payload import with_payload
+from yellowiron.simulation.registry import find_engine, import_engine, load_engine
 from yellowiron.simulation.strokes.comparison import Agreement, Comparison, Worst
 from yellowiron.simulation.strokes.held import held_machine
 from yellowiron.simulation.strokes.recording import record
@@ -114,14 +107,14 @@ def play(engine: Engine, joints: Sequence[str], rows: Floats) -> Readings:
     return engine.read(states)
 
 
-def _wheels(mechanism: Mechanism) -> tuple[Wheel, ...]:
+def _wheels(mechanism: Mechanism) -> tuple[DrivenWheel, ...]:
     with contextlib.suppress(YellowironError):  # tracks, feet
-        return wheels(mechanism)
+        return driven_wheels(mechanism)
     return ()
 
 
 @dataclass
-class _Seen:
+class _DriveRecord:
     """What one driven joint did."""
 
     final_error: float = 0.0
@@ -138,8 +131,8 @@ class _Run:
     comparison: Comparison
     moves: tuple[Motion, ...]
     timestep: float
-    wheels: tuple[Wheel, ...] = ()
-    seen: dict[str, _Seen] = field(default_factory=dict)
+    wheels: tuple[DrivenWheel, ...] = ()
+    seen: dict[str, _DriveRecord] = field(default_factory=dict)
     done: list[tuple[Phase, Agreement]] = field(default_factory=list)
     sweeps: list[Sweep] = field(default_factory=list)
     steps: int = 0
@@ -182,7 +175,7 @@ class _Run:
             values, targets = measured[:, self.comparison.measured.index(motion.joint)], phase.targets[motion.joint]
             if not np.isfinite(values).all():
                 continue
-            seen = self.seen.setdefault(motion.joint, _Seen())
+            seen = self.seen.setdefault(motion.joint, _DriveRecord())
             change = np.abs(np.diff(targets)) / self.timestep if motion.position else np.abs(targets)
             seen.fastest = max(seen.fastest, float(change.max(initial=0.0)))
             if motion.position:
@@ -250,7 +243,7 @@ class _Run:
         return f"{worst.where}, {phase.name}, {worst.step * self.timestep:.2f} s" if worst.where else ""
 
 
-def _actuator(motion: Motion, seen: _Seen, base: Base, unit: str) -> ActuatorResult:
+def _actuator(motion: Motion, seen: _DriveRecord, base: Base, unit: str) -> ActuatorResult:
     speed = motion.top_speed(on_ground=base == "floating")
     return ActuatorResult(
         actuator=motion.actuator,

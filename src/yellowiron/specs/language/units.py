@@ -7,7 +7,7 @@ import re
 from dataclasses import dataclass
 from typing import Literal
 
-from yellowiron.model.units import SI_UNIT, to_si
+from yellowiron.support.units import SI_UNIT, to_si
 
 System = Literal["metric", "imperial", "both"]
 

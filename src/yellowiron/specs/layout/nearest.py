@@ -13,10 +13,10 @@ from typing import Literal
 from yellowiron.specs.language.numbers import read
 from yellowiron.specs.layout.rows.headings import body_size, is_heading
 from yellowiron.specs.layout.rows.legends import key_legend, spelled
-from yellowiron.specs.layout.rows.lines import Line, lines_of
+from yellowiron.specs.layout.rows.lines import TextLine, lines_of
 from yellowiron.specs.layout.statement import (
-    Piece,
     Statement,
+    TextPiece,
     is_key,
     is_unit,
     joined,
@@ -54,7 +54,7 @@ class Near:
 class _Placed:
     """A piece of text with its box, measured once; `alone` on its line."""
 
-    piece: Piece
+    piece: TextPiece
     box: Box
     alone: bool
 
@@ -82,7 +82,7 @@ def nearest_of(page: Page) -> tuple[Near, ...]:
                 continue
             before, between = _left_of(line, index)
             after = is_unit(line.pieces[index + 1].bare) if index + 1 < len(line.pieces) else ""
-            sides: list[tuple[Side, list[Piece]]] = [("left", before)]
+            sides: list[tuple[Side, list[TextPiece]]] = [("left", before)]
             sides += [("above", _stack(value, texts, up=True)), ("below", _stack(value, texts, up=False))]
             box = value.box
             over = tuple(h.bare for h, b in zip(reversed(heads), reversed(boxes), strict=True)
@@ -106,32 +106,32 @@ def nearest_of(page: Page) -> tuple[Near, ...]:
     return tuple(found)
 
 
-def _may_head(piece: Piece) -> bool:
+def _may_head(piece: TextPiece) -> bool:
     """Whether a piece may name a column: words, also with a number ("2.9 m arm")."""
     kind = kind_of(piece)
     return kind == "text" or (kind == "value" and bool(words_beside_numbers(piece.bare, read(piece.bare))))
 
 
-def _is_part(value: Piece) -> bool:
+def _is_part(value: TextPiece) -> bool:
     """Whether a piece is no value by itself: one digit alone, or the end of what begins in other brackets."""
     return len(value.bare) < 2 or value.text.count("(") != value.text.count(")")
 
 
-def _named(statement: Statement, label: Sequence[Piece], headings: Sequence[_Placed]) -> Statement:
+def _named(statement: Statement, label: Sequence[TextPiece], headings: Sequence[_Placed]) -> Statement:
     """The statement with its label and heading, each without the unit that it gives."""
     words, unit = unit_in_label(without_key(joined(p.bare for p in label)))
     section, said = unit_of_heading(_heading(label, headings))
     return replace(statement, label=words, section=section, unit=statement.unit or unit or said)
 
 
-def _quote(side: Side, label: Sequence[Piece], value: Piece, unit: str) -> str:
+def _quote(side: Side, label: Sequence[TextPiece], value: TextPiece, unit: str) -> str:
     """What the page prints, from top to bottom."""
     words = [p.text for p in label]
     own = [value.text, *([unit] if unit else [])]
     return " … ".join([*own, *words] if side == "below" else [*words, *own])
 
 
-def _left_of(line: Line, index: int) -> tuple[list[Piece], str]:
+def _left_of(line: TextLine, index: int) -> tuple[list[TextPiece], str]:
     """The label to the left of a value, past other values, keys and units; the unit that stands between."""
     unit = ""
     for piece in reversed(line.pieces[:index]):
@@ -143,11 +143,11 @@ def _left_of(line: Line, index: int) -> tuple[list[Piece], str]:
     return [], ""
 
 
-def _stack(value: Piece, texts: Iterable[_Placed], *, up: bool) -> list[Piece]:
+def _stack(value: TextPiece, texts: Iterable[_Placed], *, up: bool) -> list[TextPiece]:
     """The lines of words right over a value, or right under it, of one size, from top to bottom."""
     edges, own = value.box, value.size
     near = [t for t in texts if t.box[0] < edges[2] + 2 and edges[0] < t.box[2] + 2]
-    found: list[Piece] = []
+    found: list[TextPiece] = []
     for _ in range(_MOST_LINES["above" if up else "below"]):
         gaps = [(edges[1] - t.box[3] if up else t.box[1] - edges[3], t) for t in near]
         close = [
@@ -166,7 +166,7 @@ def _stack(value: Piece, texts: Iterable[_Placed], *, up: bool) -> list[Piece]:
     return found
 
 
-def _heading(label: Sequence[Piece], headings: Sequence[_Placed]) -> str:
+def _heading(label: Sequence[TextPiece], headings: Sequence[_Placed]) -> str:
     """The nearest heading above a label, in its column."""
     x0, top = label[0].x0, min(p.box[1] for p in label)
     above = [
@@ -177,7 +177,7 @@ def _heading(label: Sequence[Piece], headings: Sequence[_Placed]) -> str:
     return max(above, key=lambda h: h.box[3]).piece.bare if above else ""
 
 
-def _sub_heading(label: Piece, alone: Sequence[_Placed]) -> tuple[str, ...]:
+def _sub_heading(label: TextPiece, alone: Sequence[_Placed]) -> tuple[str, ...]:
     """The nearest words above a label that stand alone on their line, at its left edge or out from it."""
     box = label.box
     above = [

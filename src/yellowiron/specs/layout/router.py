@@ -6,19 +6,20 @@ import re
 from collections.abc import Sequence
 from dataclasses import replace
 
-from yellowiron.specs.layout.grids.grid import Grid
-from yellowiron.specs.layout.grids.lattice import columns_of, grids_of, read_grid
+from yellowiron.specs.layout.grids.lattice import grids_of
 from yellowiron.specs.layout.grids.nested_rows import read_boxes
 from yellowiron.specs.layout.grids.open_sided import heads_above
-from yellowiron.specs.layout.rows.cells import legend_of
+from yellowiron.specs.layout.grids.table_grid import TableGrid
+from yellowiron.specs.layout.grids.table_reader import columns_of, read_grid
+from yellowiron.specs.layout.rows.cells import footnotes_of
 from yellowiron.specs.layout.rows.headings import Heading, body_size
 from yellowiron.specs.layout.rows.legends import key_legend, labelled, spelled
-from yellowiron.specs.layout.rows.lines import Line, blocks_of, lines_of
+from yellowiron.specs.layout.rows.lines import TextLine, blocks_of, lines_of
 from yellowiron.specs.layout.rows.margin import without_keys
 from yellowiron.specs.layout.rows.row_reader import read_block
 from yellowiron.specs.layout.statement import Statement, kind_of, unit_said
 from yellowiron.specs.pages.strokes import Box
-from yellowiron.specs.pages.words import Page
+from yellowiron.specs.pages.words import Page, Word
 
 
 def statements_of(page: Page) -> list[Statement]:
@@ -29,9 +30,9 @@ def statements_of(page: Page) -> list[Statement]:
     """
     lines = lines_of(page.words)
     keys = key_legend(lines)
-    notes = _footnotes(lines, body_size(page.words))
-    page = replace(page, words=tuple(w for w in page.words if id(w) not in notes))
-    page = replace(spelled(page, keys), legend=legend_of(lines))
+    notes = _footnote_words(lines, body_size(page.words))
+    page = replace(page, words=tuple(w for w in page.words if w not in notes))
+    page = replace(spelled(page, keys), footnotes=footnotes_of(lines))
     grids = grids_of(page)
     outside = [
         w
@@ -71,15 +72,15 @@ def statements_of(page: Page) -> list[Statement]:
 _NOTE = re.compile(r"[\u00b9\u00b2\u00b3\u2070-\u2079*†‡§]+[)]?|[(\[]?\d[)\]]")
 
 
-def _footnotes(lines: Sequence[Line], size: float) -> frozenset[int]:
-    """The words of footnotes, by identity: small print behind a sign. They tell circumstances, and no values."""
-    found: set[int] = set()
+def _footnote_words(lines: Sequence[TextLine], size: float) -> frozenset[Word]:
+    """The words of footnotes: small print behind a sign. They tell circumstances, and no values."""
+    found: set[Word] = set()
     for line in lines:
         first = next(
             (i for i, p in enumerate(line.pieces) if _NOTE.fullmatch(p.words[0].text) and len(p.words) > 3), None
         )
         if first is not None and all(w.size < 0.92 * size for p in line.pieces[first:] for w in p.words):
-            found.update(id(w) for p in line.pieces[first:] for w in p.words)
+            found.update(w for p in line.pieces[first:] for w in p.words)
     return frozenset(found)
 
 
@@ -89,7 +90,7 @@ def _within(inner: Box, outer: Box) -> bool:
     )
 
 
-def _title(lines: Sequence[Line], grid: Grid) -> str:
+def _title(lines: Sequence[TextLine], grid: TableGrid) -> str:
     """The words right above a table: one bold or larger piece over its left part."""
     box = grid.box
     sizes = sorted(p.size for c in grid.cells for p in c.pieces)
@@ -106,7 +107,7 @@ def _title(lines: Sequence[Line], grid: Grid) -> str:
     return ""
 
 
-def _unit_above(lines: Sequence[Line], grid: Grid) -> str:
+def _unit_above(lines: Sequence[TextLine], grid: TableGrid) -> str:
     """The unit that a line right above a table gives for its bare numbers."""
     box = grid.box
     over = [p for line in lines for p in line.pieces if 0 <= box[1] - p.box[3] < 1.5 * p.size]

@@ -8,8 +8,10 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
-from yellowiron.specs.language.numbers import FEET_INCHES, Reading, read
+from yellowiron.specs.language.numbers import Reading, read
+from yellowiron.specs.language.quantities import FEET_INCHES
 from yellowiron.specs.language.units import printed_unit, unit_pattern
+from yellowiron.specs.layout.tolerances import LONGEST_LABEL
 from yellowiron.specs.pages.strokes import Box
 from yellowiron.specs.pages.words import Word
 
@@ -29,7 +31,7 @@ _FEET_HEAD = re.compile(r"\(?\s*(?:ft\.?|feet|′|')\s*[-·.,&/ ]*\s*(?:in\.?|in
 
 
 @dataclass(frozen=True)
-class Piece:
+class TextPiece:
     """Neighbouring words on one line without a wide gap: a label, a value, a head."""
 
     words: tuple[Word, ...]
@@ -91,7 +93,7 @@ class Statement:
     `variant` is what names the row where heads name the properties (a bucket's capacity beside its width). `row` groups
     the cells of one row. `quote` is what the page prints, pieces that stand apart joined by " … "; `heads`
     are the lines over the column as printed, for a quote that needs them. `proven`: whether each part of the quote
-    stands together in the file's own text.
+    stands together in the file's own text. `sheet` is the number of its sheet among those read together, from 0.
     """
 
     page: int
@@ -109,6 +111,7 @@ class Statement:
     heads: tuple[str, ...] = ()
     variant: tuple[str, ...] = ()
     proven: bool = True
+    sheet: int = 0
 
 
 def joined(texts: Iterable[str]) -> str:
@@ -220,7 +223,7 @@ def unit_said(text: str) -> str:
     return is_unit(match.group(2)) if match and not match.group(1) else ""
 
 
-def kind_of(piece: Piece) -> str:
+def kind_of(piece: TextPiece) -> str:
     """`value`, `unit`, `mark` (an example mark, or a dash for "none", alone) or `text`."""
     bare = piece.bare
     if not bare:
@@ -282,7 +285,7 @@ def split_inline(text: str) -> tuple[str, str]:
     for reading in readings:
         start = min(q.start for q in reading.numbers)
         label, value = text[:start].rstrip(" (:-–"), text[start:]
-        if re.search(r"[^\W\d_]{2,}", label) and looks_like_value(value) and len(label.split()) <= 12:
+        if re.search(r"[^\W\d_]{2,}", label) and looks_like_value(value) and len(label.split()) <= LONGEST_LABEL:
             tail = words_beside_numbers(value, read(value))
             if len(tail) <= 4:
                 return label, value

@@ -10,7 +10,8 @@ from dataclasses import replace
 
 from yellowiron.model.specification import Candidate, Specification
 from yellowiron.model.template import Wanted
-from yellowiron.specs.values.requested import hint_for
+from yellowiron.specs.values.requested import check_hint, hint_for
+from yellowiron.specs.values.tolerances import DOUBTFUL
 
 _EQUAL = 1e-6
 """Relative difference of two readings of the same printed number."""
@@ -23,8 +24,8 @@ def agreed(wanted: Wanted, by_rules: Specification, by_model: Specification) -> 
         return replace(by_rules, reason=f"{by_rules.reason}; {by_model.reason}") if said else by_rules
     if by_rules.status == "missing":
         if by_model.status == "ok":
-            by_model = replace(by_model, status="review", confidence=min(by_model.confidence, 0.5))
-        hint = by_model.hint or f'Check it on the page; settle it with --set "{wanted.name}=VALUE UNIT".'
+            by_model = replace(by_model, status="review", confidence=min(by_model.confidence, DOUBTFUL))
+        hint = by_model.hint or check_hint(wanted.name)
         return replace(by_model, reason=f"{by_model.reason}; the rules do not find it", hint=hint)
     if by_rules.value is None or by_model.value is None:
         return by_rules  # a conflict that the rules see is not the model's to settle

@@ -14,7 +14,9 @@ from itertools import groupby
 
 from yellowiron.model.specification import Specification, fold
 from yellowiron.model.template import Wanted
-from yellowiron.specs.language.numbers import DecimalStyle, Quantity, read, same
+from yellowiron.specs.language.decimal_style import DecimalStyle
+from yellowiron.specs.language.numbers import read
+from yellowiron.specs.language.quantities import Quantity, same
 from yellowiron.specs.llm.endpoint import Answer, Endpoint
 from yellowiron.specs.llm.prompts import (
     NAMES,
@@ -30,7 +32,8 @@ from yellowiron.specs.llm.prompts import (
 )
 from yellowiron.specs.values.claims import Claim
 from yellowiron.specs.values.decision import Sheets, decide, missing
-from yellowiron.specs.values.matching import LEAST, Match, match_one, weakly
+from yellowiron.specs.values.matching import Match, match_one, weakly
+from yellowiron.specs.values.tolerances import LEAST
 
 _BATCH = 20
 """Rows that one question lists."""
@@ -179,7 +182,7 @@ def _with_other_columns(found: Match, passage: Passage) -> list[Match]:
 
 
 def _decided(wanted: Wanted, found: Sequence[Match], sheets: Sheets, config: str, model: str) -> Specification:
-    unique = {(id(m.claim), m.claim.quantity): m for m in found}
+    unique = {m.claim: m for m in found}
     specification = decide(wanted, list(unique.values()), sheets, config)
     if not found:
         return replace(missing(wanted), reason=f"{model} finds it on no sheet")

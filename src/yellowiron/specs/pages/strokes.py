@@ -13,6 +13,8 @@ Box = tuple[float, float, float, float]
 Place = Callable[[float, float], tuple[float, float]]
 """PDF user space → points from the top left of the page as shown."""
 
+SNAP = 3.0
+"""Points within which the ends and edges of rules and fills are at one place: pdfplumber's own tolerance for them."""
 _THIN = 2.5
 """A filled rectangle thinner than this is a rule."""
 

@@ -50,7 +50,8 @@ class Word:
 @dataclass(frozen=True)
 class Page:
     """What stands on a page. `number` counts from 1; `leaders` are dotted lines from a label to its value; `unmapped`
-    characters have no Unicode meaning in the file; `text` is what the file gives in its own order."""
+    characters have no Unicode meaning in the file; `footnotes` are signs and what they stand for; `text` is what the
+    file gives in its own order."""
 
     number: int
     width: float
@@ -62,7 +63,7 @@ class Page:
     characters: int = 0
     unmapped: int = 0
     images: int = 0
-    legend: dict[str, str] = field(default_factory=dict)
+    footnotes: dict[str, str] = field(default_factory=dict)
     text: str = ""
 
     @property
@@ -237,12 +238,13 @@ def _word(run: list[_Glyph]) -> Word:
 
 def _with_superscripts(words: list[Word]) -> list[Word]:
     """Raised small characters joined to the word they follow: an exponent of a unit, or a footnote's sign."""
-    small = [w for w in words if len(w.text) <= 4]
+    small = [i for i, w in enumerate(words) if len(w.text) <= 4]
     hosts: dict[int, int] = {}
     rows: dict[int, list[int]] = {}
     for index, word in enumerate(words):
         rows.setdefault(int(word.baseline // 16), []).append(index)
-    for raised in small:
+    for own in small:
+        raised = words[own]
         best: tuple[float, int] | None = None
         row = int(raised.baseline // 16)
         for index in (i for near in (row, row + 1) for i in rows.get(near, ())):
@@ -250,7 +252,7 @@ def _with_superscripts(words: list[Word]) -> list[Word]:
             gap = raised.x0 - host.x1
             lift = host.baseline - raised.baseline
             if (
-                host is not raised
+                index != own
                 and raised.size < 0.85 * host.size
                 and -0.3 * host.size < gap < 0.35 * host.size
                 and 0.12 * host.size < lift < 0.85 * host.size
@@ -258,15 +260,12 @@ def _with_superscripts(words: list[Word]) -> list[Word]:
             ):
                 best = (abs(gap), index)
         if best is not None:
-            hosts[id(raised)] = best[1]
+            hosts[own] = best[1]
     joined = list(words)
-    for raised in small:
-        index = hosts.get(id(raised), -1)
-        if index < 0:
-            continue
-        host = joined[index]
+    for own, index in hosts.items():
+        raised, host = words[own], joined[index]
         if raised.text in ("2", "3") and _SUPERSCRIPT_UNITS.search(host.text):
             joined[index] = replace(host, text=host.text + raised.text, x1=max(host.x1, raised.x1))
         else:
             joined[index] = replace(host, marks=host.marks + raised.text, x1=max(host.x1, raised.x1))
-    return [w for original, w in zip(words, joined, strict=True) if id(original) not in hosts]
+    return [w for index, w in enumerate(joined) if index not in hosts]

@@ -7,7 +7,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
-from yellowiron.specs.language.numbers import FEET_DASH, FEET_INCHES, DecimalStyle, Quantity, Reading, read, same
+from yellowiron.specs.language.decimal_style import DecimalStyle
+from yellowiron.specs.language.numbers import Reading, read
+from yellowiron.specs.language.quantities import FEET_DASH, FEET_INCHES, Quantity, same
 from yellowiron.specs.language.vocabulary import tokens
 from yellowiron.specs.layout.statement import GRAVITATIONAL, Statement
 from yellowiron.specs.values.enumerations import COUNTED_PARTS, alternatives, enumerated
@@ -133,11 +135,17 @@ def configured(claims: Sequence[Claim], config: str) -> list[Claim]:
 
 
 def phrases_in(text: str) -> set[str]:
-    """The phrases of a configuration or a head, without case and spaces; a comma between digits is a decimal one."""
-    return {_bare(phrase) for phrase in re.split(r";|,(?!\d)|(?<!\d),", text) if phrase.strip()}
+    """The phrases of a configuration or a head, without case and spaces."""
+    return {without_case(phrase) for phrase in split_phrases(text) if phrase.strip()}
 
 
-def _bare(text: str) -> str:
+def split_phrases(text: str) -> list[str]:
+    """A configuration or a head, cut at semicolons and commas; one between digits is a decimal comma: "Stiel 5,5 m"."""
+    return re.split(r";|,(?!\d)|(?<!\d),", text)
+
+
+def without_case(text: str) -> str:
+    """A text without case and spaces."""
     return "".join(text.casefold().split())
 
 

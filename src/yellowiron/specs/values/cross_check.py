@@ -12,20 +12,22 @@ from dataclasses import replace
 
 from yellowiron.model.specification import Candidate, Evidence, Specification
 from yellowiron.model.template import Wanted
-from yellowiron.model.units import SI_UNIT
-from yellowiron.specs.language.numbers import DecimalStyle, Quantity
+from yellowiron.specs.language.decimal_style import DecimalStyle
+from yellowiron.specs.language.quantities import Quantity
 from yellowiron.specs.layout.nearest import Near, Side
 from yellowiron.specs.layout.statement import Statement
 from yellowiron.specs.pages.strokes import Box
 from yellowiron.specs.values.claims import BARE_UNITS, Claim, claims_of, phrases_in
-from yellowiron.specs.values.decision import Sheets, evidence_of, printed, settled, usual
+from yellowiron.specs.values.decision import Sheets, evidence_of, printed, settled
 from yellowiron.specs.values.matching import Match, match
+from yellowiron.specs.values.requested import check_hint, usual
+from yellowiron.specs.values.tolerances import DOUBTFUL, SURE
+from yellowiron.support.units import SI_UNIT
 
-_SURE = 0.7
-"""Score that a label must have."""
 _UNITS = {**BARE_UNITS, "angle": ("°",), "time": ("s",)}
 _SIDES: tuple[Side, ...] = ("left", "above", "below")
-_CHECK = 'Check it on the page; settle it with --set "{}=VALUE UNIT".'
+_NEARBY = 0.4
+"""Confidence of a value that only the nearest words name: less than of a doubtful one whose layout was understood."""
 
 
 def second_reading(
@@ -69,7 +71,7 @@ def _undisputed(
 ) -> tuple[dict[Side, dict[str, Match]], AbstractSet[str]]:
     """By side, the wanted values of which the words there give one, and only one, that is usual; those of them at the
     left for which the configuration had to choose."""
-    place_of = {id(n.statement): n for own, _ in near for n in own}
+    place_of = {n.statement: n for own, _ in near for n in own}
     meant = phrases_in(config)
     claims = [
         claim
@@ -81,9 +83,9 @@ def _undisputed(
     chosen: set[str] = set()
     for name, matches in match(claims, asked).items():
         for side in _SIDES:
-            sure = [m for m in matches if place_of[id(m.claim.statement)].side == side and _is_sure(m)]
+            sure = [m for m in matches if place_of[m.claim.statement].side == side and _is_sure(m)]
             if meant and _differ(sure):
-                sure = [m for m in sure if _stands_under(place_of[id(m.claim.statement)], meant)]
+                sure = [m for m in sure if _stands_under(place_of[m.claim.statement], meant)]
                 chosen.update([name] if side == "left" else [])
             if sure and not _differ(sure):
                 found[side][name] = sure[0]
@@ -105,7 +107,7 @@ def _is_offered(value: Specification, one: Match) -> bool:
 
 
 def _is_sure(found: Match) -> bool:
-    return found.score >= _SURE and not found.rest and not found.claim.doubt and usual(found.wanted, _value(found))
+    return found.score >= SURE and not found.rest and not found.claim.doubt and usual(found.wanted, _value(found))
 
 
 def _in_any_unit(claims: Sequence[Claim]) -> list[Claim]:
@@ -156,9 +158,9 @@ def _to_review(wanted: Wanted, one: Match, quantity: Quantity, sheets: Sheets) -
         status="review",
         evidence=evidence_of(one, sheets),
         text=printed(quantity),
-        confidence=0.4,
+        confidence=_NEARBY,
         reason=f"the layout was not understood there; the words nearest to it match '{one.phrase}'",
-        hint=_CHECK.format(wanted.name),
+        hint=check_hint(wanted.name),
         candidates=(_candidate(wanted, one, quantity, sheets),),
     )
 
@@ -167,9 +169,9 @@ def _doubted(value: Specification, one: Match, quantity: Quantity, sheets: Sheet
     return replace(
         value,
         status="review",
-        confidence=min(value.confidence, 0.5),
+        confidence=min(value.confidence, DOUBTFUL),
         reason=f"the words of '{one.phrase}' stand beside '{quantity.text}', too; {value.reason}",
-        hint=_CHECK.format(value.name),
+        hint=check_hint(value.name),
         candidates=(*value.candidates, _candidate(one.wanted, one, quantity, sheets)),
     )
 
@@ -180,6 +182,6 @@ def _candidate(wanted: Wanted, one: Match, quantity: Quantity, sheets: Sheets) -
         unit=SI_UNIT[wanted.dimension],
         evidence=evidence_of(one, sheets),
         configuration="",
-        confidence=0.4,
+        confidence=_NEARBY,
         reason=f"the words nearest to it match '{one.phrase}'",
     )

@@ -2,35 +2,39 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from yellowiron.model.specification import Candidate, Evidence, Specification
 from yellowiron.model.template import Wanted
-from yellowiron.model.units import SI_UNIT
-from yellowiron.specs.language.numbers import DecimalStyle, Quantity, read
+from yellowiron.specs.language.decimal_style import DecimalStyle
+from yellowiron.specs.language.numbers import read
+from yellowiron.specs.language.quantities import Quantity
 from yellowiron.specs.language.vocabulary import tokens
-from yellowiron.specs.values.claims import Claim
+from yellowiron.specs.values.claims import Claim, split_phrases, without_case
 from yellowiron.specs.values.matching import Match
-from yellowiron.specs.values.requested import hint_for
+from yellowiron.specs.values.requested import check_hint, hint_for, usual
 from yellowiron.specs.values.stated_configuration import Stated
+from yellowiron.specs.values.tolerances import DOUBTFUL, SURE
+from yellowiron.support.units import SI_UNIT
 
-_SURE = 0.7
-"""Score from which one undisputed claim is `ok`."""
 _NEAR = 0.15
 """Claims this much weaker than the best still have a say."""
 _SAID = 0.5
 """A column says a phrase of the configuration if it says this share of its words."""
 
 
+Column = tuple[int, int, tuple[str, ...]]
+"""A column of a table: sheet, page, the heads over it."""
+
+
 @dataclass(frozen=True)
 class Sheets:
-    """What `decide` must know of the sheets. By statement identity: its file; the quantities of its column. `stated`:
-    sentences that may say which configuration is meant."""
+    """What `decide` must know of the sheets: their `files`, in the order that `Statement.sheet` counts; by sheet, page
+    and heads the quantities of a `column`; sentences that may say which configuration is meant (`stated`)."""
 
-    files: Mapping[int, str]
-    columns: Mapping[int, frozenset[str]]
+    files: Sequence[str]
+    columns: Mapping[Column, frozenset[str]]
     stated: tuple[Stated, ...] = ()
 
 
@@ -52,7 +56,7 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
     quantity, doubt = settled(wanted, top.claim)
     if top.rest:
         doubt = doubt or f"the label also says {', '.join(repr(word) for word in top.rest)}"
-    elif top.score < _SURE:
+    elif top.score < SURE:
         doubt = doubt or f"only part of the label says {wanted.name}"
     if not top.claim.statement.proven:
         doubt = doubt or "its words do not stand together in the page's text"
@@ -67,9 +71,9 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
         evidence=evidence_of(top, sheets),
         text=printed(quantity),
         example=all(m.claim.statement.example for m in group),
-        confidence=round(min(top.score, 0.5 if doubt else 1.0), 3),
+        confidence=round(min(top.score, DOUBTFUL if doubt else 1.0), 3),
         reason=doubt or _reason(top, group) + (f"; page {said.page} says: “{said.sentence}”" if said else ""),
-        hint=f'Check it on the page; settle it with --set "{wanted.name}=VALUE UNIT".' if doubt else "",
+        hint=check_hint(wanted.name) if doubt else "",
         candidates=(_candidate(top, sheets, value),),
     )
 
@@ -104,7 +108,7 @@ def evidence_of(found: Match, sheets: Sheets) -> Evidence:
     box = tuple(round(v, 2) for v in statement.box)
     heads = statement.heads if found.by_head else ()
     quote = " … ".join(dict.fromkeys([*heads, statement.quote]))
-    return Evidence(sheets.files[id(statement)], statement.page, quote, (box[0], box[1], box[2], box[3]))
+    return Evidence(sheets.files[statement.sheet], statement.page, quote, (box[0], box[1], box[2], box[3]))
 
 
 def _preference(found: Match) -> tuple[float, bool, bool, bool, float]:
@@ -125,7 +129,7 @@ def _configured(matches: Sequence[Match], sheets: Sheets, config: str) -> list[M
     head that says the phrase and no more ("Teeth") beats one that says more ("Teeth and segments")."""
     kept = list(matches)
     for phrase, words in phrases_of(config).items():
-        named = [m for m in kept if any(_bare(phrase) == _bare(h) for h in configured_by(m.claim))]
+        named = [m for m in kept if any(without_case(phrase) == without_case(h) for h in configured_by(m.claim))]
         if named:  # a head that is the phrase, to the letter: "M12-L" is not "M12"
             kept = named
             continue
@@ -140,14 +144,9 @@ def _configured(matches: Sequence[Match], sheets: Sheets, config: str) -> list[M
     return [_explained(m, set(tokens(config))) for m in kept]
 
 
-def _bare(text: str) -> str:
-    return "".join(text.casefold().split())
-
-
 def phrases_of(config: str) -> dict[str, set[str]]:
     """The phrases of a configuration that say anything, with their words."""
-    # A comma between digits is a decimal one: "Stiel 5,5 m".
-    phrases = {phrase.strip(): _words_of(phrase) for phrase in re.split(r";|,(?!\d)|(?<!\d),", config)}
+    phrases = {phrase.strip(): _words_of(phrase) for phrase in split_phrases(config)}
     return {phrase: words for phrase, words in phrases.items() if words}
 
 
@@ -229,7 +228,7 @@ def _config_words(claim: Claim, sheets: Sheets) -> set[str]:
     words = {t for text in texts for t in tokens(text)}
     for text in (*statement.column, *statement.variant):
         words |= quantity_words(text)
-    return words | sheets.columns.get(id(statement), frozenset())
+    return words | sheets.columns.get((statement.sheet, statement.page, statement.column), frozenset())
 
 
 # ---- values --------------------------------------------------------------------------------------------------------
@@ -289,13 +288,6 @@ def printed(quantity: Quantity) -> str:
 
 def _is_imperial(quantity: Quantity) -> bool:
     return quantity.printed is not None and quantity.printed.system == "imperial"
-
-
-def usual(wanted: Wanted, value: float) -> bool:
-    """Whether a value, in SI, lies where the wanted one can lie."""
-    low = wanted.minimum if wanted.minimum is not None else float("-inf")
-    high = wanted.maximum if wanted.maximum is not None else float("inf")
-    return low <= value <= high
 
 
 def _candidate(found: Match, sheets: Sheets, value: float) -> Candidate:

@@ -26,9 +26,9 @@ from yellowiron.specs.language.vocabulary import (
     tokens,
 )
 from yellowiron.specs.values.claims import Claim
+from yellowiron.specs.values.requested import usual
+from yellowiron.specs.values.tolerances import LEAST
 
-LEAST = 0.55
-"""Score below which a claim does not speak of a wanted value at all."""
 _EXTREME = {"maximum"}
 """Says of a label no more than makers mean without it; a value of which both are asked forbids it."""
 _WHOLE = {"overall"}
@@ -92,9 +92,7 @@ def _possible(found: Match) -> bool:
     wanted, quantity = found.wanted, found.claim.quantity
     scale = quantity.si_value / quantity.value if quantity.value else 1.0
     readings = [quantity.si_value, *([quantity.other * scale] if quantity.other is not None else [])]
-    low = wanted.minimum if wanted.minimum is not None else float("-inf")
-    high = wanted.maximum if wanted.maximum is not None else float("inf")
-    return any(low <= reading <= high for reading in readings)
+    return any(usual(wanted, reading) for reading in readings)
 
 
 def _by_dimension(wanted: Sequence[Wanted]) -> dict[str, list[Wanted]]:

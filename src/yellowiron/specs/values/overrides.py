@@ -9,10 +9,10 @@ from yellowiron.model.errors import YellowironError
 from yellowiron.model.finding import Finding
 from yellowiron.model.specification import Specification, Specifications, fold
 from yellowiron.model.template import Template, Variant, Wanted
-from yellowiron.model.text import display
-from yellowiron.model.units import SI_UNIT
 from yellowiron.specs.language.numbers import parse_one
 from yellowiron.specs.values.requested import asked, hint_for
+from yellowiron.support.text import display
+from yellowiron.support.units import SI_UNIT
 
 _WHERE = "--set"
 _SIGNED = {"angle", "count"}

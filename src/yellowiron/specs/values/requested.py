@@ -1,4 +1,4 @@
-"""Which values a template asks a sheet for."""
+"""Which values a template asks a sheet for, where they lie, and what a person is told of them."""
 
 from __future__ import annotations
 
@@ -40,6 +40,18 @@ def hint_for(wanted: Wanted) -> str:
     """What a missing value is, where makers print it and how to give it."""
     say = _explained(wanted)
     return f"{wanted.name} ({say['what']}). Look in {say['where']}; give it with --set {say['set']}."
+
+
+def check_hint(name: str) -> str:
+    """What to do with a value that is to be reviewed."""
+    return f'Check it on the page; settle it with --set "{name}=VALUE UNIT".'
+
+
+def usual(wanted: Wanted, value: float) -> bool:
+    """Whether a value, in SI, lies where the wanted one can lie."""
+    low = wanted.minimum if wanted.minimum is not None else float("-inf")
+    high = wanted.maximum if wanted.maximum is not None else float("inf")
+    return low <= value <= high
 
 
 def missing_values(template: Template, specifications: Specifications) -> tuple[dict[str, str], ...]:

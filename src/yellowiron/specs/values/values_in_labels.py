@@ -7,10 +7,13 @@ from dataclasses import replace
 
 from yellowiron.model.specification import Specification
 from yellowiron.model.template import Wanted
-from yellowiron.model.units import SI_UNIT
-from yellowiron.specs.language.numbers import DecimalStyle, Quantity, read
+from yellowiron.specs.language.decimal_style import DecimalStyle
+from yellowiron.specs.language.numbers import read
+from yellowiron.specs.language.quantities import Quantity
 from yellowiron.specs.values.decision import Sheets, evidence_of, missing
 from yellowiron.specs.values.matching import Match
+from yellowiron.specs.values.requested import usual
+from yellowiron.support.units import SI_UNIT
 
 
 def in_label(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, style: DecimalStyle) -> Specification:
@@ -42,14 +45,8 @@ def _quantity(wanted: Wanted, label: str, style: DecimalStyle) -> Quantity | Non
     """The first quantity of the wanted dimension in a label, metric where it is in both systems."""
     for reading in read(label, style=style):
         both = (*reading.numbers, *reading.partner)
-        fitting = [q for q in both if q.dimension == wanted.dimension and _usual(wanted, q.si_value)]
+        fitting = [q for q in both if q.dimension == wanted.dimension and usual(wanted, q.si_value)]
         metric = [q for q in fitting if q.printed is not None and q.printed.system == "metric"]
         if fitting:
             return (metric or fitting)[0]
     return None
-
-
-def _usual(wanted: Wanted, value: float) -> bool:
-    low = wanted.minimum if wanted.minimum is not None else float("-inf")
-    high = wanted.maximum if wanted.maximum is not None else float("inf")
-    return low <= value <= high

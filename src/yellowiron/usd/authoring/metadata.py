@@ -18,8 +18,8 @@ from pxr import Gf, Sdf, Vt
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.mechanism import Body, BodyPart, Joint, Mechanism, Site
 from yellowiron.model.sensor import Sensor
+from yellowiron.support.record import RECORD
 
-KEY = "yellowiron"
 FORMAT = 1
 """The version of the form that `describe_machine` writes and `read` understands."""
 
@@ -41,7 +41,7 @@ DOCUMENTS = (
 
 def set_custom(spec: Sdf.PrimSpec, values: Mapping[str, Any]) -> None:
     """Writes `customData = {dictionary yellowiron = values}`; None values are left out."""
-    spec.SetInfo("customData", {KEY: {k: v for k, v in values.items() if v is not None and v != ""}})
+    spec.SetInfo("customData", {RECORD: {k: v for k, v in values.items() if v is not None and v != ""}})
 
 
 def describe_machine(mechanism: Mechanism) -> dict[str, Any]:

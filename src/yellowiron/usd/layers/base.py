@@ -23,7 +23,7 @@ from yellowiron.usd.authoring.stage import (
     set_transform,
 )
 from yellowiron.usd.layers.geometry import mirrored_path, pieces_path
-from yellowiron.usd.planning.pin_links import write_end_frames
+from yellowiron.usd.planning.pin_links import write_pin_frames
 from yellowiron.usd.planning.plan import COLLIDERS, GEOMETRY_FILE, HULL, VISUALS, PlacedPart, Plan
 from yellowiron.usd.planning.primitives import Primitive, fit_primitive
 
@@ -54,7 +54,7 @@ def write_bodies(layer: Sdf.Layer, plan: Plan) -> None:
             add_reference(define(layer, f"{path}/{HULL}"), f"./{GEOMETRY_FILE}", plan.hull_paths[body.name])
         for site in sites.get(body.name, ()):
             _write_site(layer, plan.site_paths[site.name], site, body)
-    write_end_frames(layer, plan.ends)
+    write_pin_frames(layer, plan.pin_links)
 
 
 def _write_visuals(layer: Sdf.Layer, body: str, parts: tuple[PlacedPart, ...]) -> None:

@@ -57,7 +57,7 @@ def write_joints(layer: Sdf.Layer, plan: Plan) -> None:
 def _write_frames(spec: Sdf.PrimSpec, joint: Joint, plan: Plan) -> None:
     """Body relationships and local frames. Bodies' axes are parallel to the machine's, so one rotation serves both."""
     rotation = Gf.Quatf(Gf.Quatd(*quaternion_to(joint.axis)))
-    ends = {end.side: end for end in plan.ends if end.joint is joint}
+    ends = {link.side: link for link in plan.pin_links if link.joint is joint}
     for side, name in enumerate((joint.body0, joint.body1)):
         set_targets(spec, f"physics:body{side}", ends[side].path if side in ends else plan.body_paths[name])
         origin = joint.anchor if side in ends else plan.mechanism.body(name).origin

@@ -7,9 +7,11 @@ stiff enough at time steps of a millisecond. Newton closes a revolute cut by two
 from __future__ import annotations
 
 import math
+from collections.abc import Container
 
 from pxr import Sdf, Vt
 
+from yellowiron.model.mechanism import Body
 from yellowiron.usd.authoring.stage import Types, apply_schemas, over, set_attribute
 from yellowiron.usd.layers.articulation import articulation_roots
 from yellowiron.usd.layers.base import shape_path
@@ -29,17 +31,14 @@ _EQUALITIES = {"spherical": "MjcEqualityConnectAPI", "fixed": "MjcEqualityWeldAP
 
 
 def write_mujoco(layer: Sdf.Layer, base: Sdf.Layer, plan: Plan) -> None:
-    """Equalities on the cuts, self-collision off, velocity limits, sites, signed distance fields."""
+    """Equalities on the cuts, self-collision off, velocity limits, sites, signed distance fields. `base` is the layer
+    of the colliders."""
     for root in articulation_roots(layer, plan):
         apply_schemas(root, "NewtonArticulationRootAPI")
         set_attribute(root, "newton:selfCollisionEnabled", Types.Bool, False)
     for joint in plan.mechanism.joints:
-        equality = _EQUALITIES.get(usd_type(joint)) if joint.cut else None
-        if equality is not None:
-            spec = over(layer, plan.joint_paths[joint.name])
-            apply_schemas(spec, equality)
-            set_attribute(spec, "mjc:solref", Types.DoubleArray, Vt.DoubleArray(SOLREF), uniform=True)
-            set_attribute(spec, "mjc:solimp", Types.DoubleArray, Vt.DoubleArray(SOLIMP), uniform=True)
+        if joint.cut and (equality := _EQUALITIES.get(usd_type(joint))) is not None:
+            _write_equality(over(layer, plan.joint_paths[joint.name]), equality)
         elif joint.drive is not None and not joint.cut and 0.0 < joint.drive.max_velocity < math.inf:
             spec = over(layer, plan.joint_paths[joint.name])
             apply_schemas(spec, "NewtonJointAPI")
@@ -49,18 +48,27 @@ def write_mujoco(layer: Sdf.Layer, base: Sdf.Layer, plan: Plan) -> None:
         apply_schemas(over(layer, path), "NewtonSiteAPI")
     ruling = {name for name, m in plan.mechanism.materials.items() if m.friction_combine in RULING}
     for body in plan.mechanism.bodies:
-        own = [(shape_path(plan.body_paths[body.name], s), s.material) for s in body.shapes]
-        drawn = [
-            (f"{plan.body_paths[body.name]}/{COLLIDERS}/{p.name}", p.data.material)
-            for p in plan.parts[body.name]
-            if p.approximation.usd
-        ]
-        for path, material in (*own, *drawn) if ruling else ():
-            if material in ruling:
-                spec = over(layer, path)
-                apply_schemas(spec, "MjcCollisionAPI")
-                set_attribute(spec, "mjc:priority", Types.Int, 1, uniform=True)
+        _write_priorities(layer, plan, body, ruling)
         for placed in plan.parts[body.name]:
             path = f"{plan.body_paths[body.name]}/{COLLIDERS}/{placed.name}"
             if placed.approximation.newton_schema and base.GetPrimAtPath(path).typeName == "Mesh":
                 apply_schemas(over(layer, path), placed.approximation.newton_schema)
+
+
+def _write_equality(joint: Sdf.PrimSpec, equality: str) -> None:
+    """The constraint that closes a cut."""
+    apply_schemas(joint, equality)
+    set_attribute(joint, "mjc:solref", Types.DoubleArray, Vt.DoubleArray(SOLREF), uniform=True)
+    set_attribute(joint, "mjc:solimp", Types.DoubleArray, Vt.DoubleArray(SOLIMP), uniform=True)
+
+
+def _write_priorities(layer: Sdf.Layer, plan: Plan, body: Body, ruling: Container[str]) -> None:
+    """Colliders of a body whose material is a `ruling` one rule by priority."""
+    home = plan.body_paths[body.name]
+    own = [(shape_path(home, s), s.material) for s in body.shapes]
+    drawn = [(f"{home}/{COLLIDERS}/{p.name}", p.data.material) for p in plan.parts[body.name] if p.approximation.usd]
+    for path, material in (*own, *drawn):
+        if material in ruling:
+            spec = over(layer, path)
+            apply_schemas(spec, "MjcCollisionAPI")
+            set_attribute(spec, "mjc:priority", Types.Int, 1, uniform=True)

@@ -13,7 +13,7 @@ from yellowiron.usd.layers.articulation import articulation_roots
 from yellowiron.usd.layers.base import shape_path
 from yellowiron.usd.layers.joints import write_joints
 from yellowiron.usd.planning.overlap import overlapping_bodies
-from yellowiron.usd.planning.pin_links import write_ends
+from yellowiron.usd.planning.pin_links import write_pin_links
 from yellowiron.usd.planning.plan import COLLIDERS, MATERIALS, MESH, PIECE, PlacedPart, Plan
 
 
@@ -35,7 +35,7 @@ def write_physics(layer: Sdf.Layer, base: Sdf.Layer, plan: Plan) -> None:
             _write_touching(over(layer, shape_path(str(spec.path), shape)), shape.material, plan)
     _write_filtered_pairs(layer, plan)
     write_joints(layer, plan)
-    write_ends(layer, plan.ends, plan.mechanism, plan.body_paths)
+    write_pin_links(layer, plan.pin_links, plan.mechanism, plan.body_paths)
     for spec in articulation_roots(layer, plan):
         apply_schemas(spec, "PhysicsArticulationRootAPI")
 

@@ -18,8 +18,10 @@ import numpy as np
 from pxr import Gf, Sdf, Usd, UsdGeom
 
 from yellowiron.model.geometry import Floats
-from yellowiron.model.sensor import Sensor, Vector
-from yellowiron.usd.authoring.metadata import KEY, describe_sensor, from_json, set_custom, to_json
+from yellowiron.model.sensor import Sensor
+from yellowiron.support.record import RECORD
+from yellowiron.support.vectors import triple
+from yellowiron.usd.authoring.metadata import describe_sensor, from_json, set_custom, to_json
 from yellowiron.usd.authoring.rotation import quaternion_of
 from yellowiron.usd.authoring.stage import (
     Types,
@@ -122,13 +124,13 @@ def _axes(sensor: Sensor) -> Floats:
 def read_sensors(machine: Usd.Prim, cache: UsdGeom.XformCache) -> tuple[Sensor, ...]:
     """The sensors of a machine's prim, as they were written or have been edited since: a prim that was moved, a lens
     that was changed; a prim that was removed takes its sensor with it."""
-    text = machine.GetCustomDataByKey(f"{KEY}:sensors")
+    text = machine.GetCustomDataByKey(f"{RECORD}:sensors")
     if not text:
         return ()
     prims = {}
     for body in machine.GetChildren():
         for prim in body.GetChildren():
-            data = prim.GetCustomDataByKey(KEY)
+            data = prim.GetCustomDataByKey(RECORD)
             if data and data.get("kind") == "sensor":
                 prims[str(data["name"])] = prim
     recorded: tuple[Sensor, ...] = from_json(tuple[Sensor, ...], text)
@@ -147,9 +149,9 @@ def _edited(sensor: Sensor, prim: Usd.Prim, machine: Usd.Prim, cache: UsdGeom.Xf
         axes = axes @ _CAMERA_AXES.T
         sensor = replace(sensor, parameters=_optics(sensor, UsdGeom.Camera(prim)))
     if np.abs(position - sensor.position).max() > _EXACT:
-        sensor = replace(sensor, position=_vector(position))
+        sensor = replace(sensor, position=triple(position))
     if np.abs(axes - _axes(sensor)).max() > _EXACT:
-        sensor = replace(sensor, x_axis=_vector(axes[:, 0]), z_axis=_vector(axes[:, 2]))
+        sensor = replace(sensor, x_axis=triple(axes[:, 0]), z_axis=triple(axes[:, 2]))
     return sensor
 
 
@@ -164,7 +166,3 @@ def _optics(sensor: Sensor, camera: UsdGeom.Camera) -> Mapping[str, float]:
     }
     changed = {k: v for k, v in found.items() if abs(v - sensor.parameters[k]) > _EXACT * abs(sensor.parameters[k])}
     return {**sensor.parameters, **changed}
-
-
-def _vector(values: Floats) -> Vector:
-    return (float(values[0]), float(values[1]), float(values[2]))

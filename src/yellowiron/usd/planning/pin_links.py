@@ -1,4 +1,4 @@
-"""Pin ends: links of their own at both ends of a cut pin, on machines that a motor slews.
+"""Pin links: links of their own at both ends of a cut pin, on machines that a motor slews.
 
 Within a step PhysX (its TGS solver) carries a link's centre of mass straight on, so that the common turn of a cut's two
 links seems to pull the cut apart by (speed x step)² / 2 times the distance of their centres of mass. Of that it closes
@@ -35,11 +35,11 @@ KIND = "end"
 SHARE = 1e-5
 """Of the machine's mass, in each: enough for single precision, and lost in what a machine weighs."""
 RADIUS = 0.1
-"""Metres: gyration of an end about any axis."""
+"""Metres: gyration of one about any axis."""
 
 
 @dataclass(frozen=True)
-class End:
+class PinLink:
     """One end of a cut pin: `side` (0 or 1) of the `joint`, welded to `body`; paths of the link and of its weld."""
 
     joint: Joint
@@ -58,38 +58,40 @@ def slewed_cuts(mechanism: Mechanism) -> tuple[Joint, ...]:
     return tuple(joint for joint in mechanism.joints if joint.cut and joint.body0 in turned)
 
 
-def plan_ends(mechanism: Mechanism, root: str, links: Names, joint_scope: str, joints: Names) -> Iterator[End]:
+def plan_pin_links(mechanism: Mechanism, root: str, links: Names, joint_scope: str, joints: Names) -> Iterator[PinLink]:
     """Both ends of every slewed cut pivot, named apart from all other links and joints."""
     for joint in slewed_cuts(mechanism):
         if joint.type in ("revolute", "spherical"):
             for side, body in enumerate((joint.body0, joint.body1)):
                 name = f"{joint.name}_end{side}"
-                yield End(joint, side, body, f"{root}/{links.give(name)}", f"{joint_scope}/{joints.give(name)}")
+                yield PinLink(joint, side, body, f"{root}/{links.give(name)}", f"{joint_scope}/{joints.give(name)}")
 
 
-def write_end_frames(layer: Sdf.Layer, ends: tuple[End, ...]) -> None:
+def write_pin_frames(layer: Sdf.Layer, pin_links: tuple[PinLink, ...]) -> None:
     """In the base layer: an Xform on the pin, axes parallel to the machine's."""
-    for end in ends:
-        spec = define(layer, end.path, "Xform")
-        set_display_name(spec, f"{end.joint.name}, end on {end.body}")
-        set_placement(spec, end.joint.anchor)
-        set_custom(spec, {"kind": KIND, "name": end.body})
+    for link in pin_links:
+        spec = define(layer, link.path, "Xform")
+        set_display_name(spec, f"{link.joint.name}, end on {link.body}")
+        set_placement(spec, link.joint.anchor)
+        set_custom(spec, {"kind": KIND, "name": link.body})
 
 
-def write_ends(layer: Sdf.Layer, ends: tuple[End, ...], mechanism: Mechanism, body_paths: Mapping[str, str]) -> None:
+def write_pin_links(
+    layer: Sdf.Layer, pin_links: tuple[PinLink, ...], mechanism: Mechanism, body_paths: Mapping[str, str]
+) -> None:
     """In the physics layer: the links, and the welds to their bodies."""
     mass = SHARE * sum(body.mass for body in mechanism.bodies)
-    for end in ends:
-        spec = over(layer, end.path)
+    for link in pin_links:
+        spec = over(layer, link.path)
         apply_schemas(spec, "PhysicsRigidBodyAPI", "PhysicsMassAPI")
         set_attribute(spec, "physics:mass", Types.Float, mass)
         set_attribute(spec, "physics:centerOfMass", Types.Point3f, Gf.Vec3f(0.0))
         set_attribute(spec, "physics:diagonalInertia", Types.Float3, Gf.Vec3f(mass * RADIUS**2))
         set_attribute(spec, "physics:principalAxes", Types.Quatf, Gf.Quatf(1.0))
-        weld = define(layer, end.weld, "PhysicsFixedJoint")
-        set_display_name(weld, f"{end.joint.name}, end on {end.body}")
-        set_targets(weld, "physics:body0", body_paths[end.body])
-        set_targets(weld, "physics:body1", end.path)
-        offset = np.asarray(end.joint.anchor) - np.asarray(mechanism.body(end.body).origin)
+        weld = define(layer, link.weld, "PhysicsFixedJoint")
+        set_display_name(weld, f"{link.joint.name}, end on {link.body}")
+        set_targets(weld, "physics:body0", body_paths[link.body])
+        set_targets(weld, "physics:body1", link.path)
+        offset = np.asarray(link.joint.anchor) - np.asarray(mechanism.body(link.body).origin)
         if offset.any():
             set_attribute(weld, "physics:localPos0", Types.Point3f, Gf.Vec3f(*offset.tolist()))

@@ -17,7 +17,7 @@ from yellowiron.usd.authoring.merge_points import weld
 from yellowiron.usd.authoring.stage import Names
 from yellowiron.usd.planning.collision import APPROXIMATIONS, Approximation, approximation
 from yellowiron.usd.planning.lathe_colliders import turned_pieces
-from yellowiron.usd.planning.pin_links import End, plan_ends
+from yellowiron.usd.planning.pin_links import PinLink, plan_pin_links
 
 GEOMETRY_FILE = "geometry.usdc"
 PROTOTYPES, HULLS = "/Prototypes", "/Hulls"
@@ -58,7 +58,7 @@ class Plan:
     """Paths by name. `root` is the machine's prim; `body_paths`, `joint_paths`, `site_paths`, `sensor_paths` (of
     sensors on bodies) and `material_paths` are
     absolute in the composed machine; `hull_paths` are in the geometry layer. `parts` holds each body's parts in the
-    mechanism's order, `ends` those of slewed cut pins."""
+    mechanism's order, `pin_links` those of slewed cut pins."""
 
     mechanism: Mechanism
     root: str
@@ -70,7 +70,7 @@ class Plan:
     hull_paths: Mapping[str, str]
     parts: Mapping[str, tuple[PlacedPart, ...]]
     prototypes: tuple[Prototype, ...]
-    ends: tuple[End, ...] = ()
+    pin_links: tuple[PinLink, ...] = ()
 
     @property
     def root_name(self) -> str:
@@ -104,7 +104,7 @@ def make_plan(mechanism: Mechanism, assembly: Assembly, frame: Floats, name: str
         hull_paths={b.name: f"{HULLS}/{hull_names.give(b.name)}" for b in mechanism.bodies},
         parts=parts,
         prototypes=tuple(placer.prototypes.prototypes),
-        ends=tuple(plan_ends(mechanism, root, inner, f"{root}/{JOINTS}", joint_names)),
+        pin_links=tuple(plan_pin_links(mechanism, root, inner, f"{root}/{JOINTS}", joint_names)),
     )
 
 

@@ -13,9 +13,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from yellowiron.cad.mesh.features.ovals import knuckles, ovals
-from yellowiron.cad.mesh.features.roundness import ROUGH, Round, fit, grown, least, median, trimmed, widths
+from yellowiron.cad.mesh.features.roundness import Round, fit, grown, least, median, trimmed, widths
 from yellowiron.cad.mesh.features.soup import Flags, Indices, Soup, flat_facets, soup_of
 from yellowiron.cad.mesh.features.strips import by_folds, by_normals
+from yellowiron.cad.mesh.features.tolerances import FEWEST, ROUGH
+from yellowiron.cad.tolerances import PARALLEL
 from yellowiron.model.geometry import CylinderFeature, Floats, Mesh, PlaneFeature
 
 ENOUGH = ((5, 1.4), (4, 2.2))
@@ -41,24 +43,23 @@ _SLENDER = 4.0
 """What is left of a patch that was no cylinder is one only if it is this many radii long."""
 _TRIES = 1
 """What has been part of so many patches that were not round is bent in two directions, and not tried again."""
-_TURN = 2.0 * math.pi
 
 
 @dataclass(frozen=True)
-class Found:
-    """What was found on a mesh."""
+class MeshFeatures:
+    """What a mesh has of cylinders, planes and knuckles."""
 
     cylinders: tuple[CylinderFeature, ...]
     planes: tuple[PlaneFeature, ...]
     knuckles: tuple[CylinderFeature, ...] = ()
 
 
-def find(mesh: Mesh, number: Indices | None = None) -> Found:
+def find(mesh: Mesh, number: Indices | None = None) -> MeshFeatures:
     """The cylinders and planes of a mesh, metres, in its frame; cylinders in the order of their first triangles, planes
     by area. `mesh` has no triangle without an area, and outward is where its triangles face; `number` says which of its
-    points are one (`meshed.welded`), where that is known."""
-    if len(mesh.triangles) < 4:
-        return Found((), ())
+    points are one (`measures.welded`), where that is known."""
+    if len(mesh.triangles) < FEWEST:
+        return MeshFeatures((), ())
     soup = soup_of(mesh, number)
     free = np.ones(len(soup.corners), dtype=bool)
     rounds: list[Round] = []
@@ -68,7 +69,7 @@ def find(mesh: Mesh, number: Indices | None = None) -> Found:
     for guesses in (by_folds(soup), by_normals(soup, free)):
         for guess, seeds in guesses:
             seeds = seeds[free[seeds]]
-            if len(seeds) < 4 or guess.radius < _TINY * soup.size or median(refused[seeds]) >= _TRIES:
+            if len(seeds) < FEWEST or guess.radius < _TINY * soup.size or median(refused[seeds]) >= _TRIES:
                 continue
             cylinder = grown(soup, guess, seeds, free)
             if cylinder is not None and not _is_round(soup, cylinder):
@@ -80,7 +81,7 @@ def find(mesh: Mesh, number: Indices | None = None) -> Found:
     rounds = _united(soup, rounds)
     found += [(r, _arc(soup, r)) for r in rounds] + _ovals(soup, free, whole=False)
     found.sort(key=lambda pair: int(pair[0].triangles.min()))
-    return Found(
+    return MeshFeatures(
         tuple(_feature(soup, r, arc) for r, arc in found),
         _planes(soup, free),
         tuple(_feature(soup, k.round, k.arc) for k in knuckles(soup, free)),
@@ -92,7 +93,7 @@ def _ovals(soup: Soup, free: Flags, *, whole: bool) -> list[tuple[Round, float]]
     """Ovals with their arcs, no longer free; only those that go all the way round, or any."""
     found = []
     for oval in ovals(soup, free, _ROUND if whole else 1.0):
-        wanted = not whole or (oval.arc > 0.99 * _TURN and oval.ratio < _ROUND)
+        wanted = not whole or (oval.arc > 0.99 * math.tau and oval.ratio < _ROUND)
         if wanted and _smooth_ends(soup, oval.round, _arc(soup, oval.round)) == 0 and free[oval.round.triangles].all():
             found.append((oval.round, oval.arc))
             free[oval.round.triangles] = False
@@ -117,7 +118,7 @@ def _is_round(soup: Soup, cylinder: Round) -> bool:
         return True
     if length < _PATCH * width and arc < ENOUGH[1][1]:
         return False
-    close = max(0.25 * ROUGH * cylinder.radius, 0.5 * cylinder.least, 4.0 * soup.rounding)
+    close = max(0.25 * ROUGH * cylinder.radius, 0.5 * cylinder.least, soup.resolution)
     return float(np.abs(off).max()) <= close and not _is_oval(soup, cylinder, corners, off)
 
 
@@ -149,27 +150,27 @@ def _strips(soup: Soup, cylinder: Round) -> int:
     rows = cylinder.triangles
     u, v = cylinder.frame
     facing = np.sort(np.arctan2(soup.normals[rows] @ v, soup.normals[rows] @ u))
-    gaps = np.append(np.diff(facing), facing[0] + _TURN - facing[-1])
+    gaps = np.append(np.diff(facing), facing[0] + math.tau - facing[-1])
     return int((gaps > math.radians(1.0)).sum())
 
 
 def _arc(soup: Soup, cylinder: Round) -> float:
     """Radians around the axis that the triangles cover."""
     angles = cylinder.angles(soup.points[soup.corners[cylinder.triangles]])
-    turned = angles[:, :1] + (angles - angles[:, :1] + math.pi) % _TURN - math.pi
+    turned = angles[:, :1] + (angles - angles[:, :1] + math.pi) % math.tau - math.pi
     low, high = turned.min(axis=1), turned.max(axis=1)
-    start = low % _TURN
+    start = low % math.tau
     spans = np.concatenate(
         [
-            np.stack([start, np.minimum(start + high - low, _TURN)], axis=1),
-            np.stack([np.zeros(len(low)), np.maximum(start + high - low - _TURN, 0.0)], axis=1),
+            np.stack([start, np.minimum(start + high - low, math.tau)], axis=1),
+            np.stack([np.zeros(len(low)), np.maximum(start + high - low - math.tau, 0.0)], axis=1),
         ]
     )
     spans = spans[np.argsort(spans[:, 0], kind="stable")]
     reach = np.maximum.accumulate(np.concatenate([[0.0], spans[:, 1]]))
     gaps = np.maximum(spans[:, 0] - reach[:-1], 0.0)
-    open_ = float(gaps[gaps > 1e-5].sum()) + max(0.0, _TURN - float(reach[-1]))
-    return _TURN if open_ < 1e-4 else _TURN - open_
+    open_ = float(gaps[gaps > 1e-5].sum()) + max(0.0, math.tau - float(reach[-1]))
+    return math.tau if open_ < 1e-4 else math.tau - open_
 
 
 def _smooth_ends(soup: Soup, cylinder: Round, arc: float) -> int:
@@ -217,7 +218,7 @@ def _united(soup: Soup, rounds: list[Round]) -> list[Round]:
 def _same(soup: Soup, one: Round, other: Round) -> bool:
     if one.inner != other.inner or abs(one.radius - other.radius) > max(2.0 * ROUGH * one.radius, one.least):
         return False
-    if abs(float(one.direction @ other.direction)) < 0.999:
+    if abs(float(one.direction @ other.direction)) < PARALLEL:
         return False
     along = other.along(soup.points[soup.corners[other.triangles]].reshape(-1, 3))
     ends = other.point + np.outer((along.min(), along.max()), other.direction)

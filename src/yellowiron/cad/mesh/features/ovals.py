@@ -11,13 +11,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from yellowiron.cad.mesh.components import linked
-from yellowiron.cad.mesh.features.roundness import ROUGH, Round, across
-from yellowiron.cad.mesh.features.soup import WIDEST, Flags, Indices, Soup, beside
+from yellowiron.cad.mesh.features.roundness import Round, across
+from yellowiron.cad.mesh.features.soup import Flags, Indices, Soup, beside
+from yellowiron.cad.mesh.features.tolerances import ROUGH, WIDEST
 from yellowiron.model.geometry import Floats
 
 _IN_LINE = math.cos(math.radians(0.5))
 """Folds of one oval run in one direction within this."""
-_FEWEST = 10
+_FEWEST_FOLDS = 10
 """An oval has at least this many folds: five numbers are fitted to them."""
 _NARROWEST = 0.5
 """The least ratio of an oval's axes."""
@@ -42,7 +43,7 @@ def ovals(soup: Soup, free: Flags, roundest: float = 1.0) -> Iterator[Oval]:
     """The ovals among the free triangles, those with most folds first; without most of those whose radii have a larger
     ratio than `roundest`."""
     chosen = np.flatnonzero(soup.bent & free[soup.pair].all(axis=1))
-    if len(chosen) < _FEWEST:
+    if len(chosen) < _FEWEST_FOLDS:
         return
     ends = soup.points[soup.edges[chosen]]
     direction = ends[:, 1] - ends[:, 0]
@@ -55,7 +56,7 @@ def ovals(soup: Soup, free: Flags, roundest: float = 1.0) -> Iterator[Oval]:
     alike &= soup.concave[chosen[a]] == soup.concave[chosen[b]]
     label = linked(pairs[alike], len(chosen))
     members = np.bincount(label)
-    for k in sorted(np.flatnonzero(members >= _FEWEST).tolist(), key=lambda k: (-members[k], k)):
+    for k in sorted(np.flatnonzero(members >= _FEWEST_FOLDS).tolist(), key=lambda k: (-members[k], k)):
         rows = chosen[label == k]
         found = _oval(soup, rows, direction[label == k], roundest)
         if found is not None and free[found.round.triangles].all():
@@ -73,7 +74,7 @@ def _oval(soup: Soup, folds: Indices, directions: Floats, roundest: float) -> Ov
     if float(np.ptp(away)) < 0.2 * (1.0 - roundest) * float(away.max()):
         return None
     kept = np.arange(len(folds))
-    while len(kept) >= _FEWEST:
+    while len(kept) >= _FEWEST_FOLDS:
         ellipse = _ellipse(flat[kept])
         if ellipse is None:
             return None
@@ -91,9 +92,9 @@ def _oval(soup: Soup, folds: Indices, directions: Floats, roundest: float) -> Ov
     # In the frame in which the ellipse is a circle.
     unit = (flat[kept] - center) @ vectors * np.sqrt(values)
     angles = np.sort(np.unique(np.round(np.arctan2(unit[:, 1], unit[:, 0]), 4)))
-    gaps = np.append(np.diff(angles), angles[0] + 2.0 * math.pi - angles[-1])
-    arc = 2.0 * math.pi - (float(gaps.max()) if float(gaps.max()) > WIDEST else 0.0)
-    if len(angles) < _FEWEST or arc < _AROUND or float(np.sort(gaps)[-2]) > WIDEST:
+    gaps = np.append(np.diff(angles), angles[0] + math.tau - angles[-1])
+    arc = math.tau - (float(gaps.max()) if float(gaps.max()) > WIDEST else 0.0)
+    if len(angles) < _FEWEST_FOLDS or arc < _AROUND or float(np.sort(gaps)[-2]) > WIDEST:
         return None
     triangles = np.unique(soup.pair[folds[kept]])
     point = center @ basis + float((soup.middles[triangles] @ axis).mean()) * axis
@@ -134,7 +135,7 @@ def knuckles(soup: Soup, free: Flags) -> Iterator[Oval]:
     order = np.argsort(label, kind="stable")
     starts = np.flatnonzero(np.append(True, np.diff(label[order]) != 0)) if len(order) else _NONE
     for one in np.split(folds[order], starts[1:]):
-        if len(one) >= _FEWEST and int(piece[soup.pair[one[0], 0]]) not in known:
+        if len(one) >= _FEWEST_FOLDS and int(piece[soup.pair[one[0], 0]]) not in known:
             found = _knuckle(soup, one)
             if found is not None:
                 yield found
@@ -147,7 +148,7 @@ def _knuckle(soup: Soup, folds: Indices) -> Oval | None:
     direction /= length[:, None]
     main = direction[int(np.argmax((np.abs(direction @ direction.T) > _IN_LINE) @ length))]
     kept = np.abs(direction @ main) > _IN_LINE
-    if int(kept.sum()) < _FEWEST:
+    if int(kept.sum()) < _FEWEST_FOLDS:
         return None
     basis = np.stack(across(main))
     flat = ends[kept].mean(axis=1) @ basis.T
@@ -157,10 +158,10 @@ def _knuckle(soup: Soup, folds: Indices) -> Oval | None:
     distance = np.linalg.norm(flat - center, axis=1)
     radius = float(distance.mean())
     angles = np.sort(np.arctan2(flat[:, 1] - center[1], flat[:, 0] - center[0]))
-    gap = float(np.append(np.diff(angles), angles[0] + 2.0 * math.pi - angles[-1]).max())
+    gap = float(np.append(np.diff(angles), angles[0] + math.tau - angles[-1]).max())
     if float(distance.std()) > _BY_EYE * radius or gap > math.pi:
         return None
     triangles = np.unique(soup.pair[folds[kept]])
     along = float((ends[kept].reshape(-1, 3) @ main).mean())
     point = center @ basis + along * main
-    return Oval(Round(point, main, radius, False, triangles), 2.0 * math.pi - (gap if gap > WIDEST else 0.0))
+    return Oval(Round(point, main, radius, False, triangles), math.tau - (gap if gap > WIDEST else 0.0))

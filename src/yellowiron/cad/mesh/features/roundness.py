@@ -8,15 +8,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from yellowiron.cad.mesh.features.soup import WIDEST, Flags, Indices, Soup
+from yellowiron.cad.mesh.features.soup import Flags, Indices, Soup
+from yellowiron.cad.mesh.features.tolerances import FEWEST, LEAST, ROUGH, SMALL, WIDEST
 from yellowiron.model.geometry import Floats
 
-ROUGH = 2e-3
-"""Points are on a cylinder within this share of its radius, or …"""
-LEAST = 2e-5
-"""… this, metres: what meshes are off by that were noisy, or drawn by hand …"""
-SMALL = 2.5e-3
-"""… but by no more than this share of the radius, or of the mesh: models of models are small."""
 LEAN = 0.35
 """Sine of the most by which a triangle on a cylinder may lean from its surface: slivers do."""
 _ROUNDS = 12
@@ -142,7 +137,7 @@ def lying_on(soup: Soup, cylinder: Round, among: Indices, slack: float) -> Indic
 def widths(soup: Soup, cylinder: Round, triangles: Indices) -> Floats:
     """The angle about the axis that each triangle covers."""
     angles = cylinder.angles(soup.points[soup.corners[triangles]])
-    turned = (angles - angles[:, :1] + math.pi) % (2.0 * math.pi) - math.pi
+    turned = (angles - angles[:, :1] + math.pi) % (math.tau) - math.pi
     return np.asarray(np.ptp(turned, axis=1))
 
 
@@ -150,12 +145,12 @@ def grown(soup: Soup, start: Round, seeds: Indices, free: Flags) -> Round | None
     """The cylinder of the `seeds`, fitted to them, then to all free triangles near them that lie on it; None where
     they do not lie on one."""
     surest = lying_on(soup, start, seeds, start.slack)
-    seeds = surest if len(surest) > max(4, len(seeds) // 4) else seeds
+    seeds = surest if len(surest) > max(FEWEST, len(seeds) // 4) else seeds
     first = soup.corners_of(seeds)
     current = fit(start, first)
     if current is None or median(np.abs(current.distances(first) - current.radius)) > 3.0 * current.slack:
         return None
-    if len(lying_on(soup, current, seeds, current.slack)) < 4:
+    if len(lying_on(soup, current, seeds, current.slack)) < FEWEST:
         return None
     found = np.zeros(0, dtype=np.int64)
     for _ in range(4):
@@ -164,7 +159,7 @@ def grown(soup: Soup, start: Round, seeds: Indices, free: Flags) -> Round | None
         reach = float(np.linalg.norm(middles - around, axis=1).max()) + current.radius
         near = np.array(soup.tree.query_ball_point(around, 1.5 * reach, return_sorted=True), dtype=np.int64)
         now = lying_on(soup, current, near[free[near]], current.slack)
-        if len(now) < 4:
+        if len(now) < FEWEST:
             return None
         if np.array_equal(now, found):
             break
@@ -183,8 +178,8 @@ def trimmed(soup: Soup, cylinder: Round) -> Round | None:
     current = fit(replace(cylinder, triangles=longest), soup.corners_of(longest))
     if current is None:
         return None
-    rows = lying_on(soup, current, cylinder.triangles, max(4.0 * soup.rounding, 1e-3 * cylinder.slack))
-    if len(rows) < 4 or len(rows) == len(cylinder.triangles):
+    rows = lying_on(soup, current, cylinder.triangles, max(soup.resolution, 1e-3 * cylinder.slack))
+    if len(rows) < FEWEST or len(rows) == len(cylinder.triangles):
         return None
     better = fit(current, soup.corners_of(rows))
     return replace(better, triangles=rows) if better is not None else None

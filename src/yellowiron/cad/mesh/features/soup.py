@@ -12,15 +12,12 @@ from scipy.spatial import cKDTree
 
 from yellowiron.cad.mesh import measures
 from yellowiron.cad.mesh.components import linked
+from yellowiron.cad.mesh.features.tolerances import SLIGHTEST, WIDEST
 from yellowiron.model.geometry import Floats, Mesh
 
 Indices = NDArray[np.int64]
 Flags = NDArray[np.bool_]
 
-SLIGHTEST = math.radians(0.7)
-"""The least fold between two strips: five hundred to a circle."""
-WIDEST = math.radians(50.5)
-"""The widest a flat strip may be, seen from the axis: eight to a circle, with a margin."""
 _LEVEL = math.radians(0.05)
 """Triangles side by side are one strip within this angle, radians."""
 _CROWD = 40
@@ -48,6 +45,11 @@ class Soup:
     concave: Flags
     size: float
     rounding: float
+
+    @property
+    def resolution(self) -> float:
+        """Metres: what is smaller cannot be told from the rounding of the coordinates."""
+        return 4.0 * self.rounding
 
     @functools.cached_property
     def tree(self) -> cKDTree:
@@ -121,7 +123,7 @@ def soup_of(mesh: Mesh, number: Indices | None = None) -> Soup:
     low, high = measures.bounds(mesh)
     size = float(np.linalg.norm(high - low))
     good = twice > 1e-14 * size**2
-    # Sheets that are drawn from both sides count once.
+    # Shells that are drawn from both sides count once.
     first = np.unique(np.sort(corners, axis=1), axis=0, return_index=True)[1]
     once = np.zeros(len(corners), dtype=bool)
     once[first] = True

@@ -13,8 +13,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from yellowiron.cad.mesh.components import linked
-from yellowiron.cad.mesh.features.roundness import ROUGH, Round, across
-from yellowiron.cad.mesh.features.soup import WIDEST, Flags, Indices, Soup, beside
+from yellowiron.cad.mesh.features.roundness import Round, across
+from yellowiron.cad.mesh.features.soup import Flags, Indices, Soup, beside
+from yellowiron.cad.mesh.features.tolerances import FEWEST, ROUGH, WIDEST
 from yellowiron.cad.mesh.measures import cross
 from yellowiron.model.geometry import Floats
 
@@ -89,7 +90,7 @@ def _circles(soup: Soup, chosen: Indices) -> tuple[Floats, Floats, Floats, Flags
     s, t = 0.5 * bb * (aa - ab) / safe, 0.5 * aa * (bb - ab) / safe
     center = s[:, None] * one + t[:, None] * other
     radius = np.linalg.norm(center, axis=1)
-    good &= (radius > 4.0 * soup.rounding) & (radius < soup.size)
+    good &= (radius > soup.resolution) & (radius < soup.size)
     # A strip is no wider than its neighbour by much more than the ends of a patch are narrower.
     return start + center, direction, radius, good
 
@@ -126,7 +127,7 @@ def _guesses(soup: Soup, patch: Indices) -> Iterator[tuple[Round, Indices]]:
         radius = float((middles[i] - middles[j]) @ turn) / square
         center = 0.5 * (middles[i] - radius * normals[i] + middles[j] - radius * normals[j])
         size = abs(radius)
-        if not 4.0 * soup.rounding < size < soup.size:
+        if not soup.resolution < size < soup.size:
             continue
         off = np.abs(np.linalg.norm(points - center, axis=2) - size).max(axis=1)
         score = float(soup.areas[rows][off < 0.06 * size].sum())
@@ -137,7 +138,7 @@ def _guesses(soup: Soup, patch: Indices) -> Iterator[tuple[Round, Indices]]:
     _, center, radius = best
     off = np.abs(np.linalg.norm(points - center, axis=2) - abs(radius)).max(axis=1)
     seeds = rows[off < max(0.06, ROUGH) * abs(radius)]
-    if len(seeds) >= 4:
+    if len(seeds) >= FEWEST:
         foot = center @ basis + float(soup.middles[seeds].mean(axis=0) @ direction) * direction
         yield Round(foot, direction, abs(radius), radius < 0.0, _NONE), seeds
 

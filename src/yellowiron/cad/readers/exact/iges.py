@@ -30,13 +30,13 @@ from OCP.TopoDS import TopoDS, TopoDS_Compound
 from yellowiron.cad.brep import products
 from yellowiron.cad.brep.tessellate import MILLIMETRE
 from yellowiron.cad.brep.to_shape import subshapes
-from yellowiron.cad.brep.xcaf import EXPORT_AGAIN, Product, Tree, add_products, new_document
-from yellowiron.cad.naming import decode_name, is_generic, remark, sniff_encoding
+from yellowiron.cad.brep.xcaf import EXPORT_AGAIN, Product, ProductTree, add_products, new_document
+from yellowiron.cad.naming import decode_name, encoding_remarks, is_generic, sniff_encoding
+from yellowiron.cad.readers.exact.patience import file_must_end
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import CadError
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Color, linear
-from yellowiron.support.guard import must_end
 
 _SEAM = 0.02
 """Millimetres. Edges of neighbouring surfaces closer than this are one; IGES repeats each of them."""
@@ -59,15 +59,13 @@ _END = re.compile(rb"^.{72}T[ \d]{7}", re.MULTILINE)
 """The line that ends the file."""
 _NO_NUMBER = re.compile(rb"[,;][-+]?(?:\d+\.?\d*[EeDd]\+?(?:1[5-9]|[2-9]\d)\d\b|(?:nan|inf)[,;])", re.IGNORECASE)
 """From 1e150 on: what stands for infinity is less."""
-_PATIENCE, _SLOWEST = 20.0, 2e4
-"""Seconds, and bytes a second: far less than is usual."""
 
 
 def read_iges(path: str) -> Assembly:
     """The assembly in an IGES file, in metres. `CadError` if it is damaged or holds no surface."""
     _check(Path(path).read_bytes(), path)
     # Some damaged surfaces are worked on for ever.
-    with must_end(_PATIENCE + Path(path).stat().st_size / _SLOWEST):
+    with file_must_end(Path(path).stat().st_size):
         return _read(path)
 
 
@@ -93,7 +91,7 @@ def _read(path: str) -> Assembly:
     document = new_document()
     model = _Model(reader, path)
     add_products(document, model.products())
-    tree = Tree(document, "utf-8")
+    tree = ProductTree(document, "utf-8")
     if not tree.roots:
         raise CadError("The IGES file holds nothing that can be read as a part", where=path, hint=EXPORT_AGAIN)
     return products.assemble(tree, path=path, format="IGES", unit=model.unit, findings=model.findings)
@@ -130,7 +128,7 @@ class _Model:
         self._members = {id(e.Value(k)) for e in self._entities if _holds(e) for k in range(1, e.NbEntities() + 1)}
         self._known: dict[int, Product | None] = {}
         self._taken: set[int] = set()
-        self.findings: list[Finding] = remark(self._encoding, path)
+        self.findings: list[Finding] = encoding_remarks(self._encoding, path)
         damaged = sum(model.IsErrorEntity(i) or model.IsRedefinedContent(i) for i in self._number.values())
         if damaged:
             words = f"{damaged} entities of the file are damaged: parts may be missing or incomplete"

@@ -6,14 +6,14 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from yellowiron.cad.brep import products
-from yellowiron.cad.brep.products import Piece, listed
+from yellowiron.cad.brep.products import Piece
 from yellowiron.cad.brep.xcaf import Leaf, open_step
-from yellowiron.cad.naming import remark, sniff_encoding
+from yellowiron.cad.naming import encoding_remarks, listed, sniff_encoding
 from yellowiron.cad.readers.exact import part21
+from yellowiron.cad.readers.exact.patience import file_must_end
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import CadError
 from yellowiron.model.finding import Finding
-from yellowiron.support.guard import must_end
 
 UNITS = {
     "millimetre": 1e-3,
@@ -37,14 +37,12 @@ UNITS = {
     "mile": 1609.344,
 }
 """Unit names of STEP files, lower case, to metres."""
-_PATIENCE, _SLOWEST = 20.0, 2e4
-"""Seconds of the processor, and bytes a second: far less than is usual."""
 
 
 def read_step(path: str) -> Assembly:
     """The assembly in a STEP file. `CadError` if there is nothing in it that is a part."""
     # On some damage Open CASCADE goes on for ever.
-    with must_end(_PATIENCE + Path(path).stat().st_size / _SLOWEST):
+    with file_must_end(Path(path).stat().st_size):
         return _read(path)
 
 
@@ -61,7 +59,7 @@ def _read(path: str) -> Assembly:
             hint="Copy or export it again; the end of the file is missing.",
         )
     encoding = sniff_encoding(facts.names)
-    findings = remark(encoding, path)
+    findings = encoding_remarks(encoding, path)
     if blank >= 0:
         words = f"Byte {blank + 1} of the file is no text: parts may be missing or incomplete"
         findings.append(Finding("CAD001", "warning", path, words, "Copy or export it again; the file is damaged."))
@@ -89,8 +87,8 @@ def _unit(names: Sequence[str], path: str) -> tuple[float, list[Finding]]:
             Finding("CAD009", "warning", path, f"The file's unit of length is not known ({said}); millimetres assumed")
         ]
     if len(set(known)) > 1:
-        listed = ", ".join(dict.fromkeys(names))
-        return unit, [Finding("CAD009", "info", path, f"The file mixes units ({listed}); every part was converted")]
+        units = ", ".join(dict.fromkeys(names))
+        return unit, [Finding("CAD009", "info", path, f"The file mixes units ({units}); every part was converted")]
     return unit, []
 
 

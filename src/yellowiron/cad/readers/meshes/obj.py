@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -16,7 +17,7 @@ from yellowiron.cad.appearance.looks import Dressed, Look, dress
 from yellowiron.cad.appearance.textures import Pictures, finish
 from yellowiron.cad.mesh import assembly
 from yellowiron.cad.mesh.assembly import Occurrence
-from yellowiron.cad.naming import decode_name, decode_text, is_generic, remark
+from yellowiron.cad.naming import decode_name, decode_text, encoding_remarks, is_generic
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import CadError
 from yellowiron.model.finding import Finding
@@ -86,7 +87,7 @@ def meshes_of(file: Path, findings: list[Finding]) -> list[tuple[str, Dressed]]:
 
 def _groups(path: str, findings: list[Finding]) -> list[tuple[str, Dressed]]:
     file = _parsed(path)
-    findings += remark(file.encoding, path)
+    findings += encoding_remarks(file.encoding, path)
     if file.faults:
         words = f"{'; '.join(file.faults)}: parts may be missing or incomplete, as in a file that is cut short"
         findings.append(Finding("CAD001", "warning", path, words, _DAMAGED))
@@ -105,72 +106,124 @@ def _groups(path: str, findings: list[Finding]) -> list[tuple[str, Dressed]]:
     return found
 
 
+@dataclass
+class _Reading:
+    """What the lines read so far say, and which object, group and material the next faces are of."""
+
+    points: list[tuple[float, float, float]] = field(default_factory=list)
+    paint: list[tuple[float, float, float]] = field(default_factory=list)
+    coordinates: list[tuple[float, float]] = field(default_factory=list)
+    groups: dict[tuple[int, str], _Group] = field(default_factory=dict)
+    libraries: list[str] = field(default_factory=list)
+    drawn: list[int] = field(default_factory=list)
+    """The points of lines and points, which are read and left out."""
+    objects: int = 0
+    above: str = ""
+    group: str = ""
+    material: str = ""
+
+    def vertex(self, rest: str) -> None:
+        """`v x y z [r g b]`."""
+        values = [float(v) for v in rest.split()]
+        x, y, z = values[:3]
+        self.points.append((x, y, z))
+        if len(values) == 6:
+            self.paint.append((values[3], values[4], values[5]))
+
+    def coordinate(self, rest: str) -> None:
+        """`vt u [v]`."""
+        values = [float(v) for v in rest.split()]
+        self.coordinates.append((values[0], values[1] if len(values) > 1 else 0.0))
+
+    def face(self, rest: str) -> None:
+        """`f` and its corners, `point/coordinate/normal` each: a fan of triangles."""
+        entries = rest.split()
+        corners = [_index(entry, len(self.points)) for entry in entries]
+        if len(corners) < 3:
+            raise ValueError
+        count = len(self.coordinates)
+        seen = [_coordinate(entry, count) for entry in entries] if count else [-1] * len(corners)
+        key = (self.objects, self.group)
+        own = self.groups.setdefault(key, _Group(decode_name(self.group or self.above, "utf-8")))
+        for k in range(1, len(corners) - 1):
+            own.triangles.append((corners[0], corners[k], corners[k + 1]))
+            own.pictured.append((seen[0], seen[k], seen[k + 1]))
+            own.materials.append(self.material)
+
+    def named_object(self, rest: str) -> None:
+        """`o`: objects may share a name."""
+        self.above, self.group = rest.strip(), ""
+        self.objects += 1
+
+    def named_group(self, rest: str) -> None:
+        """`g`: a group that is named again goes on."""
+        self.group = rest.strip()
+
+    def used_material(self, rest: str) -> None:
+        """`usemtl`."""
+        self.material = rest.strip()
+
+    def material_library(self, rest: str) -> None:
+        """`mtllib`."""
+        self.libraries.append(rest.strip())
+
+    def line_or_point(self, rest: str) -> None:
+        """`l`, `p`."""
+        self.drawn += [_index(entry, len(self.points)) for entry in rest.split()]
+
+
+_STEPS: dict[str, Callable[[_Reading, str], None]] = {
+    "v": _Reading.vertex,
+    "vt": _Reading.coordinate,
+    "f": _Reading.face,
+    "o": _Reading.named_object,
+    "g": _Reading.named_group,
+    "usemtl": _Reading.used_material,
+    "mtllib": _Reading.material_library,
+    "l": _Reading.line_or_point,
+    "p": _Reading.line_or_point,
+}
+"""The statements that are read."""
+
+
 def _parsed(path: str) -> _File:
-    points: list[tuple[float, float, float]] = []
-    paint: list[tuple[float, float, float]] = []
-    coordinates: list[tuple[float, float]] = []
-    groups: dict[tuple[int, str], _Group] = {}
-    libraries: list[str] = []
-    above = group = material = last = ""
-    objects = strange = 0
-    drawn: list[int] = []
+    reading, last, strange = _Reading(), "", 0
     data = Path(path).read_bytes()
     text, encoding = decode_text(data, _NAMES.findall(data))
     for number, line in enumerate(text.replace("\\\n", " ").splitlines(), start=1):
         word, _, rest = line.strip().partition(" ")
-        try:
-            if word == "v":
-                values = [float(v) for v in rest.split()]
-                x, y, z = values[:3]
-                points.append((x, y, z))
-                if len(values) == 6:
-                    paint.append((values[3], values[4], values[5]))
-            elif word == "vt":
-                values = [float(v) for v in rest.split()]
-                coordinates.append((values[0], values[1] if len(values) > 1 else 0.0))
-            elif word == "f":
-                corners = [_index(entry, len(points)) for entry in rest.split()]
-                if len(corners) < 3:
-                    raise ValueError
-                seen = (
-                    [_coordinate(entry, len(coordinates)) for entry in rest.split()]
-                    if coordinates
-                    else [-1] * len(corners)
-                )
-                own = groups.setdefault((objects, group), _Group(decode_name(group or above, "utf-8")))
-                for k in range(1, len(corners) - 1):
-                    own.triangles.append((corners[0], corners[k], corners[k + 1]))
-                    own.pictured.append((seen[0], seen[k], seen[k + 1]))
-                    own.materials.append(material)
-            elif word in ("o", "g"):
-                # Objects may share a name; a group that is named again goes on.
-                above, group = (rest.strip(), "") if word == "o" else (above, rest.strip())
-                objects += word == "o"
-            elif word == "usemtl":
-                material = rest.strip()
-            elif word == "mtllib":
-                libraries.append(rest.strip())
-            elif word in ("l", "p"):
-                drawn += [_index(entry, len(points)) for entry in rest.split()]
-            elif word not in _STATEMENTS and not word.startswith("#"):
-                strange += bool(word)
-                continue
-            last = word if word and not word.startswith("#") else last
-        except (ValueError, IndexError) as error:
-            words = f"The OBJ file is broken in line {number}: '{line.strip()[:60]}'"
-            raise CadError(words, where=path, hint=_DAMAGED) from error
-    if not groups:
+        if step := _STEPS.get(word):
+            try:
+                step(reading, rest)
+            except (ValueError, IndexError) as error:
+                words = f"The OBJ file is broken in line {number}: '{line.strip()[:60]}'"
+                raise CadError(words, where=path, hint=_DAMAGED) from error
+        elif word and not word.startswith("#") and word not in _STATEMENTS:
+            strange += 1
+            continue
+        last = word if word and not word.startswith("#") else last
+    if not reading.groups:
         raise CadError("The OBJ file holds no face", where=path, hint="Export the machine's parts with it.")
-    faces = [np.array(own.triangles, dtype=np.int64).reshape(-1) for own in groups.values()]
-    loose = len(points) - len(np.unique(np.concatenate([np.array(drawn, dtype=np.int64), *faces])))
+    points, paint = reading.points, reading.paint
     faults = [f"{strange} lines begin with what OBJ does not know"] if strange else []
-    faults += [f"{loose} of its points are in no face"] if loose else []
+    faults += [f"{loose} of its points are in no face"] if (loose := _in_no_face(reading)) else []
     faults += [f"it ends with '{last}', after which nothing comes"] if last in _HEADS else []
-    colors = np.clip(np.array(paint, dtype=np.float64), 0.0, 1.0) if len(paint) == len(points) else None
     return _File(
-        np.array(points, dtype=np.float64).reshape(-1, 3), colors,
-        np.array(coordinates, dtype=np.float64).reshape(-1, 2), list(groups.values()), libraries, encoding, faults,
-    )  # fmt: skip
+        points=np.array(points, dtype=np.float64).reshape(-1, 3),
+        paint=np.clip(np.array(paint, dtype=np.float64), 0.0, 1.0) if len(paint) == len(points) else None,
+        coordinates=np.array(reading.coordinates, dtype=np.float64).reshape(-1, 2),
+        groups=list(reading.groups.values()),
+        libraries=reading.libraries,
+        encoding=encoding,
+        faults=faults,
+    )
+
+
+def _in_no_face(reading: _Reading) -> int:
+    """How many points no face, line or point has."""
+    faces = [np.array(own.triangles, dtype=np.int64).reshape(-1) for own in reading.groups.values()]
+    used = np.unique(np.concatenate([np.array(reading.drawn, dtype=np.int64), *faces]))
+    return len(reading.points) - len(used)
 
 
 def _index(entry: str, count: int) -> int:

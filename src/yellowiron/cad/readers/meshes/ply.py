@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from yellowiron.cad.appearance.looks import repainted
+from yellowiron.cad.appearance.looks import Dressed, repainted
 from yellowiron.cad.mesh import assembly
 from yellowiron.cad.mesh.assembly import Occurrence
 from yellowiron.model.assembly import Assembly
@@ -29,7 +29,7 @@ _DAMAGED = "Copy or export it again; the file is damaged."
 def read_ply(path: str) -> Assembly:
     """The assembly in a PLY file, text or binary, in metres. `CadError` if it is damaged or holds no triangle."""
     findings: list[Finding] = []
-    raw = mesh_of(Path(path), findings)
+    raw = _mesh(Path(path), findings)
     unit, remarks = assembly.guessed_unit([raw.points], path)
     findings += remarks
     mesh = Mesh(raw.points * unit, raw.triangles, None, raw.triangle_colors)
@@ -54,9 +54,13 @@ def _damage(data: bytes, read: int, path: str) -> list[Finding]:
     return [Finding("CAD001", "warning", path, f"{words}: parts may be incomplete", _DAMAGED)] if words else []
 
 
-def mesh_of(file: Path, findings: list[Finding]) -> Mesh:
-    """The triangles of a PLY file, in the file's unit; what is amiss goes to `findings`. `CadError` as for
-    `read_ply`."""
+def meshes_of(file: Path, findings: list[Finding]) -> list[tuple[str, Dressed]]:
+    """The triangles of a PLY file, in the file's unit, without a name; what is amiss goes to `findings`. `CadError` as
+    for `read_ply`."""
+    return [("", repainted(_mesh(file, findings)))]
+
+
+def _mesh(file: Path, findings: list[Finding]) -> Mesh:
     from trimesh.exchange.ply import load_ply
 
     path, data = str(file), file.read_bytes()

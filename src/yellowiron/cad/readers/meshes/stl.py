@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from yellowiron.cad.appearance.looks import repainted
+from yellowiron.cad.appearance.looks import Dressed, repainted
 from yellowiron.cad.mesh import assembly
 from yellowiron.cad.mesh.assembly import Occurrence
 from yellowiron.cad.naming import decode_name, is_generic
@@ -49,6 +49,12 @@ def read_stl(path: str) -> Assembly:
     return assembly.assemble(
         occurrences, name=Path(path).stem, format="STL", unit=unit, path=path, findings=findings,
     )  # fmt: skip
+
+
+def meshes_of(file: Path, findings: list[Finding]) -> list[tuple[str, Dressed]]:
+    """The triangles of every solid, in the file's unit, without names: among other files theirs tell more than what
+    programs write there. What is amiss goes to `findings`. `CadError` as for `read_stl`."""
+    return [("", repainted(mesh)) for _, mesh in solids_of(file, findings)]
 
 
 def solids_of(file: Path, findings: list[Finding]) -> list[tuple[str, Mesh]]:

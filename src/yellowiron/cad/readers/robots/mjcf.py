@@ -16,10 +16,11 @@ import numpy as np
 from yellowiron.cad.mesh import assembly, polygons
 from yellowiron.cad.mesh.assembly import Occurrence
 from yellowiron.cad.naming import decode_name
-from yellowiron.cad.readers.declared import declared_joint, triple
+from yellowiron.cad.readers.declared import declared_joint
 from yellowiron.model.assembly import Assembly, DeclaredJoint
 from yellowiron.model.errors import CadError
 from yellowiron.model.geometry import Mesh
+from yellowiron.support.vectors import triple
 
 _DAMAGED = "Check the file with MuJoCo's own viewer."
 _HIDDEN_GROUPS = 3

@@ -18,7 +18,7 @@ from yellowiron.cad.mesh import assembly, polygons
 from yellowiron.cad.mesh.assembly import Occurrence
 from yellowiron.cad.naming import decode_name
 from yellowiron.cad.readers.declared import declared_joint
-from yellowiron.cad.readers.robots.loose import loose_meshes
+from yellowiron.cad.readers.robots.mesh_files import loose_meshes
 from yellowiron.model.assembly import Assembly, DeclaredJoint
 from yellowiron.model.errors import CadError
 from yellowiron.model.finding import Finding

@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from yellowiron.specs.layout.grids.grid import Cell, Grid
+from yellowiron.specs.layout.grids.table_grid import Cell, TableGrid
 from yellowiron.specs.layout.rows.cells import ValueCell, statement_of
-from yellowiron.specs.layout.rows.lines import Line, blocks_of
+from yellowiron.specs.layout.rows.lines import TextLine, blocks_of
 from yellowiron.specs.layout.rows.row_reader import read_block
 from yellowiron.specs.layout.statement import (
     EXAMPLE,
-    Piece,
     Statement,
+    TextPiece,
     kind_of,
     looks_like_value,
     split_inline,
@@ -30,13 +30,13 @@ _FEWEST = 2
 class Filled:
     """A table whose cells with rows of their own are read and emptied, and what they say."""
 
-    grid: Grid
+    grid: TableGrid
     statements: tuple[Statement, ...]
 
 
-def read_boxes(page: Page, grid: Grid, first_row: int, section: str) -> Filled:
+def read_boxes(page: Page, grid: TableGrid, first_row: int, section: str) -> Filled:
     """Reads the cells that hold rows as blocks of text, under the words of the cell to their left or right above."""
-    emptied: dict[int, Cell] = {}
+    emptied: set[Cell] = set()
     found: list[Statement] = []
     page = replace(page, rules=())  # those of the table part none of the rows in its cells
     if not _mostly_boxes(grid):
@@ -53,24 +53,20 @@ def read_boxes(page: Page, grid: Grid, first_row: int, section: str) -> Filled:
             for block in blocks_of(cell.lines):
                 statements, _ = read_block(page, block, first_row + len(found), heading)
                 found.extend(statements)
-        emptied[id(cell)] = replace(cell, lines=())
-        if title is not None:
-            emptied[id(title)] = replace(title, lines=())
-    cells = {id(c): emptied.get(id(c), c) for c in grid.cells}
-    places = {place: cells[id(c)] for place, c in grid.places.items()}
-    return Filled(replace(grid, cells=tuple(cells.values()), places=places), tuple(found))
+        emptied.update(c for c in (cell, title) if c is not None)
+    return Filled(grid.emptied(emptied), tuple(found))
 
 
 def _read_items(page: Page, cell: Cell, first_row: int, heading: str) -> list[Statement]:
     """The statements of a cell of "label: value", one below the other in columns; either may go on in the next line."""
-    columns: list[list[Piece]] = []
+    columns: list[list[TextPiece]] = []
     for piece in (p for line in cell.lines for p in line.pieces):
         near = next((c for c in columns if abs(c[0].x0 - piece.x0) <= _LEVEL), None)
         if near is None:
             columns.append([piece])
         else:
             near.append(piece)
-    items: list[list[Piece]] = []
+    items: list[list[TextPiece]] = []
     for column in columns:
         done = True
         for piece in column:
@@ -88,7 +84,7 @@ def _read_items(page: Page, cell: Cell, first_row: int, heading: str) -> list[St
         text = " ".join(p.bare for p in item)
         if not split_inline(text)[0]:
             continue
-        lines = [Line((p,)) for p in item]
+        lines = [TextLine((p,)) for p in item]
         statement = statement_of(page, lines, ValueCell([], item), (), (), (), first_row + number)
         marked = any(EXAMPLE.search(t) for t in (heading, *(p.text for p in item)))
         found.append(replace(statement, section=section, unit=statement.unit or unit,
@@ -96,7 +92,7 @@ def _read_items(page: Page, cell: Cell, first_row: int, heading: str) -> list[St
     return found
 
 
-def _mostly_boxes(grid: Grid) -> bool:
+def _mostly_boxes(grid: TableGrid) -> bool:
     """Whether two or more cells hold rows, and more than are plain values."""
     boxes = sum(_holds_rows(c) and len(_rows_of(c)) >= _FEWEST for c in grid.cells)
     plain = sum(looks_like_value(c.text) for c in grid.cells)
@@ -109,11 +105,11 @@ def _holds_rows(cell: Cell) -> bool:
     return bool(rows) and 3 * len(rows) >= 2 * len(cell.lines) and not looks_like_value(cell.text)
 
 
-def _rows_of(cell: Cell) -> list[Line]:
+def _rows_of(cell: Cell) -> list[TextLine]:
     return [line for line in cell.lines if _is_row(line.pieces)]
 
 
-def _is_row(pieces: Sequence[Piece]) -> bool:
+def _is_row(pieces: Sequence[TextPiece]) -> bool:
     """Whether a line has a label with its value, in one piece or beside each other."""
     if any(_names(p) for p in pieces):
         return True
@@ -121,12 +117,12 @@ def _is_row(pieces: Sequence[Piece]) -> bool:
     return kinds[0] == "text" and "value" in kinds[1:]
 
 
-def _names(piece: Piece) -> bool:
+def _names(piece: TextPiece) -> bool:
     """Whether a piece has a label before a value, which may be on the next line."""
     return bool(split_inline(piece.bare)[0]) or piece.bare.endswith((":", "："))
 
 
-def _title_of(grid: Grid, cell: Cell) -> Cell | None:
+def _title_of(grid: TableGrid, cell: Cell) -> Cell | None:
     """The cell that heads one with rows: the only words beside it, else those right above it."""
     row, column = cell.rows[0], cell.columns[0]
     for place in ((row, column - 1), (row - 1, column)):

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from yellowiron.specs.layout.rows.lines import Line, lines_of
-from yellowiron.specs.layout.statement import Piece, kind_of
-from yellowiron.specs.pages.strokes import Box, Rule
+from yellowiron.specs.layout.rows.lines import TextLine, lines_of
+from yellowiron.specs.layout.statement import TextPiece, kind_of
+from yellowiron.specs.pages.strokes import SNAP, Box, Rule
 from yellowiron.specs.pages.words import Word
 
-_SNAP = 3.0
 _HIGHEST = 60.0
 """Points; what is higher is no row."""
 _FAR = 40.0
@@ -24,7 +23,7 @@ def side_walls(level: Sequence[Rule], walls: Sequence[Rule], words: Sequence[Wor
     for edge in ("x0", "x1"):
         for above in rules:
             x = getattr(above, edge)
-            below = next((r for r in rules if r.top > above.top + _SNAP and abs(getattr(r, edge) - x) <= _SNAP), None)
+            below = next((r for r in rules if r.top > above.top + SNAP and abs(getattr(r, edge) - x) <= SNAP), None)
             if below is not None and _lacks_wall(above, below, x, walls, words):
                 found.append(Rule(x, above.top, x, below.top))
     return found
@@ -36,10 +35,10 @@ def _lacks_wall(above: Rule, below: Rule, x: float, walls: Sequence[Rule], words
     joining = [
         w.x0
         for w in walls
-        if w.top <= above.top + _SNAP and w.bottom >= below.top - _SNAP and x0 - _SNAP <= w.x0 <= x1 + _SNAP
+        if w.top <= above.top + SNAP and w.bottom >= below.top - SNAP and x0 - SNAP <= w.x0 <= x1 + SNAP
     ]
     inner = [wall for wall in joining if x0 + 10 < wall < x1 - 10]
-    if not inner or any(abs(x - wall) <= _SNAP for wall in joining):
+    if not inner or any(abs(x - wall) <= SNAP for wall in joining):
         return False
     high = below.top - above.top >= _HIGHEST
     row = [w for w in words if above.top < (w.top + w.bottom) / 2 < below.top and x0 - 4 <= w.x0 <= x1]
@@ -55,7 +54,7 @@ def _merged(level: Sequence[Rule]) -> list[Rule]:
     merged: list[Rule] = []
     for rule in sorted(level, key=lambda r: (round(r.top), r.x0)):
         last = merged[-1] if merged else None
-        if last is not None and abs(last.top - rule.top) <= 1 and rule.x0 <= last.x1 + _SNAP:
+        if last is not None and abs(last.top - rule.top) <= 1 and rule.x0 <= last.x1 + SNAP:
             merged[-1] = Rule(min(last.x0, rule.x0), last.top, max(last.x1, rule.x1), last.top)
         else:
             merged.append(rule)
@@ -75,13 +74,13 @@ def _joined(walls: Sequence[Rule]) -> list[Rule]:
 
 
 def heads_above(
-    lines: Sequence[Line], box: Box, columns: Sequence[tuple[float, float]], tables: Sequence[Box]
-) -> tuple[Piece, ...]:
+    lines: Sequence[TextLine], box: Box, columns: Sequence[tuple[float, float]], tables: Sequence[Box]
+) -> tuple[TextPiece, ...]:
     """The heads that stand over a table's columns (left and right edges, without the labels') outside of it: the
     nearest line above with words over two or more of them. Only headings, tables of the same width and their heads may
     stand between."""
     top = box[1]
-    same = [t for t in tables if abs(t[0] - box[0]) < 2 * _SNAP and abs(t[2] - box[2]) < 2 * _SNAP]
+    same = [t for t in tables if abs(t[0] - box[0]) < 2 * SNAP and abs(t[2] - box[2]) < 2 * SNAP]
     for line in sorted(lines, key=lambda one: -one.bottom):
         if line.bottom > box[1] + 2 or line.x1 < box[0] or line.x0 > box[2]:
             continue
@@ -100,7 +99,7 @@ def heads_above(
     return ()
 
 
-def _column_of(piece: Piece, columns: Sequence[tuple[float, float]]) -> int | None:
+def _column_of(piece: TextPiece, columns: Sequence[tuple[float, float]]) -> int | None:
     """The column that a head stands over."""
     middle = (piece.x0 + piece.x1) / 2
     return next((i for i, (x0, x1) in enumerate(columns) if x0 <= middle <= x1 and x0 - 6 <= piece.x0), None)

@@ -7,9 +7,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
 
-from yellowiron.specs.language.numbers import read, same
-from yellowiron.specs.layout.grids.grid import Cell, Grid
-from yellowiron.specs.layout.rows.lines import Line, lines_of
+from yellowiron.specs.language.numbers import read
+from yellowiron.specs.language.quantities import same
+from yellowiron.specs.layout.grids.table_grid import Cell, TableGrid
+from yellowiron.specs.layout.rows.lines import TextLine, lines_of
 from yellowiron.specs.layout.statement import is_unit, kind_of, looks_like_value
 
 _LEVEL = 2.5
@@ -18,7 +19,7 @@ _FEWEST = 3
 """Cells with a label and its value; fewer may be values with words before them."""
 
 
-def with_rows(grid: Grid) -> Grid:
+def with_rows(grid: TableGrid) -> TableGrid:
     """The table with the rows parted that hold several lines of values, each level with a line of the labels."""
     edges = {row: _edges(grid, row) for row in range(grid.rows)}
     if not any(edges.values()):
@@ -40,7 +41,7 @@ def with_rows(grid: Grid) -> Grid:
     return replace(grid, cells=tuple(cells), rows=first[-1], places=places)
 
 
-def _edges(grid: Grid, row: int) -> list[float]:
+def _edges(grid: TableGrid, row: int) -> list[float]:
     """The heights at which a row is to be parted; [] if it is one."""
     cells = [c for c in grid.cells if c.rows == (row, row + 1) and c.lines]
     valued = [c for c in cells if len(c.lines) > 1 and _is_valued(c)]
@@ -64,7 +65,7 @@ def _is_valued(cell: Cell) -> bool:
     return kinds <= {"value", "mark"} and any(map(looks_like_value, texts)) and not any(map(is_unit, texts))
 
 
-def _is_level(line: Line, cell: Cell) -> bool:
+def _is_level(line: TextLine, cell: Cell) -> bool:
     return any(abs(line.bottom - other.bottom) <= _LEVEL for other in cell.lines)
 
 
@@ -73,7 +74,7 @@ def _in_two_systems(cell: Cell) -> bool:
     return any(_restated(a, b) for a, b in pairwise(cell.lines))
 
 
-def _restated(a: Line, b: Line) -> bool:
+def _restated(a: TextLine, b: TextLine) -> bool:
     first, second = read(a.text), read(b.text.strip("()"))
     if len(first) != 1 or len(second) != 1:
         return False
@@ -85,7 +86,7 @@ def _restated(a: Line, b: Line) -> bool:
 # ---- columns -------------------------------------------------------------------------------------------------------
 
 
-def with_columns(grid: Grid) -> Grid:
+def with_columns(grid: TableGrid) -> TableGrid:
     """The table with the columns parted in whose cells values stand side by side, or a label and its value, as if a
     wall stood between them; what crosses that place spans both parts."""
     column = 0
@@ -98,7 +99,7 @@ def with_columns(grid: Grid) -> Grid:
     return grid
 
 
-def _gap(grid: Grid, column: int) -> float | None:
+def _gap(grid: TableGrid, column: int) -> float | None:
     """Where the cells of a column are to be parted."""
     own = [c for c in grid.cells if c.columns == (column, column + 1) and c.lines]
     several = [c for c in own if len(c.lines) == 1 and len(c.pieces) > 1]
@@ -121,7 +122,7 @@ def _between(cells: Sequence[Cell]) -> float | None:
     return (left + right) / 2 if left < right else None
 
 
-def _with_wall(grid: Grid, column: int, x: float) -> Grid:
+def _with_wall(grid: TableGrid, column: int, x: float) -> TableGrid:
     cells: list[Cell] = []
     for cell in grid.cells:
         (left, top, right, bottom), (first, last) = cell.box, cell.columns

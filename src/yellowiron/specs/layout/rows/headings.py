@@ -6,13 +6,11 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from yellowiron.specs.language.vocabulary import tokens
-from yellowiron.specs.layout.rows.lines import Block
-from yellowiron.specs.layout.statement import EXAMPLE, Piece, kind_of
+from yellowiron.specs.layout.rows.lines import TextBlock
+from yellowiron.specs.layout.statement import EXAMPLE, TextPiece, kind_of
+from yellowiron.specs.layout.tolerances import HEADING_BAR, LARGER
 from yellowiron.specs.pages.strokes import Box
 from yellowiron.specs.pages.words import Page, Word
-
-LARGER = 1.12
-"""A heading is set larger than its rows by this at least, or in capitals."""
 
 
 @dataclass(frozen=True)
@@ -25,19 +23,19 @@ class Heading:
     text: str
 
 
-def is_heading(piece: Piece, size: float) -> bool:
+def is_heading(piece: TextPiece, size: float) -> bool:
     """Whether words are set like a heading over rows of a size: larger, or in capitals."""
     return len(EXAMPLE.sub("", piece.text).split()) <= 9 and (
         piece.size > LARGER * size or (_in_capitals(piece) and (piece.bold or len(piece.text) > 5))
     )
 
 
-def is_title(piece: Piece, size: float) -> bool:
+def is_title(piece: TextPiece, size: float) -> bool:
     """Whether words with a unit at the right end of their line head a section, whose bare numbers have that unit."""
     return piece.bold or is_heading(piece, size)
 
 
-def _in_capitals(piece: Piece) -> bool:
+def _in_capitals(piece: TextPiece) -> bool:
     letters = [c for c in EXAMPLE.sub("", piece.text) if c.isalpha()]
     return len(letters) >= 4 and sum(c.isupper() for c in letters) > 0.85 * len(letters)
 
@@ -47,7 +45,7 @@ def names_no_columns(row: Sequence[str]) -> bool:
     return len(row) > 2 and (len(set(row[1:])) == 1 or "engine" in tokens(row[0]))
 
 
-def bar_under(page: Page, piece: Piece, size: float) -> Box | None:
+def bar_under(page: Page, piece: TextPiece, size: float) -> Box | None:
     """The filled bar an emphasised piece is printed on, if that is no higher than a heading needs; shaded rows of a
     table are none."""
     if not (piece.bold or piece.size > 1.05 * size or _in_capitals(piece)):
@@ -63,9 +61,9 @@ def inside(box: Box, outer: Box) -> bool:
     return outer[0] - 2 <= box[0] and box[2] <= outer[2] + 2 and outer[1] - 2 <= (box[1] + box[3]) / 2 <= outer[3] + 2
 
 
-def bars_of(page: Page, block: Block) -> list[Box]:
+def bars_of(page: Page, block: TextBlock) -> list[Box]:
     """The filled bars that stand in a block and are no higher than a heading."""
-    return [b for b in page.bars if b[0] < block.x1 and block.x0 < b[2] and b[3] - b[1] < 40]
+    return [b for b in page.bars if b[0] < block.x1 and block.x0 < b[2] and b[3] - b[1] < HEADING_BAR]
 
 
 def body_size(words: Iterable[Word]) -> float:
@@ -77,7 +75,7 @@ def body_size(words: Iterable[Word]) -> float:
     return max(sizes, key=lambda s: (sizes[s], -s)) if sizes else 8.0
 
 
-def labels_reach(block: Block) -> float:
+def labels_reach(block: TextBlock) -> float:
     """Where most labels of a column of text end, at the right."""
     ends = sorted(
         a.x1

@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from yellowiron.specs.language.numbers import read
-from yellowiron.specs.layout.rows.lines import Line, lines_of
-from yellowiron.specs.layout.statement import Piece, Statement, is_key, is_unit, kind_of
+from yellowiron.specs.layout.rows.lines import TextLine, lines_of
+from yellowiron.specs.layout.statement import Statement, TextPiece, is_key, is_unit, kind_of
 from yellowiron.specs.pages.words import Page, Word
 
 _FEWEST = 4
@@ -15,23 +15,23 @@ _FEWEST = 4
 
 
 @dataclass(frozen=True)
-class Legend:
+class KeyLegend:
     """The words of each key, by the height at which their legend begins, and the words that print the legends."""
 
     parts: tuple[tuple[float, Mapping[str, str]], ...]
-    words: frozenset[int]
+    words: frozenset[Word]
 
-    def label(self, piece: Piece) -> str:
+    def label(self, piece: TextPiece) -> str:
         """What a key stands for: in the nearest legend that begins above it, or in the only one of the page."""
         above = [labels for top, labels in self.parts if top < piece.box[1] or len(self.parts) == 1]
         return above[-1].get(_key_of(piece), "") if above and _is_letter(piece) else ""
 
 
-_NONE = Legend((), frozenset())
-_Entry = tuple[Piece, Piece]
+_NONE = KeyLegend((), frozenset())
+_Entry = tuple[TextPiece, TextPiece]
 
 
-def key_legend(lines: Sequence[Line]) -> Legend:
+def key_legend(lines: Sequence[TextLine]) -> KeyLegend:
     """The legends of a page: keys, no two alike in one legend, each right before words without a value of their own.
     Most of the keys stand once more, alone."""
     groups: list[list[_Entry]] = []
@@ -47,7 +47,7 @@ def key_legend(lines: Sequence[Line]) -> Legend:
     if not groups:
         return _NONE
     parts = tuple((min(k.box[1] for k, _ in g), {_key_of(k): words.bare for k, words in g}) for g in groups)
-    return Legend(parts, frozenset(id(w) for g in groups for entry in g for part in entry for w in part.words))
+    return KeyLegend(parts, frozenset(w for g in groups for entry in g for part in entry for w in part.words))
 
 
 def _is_legend(keys: Sequence[str], alone: set[str]) -> bool:
@@ -55,7 +55,7 @@ def _is_legend(keys: Sequence[str], alone: set[str]) -> bool:
     return len(set(keys)) == len(keys) and named >= _FEWEST and named >= 0.6 * len(keys)
 
 
-def _entry(pieces: Sequence[Piece], index: int) -> _Entry | None:
+def _entry(pieces: Sequence[TextPiece], index: int) -> _Entry | None:
     """A key and its words; None where a value follows them."""
     if index + 1 >= len(pieces) or not _is_letter(pieces[index]) or kind_of(pieces[index + 1]) != "text":
         return None
@@ -72,26 +72,26 @@ def _entry(pieces: Sequence[Piece], index: int) -> _Entry | None:
     return pieces[index], words
 
 
-def _is_letter(piece: Piece) -> bool:
+def _is_letter(piece: TextPiece) -> bool:
     return is_key(piece.bare) and not piece.bare.strip("()")[:1].isdigit()
 
 
-def _key_of(piece: Piece) -> str:
+def _key_of(piece: TextPiece) -> str:
     return piece.bare.strip("().:")
 
 
-def _stands_alone(pieces: Sequence[Piece], index: int) -> bool:
+def _stands_alone(pieces: Sequence[TextPiece], index: int) -> bool:
     """Whether a key heads a column among others, or a value follows it."""
     following = pieces[index + 1 : index + 2]
     return not following or _is_letter(following[0]) or kind_of(following[0]) == "value"
 
 
-def spelled(page: Page, legend: Legend) -> Page:
+def spelled(page: Page, legend: KeyLegend) -> Page:
     """The page without its legend, whose words stand in the place of the keys that are alone."""
     if not legend.parts:
         return page
     words: list[Word] = []
-    for line in lines_of([w for w in page.words if id(w) not in legend.words]):
+    for line in lines_of([w for w in page.words if w not in legend.words]):
         for index, piece in enumerate(line.pieces):
             label = legend.label(piece)
             if label and _stands_alone(line.pieces, index):
@@ -101,7 +101,7 @@ def spelled(page: Page, legend: Legend) -> Page:
     return replace(page, words=tuple(words))
 
 
-def labelled(statements: Sequence[Statement], legend: Legend) -> list[Statement]:
+def labelled(statements: Sequence[Statement], legend: KeyLegend) -> list[Statement]:
     """The statements whose only name is a key's, with it as their label."""
     names = {label for _, labels in legend.parts for label in labels.values()}
     return [_labelled(s, names) for s in statements] if names else list(statements)

@@ -6,7 +6,7 @@ from bisect import bisect_left
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from yellowiron.specs.layout.statement import Piece, kind_of, split_inline
+from yellowiron.specs.layout.statement import TextPiece, kind_of, split_inline
 from yellowiron.specs.pages.strokes import Box, Rule
 from yellowiron.specs.pages.words import Word
 
@@ -19,10 +19,10 @@ _GAP = 0.75
 
 
 @dataclass(frozen=True)
-class Line:
+class TextLine:
     """Pieces on one baseline, from left to right."""
 
-    pieces: tuple[Piece, ...]
+    pieces: tuple[TextPiece, ...]
 
     @property
     def top(self) -> float:
@@ -50,7 +50,7 @@ class Line:
         return " ".join(p.text for p in self.pieces)
 
 
-def lines_of(words: Sequence[Word], walls: Sequence[Rule] = ()) -> list[Line]:
+def lines_of(words: Sequence[Word], walls: Sequence[Rule] = ()) -> list[TextLine]:
     """Words by baseline, parted where a wide gap or a vertical rule is between them; from top to bottom."""
     rows: list[list[Word]] = []
     for word in sorted(words, key=lambda w: (w.baseline, w.x0)):
@@ -68,9 +68,9 @@ def lines_of(words: Sequence[Word], walls: Sequence[Rule] = ()) -> list[Line]:
                 pieces.append([word])
             else:
                 pieces[-1].append(word)
-        found = tuple(Piece(tuple(p)) for p in pieces)
+        found = tuple(TextPiece(tuple(p)) for p in pieces)
         # a colon in a column of its own parts labels from values, and is neither
-        lines.append(Line(tuple(p for p in found if p.text not in (":", "：")) or found))
+        lines.append(TextLine(tuple(p for p in found if p.text not in (":", "：")) or found))
     return lines
 
 
@@ -85,15 +85,15 @@ def _walled(a: Word, b: Word, walls: Sequence[Rule]) -> bool:
 
 
 @dataclass(frozen=True)
-class Block:
+class TextBlock:
     """Lines that belong to one column of text, `x0` to `x1`."""
 
-    lines: tuple[Line, ...]
+    lines: tuple[TextLine, ...]
     x0: float
     x1: float
 
 
-def blocks_of(lines: Sequence[Line], bars: Sequence[Box] = (), across: Sequence[Box] = ()) -> list[Block]:
+def blocks_of(lines: Sequence[TextLine], bars: Sequence[Box] = (), across: Sequence[Box] = ()) -> list[TextBlock]:
     """The columns of text, in reading order: what is above a pair of columns, the left one, the right one, the rest.
 
     A gutter is an x at which several lines begin a label anew, each with a value to its right, and which no piece
@@ -105,17 +105,17 @@ def blocks_of(lines: Sequence[Line], bars: Sequence[Box] = (), across: Sequence[
     found = _gutter(lines, bars, [*across, *bars])
     x0, x1 = min(line.x0 for line in lines), max(line.x1 for line in lines)
     if found is None:
-        return [Block(tuple(lines), x0, x1)]
+        return [TextBlock(tuple(lines), x0, x1)]
     x, first, last = found
-    left: list[Line] = []
-    right: list[Line] = []
+    left: list[TextLine] = []
+    right: list[TextLine] = []
     for line in lines[first:last]:
         a = tuple(p for p in line.pieces if p.x0 < x - 2)
         b = tuple(p for p in line.pieces if p.x0 >= x - 2)
         if a:
-            left.append(Line(a))
+            left.append(TextLine(a))
         if b:
-            right.append(Line(b))
+            right.append(TextLine(b))
     return [
         *blocks_of(lines[:first], bars, across),
         *blocks_of(left, bars, across),
@@ -124,8 +124,47 @@ def blocks_of(lines: Sequence[Line], bars: Sequence[Box] = (), across: Sequence[
     ]
 
 
-def _gutter(lines: Sequence[Line], bars: Sequence[Box], across: Sequence[Box]) -> tuple[float, int, int] | None:
+def _gutter(lines: Sequence[TextLine], bars: Sequence[Box], across: Sequence[Box]) -> tuple[float, int, int] | None:
     """The best gutter: its x and the range of lines that it parts."""
+    by_bars = sorted({b[0] for b in bars if any(a[2] <= b[0] and a[1] < b[3] and b[1] < a[3] for a in bars)})
+    drawn = [*by_bars, *_of_broken_rules(lines, across)]
+    best: tuple[int, float, int, int] | None = None
+    for x in [*_of_repeated_labels(lines), *_of_right_set_labels(lines), *drawn]:
+        first, last, weight = _run(lines, across, x)
+        part = lines[first:last]
+        parts = sum(_has_value_left_of(line, x) for line in part) >= 2 or (x in drawn and _begun_at(part, x) >= 3)
+        if weight >= 3 and parts and (best is None or weight > best[0]):
+            best = (weight, x, first, last)
+    return best[1:] if best else None
+
+
+def _has_value_left_of(line: TextLine, x: float) -> bool:
+    return any(p.x0 < x - 2 and (kind_of(p) == "value" or _says_all(line, i)) for i, p in enumerate(line.pieces))
+
+
+def _begun_at(lines: Sequence[TextLine], x: float) -> int:
+    """How many lines have a piece that begins about there."""
+    return sum(any(abs(p.x0 - x) < 12 for p in line.pieces) for line in lines)
+
+
+def _of_repeated_labels(lines: Sequence[TextLine]) -> list[float]:
+    """Where several lines begin a label anew, most of them with its value, and where headings hang out from there."""
+    starts = _label_starts(lines)
+    found: list[float] = []
+    for key in sorted(starts):
+        near = starts[key] + starts.get(key + 1, [])
+        if len(near) >= 4 and sum(paired for _, paired in near) >= max(3, 0.5 * len(near)):
+            label = min(x for x, _ in near)
+            found.append(label)
+            # headings may hang out to the left of their rows
+            hanging = {p.x0 for line in lines for p in line.pieces if label - _HANGING <= p.x0 < label - 2}
+            found.extend(sorted(hanging)[:3])
+    return found
+
+
+def _label_starts(lines: Sequence[TextLine]) -> dict[int, list[tuple[float, bool]]]:
+    """By thirds of their x in points: where words begin that are not the first of the page's left edge, and whether
+    they have a value."""
     starts: dict[int, list[tuple[float, bool]]] = {}
     left_edge = min(line.x0 for line in lines)
     for number, line in enumerate(lines):
@@ -136,35 +175,10 @@ def _gutter(lines: Sequence[Line], bars: Sequence[Box], across: Sequence[Box]) -
             paired = any(kind_of(p) == "value" for p in line.pieces[index + 1 : index + 4]) or _says_all(line, index)
             paired = paired or _folded(lines, number, index)
             starts.setdefault(round(piece.x0 / 3), []).append((piece.x0, paired))
-    candidates: list[float] = []
-    for key in sorted(starts):
-        near = starts[key] + starts.get(key + 1, [])
-        if len(near) >= 4 and sum(paired for _, paired in near) >= max(3, 0.5 * len(near)):
-            label = min(x for x, _ in near)
-            candidates.append(label)
-            # headings may hang out to the left of their rows
-            hanging = {p.x0 for line in lines for p in line.pieces if label - _HANGING <= p.x0 < label - 2}
-            candidates.extend(sorted(hanging)[:3])
-    candidates += _of_right_set_labels(lines)
-    by_bars = sorted({b[0] for b in bars if any(a[2] <= b[0] and a[1] < b[3] and b[1] < a[3] for a in bars)})
-    candidates += by_bars
-    by_rules = _of_broken_rules(lines, across)
-    candidates += by_rules
-    best: tuple[int, float, int, int] | None = None
-    for x in candidates:
-        first, last, weight = _run(lines, across, x)
-        left_values = sum(
-            any(p.x0 < x - 2 and (kind_of(p) == "value" or _says_all(line, i)) for i, p in enumerate(line.pieces))
-            for line in lines[first:last]
-        )
-        begun = sum(any(abs(p.x0 - x) < 12 for p in line.pieces) for line in lines[first:last])
-        parts = left_values >= 2 or (x in (*by_bars, *by_rules) and begun >= 3)
-        if weight >= 3 and parts and (best is None or weight > best[0]):
-            best = (weight, x, first, last)
-    return best[1:] if best else None
+    return starts
 
 
-def _of_broken_rules(lines: Sequence[Line], across: Sequence[Box]) -> list[float]:
+def _of_broken_rules(lines: Sequence[TextLine], across: Sequence[Box]) -> list[float]:
     """Where a rule begins beside another one at the same height, as under the headings of two columns, and words."""
     thin = [b for b in across if b[3] - b[1] <= 6]
     begins = {b[0] for b in thin if any(0 < b[0] - a[2] < 40 and abs(a[1] - b[1]) < 1.5 for a in thin)}
@@ -176,9 +190,9 @@ def _of_broken_rules(lines: Sequence[Line], across: Sequence[Box]) -> list[float
     return found
 
 
-def _of_right_set_labels(lines: Sequence[Line]) -> list[float]:
+def _of_right_set_labels(lines: Sequence[TextLine]) -> list[float]:
     """Where the longest of labels begins that are set against their values: they end level with each other."""
-    ends: dict[int, list[Piece]] = {}
+    ends: dict[int, list[TextPiece]] = {}
     for line in lines:
         for label, value in zip(line.pieces, line.pieces[1:], strict=False):
             if kind_of(label) == "text" and kind_of(value) == "value":
@@ -192,7 +206,7 @@ def _of_right_set_labels(lines: Sequence[Line]) -> list[float]:
     return found
 
 
-def _folded(lines: Sequence[Line], number: int, index: int) -> bool:
+def _folded(lines: Sequence[TextLine], number: int, index: int) -> bool:
     """Whether the value of a label stands on the line under it: a row folded in two, or a label over its value."""
     piece = lines[number].pieces[index]
     after = lines[number].pieces[index + 1 : index + 2]
@@ -206,13 +220,13 @@ def _folded(lines: Sequence[Line], number: int, index: int) -> bool:
     return False
 
 
-def _says_all(line: Line, index: int) -> bool:
+def _says_all(line: TextLine, index: int) -> bool:
     """Whether a piece holds both a label and its value ("Wheelbase: 3450 mm"), and no other value follows it."""
     after = line.pieces[index + 1 : index + 2]
     return bool(split_inline(line.pieces[index].bare)[0]) and not any(kind_of(p) == "value" for p in after)
 
 
-def _run(lines: Sequence[Line], across: Sequence[Box], x: float) -> tuple[int, int, int]:
+def _run(lines: Sequence[TextLine], across: Sequence[Box], x: float) -> tuple[int, int, int]:
     """The longest run of lines that nothing crosses at `x`, and how many of them stand on the thinner side."""
     crossing = [b for b in across if b[0] < x - 6 and b[2] > x + 6]
     heights = sorted((b[1] + b[3]) / 2 for b in crossing if b[3] - b[1] <= 6)
@@ -243,9 +257,9 @@ def _any_between(heights: Sequence[float], top: float, bottom: float) -> bool:
     return index < len(heights) and heights[index] < bottom
 
 
-def visual_rows(lines: Sequence[Line]) -> list[tuple[Line, ...]]:
+def visual_rows(lines: Sequence[TextLine]) -> list[tuple[TextLine, ...]]:
     """Lines that overlap in height are one row: a label beside the two lines of its value."""
-    rows: list[list[Line]] = []
+    rows: list[list[TextLine]] = []
     for line in sorted(lines, key=lambda one: one.top):
         if rows:
             bottom = max(one.bottom for one in rows[-1])
@@ -258,22 +272,22 @@ def visual_rows(lines: Sequence[Line]) -> list[tuple[Line, ...]]:
     return [tuple(row) for row in rows]
 
 
-def _same_columns(a: Line, b: Line) -> bool:
+def _same_columns(a: TextLine, b: TextLine) -> bool:
     """Whether two lines overlapping in height are yet stacked: one has a piece right above the other's."""
     return any(p.x0 < q.x1 and q.x0 < p.x1 and q.box[1] - p.box[1] < 0.5 * p.size for p in a.pieces for q in b.pieces)
 
 
 def bands(
-    lines: Sequence[Line], rules: Sequence[Rule], bars: Sequence[Box], x0: float, x1: float
-) -> list[tuple[Line, ...]]:
+    lines: Sequence[TextLine], rules: Sequence[Rule], bars: Sequence[Box], x0: float, x1: float
+) -> list[tuple[TextLine, ...]]:
     """Lines between two neighbouring horizontal rules that run along (most of) the block are one row.
 
     Lines outside such a pair of rules are grouped by overlap alone; a line on a filled bar stands alone.
     """
     ys = sorted({round(r.top, 1) for r in rules if r.horizontal and min(r.x1, x1) - max(r.x0, x0) > 0.6 * (x1 - x0)})
     edges = sorted({*ys, *(b[1] for b in bars), *(b[3] for b in bars)})
-    groups: dict[tuple[float, float], list[Line]] = {}
-    free: list[Line] = []
+    groups: dict[tuple[float, float], list[TextLine]] = {}
+    free: list[TextLine] = []
     for line in lines:
         middle = (line.top + line.bottom) / 2
         above = max((y for y in edges if y < middle), default=None)

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
-from yellowiron.specs.layout.rows.lines import Line
-from yellowiron.specs.layout.statement import Piece, ascending, is_key, is_unit, kind_of
+from yellowiron.specs.layout.rows.lines import TextLine
+from yellowiron.specs.layout.statement import TextPiece, ascending, is_key, is_unit, kind_of
 from yellowiron.specs.pages.strokes import Rule
 
 _LEVEL = 2.0
@@ -23,14 +23,33 @@ class Beside:
 
     top: float
     bottom: float
-    pieces: tuple[Piece, ...]
+    pieces: tuple[TextPiece, ...]
     heading: bool
 
 
-def without_keys(lines: Sequence[Line]) -> list[Line]:
+def without_keys(lines: Sequence[TextLine]) -> list[TextLine]:
     """The lines without a drawing's keys: a column of letters or outline numbers, no two alike, beside the rows'
     labels. A letter may look like a unit (L, N, m), and units repeat."""
-    columns: list[list[tuple[Piece, bool]]] = []
+    keys: set[TextPiece] = set()
+    for column in _key_columns(lines):
+        texts = [piece.bare for piece, _ in column]
+        if (
+            len(column) >= 3
+            and len(set(texts)) == len(texts)
+            and sum(beside for _, beside in column) >= 0.6 * len(column)
+            and not all(is_unit(t) for t in texts)
+            and _counts([piece for piece, _ in column if piece.bare[0].isdigit()], lines)
+        ):
+            keys.update(piece for piece, beside in column if beside)
+    if not keys:
+        return list(lines)
+    kept = [tuple(p for p in line.pieces if p not in keys) for line in lines]
+    return [TextLine(pieces) for pieces in kept if pieces]
+
+
+def _key_columns(lines: Sequence[TextLine]) -> list[list[tuple[TextPiece, bool]]]:
+    """What may be keys, by column; each with whether it stands beside a label and a value."""
+    columns: list[list[tuple[TextPiece, bool]]] = []
     for line in lines:
         for index, piece in enumerate(line.pieces):
             if not is_key(piece.bare):
@@ -47,34 +66,20 @@ def without_keys(lines: Sequence[Line]) -> list[Line]:
             if not near:
                 columns.append(column)
             column.append((piece, any(words) and any(values)))
-    keys: set[int] = set()
-    for column in columns:
-        texts = [piece.bare for piece, _ in column]
-        if (
-            len(column) >= 3
-            and len(set(texts)) == len(texts)
-            and sum(beside for _, beside in column) >= 0.6 * len(column)
-            and not all(is_unit(t) for t in texts)
-            and _counts([piece for piece, _ in column if piece.bare[0].isdigit()], lines)
-        ):
-            keys.update(id(piece) for piece, beside in column if beside)
-    if not keys:
-        return list(lines)
-    kept = [tuple(p for p in line.pieces if id(p) not in keys) for line in lines]
-    return [Line(pieces) for pieces in kept if pieces]
+    return columns
 
 
-def _counts(numbers: Sequence[Piece], lines: Sequence[Line]) -> bool:
+def _counts(numbers: Sequence[TextPiece], lines: Sequence[TextLine]) -> bool:
     """Whether numbers count rows: they go up; those behind another row's value, one by one."""
     texts = [piece.bare for piece in numbers]
-    first = {id(line.pieces[0]) for line in lines}
-    if all(id(piece) in first for piece in numbers):
+    first = {line.pieces[0] for line in lines}
+    if all(piece in first for piece in numbers):
         return ascending(texts)
     counted = [int(t) if t.isdigit() else 0 for t in (text.strip("()[].:") for text in texts)]
     return all(b == a + 1 for a, b in pairwise(counted))
 
 
-def parted_margin(lines: Sequence[Line], rules: Sequence[Rule]) -> tuple[list[Line], list[Beside]]:
+def parted_margin(lines: Sequence[TextLine], rules: Sequence[Rule]) -> tuple[list[TextLine], list[Beside]]:
     """The lines without what stands in the margin beside their labels, and that, from top to bottom.
 
     A margin: left of where nearly all rows with values begin their labels, level with some of them and empty beside
@@ -88,42 +93,57 @@ def parted_margin(lines: Sequence[Line], rules: Sequence[Rule]) -> tuple[list[Li
     left = min(p.x0 for p in own)
     top, bottom = lines[first].top, lines[last - 1].bottom
     across = sorted(r.top for r in rules if r.horizontal and r.x0 <= left + 4 and r.x1 >= start + 4)
-    groups: list[list[Piece]] = []
-    for piece in own:
+    groups = _groups(own, across)
+    edges = [y for y in across if top - 12 <= y <= bottom + 12]
+    labels = [p for line in lines[first:last] for p in line.pieces if abs(p.x0 - start) <= _LEVEL]
+    beside = [
+        Beside(above, below, tuple(group), _is_set_apart(group, labels))
+        for group, (above, below) in zip(groups, _extents(groups, edges, top, bottom), strict=True)
+    ]
+    inner = [tuple(p for p in line.pieces if p.x0 >= start - _LEVEL) for line in lines[first:last]]
+    return [*lines[:first], *(TextLine(pieces) for pieces in inner if pieces), *lines[last:]], beside
+
+
+def _groups(pieces: Sequence[TextPiece], across: Sequence[float]) -> list[list[TextPiece]]:
+    """The pieces of a margin that stand close to each other, in one weight, with no rule `across` between them."""
+    groups: list[list[TextPiece]] = []
+    for piece in pieces:
         before = groups[-1][-1] if groups else None
         near = before is not None and piece.box[1] - before.box[3] < 0.7 * piece.size and before.bold == piece.bold
         if before is not None and near and not any(before.box[3] - 2 <= y <= piece.box[1] + 2 for y in across):
             groups[-1].append(piece)
         else:
             groups.append([piece])
-    edges = [y for y in across if top - 12 <= y <= bottom + 12]
-    ruled = bool(edges) and all(
-        sum(_cell_of(g, edges) == _cell_of(other, edges) for other in groups) == 1 for g in groups
-    )
-    labels = [p for line in lines[first:last] for p in line.pieces if abs(p.x0 - start) <= _LEVEL]
-    beside = []
-    for index, group in enumerate(groups):
-        above, below = group[0].box[1] - 0.5 * group[0].size, bottom + 1
-        if ruled:
-            above, below = _cell_of(group, edges)
-            above, below = max(above, top - 1), min(below, bottom + 1)
-        elif index + 1 < len(groups):
-            below = groups[index + 1][0].box[1] - 0.5 * group[0].size
-        marked = all(p.bold or p.size > 1.1 * max(q.size for q in labels) for p in group)
-        heading = marked and not all(p.bold for p in labels)
-        beside.append(Beside(above, below, tuple(group), heading))
-    inner = [tuple(p for p in line.pieces if p.x0 >= start - _LEVEL) for line in lines[first:last]]
-    return [*lines[:first], *(Line(pieces) for pieces in inner if pieces), *lines[last:]], beside
+    return groups
 
 
-def _cell_of(group: Sequence[Piece], edges: Sequence[float]) -> tuple[float, float]:
+def _extents(
+    groups: Sequence[Sequence[TextPiece]], edges: Sequence[float], top: float, bottom: float
+) -> list[tuple[float, float]]:
+    """From where to where each group of a margin holds: between its rules where each group has its own, else to the
+    next one."""
+    places = [_cell_of(g, edges) for g in groups]
+    if edges and all(places.count(place) == 1 for place in places):
+        return [(max(above, top - 1), min(below, bottom + 1)) for above, below in places]
+    begins = [g[0].box[1] - 0.5 * g[0].size for g in groups]
+    ends = [after[0].box[1] - 0.5 * g[0].size for g, after in pairwise(groups)]
+    return list(zip(begins, [*ends, bottom + 1], strict=True))
+
+
+def _is_set_apart(group: Sequence[TextPiece], labels: Sequence[TextPiece]) -> bool:
+    """Whether words in the margin stand out from the labels: a heading."""
+    marked = all(p.bold or p.size > 1.1 * max(q.size for q in labels) for p in group)
+    return marked and not all(p.bold for p in labels)
+
+
+def _cell_of(group: Sequence[TextPiece], edges: Sequence[float]) -> tuple[float, float]:
     """The rules above and below some words."""
     middle = (group[0].box[1] + group[-1].box[3]) / 2
     above = max((y for y in edges if y < middle), default=float("-inf"))
     return above, min((y for y in edges if y >= middle), default=float("inf"))
 
 
-def _margin(lines: Sequence[Line]) -> tuple[float, int, int] | None:
+def _margin(lines: Sequence[TextLine]) -> tuple[float, int, int] | None:
     """Where labels begin right of a margin, and the range of lines that have it; None if there is no margin."""
     starts: dict[int, int] = {}
     for line in lines:
@@ -137,7 +157,7 @@ def _margin(lines: Sequence[Line]) -> tuple[float, int, int] | None:
     return None
 
 
-def _run(lines: Sequence[Line], start: float) -> tuple[int, int] | None:
+def _run(lines: Sequence[TextLine], start: float) -> tuple[int, int] | None:
     """The first run of lines in which every row with a value begins its label at `start` and only words stand left of
     that, level with some of the labels, absent beside at least as many."""
     first = 0
@@ -158,16 +178,16 @@ def _run(lines: Sequence[Line], start: float) -> tuple[int, int] | None:
     return None
 
 
-def _fits(line: Line, start: float) -> bool:
+def _fits(line: TextLine, start: float) -> bool:
     left = [p for p in line.pieces if p.x0 < start - _LEVEL]
     if any(kind_of(p) != "text" or p.x1 > start - 2 for p in left) or len(left) > 1:
         return False
     return _at(line, start) or not _has_value(line)
 
 
-def _at(line: Line, start: float) -> bool:
+def _at(line: TextLine, start: float) -> bool:
     return any(abs(p.x0 - start) <= _LEVEL and kind_of(p) == "text" for p in line.pieces)
 
 
-def _has_value(line: Line) -> bool:
+def _has_value(line: TextLine) -> bool:
     return any(kind_of(p) == "value" for p in line.pieces)

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 
 from yellowiron.specs.language.numbers import read
 from yellowiron.specs.language.vocabulary import has_cjk
-from yellowiron.specs.layout.rows.lines import Line
+from yellowiron.specs.layout.rows.lines import TextLine
 from yellowiron.specs.layout.statement import EXAMPLE, Statement, join_boxes
 from yellowiron.specs.pages.words import Word
 
@@ -26,20 +26,20 @@ _LONGEST = 16
 """Words before a value; more are about something else."""
 
 
-def paragraphs_of(lines: Sequence[Line]) -> list[tuple[Line, ...]]:
+def paragraphs_of(lines: Sequence[TextLine]) -> list[tuple[TextLine, ...]]:
     """Running text: pieces set flush left under each other, each the last of its line and, from the second on, alone on
     it, with the ends of two sentences (or of one inside the text)."""
-    groups: list[list[Line]] = []
+    groups: list[list[TextLine]] = []
     for line in lines:
         last = groups[-1][-1] if groups else None
         if last is not None and len(line.pieces) == 1 and _follows(last, line):
             groups[-1].append(line)
         else:
-            groups.append([Line(line.pieces[-1:])])
+            groups.append([TextLine(line.pieces[-1:])])
     return [tuple(g) for g in groups if _is_running(g)]
 
 
-def _follows(last: Line, line: Line) -> bool:
+def _follows(last: TextLine, line: TextLine) -> bool:
     a, b = last.pieces[0], line.pieces[0]
     size = max(a.size, b.size)
     return (
@@ -51,7 +51,7 @@ def _follows(last: Line, line: Line) -> bool:
     )
 
 
-def _is_running(lines: Sequence[Line]) -> bool:
+def _is_running(lines: Sequence[TextLine]) -> bool:
     text, _ = _text_of(lines)
     number = re.search(r"\d", text)
     ends = _ends(text)
@@ -59,7 +59,7 @@ def _is_running(lines: Sequence[Line]) -> bool:
     return bool(inside) or (len(lines) > 1 and len(text) > 60 and len(ends) >= 1)
 
 
-def _text_of(lines: Sequence[Line]) -> tuple[str, list[tuple[int, int, Word]]]:
+def _text_of(lines: Sequence[TextLine]) -> tuple[str, list[tuple[int, int, Word]]]:
     """The text of a paragraph, and where each of its words stands in it."""
     text = ""
     places: list[tuple[int, int, Word]] = []
@@ -86,7 +86,7 @@ def _ends(text: str) -> list[int]:
     return found
 
 
-def read_paragraph(page: int, lines: Sequence[Line], first_row: int, section: str) -> Iterator[Statement]:
+def read_paragraph(page: int, lines: Sequence[TextLine], first_row: int, section: str) -> Iterator[Statement]:
     """The statements of a paragraph: for each quantity of a sentence the words before it, back to the one before."""
     text, places = _text_of(lines)
     start = 0

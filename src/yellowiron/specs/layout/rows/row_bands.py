@@ -4,65 +4,73 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from yellowiron.specs.language.numbers import read, same
+from yellowiron.specs.language.numbers import read
+from yellowiron.specs.language.quantities import same
 from yellowiron.specs.layout.rows.cells import cells_of
-from yellowiron.specs.layout.rows.headings import LARGER
-from yellowiron.specs.layout.rows.lines import Line
-from yellowiron.specs.layout.statement import Piece, kind_of, unit_in_label, words_beside_numbers
-
-INDENT = 4.0
-"""Points by which a row stands in under its sub-heading."""
+from yellowiron.specs.layout.rows.lines import TextLine
+from yellowiron.specs.layout.statement import TextPiece, kind_of, unit_in_label, words_beside_numbers
+from yellowiron.specs.layout.tolerances import INDENT, LARGER
 
 
-def split_if_separate(row: Sequence[Line]) -> Iterator[Sequence[Line]]:
+def split_if_separate(row: Sequence[TextLine]) -> Iterator[Sequence[TextLine]]:
     """A band that holds several labelled values of its own is several rows; a heading over a row is none of it."""
     ordered = sorted(row, key=lambda line: line.top)
     first, rest = ordered[0], ordered[1:]
-    if rest and len(_words(first)) == 1 and kind_of(first.pieces[0]) == "text":
-        largest = max(p.size for line in rest for p in line.pieces)
-        if first.pieces[0].size > LARGER * largest and first.bottom <= min(line.top for line in rest) + 1:
-            yield (first,)
-            yield from split_if_separate(rest)
-            return
-        under = min(rest, key=lambda line: line.top)
-        stands_out = first.pieces[0].bold and not under.pieces[0].bold and under.x0 > first.x0 + INDENT
-        if stands_out and first.bottom <= under.top + 1 and kind_of(under.pieces[0]) == "text":
-            yield (first,)  # a sub-heading over its first row
-            yield from split_if_separate(rest)
-            return
-    if rest and all(kind_of(p) == "unit" for p in first.pieces) and first.bottom <= min(line.top for line in rest) + 1:
-        yield (first,)  # units over the columns of the first row
+    last, before = ordered[-1], ordered[:-1]
+    if rest and (_is_heading_over(first, rest) or _are_units_over(first, rest)):
+        yield (first,)
         yield from split_if_separate(rest)
-        return
-    if len(rest) == 1 and _are_heads_of(first, rest[0]):
+    elif len(rest) == 1 and _are_heads_of(first, rest[0]):
         yield (first,)
         yield (rest[0],)
-        return
-    last, before = ordered[-1], ordered[:-1]
-    if before and len(_words(last)) == 1 and kind_of(last.pieces[0]) == "text":
-        largest = max(p.size for line in before for p in line.pieces)
-        if last.pieces[0].size > LARGER * largest and last.top >= max(line.bottom for line in before) - 1:
-            yield from split_if_separate(before)
-            yield (last,)
-            return
-    labelled = 0
-    for line in row:
-        kinds = [kind_of(p) for p in line.pieces]
-        if kinds[0] == "text" and "value" in kinds[1:]:
-            labelled += 1
-    if labelled >= 2 and not _in_two_systems(ordered):
+    elif before and _is_heading_under(last, before):
+        yield from split_if_separate(before)
+        yield (last,)
+    elif sum(map(_is_labelled, row)) >= 2 and not _in_two_systems(ordered):
         for line in row:
             yield (line,)
     else:
         yield row
 
 
-def _words(line: Line) -> list[Piece]:
+def _is_heading_over(first: TextLine, rest: Sequence[TextLine]) -> bool:
+    """Whether the first line is words alone that stand out over the lines under it: larger than all of them, or a bold
+    sub-heading from which the first of them is indented."""
+    if len(_words(first)) != 1 or kind_of(first.pieces[0]) != "text":
+        return False
+    if _is_larger(first, rest) and first.bottom <= min(line.top for line in rest) + 1:
+        return True
+    under = min(rest, key=lambda line: line.top)
+    stands_out = first.pieces[0].bold and not under.pieces[0].bold and under.x0 > first.x0 + INDENT
+    return stands_out and first.bottom <= under.top + 1 and kind_of(under.pieces[0]) == "text"
+
+
+def _is_heading_under(last: TextLine, before: Sequence[TextLine]) -> bool:
+    """Whether the last line is words alone, larger than the lines over it: the heading of what follows."""
+    worded = len(_words(last)) == 1 and kind_of(last.pieces[0]) == "text"
+    return worded and _is_larger(last, before) and last.top >= max(line.bottom for line in before) - 1
+
+
+def _is_larger(line: TextLine, others: Sequence[TextLine]) -> bool:
+    return line.pieces[0].size > LARGER * max(p.size for other in others for p in other.pieces)
+
+
+def _are_units_over(first: TextLine, rest: Sequence[TextLine]) -> bool:
+    """Whether the first line is the units over the columns of the first row."""
+    return all(kind_of(p) == "unit" for p in first.pieces) and first.bottom <= min(line.top for line in rest) + 1
+
+
+def _is_labelled(line: TextLine) -> bool:
+    kinds = [kind_of(p) for p in line.pieces]
+    return kinds[0] == "text" and "value" in kinds[1:]
+
+
+def _words(line: TextLine) -> list[TextPiece]:
     """What a line says, without the sign at its end that folds a section of a web page."""
     return [p for p in line.pieces if kind_of(p) != "mark"]
 
 
-def _are_heads_of(line: Line, row: Line) -> bool:
+def _are_heads_of(line: TextLine, row: TextLine) -> bool:
     """Whether a line names the columns of the row under it: words with numbers ("Arm 2.4 m"), one over each of its two
     or more bare values, and none over its label."""
     values = [p for p in row.pieces if kind_of(p) == "value"]
@@ -74,7 +82,7 @@ def _are_heads_of(line: Line, row: Line) -> bool:
     return over and named and bare and line.bottom <= row.top + 2 and line.x0 > row.x0 + 2 * line.pieces[0].size
 
 
-def _in_two_systems(lines: Sequence[Line]) -> bool:
+def _in_two_systems(lines: Sequence[TextLine]) -> bool:
     """Whether two lines with labels are one row, its label broken in two: their values are the same, metric and
     imperial."""
     both = [cells_of((line,)) for line in lines]

@@ -1,0 +1,60 @@
+"""An answer of the search: one reading of the welds under one variant of the template, solved."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from yellowiron.alignment.assignment.cp_sat import MISSING_WEIGHT, Solution, solve
+from yellowiron.alignment.assignment.weights import Weights
+from yellowiron.alignment.structure.clusters import Structure
+from yellowiron.model.template import Template
+
+MARGIN = 20
+"""An assignment is doubtful if the best without it scores this little less: less than a name is worth."""
+SIDED_WEIGHT = 4 * MISSING_WEIGHT
+"""What a variant loses for a cylinder that stands to one side where it should be in the middle."""
+
+
+@dataclass(frozen=True, eq=False)
+class Answer:
+    """One reading of the welds and one variant of the template, solved. `contact`: the tolerance of the contacts, as a
+    share of the machine's diagonal."""
+
+    contact: float
+    structure: Structure
+    choices: dict[str, str]
+    template: Template
+    solution: Solution
+    unary: Weights
+    sided: tuple[str, ...]
+    barred: frozenset[tuple[str, int]]
+
+    @property
+    def score(self) -> int:
+        """What variants and readings are compared by: a cylinder at the wrong place is worse than a missing one."""
+        return self.solution.score - SIDED_WEIGHT * len(self.sided)
+
+
+def is_whole(answer: Answer) -> bool:
+    """True where every body is played and every joint found, each at a place it may have, and no hydraulic cylinder is
+    left over."""
+    found = {*answer.solution.hinge_of, *answer.solution.slide_of}
+    joints = {j.name for j in answer.template.joints if j.type in ("revolute", "prismatic")}
+    bodies = {r.name for r in answer.template.roles if r.rigid and not r.optional}
+    cylinders = {c for slide in answer.structure.slides for c in slide[:2]}
+    played = answer.solution.body_of
+    return not answer.sided and joints <= found and bodies <= set(played.values()) and cylinders <= set(played)
+
+
+def rivals_of(answer: Answer) -> dict[int, str | None]:
+    """Clusters that could as well be another body (or none), and which: where a machine is not whole, its joints alone
+    may not tell."""
+    found = {}
+    for cluster, body in sorted(answer.solution.body_of.items()):
+        other = solve(
+            answer.structure, answer.template, unary=answer.unary, barred=answer.barred, without=(cluster, body),
+            at_least=answer.solution.objective - MARGIN - MISSING_WEIGHT,
+        )  # fmt: skip
+        if other is not None and answer.solution.score - other.score < MARGIN:
+            found[cluster] = other.body_of.get(cluster)
+    return found

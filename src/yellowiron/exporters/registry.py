@@ -1,0 +1,67 @@
+"""Which formats a machine is written in: ours, and those that other installed packages bring.
+
+Another package names an `Exporter` of its own in its `pyproject.toml`:
+
+    [project.entry-points."yellowiron.exporters"]
+    joints = "its_package:EXPORTER"
+"""
+
+from __future__ import annotations
+
+import contextlib
+import importlib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from types import MappingProxyType
+
+from yellowiron.model.errors import YellowironError
+from yellowiron.model.mechanism import Mechanism
+from yellowiron.support.plugins import find_plugins, in_a_sentence
+
+GROUP = "yellowiron.exporters"
+"""Entry points of this group are `Exporter`s of other packages."""
+
+
+@dataclass(frozen=True)
+class Exporter:
+    """A format that there is. `title`: what it writes, as a person calls it. `function`: "module:function", which takes
+    the mechanism, the machine's USD file and a folder, writes into the folder and returns the path of the machine's
+    file there. `scene`: the file beside it that has the machine on the ground, "" where there is none."""
+
+    title: str
+    function: str
+    scene: str = ""
+
+
+EXPORTERS: Mapping[str, Exporter] = MappingProxyType(
+    {"mjcf": Exporter("MJCF", "yellowiron.exporters.mjcf.document:export_mjcf", scene="scene.xml")}
+)
+
+
+def exporter_names() -> tuple[str, ...]:
+    """The formats there are: those of `EXPORTERS`, then other packages', by name. None is imported."""
+    return (*EXPORTERS, *find_plugins(GROUP, builtin=EXPORTERS))
+
+
+def find_exporter(name: str) -> Exporter:
+    """The exporter of that name; `YellowironError` where there is none, or where it is another package's and cannot be
+    loaded."""
+    plugins = find_plugins(GROUP, builtin=EXPORTERS)
+    if name in plugins:
+        return plugins[name].load(Exporter)
+    if name not in EXPORTERS:
+        hint = f"This version writes {', '.join(exporter_names())}."
+        raise YellowironError(f"There is no export to '{name}'", where="--to", hint=hint)
+    return EXPORTERS[name]
+
+
+def export(mechanism: Mechanism, usd_file: str | Path, folder: Path, *, to: str) -> Path:
+    """Writes a machine into a folder in the format `to`; the path of the machine's file there. `mechanism` is what the
+    machine file `usd_file` says, which also has the geometry. Errors as in `find_exporter` and those of the exporter;
+    whatever another package's throws is a `YellowironError`."""
+    found = find_exporter(to)
+    theirs = to not in EXPORTERS
+    with in_a_sentence(f"The exporter '{to}' failed", found.function) if theirs else contextlib.nullcontext():
+        module, _, function = found.function.partition(":")
+        return Path(getattr(importlib.import_module(module), function)(mechanism, usd_file, folder))

@@ -1,0 +1,119 @@
+"""What a set of choices leaves without what it needs: joints, parents, cylinders, sensors."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+
+from yellowiron.model.finding import Finding
+from yellowiron.model.rows import split_index
+from yellowiron.model.template import Choices, CylinderTemplate, JointTemplate, Template
+
+
+def references(template: Template, chosen: Template, choices: Mapping[str, str]) -> Iterator[Finding]:
+    """Entries that stay under the choices and refer to others that do not; `chosen` is the template under them."""
+    under = ", ".join(f"{k}={v}" for k, v in choices.items()) or "the template's own choices"
+    for where, what in _gone(template, chosen, choices):
+        yield Finding("TPL008", "error", where, f"Under {under}, {what} is not there.", "Give both the same 'when'.")
+    yield from _sensors(chosen, under)
+    yield from _cylinders(chosen)
+    yield from _drives(chosen)
+
+
+def _gone(template: Template, chosen: Template, choices: Mapping[str, str]) -> Iterator[tuple[str, str]]:
+    """(entry, what it needs and has not) under the choices."""
+    roles, joints = {r.name for r in chosen.roles}, {j.name for j in chosen.joints}
+    for joint in chosen.joints:
+        for part in joint.parts:
+            if split_index(part)[0] not in roles:
+                yield joint.name, f"its part '{part}'"
+    for role in chosen.roles:
+        if role.parent is not None and role.parent not in roles:
+            yield role.name, f"its parent '{role.parent}'"
+    if chosen.root not in roles:
+        yield chosen.root, "the root"
+    for actuator in template.actuators:
+        for cylinder in (c for c in actuator.cylinders if _holds(c.when, choices)):
+            for name in (cylinder.slide, cylinder.barrel_joint, cylinder.rod_joint):
+                if name and name not in joints:
+                    yield actuator.name, f"its joint '{name}'"
+
+
+def _sensors(chosen: Template, under: str) -> Iterator[Finding]:
+    """Sensors whose place does not exist under the choices."""
+    joints = {j.name for j in chosen.joints}
+    there = {
+        "site": {s.name for s in chosen.sites},
+        "role": {r.name for r in chosen.roles},
+        "joint": joints,
+        "cylinder": joints,
+        "actuator": {a.name for a in chosen.actuators},
+    }
+    for sensor in chosen.sensors:
+        for kind, names in there.items():
+            if kind in sensor.mount and sensor.mount[kind] not in names:
+                words = f"Under {under}, the {kind} '{sensor.mount[kind]}' that it is mounted on is not there."
+                yield Finding("TPL018", "warning", sensor.name, words, "Give the sensor the same 'when'.")
+
+
+def _cylinders(chosen: Template) -> Iterator[Finding]:
+    """Actuators' cylinders: a slide with a drive, each end with its own pivot."""
+    joints = {j.name: j for j in chosen.joints}
+    for actuator in chosen.actuators:
+        for cylinder in actuator.cylinders:
+            yield from _cylinder(chosen, actuator.name, joints, cylinder)
+
+
+def _cylinder(
+    template: Template, actuator: str, joints: Mapping[str, JointTemplate], cylinder: CylinderTemplate
+) -> Iterator[Finding]:
+    slide = cylinder.slide
+    if slide not in joints or _missing_parts(template, joints[slide]):
+        return
+    if joints[slide].drive is None:
+        yield Finding(
+            "TPL006", "error", actuator, f"Its slide '{slide}' has no drive.", 'Give it "Drive": ["Linear Drive"].'
+        )
+    ends = set(template.bodies_of(joints[slide]))
+    for pivot in (cylinder.barrel_joint, cylinder.rod_joint):
+        there = pivot in joints and not _missing_parts(template, joints[pivot])
+        if there and not ends & set(template.bodies_of(joints[pivot])):
+            yield Finding(
+                "TPL006",
+                "error",
+                actuator,
+                f"'{pivot}' is at neither end of the cylinder '{slide}'.",
+                "Name the pivots of its barrel and rod.",
+            )
+
+
+def _drives(chosen: Template) -> Iterator[Finding]:
+    """Joints with a drive that no actuator moves."""
+    driven = {c.slide for a in chosen.actuators for c in a.cylinders} | {j for a in chosen.actuators for j in a.joints}
+    for joint in chosen.joints:
+        if joint.drive and joint.name not in driven:
+            yield Finding(
+                "TPL007",
+                "warning",
+                joint.name,
+                "The joint has a drive, and no actuator moves it.",
+                "Add it to actuators.json.",
+            )
+
+
+def _missing_parts(template: Template, joint: JointTemplate) -> bool:
+    present = {r.name for r in template.roles}
+    return any(split_index(p)[0] not in present for p in joint.parts)
+
+
+def without(template: Template, broken: Sequence[Finding]) -> Template:
+    """The template without joints whose parts are gone, so that the rest can still be checked."""
+    if not any(f.code == "TPL008" for f in broken):
+        return template
+    present = {r.name for r in template.roles}
+    roles = tuple(r if r.parent in present else replace(r, parent=None) for r in template.roles)
+    return replace(template, roles=roles, joints=tuple(j for j in template.joints if not _missing_parts(template, j)))
+
+
+def _holds(when: Choices, choices: Mapping[str, str]) -> bool:
+    return all(choices.get(name) in allowed for name, allowed in when.items())

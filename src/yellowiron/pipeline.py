@@ -1,0 +1,270 @@
+"""The whole way, in order: type, CAD model and specification sheet to a measured USD machine."""
+
+from __future__ import annotations
+
+import importlib
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+from yellowiron import cad, checks, kinematics, library, report, specs, usd
+from yellowiron.alignment import align, declared_roles, read_alignment, to_scale, write_alignment
+from yellowiron.mechanism import build_mechanism, compare_declared, declared_findings, declared_values
+from yellowiron.model.alignment import Alignment
+from yellowiron.model.assembly import Assembly
+from yellowiron.model.errors import MechanismError
+from yellowiron.model.finding import Finding
+from yellowiron.model.mechanism import Measurement, Mechanism
+from yellowiron.model.rows import expand
+from yellowiron.model.specification import Specifications
+from yellowiron.model.sweep import Sweep
+from yellowiron.model.template import Template, choose
+from yellowiron.support.output import output_folder
+
+_LIBRARIES = (
+    "mujoco", "ortools.sat.python.cp_model", "pxr.Usd", "pxr.UsdPhysics", "scipy.optimize", "scipy.spatial",
+    "yellowiron.kinematics.completion", "yellowiron.kinematics.measuring.measurement", "yellowiron.usd.write",
+)  # fmt: skip
+Progress = Callable[[str], None]
+
+
+@dataclass(frozen=True, eq=False)
+class Machine:
+    """What a build returns: every stage's result, `document` (what `report.json` holds), the folder with its files, and
+    what `fell_short`, one phrase each."""
+
+    mechanism: Mechanism
+    alignment: Alignment
+    specifications: Specifications
+    measurements: tuple[Measurement, ...]
+    document: Mapping[str, Any]
+    folder: Path
+    fell_short: tuple[str, ...]
+
+    @property
+    def usd(self) -> Path:
+        """The machine alone, without ground or light: what `measure`, `simulate` and `export` take."""
+        return self.folder / f"{self.mechanism.name}.usda"
+
+    @property
+    def scene(self) -> Path:
+        """The machine on a ground plane: what to open first."""
+        return self.folder / "scene.usda"
+
+    @property
+    def report(self) -> Path:
+        """The page that says why everything is as it is."""
+        return self.folder / "report.html"
+
+    def __repr__(self) -> str:
+        state = "; ".join(self.fell_short) or "ready"
+        return f"<Machine {self.mechanism.name}: {len(self.mechanism.bodies)} bodies in {self.folder}: {state}>"
+
+
+@dataclass
+class _Clock:
+    """Wall-clock seconds by stage."""
+
+    progress: Progress
+    seconds: dict[str, float] = field(default_factory=dict)
+
+    @contextmanager
+    def stage(self, name: str, words: str) -> Iterator[None]:
+        self.progress(words)
+        start = time.perf_counter()
+        yield
+        self.seconds[name] = self.seconds.get(name, 0.0) + time.perf_counter() - start
+
+
+def build(
+    equipment_type: str | Path,
+    cad_file: Path | str,
+    out: Path | str,
+    *,
+    sheets: Sequence[Path | str] = (),
+    alignment_file: Path | str | None = None,
+    documents: Sequence[Path | str] = (),
+    settings: Sequence[str] = (),
+    config: str = "",
+    extractor: specs.Extractor = "rules",
+    model: specs.ModelOptions | None = None,
+    engines: Sequence[str] = (),
+    progress: Progress = lambda words: None,
+) -> Machine:
+    """Fuses an equipment type's template, a CAD model and specification sheets into a USD machine in the folder `out`.
+
+    `equipment_type` is a library type or a template folder; `alignment_file` an edited alignment (default: the one
+    that an earlier run left in `out`); `documents` are JSON-1 … JSON-4 or a filled joint template; `settings` are
+    texts such as `Lift Cylinder Stroke=764 mm`; `config` picks a column of the sheet; `extractor` and `model` say who
+    reads it; the machine is driven in each of `engines` with its rated payload. Raises `YellowironError` for unusable
+    input, having written nothing.
+    """
+    clock = _Clock(progress)
+    cad_file, out = Path(cad_file), Path(out)
+    with output_folder(out) as folder:
+        # Libraries load in a stage of their own: their second or two is no stage's work.
+        with clock.stage("load", "Loading libraries"):
+            for name in _LIBRARIES:
+                importlib.import_module(name)
+
+        # What is known of the type, and what was asked for by hand.
+        template = library.load_template(equipment_type)
+        values, choices = specs.split_settings(settings, template)
+
+        with clock.stage("convert", "Reading the CAD model"):
+            assembly = cad.read_cad(cad_file)
+
+        # Weakest first: template, sheet, documents, settings.
+        data = library.load_documents([Path(d) for d in documents], template, assembly)
+        template = library.apply_sensors(library.apply_joints(template, data), data)
+        with clock.stage("extract", "Reading the specification sheets"):
+            read = specs.extract(
+                template, [Path(s) for s in sheets], config=config, extractor=extractor, model=model, progress=progress
+            )
+            specifications = specs.merge(read, specs.parse_settings(values, template))
+
+        with clock.stage("align", "Finding the part that plays each role"):
+            earlier = Path(alignment_file or out / "alignment.json")
+            edited = earlier if alignment_file or earlier.exists() else None
+            assembly, alignment = find_roles(
+                assembly, template, specifications, earlier=edited, data=data, choices=choices
+            )
+            chosen = choose(template, {**alignment.choices, **choices})
+            template = expand(chosen, alignment.counts)
+
+        with clock.stage("mechanism", "Building the mechanism"):
+            mechanism = _complete(assembly, template, alignment, specifications, data)
+            compared = compare_declared(mechanism, assembly, alignment)
+            lent = declared_values(mechanism, template, assembly, alignment, compared, specifications)
+            if lent.values:
+                specifications = specs.merge(lent, specifications)
+                mechanism = _complete(assembly, template, alignment, specifications, data)
+            start = kinematics.legal_start(mechanism)
+            if start is not None:
+                assembly, template, alignment = kinematics.started(assembly, template, alignment, start)
+                mechanism = _complete(assembly, template, alignment, specifications, data)
+                mechanism = replace(mechanism, findings=(*mechanism.findings, *start.findings))
+
+        with clock.stage("measure", "Measuring the machine against its sheet"):
+            measurements = kinematics.measure(mechanism)
+
+        with clock.stage("write", "Writing USD"):
+            usd.write_machine(
+                mechanism, assembly, folder, name=mechanism.name, frame=alignment.frame,
+                texture_folders=[*data.folders, Path(template.folder)],
+            )  # fmt: skip
+            written = folder / f"{mechanism.name}.usda"
+
+        with clock.stage("check", "Checking what was written"):
+            checked = checks.check(folder / "scene.usda")
+
+        simulation, sweeps = {}, {}
+        if engines:
+            with clock.stage("simulate", "Driving the machine"):
+                for engine in engines:
+                    simulation[engine], sweeps[engine] = _driven(written, engine, progress)
+
+        with clock.stage("report", "Writing the report"):
+            document = report.report_document(report.BuildFacts(
+                mechanism, template, alignment, specifications, measurements,
+                findings=(
+                    *library.lint(chosen).findings, *assembly.findings, *data.findings,
+                    *declared_findings(compared, assembly.name), *checked,
+                ),
+                usd_counts=usd.count_joints(written),
+                levers={a.name: kinematics.lever_table(mechanism, a.name) for a in mechanism.actuators},
+                simulation=simulation, declared=compared,
+            ))  # fmt: skip
+            report.write_document(document, folder / "report.json")
+            report.write_document({"specifications": document["specifications"]}, folder / "specifications.json")
+            filled = library.filled_joints(chosen, mechanism, specifications)
+            report.write_document(filled, folder / "joints.filled.json")
+            write_alignment(alignment, assembly, folder / "alignment.json")
+            page = report.page(
+                document, mechanism, assembly, alignment,
+                poses=kinematics.key_poses(mechanism), tables=kinematics.pose_tables(mechanism), sweeps=sweeps,
+            )  # fmt: skip
+            (folder / "report.html").write_text(page, encoding="utf-8")
+        report.write_document({**clock.seconds, "total": sum(clock.seconds.values())}, folder / "timings.json")
+    return Machine(
+        mechanism=mechanism,
+        alignment=alignment,
+        specifications=specifications,
+        measurements=measurements,
+        document=document,
+        folder=out,
+        fell_short=tuple(report.fell_short(document)),
+    )
+
+
+def find_roles(
+    assembly: Assembly,
+    template: Template,
+    specifications: Specifications,
+    *,
+    earlier: Path | None = None,
+    data: library.Documents | None = None,
+    choices: Mapping[str, str] | None = None,
+) -> tuple[Assembly, Alignment]:
+    """Roles for the parts of a CAD model, and the model whose parts they are: scaled where the sheet's overall length
+    asks for it; where roles are missing, its merged meshes taken apart, if that finds most of them. `earlier` is an
+    alignment file whose edits hold."""
+
+    def found(model: Assembly) -> Alignment:
+        edits = read_alignment(earlier, model, template) if earlier is not None else None
+        edits = edits if data is None else library.with_relations(edits, data)
+        alignment = align(model, template, specifications, edits=edits, choices=choices)
+        # A robot description whose bodies are the template's: what it says goes before what was found.
+        declared = declared_roles(model, template, alignment)
+        if declared:
+            edits = replace(edits or alignment, parts=(*(edits.parts if edits else ()), *declared))
+            alignment = align(model, template, specifications, edits=edits, choices=choices)
+        return alignment
+
+    assembly = to_scale(assembly, template, specifications)
+    alignment = found(assembly)
+    apart = cad.taken_apart(assembly) if alignment.missing else assembly
+    if apart is not assembly:
+        other = found(apart)
+        # A model without pins misses roles whatever is done to it; bodies in crumbs then answer to more roles, wrongly.
+        if len(other.missing) < 0.5 * len(alignment.missing):
+            return apart, other
+    return assembly, alignment
+
+
+def compare_with_declared(
+    assembly: Assembly, template: Template, alignment: Alignment, specifications: Specifications
+) -> tuple[Finding, ...]:
+    """How the joints that the CAD file declares agree with those that its geometry shows."""
+    chosen = expand(choose(template, alignment.choices), alignment.counts)
+    try:
+        mechanism = build_mechanism(assembly, chosen, alignment, specifications, name=assembly.name)
+    except MechanismError:
+        return ()
+    return declared_findings(compare_declared(mechanism, assembly, alignment), assembly.name)
+
+
+def _complete(
+    assembly: Assembly,
+    template: Template,
+    alignment: Alignment,
+    specifications: Specifications,
+    data: library.Documents,
+) -> Mechanism:
+    """The mechanism with its cylinders calibrated, limits, mobility and gains found."""
+    mechanism = build_mechanism(
+        assembly, template, alignment, specifications, name=template.equipment_type, documents=data
+    )
+    return kinematics.complete(kinematics.calibrate(mechanism))
+
+
+def _driven(machine_file: Path, engine: str, progress: Progress) -> tuple[dict[str, Any], tuple[Sweep, ...]]:
+    """A machine in an engine: through all its strokes, on a fixed base, with its rated payload; driving; put to its
+    template's tests. As a document, and what there is to look at."""
+    from yellowiron import simulation
+
+    load = simulation.rated_payload(usd.read_mechanism(machine_file))
+    return simulation.examine(machine_file, engine=engine, payload=load, progress=progress)

@@ -1,0 +1,335 @@
+"""The statements of a table: its cells of values with the words to their left and the heads above them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+from yellowiron.specs.layout.grids.table_grid import Cell, TableGrid
+from yellowiron.specs.layout.rows.cells import is_circumstance, marked_by_footnote
+from yellowiron.specs.layout.rows.headings import names_no_columns
+from yellowiron.specs.layout.statement import (
+    COUNTED,
+    EXAMPLE,
+    Statement,
+    TextPiece,
+    ascending,
+    is_key,
+    is_unit,
+    looks_like_value,
+    split_inline,
+    unit_in_label,
+    unit_of_heading,
+    without_key,
+)
+from yellowiron.specs.pages.words import Page
+
+
+@dataclass(frozen=True)
+class _Row:
+    """A row that is read: its page and table, its place there, its cells, the number that its statements have, and the
+    heading over it."""
+
+    page: Page
+    grid: TableGrid
+    cells: Sequence[Cell]
+    number: int
+    section: str
+
+
+def read_grid(
+    page: Page, grid: TableGrid, first_row: int, section: str = "", above: Sequence[TextPiece] = ()
+) -> list[Statement]:
+    """The statements of a table: a value's label is the words to its left, its column the heads above; `above` are
+    heads that stand over the table, outside of it."""
+    found: list[Statement] = []
+    grid = _without_keys(grid)
+    heads = _head_rows(page, grid)
+    naming = frozenset(heads)
+    titles = _titles(grid)
+    for index in range(grid.rows):
+        cells = _row_cells(grid, index)
+        filled = [c for c in cells if c.lines]
+        values = _values_of(filled)
+        if not values:
+            if len(filled) == 1 and filled[0].columns[1] - filled[0].columns[0] == grid.columns:
+                section = " ".join(p.text for p in filled[0].pieces)
+            elif not (filled and filled[0].columns[0] == 0 and names_no_columns([c.text for c in filled])):
+                heads.append(index)
+            continue
+        if not _labels(cells, values[0]) and (not heads or index in naming):
+            heads.extend([] if index in heads else [index])
+            continue
+        over = [h for h in heads if h <= index] if index in naming else heads
+        read = _read_row(_Row(page, grid, cells, first_row + index, section), values, over)
+        if heads and index not in heads and not any(f.label for f in read):
+            read = [replace(f, variant=(values[0].text,)) for f in read]
+        if index in titles:
+            read = [_under_title(f, titles[index]) for f in read]
+        if above and not heads:
+            read = [_headed(f, above) for f in read]
+        found.extend(read)
+    return found
+
+
+def _values_of(filled: Sequence[Cell]) -> list[Cell]:
+    """A row's cells of values; all of them where each has a label inside."""
+    values = [c for c in filled if looks_like_value(c.text)]
+    if len(values) == 2 and values[0] is not filled[-1] and all(is_circumstance(p) for p in values[0].pieces):
+        values = values[1:]
+    if not values and all(split_inline(c.text)[0] for c in filled):
+        return list(filled)
+    return values
+
+
+def _under_title(statement: Statement, title: str) -> Statement:
+    label = statement.label.removeprefix(title).strip(" :")
+    return replace(statement, label=label, context=(*statement.context, title))
+
+
+def columns_of(grid: TableGrid) -> list[tuple[float, float]]:
+    """Left and right edges of the columns that hold values."""
+    found = {c.columns: c.box for c in grid.cells if c.columns[1] - c.columns[0] == 1 and looks_like_value(c.text)}
+    return sorted((box[0], box[2]) for box in found.values())
+
+
+def _headed(statement: Statement, above: Sequence[TextPiece]) -> Statement:
+    """The statement with the heads over its cell; a cell under all of them has none of its own."""
+    own = [p for p in above if statement.box[0] <= (p.x0 + p.x1) / 2 <= statement.box[2]]
+    if len(own) == len(above) > 1:
+        return statement
+    unit = next((u for p in own if (u := is_unit(p.bare) or unit_in_label(p.bare)[1])), "")
+    column = [p for p in own if not is_unit(p.bare)]
+    return replace(
+        statement,
+        column=tuple(unit_in_label(p.bare)[0] for p in column),
+        heads=tuple(p.text for p in column),
+        unit=statement.unit or unit,
+    )
+
+
+def _without_keys(grid: TableGrid) -> TableGrid:
+    """The grid with the columns of a drawing's keys emptied: letters, symbols or outline numbers, no two alike, beside
+    a column of words."""
+    keys: set[Cell] = set()
+    for column in range(grid.columns - 1):
+        cells = [c for c in grid.cells if c.columns[0] == column and c.lines]
+        own = [c for c in cells if is_key(c.text)]
+        texts = [c.text for c in own]
+        numbers = any(t[0].isdigit() for t in texts)
+        if len(own) < 3 or len(own) < len(cells) - 1 or len(set(texts)) < len(texts) or all(map(is_unit, texts)):
+            continue
+        if numbers and not (ascending(texts) and all(_begins(grid, c) for c in own)
+                            and all(_worded(grid, c) for c in own)):  # fmt: skip
+            continue
+        keys.update(own)
+    return grid.emptied(keys) if keys else grid
+
+
+def _begins(grid: TableGrid, key: Cell) -> bool:
+    """Whether no words stand left of a cell in its row."""
+    left = [grid.at(key.rows[0], column) for column in range(key.columns[0])]
+    return not any(c is not None and c.lines and c.rows == key.rows for c in left)
+
+
+def _worded(grid: TableGrid, key: Cell) -> bool:
+    """Whether the cell right of a number holds a label: words, and no unit."""
+    beside = grid.at(key.rows[0], key.columns[1])
+    return beside is not None and bool(beside.lines) and not (is_unit(beside.text) or looks_like_value(beside.text))
+
+
+def _titles(grid: TableGrid) -> dict[int, str]:
+    """Row → the line that ends in a colon over the label of the first row beside one drawing's key, which holds for all
+    of that key's rows: "1 | Machine height: / top of cab", "  | with boom installed"."""
+    found: dict[int, str] = {}
+    for key in grid.cells:
+        if key.rows[1] - key.rows[0] < 2 or not _is_key(key.text):
+            continue
+        label = grid.at(key.rows[0], key.columns[1])
+        first = " ".join(p.bare for p in label.lines[0].pieces) if label is not None and len(label.lines) > 1 else ""
+        if first.endswith(":"):
+            found.update(dict.fromkeys(range(*key.rows), first.rstrip(" :")))
+    return found
+
+
+def _head_rows(page: Page, grid: TableGrid) -> list[int]:
+    """The first rows of quantities that name the columns ("2925 mm arm"): set in bold or shaded, which not all that
+    follows is, or spread over columns that part below."""
+    found: list[int] = []
+    for row in range(grid.rows - 1):
+        filled = [c for c in _row_cells(grid, row) if c.lines]
+        values = [c for c in filled if looks_like_value(c.text)]
+        if not values:
+            if found or len(filled) == 1:
+                break
+            continue
+        below = [c for c in grid.cells if c.rows[0] > row and looks_like_value(c.text)]
+        wide = all(c.columns[1] - c.columns[0] > 1 and _parts(grid, row, c) for c in values)
+        if wide and len(values) == 1 and _labels(filled, values[0]) and values[0].columns[1] == grid.columns:
+            break  # one value for all columns
+        bold = all(_is_bold(c) for c in filled) and not all(_is_bold(c) for c in below)
+        shaded = all(_is_shaded(page, c) for c in filled) and not any(_is_shaded(page, c) for c in below)
+        if not below or not (wide or bold or shaded):
+            break
+        found.append(row)
+    return found
+
+
+def _parts(grid: TableGrid, row: int, cell: Cell) -> bool:
+    """Whether values stand side by side below a cell."""
+    return any(
+        len({c for k in range(*cell.columns) if (c := grid.at(below, k)) is not None and c.lines}) > 1
+        for below in range(row + 1, grid.rows)
+    )
+
+
+def _is_bold(cell: Cell) -> bool:
+    return all(p.bold for p in cell.pieces if not EXAMPLE.fullmatch(p.text.strip()))
+
+
+def _is_shaded(page: Page, cell: Cell) -> bool:
+    x, y = (cell.box[0] + cell.box[2]) / 2, (cell.box[1] + cell.box[3]) / 2
+    return any(b[0] <= x <= b[2] and b[1] <= y <= b[3] for b in page.bars)
+
+
+def _row_cells(grid: TableGrid, row: int) -> list[Cell]:
+    cells = (grid.at(row, column) for column in range(grid.columns))
+    return list(dict.fromkeys(c for c in cells if c is not None))
+
+
+def _labels(cells: Sequence[Cell], value: Cell) -> list[Cell]:
+    return [c for c in cells if c.lines and c.columns[1] <= value.columns[0] and not looks_like_value(c.text)]
+
+
+def _read_row(row: _Row, values: Sequence[Cell], heads: Sequence[int]) -> list[Statement]:
+    """The statements of a row's values under the rows of heads over them."""
+    labels: list[Cell] = []
+    seen = -1
+    found = []
+    for value in values:
+        fresh = [
+            c for c in row.cells if c.lines and not looks_like_value(c.text) and seen < c.columns[0] < value.columns[0]
+        ]
+        words = [c for c in fresh if not is_unit(c.text) and not _is_key(c.text) and any(t.isalnum() for t in c.text)]
+        if words:
+            labels = words
+        after = labels[-1].columns[0] if labels else -1
+        units = [is_unit(c.text) for c in _units_for(value, values, fresh, row.cells) if c.columns[0] > after]
+        seen = value.columns[0]
+        over = _heads_over(row.grid, heads, value, labels)
+        found.append(_statement(row, value, labels, over, units[0] if units else ""))
+    return found
+
+
+def _heads_over(grid: TableGrid, heads: Sequence[int], value: Cell, labels: Sequence[Cell]) -> list[Cell]:
+    """The heads of a value's column; a value across several columns has those that stand over all of them."""
+    over: list[Cell] = []
+    for row in heads:
+        if row > value.rows[0]:
+            continue
+        above = [grid.at(row, column) for column in range(*value.columns)]
+        cell = above[0]
+        if any(c is not cell for c in above):
+            beyond = [c for c in _row_cells(grid, row) if c.lines and c.columns[0] >= value.columns[1]]
+            before = [c for c in _row_cells(grid, row) if c.lines and c.columns[1] <= value.columns[0]]
+            named = [c for c in before if not any(c is one for one in labels) and c.columns[0] > _last(labels)]
+            if beyond or named:  # one value for some of the columns: it has all of their heads
+                over.extend(c for c in dict.fromkeys(above) if c is not None and c.lines)
+            continue
+        if cell is not None and cell.lines and not any(cell is c for c in (*over, *labels)):
+            over.append(cell)
+    return over
+
+
+def _units_for(value: Cell, values: Sequence[Cell], before: Sequence[Cell], cells: Sequence[Cell]) -> list[Cell]:
+    """The unit cells that may hold for a value: those before it (after the last value), else any of the row; where each
+    value has one after it, that."""
+    units = [c for c in cells if c.lines and is_unit(c.text)]
+    ends = [*(v.columns[0] for v in values), cells[-1].columns[1] if cells else 0]
+    after = [[u for u in units if a < u.columns[0] < b] for a, b in pairwise(ends)]
+    if len(values) > 1 and after[0] and sum(bool(u) for u in after) > 1:
+        return next(u for v, u in zip(values, after, strict=True) if v is value)
+    return [c for c in before if is_unit(c.text)] + units
+
+
+def _last(labels: Sequence[Cell]) -> int:
+    """The last column of a row's labels."""
+    return max((c.columns[1] - 1 for c in labels), default=-1)
+
+
+def _statement(row: _Row, value: Cell, labels: Sequence[Cell], over: Sequence[Cell], unit: str) -> Statement:
+    groups, label, own_unit = _label_and_groups(row.grid, value, labels)
+    text = value.text
+    if not label:
+        inline = split_inline(text)
+        label, text = inline if inline[0] else (label, text)
+    column = [c for c in over if not is_unit(c.text)]
+    head_unit = next((u for c in reversed(over) if (u := is_unit(c.text) or unit_in_label(c.text)[1])), "")
+    printed = [line.text for c in column for line in c.lines]
+    quote = [line.text for c in [*labels, value] for line in c.lines]
+    said = "" if COUNTED.search(label) else unit_of_heading(row.section)[1]
+    return Statement(
+        page=row.page.number,
+        row=row.number,
+        label=label,
+        text=text,
+        box=value.box,
+        quote=" … ".join(quote if labels else printed + quote),
+        context=tuple(c.text for c in groups),
+        section=unit_of_heading(EXAMPLE.sub("", row.section).strip())[0],
+        column=tuple(unit_in_label(c.text)[0] for c in column if c.text),
+        unit=unit or own_unit or head_unit or said,
+        example=_is_example(row, [*labels, *over, value]),
+        x0=value.box[0],
+        heads=tuple(printed) if labels else (),
+    )
+
+
+def _label_and_groups(grid: TableGrid, value: Cell, labels: Sequence[Cell]) -> tuple[list[Cell], str, str]:
+    """The cells that are a value's sub-headings, its label, and the unit in that."""
+    names = [c for c in labels if not _is_key(c.text)]
+    # cells that span more rows than the value are the sub-headings of theirs
+    groups = [c for c in names[:-1] if c.rows[1] - c.rows[0] > value.rows[1] - value.rows[0] or _is_group(grid, c)]
+    label, own_unit = _label_of([c for c in names if not any(c is g for g in groups)])
+    label, label_unit = unit_in_label(without_key(label))
+    return groups, label, own_unit or label_unit
+
+
+def _is_example(row: _Row, cells: Sequence[Cell]) -> bool:
+    """Whether the cells of a value, their heading or a footnote say that it is the publisher's own example."""
+    marked = any(EXAMPLE.search(" ".join(p.text for p in c.pieces)) for c in cells)
+    pieces = [p for c in cells for p in c.pieces]
+    return marked or bool(EXAMPLE.search(row.section)) or marked_by_footnote(row.page, pieces)
+
+
+def _label_of(cells: Sequence[Cell]) -> tuple[str, str]:
+    """The words of label cells, and the unit that stands apart at the end of the last one, alone or behind the symbol
+    of a type sheet: "h1 (mm)", "Ast (mm)"; the symbol is no word, but where it lists a product's factors."""
+    texts = [c.text for c in cells]
+    last = cells[-1] if cells else None
+    if last is None or len(last.lines) != 1:
+        return " ".join(texts), ""
+    if len(last.pieces) > 1 and (unit := is_unit(last.pieces[-1].bare)):
+        return " ".join([*texts[:-1], *(p.bare for p in last.pieces[:-1])]), unit
+    symbol, unit = unit_in_label(last.text)
+    lists = symbol == "s/e/l" and not _LISTED.search(" ".join(texts[:-1]))
+    if len(cells) > 1 and unit and not lists and (is_key(symbol) or _SYMBOL.fullmatch(symbol)):
+        return " ".join(texts[:-1]), unit
+    return " ".join(texts), ""
+
+
+_SYMBOL = re.compile(r"[A-Z][a-z]{1,2}\d?")
+_LISTED = re.compile(r"[^\W\d]\s?[/／×x]\s?[^\W\d]+\s?[/／×x]\s?[^\W\d]")
+
+
+def _is_group(grid: TableGrid, cell: Cell) -> bool:
+    """Whether a cell stands in a column whose cells span several rows each: a group that has one row only."""
+    column = [c for c in grid.cells if c.columns == cell.columns and c.lines]
+    return any(c.rows[1] - c.rows[0] > 1 for c in column) and not any(looks_like_value(c.text) for c in column)
+
+
+def _is_key(text: str) -> bool:
+    """A drawing's letter: "A", "B'", "12"."""
+    return len(text) <= 2 and (text[:1].isupper() or text.isdigit())

@@ -1,0 +1,76 @@
+"""What the operating system bounds: a process's memory, processor time and life.
+
+| | Linux | macOS | Windows |
+|---|---|---|---|
+| process groups, processor time, no core dumps | yes | yes | no |
+| memory (`RLIMIT_AS`) | yes | no: the kernel does not enforce it, and refuses values below what a process maps | no |
+| a child ends with its parent (`prctl`) | yes | no | no |
+
+Importing this works everywhere; `require_supported_platform` says where it is needed that a system is missing.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import math
+import signal
+import sys
+import time
+from collections.abc import Iterator
+
+from yellowiron.model.errors import YellowironError
+
+try:
+    import resource
+except ImportError:  # not on Windows
+    resource = None  # type: ignore[assignment]
+
+_PR_SET_PDEATHSIG = 1
+"""linux/prctl.h."""
+
+
+def require_supported_platform() -> None:
+    """`YellowironError` on a system without POSIX processes and limits, such as Windows."""
+    if sys.platform in ("win32", "cygwin") or resource is None:
+        raise YellowironError(
+            "yellowiron runs on Linux and macOS: it reads files in child processes with limits, "
+            "which this system does not have",
+            where=sys.platform,
+            hint="On Windows use WSL, the Windows Subsystem for Linux (wsl --install), and run it there.",
+        )
+
+
+def limit_memory(megabytes: int) -> None:
+    """Bounds this process's address space, where the system can."""
+    if resource is not None and sys.platform != "darwin":
+        limit = megabytes * 1024 * 1024
+        resource.setrlimit(resource.RLIMIT_AS, (limit, limit))
+
+
+def leave_no_core() -> None:
+    """No core dump of this process, however it ends."""
+    if resource is not None:
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+
+
+def die_with_parent() -> None:
+    """Asks the kernel to end this process when its parent ends, however that ends (Linux; elsewhere it may linger)."""
+    with contextlib.suppress(AttributeError, OSError):
+        ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
+
+
+@contextlib.contextmanager
+def must_end(seconds: float) -> Iterator[None]:
+    """Ends the process, a guarded child, where what is inside takes more than so many seconds of the processor: for
+    readers that go round in a circle on some damage, and whose time is known from the file's size."""
+    if resource is None:
+        yield
+        return
+    before = resource.getrlimit(resource.RLIMIT_CPU)
+    latest = math.ceil(time.process_time() + seconds)
+    resource.setrlimit(resource.RLIMIT_CPU, (latest, before[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_CPU, before)

@@ -1,0 +1,46 @@
+"""Vectors (3,) in any one frame: as tuples, their angles and distances."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Triple = tuple[float, float, float]
+
+
+def triple(values: Any) -> Triple:
+    """Three numbers, in an array or any other sequence, as a tuple of plain floats."""
+    x, y, z = (float(v) for v in values)
+    return (x, y, z)
+
+
+def clean_triple(values: Any) -> Triple:
+    """As `triple`, 0.0 for -0.0: what is written reads the same whatever sign a rounding left."""
+    x, y, z = (float(v) + 0.0 for v in values)
+    return (x, y, z)
+
+
+def unit(vector: Floats) -> Floats:
+    """A vector (3,) at length 1."""
+    return np.asarray(vector / np.linalg.norm(vector), dtype=np.float64)
+
+
+def angle_between(a: Floats | Sequence[float], b: Floats | Sequence[float]) -> float:
+    """The angle between two directions, rad, 0 … π. Exact for small angles, where an arc cosine is not."""
+    return math.atan2(float(np.linalg.norm(np.cross(a, b))), float(np.dot(a, b)))
+
+
+def angle_between_lines(a: Floats | Sequence[float], b: Floats | Sequence[float]) -> float:
+    """The angle between two lines whichever way they point, rad, 0 … π/2."""
+    return math.atan2(float(np.linalg.norm(np.cross(a, b))), abs(float(np.dot(a, b))))
+
+
+def distance_from_line(point: Floats, origin: Floats, direction: Floats) -> float:
+    """How far a point (3,) is from a line through `origin` along a unit `direction`; the points' unit."""
+    delta = point - origin
+    return float(np.linalg.norm(delta - (delta @ direction) * direction))
