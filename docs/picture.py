@@ -13,7 +13,7 @@ from PIL import Image
 
 from yellowiron.cad import read_cad
 from yellowiron.kinematics import ClosedChain
-from yellowiron.report.html.pictures import contact_sheet, encode, look_at, machine_soup, render
+from yellowiron.report.html.pictures import contact_sheet, encode, look_at, machine_triangles, render
 from yellowiron.usd import read_mechanism
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -34,10 +34,10 @@ def main() -> None:
     raised = {body.name: chain.displacement(state, body.name) for body in mechanism.bodies}
     pictures: list[Image.Image] = []
     for poses in ({}, raised):
-        soup = machine_soup(mechanism, assembly, frame, poses=poses)
-        camera = look_at(soup.corners.reshape(-1, 3), azimuth=-0.8, elevation=0.28, width=760, height=560)
-        colors = soup.by_body(mechanism) if poses else None
-        pictures.append(render(soup, camera, colors=colors, supersample=3))
+        drawn = machine_triangles(mechanism, assembly, frame, poses=poses)
+        camera = look_at(drawn.corners.reshape(-1, 3), azimuth=-0.8, elevation=0.28, width=760, height=560)
+        colors = drawn.by_body(mechanism) if poses else None
+        pictures.append(render(drawn, camera, colors=colors, supersample=3))
     (ROOT / "docs" / "wheel_loader.webp").write_bytes(encode(contact_sheet(pictures), quality=88))
 
 

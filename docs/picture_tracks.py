@@ -21,7 +21,7 @@ from yellowiron.cad import read_cad
 from yellowiron.exporters import BodyGeometry, Geometry, actuator_names, export_mjcf, read_geometry
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Mechanism, chained, rolling
-from yellowiron.report.html.pictures import encode, look_at, machine_soup, posed, render
+from yellowiron.report.html.pictures import encode, look_at, machine_triangles, posed, render
 from yellowiron.usd import read_mechanism
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -70,18 +70,18 @@ def main() -> None:
     seen = drive(mechanism, read_geometry(file))
     wanted = (chained(mechanism) | rolling(mechanism) | {mechanism.root}) - {"upperstructure"}
     left = [b for b in mechanism.bodies if b.name in wanted and (b.name == mechanism.root or b.origin[1] > 0.0)]
-    soup = machine_soup(replace(mechanism, bodies=tuple(left)), assembly, frame)
-    colors = soup.colors.copy()
-    for name, (first, last) in soup.spans.items():
+    drawn = machine_triangles(replace(mechanism, bodies=tuple(left)), assembly, frame)
+    colors = drawn.colors.copy()
+    for name, (first, last) in drawn.spans.items():
         if name.startswith(MARKED):
             marked = int(name.removeprefix(MARKED)) % EVERY == 1
             colors[first:last] = (0.8, 0.05, 0.02) if marked else (0.3, 0.3, 0.32)
         elif name == mechanism.root:
             colors[first:last] = (0.55, 0.4, 0.1)
-    soup = replace(soup, colors=colors)
-    corners = [posed(soup, places).corners.reshape(-1, 3) for places in (seen[0], seen[-1])]
+    drawn = replace(drawn, colors=colors)
+    corners = [posed(drawn, places).corners.reshape(-1, 3) for places in (seen[0], seen[-1])]
     camera = look_at(np.concatenate(corners), azimuth=1.45, elevation=0.16, width=900, height=250)
-    pictures = [render(posed(soup, places), camera, supersample=3) for places in seen]
+    pictures = [render(posed(drawn, places), camera, supersample=3) for places in seen]
     strip = Image.new("RGB", (camera.width, camera.height * len(pictures)))
     for number, picture in enumerate(pictures):
         strip.paste(picture, (0, number * camera.height))

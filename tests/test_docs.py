@@ -150,3 +150,16 @@ def test_a_loop_over_strokes(root: Path, built: Path, tmp_path: Path) -> None:
     said = run(root, "bucket_height.py", built / "wheel_loader.usda", picture)
     assert float(said.split()[3]) == pytest.approx(4.370, rel=1e-3)
     assert picture.read_bytes().startswith(b"\x89PNG")
+
+
+def test_files_that_pages_name_are_there(root: Path) -> None:
+    pages = [*sorted((root / "docs").glob("*.md")), root / "README.md", root / "CONTRIBUTING.md"]
+    named = {
+        (page.name, path)
+        for page in pages
+        for path in re.findall(
+            r"\b(?:src/yellowiron|tests|docs|benchmarks|examples)/[\w./-]+\.\w+", page.read_text("utf-8")
+        )
+    }
+    assert len(named) > 20
+    assert {(page, path) for page, path in named if not (root / path).exists() and "nnn" not in path} == set()

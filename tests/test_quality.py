@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import ast
+import importlib
+import importlib.util
 import statistics
 import subprocess
 import sys
@@ -64,3 +66,20 @@ def test_rooms_are_small_and_say_what_is_in_them(root: Path) -> None:
         if p.name == "__init__.py" and not (ast.get_docstring(ast.parse(p.read_text(encoding="utf-8"))) or "").strip()
     ]
     assert not silent
+
+
+@pytest.mark.parametrize("folder", ["benchmarks", "docs", "examples"])
+def test_scripts_import_names_that_are_there(root: Path, folder: str) -> None:
+    """Scripts that no test runs: what they import of the package exists."""
+    gone = []
+    for script in sorted((root / folder).rglob("*.py")):
+        for node in ast.walk(ast.parse(script.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.ImportFrom) and (node.module or "").split(".")[0] == "yellowiron":
+                module = importlib.import_module(str(node.module))
+                for name in node.names:
+                    if (
+                        not hasattr(module, name.name)
+                        and importlib.util.find_spec(f"{node.module}.{name.name}") is None
+                    ):
+                        gone.append(f"{script.relative_to(root)}: {node.module}.{name.name}")
+    assert not gone
