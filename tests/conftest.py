@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 
+from kit.builds import without_pages
 from yellowiron.model.mechanism import Mechanism
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -35,6 +36,13 @@ def root() -> Path:
 def example() -> Path:
     """The wheel loader example's folder."""
     return ROOT / "examples" / "wheel_loader"
+
+
+@pytest.fixture(scope="module")
+def no_pages() -> Iterator[None]:
+    """Builds of a module draw no report page."""
+    with without_pages():
+        yield
 
 
 @pytest.fixture(scope="session")
@@ -66,7 +74,7 @@ class Built:
 
 @pytest.fixture(scope="session")
 def built_loader(example: Path, made_once: Callable[[str, Callable[[Path], None]], Path]) -> Built:
-    """The wheel loader example, built once a run."""
+    """The wheel loader example, built once a run; its `report.html` is empty."""
     cad, sheet = example / "wheel_loader.step", example / "specifications.pdf"
     if not cad.is_file() or not sheet.is_file():
         pytest.skip("the wheel loader example is not drawn: run its draw.py")
@@ -74,7 +82,8 @@ def built_loader(example: Path, made_once: Callable[[str, Callable[[Path], None]
     def fill(folder: Path) -> None:
         from yellowiron.pipeline import build
 
-        machine = build("wheel_loader", cad, folder / "out", sheets=[sheet])
+        with without_pages():
+            machine = build("wheel_loader", cad, folder / "out", sheets=[sheet])
         (folder / "mechanism.pickle").write_bytes(pickle.dumps(machine.mechanism))
 
     folder = made_once("wheel_loader", fill)

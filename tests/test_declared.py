@@ -18,6 +18,8 @@ from yellowiron import cad, library, new_template
 from yellowiron.alignment.discovery.robot import robot
 from yellowiron.model.assembly import Assembly, DeclaredJoint
 
+pytestmark = pytest.mark.usefixtures("no_pages")
+
 
 def described(closing: str = "spherical") -> Assembly:
     """The small loader as a robot description: a link a body, its loop closed by a point, a camera frame on the boom,

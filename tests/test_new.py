@@ -20,6 +20,8 @@ from yellowiron.cli import app
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import AlignmentError, OutputError
 
+pytestmark = pytest.mark.usefixtures("no_pages")
+
 Drawn = Callable[[Assembly], None]
 
 

@@ -14,7 +14,7 @@ from test_cad_looks import picture
 from yellowiron.cad import read_cad
 from yellowiron.pipeline import build
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("no_pages")]
 INCH = 0.0254
 
 

@@ -10,6 +10,7 @@ import in_engines
 import numpy as np
 import pytest
 
+from kit.builds import without_pages
 from yellowiron.simulation import drive, rated_payload, run_tests, simulate
 from yellowiron.simulation.driving.result import driving_findings
 from yellowiron.simulation.engine import Base, Setup, poses, tell
@@ -35,7 +36,8 @@ def built(root: Path, tmp_path_factory: pytest.TempPathFactory) -> Callable[[str
         out = folder / tracks
         if not out.is_dir():
             known = next(iter(folder.glob("*/alignment.json")), None)
-            build("excavator", cad, out, sheets=(sheet,), settings=(f"tracks={tracks}",), alignment_file=known)
+            with without_pages():
+                build("excavator", cad, out, sheets=(sheet,), settings=(f"tracks={tracks}",), alignment_file=known)
         return out / "excavator.usda"
 
     return file
