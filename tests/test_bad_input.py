@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
+import io
 import json
+import signal
 import subprocess
 import sys
 from collections.abc import Callable
@@ -10,7 +13,9 @@ from pathlib import Path
 
 import pytest
 
-pytestmark = pytest.mark.slow
+from yellowiron.cli import main
+
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("no_pages")]
 
 STEP_HEAD = "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nENDSEC;\nDATA;\n"
 OLE = bytes.fromhex("D0CF11E0A1B11AE1") + b"\0" * 4096
@@ -106,8 +111,20 @@ CASES: dict[str, tuple[Prepare, str]] = {
 
 
 def run(arguments: list[str | Path], out: Path) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-m", "yellowiron", "build", *map(str, arguments), "--out", str(out)]
-    return subprocess.run(command, cwd=out.parent, capture_output=True, text=True, timeout=300)
+    """The console script in this process, whose imports would be most of the work in one of its own."""
+    command = ["yellowiron", "build", *map(str, arguments), "--out", str(out)]
+    stdout, stderr, code = io.StringIO(), io.StringIO(), 0
+    terminated = signal.getsignal(signal.SIGTERM)
+    with contextlib.chdir(out.parent), contextlib.redirect_stdout(stdout), contextlib.redirect_stderr(stderr):
+        try:
+            with pytest.MonkeyPatch.context() as patch:
+                patch.setattr(sys, "argv", command)
+                main()
+        except SystemExit as ended:
+            code = int(ended.code or 0)
+        finally:
+            signal.signal(signal.SIGTERM, terminated)
+    return subprocess.CompletedProcess(command, code, stdout.getvalue(), stderr.getvalue())
 
 
 def assert_one_sentence(outcome: subprocess.CompletedProcess[str], word: str) -> None:
