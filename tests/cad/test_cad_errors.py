@@ -14,7 +14,9 @@ from yellowiron.cad.readers.exact import part21
 from yellowiron.cad.readers.exact.brep_text import fault
 from yellowiron.model.errors import CadError
 
-pytestmark = pytest.mark.slow  # each reads in a child process of its own
+pytestmark = pytest.mark.slow
+HERE = pytest.mark.usefixtures("read_here")
+"""For what is refused before, or whatever, Open CASCADE does with it; the others are read in a child process."""
 
 OLE = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1" + bytes(504)
 
@@ -36,19 +38,23 @@ def good(tmp_path_factory: pytest.TempPathFactory) -> bytes:
     return write_step(tmp_path_factory.mktemp("cad") / "good.step", root).read_bytes()
 
 
+@HERE
 def test_no_such_file(tmp_path: Path) -> None:
     assert "no such" in fail(tmp_path / "none.step").message
 
 
+@HERE
 def test_folder(tmp_path: Path) -> None:
     assert "folder" in fail(tmp_path).message
 
 
+@HERE
 def test_empty(tmp_path: Path) -> None:
     (tmp_path / "empty.step").write_bytes(b"")
     assert "empty" in fail(tmp_path / "empty.step").message
 
 
+@HERE
 @pytest.mark.parametrize("content", [b"Dear reader,\n", bytes(range(256)) * 8, b"%PDF-1.7\n", b"\x89PNG\r\n"])
 @pytest.mark.parametrize("suffix", [".step", ".dat", ""])
 def test_not_cad(content: bytes, suffix: str, tmp_path: Path) -> None:
@@ -57,6 +63,7 @@ def test_not_cad(content: bytes, suffix: str, tmp_path: Path) -> None:
     assert "not a STEP file" in fail(path).message or "no CAD file" in fail(path).message
 
 
+@HERE
 @pytest.mark.parametrize("keep", [0.3, 0.9, 0.999])
 def test_truncated(keep: float, good: bytes, tmp_path: Path) -> None:
     path = tmp_path / "cut.step"
@@ -64,12 +71,14 @@ def test_truncated(keep: float, good: bytes, tmp_path: Path) -> None:
     assert "truncated" in fail(path).message
 
 
+@HERE
 def test_byte_order_mark(good: bytes, tmp_path: Path) -> None:
     path = tmp_path / "mark.step"
     path.write_bytes(b"\xef\xbb\xbf" + good)
     assert "byte-order mark" in fail(path).message
 
 
+@HERE
 @pytest.mark.parametrize(
     ("name", "content", "says"),
     [
@@ -96,6 +105,7 @@ def test_proprietary(name: str, content: bytes, says: str, tmp_path: Path) -> No
     assert "export to" in error.message and "2. " in error.hint
 
 
+@HERE
 @pytest.mark.parametrize(
     ("name", "content", "says"),
     [
@@ -118,6 +128,7 @@ def test_the_beginning_of_a_file_alone(name: str, content: bytes, says: str, tmp
     assert says in error.message and not error.message.startswith("The reader"), error.message
 
 
+@HERE
 def test_archives(tmp_path: Path, good: bytes) -> None:
     with zipfile.ZipFile(tmp_path / "a.zip", "w") as archive:
         archive.writestr("machine.step", good)
@@ -129,6 +140,7 @@ def test_archives(tmp_path: Path, good: bytes) -> None:
     assert "gunzip" in fail(tmp_path / "a.stpz").hint
 
 
+@HERE
 @pytest.mark.parametrize("version", [20, 138])
 def test_an_archive_of_another_version_is_damaged(version: int, tmp_path: Path) -> None:
     path = tmp_path / "a.usdz"
@@ -140,6 +152,7 @@ def test_an_archive_of_another_version_is_damaged(version: int, tmp_path: Path) 
     fail(path)
 
 
+@HERE
 def test_an_instance_of_nothing_is_told(tmp_path: Path) -> None:
     path = tmp_path / "machine.usda"
     cube, empty = 'def Cube "frame" {}', 'def Xform "pin" (instanceable = true) {}'
@@ -150,6 +163,7 @@ def test_an_instance_of_nothing_is_told(tmp_path: Path) -> None:
     ]
 
 
+@HERE
 @pytest.mark.parametrize("damage", ["name", "number"])
 def test_what_a_drawing_lost_is_told(damage: str, tmp_path: Path) -> None:
     ezdxf = pytest.importorskip("ezdxf")
@@ -166,12 +180,14 @@ def test_what_a_drawing_lost_is_told(damage: str, tmp_path: Path) -> None:
     assert "CAD001" in {f.code for f in read_cad(path).findings}
 
 
+@HERE
 def test_content_decides_not_the_name(good: bytes, tmp_path: Path) -> None:
     path = tmp_path / "machine.sldasm"
     path.write_bytes(b"\n/* a comment */\n" + good)
     assert len(read_cad(path).parts) == 3
 
 
+@HERE
 def test_no_solid(tmp_path: Path) -> None:
     assert "no solid" in fail(write_step(tmp_path / "wire.step", Node("WIRE", wire()))).message
 
@@ -250,6 +266,7 @@ def test_a_shape_that_is_cut_short_is_not_read_for_ever(tmp_path: Path) -> None:
     assert "more than" not in fail(path).message
 
 
+@HERE
 def test_a_shape_that_is_nowhere_is_refused(tmp_path: Path) -> None:
     from OCP.BRepTools import BRepTools
 
@@ -259,6 +276,7 @@ def test_a_shape_that_is_nowhere_is_refused(tmp_path: Path) -> None:
     assert "neither a number" in fail(path).message
 
 
+@HERE
 @pytest.mark.parametrize(
     ("mark", "damage", "says"),
     [
@@ -301,6 +319,7 @@ def test_sound_shapes_have_no_fault(tmp_path: Path) -> None:
                 assert fault(path.read_bytes()) == ""
 
 
+@HERE
 def test_warnings_leave_no_file_behind(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     geom = '<geom type="box" size="1 1 1" user="nan"/>'

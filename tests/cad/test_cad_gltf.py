@@ -15,7 +15,7 @@ import pytest
 from yellowiron.cad import read_cad
 from yellowiron.model.errors import CadError
 
-pytestmark = pytest.mark.slow  # each reads in a child process of its own
+pytestmark = pytest.mark.usefixtures("read_here")
 
 BOX = np.array([[x, y, z] for x in (0.0, 0.4) for y in (0.0, 0.3) for z in (0.0, 0.2)], dtype="<f4")
 FACES = np.array(

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from yellowiron.library import list_templates, load_template
+from kit.templates import template as library_template
+from yellowiron.library import list_templates
 from yellowiron.model.template import Wanted
 from yellowiron.specs import missing_values
 from yellowiron.specs.extraction import from_sheets
@@ -43,7 +44,7 @@ def statements(wanted: tuple[Wanted, ...], language: str, label: int) -> list[St
 @pytest.mark.parametrize("language", LANGUAGES)
 @pytest.mark.parametrize("equipment_type", list_templates())
 def test_first_labels(equipment_type: str, language: str) -> None:
-    template = load_template(equipment_type, sheet_only=True)
+    template = library_template(equipment_type)
     asked = tuple(w for w in template.wanted if w.in_label_of is None)
     sheet = Sheet("a.pdf", 1, tuple(statements(asked, language, 0)), (), "point")
     found = from_sheets(template, [sheet])
@@ -81,8 +82,8 @@ def test_a_sub_heading_and_a_label_may_be_one_expression() -> None:
         Statement(1, 0, "bore", "115 mm", box, "q", context=("Steering cylinder –",)),
         Statement(1, 1, "reach at ground level", "8,835 mm", box, "q", context=("Max. digging",)),
     ), (), "point")  # fmt: skip
-    bore = from_sheets(load_template("wheel_loader"), [sheet]).values["Steering Cylinder Bore"]
-    reach = from_sheets(load_template("excavator"), [sheet]).values["Maximum Reach at Ground Line"]
+    bore = from_sheets(library_template("wheel_loader"), [sheet]).values["Steering Cylinder Bore"]
+    reach = from_sheets(library_template("excavator"), [sheet]).values["Maximum Reach at Ground Line"]
     assert bore.value == pytest.approx(0.115) and reach.value == pytest.approx(8.835)
 
 
@@ -111,12 +112,12 @@ def test_a_sub_heading_and_a_label_may_be_one_expression() -> None:
 )  # fmt: skip
 def test_what_makers_print(equipment_type: str, section: str, label: str, name: str) -> None:
     """One row of a maker's sheet is that value, and no other one."""
-    wanted = {w.name: w for w in load_template(equipment_type, sheet_only=True).wanted}
+    wanted = {w.name: w for w in library_template(equipment_type).wanted}
     text, value = printed(wanted[name], 1)
     sheet = Sheet(
         "a.pdf", 1, (Statement(1, 0, label, text, (10.0, 10.0, 90.0, 20.0), "q", section=section),), (), "point"
     )
-    found = from_sheets(load_template(equipment_type, sheet_only=True), [sheet])
+    found = from_sheets(library_template(equipment_type), [sheet])
     assert {s.name: s.value for s in found if s.status == "ok"} == {name: pytest.approx(value, rel=1e-6)}
 
 
@@ -134,13 +135,13 @@ def test_what_is_nobodys_value(equipment_type: str, section: str, label: str, te
     sheet = Sheet(
         "a.pdf", 1, (Statement(1, 0, label, text, (10.0, 10.0, 90.0, 20.0), "q", section=section),), (), "point"
     )
-    found = from_sheets(load_template(equipment_type, sheet_only=True), [sheet])
+    found = from_sheets(library_template(equipment_type), [sheet])
     assert not [s.name for s in found if s.status == "ok"]
 
 
 def test_a_type_that_cannot_be_built_takes_no_value_by_hand() -> None:
     for equipment_type, by_hand in (("dozer", False), ("wheel_loader", True)):
-        template = load_template(equipment_type, sheet_only=True)
+        template = library_template(equipment_type)
         told = missing_values(template, from_sheets(template, [Sheet("a.pdf", 1, (), (), "point")]))
         assert told and all(bool(one["set"]) == by_hand for one in told)
 
@@ -162,7 +163,7 @@ def test_a_type_that_cannot_be_built_takes_no_value_by_hand() -> None:
 )
 def test_other_wordings(equipment_type: str, label: str, value: str, name: str | None) -> None:
     """Labels in words that no template lists as they stand: by concepts and the lexicon."""
-    template = load_template(equipment_type, sheet_only=True)
+    template = library_template(equipment_type)
     statement = Statement(1, 0, label, value, (10.0, 0.0, 90.0, 9.0), f"{label} {value}")
     found = from_sheets(template, [Sheet("a.pdf", 1, (statement,), (), "point")])
     assert [s.name for s in found if s.status == "ok"] == ([name] if name else [])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from yellowiron.library import load_template
+from kit.templates import template
 from yellowiron.specs.extraction import from_sheets
 from yellowiron.specs.layout.statement import Statement
 from yellowiron.specs.reader import Sheet
@@ -16,7 +16,7 @@ BOX = (10.0, 10.0, 90.0, 20.0)
 def found(equipment_type: str, label: str, value: str) -> dict[str, str]:
     """Name → status of what one row gives."""
     sheet = Sheet("a.pdf", 1, (Statement(1, 0, label, value, BOX, label),), (), "point")
-    values = from_sheets(load_template(equipment_type), [sheet])
+    values = from_sheets(template(equipment_type), [sheet])
     return {s.name: s.status for s in values if s.status != "missing"}
 
 

@@ -13,8 +13,7 @@ from pathlib import Path
 import pytest
 from test_specs_languages import LANGUAGES, printed
 
-from yellowiron.library import load_template
-from yellowiron.model.template import Template
+from kit.templates import template
 from yellowiron.specs.extraction import from_sheets
 from yellowiron.specs.layout.statement import Statement
 from yellowiron.specs.reader import Sheet
@@ -42,26 +41,21 @@ def rows(language: str) -> dict[str, list[Row]]:
     return found
 
 
-@cache
-def asked_for(equipment_type: str) -> Template:
-    return load_template(equipment_type, sheet_only=True)
-
-
 def value_of(equipment_type: str, name: str) -> str:
     """A value in a name's range, as text; a text that is no name of the type stays as it is."""
-    names = [w.name for w in asked_for(equipment_type).wanted]
-    return printed(asked_for(equipment_type).wanted[names.index(name)], names.index(name))[0] if name in names else name
+    names = [w.name for w in template(equipment_type).wanted]
+    return printed(template(equipment_type).wanted[names.index(name)], names.index(name))[0] if name in names else name
 
 
 def misread(equipment_type: str, own: Iterable[Row], *, strict: bool) -> list[tuple[str, str, dict[str, str]]]:
     """The rows that do not come back `ok` for their name alone, with what came."""
-    inside = {w.name for w in asked_for(equipment_type).wanted if w.in_label_of is not None}
-    names = {w.name for w in asked_for(equipment_type).wanted}
+    inside = {w.name for w in template(equipment_type).wanted if w.in_label_of is not None}
+    names = {w.name for w in template(equipment_type).wanted}
     wrong = []
     for name, label, section in own:
         text = value_of(equipment_type, name)
         row = Statement(1, 0, label, text, (10.0, 0.0, 90.0, 9.0), f"{label} {text}", section=section)
-        found = from_sheets(asked_for(equipment_type), [Sheet("a.pdf", 1, (row,), (), "point")])
+        found = from_sheets(template(equipment_type), [Sheet("a.pdf", 1, (row,), (), "point")])
         came = {s.name: s.status for s in found if s.status != "missing" and (strict or s.name not in inside)}
         if not strict:
             came = {n: status for n, status in came.items() if status == "ok"}

@@ -6,21 +6,14 @@ Counts of first readings are in docs/extraction.md; these tests keep what was re
 from __future__ import annotations
 
 from collections.abc import Iterable
-from functools import cache
 from pathlib import Path
 
 import pytest
 
 from kit.sheets import HELD_BACK, PLAIN, WORDED, Case, Score, cases, make, one_a_layout, page_texts, score
-from yellowiron.library import load_template
-from yellowiron.model.template import Template
+from kit.templates import template
 from yellowiron.specs.extraction import from_sheets
 from yellowiron.specs.reader import read_sheet
-
-
-@cache
-def template(kind: str) -> Template:
-    return load_template(kind, sheet_only=True)
 
 
 def read(own: Iterable[Case], folder: Path) -> Score:
