@@ -35,7 +35,14 @@ def codes(found: Alignment) -> set[str]:
     return {f.code for f in found.findings if f.severity == "warning"}
 
 
-@pytest.mark.parametrize("gone", [LIFT, LIFT[1:], LIFT[:1]], ids=["cylinder", "rod", "barrel"])
+@pytest.mark.parametrize(
+    "gone",
+    [
+        pytest.param(LIFT, id="cylinder"),
+        pytest.param(LIFT[1:], id="rod", marks=pytest.mark.slow),
+        pytest.param(LIFT[:1], id="barrel", marks=pytest.mark.slow),
+    ],
+)
 def test_half_a_pair_is_no_single(template: Template, gone: tuple[str, ...]) -> None:
     assembly, truth, _ = disguise(without(loader(3, twin=True), *gone), 3)
     found = align(assembly, template, NOTHING)
@@ -57,7 +64,7 @@ def test_a_pair_taken_for_a_single(template: Template) -> None:
     assert rams - played <= set(found.to_review)
 
 
-@pytest.mark.parametrize("seed", [5, 1002])
+@pytest.mark.parametrize("seed", [5, pytest.param(1002, marks=pytest.mark.slow)])
 def test_a_single_in_the_middle(template: Template, seed: int) -> None:
     found = align(disguise(loader(seed, twin=False), seed)[0], template, NOTHING)
     assert found.choices["lift_cylinders"] == "single"

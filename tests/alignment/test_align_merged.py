@@ -63,6 +63,7 @@ def test_excavators_merged(merged: str, seed: int) -> None:
     assert wrong(excavator(seed), "excavator", merged, seed) == []
 
 
+@pytest.mark.slow
 def test_bodies_without_pins_are_not_taken_apart() -> None:
     """Nothing is gained by it: their roles are missing all the same."""
     machine = loader(1002)

@@ -99,6 +99,7 @@ def test_level_cut_is_as_deep_as_its_length_allows(arm: Arm) -> None:
     assert value(arm, HEIGHT, level(2.44)) == pytest.approx(-depth, abs=1e-5)
 
 
+@pytest.mark.slow
 def test_level_cut_takes_the_length_that_the_sheet_prints(arm: Arm) -> None:
     sheet = {"Level Bottom Length": {"value": 2.0, "status": "ok"}}
     mechanism = replace(arm_mechanism(arm), specifications=sheet)

@@ -114,7 +114,7 @@ def test_mujoco_is_always_there() -> None:
     assert "mujoco" in installed_engines()
 
 
-@pytest.mark.parametrize("sent", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("sent", [signal.SIGINT, pytest.param(signal.SIGTERM, marks=pytest.mark.slow)])
 def test_stopping_the_command_stops_the_engine(bad: Path, usd_file: Path, sent: signal.Signals, tmp_path: Path) -> None:
     pid = tmp_path / "pid"
     write(bad, f"open({str(pid)!r}, 'w').write(str(os.getpid())); time.sleep(600)")
