@@ -17,7 +17,7 @@ import numpy as np
 from yellowiron.alignment.features.contacts import Fit, SharedAxis
 from yellowiron.alignment.features.solids import Solid
 from yellowiron.alignment.features.wheels import Wheel
-from yellowiron.alignment.structure.contact_evidence import Evidence, runs_across
+from yellowiron.alignment.structure.contact_evidence import ContactEvidence, runs_across
 from yellowiron.alignment.structure.min_cut import false_welds, strength
 from yellowiron.alignment.structure.rigid_groups import Groups
 from yellowiron.alignment.structure.welds import Pairs, axes_by_group, join_doubly_pinned, weld
@@ -66,7 +66,7 @@ class Structure:
     races: dict[int, tuple[int, ...]] = field(default_factory=dict)
 
 
-def structure_of(evidence: Evidence, *, leaves: bool, weak: bool, careful: bool) -> Structure:
+def structure_of(evidence: ContactEvidence, *, leaves: bool, weak: bool, careful: bool) -> Structure:
     """Clusters and hinges. `leaves`: the template has bodies that hang on a single hinge, so that a spacer on one pin
     may be one. A careful reading looks for false welds and starts again without them."""
     flat = list(dict.fromkeys((f.a, f.b) for f in evidence.welds))
@@ -91,7 +91,7 @@ def structure_of(evidence: Evidence, *, leaves: bool, weak: bool, careful: bool)
     return _collected(groups, evidence, [*refused, *sorted(apart)])
 
 
-def _tagged(evidence: Evidence) -> Groups:
+def _tagged(evidence: ContactEvidence) -> Groups:
     """Groups of what is certain: barrels, rods, wheels, rings in their bores."""
     groups = Groups(len(evidence.solids))
     for k, cylinder in enumerate(evidence.cylinders):
@@ -110,7 +110,7 @@ def loose_ends(structure: Structure) -> int:
     return len({i for h in structure.hinges for i in (h.a, h.b)} | {i for s in structure.slides for i in s[:2]})
 
 
-def _touching(groups: Groups, evidence: Evidence) -> list[tuple[int, int]]:
+def _touching(groups: Groups, evidence: ContactEvidence) -> list[tuple[int, int]]:
     """Pairs in different groups whose meshes touch and that lie about no common axis."""
     sliding = {(min(n.outer, n.inner), max(n.outer, n.inner)) for n in evidence.nests}
     return [
@@ -125,7 +125,7 @@ def _touching(groups: Groups, evidence: Evidence) -> list[tuple[int, int]]:
     ]
 
 
-def _attach_eyes(groups: Groups, evidence: Evidence) -> None:
+def _attach_eyes(groups: Groups, evidence: ContactEvidence) -> None:
     """A barrel or rod without a pin line across it takes the touching group that has one."""
     for cylinder in evidence.cylinders:
         for part in (cylinder.barrel,) if cylinder.apart else (cylinder.barrel, cylinder.rod):
@@ -154,7 +154,7 @@ def _beside(s: Solid, wheel: Wheel) -> bool:
     return False
 
 
-def _absorb_leaves(groups: Groups, evidence: Evidence, *, leaves: bool) -> None:
+def _absorb_leaves(groups: Groups, evidence: ContactEvidence, *, leaves: bool) -> None:
     """Rings and spacers on a single axis go with the only group they lie against."""
     on = axes_by_group(groups, evidence)
     partners = _turning_partners(groups, evidence)
@@ -181,7 +181,7 @@ def _absorb_leaves(groups: Groups, evidence: Evidence, *, leaves: bool) -> None:
             groups.join(group, found.pop())
 
 
-def _turning_partners(groups: Groups, evidence: Evidence) -> dict[int, set[int]]:
+def _turning_partners(groups: Groups, evidence: ContactEvidence) -> dict[int, set[int]]:
     """Group → those that it lies against and may turn on, wheels left out."""
     partners: dict[int, set[int]] = {}
     for flat in evidence.turning:
@@ -192,7 +192,7 @@ def _turning_partners(groups: Groups, evidence: Evidence) -> dict[int, set[int]]
     return partners
 
 
-def _absorb_bosses(groups: Groups, evidence: Evidence) -> None:
+def _absorb_bosses(groups: Groups, evidence: ContactEvidence) -> None:
     """A ring on a single pin line that is drawn into another part, and touches one group only, goes with it."""
     on = axes_by_group(groups, evidence)
     beside: dict[int, set[int]] = {}
@@ -217,7 +217,7 @@ def reaches_out(solids: tuple[Solid, ...], members: Iterable[int], axis: SharedA
     return float(off.max()) > LONG * axis.radius
 
 
-def _collected(groups: Groups, evidence: Evidence, refused: Pairs) -> Structure:
+def _collected(groups: Groups, evidence: ContactEvidence, refused: Pairs) -> Structure:
     """The structure that groups make: every group but the fasteners' is a cluster."""
     gathered: dict[int, set[int]] = {}
     for s in evidence.solids:
@@ -248,7 +248,7 @@ def _collected(groups: Groups, evidence: Evidence, refused: Pairs) -> Structure:
     )
 
 
-def _pinned_pairs(evidence: Evidence, cluster_of: dict[int, int]) -> dict[tuple[int, int, int], set[int]]:
+def _pinned_pairs(evidence: ContactEvidence, cluster_of: dict[int, int]) -> dict[tuple[int, int, int], set[int]]:
     """(cluster, cluster, axis) of what turns on each other → the pins through both; none for a part's own shaft."""
     pins: dict[tuple[int, int, int], set[int]] = {}
     for pin, around in evidence.hosts.items():
@@ -263,7 +263,7 @@ def _pinned_pairs(evidence: Evidence, cluster_of: dict[int, int]) -> dict[tuple[
     return pins
 
 
-def _slides(evidence: Evidence, cluster_of: dict[int, int]) -> tuple[tuple[int, int, int], ...]:
+def _slides(evidence: ContactEvidence, cluster_of: dict[int, int]) -> tuple[tuple[int, int, int], ...]:
     """Barrels and rods, then sections in each other, as `Structure` has them."""
     slides = [(cluster_of[min(c.barrel)], cluster_of[min(c.rod)], k) for k, c in enumerate(evidence.cylinders)]
     sections = [(cluster_of[n.outer], cluster_of[n.inner]) for n in evidence.nests]

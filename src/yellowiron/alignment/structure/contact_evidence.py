@@ -22,7 +22,7 @@ THIN = 0.6
 
 
 @dataclass(frozen=True, eq=False)
-class Evidence:
+class ContactEvidence:
     """The contacts of a CAD model, sorted by what they can mean.
 
     - `fasteners`: bars in bores (pins, bolts, shafts), which join nothing themselves;
@@ -96,7 +96,7 @@ class _Roles:
 
 @dataclass(frozen=True, eq=False)
 class _Fits:
-    """Fits by what they mean; the fields are those of `Evidence`, and `number`: fit → axis."""
+    """Fits by what they mean; the fields are those of `ContactEvidence`, and `number`: fit → axis."""
 
     number: dict[int, int]
     pinned: dict[int, set[int]]
@@ -112,7 +112,7 @@ class _Fits:
         self.pinned[fit.outer].add(axis)
 
 
-def evidence_of(contacts: Contacts, *, slewing: bool = False) -> Evidence:
+def evidence_of(contacts: Contacts, *, slewing: bool = False) -> ContactEvidence:
     """Sorts fits and flat contacts. Fits between a barrel and its rod, and between a wheel and its axle, slide. The
     axes number the fits first, then the bare bores. `slewing`: whatever round thing is as wide as a slewing bearing
     turns in its bore, though it is no thin ring."""
@@ -126,7 +126,7 @@ def evidence_of(contacts: Contacts, *, slewing: bool = False) -> Evidence:
     area: dict[tuple[int, int], float] = {}
     for flat in welds:
         area[flat.a, flat.b] = area.get((flat.a, flat.b), 0.0) + flat.area
-    return Evidence(
+    return ContactEvidence(
         solids=solids,
         axes=tuple(axes),
         cylinders=tuple(contacts.cylinders),

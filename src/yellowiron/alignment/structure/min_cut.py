@@ -8,7 +8,7 @@ import numpy as np
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import maximum_flow
 
-from yellowiron.alignment.structure.contact_evidence import Evidence
+from yellowiron.alignment.structure.contact_evidence import ContactEvidence
 from yellowiron.alignment.structure.rigid_groups import Groups
 from yellowiron.alignment.structure.welds import Pairs, axes_by_group
 
@@ -19,7 +19,7 @@ LIGHTER = 0.8
 """A cut must be this much weaker than what was kept back."""
 
 
-def strength(evidence: Evidence, a: int, b: int) -> float:
+def strength(evidence: ContactEvidence, a: int, b: int) -> float:
     """Square metres over which two solids can hold each other: their flat contact, or the larger face of the box that
     both fill."""
     flat = evidence.area.get((a, b), 0.0)
@@ -30,7 +30,7 @@ def strength(evidence: Evidence, a: int, b: int) -> float:
     return float(sides[1] * sides[2])
 
 
-def false_welds(groups: Groups, evidence: Evidence, pairs: Pairs, refused: Pairs) -> set[tuple[int, int]]:
+def false_welds(groups: Groups, evidence: ContactEvidence, pairs: Pairs, refused: Pairs) -> set[tuple[int, int]]:
     """Pairs to leave apart, so that what careful welding kept back can hold.
 
     A kept-back pair would have joined all that turns about some axis. Then two of the parts on that axis are of
@@ -58,7 +58,7 @@ def false_welds(groups: Groups, evidence: Evidence, pairs: Pairs, refused: Pairs
     return result
 
 
-def _graph(evidence: Evidence, pairs: Pairs) -> csr_array:
+def _graph(evidence: ContactEvidence, pairs: Pairs) -> csr_array:
     """Capacities between solids, both ways."""
     capacity = {p: max(1, min(FIRM, round(SCALE * strength(evidence, *p)))) for p in pairs}
     capacity |= {(min(p), max(p)): FIRM for p in evidence.pressed}

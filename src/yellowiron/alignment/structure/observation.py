@@ -20,7 +20,7 @@ from yellowiron.alignment.features.telescopes import Nest, nests_of
 from yellowiron.alignment.features.undrilled import interrupted_fits_of, pierced_fits_of
 from yellowiron.alignment.features.undrilled_cylinders import apart_cylinders_of, solid_cylinders_of
 from yellowiron.alignment.features.wheels import Wheel, wheels_of
-from yellowiron.alignment.structure.contact_evidence import Contacts, Evidence, evidence_of, tables_of
+from yellowiron.alignment.structure.contact_evidence import ContactEvidence, Contacts, evidence_of, tables_of
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.geometry import Floats
 from yellowiron.model.template import Template
@@ -38,7 +38,7 @@ class Observation:
     near: list[tuple[int, int]]
     cylinders: tuple[DrawnCylinder, ...]
     wheels: list[Wheel]
-    evidence: tuple[Evidence, ...]
+    evidence: tuple[ContactEvidence, ...]
     touch: Touch
     size: float
     up: Floats | None = None

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from yellowiron.alignment.features.contacts import SharedAxis
 from yellowiron.alignment.features.solids import Solid
-from yellowiron.alignment.structure.contact_evidence import Evidence
+from yellowiron.alignment.structure.contact_evidence import ContactEvidence
 from yellowiron.alignment.structure.rigid_groups import Groups
 
 Pairs = list[tuple[int, int]]
@@ -16,7 +16,7 @@ AxesByGroup = dict[int, set[int]]
 """Group → the pin lines it is on."""
 
 
-def axes_by_group(groups: Groups, evidence: Evidence, *, without: frozenset[int] = frozenset()) -> AxesByGroup:
+def axes_by_group(groups: Groups, evidence: ContactEvidence, *, without: frozenset[int] = frozenset()) -> AxesByGroup:
     """Group → the axes that its members share with pins and bolts, save those `without`."""
     result: AxesByGroup = {}
     for i, on in evidence.pinned.items():
@@ -25,7 +25,7 @@ def axes_by_group(groups: Groups, evidence: Evidence, *, without: frozenset[int]
     return result
 
 
-def join_doubly_pinned(groups: Groups, evidence: Evidence) -> None:
+def join_doubly_pinned(groups: Groups, evidence: ContactEvidence) -> None:
     """Two distinct axes in common weld, again and again until nothing changes."""
     changed = True
     while changed:
@@ -37,7 +37,7 @@ def join_doubly_pinned(groups: Groups, evidence: Evidence) -> None:
                 changed = True
 
 
-def weld(groups: Groups, evidence: Evidence, pairs: Pairs, *, careful: bool) -> Pairs:
+def weld(groups: Groups, evidence: ContactEvidence, pairs: Pairs, *, careful: bool) -> Pairs:
     """Joins pairs of solids, strongest first as given; returns those that a careful one kept back."""
     if not careful:
         for a, b in pairs:
@@ -66,7 +66,7 @@ def _by_axis(on: AxesByGroup) -> dict[int, list[int]]:
     return result
 
 
-def _plain(groups: Groups, evidence: Evidence, pairs: Pairs) -> Pairs:
+def _plain(groups: Groups, evidence: ContactEvidence, pairs: Pairs) -> Pairs:
     """Joins the pairs whose groups share no pin line and hinge on no common third; returns the others."""
     on = axes_by_group(groups, evidence, without=evidence.bolted)
     by_axis = _by_axis(on)
@@ -88,7 +88,7 @@ def _plain(groups: Groups, evidence: Evidence, pairs: Pairs) -> Pairs:
     return rest
 
 
-def _least_suspicious(groups: Groups, evidence: Evidence, pairs: Pairs) -> tuple[int, int] | None:
+def _least_suspicious(groups: Groups, evidence: ContactEvidence, pairs: Pairs) -> tuple[int, int] | None:
     """The pair whose smaller group is on the fewest axes, among those that leave something turning on each axis."""
     on = axes_by_group(groups, evidence, without=evidence.bolted)
     by_axis = _by_axis(on)

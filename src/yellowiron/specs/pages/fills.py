@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from yellowiron.specs.pages.strokes import SNAP, Box, Rule
+from yellowiron.specs.pages.strokes import SNAP, Box, DrawnRule
 
 _HIGHEST = 150.0
 """Points; what is higher is a panel behind a part of the page."""
@@ -12,7 +12,7 @@ _FEWEST = 2
 """Pairs of cells side by side; one may be a heading beside another."""
 
 
-def edges_of_fills(bars: Sequence[Box], walls: Sequence[Rule]) -> list[Rule]:
+def edges_of_fills(bars: Sequence[Box], walls: Sequence[DrawnRule]) -> list[DrawnRule]:
     """The edges of filled boxes that stand side by side like a table's cells, and of those over and under them; none
     where drawn walls part the columns."""
     cells = [b for b in bars if b[3] - b[1] <= _HIGHEST and b[2] - b[0] >= 12]
@@ -39,6 +39,11 @@ def _continues(a: Box, b: Box) -> bool:
     return touch and (abs(a[0] - b[0]) <= SNAP or abs(a[2] - b[2]) <= SNAP)
 
 
-def _edges(box: Box) -> tuple[Rule, ...]:
+def _edges(box: Box) -> tuple[DrawnRule, ...]:
     x0, top, x1, bottom = box
-    return Rule(x0, top, x1, top), Rule(x0, bottom, x1, bottom), Rule(x0, top, x0, bottom), Rule(x1, top, x1, bottom)
+    return (
+        DrawnRule(x0, top, x1, top),
+        DrawnRule(x0, bottom, x1, bottom),
+        DrawnRule(x0, top, x0, bottom),
+        DrawnRule(x1, top, x1, bottom),
+    )

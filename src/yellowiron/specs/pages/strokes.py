@@ -20,7 +20,7 @@ _THIN = 2.5
 
 
 @dataclass(frozen=True)
-class Rule:
+class DrawnRule:
     """A straight rule, horizontal (`top == bottom`) or vertical (`x0 == x1`)."""
 
     x0: float
@@ -34,11 +34,11 @@ class Rule:
         return self.top == self.bottom
 
 
-def strokes_of(page: Any, place: Place) -> tuple[list[Rule], list[Box], int]:
+def strokes_of(page: Any, place: Place) -> tuple[list[DrawnRule], list[Box], int]:
     """Straight rules, filled bars (at least as high as a line of text), and the number of images."""
     import pypdfium2.raw as pdfium
 
-    rules: list[Rule] = []
+    rules: list[DrawnRule] = []
     bars: list[Box] = []
     images = 0
     for item in page.get_objects(filter=(pdfium.FPDF_PAGEOBJ_PATH, pdfium.FPDF_PAGEOBJ_IMAGE)):
@@ -103,20 +103,20 @@ def _is_rectangle(points: list[tuple[float, float]]) -> bool:
     return all(min(abs(x - x0), abs(x - x1)) < 0.1 and min(abs(y - top), abs(y - bottom)) < 0.1 for x, y in points)
 
 
-def _as_rule(box: Box) -> Rule:
+def _as_rule(box: Box) -> DrawnRule:
     x0, top, x1, bottom = box
     if x1 - x0 >= bottom - top:
         middle = (top + bottom) / 2
-        return Rule(x0, middle, x1, middle)
+        return DrawnRule(x0, middle, x1, middle)
     middle = (x0 + x1) / 2
-    return Rule(middle, top, middle, bottom)
+    return DrawnRule(middle, top, middle, bottom)
 
 
-def _edges(points: list[tuple[float, float]]) -> Iterator[Rule]:
+def _edges(points: list[tuple[float, float]]) -> Iterator[DrawnRule]:
     for (xa, ya), (xb, yb) in pairwise(points):
         if abs(ya - yb) < 0.5 and abs(xa - xb) > 3:
             y = (ya + yb) / 2
-            yield Rule(min(xa, xb), y, max(xa, xb), y)
+            yield DrawnRule(min(xa, xb), y, max(xa, xb), y)
         elif abs(xa - xb) < 0.5 and abs(ya - yb) > 3:
             x = (xa + xb) / 2
-            yield Rule(x, min(ya, yb), x, max(ya, yb))
+            yield DrawnRule(x, min(ya, yb), x, max(ya, yb))

@@ -11,7 +11,7 @@ import re
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from yellowiron.specs.pages.strokes import Box, Place, Rule, strokes_of
+from yellowiron.specs.pages.strokes import Box, DrawnRule, Place, strokes_of
 
 _SUPERSCRIPT_UNITS = re.compile(r"(?:^|[\d\s(/\[.])(?:m|cm|mm|dm|in|ft|yd)$|[-⁻]$")
 _SIGNS = re.compile(r"[\u00b9\u00b2\u00b3\u2070-\u2079]+(?:[,)\u207e][\u00b9\u00b2\u00b3\u2070-\u2079]+)*[)\u207e]?$")
@@ -57,7 +57,7 @@ class Page:
     width: float
     height: float
     words: tuple[Word, ...] = ()
-    rules: tuple[Rule, ...] = ()
+    rules: tuple[DrawnRule, ...] = ()
     bars: tuple[Box, ...] = ()
     leaders: tuple[Box, ...] = ()
     characters: int = 0

@@ -13,7 +13,7 @@ from yellowiron.specs.layout.rows.lines import lines_of
 from yellowiron.specs.layout.statement import join_boxes
 from yellowiron.specs.layout.tolerances import HEADING_BAR
 from yellowiron.specs.pages.fills import edges_of_fills
-from yellowiron.specs.pages.strokes import SNAP, Box, Rule
+from yellowiron.specs.pages.strokes import SNAP, Box, DrawnRule
 from yellowiron.specs.pages.words import Page, Word
 
 _WALL = 6.0
@@ -44,13 +44,13 @@ def grids_of(page: Page) -> list[TableGrid]:
     return sorted(found, key=lambda g: (g.box[1], g.box[0]))
 
 
-def _closing_bars(page: Page, walls: Sequence[Rule]) -> list[Rule]:
+def _closing_bars(page: Page, walls: Sequence[DrawnRule]) -> list[DrawnRule]:
     """The lower edges of headings' bars on which walls stand: the table's first row has no other rule above it."""
     found = []
     for bar in page.bars:
         on = [w.x0 for w in walls if abs(w.top - bar[3]) <= SNAP and bar[0] - SNAP <= w.x0 <= bar[2] + SNAP]
         if bar[3] - bar[1] < HEADING_BAR and on:
-            found.append(Rule(min(*on, bar[0]), bar[3], max(*on, bar[2]), bar[3]))
+            found.append(DrawnRule(min(*on, bar[0]), bar[3], max(*on, bar[2]), bar[3]))
     return found
 
 
@@ -60,7 +60,7 @@ def _are_level(row: TableGrid, table: TableGrid) -> bool:
     return all(any(abs(x - stop) <= SNAP for stop in stops) for c in row.cells for x in (c.box[0], c.box[2]))
 
 
-def _edge(rule: Rule) -> dict[str, object]:
+def _edge(rule: DrawnRule) -> dict[str, object]:
     return {
         "x0": rule.x0,
         "x1": rule.x1,

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from yellowiron.specs.layout.rows.lines import TextLine, lines_of
 from yellowiron.specs.layout.statement import TextPiece, kind_of
-from yellowiron.specs.pages.strokes import SNAP, Box, Rule
+from yellowiron.specs.pages.strokes import SNAP, Box, DrawnRule
 from yellowiron.specs.pages.words import Word
 
 _HIGHEST = 60.0
@@ -15,21 +15,23 @@ _FAR = 40.0
 """Points between a row of heads and the table or the heading under it."""
 
 
-def side_walls(level: Sequence[Rule], walls: Sequence[Rule], words: Sequence[Word]) -> list[Rule]:
+def side_walls(level: Sequence[DrawnRule], walls: Sequence[DrawnRule], words: Sequence[Word]) -> list[DrawnRule]:
     """The walls that a table lacks at its left or right: between two rules that end level with each other and that
     walls in between join, with words but no value left of the first wall, or with words right of the last one."""
-    found: list[Rule] = []
+    found: list[DrawnRule] = []
     rules, walls = _merged(level), _joined(walls)
     for edge in ("x0", "x1"):
         for above in rules:
             x = getattr(above, edge)
             below = next((r for r in rules if r.top > above.top + SNAP and abs(getattr(r, edge) - x) <= SNAP), None)
             if below is not None and _lacks_wall(above, below, x, walls, words):
-                found.append(Rule(x, above.top, x, below.top))
+                found.append(DrawnRule(x, above.top, x, below.top))
     return found
 
 
-def _lacks_wall(above: Rule, below: Rule, x: float, walls: Sequence[Rule], words: Sequence[Word]) -> bool:
+def _lacks_wall(
+    above: DrawnRule, below: DrawnRule, x: float, walls: Sequence[DrawnRule], words: Sequence[Word]
+) -> bool:
     """Whether a table's row between two rules, or several that no rule parts, has words beside its walls, at `x`."""
     x0, x1 = max(above.x0, below.x0), min(above.x1, below.x1)
     joining = [
@@ -49,25 +51,25 @@ def _lacks_wall(above: Rule, below: Rule, x: float, walls: Sequence[Rule], words
     return bool(right) if x > max(inner) else "text" in left and "value" not in left
 
 
-def _merged(level: Sequence[Rule]) -> list[Rule]:
+def _merged(level: Sequence[DrawnRule]) -> list[DrawnRule]:
     """Rules at one height that touch are one; from top to bottom."""
-    merged: list[Rule] = []
+    merged: list[DrawnRule] = []
     for rule in sorted(level, key=lambda r: (round(r.top), r.x0)):
         last = merged[-1] if merged else None
         if last is not None and abs(last.top - rule.top) <= 1 and rule.x0 <= last.x1 + SNAP:
-            merged[-1] = Rule(min(last.x0, rule.x0), last.top, max(last.x1, rule.x1), last.top)
+            merged[-1] = DrawnRule(min(last.x0, rule.x0), last.top, max(last.x1, rule.x1), last.top)
         else:
             merged.append(rule)
     return sorted(merged, key=lambda r: (r.top, r.x0))
 
 
-def _joined(walls: Sequence[Rule]) -> list[Rule]:
+def _joined(walls: Sequence[DrawnRule]) -> list[DrawnRule]:
     """Walls at one place that touch are one, though drawn row by row."""
-    joined: list[Rule] = []
+    joined: list[DrawnRule] = []
     for wall in sorted(walls, key=lambda w: (round(w.x0), w.top)):
         last = joined[-1] if joined else None
         if last is not None and abs(last.x0 - wall.x0) <= 1 and wall.top <= last.bottom + 1:
-            joined[-1] = Rule(last.x0, last.top, last.x0, max(last.bottom, wall.bottom))
+            joined[-1] = DrawnRule(last.x0, last.top, last.x0, max(last.bottom, wall.bottom))
         else:
             joined.append(wall)
     return joined

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from yellowiron.specs.layout.statement import TextPiece, kind_of, split_inline
-from yellowiron.specs.pages.strokes import Box, Rule
+from yellowiron.specs.pages.strokes import Box, DrawnRule
 from yellowiron.specs.pages.words import Word
 
 _HANGING = 20.0
@@ -50,7 +50,7 @@ class TextLine:
         return " ".join(p.text for p in self.pieces)
 
 
-def lines_of(words: Sequence[Word], walls: Sequence[Rule] = ()) -> list[TextLine]:
+def lines_of(words: Sequence[Word], walls: Sequence[DrawnRule] = ()) -> list[TextLine]:
     """Words by baseline, parted where a wide gap or a vertical rule is between them; from top to bottom."""
     rows: list[list[Word]] = []
     for word in sorted(words, key=lambda w: (w.baseline, w.x0)):
@@ -74,7 +74,7 @@ def lines_of(words: Sequence[Word], walls: Sequence[Rule] = ()) -> list[TextLine
     return lines
 
 
-def _walled(a: Word, b: Word, walls: Sequence[Rule]) -> bool:
+def _walled(a: Word, b: Word, walls: Sequence[DrawnRule]) -> bool:
     return any(
         not w.horizontal
         and a.x1 - 1 <= w.x0 <= b.x0 + 1
@@ -278,7 +278,7 @@ def _same_columns(a: TextLine, b: TextLine) -> bool:
 
 
 def bands(
-    lines: Sequence[TextLine], rules: Sequence[Rule], bars: Sequence[Box], x0: float, x1: float
+    lines: Sequence[TextLine], rules: Sequence[DrawnRule], bars: Sequence[Box], x0: float, x1: float
 ) -> list[tuple[TextLine, ...]]:
     """Lines between two neighbouring horizontal rules that run along (most of) the block are one row.
 

@@ -9,7 +9,7 @@ from itertools import pairwise
 
 from yellowiron.specs.layout.rows.lines import TextLine
 from yellowiron.specs.layout.statement import TextPiece, ascending, is_key, is_unit, kind_of
-from yellowiron.specs.pages.strokes import Rule
+from yellowiron.specs.pages.strokes import DrawnRule
 
 _LEVEL = 2.0
 """Points within which the left edges of labels lie."""
@@ -79,7 +79,7 @@ def _counts(numbers: Sequence[TextPiece], lines: Sequence[TextLine]) -> bool:
     return all(b == a + 1 for a, b in pairwise(counted))
 
 
-def parted_margin(lines: Sequence[TextLine], rules: Sequence[Rule]) -> tuple[list[TextLine], list[Beside]]:
+def parted_margin(lines: Sequence[TextLine], rules: Sequence[DrawnRule]) -> tuple[list[TextLine], list[Beside]]:
     """The lines without what stands in the margin beside their labels, and that, from top to bottom.
 
     A margin: left of where nearly all rows with values begin their labels, level with some of them and empty beside
