@@ -89,6 +89,7 @@ def test_a_template_from_declared_joints(drawn: Callable[[Assembly], None], tmp_
     assert joints["slide_of_file"]["source"].startswith("declared by the file")
 
 
+@pytest.mark.slow
 def test_a_robot_builds_with_its_own_axes_and_limits(drawn: Callable[[Assembly], None], tmp_path: Path) -> None:
     """Nothing is drawn but boxes: axes are where the file declares them, limits those of its joints."""
     drawn(described())

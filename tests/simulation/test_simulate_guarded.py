@@ -86,6 +86,7 @@ def test_an_engine_that_ends_is_said(bad: Path, usd_file: Path, deed: str, words
     assert caught.value.where == str(usd_file) and "another engine" in caught.value.hint
 
 
+@pytest.mark.slow
 def test_an_engine_that_hangs_is_stopped(bad: Path, usd_file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Not one that is slow: the limit is on a step. What it was at has been shown."""
     write(bad, "time.sleep(600)")
@@ -114,7 +115,8 @@ def test_mujoco_is_always_there() -> None:
     assert "mujoco" in installed_engines()
 
 
-@pytest.mark.parametrize("sent", [signal.SIGINT, pytest.param(signal.SIGTERM, marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("sent", [signal.SIGINT, signal.SIGTERM])
 def test_stopping_the_command_stops_the_engine(bad: Path, usd_file: Path, sent: signal.Signals, tmp_path: Path) -> None:
     pid = tmp_path / "pid"
     write(bad, f"open({str(pid)!r}, 'w').write(str(os.getpid())); time.sleep(600)")

@@ -36,6 +36,7 @@ def test_the_sets_share_neither_machine_nor_layout() -> None:
     assert sum(len(own) for own in sets) > 200
 
 
+@pytest.mark.slow
 def test_one_sheet_of_every_layout_of_the_plain_sets(tmp_path: Path) -> None:
     total = read((case for split in PLAIN for case in one_a_layout(split)), tmp_path)
     assert total.wrong == 0 and total.unproven == 0, total.faults

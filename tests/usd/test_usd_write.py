@@ -57,6 +57,7 @@ def test_returns_what_it_wrote(write: Callable[..., tuple[Path, ...]], tmp_path:
     assert {str(p.relative_to(tmp_path)) for p in paths} == FILES
 
 
+@pytest.mark.slow
 def test_same_bytes_twice_and_from_another_process(written: Path, tmp_path: Path, root: Path) -> None:
     script = (
         "import sys, pathlib, tempfile; sys.path.insert(0, 'tests/usd'); import conftest as c\n"
