@@ -8,7 +8,9 @@ import inspect
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 import pytest
 
 import yellowiron as yi
@@ -51,6 +53,20 @@ def test_importing_costs_nothing() -> None:
     heavy = ("OCP", "pxr", "mujoco", "ortools", "scipy", "numpy", "networkx")
     code = f"import sys, yellowiron; print([n for n in {heavy} if n in sys.modules])"
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True).stdout == "[]\n"
+
+
+@pytest.mark.parametrize("payload", [250, 250.0, np.float64(250.0), "250", "0.25 t"])
+def test_a_payload_is_any_number_of_kilograms(payload: float | str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """numpy's numbers, too, which `repr` writes with their type."""
+    given: list[float] = []
+
+    def examined(file: Path, **options: Any) -> tuple[dict[str, Any], tuple[()]]:
+        given.append(options["payload"].mass)
+        return {}, ()
+
+    monkeypatch.setattr("yellowiron.simulation.suite.examine", examined)
+    assert yi.simulate("loader.usda", payload=payload) == {}
+    assert given == [250.0]
 
 
 @pytest.mark.slow

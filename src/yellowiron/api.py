@@ -139,7 +139,7 @@ def simulate(
     from yellowiron.simulation import examine, parse_payload
 
     file = _file(machine)
-    load = parse_payload(payload if isinstance(payload, str) else repr(payload), file)
+    load = parse_payload(payload if isinstance(payload, str) else repr(float(payload)), file)
     document, _ = examine(file, engine=engine, test=test, base=base, payload=load, dt=dt, progress=progress)
     return document
 
