@@ -21,11 +21,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from yellowiron.alignment.assignment.answer import Answer, is_whole, rivals_of
+from yellowiron.alignment.assignment.answer import Answer, held_share, is_whole, rivals_of
 from yellowiron.alignment.assignment.cp_sat import solve
 from yellowiron.alignment.assignment.machine_frame import MachineFrame, machine_frame
+from yellowiron.alignment.assignment.names import name_scores
 from yellowiron.alignment.assignment.root_fallback import with_root
-from yellowiron.alignment.assignment.search import BELIEVED, Search
+from yellowiron.alignment.assignment.search import BELIEVED, Search, variants_of
 from yellowiron.alignment.assignment.sheet_weights import sheet_findings
 from yellowiron.alignment.assignment.weights import side_weights
 from yellowiron.alignment.features.distance import Touch
@@ -33,6 +34,7 @@ from yellowiron.alignment.features.separate_parts import separate_parts
 from yellowiron.alignment.features.solids import solids_of
 from yellowiron.alignment.features.telescopes import Nest
 from yellowiron.alignment.features.tracks import Track, tracks_of
+from yellowiron.alignment.fusion.reading import fused
 from yellowiron.alignment.labelling.coupler import with_couplers
 from yellowiron.alignment.labelling.propagation import Propagation
 from yellowiron.alignment.labelling.result import Labels, to_alignment
@@ -40,6 +42,7 @@ from yellowiron.alignment.labelling.review import name_findings, review_findings
 from yellowiron.alignment.labelling.suspects import suspect_bodies
 from yellowiron.alignment.labelling.track_places import on_tracks, track_places, without_tracks
 from yellowiron.alignment.structure.observation import Observation, observe
+from yellowiron.alignment.tolerances import CONTACT
 from yellowiron.model.alignment import Alignment, Vector
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import AlignmentError
@@ -47,6 +50,9 @@ from yellowiron.model.geometry import Floats
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import Template, choose
 from yellowiron.support.vectors import triple
+
+HELD = 0.7
+"""Contacts that find this share of the type's joints have found the machine; below, every reading is asked."""
 
 
 def align(
@@ -80,14 +86,21 @@ def align(
         lambda contact: replace(observe(machine, plain, contact), up=up), plain, specifications, choices or {}, edited
     )
     answer, observation, scores = search.run()
-    answer, frame = _framed(answer, observation, tracks)
+    if held_share(answer) >= HELD:
+        answer, frame = _framed(answer, observation, tracks)
+    else:
+        observation = replace(observe(machine, plain, CONTACT[-1]), up=up)
+        scores = name_scores(tuple(s.part for s in observation.solids), plain, template)
+        answer, frame = _fused(answer, observation, scores, plain, choices or {}, edited, tracks)
     propagation = Propagation(
         observation,
         answer,
         scores,
         frame.matrix[2, :3] if frame is not None else np.array([0.0, 0.0, 1.0]),
-        rivals={} if is_whole(answer) else rivals_of(answer),
-        suspects=suspect_bodies(answer.solution, answer.template, _surfaces(observation, answer)),
+        rivals={} if is_whole(answer) or answer.judged is not None else rivals_of(answer),
+        suspects={}
+        if answer.judged is not None
+        else suspect_bodies(answer.solution, answer.template, _surfaces(observation, answer)),
     )
     places = with_couplers(propagation.run(), observation.solids, answer)
     apart |= {observation.solids[i].part.id: metres for i, metres in propagation.apart.items()}
@@ -138,6 +151,30 @@ def _framed(answer: Answer, observation: Observation, tracks: list[Track]) -> tu
             solution = solve(structure, template, unary=sided, barred=answer.barred) or solution
             frame = machine_frame(solids, structure, solution, observation.wheels, template, tracks)
     return replace(answer, solution=with_root(solution, structure, solids, template)), frame
+
+
+def _fused(
+    answer: Answer,
+    observation: Observation,
+    scores: list[dict[str, float]],
+    template: Template,
+    choices: Mapping[str, str],
+    edited: Mapping[str, str],
+    tracks: list[Track],
+) -> tuple[Answer, MachineFrame | None]:
+    """What names, shapes, places and contacts say together, and the machine's frame: that of its joints, or as the
+    machine stands where these leave it open."""
+    solids = observation.solids
+    if not solids:
+        return answer, None
+    told = {s.index: template.body_of(edited[s.part.id]) for s in solids if template.knows(edited.get(s.part.id, ""))}
+    said = {i: body for i, body in told.items() if body is not None}
+    answer, stance = fused(observation, template, variants_of(template, choices), scores, answer, said)
+    solution = answer.solution
+    frame = machine_frame(solids, answer.structure, solution, observation.wheels, answer.template, tracks)
+    if frame.doubts:
+        frame = MachineFrame(stance.matrix(), ("it is read off how the machine stands",))
+    return replace(answer, solution=with_root(solution, answer.structure, solids, answer.template)), frame
 
 
 def _surfaces(observation: Observation, answer: Answer) -> dict[str, float]:

@@ -17,6 +17,7 @@ from yellowiron.library.parsing.machine_tests import read_tests
 from yellowiron.library.parsing.materials import read_material
 from yellowiron.library.parsing.measurements import read_measurements
 from yellowiron.library.parsing.sensors import read_sensors
+from yellowiron.library.parsing.usual import read_usual
 from yellowiron.library.parsing.variants import check_choices, read_variants
 from yellowiron.library.parsing.wanted import read_wanted
 from yellowiron.library.parsing.words import read_words
@@ -150,6 +151,8 @@ def _further(documents: Mapping[str, Document], template: Template) -> dict[str,
         found["payload"], found["tests"] = read_tests(documents["tests"])
     if "words" in documents:
         found["words"] = read_words(documents["words"], template.roles)
+    if "usual" in documents:
+        found["usual"] = read_usual(documents["usual"], template.roles)
     return found
 
 

@@ -24,6 +24,7 @@ DOCUMENTS = (
     "tests",
     "sensors",
     "words",
+    "usual",
 )
 """The documents a template folder can have, each `<name>.json`; only `joints` is needed."""
 ENTRY_POINTS = "yellowiron.templates"

@@ -183,9 +183,20 @@ class Variant:
 
 
 @dataclass(frozen=True)
+class Usual:
+    """Where a body usually is, and how large: the box of its surface (`low`, `high`: forward, left, up of the middle of
+    what the machine stands on), its `length`, both in machine sizes; `area`: its share of the machine's surface."""
+
+    low: tuple[float, float, float]
+    high: tuple[float, float, float]
+    length: float
+    area: float
+
+
+@dataclass(frozen=True)
 class Template:
     """A template with all its documents. `root` is the body that stands for the machine's base; `words`: words of role
-    names (`rear frame`) → language → what parts of it are called."""
+    names (`rear frame`) → language → what parts of it are called; `usual`: body → where it usually is."""
 
     equipment_type: str
     folder: str
@@ -203,6 +214,7 @@ class Template:
     payload: PayloadTemplate | None = None
     tests: tuple[MachineTest, ...] = ()
     words: Mapping[str, Mapping[str, tuple[str, ...]]] = field(default_factory=dict)
+    usual: Mapping[str, Usual] = field(default_factory=dict)
 
     @property
     def sheet_only(self) -> bool:

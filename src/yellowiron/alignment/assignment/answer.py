@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from yellowiron.alignment.assignment.cp_sat import MISSING_WEIGHT, Solution, solve
@@ -15,10 +16,21 @@ SIDED_WEIGHT = 4 * MISSING_WEIGHT
 """What a variant loses for a cylinder that stands to one side where it should be in the middle."""
 
 
+@dataclass(frozen=True)
+class Judged:
+    """What a solid was judged to be where contacts alone do not tell (`alignment.fusion`): its `body`, by how much that
+    is better than the next (`lead`, the score's units), which that is (None: no body), and why."""
+
+    body: str
+    lead: float
+    second: str | None
+    words: str
+
+
 @dataclass(frozen=True, eq=False)
 class Answer:
     """One reading of the welds and one variant of the template, solved. `contact`: the tolerance of the contacts, as a
-    share of the machine's diagonal."""
+    share of the machine's diagonal. `judged`: solid → what it was judged to be, where contacts alone do not tell."""
 
     contact: float
     structure: Structure
@@ -28,6 +40,7 @@ class Answer:
     unary: Weights
     sided: tuple[str, ...]
     barred: frozenset[tuple[str, int]]
+    judged: Mapping[int, Judged] | None = None
 
     @property
     def score(self) -> int:
@@ -44,6 +57,12 @@ def is_whole(answer: Answer) -> bool:
     cylinders = {c for slide in answer.structure.slides for c in slide[:2]}
     played = answer.solution.body_of
     return not answer.sided and joints <= found and bodies <= set(played.values()) and cylinders <= set(played)
+
+
+def held_share(answer: Answer) -> float:
+    """The share of the hinges and slides of its template that an answer has found, 0 to 1."""
+    joints = {j.name for j in answer.template.joints if j.type in ("revolute", "prismatic")}
+    return len(joints & {*answer.solution.hinge_of, *answer.solution.slide_of}) / len(joints) if joints else 1.0
 
 
 def rivals_of(answer: Answer) -> dict[int, str | None]:

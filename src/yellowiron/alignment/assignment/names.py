@@ -10,7 +10,8 @@ import functools
 import json
 import re
 import unicodedata
-from collections.abc import Iterable, Mapping
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib import resources
 
@@ -26,6 +27,9 @@ CLEAR = 0.3
 """Names that speak less of a body say nothing of it."""
 EXACT = 1.5
 """What a part counts for a body if it bears the very name of one of the body's roles."""
+SOME = 8
+MOST = 0.6
+"""A word that more than this share of at least `SOME` names has tells no part from another."""
 ALIKE = 0.79
 """Words less alike than this are different words, not typos."""
 _SPLIT = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+")
@@ -40,6 +44,11 @@ _SMALL = frozenset(
     ("a", "an", "and", "d", "da", "das", "de", "del", "den", "der", "des", "die", "du", "e", "el", "et", "for", "l",
      "la", "las", "le", "les", "los", "of", "the", "und", "y")
 )  # fmt: skip
+_PLAIN = frozenset(
+    ("back", "base", "body", "left", "long", "main", "mesh", "node", "part", "plate", "right", "short", "side", "small",
+     "solid", "under", "upper", "with")
+)  # fmt: skip
+"""Whole words that are no others cut short (long is no longeron)."""
 _CODECS = (("latin-1", "utf-8"), ("cp1252", "utf-8"), ("latin-1", "gb18030"), ("cp1252", "gb18030"),
            ("latin-1", "shift_jis"), ("cp1252", "shift_jis"))  # fmt: skip
 """How a name was misread and what it was written in."""
@@ -167,7 +176,7 @@ def _alike(word: str, known: str) -> float:
     """1 for equal words, less for typos and for a word cut short; 0 where it could be anything."""
     if word == known:
         return 1.0
-    if len(word) >= 4 and len(word) < len(known) <= 2 * len(word) and known.startswith(word):
+    if word not in _PLAIN and 4 <= len(word) < len(known) <= 2 * len(word) and known.startswith(word):
         return 0.9
     if len(word) == len(known) == 4:  # two letters in each other's place
         return 0.8 if DamerauLevenshtein.distance(word, known) == 1 and sorted(word) == sorted(known) else 0.0
@@ -218,22 +227,41 @@ def spoken(names: Iterable[str], words: Vocabulary) -> dict[str, float]:
     return weights
 
 
-def name_scores(parts: tuple[Part, ...], template: Template) -> list[dict[str, float]]:
+def _wanted(template: Template, whole: Template) -> Iterator[tuple[str, frozenset[str]]]:
+    """Body of the template → what names of it speak of, one for each of its roles and of those of `whole` below it."""
+    known = {r.name: r for r in template.roles}
+    for role in whole.roles:
+        above: str | None = role.name
+        while above is not None and above not in known:
+            above = whole.role(above).parent
+        body = template.body_of(above) if above is not None else None
+        if body is not None and role.kind != "pin":
+            yield body, role_concepts(role)
+
+
+def _common_to_most(names: Sequence[str], words: Vocabulary) -> frozenset[str]:
+    """Concepts of most of the names, where there are some: the machine's own name, put before every part's."""
+    counts = Counter(concept for name in names for concept in concepts(name, words))
+    return frozenset(c for c, n in counts.items() if len(names) >= SOME and n > MOST * len(names))
+
+
+def name_scores(parts: tuple[Part, ...], template: Template, whole: Template | None = None) -> list[dict[str, float]]:
     """For every part: body → how well its names speak of it (`EXACT` where it bears the exact name of one of its
-    roles). Names of assemblies that hold all parts say nothing."""
-    words = vocabulary(template)
+    roles). Names of assemblies that hold all parts say nothing, nor does a word that most parts' own names have.
+    `whole`: a template with further bodies, of which the template's nearest above is meant."""
+    words = vocabulary(whole or template)
     roles = exact_roles(template)
     shared = 0
     while len({p.path[: shared + 1] for p in parts}) == 1 and all(len(p.path) > shared for p in parts):
         shared += 1
+    idle = _common_to_most([p.name for p in parts], words)
     bodies: dict[str, list[frozenset[str]]] = {}
-    for role in template.roles:
-        body = template.body_of(role.name)
-        if body is not None and role.kind != "pin":
-            bodies.setdefault(body, []).append(role_concepts(role))
+    for body, wanted in _wanted(template, whole or template):
+        bodies.setdefault(body, []).append(wanted)
     scores = []
     for part in parts:
         said = spoken((part.name, *reversed(part.path[shared:])), words)
+        said = {concept: weight for concept, weight in said.items() if concept not in idle or weight < 1.0}
         found = {b: s for b, wanted in bodies.items() if (s := max(likeness(said, w) for w in wanted)) > CLEAR}
         named = exact_role(part, roles)
         body = template.body_of(named) if named is not None else None

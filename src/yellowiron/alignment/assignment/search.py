@@ -63,7 +63,7 @@ class Search:
         return answer, observation, believed
 
     def _run(self) -> tuple[Answer, Observation, list[dict[str, float]]]:
-        variants = _variants(self.template, self.choices)
+        variants = variants_of(self.template, self.choices)
         for others, careful in ((False, True), (False, False), (True, True)):
             # The other variants only under the tolerance that did best.
             for contact in CONTACT if self.best is None or not others else (self.best.contact,):
@@ -171,7 +171,7 @@ def _has_leaves(template: Template) -> bool:
     return any(n == 1 and kinds[b] != "wheel" and b != template.root for b, n in degree.items())
 
 
-def _variants(template: Template, choices: Mapping[str, str]) -> list[dict[str, str]]:
+def variants_of(template: Template, choices: Mapping[str, str]) -> list[dict[str, str]]:
     """Every combination of the choices that geometry decides; what `choices` fixes is fixed."""
     known = {v.name: v for v in template.variants}
     for name, value in choices.items():

@@ -9,8 +9,8 @@ with nothing to turn is refused (`careful`) as long as the machine is whole with
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterable
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -215,6 +215,39 @@ def reaches_out(solids: tuple[Solid, ...], members: Iterable[int], axis: SharedA
     points = np.concatenate([solids[i].points for i in sorted(members)]) - axis.origin
     off = np.linalg.norm(points - np.outer(points @ axis.direction, axis.direction), axis=1)
     return float(off.max()) > LONG * axis.radius
+
+
+def labelled_structure(
+    evidence: ContactEvidence, bodies: Mapping[str, Sequence[int]], kinds: Mapping[str, str]
+) -> tuple[Structure, dict[int, str]]:
+    """The clusters and hinges of solids whose bodies are known (`bodies`: body → solids; `kinds`: body → its kind), and
+    cluster → body. What is of no body is a cluster of its own."""
+    body_of_solid = {i: body for body, members in bodies.items() for i in members}
+    groups = Groups(len(evidence.solids))
+    halves = {frozenset(c.barrel): ("barrel", k) for k, c in enumerate(evidence.cylinders) if not c.apart}
+    halves |= {frozenset(c.rod): ("rod", k) for k, c in enumerate(evidence.cylinders) if not c.apart}
+    wheels = {w.tyre: k for k, w in enumerate(evidence.wheels)}
+    for body, members in sorted(bodies.items()):
+        own = set(members)
+        label: tuple[str, int] | None = None
+        if kinds.get(body) in ("barrel", "rod"):
+            label = next((tag for half, tag in halves.items() if half <= own and tag[0] == kinds[body]), None)
+        elif kinds.get(body) == "wheel":
+            label = next((("wheel", wheels[i]) for i in sorted(own) if i in wheels), None)
+        if label is not None:
+            groups.tag(members, label)
+        else:
+            first, *rest = sorted(members)
+            for other in rest:
+                groups.join(first, other)
+    fasteners = evidence.fasteners - set(body_of_solid)
+    structure = _collected(groups, replace(evidence, fasteners=fasteners), [])
+    body_of = {
+        c: body_of_solid[min(cluster.members & set(body_of_solid))]
+        for c, cluster in enumerate(structure.clusters)
+        if cluster.members & set(body_of_solid)
+    }
+    return structure, body_of
 
 
 def _collected(groups: Groups, evidence: ContactEvidence, refused: Pairs) -> Structure:

@@ -1,0 +1,144 @@
+"""What speaks for two pieces being one body, or turning on each other: contacts, shared axes, assemblies, twins."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from yellowiron.alignment.fusion.pieces import Piece
+from yellowiron.alignment.structure.clusters import Structure
+from yellowiron.alignment.structure.observation import Observation
+
+REACH = 0.004
+"""Pieces this near, in machine sizes, are neighbours (4 cm on 10 m)."""
+BESIDE = 14.0
+"""What neighbours count that are one body, for touching alone."""
+FLAT = 15.0
+"""… and for lying flat on each other over the smaller one's width; less for less."""
+WELDED = 10.0
+"""… for being of one cluster that the contacts alone found."""
+SUNK = 10.0
+"""… and for one being wholly inside of the other."""
+KIN = 12.0
+"""… for being of one assembly, where it is a small part of the machine."""
+SMALL = 0.34
+"""An assembly of more than this share of the pieces says nothing."""
+
+
+@dataclass(frozen=True)
+class Bond:
+    """Pieces `a` < `b`: `same`, what they count as one body; `beside`, whether they are neighbours; `hinge`, whether an
+    exact axis runs through both; `slide`, whether they are seen to be barrel and rod (`a` in `b` or the other way);
+    `gap` metres between them."""
+
+    a: int
+    b: int
+    same: float
+    beside: bool
+    hinge: bool
+    slide: bool
+    gap: float
+
+
+def bonds_of(observation: Observation, pieces: Sequence[Piece], structure: Structure) -> list[Bond]:
+    """The bonds of all pairs of pieces that are neighbours, kin, or on one axis. `structure`: the clusters that the
+    contacts alone gave."""
+    piece_of = {i: k for k, p in enumerate(pieces) for i in p.members}
+    flat: dict[tuple[int, int], float] = {}
+    for f in observation.flats:
+        if f.a in piece_of and f.b in piece_of and piece_of[f.a] != piece_of[f.b]:
+            key = _pair(piece_of[f.a], piece_of[f.b])
+            flat[key] = flat.get(key, 0.0) + f.area
+    hinged = _hinged(observation, piece_of)
+    slides = _slides(pieces)
+    kin = _kin(observation, pieces)
+    gaps = _gaps(observation, pieces)
+    welded = {i: c for c, cluster in enumerate(structure.clusters) for i in cluster.members}
+    found = []
+    for a, b in sorted({*flat, *hinged, *slides, *kin, *gaps}):
+        gap = gaps.get((a, b), np.inf)
+        same = KIN if (a, b) in kin else 0.0
+        if gap < np.inf:
+            same += BESIDE
+            least = min(pieces[a].area, pieces[b].area)
+            same += FLAT * float(np.sqrt(min(1.0, 6.0 * flat.get((a, b), 0.0) / max(least, 1e-12))))
+            i, j = min(pieces[a].members), min(pieces[b].members)
+            same += WELDED * (i in welded and welded[i] == welded.get(j))
+            if gap == 0.0 and len(pieces[a].members) == len(pieces[b].members) == 1:
+                same += SUNK * max(observation.touch.sunk(i, j), observation.touch.sunk(j, i))
+        found.append(Bond(a, b, same, gap < np.inf, (a, b) in hinged, (a, b) in slides, float(gap)))
+    return found
+
+
+def _pair(a: int, b: int) -> tuple[int, int]:
+    return (a, b) if a < b else (b, a)
+
+
+def _hinged(observation: Observation, piece_of: dict[int, int]) -> dict[tuple[int, int], int]:
+    """Pairs of pieces that an exact axis of the contacts runs through → the axis."""
+    on: dict[int, set[int]] = {}
+    if not observation.evidence:
+        return {}
+    for i, axes in sorted(observation.evidence[-1].pinned.items()):
+        for k in axes:
+            if i in piece_of:
+                on.setdefault(k, set()).add(piece_of[i])
+    return {(a, b): k for k, group in sorted(on.items()) for a in sorted(group) for b in sorted(group) if a < b}
+
+
+def _slides(pieces: Sequence[Piece]) -> set[tuple[int, int]]:
+    """Pairs seen to be a barrel and its rod; and slender pieces in line that reach into each other."""
+    found: set[tuple[int, int]] = set()
+    for a, one in enumerate(pieces):
+        for b, other in enumerate(pieces[a + 1 :], a + 1):
+            halves = {one.kind, other.kind} == {"barrel", "rod"} and one.number == other.number
+            bars = not one.kind and not other.kind and one.slender and other.slender
+            if halves or (bars and _in_line(one, other)):
+                found.add((a, b))
+    return found
+
+
+def _in_line(one: Piece, other: Piece) -> bool:
+    """True for two bars on one line that overlap along it, neither inside of the other's whole length."""
+    if abs(float(one.axes[0] @ other.axes[0])) < 0.99:
+        return False
+    delta = other.center - one.center
+    along = float(delta @ one.axes[0])
+    off = float(np.linalg.norm(delta - along * one.axes[0]))
+    reach = 0.5 * (one.spread[0] + other.spread[0])
+    return off < 0.5 * max(one.spread[1], other.spread[1]) and abs(along) < reach * 1.1
+
+
+def _kin(observation: Observation, pieces: Sequence[Piece]) -> set[tuple[int, int]]:
+    """Pairs of pieces of the same innermost assembly that is a small part of the machine."""
+    groups: dict[tuple[str, ...], set[int]] = {}
+    for k, piece in enumerate(pieces):
+        for i in piece.members:
+            path = observation.solids[i].part.path
+            if path:
+                groups.setdefault(path, set()).add(k)
+    small = [g for g in groups.values() if 1 < len(g) <= max(2, SMALL * len(pieces))]
+    return {(a, b) for g in small for a in g for b in g if a < b}
+
+
+def _gaps(observation: Observation, pieces: Sequence[Piece]) -> dict[tuple[int, int], float]:
+    """Pairs of neighbours → the metres between them."""
+    reach = REACH * observation.size
+    low = np.array([p.low for p in pieces]).reshape(-1, 3)
+    high = np.array([p.high for p in pieces]).reshape(-1, 3)
+    found: dict[tuple[int, int], float] = {}
+    solids = observation.solids
+    for a in range(len(pieces)):
+        close = (low[a + 1 :] - reach <= high[a]).all(axis=1) & (high[a + 1 :] + reach >= low[a]).all(axis=1)
+        for b in (np.flatnonzero(close) + a + 1).tolist():
+            least = np.inf
+            for i in sorted(pieces[a].members):
+                for j in sorted(pieces[b].members):
+                    apart = np.maximum(solids[i].low - solids[j].high, solids[j].low - solids[i].high).max()
+                    if apart <= reach and least > 0.0:
+                        least = min(least, observation.touch.distance(min(i, j), max(i, j)))
+            if least <= reach:
+                found[a, b] = float(least)
+    return found

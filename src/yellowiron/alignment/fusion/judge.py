@@ -1,0 +1,217 @@
+"""The judge: the labelling of pieces with bodies whose score is the greatest.
+
+A labelling scores what the votes say of each piece, what the bonds say of each pair, `NEAR` and `EXACT` once for every
+joint that pieces of its two bodies hold, and for every body that any piece plays `PLAYED` less half of what its joints
+count as neighbours: a body pays for itself only if its joints are there. That is a Markov random
+field with counted joints: exact solvers take minutes for it where nothing is whole, so it is annealed (Geman & Geman
+1984), piece by piece from its full conditional distribution and, now and then, two bodies changing places, which single
+pieces could not do one after the other. The random numbers are fixed: the same labelling every time.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from yellowiron.alignment.fusion.bonds import Bond
+from yellowiron.model.geometry import Floats, Ints
+from yellowiron.model.template import Template
+
+NEAR = 30.0
+"""What a joint counts whose two bodies have pieces side by side."""
+EXACT = 30.0
+"""What a joint counts that an exact axis, or a rod in its barrel, is found for, besides `NEAR`."""
+EXPLAINED = 8.0
+"""What two neighbours count whose bodies a joint joins; pieces that are one body count what their bond says."""
+PLAYED = 40.0
+"""What a body counts that any piece plays, where the type always has it."""
+NEVER = -1e6
+HOT, COLD = 40.0, 2.0
+"""Temperatures, in the score's units, that annealing begins and ends with."""
+SWEEPS = 80
+SWAPS = 12
+"""So many changes of places of two bodies are tried after every sweep."""
+SEED = 1
+
+
+@dataclass(frozen=True, eq=False)
+class Field:
+    """The score as arrays. Labels are the `bodies`, and last: none. `unary` (pieces, labels). Bond k joins the pieces
+    `ends[k]`; its `weights[k]` are what it counts for one body, and for bodies that a joint joins; it holds a joint
+    nearly (`near[k]`) or exactly (`exact[k, joint]`). `joint` (labels, labels): the joint between two labels, or the
+    number of joints. `played` (labels,): what each body counts that is there."""
+
+    bodies: tuple[str, ...]
+    unary: Floats
+    ends: Ints
+    weights: Floats
+    near: Ints
+    exact: Ints
+    joint: Ints
+    played: Floats
+
+    @property
+    def joints(self) -> int:
+        """How many joints there are."""
+        return self.exact.shape[1] - 1
+
+
+def field_of(votes: Sequence[Mapping[str, float]], bonds: Sequence[Bond], template: Template) -> Field:
+    """The score of a machine's pieces under a resolved template. `votes`: by piece, the bodies it can be."""
+    bodies = tuple(r.name for r in template.roles if r.rigid)
+    at = {b: k for k, b in enumerate(bodies)}
+    none = len(bodies)
+    unary = np.full((len(votes), none + 1), NEVER)
+    unary[:, none] = 0.0
+    for p, mine in enumerate(votes):
+        for body, weight in mine.items():
+            unary[p, at[body]] = weight
+    joints = [
+        (j.type == "prismatic", at[str(a)], at[str(b)])
+        for j in template.joints
+        for a, b in [template.bodies_of(j)]
+        if j.type in ("revolute", "spherical", "prismatic") and a in at and b in at and a != b
+    ]
+    joint = np.full((none + 1, none + 1), len(joints), dtype=np.int64)
+    for k, (_, a, b) in enumerate(joints):
+        joint[a, b] = joint[b, a] = k
+    slides = np.array([slide for slide, _, _ in joints] + [False])
+    exact = np.array([np.where(slides, b.slide, b.hinge) for b in bonds], dtype=np.int64).reshape(-1, len(slides))
+    exact[:, -1] = 0
+    played = np.array([0.0 if template.role(b).optional else PLAYED for b in bodies] + [0.0])
+    for _, a, b in joints:
+        played[[a, b]] -= 0.5 * NEAR
+    return Field(
+        bodies,
+        unary,
+        np.array([(b.a, b.b) for b in bonds], dtype=np.int64).reshape(-1, 2),
+        np.array([(b.same, EXPLAINED * b.beside) for b in bonds], dtype=np.float64).reshape(-1, 2),
+        np.array([b.beside for b in bonds], dtype=np.int64),
+        exact,
+        joint,
+        played,
+    )
+
+
+def score_of(field: Field, labels: Ints) -> float:
+    """What a labelling (pieces,) scores."""
+    none, joints = len(field.bodies), field.joints
+    a, b = labels[field.ends[:, 0]], labels[field.ends[:, 1]]
+    held = field.joint[a, b]
+    same = (a == b) & (a != none)
+    total = field.unary[np.arange(len(labels)), labels].sum()
+    total += field.weights[:, 0] @ same + field.weights[:, 1] @ (held < joints)
+    near = np.bincount(held, weights=field.near, minlength=joints + 1)[:joints]
+    exact = np.bincount(held, weights=field.exact[np.arange(len(held)), held], minlength=joints + 1)[:joints]
+    played = np.bincount(labels, minlength=none + 1)[:none]
+    return float(total + NEAR * (near > 0).sum() + EXACT * (exact > 0).sum() + field.played[:none] @ (played > 0))
+
+
+class Annealing:
+    """The state of one search: labels, and how often each joint is held and each body played."""
+
+    def __init__(self, field: Field, labels: Ints) -> None:
+        self.field = field
+        self.labels = labels.copy()
+        self.bonds: list[Ints] = [np.zeros(0, dtype=np.int64) for _ in labels]
+        for p in range(len(labels)):
+            self.bonds[p] = np.flatnonzero((field.ends == p).any(axis=1))
+        self.others = [
+            np.where(field.ends[k, 0] == p, field.ends[k, 1], field.ends[k, 0]) for p, k in enumerate(self.bonds)
+        ]
+        self.rows = np.arange(len(field.bodies) + 1)
+        self._count()
+
+    def _count(self) -> None:
+        field, joints = self.field, self.field.joints
+        held = field.joint[self.labels[field.ends[:, 0]], self.labels[field.ends[:, 1]]]
+        self.near = np.bincount(held, weights=field.near, minlength=joints + 1)
+        self.exact = np.bincount(held, weights=field.exact[np.arange(len(held)), held], minlength=joints + 1)
+        self.played = np.bincount(self.labels, minlength=len(field.bodies) + 1)
+
+    def conditional(self, p: int) -> Floats:
+        """(labels,) what each label of piece p would score, all others as they are, up to a constant. The counts are
+        left without the piece; `put` adds it again."""
+        field, bonds = self.field, self.bonds[p]
+        theirs = self.labels[self.others[p]]
+        held = field.joint[self.labels[p], theirs]
+        np.subtract.at(self.near, held, field.near[bonds])
+        np.subtract.at(self.exact, held, field.exact[bonds, held])
+        self.played[self.labels[p]] -= 1
+        scores = field.unary[p].copy()
+        scores[:-1] += field.played[:-1] * (self.played[:-1] == 0)
+        if len(bonds):
+            table = field.joint[:, theirs]
+            np.add.at(scores, theirs, np.where(theirs < len(field.bodies), field.weights[bonds, 0], 0.0))
+            scores += (table < field.joints) @ field.weights[bonds, 1]
+            near = np.zeros((len(scores), field.joints + 1), dtype=bool)
+            exact = np.zeros_like(near)
+            for k in range(len(bonds)):
+                column = table[:, k]
+                if field.near[bonds[k]]:
+                    near[self.rows, column] = True
+                exact[self.rows, column] |= field.exact[bonds[k], column].astype(bool)
+            scores += near[:, :-1] @ (NEAR * (self.near[:-1] <= 0)) + exact[:, :-1] @ (EXACT * (self.exact[:-1] <= 0))
+        return np.asarray(scores)
+
+    def put(self, p: int, label: int) -> None:
+        """Gives piece p a label, after `conditional`."""
+        field, bonds = self.field, self.bonds[p]
+        self.labels[p] = label
+        held = field.joint[label, self.labels[self.others[p]]]
+        np.add.at(self.near, held, field.near[bonds])
+        np.add.at(self.exact, held, field.exact[bonds, held])
+        self.played[label] += 1
+
+    def sweep(self, temperature: float, rng: np.random.Generator) -> None:
+        """Every piece once, in a random order; without temperature: to its best label."""
+        for p in rng.permutation(len(self.labels)).tolist():
+            scores = self.conditional(p)
+            if temperature > 0:
+                scores = scores + temperature * rng.gumbel(size=len(scores))
+            self.put(p, int(np.argmax(scores)))
+
+    def swap(self, temperature: float, rng: np.random.Generator) -> None:
+        """Tries two bodies in each other's place (Metropolis)."""
+        played = np.flatnonzero(self.played[:-1] > 0)
+        if len(played) < 1:
+            return
+        a = int(rng.choice(played))
+        b = int(rng.integers(len(self.field.bodies)))
+        other = self.labels.copy()
+        other[self.labels == a], other[self.labels == b] = b, a
+        gain = score_of(self.field, other) - score_of(self.field, self.labels)
+        if gain > 0 or (temperature > 0 and np.log(rng.random()) < gain / temperature):
+            self.labels = other
+            self._count()
+
+
+def labelled(field: Field, start: Ints | None = None, *, hot: float = HOT, sweeps: int = SWEEPS) -> tuple[Ints, float]:
+    """The best labelling found (pieces,), and its score. From a `start`, it is only warmed to `hot` first."""
+    rng = np.random.default_rng(SEED)
+    state = Annealing(field, np.argmax(field.unary, axis=1) if start is None else start)
+    best, score = state.labels.copy(), score_of(field, state.labels)
+    for temperature in [*np.geomspace(hot, COLD, sweeps), *[0.0] * 6]:
+        state.sweep(temperature, rng)
+        for _ in range(SWAPS):
+            state.swap(temperature, rng)
+        reached = score_of(field, state.labels)
+        if reached > score:
+            best, score = state.labels.copy(), reached
+    return best, score
+
+
+def leads(field: Field, labels: Ints) -> tuple[Floats, Ints]:
+    """(pieces,) by how much each label is better than the piece's next best, all others as they are; and that one."""
+    state = Annealing(field, labels)
+    lead, second = np.zeros(len(labels)), np.zeros(len(labels), dtype=np.int64)
+    for p in range(len(labels)):
+        scores = state.conditional(p)
+        own = scores[labels[p]]
+        scores[labels[p]] = -np.inf
+        second[p] = int(np.argmax(scores))
+        lead[p] = own - scores[second[p]]
+        state.put(p, int(labels[p]))
+    return lead, second

@@ -1,0 +1,222 @@
+"""The fused reading of a machine, as an answer that the rest of the alignment goes on with."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from yellowiron.alignment.assignment.answer import Answer, Judged
+from yellowiron.alignment.assignment.cp_sat import MISSING_WEIGHT, Solution
+from yellowiron.alignment.fusion.bonds import Bond, bonds_of
+from yellowiron.alignment.fusion.judge import Field, field_of, labelled, leads
+from yellowiron.alignment.fusion.pieces import Piece, leading, pieces_of
+from yellowiron.alignment.fusion.stance import Stance, stance_of
+from yellowiron.alignment.fusion.votes import BARS, CLEARLY, Vote, Votes, named, votes_of
+from yellowiron.alignment.structure.clusters import Structure, labelled_structure
+from yellowiron.alignment.structure.observation import Observation
+from yellowiron.model.template import Template, choose
+
+MISSING = 60.0
+"""What a variant loses for every body of its own that nothing plays."""
+BELIEVED = 0.5
+"""Names that explain less than this share of what they could of who is beside whom are not believed at all."""
+TRUSTED = 0.8
+"""… and from this share on, wholly."""
+CLEAR_LEAD = 12.0
+"""A small piece whose body is better than any other by less than this goes with what it touches."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Best:
+    """The best labelling so far: its score, the variants chosen, the template with them, the labels of the leading
+    pieces, and what they were judged by."""
+
+    score: float
+    choices: dict[str, str]
+    template: Template
+    field: Field
+    labels: np.ndarray
+    votes: Votes
+
+
+def fused(
+    observation: Observation,
+    template: Template,
+    variants: Sequence[dict[str, str]],
+    scores: Sequence[Mapping[str, float]],
+    answer: Answer,
+    edited: Mapping[int, str],
+) -> tuple[Answer, Stance]:
+    """The answer that names, shapes, places and contacts give together, and how the machine stands.
+
+    `template` with its variants open, `variants` the choices to try; `scores`: by solid, what its names say; `answer`:
+    what the contacts alone gave; `edited`: solid → the body a person gave it. The solution's joints are those that the
+    contacts show an exact axis of."""
+    directions = [np.asarray(axis.direction) for axis in answer.structure.axes[:3]]
+    stance = stance_of(observation.solids, observation.size, directions)
+    pieces = pieces_of(observation, frozenset(i for i, said in enumerate(scores) if said) | frozenset(edited))
+    bonds = bonds_of(observation, pieces, answer.structure)
+    trust = trust_in_names(pieces, bonds, scores, choose(template, {}))
+    chief = leading(pieces, observation.size)
+    number = {k: n for n, k in enumerate(chief)}
+    between = [replace(b, a=number[b.a], b=number[b.b]) for b in bonds if b.a in number and b.b in number]
+
+    def tried(chosen: dict[str, str], stance: Stance) -> _Best:
+        resolved = choose(template, chosen)
+        votes = votes_of(pieces, resolved, scores, trust, answer, stance, edited)
+        field = field_of([_weights(votes[k]) for k in chief], between, resolved)
+        labels, score = labelled(field)
+        played = {field.bodies[n] for n in labels if n < len(field.bodies)}
+        score -= MISSING * sum(1 for r in resolved.roles if r.rigid and not r.optional and r.name not in played)
+        return _Best(score, chosen, resolved, field, labels, votes)
+
+    # Which end is the front is a guess so far.
+    stance = max((stance, stance.turned()), key=lambda s: tried(variants[0], s).score)
+    best = max((tried(chosen, stance) for chosen in variants), key=lambda b: b.score)
+    judged = _judged(best, pieces, chief, bonds)
+    judged = {i: what for i, what in judged.items() if not _is_pin(i, what, observation, best.template)}
+    judged |= _by_name_alone(observation, pieces, scores, trust, judged)
+    return _answer(observation, best, judged, answer), stance
+
+
+def trust_in_names(
+    pieces: Sequence[Piece], bonds: Sequence[Bond], scores: Sequence[Mapping[str, float]], template: Template
+) -> float:
+    """How far a machine's names are to be believed, 0 to 1: neighbours should be one body, or two that a joint joins,
+    much more often than any two pieces are (the chance taken off, as in Cohen's kappa)."""
+    joined = {frozenset(str(b) for b in template.bodies_of(j)) for j in template.joints}
+    said: dict[int, str] = {}
+    for k, piece in enumerate(pieces):
+        found = named(piece, scores)
+        if found and max(found.values()) >= CLEARLY:
+            said[k] = max(sorted(found), key=lambda b: found[b])
+
+    def explained(a: int, b: int) -> bool:
+        return said[a] == said[b] or frozenset((said[a], said[b])) in joined
+
+    near = [explained(b.a, b.b) for b in bonds if b.beside and b.a in said and b.b in said]
+    every = [explained(a, b) for a, b in itertools.combinations(sorted(said), 2)]
+    if not near or all(every):
+        return 1.0
+    chance = float(np.mean(every))
+    kappa = (float(np.mean(near)) - chance) / (1.0 - chance)
+    kappa = (len(near) * kappa + 4.0) / (len(near) + 4.0)  # names are mostly right: so many more agreed before
+    return float(np.clip((kappa - BELIEVED) / (TRUSTED - BELIEVED), 0.0, 1.0))
+
+
+def _is_pin(i: int, what: Judged, observation: Observation, template: Template) -> bool:
+    """True for a bar in bores that is no half of a hydraulic cylinder: its role hangs on the joint it is the pin of."""
+    return i in observation.evidence[-1].fasteners and template.role(what.body).kind not in BARS
+
+
+def _weights(votes: Mapping[str, Vote]) -> dict[str, float]:
+    return {body: vote.weight for body, vote in votes.items()}
+
+
+def _judged(best: _Best, pieces: Sequence[Piece], chief: Sequence[int], bonds: Sequence[Bond]) -> dict[int, Judged]:
+    """Solid → what it was judged to be: the leading pieces first, then the others among the bodies these play."""
+    bodies = best.field.bodies
+    none = len(bodies)
+    label_of = {k: int(best.labels[n]) for n, k in enumerate(chief)}
+    played = {bodies[n] for n in label_of.values() if n < none}
+    votes = [
+        {body: vote.weight for body, vote in mine.items() if body in played}
+        if k not in label_of
+        else {bodies[label_of[k]]: best.votes[k][bodies[label_of[k]]].weight + 1e4} if label_of[k] < none
+        else {}
+        for k, mine in enumerate(best.votes)
+    ]  # fmt: skip
+    field = field_of(votes, bonds, best.template)
+    field = replace(field, exact=np.zeros_like(field.exact), played=np.zeros_like(field.played))
+    start = np.array([label_of.get(k, none) for k in range(len(pieces))], dtype=np.int64)
+    labels, _ = labelled(field, start, sweeps=0)
+    lead, second = leads(best.field, best.labels)
+    lead_all, second_all = leads(field, labels)
+    found: dict[int, Judged] = {}
+    for k, piece in enumerate(pieces):
+        if labels[k] == none:
+            continue
+        body = bodies[labels[k]]
+        if k in label_of:
+            n = list(chief).index(k)
+            margin, other = float(lead[n]), int(second[n])
+        else:
+            margin, other = float(lead_all[k]), int(second_all[k])
+            if margin < CLEAR_LEAD:
+                continue
+        vote = best.votes[k][body]
+        words = _words(body, margin, bodies[other] if other < none else None, vote)
+        for i in piece.members:
+            found[i] = Judged(body, margin, bodies[other] if other < none else None, words)
+    return found
+
+
+def _words(body: str, lead: float, other: str | None, vote: Vote) -> str:
+    parts = [
+        f"{name} {weight:+.0f}"
+        for name, weight in (
+            ("a person", vote.said), ("names", vote.names), ("contacts", vote.contacts), ("shape and place", vote.shape)
+        )
+        if round(weight)
+    ]  # fmt: skip
+    return f"{body} by {', '.join(parts) or 'its neighbours'}; {lead:.0f} ahead of {other or 'no body at all'}"
+
+
+def _by_name_alone(
+    observation: Observation,
+    pieces: Sequence[Piece],
+    scores: Sequence[Mapping[str, float]],
+    trust: float,
+    judged: Mapping[int, Judged],
+) -> dict[int, Judged]:
+    """Solid → body, for those too small to be pieces whose names say clearly which of the bodies found they are of."""
+    inside = {i for p in pieces for i in p.members}
+    played = {j.body for j in judged.values()}
+    found = {}
+    for solid in observation.solids:
+        said = {b: s for b, s in scores[solid.index].items() if b in played}
+        if solid.index in inside or not said or trust < 1.0:
+            continue
+        best, *others = sorted(said, key=lambda b: (-said[b], b))
+        lead = 100.0 * (said[best] - (said[others[0]] if others else 0.0))
+        if said[best] >= CLEARLY and lead >= CLEAR_LEAD:
+            words = f"{best} by its name alone, which says so with {said[best]:.2f}"
+            found[solid.index] = Judged(best, lead, others[0] if others else None, words)
+    return found
+
+
+def _answer(observation: Observation, best: _Best, judged: Mapping[int, Judged], answer: Answer) -> Answer:
+    """The labelling as clusters, hinges and slides: one cluster a body."""
+    kinds = {r.name: r.kind for r in best.template.roles if r.rigid}
+    bodies: dict[str, list[int]] = {}
+    for i, what in sorted(judged.items()):
+        bodies.setdefault(what.body, []).append(i)
+    structure, body_of = labelled_structure(observation.evidence[-1], bodies, kinds)
+    solution = _solution(structure, body_of, best)
+    return Answer(
+        answer.contact, structure, best.choices, best.template, solution, {}, (), frozenset(), dict(judged)
+    )  # fmt: skip
+
+
+def _solution(structure: Structure, body_of: Mapping[int, str], best: _Best) -> Solution:
+    """The joints that exact axes are there for: of several between two bodies the one that most pins run through."""
+    hinge_of: dict[str, int] = {}
+    slide_of: dict[str, int] = {}
+    for joint in best.template.joints:
+        pair = set(best.template.bodies_of(joint))
+        if joint.type == "prismatic":
+            found = [k for k, s in enumerate(structure.slides) if {body_of.get(s[0]), body_of.get(s[1])} == pair]
+            slide_of |= {joint.name: found[0]} if found else {}
+        elif joint.type in ("revolute", "spherical"):
+            hinges = [
+                (-len(h.pins), k)
+                for k, h in enumerate(structure.hinges)
+                if {body_of.get(h.a), body_of.get(h.b)} == pair
+            ]
+            hinge_of |= {joint.name: min(hinges)[1]} if hinges else {}
+    missing = sum(1 for r in best.template.roles if r.rigid and not r.optional and r.name not in set(body_of.values()))
+    score = round(best.score) - MISSING_WEIGHT * missing
+    return Solution(dict(body_of), hinge_of, slide_of, score, round(best.score), True)
