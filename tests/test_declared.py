@@ -118,7 +118,7 @@ def test_a_robot_builds_with_its_own_axes_and_limits(drawn: Callable[[Assembly],
 
 
 @pytest.mark.slow
-def test_the_example_through_mjcf(example: Path, tmp_path: Path) -> None:
+def test_the_example_through_mjcf(loader_assembly: Assembly, tmp_path: Path) -> None:
     """Exported as MJCF and read back: every joint agrees, a template from it is sound and builds."""
     from yellowiron import kinematics, mechanism, usd
     from yellowiron.alignment import discover_declared
@@ -129,7 +129,7 @@ def test_the_example_through_mjcf(example: Path, tmp_path: Path) -> None:
     from yellowiron.pipeline import find_roles
 
     template = library.load_template("wheel_loader")
-    assembly, alignment = find_roles(cad.read_cad(example / "wheel_loader.step"), template, Specifications())
+    assembly, alignment = find_roles(loader_assembly, template, Specifications())
     chosen = expand(choose(template, alignment.choices), alignment.counts)
     built = mechanism.build_mechanism(assembly, chosen, alignment, Specifications(), name="loader")
     built = kinematics.complete(kinematics.calibrate(built))
