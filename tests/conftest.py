@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from kit.builds import MadeOnce, read_once, reading_once, without_pages
+from kit.builds import MadeOnce, read_once, reading_once, script, without_pages
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.mechanism import Mechanism
 
@@ -84,6 +84,20 @@ def loader_assembly(example: Path, made_once: MadeOnce) -> Assembly:
         pytest.skip("the wheel loader example is not drawn: run its draw.py")
     assembly: Assembly = read_once(example / "wheel_loader.step", made_once)
     return assembly
+
+
+@pytest.fixture(scope="session")
+def five_lines(root: Path, example: Path, made_once: MadeOnce) -> Path:
+    """The wheel loader example as the documentation's first script builds it, page and all, in `out`; what the script
+    said in `said.txt`."""
+    if not (example / "wheel_loader.step").is_file():
+        pytest.skip("the wheel loader example is not drawn: run its draw.py")
+
+    def fill(folder: Path) -> None:
+        folder.mkdir()
+        (folder / "said.txt").write_text(script(root, "five_lines.py", folder / "out"), encoding="utf-8")
+
+    return made_once("five_lines", fill)
 
 
 @dataclass(frozen=True)

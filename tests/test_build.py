@@ -51,9 +51,9 @@ def build(
 
 
 @pytest.fixture(scope="session")
-def named(example: Path, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, Any]]:
-    out = tmp_path_factory.mktemp("named") / "machine"
-    return out, build(example, out, run=yellowiron)
+def named(five_lines: Path) -> tuple[Path, dict[str, Any]]:
+    out = five_lines / "out"
+    return out, json.loads((out / "report.json").read_text(encoding="utf-8"))
 
 
 @pytest.fixture(scope="session")

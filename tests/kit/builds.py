@@ -54,6 +54,16 @@ def reading_once(made_once: MadeOnce, *folders: Path) -> Iterator[None]:
         yield
 
 
+def script(root: Path, name: str, *arguments: str | Path) -> str:
+    """What one of the documentation's scripts prints, run from the repository's root."""
+    command = [sys.executable, str(root / "docs" / "scripts" / name), *map(str, arguments)]
+    done = subprocess.run(
+        command, cwd=root, capture_output=True, text=True, env={**os.environ, "MPLBACKEND": "agg"}, timeout=300
+    )
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
 def console(*words: str | Path, cwd: Path) -> subprocess.CompletedProcess[str]:
     """The console script in this process, whose imports would be most of the work in one of its own."""
     from yellowiron.cli import main
