@@ -12,18 +12,38 @@ from pathlib import Path
 
 import pytest
 
-from kit.builds import without_pages
+from kit.builds import MadeOnce, read_once, reading_once, script, without_pages
+from yellowiron.model.assembly import Assembly
 from yellowiron.model.mechanism import Mechanism
 
 ROOT = Path(__file__).resolve().parent.parent
+LONGEST = (
+    "test_simulate_excavator", "test_real_machines", "test_simulate_hydraulics", "test_check_mutations", "test_build",
+    "test_simulate_newton", "test_report_browser", "test_align_excavators", "test_simulate_physx", "test_quality",
+    "test_simulate_simple", "test_align_degrade_build", "test_simulate_loader", "test_examples_excavator", "test_docs",
+    "test_simulate_hollow", "test_declared",
+)  # fmt: skip
+"""Files of half a minute and more: begun first, so that workers which take a file at a time end together."""
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """The longest files first, each file's tests as they were."""
+    rank = {name: place for place, name in enumerate(LONGEST)}
+    items.sort(key=lambda item: rank.get(item.path.stem, len(LONGEST)))
 
 
 @pytest.fixture(scope="session", autouse=True)
 def _own_cache(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
-    """Tests leave the user's cache alone."""
+    """Tests leave the user's cache alone; a run's workers share one."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("YELLOWIRON_CACHE", str(tmp_path_factory.mktemp("cache")))
+        patch.setenv("YELLOWIRON_CACHE", str(_of_the_run(tmp_path_factory) / "cache"))
         yield
+
+
+def _of_the_run(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The temporary folder of this run, that of all its workers."""
+    base = tmp_path_factory.getbasetemp()
+    return base.parent if os.environ.get("PYTEST_XDIST_WORKER") else base
 
 
 @pytest.fixture(scope="session")
@@ -46,10 +66,9 @@ def no_pages() -> Iterator[None]:
 
 
 @pytest.fixture(scope="session")
-def made_once(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str, Callable[[Path], None]], Path]:
+def made_once(tmp_path_factory: pytest.TempPathFactory) -> MadeOnce:
     """A folder by its name, filled by the first of this run's workers that asks for it; not to be written to."""
-    base = tmp_path_factory.getbasetemp()
-    shared = base.parent if os.environ.get("PYTEST_XDIST_WORKER") else base
+    shared = _of_the_run(tmp_path_factory)
 
     def made(name: str, fill: Callable[[Path], None]) -> Path:
         folder, done = shared / name, shared / f"{name}.done"
@@ -64,6 +83,36 @@ def made_once(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str, Callab
     return made
 
 
+@pytest.fixture(scope="module")
+def cad_read_once(made_once: MadeOnce) -> Iterator[None]:
+    """Builds of a module share what the examples' CAD files, and the real ones beside the checkout, hold."""
+    with reading_once(made_once, ROOT / "examples", ROOT.parent / "shared" / "data"):
+        yield
+
+
+@pytest.fixture(scope="session")
+def loader_assembly(example: Path, made_once: MadeOnce) -> Assembly:
+    """The wheel loader example's CAD model, read once a run."""
+    if not (example / "wheel_loader.step").is_file():
+        pytest.skip("the wheel loader example is not drawn: run its draw.py")
+    assembly: Assembly = read_once(example / "wheel_loader.step", made_once)
+    return assembly
+
+
+@pytest.fixture(scope="session")
+def five_lines(root: Path, example: Path, made_once: MadeOnce) -> Path:
+    """The wheel loader example as the documentation's first script builds it, page and all, in `out`; what the script
+    said in `said.txt`."""
+    if not (example / "wheel_loader.step").is_file():
+        pytest.skip("the wheel loader example is not drawn: run its draw.py")
+
+    def fill(folder: Path) -> None:
+        folder.mkdir()
+        (folder / "said.txt").write_text(script(root, "five_lines.py", folder / "out"), encoding="utf-8")
+
+    return made_once("five_lines", fill)
+
+
 @dataclass(frozen=True)
 class Built:
     """The wheel loader example as the pipeline builds it with its sheet: `folder` is not to be written to."""
@@ -73,7 +122,7 @@ class Built:
 
 
 @pytest.fixture(scope="session")
-def built_loader(example: Path, made_once: Callable[[str, Callable[[Path], None]], Path]) -> Built:
+def built_loader(example: Path, made_once: MadeOnce) -> Built:
     """The wheel loader example, built once a run; its `report.html` is empty."""
     cad, sheet = example / "wheel_loader.step", example / "specifications.pdf"
     if not cad.is_file() or not sheet.is_file():
@@ -82,7 +131,7 @@ def built_loader(example: Path, made_once: Callable[[str, Callable[[Path], None]
     def fill(folder: Path) -> None:
         from yellowiron.pipeline import build
 
-        with without_pages():
+        with without_pages(), reading_once(made_once, example):
             machine = build("wheel_loader", cad, folder / "out", sheets=[sheet])
         (folder / "mechanism.pickle").write_bytes(pickle.dumps(machine.mechanism))
 

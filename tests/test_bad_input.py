@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import contextlib
-import io
 import json
-import signal
 import subprocess
 import sys
 from collections.abc import Callable
@@ -13,9 +10,9 @@ from pathlib import Path
 
 import pytest
 
-from yellowiron.cli import main
+from kit.builds import console
 
-pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("no_pages")]
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("no_pages", "cad_read_once")]
 
 STEP_HEAD = "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nENDSEC;\nDATA;\n"
 OLE = bytes.fromhex("D0CF11E0A1B11AE1") + b"\0" * 4096
@@ -111,20 +108,7 @@ CASES: dict[str, tuple[Prepare, str]] = {
 
 
 def run(arguments: list[str | Path], out: Path) -> subprocess.CompletedProcess[str]:
-    """The console script in this process, whose imports would be most of the work in one of its own."""
-    command = ["yellowiron", "build", *map(str, arguments), "--out", str(out)]
-    stdout, stderr, code = io.StringIO(), io.StringIO(), 0
-    terminated = signal.getsignal(signal.SIGTERM)
-    with contextlib.chdir(out.parent), contextlib.redirect_stdout(stdout), contextlib.redirect_stderr(stderr):
-        try:
-            with pytest.MonkeyPatch.context() as patch:
-                patch.setattr(sys, "argv", command)
-                main()
-        except SystemExit as ended:
-            code = int(ended.code or 0)
-        finally:
-            signal.signal(signal.SIGTERM, terminated)
-    return subprocess.CompletedProcess(command, code, stdout.getvalue(), stderr.getvalue())
+    return console("build", *arguments, "--out", out, cwd=out.parent)
 
 
 def assert_one_sentence(outcome: subprocess.CompletedProcess[str], word: str) -> None:

@@ -1,4 +1,6 @@
-"""The whole way on the bundled wheel loader, as a user runs it: the console script, in a folder of its own."""
+"""The whole way on the bundled wheel loader, as a user runs it: the console script, in a folder of its own.
+
+A process of its own, the CAD reader and the page are there where a test looks at them, or at every byte."""
 
 from __future__ import annotations
 
@@ -7,16 +9,17 @@ import math
 import os
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
+from kit.builds import MadeOnce, console, read_once, reading_once, without_pages
 from kit.machines.nameless import write_nameless
-from yellowiron.cad import read_cad
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("cad_read_once", "no_pages")]
 
 ANGLE_BAR = 0.01
 """Degrees between a built axis and the true one."""
@@ -25,31 +28,42 @@ OFFSET_BAR = 1e-5
 
 
 def yellowiron(*arguments: str | Path, cwd: Path) -> subprocess.CompletedProcess[str]:
+    """The console script in a process of its own."""
     return subprocess.run(
         [sys.executable, "-m", "yellowiron", *map(str, arguments)], cwd=cwd, capture_output=True, text=True, timeout=600
     )
 
 
-def build(example: Path, out: Path, *more: str | Path, cad: Path | None = None, cwd: Path | None = None) -> Any:
-    outcome = yellowiron(
+def build(
+    example: Path,
+    out: Path,
+    *,
+    cad: Path | None = None,
+    cwd: Path | None = None,
+    run: Callable[..., subprocess.CompletedProcess[str]] = console,
+) -> Any:
+    outcome = run(
         "build", "wheel_loader", "--cad", cad or example / "wheel_loader.step",
-        "--specs", example / "specifications.pdf", "--out", out, *more, cwd=cwd or out.parent,
+        "--specs", example / "specifications.pdf", "--out", out, cwd=cwd or out.parent,
     )  # fmt: skip
     assert outcome.returncode == 0, outcome.stdout + outcome.stderr
     return json.loads((out / "report.json").read_text(encoding="utf-8"))
 
 
 @pytest.fixture(scope="session")
-def named(example: Path, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, Any]]:
-    out = tmp_path_factory.mktemp("named") / "machine"
-    return out, build(example, out)
+def named(five_lines: Path) -> tuple[Path, dict[str, Any]]:
+    out = five_lines / "out"
+    return out, json.loads((out / "report.json").read_text(encoding="utf-8"))
 
 
 @pytest.fixture(scope="session")
-def nameless(example: Path, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, Any]]:
+def nameless(
+    example: Path, made_once: MadeOnce, tmp_path_factory: pytest.TempPathFactory
+) -> tuple[Path, dict[str, Any]]:
     folder = tmp_path_factory.mktemp("nameless")
     cad = write_nameless(example / "wheel_loader.step", folder / "part.step")
-    return folder / "machine", build(example, folder / "machine", cad=cad)
+    with without_pages(), reading_once(made_once, folder):
+        return folder / "machine", build(example, folder / "machine", cad=cad)
 
 
 @pytest.fixture(params=["named", "nameless"])
@@ -88,13 +102,13 @@ def test_nothing_is_left_to_review(report: dict[str, Any]) -> None:
 
 @pytest.mark.parametrize("which", ["named", "nameless"])
 def test_every_part_is_in_its_body(
-    which: str, request: pytest.FixtureRequest, example: Path, truth: dict[str, Any]
+    which: str, request: pytest.FixtureRequest, example: Path, truth: dict[str, Any], made_once: MadeOnce
 ) -> None:
     folder = request.getfixturevalue(which)[0]
     cad = example / "wheel_loader.step" if which == "named" else folder.parent / "part.step"
     alignment = json.loads((folder / "alignment.json").read_text(encoding="utf-8"))
     found = {part["part"]: part["body"] for part in alignment["parts"]}
-    drawn = [part.id for part in read_cad(cad).parts]  # the truth is in the order of the CAD file
+    drawn = [part.id for part in read_once(cad, made_once).parts]  # the truth is in the order of the CAD file
     assert len(found) == len(drawn)
     true = [(part, entry["body"]) for part, entry in zip(drawn, truth["parts"].values(), strict=True)]
     assert [(part, found[part], body) for part, body in true if found[part] != body] == []
@@ -149,7 +163,7 @@ def test_a_second_run_from_another_folder_gives_the_same_bytes(
     relative = Path(os.path.relpath(example, elsewhere))
     build(relative, second, cwd=elsewhere)
     # Once more over its own result: the alignment found there is read back.
-    build(relative, second, cwd=elsewhere)
+    build(relative, second, cwd=elsewhere, run=yellowiron)
     names = sorted(p.relative_to(first) for p in first.rglob("*") if p.is_file())
     assert names == sorted(p.relative_to(second) for p in second.rglob("*") if p.is_file())
     for name in names:
@@ -167,7 +181,7 @@ def test_a_person_s_edit_wins_and_survives(named: tuple[Path, dict[str, Any]], e
     command = ("build", "wheel_loader", "--cad", example / "wheel_loader.step", "--out", out,
                "--specs", example / "specifications.pdf")  # fmt: skip
     for more in (("--alignment", edited), ()):
-        outcome = yellowiron(*command, *more, cwd=tmp_path)
+        outcome = console(*command, *more, cwd=tmp_path)
         assert outcome.returncode in (0, 1), outcome.stderr
         parts = json.loads((out / "alignment.json").read_text(encoding="utf-8"))["parts"]
         kept = next(p for p in parts if p["part"] == bolt["part"])
@@ -178,7 +192,7 @@ def test_the_filled_joint_template_is_taken_back(
     named: tuple[Path, dict[str, Any]], example: Path, tmp_path: Path
 ) -> None:
     """Without the sheet, the limits that an earlier run filled in still hold."""
-    outcome = yellowiron(
+    outcome = console(
         "build", "wheel_loader", "--cad", example / "wheel_loader.step", "--out", tmp_path / "machine",
         "--data", named[0] / "joints.filled.json", cwd=tmp_path,
     )  # fmt: skip
@@ -192,7 +206,7 @@ def test_the_filled_joint_template_is_taken_back(
 
 
 def test_without_a_sheet_the_machine_is_built_and_the_missing_values_are_named(example: Path, tmp_path: Path) -> None:
-    outcome = yellowiron(
+    outcome = console(
         "build", "wheel_loader", "--cad", example / "wheel_loader.step", "--out", tmp_path / "machine", cwd=tmp_path
     )
     assert outcome.returncode == 1, outcome.stderr
@@ -203,7 +217,7 @@ def test_without_a_sheet_the_machine_is_built_and_the_missing_values_are_named(e
 
 
 def test_values_by_hand_win(example: Path, tmp_path: Path) -> None:
-    outcome = yellowiron(
+    outcome = console(
         "build", "wheel_loader", "--cad", example / "wheel_loader.step", "--specs", example / "specifications.pdf",
         "--out", tmp_path / "machine", "--set", "Tilt Cylinder Stroke=500 mm", "--set", "wheel_drive=rear",
         cwd=tmp_path,
@@ -216,7 +230,7 @@ def test_values_by_hand_win(example: Path, tmp_path: Path) -> None:
 
 
 def test_json_output_is_one_document(example: Path, tmp_path: Path) -> None:
-    outcome = yellowiron("extract", "wheel_loader", example / "specifications.pdf", "--json", cwd=tmp_path)
+    outcome = console("extract", "wheel_loader", example / "specifications.pdf", "--json", cwd=tmp_path)
     values = {s["name"]: s for s in json.loads(outcome.stdout)["specifications"]}
     assert values["Lift Cylinder Stroke"]["value"] == pytest.approx(0.764)
     assert values["Lift Cylinder Stroke"]["status"] == "ok"
@@ -233,7 +247,7 @@ def test_measure_reads_the_usd_file_alone(named: tuple[Path, dict[str, Any]], tm
 def test_convert_writes_usd_alone(example: Path, tmp_path: Path) -> None:
     from pxr import Usd, UsdGeom
 
-    outcome = yellowiron("convert", example / "wheel_loader.step", "--out", tmp_path / "cad.usd", cwd=tmp_path)
+    outcome = console("convert", example / "wheel_loader.step", "--out", tmp_path / "cad.usd", cwd=tmp_path)
     assert outcome.returncode == 0, outcome.stderr
     stage = Usd.Stage.Open(str(tmp_path / "cad.usd"))
     assert UsdGeom.GetStageMetersPerUnit(stage) == 1.0

@@ -10,6 +10,8 @@ import pytest
 
 from yellowiron.cli import app
 
+pytestmark = pytest.mark.usefixtures("cad_read_once")
+
 
 def _asked(capsys: pytest.CaptureFixture[str], *words: str | Path) -> tuple[int, Any]:
     code = app([*map(str, words), "--json"], standalone_mode=False)

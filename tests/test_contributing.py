@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 import yellowiron as yi
-from fake_package import install_package
 from kit.machines import small_machine
+from kit.packages import install_package
 from yellowiron import checks, library
 from yellowiron.checks.rules import RULES, rules_of
 from yellowiron.simulation.registry import ENGINES, find_engine

@@ -5,15 +5,13 @@ from __future__ import annotations
 import ast
 import importlib.util
 import json
-import os
 import re
-import subprocess
-import sys
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from kit.builds import script
 from yellowiron.model.sensor import PARAMETERS
 
 
@@ -124,20 +122,9 @@ def test_pages_made_from_docstrings_are_those_of_the_code(root: Path) -> None:
     assert (root / "docs" / "rooms.md").read_text(encoding="utf-8") == generate.rooms_page()
 
 
-def run(root: Path, script: str, *arguments: str | Path) -> str:
-    command = [sys.executable, str(root / "docs" / "scripts" / script), *map(str, arguments)]
-    done = subprocess.run(
-        command, cwd=root, capture_output=True, text=True, env={**os.environ, "MPLBACKEND": "agg"}, timeout=300
-    )
-    assert done.returncode == 0, done.stderr
-    return done.stdout
-
-
 @pytest.mark.slow
-def test_a_machine_in_five_lines(root: Path, example: Path, tmp_path: Path) -> None:
-    if not (example / "wheel_loader.step").is_file():
-        pytest.skip("the example's STEP file is not there: run its draw.py")
-    said = run(root, "five_lines.py", tmp_path / "out").splitlines()
+def test_a_machine_in_five_lines(five_lines: Path) -> None:
+    said = (five_lines / "said.txt").read_text(encoding="utf-8").splitlines()
     assert said[0] == "Ready."
     assert all(Path(line).is_file() for line in said[1:3])
     (height,) = (line for line in said if line.startswith("Hinge Pin Height at Maximum Lift"))
@@ -147,7 +134,7 @@ def test_a_machine_in_five_lines(root: Path, example: Path, tmp_path: Path) -> N
 @pytest.mark.slow
 def test_a_loop_over_strokes(root: Path, built: Path, tmp_path: Path) -> None:
     picture = tmp_path / "height.png"
-    said = run(root, "bucket_height.py", built / "wheel_loader.usda", picture)
+    said = script(root, "bucket_height.py", built / "wheel_loader.usda", picture)
     assert float(said.split()[3]) == pytest.approx(4.370, rel=1e-3)
     assert picture.read_bytes().startswith(b"\x89PNG")
 

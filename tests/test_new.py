@@ -20,7 +20,7 @@ from yellowiron.cli import app
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import AlignmentError, OutputError
 
-pytestmark = pytest.mark.usefixtures("no_pages")
+pytestmark = pytest.mark.usefixtures("no_pages", "cad_read_once")
 
 Drawn = Callable[[Assembly], None]
 

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from fake_package import install_package
+from kit.packages import install_package
 from yellowiron.model.errors import YellowironError
 from yellowiron.support.plugins import find_plugins, installed
 

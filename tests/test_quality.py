@@ -34,6 +34,31 @@ def test_strict_types_hold(root: Path) -> None:
     run(root, "mypy")
 
 
+@pytest.mark.slow
+def test_a_type_checker_sees_the_names(tmp_path: Path, root: Path) -> None:
+    """With the types that a script needs, from a file outside the repository; after the test above, whose cache it
+    finds."""
+    script = tmp_path / "script.py"
+    script.write_text(
+        """
+import yellowiron as yi
+
+machine = yi.build("wheel_loader", "loader.step", "out", sheets=["sheet.pdf"])
+reveal_type(machine.usd)
+reveal_type(yi.align("excavator", "x.glb").alignment.missing)
+reveal_type(yi.measure(machine)[0].model)
+yi.build("wheel_loader")
+""",
+        encoding="utf-8",
+    )
+    command = [sys.executable, "-m", "mypy", "--config-file", str(root / "pyproject.toml"), str(script)]
+    outcome = subprocess.run(command, cwd=root, capture_output=True, text=True).stdout
+    assert 'Revealed type is "pathlib.Path"' in outcome, outcome
+    assert "tuple[str, ...]" in outcome
+    assert "float | None" in outcome
+    assert "Missing positional arguments" in outcome
+
+
 def test_no_module_is_over_500_lines(root: Path) -> None:
     long = {
         str(path.relative_to(root)): lines

@@ -4,18 +4,19 @@ The truth's own limits are in the data's README: hinges fit the bores within 1 m
 
 from __future__ import annotations
 
+import contextlib
 import json
 import math
 import struct
-import subprocess
-import sys
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-pytestmark = pytest.mark.slow
+from kit.builds import console, without_pages
+
+pytestmark = [pytest.mark.slow, pytest.mark.usefixtures("cad_read_once")]
 
 ZX120 = {
     "link1": "undercarriage", "link2": "upperstructure", "link3": "boom", "link4": "arm", "link5": "bucket",
@@ -30,11 +31,9 @@ ZX200 = {
 STROKES = ("Boom Cylinder Stroke=950 mm", "Arm Cylinder Stroke=1100 mm", "Bucket Cylinder Stroke=880 mm")
 
 
-def build(cad: Path, out: Path, *more: str) -> dict[str, Any]:
-    outcome = subprocess.run(
-        [sys.executable, "-m", "yellowiron", "build", "excavator", "--cad", str(cad), "--out", str(out), *more],
-        capture_output=True, text=True, timeout=600,
-    )  # fmt: skip
+def build(cad: Path, out: Path, *more: str, page: bool = False) -> dict[str, Any]:
+    with contextlib.nullcontext() if page else without_pages():
+        outcome = console("build", "excavator", "--cad", cad, "--out", out, *more, cwd=out.parent)
     assert outcome.returncode in (0, 1), outcome.stdout + outcome.stderr
     return dict(json.loads((out / "report.json").read_text(encoding="utf-8")))
 
@@ -92,7 +91,7 @@ def compare(report: dict[str, Any], truth: Path, links: dict[str, str]) -> dict[
 @pytest.fixture(scope="module")
 def zx120(shared_data: Path, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, Any]]:
     out = tmp_path_factory.mktemp("zx120") / "out"
-    return out, build(shared_data / "zx120" / "zx120.glb", out, *[w for s in STROKES for w in ("--set", s)])
+    return out, build(shared_data / "zx120" / "zx120.glb", out, *[w for s in STROKES for w in ("--set", s)], page=True)
 
 
 def test_zx120_axes(zx120: tuple[Path, dict[str, Any]], shared_data: Path) -> None:
@@ -147,7 +146,7 @@ def check_roles(
 @pytest.fixture(scope="module")
 def zx200(shared_data: Path, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, Any]]:
     out = tmp_path_factory.mktemp("zx200") / "out"
-    return out, build(shared_data / "zx200" / "zx200.glb", out)
+    return out, build(shared_data / "zx200" / "zx200.glb", out, page=True)
 
 
 def test_zx200_axes(zx200: tuple[Path, dict[str, Any]], shared_data: Path) -> None:

@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 
 from yellowiron.alignment import align
-from yellowiron.cad import read_cad
 from yellowiron.library import load_template
 from yellowiron.model.alignment import Alignment
 from yellowiron.model.assembly import Assembly
@@ -29,8 +28,8 @@ def truth(example: Path) -> Truth:
 
 
 @pytest.fixture(scope="module")
-def assembly(example: Path, truth: Truth) -> Assembly:
-    return read_cad(example / "wheel_loader.step")
+def assembly(truth: Truth, loader_assembly: Assembly) -> Assembly:
+    return loader_assembly
 
 
 def solved_right(found: Alignment, truth: Truth, ids: dict[str, str], moved: np.ndarray) -> None:

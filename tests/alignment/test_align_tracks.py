@@ -10,12 +10,12 @@ from typing import Any
 import numpy as np
 import pytest
 
+from kit.builds import MadeOnce, read_once
 from kit.machines.crawler import Crawler, crawler
 from kit.machines.tracked_template import write_tracked_template
 from yellowiron.alignment import align, read_alignment, write_alignment
 from yellowiron.alignment.features.solids import solids_of
 from yellowiron.alignment.features.tracks import tracks_of
-from yellowiron.cad import read_cad
 from yellowiron.library import load_template
 from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.specification import Specifications
@@ -123,12 +123,12 @@ def test_a_few_shoes_are_no_track() -> None:
 
 
 @pytest.fixture(scope="module")
-def excavator(root: Path) -> tuple[Assembly, Truth]:
+def excavator(root: Path, made_once: MadeOnce) -> tuple[Assembly, Truth]:
     folder = root / "examples" / "excavator"
     if not (folder / "truth.json").is_file():
         pytest.skip("the example is not drawn yet")
     truth = json.loads((folder / "truth.json").read_text(encoding="utf-8"))
-    return read_cad(folder / "excavator.step"), dict(truth)
+    return read_once(folder / "excavator.step", made_once), dict(truth)
 
 
 def right(assembly: Assembly, truth: Truth, ids: dict[str, str], moved: np.ndarray, tracks: str) -> None:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import re
-import sys
+from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
 
+from kit.packages import install_package
 from yellowiron.cad import formats, read_cad
 from yellowiron.cad.formats import CadFormat
 from yellowiron.cad.recognition import format_of
@@ -69,25 +70,21 @@ BOX = """OFF
 4 3 0 4 7
 """
 """2 m x 1 m x 3 m, its faces outwards."""
+OFF = {"off": "off_format:OFF"}
 
 
-def install(folder: Path, monkeypatch: pytest.MonkeyPatch, *, points: str, **modules: str) -> None:
-    """Installs a distribution `yellowiron-off` as an installer leaves it: modules, and its metadata beside them."""
-    info = folder / "yellowiron_off-1.0.dist-info"
-    info.mkdir(parents=True)
-    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: yellowiron-off\nVersion: 1.0\n")
-    (info / "entry_points.txt").write_text(f"[yellowiron.cad_formats]\n{points}\n")
-    for name, text in modules.items():
-        (folder / f"{name}.py").write_text(text)
-        monkeypatch.delitem(sys.modules, name, raising=False)
-    monkeypatch.syspath_prepend(folder)
+def install(folder: Path, patch: pytest.MonkeyPatch, entries: Mapping[str, str] = OFF, **modules: str) -> None:
+    """Installs a distribution `yellowiron-off` with formats and its modules."""
+    install_package(
+        folder, patch, name="yellowiron-off", group="yellowiron.cad_formats", entries=entries, modules=modules
+    )
 
 
 def test_a_format_of_another_package_is_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "box").write_text(BOX)
     with pytest.raises(CadError, match="no CAD file that is known"):
         read_cad(tmp_path / "box")
-    install(tmp_path / "site", monkeypatch, points="off = off_format:OFF", off_format=FORMAT, off_reader=READER)
+    install(tmp_path / "site", monkeypatch, off_format=FORMAT, off_reader=READER)
     assembly = read_cad(tmp_path / "box")
     assert (assembly.format, [part.name for part in assembly.parts]) == ("OFF", ["box"])
     shape = assembly.shape_of(assembly.parts[0])
@@ -95,14 +92,14 @@ def test_a_format_of_another_package_is_read(tmp_path: Path, monkeypatch: pytest
 
 
 def test_what_its_reader_says_is_the_error(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    install(tmp_path / "site", monkeypatch, points="off = off_format:OFF", off_format=FORMAT, off_reader=READER)
+    install(tmp_path / "site", monkeypatch, off_format=FORMAT, off_reader=READER)
     (tmp_path / "box.off").write_text(BOX[:60])
     with pytest.raises(CadError, match="The OFF file is broken"):
         read_cad(tmp_path / "box.off")
 
 
 def test_it_is_read_in_a_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    install(tmp_path / "site", monkeypatch, points="off = off_format:OFF", off_format=FORMAT, off_reader=READER)
+    install(tmp_path / "site", monkeypatch, off_format=FORMAT, off_reader=READER)
     (tmp_path / "loader").mkdir()
     for name in ("BOOM", "FRAME"):
         (tmp_path / "loader" / f"{name}.off").write_text(BOX)
@@ -110,23 +107,23 @@ def test_it_is_read_in_a_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch)
 
 
 @pytest.mark.parametrize(
-    ("points", "module", "says"),
+    ("entry", "module", "says"),
     [
-        ("off = no_such_module:OFF", "", "No module named 'no_such_module'"),
-        ("off = off_format:OFF", "1 / 0", "ZeroDivisionError"),
-        ("off = off_format:OFF", "OFF = lambda: 'OFF'", "is no CadFormat but a function"),
+        ("no_such_module:OFF", "", "No module named 'no_such_module'"),
+        ("off_format:OFF", "1 / 0", "ZeroDivisionError"),
+        ("off_format:OFF", "OFF = lambda: 'OFF'", "is no CadFormat but a function"),
         (
-            "off = off_format:OFF",
+            "off_format:OFF",
             FORMAT.replace("off_reader:read_off", "off_reader"),
             "not of the form module:function",
         ),
-        ("off = off_format:OFF", FORMAT.replace('"OFF"', '"stl"'), "yellowiron has a format of the name stl"),
+        ("off_format:OFF", FORMAT.replace('"OFF"', '"stl"'), "yellowiron has a format of the name stl"),
     ],
 )
 def test_a_broken_package_is_one_sentence(
-    points: str, module: str, says: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    entry: str, module: str, says: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    install(tmp_path / "site", monkeypatch, points=points, off_format=module)
+    install(tmp_path / "site", monkeypatch, {"off": entry}, off_format=module)
     (tmp_path / "box.off").write_text(BOX)
     with pytest.raises(CadError, match=r"known here\. The CAD format of yellowiron-off") as caught:
         format_of(tmp_path / "box.off")
@@ -137,7 +134,7 @@ def test_a_broken_package_is_one_sentence(
 
 def test_what_this_package_reads_nothing_else_does(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     greedy = FORMAT.replace('".off",', '".off", ".obj", ".stl"').replace(r'rb"OFF\s"', 'rb""')
-    install(tmp_path / "site", monkeypatch, points="off = off_format:OFF", off_format=greedy)
+    install(tmp_path / "site", monkeypatch, off_format=greedy)
     (tmp_path / "a.obj").write_text("v 0 0 0\n")
     assert format_of(tmp_path / "a.obj").name == "OBJ"
     (tmp_path / "a.txt").write_text("anything")
@@ -145,8 +142,7 @@ def test_what_this_package_reads_nothing_else_does(tmp_path: Path, monkeypatch: 
 
 
 def test_the_first_of_two_packages_has_a_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    points = "b = off_format:OFF\na = off_format:OFF"
-    install(tmp_path / "site", monkeypatch, points=points, off_format=FORMAT)
+    install(tmp_path / "site", monkeypatch, dict.fromkeys("ba", "off_format:OFF"), off_format=FORMAT)
     known, findings = formats.others()
     assert [one.name for one in known] == ["OFF"]
     assert (

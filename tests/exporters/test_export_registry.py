@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from fake_package import install_package
+from kit.packages import install_package
 from yellowiron.exporters import EXPORTERS, export, exporter_names, find_exporter
 from yellowiron.exporters.registry import GROUP
 from yellowiron.model.errors import YellowironError

@@ -9,7 +9,7 @@ import math
 import numpy as np
 import pytest
 
-from yellowiron import cad, library
+from yellowiron import library
 from yellowiron.kinematics import ClosedChain, complete, measure
 from yellowiron.mechanism import build_mechanism
 from yellowiron.model.alignment import Alignment, PartAssignment
@@ -25,10 +25,9 @@ LEFT = "steering_cylinder_barrel_l2steering_piston_rod_l_joint"
 
 
 @pytest.fixture(scope="module")
-def mechanism(example):
+def mechanism(example, loader_assembly):
     """The mechanism of the example's STEP file, every part aligned as `truth.json` says."""
     truth = json.loads((example / "truth.json").read_text(encoding="utf-8"))
-    assembly = cad.read_cad(example / "wheel_loader.step")
     parts = tuple(PartAssignment(p, a["role"], a["body"], 1.0, "truth") for p, a in truth["parts"].items())
     sizes = {}
     for slide, words in ((LIFT, "Lift"), (TILT, "Tilt"), (LEFT, "Steering")):
@@ -37,7 +36,7 @@ def mechanism(example):
             sizes[wanted] = Specification(wanted, truth["cylinders"][slide][quantity], "m", "ok")
     alignment = Alignment("wheel_loader", np.array(truth["frame"]), parts)
     template = choose(library.load_template("wheel_loader"), {})
-    return complete(build_mechanism(assembly, template, alignment, Specifications(sizes), name="wheel_loader"))
+    return complete(build_mechanism(loader_assembly, template, alignment, Specifications(sizes), name="wheel_loader"))
 
 
 @pytest.fixture(scope="module")

@@ -1,16 +1,83 @@
-"""Whole builds for tests that do not look at the report's page, which is a third of the work."""
+"""Whole builds for tests that look at one thing of them: what else there is to do is left out, or done once a run."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import contextlib
+import io
+import os
+import pickle
+import signal
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
 
 import pytest
+
+MadeOnce = Callable[[str, Callable[[Path], None]], Path]
+"""A folder by its name, filled by the first of a run's workers that asks for it."""
 
 
 @contextmanager
 def without_pages() -> Iterator[None]:
-    """Builds inside draw no pictures: `report.html` is empty."""
+    """Builds inside draw no pictures, a third of the work: `report.html` is empty."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("yellowiron.report.page", lambda *_, **__: "")
         yield
+
+
+def read_once(file: Path, made_once: MadeOnce) -> Any:
+    """The assembly in a CAD file that nobody changes, which the first worker that asks for it has read."""
+    from yellowiron.cad.read import read_cad
+
+    def fill(folder: Path) -> None:
+        folder.mkdir()
+        (folder / "assembly.pickle").write_bytes(pickle.dumps(read_cad(file)))
+
+    return pickle.loads((made_once(f"read_{file.parent.name}_{file.name}", fill) / "assembly.pickle").read_bytes())
+
+
+@contextmanager
+def reading_once(made_once: MadeOnce, *folders: Path) -> Iterator[None]:
+    """Builds inside share what the CAD files under some folders hold; others they read themselves."""
+    from yellowiron.cad.read import read_cad
+
+    def read(path: str | Path, **limits: Any) -> Any:
+        file = Path(os.path.realpath(path))
+        known = file.is_file() and any(file.is_relative_to(folder.resolve()) for folder in folders)
+        return read_once(file, made_once) if known else read_cad(path, **limits)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("yellowiron.cad.read_cad", read)
+        yield
+
+
+def script(root: Path, name: str, *arguments: str | Path) -> str:
+    """What one of the documentation's scripts prints, run from the repository's root."""
+    command = [sys.executable, str(root / "docs" / "scripts" / name), *map(str, arguments)]
+    done = subprocess.run(
+        command, cwd=root, capture_output=True, text=True, env={**os.environ, "MPLBACKEND": "agg"}, timeout=300
+    )
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def console(*words: str | Path, cwd: Path) -> subprocess.CompletedProcess[str]:
+    """The console script in this process, whose imports would be most of the work in one of its own."""
+    from yellowiron.cli import main
+
+    command = ["yellowiron", *map(str, words)]
+    stdout, stderr, code = io.StringIO(), io.StringIO(), 0
+    terminated = signal.getsignal(signal.SIGTERM)
+    with contextlib.chdir(cwd), contextlib.redirect_stdout(stdout), contextlib.redirect_stderr(stderr):
+        try:
+            with pytest.MonkeyPatch.context() as patch:
+                patch.setattr(sys, "argv", command)
+                main()
+        except SystemExit as ended:
+            code = int(ended.code or 0)
+        finally:
+            signal.signal(signal.SIGTERM, terminated)
+    return subprocess.CompletedProcess(command, code, stdout.getvalue(), stderr.getvalue())

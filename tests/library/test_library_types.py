@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
+from kit.packages import install_package
 from yellowiron import library
 from yellowiron.cli import app
 from yellowiron.library import type_folders
@@ -32,7 +33,7 @@ def test_a_folder_anywhere_is_a_type(tmp_path: Path, monkeypatch: pytest.MonkeyP
     assert "tower_crane" not in library.list_templates()
 
 
-def installed(folder: Path, value: str) -> None:
+def installed(folder: Path, patch: pytest.MonkeyPatch, value: str) -> None:
     """A package `acme` with a type, as an installer leaves it, whose entry point is `value`."""
     (folder / "acme" / "machines").mkdir(parents=True)
     for package in ("acme", "acme/machines"):
@@ -40,16 +41,12 @@ def installed(folder: Path, value: str) -> None:
     shutil.copytree(SOUND, folder / "acme" / "machines" / "tower_crane")
     shutil.copytree(SOUND, folder / "acme" / "machines" / "excavator")
     (folder / "acme" / "no_package").mkdir()
-    about = folder / "acme-1.0.dist-info"
-    about.mkdir()
-    (about / "METADATA").write_text("Metadata-Version: 2.1\nName: acme\nVersion: 1.0\n")
-    (about / "entry_points.txt").write_text(f"[yellowiron.templates]\nacme = {value}\n")
+    install_package(folder, patch, name="acme", group="yellowiron.templates", entries={"acme": value})
 
 
 def test_types_of_an_installed_package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     own = library.list_templates()
-    installed(tmp_path, "acme.machines")
-    monkeypatch.syspath_prepend(tmp_path)
+    installed(tmp_path, monkeypatch, "acme.machines")
     assert set(library.list_templates()) - set(own) == {"tower_crane"}
     assert library.load_template("tower_crane").root == "base"
     assert library.load_template("excavator").root == "undercarriage"
@@ -61,8 +58,7 @@ def test_types_of_an_installed_package(tmp_path: Path, monkeypatch: pytest.Monke
 def test_an_installed_package_without_the_folder_it_names(
     value: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    installed(tmp_path, value)
-    monkeypatch.syspath_prepend(tmp_path)
+    installed(tmp_path, monkeypatch, value)
     with pytest.raises(YellowironError, match=r"cannot be (found|loaded)") as caught:
         library.list_templates()
     assert caught.value.where == f"acme (yellowiron.templates: acme = {value})"

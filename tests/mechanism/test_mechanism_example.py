@@ -12,7 +12,6 @@ import numpy as np
 import pytest
 from mechanism_machine import specification
 
-from yellowiron.cad import read_cad
 from yellowiron.library import load_template
 from yellowiron.mechanism import build_mechanism
 from yellowiron.model.alignment import Alignment, PartAssignment
@@ -36,8 +35,8 @@ def truth(example: Path) -> dict[str, Any]:
 
 
 @pytest.fixture(scope="module")
-def assembly(truth: dict[str, Any], example: Path) -> Assembly:
-    return read_cad(example / "wheel_loader.step")
+def assembly(truth: dict[str, Any], loader_assembly: Assembly) -> Assembly:
+    return loader_assembly
 
 
 def build(assembly: Assembly, truth: dict[str, Any]) -> Mechanism:

@@ -10,7 +10,7 @@ import in_engines
 import numpy as np
 import pytest
 
-from kit.builds import without_pages
+from kit.builds import MadeOnce, reading_once, without_pages
 from yellowiron.simulation import drive, rated_payload, run_tests, simulate
 from yellowiron.simulation.driving.result import driving_findings
 from yellowiron.simulation.engine import Base, Setup, poses, tell
@@ -22,7 +22,7 @@ pytestmark = pytest.mark.slow
 
 
 @pytest.fixture(scope="module")
-def built(root: Path, tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
+def built(root: Path, made_once: MadeOnce, tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
     """The machine's file by what its tracks are, each built once."""
     from yellowiron.pipeline import build
 
@@ -36,7 +36,7 @@ def built(root: Path, tmp_path_factory: pytest.TempPathFactory) -> Callable[[str
         out = folder / tracks
         if not out.is_dir():
             known = next(iter(folder.glob("*/alignment.json")), None)
-            with without_pages():
+            with without_pages(), reading_once(made_once, example):
                 build("excavator", cad, out, sheets=(sheet,), settings=(f"tracks={tracks}",), alignment_file=known)
         return out / "excavator.usda"
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from fake_package import install_package
+from kit.packages import install_package
 from yellowiron.model.errors import YellowironError
 from yellowiron.simulation import examine, installed_engines
 from yellowiron.simulation.registry import ENGINES, GROUP, engine_names, find_engine

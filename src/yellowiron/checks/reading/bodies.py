@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Iterable, Mapping
 from typing import Any
@@ -63,7 +64,13 @@ def record_of(prim: Usd.Prim) -> Mapping[str, Any]:
 
 def rotation_and_scale(matrix: Gf.Matrix4d) -> tuple[Floats, Floats, bool, bool]:
     """A transform's proper rotation (3, 3), scale (3,), whether it shears and whether it mirrors."""
-    linear = np.array(matrix, dtype=np.float64)[:3, :3].T
+    return _rotation_and_scale(np.array(matrix, dtype=np.float64)[:3, :3].tobytes())
+
+
+@functools.lru_cache(maxsize=1024)
+def _rotation_and_scale(rows: bytes) -> tuple[Floats, Floats, bool, bool]:
+    """Of a matrix's bytes: a body's colliders are all turned as it is."""
+    linear = np.frombuffer(rows).reshape(3, 3).T
     if not np.isfinite(linear).all():
         return np.full((3, 3), np.nan), np.full(3, np.nan), False, False
     scale = np.linalg.norm(linear, axis=0)
@@ -72,6 +79,8 @@ def rotation_and_scale(matrix: Gf.Matrix4d) -> tuple[Floats, Floats, bool, bool]
     sheared = bool(np.abs(unit.T @ unit - np.eye(3)).max() > _SHEAR)
     left, _, right = np.linalg.svd(unit)
     rotation = left @ np.diag([1.0, 1.0, np.sign(np.linalg.det(left @ right)) or 1.0]) @ right
+    rotation.setflags(write=False)
+    scale.setflags(write=False)
     return rotation, scale, sheared, mirrored
 
 

@@ -64,6 +64,14 @@ class DrawnTriangles:
         corners = self.corners.reshape(-1, 3)
         return (corners.min(axis=0), corners.max(axis=0)) if len(corners) else (_SKY * 0.0, _SKY * 0.0)
 
+    @cached_property
+    def shadow(self) -> Singles:
+        """From where to where (2, 2) along x and y the machine, and its shadow on the ground, may be."""
+        corners = np.array(list(itertools.product(*zip(*self.box, strict=True))), dtype=np.float32)
+        below = corners - corners[:, 2:] / _SUN[2] * _SUN
+        both = np.concatenate([corners, below])[:, :2]
+        return np.array([both.min(axis=0), both.max(axis=0)])
+
     def by_body(self, mechanism: Mechanism) -> Singles:
         """Colours (m, 3) that tell the bodies apart, a counted row of them alike."""
         colors = self.colors.copy()
@@ -240,7 +248,7 @@ def _shade(
     hit = drawn.scene.run(np.broadcast_to(eye, directions.shape).copy(), directions, output=True)
     face = hit["primID"]
     color, normals = np.tile(_SKY, (len(directions), 1)), np.zeros_like(directions)
-    limits = _shadow(drawn)
+    limits = drawn.shadow
 
     def light(points: Singles, facing: Singles) -> Singles:
         sun = np.clip(facing @ _SUN, 0.0, 1.0)
@@ -314,14 +322,6 @@ def _extent(drawn: DrawnTriangles) -> tuple[Singles, np.float32]:
         return np.zeros(2, dtype=np.float32), np.float32(1.0)
     low, high = drawn.box
     return (0.5 * (low + high))[:2], np.float32(1.4 * np.linalg.norm(high - low))
-
-
-def _shadow(drawn: DrawnTriangles) -> Singles:
-    """From where to where (2, 2) along x and y the machine, and its shadow on the ground, may be."""
-    corners = np.array(list(itertools.product(*zip(*drawn.box, strict=True))), dtype=np.float32)
-    below = corners - corners[:, 2:] / _SUN[2] * _SUN
-    both = np.concatenate([corners, below])[:, :2]
-    return np.array([both.min(axis=0), both.max(axis=0)])
 
 
 def _edges(label: NDArray[np.int32], normals: Singles, seen: NDArray[np.bool_]) -> NDArray[np.bool_]:

@@ -82,8 +82,10 @@ class MujocoEngine:
     def push(self, body: str, force: Floats, point: Floats) -> None:
         """See `Engine`."""
         number = self._numbers[body]
-        arm = np.asarray(point) - self.data.xipos[number]
-        self.data.xfrc_applied[number] = np.concatenate([force, np.cross(arm, force)])
+        # Numbers, not arrays: several pushes a step, and `np.cross` alone takes ten times as long.
+        x, y, z = (np.asarray(point) - self.data.xipos[number]).tolist()
+        fx, fy, fz = np.asarray(force, dtype=np.float64).tolist()
+        self.data.xfrc_applied[number] = (fx, fy, fz, y * fz - z * fy, z * fx - x * fz, x * fy - y * fx)
         self._pushed = True
 
     def step(self) -> None:
