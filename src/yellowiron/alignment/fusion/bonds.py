@@ -2,49 +2,47 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import re
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from yellowiron.alignment.fusion.pieces import Piece
+from yellowiron.alignment.fusion.stance import Stance
 from yellowiron.alignment.structure.clusters import Structure
 from yellowiron.alignment.structure.observation import Observation
 
 REACH = 0.004
 """Pieces this near, in machine sizes, are neighbours (4 cm on 10 m)."""
-BESIDE = 14.0
-"""What neighbours count that are one body, for touching alone."""
-FLAT = 15.0
-"""… and for lying flat on each other over the smaller one's width; less for less."""
-WELDED = 10.0
-"""… for being of one cluster that the contacts alone found."""
-SUNK = 10.0
-"""… and for one being wholly inside of the other."""
-KIN = 12.0
-"""… for being of one assembly, where it is a small part of the machine."""
+FEW = 0.15
+"""A name of more than this share of the pieces says nothing of which belong together."""
+ASIDE = 0.02
+"""Twins are this near to each other's mirror image, in machine sizes."""
 SMALL = 0.34
 """An assembly of more than this share of the pieces says nothing."""
 
 
 @dataclass(frozen=True)
 class Bond:
-    """Pieces `a` < `b`: `same`, what they count as one body; `beside`, whether they are neighbours; `hinge`, whether an
-    exact axis runs through both; `slide`, whether they are seen to be barrel and rod (`a` in `b` or the other way);
-    `gap` metres between them."""
+    """Pieces `a` < `b`: `same`, what speaks for their being one body; `beside`, whether they are neighbours; `hinge`,
+    whether an exact axis runs through both; `slide`, whether they are seen to be barrel and rod.
+
+    `same` has `beside` (1: neighbours), `flat` (how much of the smaller one lies flat on the other, 0 to 1), `sunk`
+    (the share of one inside of the other), `welded` (one cluster of what the contacts alone found), `kin` (one assembly
+    that is a small part of the machine), `stem` (one name but for its number) and `alike` (one shape, mirrored)."""
 
     a: int
     b: int
-    same: float
+    same: Mapping[str, float]
     beside: bool
     hinge: bool
     slide: bool
-    gap: float
 
 
-def bonds_of(observation: Observation, pieces: Sequence[Piece], structure: Structure) -> list[Bond]:
+def bonds_of(observation: Observation, pieces: Sequence[Piece], structure: Structure, stance: Stance) -> list[Bond]:
     """The bonds of all pairs of pieces that are neighbours, kin, or on one axis. `structure`: the clusters that the
-    contacts alone gave."""
+    contacts alone gave; `stance`: how the machine stands."""
     piece_of = {i: k for k, p in enumerate(pieces) for i in p.members}
     flat: dict[tuple[int, int], float] = {}
     for f in observation.flats:
@@ -56,19 +54,50 @@ def bonds_of(observation: Observation, pieces: Sequence[Piece], structure: Struc
     kin = _kin(observation, pieces)
     gaps = _gaps(observation, pieces)
     welded = {i: c for c, cluster in enumerate(structure.clusters) for i in cluster.members}
+    stems = _stems(observation, pieces)
+    twins = _mirrored(pieces, stance)
     found = []
-    for a, b in sorted({*flat, *hinged, *slides, *kin, *gaps}):
-        gap = gaps.get((a, b), np.inf)
-        same = KIN if (a, b) in kin else 0.0
-        if gap < np.inf:
-            same += BESIDE
+    for a, b in sorted({*flat, *hinged, *slides, *kin, *stems, *twins, *gaps}):
+        same = {"kin": float((a, b) in kin), "stem": float((a, b) in stems), "alike": float((a, b) in twins)}
+        if (a, b) in gaps:
             least = min(pieces[a].area, pieces[b].area)
-            same += FLAT * float(np.sqrt(min(1.0, 6.0 * flat.get((a, b), 0.0) / max(least, 1e-12))))
             i, j = min(pieces[a].members), min(pieces[b].members)
-            same += WELDED * (i in welded and welded[i] == welded.get(j))
-            if gap == 0.0 and len(pieces[a].members) == len(pieces[b].members) == 1:
-                same += SUNK * max(observation.touch.sunk(i, j), observation.touch.sunk(j, i))
-        found.append(Bond(a, b, same, gap < np.inf, (a, b) in hinged, (a, b) in slides, float(gap)))
+            single = len(pieces[a].members) == len(pieces[b].members) == 1
+            sunk = gaps[a, b] == 0.0 and single
+            same |= {
+                "beside": 1.0,
+                "flat": float(np.sqrt(min(1.0, 6.0 * flat.get((a, b), 0.0) / max(least, 1e-12)))),
+                "welded": float(i in welded and welded[i] == welded.get(j)),
+                "sunk": max(observation.touch.sunk(i, j), observation.touch.sunk(j, i)) if sunk else 0.0,
+            }
+        same = {key: value for key, value in same.items() if value}
+        found.append(Bond(a, b, same, (a, b) in gaps, (a, b) in hinged, (a, b) in slides))
+    return found
+
+
+def _stems(observation: Observation, pieces: Sequence[Piece]) -> set[tuple[int, int]]:
+    """Pairs of pieces whose names differ in their numbers alone, where few pieces have that name."""
+    groups: dict[str, set[int]] = {}
+    for k, piece in enumerate(pieces):
+        names = {re.sub(r"[\W\d_]+", "", observation.solids[i].part.name.casefold()) for i in piece.members}
+        for name in names - {""}:
+            groups.setdefault(name, set()).add(k)
+    small = [g for g in groups.values() if 1 < len(g) <= max(2, FEW * len(pieces))]
+    return {(a, b) for g in small for a in g for b in g if a < b}
+
+
+def _mirrored(pieces: Sequence[Piece], stance: Stance) -> set[tuple[int, int]]:
+    """Pairs of pieces of one shape on the two sides of the machine."""
+    found = set()
+    places = np.array([stance.place(p.center) for p in pieces]).reshape(-1, 3)
+    for a, one in enumerate(pieces):
+        mirrored = places[a] * np.array([1.0, -1.0, 1.0])
+        near = np.linalg.norm(places - mirrored, axis=1) < ASIDE
+        for b in np.flatnonzero(near).tolist():
+            other = pieces[b]
+            equal = abs(one.area - other.area) < 0.03 * one.area
+            if a < b and equal and np.allclose(one.spread, other.spread, rtol=0.03, atol=0.002 * stance.size):
+                found.add((a, b))
     return found
 
 

@@ -1,8 +1,9 @@
 """The judge: the labelling of pieces with bodies whose score is the greatest.
 
-A labelling scores what the votes say of each piece, what the bonds say of each pair, `NEAR` and `EXACT` once for every
-joint that pieces of its two bodies hold, and for every body that any piece plays `PLAYED` less half of what its joints
-count as neighbours: a body pays for itself only if its joints are there. That is a Markov random
+A labelling scores what the votes say of each piece and what the bonds say of each pair; `near` and `exact` once for
+every joint that neighbours of its two bodies hold, or an exact axis; for every body that any piece plays `required`
+where the type always has it, less half of what its joints count as neighbours: a body pays for itself only if its
+joints are there. What each counts is learned (`weights`). That is a Markov random
 field with counted joints: exact solvers take minutes for it where nothing is whole, so it is annealed (Geman & Geman
 1984), piece by piece from its full conditional distribution and, now and then, two bodies changing places, which single
 pieces could not do one after the other. The random numbers are fixed: the same labelling every time.
@@ -12,21 +13,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from yellowiron.alignment.fusion.bonds import Bond
-from yellowiron.model.geometry import Floats, Ints
+from yellowiron.alignment.fusion.votes import Features
+from yellowiron.model.geometry import Floats
 from yellowiron.model.template import Template
 
-NEAR = 30.0
-"""What a joint counts whose two bodies have pieces side by side."""
-EXACT = 30.0
-"""What a joint counts that an exact axis, or a rod in its barrel, is found for, besides `NEAR`."""
-EXPLAINED = 8.0
-"""What two neighbours count whose bodies a joint joins; pieces that are one body count what their bond says."""
-PLAYED = 40.0
-"""What a body counts that any piece plays, where the type always has it."""
+Ints = np.ndarray[Any, np.dtype[np.int64]]
 NEVER = -1e6
 HOT, COLD = 40.0, 2.0
 """Temperatures, in the score's units, that annealing begins and ends with."""
@@ -41,7 +37,8 @@ class Field:
     """The score as arrays. Labels are the `bodies`, and last: none. `unary` (pieces, labels). Bond k joins the pieces
     `ends[k]`; its `weights[k]` are what it counts for one body, and for bodies that a joint joins; it holds a joint
     nearly (`near[k]`) or exactly (`exact[k, joint]`). `joint` (labels, labels): the joint between two labels, or the
-    number of joints. `played` (labels,): what each body counts that is there."""
+    number of joints. `played` (labels,): what each body counts that is there; `held` what a joint counts that is held
+    nearly, and exactly."""
 
     bodies: tuple[str, ...]
     unary: Floats
@@ -51,6 +48,7 @@ class Field:
     exact: Ints
     joint: Ints
     played: Floats
+    held: tuple[float, float]
 
     @property
     def joints(self) -> int:
@@ -58,7 +56,9 @@ class Field:
         return self.exact.shape[1] - 1
 
 
-def field_of(votes: Sequence[Mapping[str, float]], bonds: Sequence[Bond], template: Template) -> Field:
+def field_of(
+    votes: Sequence[Mapping[str, Features]], bonds: Sequence[Bond], template: Template, weights: Features
+) -> Field:
     """The score of a machine's pieces under a resolved template. `votes`: by piece, the bodies it can be."""
     bodies = tuple(r.name for r in template.roles if r.rigid)
     at = {b: k for k, b in enumerate(bodies)}
@@ -66,8 +66,8 @@ def field_of(votes: Sequence[Mapping[str, float]], bonds: Sequence[Bond], templa
     unary = np.full((len(votes), none + 1), NEVER)
     unary[:, none] = 0.0
     for p, mine in enumerate(votes):
-        for body, weight in mine.items():
-            unary[p, at[body]] = weight
+        for body, features in mine.items():
+            unary[p, at[body]] = weighed(features, weights)
     joints = [
         (j.type == "prismatic", at[str(a)], at[str(b)])
         for j in template.joints
@@ -80,19 +80,28 @@ def field_of(votes: Sequence[Mapping[str, float]], bonds: Sequence[Bond], templa
     slides = np.array([slide for slide, _, _ in joints] + [False])
     exact = np.array([np.where(slides, b.slide, b.hinge) for b in bonds], dtype=np.int64).reshape(-1, len(slides))
     exact[:, -1] = 0
-    played = np.array([0.0 if template.role(b).optional else PLAYED for b in bodies] + [0.0])
+    near = weights["near"]
+    played = np.array([0.0 if template.role(b).optional else weights["required"] for b in bodies] + [0.0])
     for _, a, b in joints:
-        played[[a, b]] -= 0.5 * NEAR
+        played[[a, b]] -= 0.5 * near
     return Field(
         bodies,
         unary,
         np.array([(b.a, b.b) for b in bonds], dtype=np.int64).reshape(-1, 2),
-        np.array([(b.same, EXPLAINED * b.beside) for b in bonds], dtype=np.float64).reshape(-1, 2),
+        np.array([(weighed(b.same, weights), weights["joined"] * b.beside) for b in bonds], dtype=np.float64).reshape(
+            -1, 2
+        ),
         np.array([b.beside for b in bonds], dtype=np.int64),
         exact,
         joint,
         played,
+        (near, weights["exact"]),
     )
+
+
+def weighed(features: Features, weights: Features) -> float:
+    """What features count together."""
+    return sum(weights[name] * value for name, value in features.items())
 
 
 def score_of(field: Field, labels: Ints) -> float:
@@ -106,7 +115,12 @@ def score_of(field: Field, labels: Ints) -> float:
     near = np.bincount(held, weights=field.near, minlength=joints + 1)[:joints]
     exact = np.bincount(held, weights=field.exact[np.arange(len(held)), held], minlength=joints + 1)[:joints]
     played = np.bincount(labels, minlength=none + 1)[:none]
-    return float(total + NEAR * (near > 0).sum() + EXACT * (exact > 0).sum() + field.played[:none] @ (played > 0))
+    return float(
+        total
+        + field.held[0] * (near > 0).sum()
+        + field.held[1] * (exact > 0).sum()
+        + field.played[:none] @ (played > 0)
+    )
 
 
 class Annealing:
@@ -153,7 +167,8 @@ class Annealing:
                 if field.near[bonds[k]]:
                     near[self.rows, column] = True
                 exact[self.rows, column] |= field.exact[bonds[k], column].astype(bool)
-            scores += near[:, :-1] @ (NEAR * (self.near[:-1] <= 0)) + exact[:, :-1] @ (EXACT * (self.exact[:-1] <= 0))
+            scores += near[:, :-1] @ (field.held[0] * (self.near[:-1] <= 0))
+            scores += exact[:, :-1] @ (field.held[1] * (self.exact[:-1] <= 0))
         return np.asarray(scores)
 
     def put(self, p: int, label: int) -> None:

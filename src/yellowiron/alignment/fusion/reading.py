@@ -14,7 +14,8 @@ from yellowiron.alignment.fusion.bonds import Bond, bonds_of
 from yellowiron.alignment.fusion.judge import Field, field_of, labelled, leads
 from yellowiron.alignment.fusion.pieces import Piece, leading, pieces_of
 from yellowiron.alignment.fusion.stance import Stance, stance_of
-from yellowiron.alignment.fusion.votes import BARS, CLEARLY, Vote, Votes, named, votes_of
+from yellowiron.alignment.fusion.votes import BARS, CLEARLY, Features, Votes, named, votes_of
+from yellowiron.alignment.fusion.weights import weights
 from yellowiron.alignment.structure.clusters import Structure, labelled_structure
 from yellowiron.alignment.structure.observation import Observation
 from yellowiron.model.template import Template, choose
@@ -58,7 +59,7 @@ def fused(
     directions = [np.asarray(axis.direction) for axis in answer.structure.axes[:3]]
     stance = stance_of(observation.solids, observation.size, directions)
     pieces = pieces_of(observation, frozenset(i for i, said in enumerate(scores) if said) | frozenset(edited))
-    bonds = bonds_of(observation, pieces, answer.structure)
+    bonds = bonds_of(observation, pieces, answer.structure, stance)
     trust = trust_in_names(pieces, bonds, scores, choose(template, {}))
     chief = leading(pieces, observation.size)
     number = {k: n for n, k in enumerate(chief)}
@@ -67,7 +68,7 @@ def fused(
     def tried(chosen: dict[str, str], stance: Stance) -> _Best:
         resolved = choose(template, chosen)
         votes = votes_of(pieces, resolved, scores, trust, answer, stance, edited)
-        field = field_of([_weights(votes[k]) for k in chief], between, resolved)
+        field = field_of([votes[k] for k in chief], between, resolved, weights())
         labels, score = labelled(field)
         played = {field.bodies[n] for n in labels if n < len(field.bodies)}
         score -= MISSING * sum(1 for r in resolved.roles if r.rigid and not r.optional and r.name not in played)
@@ -112,24 +113,20 @@ def _is_pin(i: int, what: Judged, observation: Observation, template: Template) 
     return i in observation.evidence[-1].fasteners and template.role(what.body).kind not in BARS
 
 
-def _weights(votes: Mapping[str, Vote]) -> dict[str, float]:
-    return {body: vote.weight for body, vote in votes.items()}
-
-
 def _judged(best: _Best, pieces: Sequence[Piece], chief: Sequence[int], bonds: Sequence[Bond]) -> dict[int, Judged]:
     """Solid → what it was judged to be: the leading pieces first, then the others among the bodies these play."""
     bodies = best.field.bodies
     none = len(bodies)
     label_of = {k: int(best.labels[n]) for n, k in enumerate(chief)}
     played = {bodies[n] for n in label_of.values() if n < none}
-    votes = [
-        {body: vote.weight for body, vote in mine.items() if body in played}
-        if k not in label_of
-        else {bodies[label_of[k]]: best.votes[k][bodies[label_of[k]]].weight + 1e4} if label_of[k] < none
-        else {}
-        for k, mine in enumerate(best.votes)
-    ]  # fmt: skip
-    field = field_of(votes, bonds, best.template)
+    votes: list[dict[str, Features]] = []
+    for k, mine in enumerate(best.votes):
+        kept = bodies[label_of[k]] if label_of.get(k, none) < none else None
+        if k not in label_of:
+            votes.append({body: features for body, features in mine.items() if body in played})
+        else:
+            votes.append({kept: {**mine[kept], "said": 100.0}} if kept is not None else {})
+    field = field_of(votes, bonds, best.template, weights())
     field = replace(field, exact=np.zeros_like(field.exact), played=np.zeros_like(field.played))
     start = np.array([label_of.get(k, none) for k in range(len(pieces))], dtype=np.int64)
     labels, _ = labelled(field, start, sweeps=0)
@@ -154,14 +151,9 @@ def _judged(best: _Best, pieces: Sequence[Piece], chief: Sequence[int], bonds: S
     return found
 
 
-def _words(body: str, lead: float, other: str | None, vote: Vote) -> str:
-    parts = [
-        f"{name} {weight:+.0f}"
-        for name, weight in (
-            ("a person", vote.said), ("names", vote.names), ("contacts", vote.contacts), ("shape and place", vote.shape)
-        )
-        if round(weight)
-    ]  # fmt: skip
+def _words(body: str, lead: float, other: str | None, features: Features) -> str:
+    """Why a piece is of a body: what spoke for it, and how far ahead it is."""
+    parts = [f"{name} {weights()[name] * value:+.0f}" for name, value in features.items()]
     return f"{body} by {', '.join(parts) or 'its neighbours'}; {lead:.0f} ahead of {other or 'no body at all'}"
 
 

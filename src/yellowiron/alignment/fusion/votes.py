@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -12,28 +11,17 @@ from yellowiron.alignment.fusion.pieces import Piece
 from yellowiron.alignment.fusion.stance import Stance
 from yellowiron.model.template import Template, Usual
 
-Votes = list[dict[str, "Vote"]]
-"""By piece: body → what speaks for it. A body that is absent cannot be the piece's."""
-SAID = 1000.0
-"""What a person's word counts."""
-NAMED = 100.0
-"""What a name counts that says a body as clearly as can be; everything else is measured against it."""
-SOLVED = 110.0
-"""What the contacts count for a body all of whose joints they found."""
+Features = Mapping[str, float]
+"""What speaks for something, by name; what each counts is in `weights`."""
+Votes = list[dict[str, Features]]
+"""By piece: body → what speaks for and against it. A body that is absent cannot be the piece's."""
 CLEARLY = 0.6
 """From here on a name speaks of a body and not of something beside it."""
 BARS = ("barrel", "rod")
-BAR = 15.0
-"""A slender round piece for a barrel or a rod; one that is not, against it."""
 BULKY = 0.02
 """A piece of more than this share of the machine's surface that is no bar is no half of a cylinder."""
-FRAME = 25.0
-"""The largest piece for a frame; smaller ones less, as the root of their surface."""
-NOT_ROUND = 60.0
 SIDEWAYS = 0.5
 """A bar that lies across the machine is a pin or an axle, no hydraulic cylinder (cosine to the left)."""
-UNUSUAL = 12.0
-"""What it counts against a body, for each nat of surprise, that a piece is where the body usually is not, or larger."""
 FARTHEST = 25.0
 """No more than so many squared deviations of a point count."""
 MOST = 7.0
@@ -49,22 +37,6 @@ LENT = 0.75
 """What a name counts for a body next to the one it names, where nothing bears the neighbour's own name."""
 
 
-@dataclass(frozen=True)
-class Vote:
-    """What speaks for a piece being a body: `names`, what the `contacts` alone gave, its `shape` and place, and a
-    person's word (`said`)."""
-
-    names: float
-    contacts: float
-    shape: float
-    said: float = 0.0
-
-    @property
-    def weight(self) -> float:
-        """All of it."""
-        return self.names + self.contacts + self.shape + self.said
-
-
 def votes_of(
     pieces: Sequence[Piece],
     template: Template,
@@ -74,7 +46,7 @@ def votes_of(
     stance: Stance,
     edited: Mapping[int, str],
 ) -> Votes:
-    """Weights for every body a piece could be. `scores`: by solid, what its names say; `trust` in them, 0 to 1;
+    """What speaks for every body a piece could be. `scores`: by solid, what its names say; `trust` in them, 0 to 1;
     `answer`: what the contacts alone gave; `stance`: how the machine stands; `edited`: solid → the body that a person
     gave it."""
     kinds = {r.name: r.kind for r in template.roles if r.rigid}
@@ -85,17 +57,18 @@ def votes_of(
     saids = borrowed([named(piece, scores) for piece in pieces], template)
     votes: Votes = []
     for piece, said in zip(pieces, saids, strict=True):
-        mine: dict[str, Vote] = {}
+        mine: dict[str, Features] = {}
         told = {edited[i] for i in piece.members if i in edited}
         for body, kind in kinds.items():
             name = said.get(body, 0.0)
             shape = _shape(piece, kind, name > 0 or body in told, total, largest, stance)
             if shape is None:
                 continue
-            if body in template.usual:
-                shape -= _unusual(piece, template.usual[body], piece.area / total, stance, depth[body])
             contact = max((solved[i].get(body, 0.0) for i in piece.members if i in solved), default=0.0)
-            mine[body] = Vote(NAMED * trust * name, SOLVED * contact, shape, SAID * (body in told))
+            found = {"name": trust * name, "contacts": contact, "said": float(body in told), **shape}
+            if body in template.usual:
+                found |= _unusual(piece, template.usual[body], piece.area / total, stance, depth[body])
+            mine[body] = {key: value for key, value in found.items() if value}
         votes.append(mine)
     return votes
 
@@ -158,36 +131,34 @@ def _solved(answer: Answer) -> dict[int, dict[str, float]]:
     return found
 
 
-def _unusual(piece: Piece, usual: Usual, share: float, stance: Stance, depth: int) -> float:
-    """What speaks against a piece being of a body: how far its surface is from where the body usually is, and how much
-    longer and larger it is than the whole body usually is."""
+def _unusual(piece: Piece, usual: Usual, share: float, stance: Stance, depth: int) -> Features:
+    """What speaks against a piece being of a body, in nats: how far its surface is from where the body usually is, and
+    how much longer and larger it is than the whole body usually is."""
     low, high = np.array(usual.low), np.array(usual.high)
     spread = (high - low) / NINETY + PLACE + FURTHER * depth
     off = (stance.place(piece.samples) - 0.5 * (low + high)) / spread
-    # Surprise of a normal distribution, in nats; far is far.
-    against = 0.5 * float(np.mean(np.minimum((off * off).sum(axis=1), FARTHEST))) + float(np.log(10 * spread).sum())
-    against += 0.5 * (max(0.0, float(np.log(piece.spread[0] / stance.size / usual.length))) / LENGTH) ** 2
-    against += 0.5 * (max(0.0, float(np.log(share / usual.area))) / AREA) ** 2
-    return UNUSUAL * min(against, MOST)
+    # Surprise of a normal distribution; far is far.
+    place = 0.5 * float(np.mean(np.minimum((off * off).sum(axis=1), FARTHEST))) + float(np.log(10 * spread).sum())
+    longer = 0.5 * (max(0.0, float(np.log(piece.spread[0] / stance.size / usual.length))) / LENGTH) ** 2
+    larger = 0.5 * (max(0.0, float(np.log(share / usual.area))) / AREA) ** 2
+    return {"place": min(place, MOST), "longer": min(longer, MOST), "larger": min(larger, MOST)}
 
 
-def _shape(piece: Piece, kind: str, named_so: bool, total: float, largest: float, stance: Stance) -> float | None:
+def _shape(
+    piece: Piece, kind: str, named_so: bool, total: float, largest: float, stance: Stance
+) -> dict[str, float] | None:
     """What a piece's shape says for a body of a kind; None where it cannot be one."""
     share = piece.area / total
     if kind == "wheel" or piece.kind == "wheel":
         if kind == piece.kind:
-            return 40.0
-        return -NOT_ROUND if named_so else None
+            return {"seen": 1.0}
+        return {"unlike": 1.0} if named_so else None
     if kind in BARS:
         if piece.kind in BARS:
-            return 40.0 if piece.kind == kind else None
+            return {"seen": 1.0} if piece.kind == kind else None
         if piece.slender and abs(float(piece.axes[0] @ stance.left)) < SIDEWAYS:
-            return BAR
-        if share > BULKY and not named_so:
-            return None
-        return -BAR
+            return {"bar": 1.0}
+        return None if share > BULKY and not named_so else {"no bar": 1.0}
     if piece.kind in BARS:
-        return -NOT_ROUND
-    if kind == "frame":
-        return FRAME * float(np.sqrt(piece.area / largest))
-    return 0.0
+        return {"unlike": 1.0}
+    return {"frame": float(np.sqrt(piece.area / largest))} if kind == "frame" else {}
