@@ -8,7 +8,8 @@ scene.joints                   # the axes of what is drawn
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -42,20 +43,25 @@ class Surface:
     areas: Array
     label: np.ndarray[tuple[int], np.dtype[np.int64]]
     labels: tuple[tuple[str, str], ...]
+    whole: Mapping[str, int] = field(default_factory=dict)
+    """Part id → the label of all of it, if it is not taken apart."""
+    ties: Mapping[int, int] = field(default_factory=dict)
+    """Label → that one whose body it must share."""
 
 
 @dataclass(frozen=True)
 class TrueJoint:
-    """A joint that is drawn: its bodies, a point and unit axis in the CAD frame. `others`: bodies either end may also
-    be; `tolerance` (metres, CAD), where its label says one."""
+    """A joint that is drawn: its bodies, a point and unit axis in the CAD frame. `others`: bodies that each end may
+    also be; `tolerance` (the frame's unit) and `degrees`, where its label says some."""
 
     name: str
     type: str
     bodies: tuple[str, str]
     point: tuple[float, float, float]
     axis: tuple[float, float, float]
-    others: tuple[str, ...] = ()
+    others: tuple[tuple[str, ...], tuple[str, ...]] = ((), ())
     tolerance: float | None = None
+    degrees: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
