@@ -1,0 +1,116 @@
+"""Which way joints point: the hinges of a planar linkage all one way, across its hydraulic cylinders."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from yellowiron.alignment.axes.bodies import PIVOT, Body
+from yellowiron.alignment.axes.values import Frame, Line
+from yellowiron.model.geometry import Floats
+from yellowiron.model.template import JointTemplate, Template
+from yellowiron.support import graphs
+from yellowiron.support.vectors import unit
+
+TOGETHER = math.cos(math.radians(4.0))
+"""Cosine up to which round faces point the same way."""
+ACROSS = 0.2
+"""Cosine up to which a hinge is across a cylinder of its linkage (78°)."""
+
+
+@dataclass(frozen=True, eq=False)
+class Direction:
+    """A unit direction with its one-sigma uncertainty (radians)."""
+
+    vector: Floats
+    angle: float
+    how: str
+
+
+def linkages_of(template: Template, bodies: Mapping[str, Body]) -> list[tuple[JointTemplate, ...]]:
+    """The template's joints between bodies that are there, in groups that closed chains hold together."""
+    edges: dict[str, tuple[str, str]] = {}
+    for joint in template.joints:
+        a, b = template.bodies_of(joint)
+        if joint.type in ("revolute", "prismatic") and not joint.ring and a in bodies and b in bodies and a != b:
+            edges[joint.name] = (str(a), str(b))
+    return [tuple(template.joint(name) for name in block) for block in graphs.blocks(edges)]
+
+
+def is_upright(linkage: Sequence[JointTemplate], template: Template) -> bool:
+    """Whether a linkage steers or slews: one of its hinges joins two frames."""
+    frames = {r.name for r in template.roles if r.kind == "frame" and r.rigid}
+    return any(j.type == "revolute" and set(template.bodies_of(j)) <= frames for j in linkage)
+
+
+def direction_of(
+    linkage: Sequence[JointTemplate], template: Template, bodies: Mapping[str, Body], lines: Mapping[str, Line],
+    frame: Frame,
+) -> Direction:  # fmt: skip
+    """The direction of a linkage's hinges."""
+    expected = frame.up if is_upright(linkage, template) else frame.left
+    slides = [lines[j.name] for j in linkage if j.name in lines]
+    names = sorted({str(b) for j in linkage for b in template.bodies_of(j)})
+    ways, weights = _votes([bodies[n] for n in names if n in bodies], slides, expected)
+    if len(ways):
+        alike = np.abs(ways @ ways.T) > TOGETHER
+        best = int(np.argmax(np.round(alike @ weights, 9)))
+        kept = alike[best]
+        if weights[kept].sum() > 0.3 * weights.sum():
+            return _mean(ways[kept], weights[kept], ways[best], expected, slides)
+    return _without_faces([bodies[n] for n in names if n in bodies], slides, expected)
+
+
+def _votes(bodies: Sequence[Body], slides: Sequence[Line], expected: Floats | None) -> tuple[Floats, Floats]:
+    """Directions (n, 3) of what may be a pivot's pin, bore or end, and their weights (n,)."""
+    ways, weights = [], []
+    for body in bodies:
+        least, most = PIVOT[0] * body.size, PIVOT[1] * body.size
+        for solid in body.solids:
+            for face in solid.cylinders:
+                if not least < face.radius < most or face.arc < 1.5:
+                    continue
+                if any(abs(float(face.direction @ line.direction)) > ACROSS for line in slides):
+                    continue
+                weight = min(face.arc, 2 * math.pi) * math.sqrt(face.radius * min(face.half, 4 * face.radius))
+                if expected is not None:
+                    weight *= 3.0 if abs(float(face.direction @ expected)) > 0.97 else 0.3
+                ways.append(face.direction)
+                weights.append(weight)
+    return np.array(ways).reshape(-1, 3), np.array(weights)
+
+
+def _mean(
+    ways: Floats, weights: Floats, sense: Floats, expected: Floats | None, slides: Sequence[Line]
+) -> Direction:
+    second = (ways * weights[:, None]).T @ ways / weights.sum()
+    values, vectors = np.linalg.eigh(second)
+    way = vectors[:, -1] if float(vectors[:, -1] @ sense) > 0 else -vectors[:, -1]
+    scatter = math.sqrt(max(0.0, 1.0 - float(values[-1]) / float(values.sum())))
+    angle = max(math.radians(0.05), scatter / math.sqrt(max(1.0, len(ways) / 4)))
+    if expected is not None and abs(float(way @ expected)) > math.cos(math.radians(1.5)):
+        # The machine's own axis was found from more than this linkage.
+        toward = expected if float(expected @ way) > 0 else -expected
+        share = angle**2 / (angle**2 + math.radians(0.3) ** 2)
+        way = unit((1 - share) * way + share * toward)
+    return Direction(way, angle, "what is round in its bodies")
+
+
+def _without_faces(bodies: Sequence[Body], slides: Sequence[Line], expected: Floats | None) -> Direction:
+    if expected is not None:
+        return Direction(expected, math.radians(1.0), "the machine's own direction")
+    best = (0.0, np.zeros(3))
+    for i, one in enumerate(slides):
+        for other in slides[i + 1 :]:
+            normal = np.cross(one.direction, other.direction)
+            if np.linalg.norm(normal) > best[0] + 1e-9:
+                best = (float(np.linalg.norm(normal)), normal)
+    if best[0] > 0.15:
+        lean = math.hypot(*(line.angle for line in slides[:2])) / best[0]
+        return Direction(unit(best[1]), max(math.radians(0.5), lean), "across its cylinders")
+    points = np.concatenate([b.samples for b in bodies])
+    way = np.linalg.eigh(np.cov((points - points.mean(axis=0)).T))[1][:, 0]
+    return Direction(np.asarray(way, dtype=np.float64), math.radians(5.0), "the least extent of its bodies")
