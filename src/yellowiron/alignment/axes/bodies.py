@@ -11,6 +11,7 @@ from scipy.spatial import cKDTree
 
 from yellowiron.alignment.axes.outlines import OutlineCircle, outline_circles
 from yellowiron.alignment.axes.values import Round, plane_of
+from yellowiron.alignment.features.contacts import inside
 from yellowiron.alignment.features.solids import Cyl, Solid
 from yellowiron.model.geometry import Floats
 
@@ -32,7 +33,7 @@ class Body:
     solids: tuple[Solid, ...]
     size: float
     _rounds: dict[tuple[object, ...], list[Round]] = field(default_factory=dict)
-    _kept: dict[str, object] = field(default_factory=dict)
+    _kept: dict[object, object] = field(default_factory=dict)
 
     @property
     def samples(self) -> Floats:
@@ -53,6 +54,30 @@ class Body:
     def distance(self, points: Floats) -> Floats:
         """(n,) how far points (n, 3) are from its surface, as finely as that is sampled."""
         return np.asarray(self.tree.query(points)[0], dtype=np.float64)
+
+    def covered(self, center: Floats, ring: Floats, span: Floats, direction: Floats, plane: Floats) -> Floats:
+        """(n,) in [0, 1]: how much of rings around places (n, 2) in the plane across a direction, of those radii (n,), is
+        behind or before its surface, within `span` (n, 2) along the direction."""
+        found = np.zeros(len(center))
+        if not len(center):
+            return found
+        key = ("flat", *np.round(direction, 6).tolist())
+        if key not in self._kept:
+            corners = np.concatenate([s.points[s.shape.mesh.triangles] for s in self.solids])
+            flat, height = corners @ plane.T, corners @ direction
+            self._kept[key] = (
+                flat, flat.min(axis=1), flat.max(axis=1), height.min(axis=1), height.max(axis=1)
+            )  # fmt: skip
+        flat, low, high, bottom, top = self._kept[key]  # type: ignore[misc]
+        turn = np.linspace(0.0, 2 * math.pi, 8, endpoint=False)
+        circle = np.stack([np.cos(turn), np.sin(turn)], axis=1)
+        for k in range(len(center)):
+            near = (low <= center[k] + ring[k]).all(axis=1) & (high >= center[k] - ring[k]).all(axis=1)
+            near &= (bottom <= span[k, 1]) & (top >= span[k, 0])
+            if near.any():
+                samples = center[k] + ring[k] * circle
+                found[k] = inside(samples, flat[near], samples.min(axis=0), samples.max(axis=0)).mean()
+        return found
 
     def rounds(self, direction: Floats, radii: tuple[float, float] = PIVOT) -> list[Round]:
         """What is round about a unit direction, with radii in that range of machine sizes."""
@@ -117,14 +142,16 @@ def _round(face: Cyl, solid: Solid, *, rough: bool) -> Round:
         short = 2 * face.half < 8 * face.radius
         quality, what = (1.0, "bore") if face.inner else (0.8, "round part")
         quality *= 1.0 if short or not face.inner else 0.6
-        spread = 0.01 * face.radius
+        spread = 0.005 * face.radius
     else:
         quality, what = (0.5 + 0.4 * share, "bore") if face.inner else (0.35 + 0.5 * share, "round end")
         spread = _across(face.arc, 0.01 * face.radius)
+    slim = min(1.0, 0.5 + face.half / face.radius)
+    quality *= slim
     if rough:
         quality, what, spread = 0.7 * quality, "boss", 5 * spread
     elif not face.inner and solid.shaft is not None and face.full:
-        quality, what = 1.0, "pin"
+        quality, what = 1.0 * slim, "pin"
     return Round(face, spread, quality, what, solid.index)
 
 

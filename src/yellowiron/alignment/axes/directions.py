@@ -17,6 +17,8 @@ from yellowiron.support.vectors import unit
 
 TOGETHER = math.cos(math.radians(4.0))
 """Cosine up to which round faces point the same way."""
+AS_EXPECTED = 0.97
+"""Cosine up to which a linkage's hinges point the way that its machine's frame says (14°)."""
 ACROSS = 0.2
 """Cosine up to which a hinge is across a cylinder of its linkage (78°)."""
 
@@ -76,8 +78,8 @@ def _votes(bodies: Sequence[Body], slides: Sequence[Line], expected: Floats | No
                 if any(abs(float(face.direction @ line.direction)) > ACROSS for line in slides):
                     continue
                 weight = min(face.arc, 2 * math.pi) * math.sqrt(face.radius * min(face.half, 4 * face.radius))
-                if expected is not None:
-                    weight *= 3.0 if abs(float(face.direction @ expected)) > 0.97 else 0.3
+                if expected is not None and abs(float(face.direction @ expected)) < AS_EXPECTED:
+                    continue
                 ways.append(face.direction)
                 weights.append(weight)
     return np.array(ways).reshape(-1, 3), np.array(weights)

@@ -11,7 +11,7 @@ import numpy as np
 from yellowiron.alignment.axes.bodies import Body, bodies_of
 from yellowiron.alignment.axes.cylinder_lines import cylinder_line
 from yellowiron.alignment.axes.directions import Direction, direction_of, is_upright, linkages_of
-from yellowiron.alignment.axes.hinges import Clues, bars_between, hinge_candidates
+from yellowiron.alignment.axes.hinges import Clues, bars_between, eye_of, hinge_candidates
 from yellowiron.alignment.axes.turning import slewing_candidate, wheel_candidate
 from yellowiron.alignment.axes.values import AxisEstimate, Candidate, Frame, Line
 from yellowiron.alignment.features.solids import Solid, size_of
@@ -93,7 +93,8 @@ def _single(
         return _estimate(joint.name, [wheel_candidate(bodies[wheel], frame)])
     if is_upright([joint], template):
         return _estimate(joint.name, [slewing_candidate(bodies[a], bodies[b], frame)])
-    ways = [w for w in (frame.left, frame.forward, frame.up) if w is not None]
+    # What swings freely in no loop (an axle that wheels hang on) rolls: its wheels turn across the machine anyway.
+    ways = [w for w in ((frame.forward,) if joint.free else (frame.left, frame.forward, frame.up)) if w is not None]
     if not ways:
         ways = [direction_of([joint], template, bodies, {}, frame).vector]
     tried: list[Candidate] = []
@@ -132,10 +133,8 @@ def _hinge(
         line = lines[slide.name]
         # With the rest of the cylinder: an eye may be drawn in one mesh with the other half.
         halves = [bodies[str(n)] for n in template.bodies_of(slide)]
-        reach = np.concatenate([line.along(body.samples) for body in halves])
-        outwards = 1.0 if kinds[name] == "rod" else -1.0
-        tip = float(reach.max() if outwards > 0 else reach.min())
-        clues = Clues(line, tip, outwards)
+        ahead = 1.0 if kinds[name] == "rod" else -1.0
+        clues = Clues(line, *eye_of(line, bodies[name], halves, bodies[other], way.vector, ahead))
         break
     bars = bars_between(bodies[a], bodies[b], _others(bodies, (a, b), loose), way.vector)
     clues = replace(clues, pivots=_pivots_of((a, b), pivots), bars=bars)

@@ -23,6 +23,8 @@ STOUT = 0.004
 RIVAL = 0.25
 """How much less than the best must speak for another line that it is no rival: a rival at that distance is as likely as
 exp(−1)."""
+LEAST_QUALITY = 0.04
+"""Below this the place where the bodies meet is the better guess."""
 KEPT = 4
 """Candidates that are told besides the best."""
 
@@ -42,13 +44,13 @@ class Meeting:
 
 @dataclass(frozen=True, eq=False)
 class Clues:
-    """What else is known of a hinge: the `line` of the hydraulic cylinder that one of its bodies is of, with which end
-    of it (`tip`, a coordinate along the line, and `outwards`, ±1) the hinge is near; `pivots` (n, 3) of either body's
-    scene nodes; round things of other parts that may be its pin (`bars`)."""
+    """What else is known of a hinge: the `line` of the hydraulic cylinder that one of its bodies is of, with where on it
+    its eye should be (`eye`, a coordinate along the line) and how well that is known (`room`, metres); `pivots` (n, 3)
+    of either body's scene nodes; round things of other parts that may be its pin (`bars`)."""
 
     line: Line | None = None
-    tip: float = 0.0
-    outwards: float = 1.0
+    eye: float = 0.0
+    room: float = 0.0
     pivots: Floats | None = None
     bars: tuple[Round, ...] = ()
 
@@ -81,16 +83,16 @@ def hinge_candidates(
     clues = clues or Clues()
     plane = plane_of(direction)
     meeting = meeting_of(a, b)
-    spots = _spots(a, b, direction, plane, meeting, clues)
-    found = [_candidate(spot, spots, direction, plane, meeting, clues, lean, a.size) for spot in spots[: KEPT + 1]]
     guess = _guess(a, b, direction, plane, meeting, clues, lean)
-    if not found or found[0].quality < guess.quality:
+    spots = _spots(a, b, direction, plane, meeting, clues, guess)
+    found = [_candidate(spot, spots, direction, plane, meeting, clues, lean, a.size) for spot in spots[: KEPT + 1]]
+    if not found or found[0].quality < LEAST_QUALITY:
         return [guess, *found[:KEPT]]
     return found
 
 
 def _spots(
-    a: Body, b: Body, direction: Floats, plane: Floats, meeting: Meeting, clues: Clues
+    a: Body, b: Body, direction: Floats, plane: Floats, meeting: Meeting, clues: Clues, guess: Candidate
 ) -> list[Spot]:
     """Every place about which something is round, the best first, one for each place."""
     rounds = [(side, r) for side, body in enumerate((a, b)) for r in body.rounds(direction)]
@@ -124,13 +126,26 @@ def _spots(
     together = np.exp(-0.5 * (apart / slack) ** 2) * np.exp(-np.maximum(gap, 0.0) / (4.0 * least))
     # What each of the bodies, and a pin of neither, has about each centre.
     support = [np.where(side == s, together * quality[None], 0.0).max(axis=1) for s in range(3)]
-    material = [np.exp(-((body.distance(ends.reshape(-1, 3)).reshape(len(ends), -1).min(axis=1) / radius) ** 2))
-                for body in (a, b)]  # fmt: skip
-    for s in (0, 1):
-        other = support[1 - s] * 0.45 * material[s]
-        support[s] = np.maximum(support[s], other)
+    # Around a bore or a pin is a lug, and so is inside of an outline; a full round may be either.
+    wide = np.array([r.face.inner or r.face.full for _, r in rounds])
+    narrow = np.array([not r.face.inner for _, r in rounds])
+    span = np.stack([along - half - 2.0 * radius, along + half + 2.0 * radius], axis=1)
+    for s, body in enumerate((a, b)):
+        lacking = np.flatnonzero(support[s] < 0.4 * support[1 - s])
+        rings = ((1.4 * radius, wide), (0.6 * radius, narrow))
+        cover = np.max(
+            [
+                body.covered(center[lacking], ring[lacking], span[lacking], direction, plane) * of[lacking]
+                for ring, of in rings
+            ],
+            axis=0,
+        )
+        own = 0.5 * cover * np.maximum(support[1 - s], 0.6 * support[2])[lacking]
+        support[s][lacking] = np.maximum(support[s][lacking], own)
     score = 0.5 * (support[0] + support[1]) + 0.25 * support[2]
     score *= _on_line(center, direction, plane, clues, a.size)
+    away = np.linalg.norm(center - plane @ guess.origin, axis=1)
+    score *= 0.3 + 0.7 * np.exp(-0.5 * (away / (2.0 * guess.across)) ** 2)
     score *= 1.0 + 0.3 * _at_pivots(center, plane, clues, a.size)
     order = np.lexsort((np.arange(len(score)), -np.round(score, 9)))
     spots: list[Spot] = []
@@ -164,12 +179,10 @@ def _on_line(center: Floats, direction: Floats, plane: Floats, clues: Clues, siz
     delta = center - plane @ line.origin
     off = np.abs(delta @ np.array([-way[1], way[0]]))
     reach = np.abs(delta @ way)
-    spread = np.hypot(np.hypot(line.across, 0.12 * line.width), line.angle * reach)
+    spread = np.hypot(np.hypot(line.across, 0.3 * line.width) + 0.001 * size, line.angle * reach)
     place = (delta @ way) / length
-    # The eye is around the tip or a little within it.
-    within = clues.outwards * (clues.tip - place) - line.width
-    room = max(3.0 * line.width, 0.015 * size)
-    return (0.05 + 0.95 * np.exp(-0.5 * (off / spread) ** 2)) * (0.1 + 0.9 * np.exp(-0.5 * (within / room) ** 2))
+    lengthwise = np.exp(-0.5 * ((place - clues.eye) / (2.0 * clues.room)) ** 2)
+    return (0.1 + 0.9 * np.exp(-0.5 * (off / spread) ** 2)) * (0.1 + 0.9 * lengthwise)
 
 
 def _at_pivots(center: Floats, plane: Floats, clues: Clues, size: float) -> Floats:
@@ -226,12 +239,12 @@ def _guess(
     if line is not None and np.linalg.norm(plane @ line.direction) > 0.5:
         way = plane @ line.direction
         along = float((middle - plane @ line.origin) @ way / (way @ way))
-        inner = clues.tip - clues.outwards * line.width
-        kept = np.clip(along, inner - 3 * line.width, inner + 3 * line.width)
-        middle = plane @ line.origin + kept * way
-        across = min(across, max(1.5 * line.width, 0.5 * abs(float(kept - inner)) + line.width))
-        how = "where the cylinder's line ends at the other body"
-        quality = 0.15
+        # By inverse variance, along the line.
+        trust = across**2 / (across**2 + clues.room**2)
+        place = trust * clues.eye + (1 - trust) * along
+        middle = plane @ line.origin + place * way
+        across = math.hypot(max(0.5 * clues.room, 0.3 * abs(clues.eye - place)), line.across)
+        how, quality = "where the cylinder ends at the other body", 0.15
     if clues.pivots is not None and len(clues.pivots):
         places = clues.pivots @ plane.T
         away = np.linalg.norm(places - middle, axis=1)
@@ -244,12 +257,31 @@ def _guess(
 
 
 def bars_between(a: Body, b: Body, others: Sequence[Body], direction: Floats) -> tuple[Round, ...]:
-    """The pins of other bodies that are near both."""
+    """The pins and round bars of other bodies that are near both."""
     found = []
     for other in others:
         for r in other.rounds(direction, PIVOT):
-            if r.what == "pin":
+            if not r.face.inner and r.face.full and 2 * r.face.half > r.face.radius:
                 ends = axis_segment(r.face)
                 if max(float(a.distance(ends).min()), float(b.distance(ends).min())) < 1.5 * r.face.radius:
                     found.append(r)
     return tuple(found)
+
+
+def eye_of(
+    line: Line, outer: Body, halves: Sequence[Body], other: Body, direction: Floats, ahead: float
+) -> tuple[float, float]:
+    """Where along a cylinder's line the eye of its body `outer` is, and how well that is known (metres): as far within
+    its tip as it is wide there, or beyond where it does not reach the `other` body. `halves` are both its bodies, and
+    `ahead` is 1 for the rod, −1 for the barrel."""
+    points = np.concatenate([body.samples for body in halves])
+    along = ahead * line.along(points)
+    tip = float(along.max())
+    across = np.cross(direction, line.direction)
+    across = across / max(float(np.linalg.norm(across)), 1e-9)
+    near = points[along > tip - 2.0 * line.width]
+    wide = float(np.percentile(np.abs((near - line.origin) @ across), 90))
+    wide = min(max(wide, 0.5 * line.width), 2.5 * line.width)
+    gap = meeting_of(outer, other).gap
+    beyond = max(0.0, gap - 0.3 * wide)
+    return ahead * (tip - wide + 1.5 * beyond), 0.5 * wide + beyond

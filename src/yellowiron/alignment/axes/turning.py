@@ -28,10 +28,10 @@ def wheel_candidate(wheel: Body, frame: Frame) -> Candidate:
     plane = plane_of(way.vector)
     middle = 0.5 * (wheel.samples.min(axis=0) + wheel.samples.max(axis=0))
     height = float(middle @ way.vector)
-    outline, off = _outer_circle(wheel.samples @ plane.T)
+    outline, off, radius = _outer_circle(wheel.samples @ plane.T)
     if rounds:
         center, score, spread = _commonest(rounds, plane, outline)
-        if score > 0.0:
+        if score > 0.0 and float(np.linalg.norm(center - outline)) < max(0.1 * radius, 3.0 * off):
             across = max(spread, 1e-4 * wheel.size)
             return Candidate(center @ plane + height * way.vector, way.vector, across, way.angle, 1.0, "what is round in it")
     across = max(off, 0.001 * wheel.size)
@@ -61,8 +61,8 @@ def _wheel_direction(wheel: Body, left: Floats | None) -> Direction:
     return Direction(own, math.radians(1.0), "its shape")
 
 
-def _outer_circle(flat: Floats) -> tuple[Floats, float]:
-    """The circle through the outermost of points (n, 2) all around: centre, and how well it is known."""
+def _outer_circle(flat: Floats) -> tuple[Floats, float, float]:
+    """The circle through the outermost of points (n, 2) all around: centre, how well it is known, and radius."""
     center = 0.5 * (flat.min(axis=0) + flat.max(axis=0))
     rms = radius = float(np.ptp(flat, axis=0).max()) / 2
     for _ in range(3):
@@ -75,7 +75,7 @@ def _outer_circle(flat: Floats) -> tuple[Floats, float]:
             break
         center, radius = fitted_circle(flat[rim])
         rms = float(np.sqrt(((np.linalg.norm(flat[rim] - center, axis=1) - radius) ** 2).mean()))
-    return center, 0.5 * rms + 0.01 * radius
+    return center, 0.3 * rms + 0.005 * radius, radius
 
 
 def _commonest(rounds: Sequence[Round], plane: Floats, near: Floats) -> tuple[Floats, float, float]:
