@@ -144,7 +144,7 @@ def _round(face: Cyl, solid: Solid, *, rough: bool) -> Round:
         quality *= 1.0 if short or not face.inner else 0.6
         spread = 0.005 * face.radius
     else:
-        quality, what = (0.5 + 0.4 * share, "bore") if face.inner else (0.35 + 0.5 * share, "round end")
+        quality, what = (0.15 + 0.7 * share, "bore") if face.inner else (0.35 + 0.5 * share, "round end")
         spread = _across(face.arc, 0.01 * face.radius)
     slim = min(1.0, 0.5 + face.half / face.radius)
     quality *= slim

@@ -60,7 +60,9 @@ def estimate_axes(
             for j in linkage
             if j.type == "revolute"
         }
-        found |= {name: _estimate(name, candidates) for name, candidates in _with_twins(hinges, way).items()}
+        if not is_upright(linkage, template):
+            hinges = _with_twins(hinges)
+        found |= {name: _estimate(name, candidates) for name, candidates in hinges.items()}
     for name, line in lines.items():
         found[name] = _slide(name, line, template, found)
     return {j.name: found[j.name] for j in template.joints if j.name in found}
@@ -141,25 +143,31 @@ def _hinge(
     return hinge_candidates(bodies[a], bodies[b], way.vector, clues, lean=way.angle)
 
 
-def _with_twins(hinges: Mapping[str, list[Candidate]], way: Direction) -> dict[str, list[Candidate]]:
-    """The candidates, those of left and right twins that have none of their own at the twin's place; twins of a
-    linkage share one line."""
+def _with_twins(hinges: Mapping[str, list[Candidate]]) -> dict[str, list[Candidate]]:
+    """The candidates of hinges; left and right twins turn about one line, so each of them has the other's best too, and
+    where both have the same, what both know."""
     found = dict(hinges)
     for name, own in hinges.items():
-        twin = next((t for t in (_other_side(name),) if t is not None and t in hinges), None)
-        if twin is None or not hinges[twin]:
+        twin = hinges.get(_other_side(name) or "")
+        if not twin:
             continue
-        best, other = own[0], hinges[twin][0]
-        apart = _apart(best, other)
-        if apart > 3 * (best.across + other.across) and other.quality > 1.5 * best.quality:
-            # Twins turn about one line: the better seen of the two leads.
-            doubt = replace(
-                other, origin=other.origin + float((best.origin - other.origin) @ way.vector) * way.vector,
-                across=1.5 * other.across, quality=0.8 * other.quality, how=f"its twin's: {other.how}",
-            )  # fmt: skip
-            nearer = [c for c in own if _apart(c, other) < 3 * (c.across + other.across)]
-            found[name] = [*nearer, doubt, *(c for c in own if c not in nearer)]
+        best, other = own[0], twin[0]
+        moved = replace(other, origin=_beside(other, best.origin))
+        if _apart(best, other) < 2.0 * math.hypot(best.across, other.across):
+            share = other.across**2 / (best.across**2 + other.across**2)
+            origin = share * best.origin + (1 - share) * moved.origin
+            across = math.hypot(share * best.across, (1 - share) * other.across)
+            across = max(across, 0.7 * min(best.across, other.across), 0.5 * _apart(best, other))
+            found[name] = [replace(best, origin=origin, across=across), *own[1:]]
+        elif other.quality > 1.5 * best.quality:
+            twins = replace(moved, across=1.5 * other.across, quality=0.8 * other.quality, how=f"its twin's: {other.how}")
+            found[name] = [twins, *own]
     return found
+
+
+def _beside(candidate: Candidate, point: Floats) -> Floats:
+    """A candidate's point beside another."""
+    return candidate.origin + float((point - candidate.origin) @ candidate.direction) * candidate.direction
 
 
 def _other_side(name: str) -> str | None:

@@ -125,7 +125,7 @@ def _spots(
     gap = np.abs(along[:, None] - along[None]) - half[:, None] - half[None]
     together = np.exp(-0.5 * (apart / slack) ** 2) * np.exp(-np.maximum(gap, 0.0) / (4.0 * least))
     # What each of the bodies, and a pin of neither, has about each centre.
-    support = [np.where(side == s, together * quality[None], 0.0).max(axis=1) for s in range(3)]
+    support = [_both_ends(np.where(side == s, together * quality[None], 0.0), along, radius) for s in range(3)]
     # Around a bore or a pin is a lug, and so is inside of an outline; a full round may be either.
     wide = np.array([r.face.inner or r.face.full for _, r in rounds])
     narrow = np.array([not r.face.inner for _, r in rounds])
@@ -157,6 +157,16 @@ def _spots(
         middle = _fused(center[members], spread[members])[0]
         spots.append(Spot(middle, float(score[k]), tuple(rounds[m][1] for m in members), sides))
     return spots
+
+
+def _both_ends(support: Floats, along: Floats, radius: Floats) -> Floats:
+    """(n,) the support (n, m) of the best for each place; more where another, apart along the axis, says the same (the
+    two cheeks of a fork)."""
+    best = np.argmax(support, axis=1)
+    first = support[np.arange(len(support)), best]
+    apart = np.abs(along[None] - along[best][:, None]) > 1.0 * radius[best][:, None]
+    second = np.where(apart, support, 0.0).max(axis=1)
+    return np.asarray(first + 0.5 * second * (1.0 - np.minimum(first, 1.0)), dtype=np.float64)
 
 
 def _nearest(points: Floats, ends: Floats) -> Floats:
@@ -272,16 +282,19 @@ def eye_of(
     line: Line, outer: Body, halves: Sequence[Body], other: Body, direction: Floats, ahead: float
 ) -> tuple[float, float]:
     """Where along a cylinder's line the eye of its body `outer` is, and how well that is known (metres): as far within
-    its tip as it is wide there, or beyond where it does not reach the `other` body. `halves` are both its bodies, and
+    its tip as it is wide there; anywhere near it where no eye is drawn. `halves` are both its bodies, and
     `ahead` is 1 for the rod, −1 for the barrel."""
     points = np.concatenate([body.samples for body in halves])
     along = ahead * line.along(points)
     tip = float(along.max())
     across = np.cross(direction, line.direction)
     across = across / max(float(np.linalg.norm(across)), 1e-9)
-    near = points[along > tip - 2.0 * line.width]
-    wide = float(np.percentile(np.abs((near - line.origin) @ across), 90))
+    off = np.abs((points - line.origin) @ across)
+    wide = float(np.percentile(off[along > tip - 2.0 * line.width], 90))
     wide = min(max(wide, 0.5 * line.width), 2.5 * line.width)
+    own = float(np.percentile(np.abs((outer.samples - line.origin) @ across), 60))
     gap = meeting_of(outer, other).gap
-    beyond = max(0.0, gap - 0.3 * wide)
-    return ahead * (tip - wide + 1.5 * beyond), 0.5 * wide + beyond
+    if wide < 1.3 * own and ahead > 0:
+        # A bare bar's end: its eye is not drawn.
+        return tip, 2.5 * own + gap
+    return ahead * (tip - wide), 0.35 * wide + 0.5 * gap
