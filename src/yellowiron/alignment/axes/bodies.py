@@ -36,6 +36,16 @@ class Body:
     _kept: dict[object, object] = field(default_factory=dict)
 
     @property
+    def low(self) -> Floats:
+        """The lower corner of its box."""
+        return np.asarray(np.min([s.low for s in self.solids], axis=0), dtype=np.float64)
+
+    @property
+    def high(self) -> Floats:
+        """The upper corner of its box."""
+        return np.asarray(np.max([s.high for s in self.solids], axis=0), dtype=np.float64)
+
+    @property
     def samples(self) -> Floats:
         """(n, 3) points all over its surface."""
         if "samples" not in self._kept:
@@ -79,13 +89,22 @@ class Body:
                 found[k] = inside(samples, flat[near], samples.min(axis=0), samples.max(axis=0)).mean()
         return found
 
-    def rounds(self, direction: Floats, radii: tuple[float, float] = PIVOT) -> list[Round]:
-        """What is round about a unit direction, with radii in that range of machine sizes."""
-        key = (*np.round(direction, 6).tolist(), *radii)
-        if key not in self._rounds:
-            least, most = radii[0] * self.size, radii[1] * self.size
-            self._rounds[key] = [r for s in self.solids for r in rounds_of(s, direction, least, most, self.size)]
-        return self._rounds[key]
+    def rounds(
+        self, direction: Floats, radii: tuple[float, float] = PIVOT, *, box: tuple[Floats, Floats] | None = None,
+        outlines: bool = True,
+    ) -> list[Round]:  # fmt: skip
+        """What is round about a unit direction, with radii in that range of machine sizes, of its solids that reach into
+        a box (low, high); without `outlines` only faces that were recognised."""
+        least, most = radii[0] * self.size, radii[1] * self.size
+        found = []
+        for solid in self.solids:
+            if box is not None and ((solid.low > box[1]).any() or (solid.high < box[0]).any()):
+                continue
+            key = (solid.index, *np.round(direction, 6).tolist(), *radii, outlines)
+            if key not in self._rounds:
+                self._rounds[key] = rounds_of(solid, direction, least, most, outlines=outlines)
+            found += self._rounds[key]
+        return found
 
 
 def surface_points(solid: Solid, spacing: float) -> Floats:
@@ -108,14 +127,15 @@ def surface_points(solid: Solid, spacing: float) -> Floats:
     return np.asarray(points[np.sort(cells)], dtype=np.float64)
 
 
-def rounds_of(solid: Solid, direction: Floats, least: float, most: float, size: float) -> list[Round]:
-    """What is round about a unit direction in a solid: its cylinders, its bosses, and circles in its outline."""
+def rounds_of(solid: Solid, direction: Floats, least: float, most: float, *, outlines: bool = True) -> list[Round]:
+    """What is round about a unit direction in a solid, with radii between `least` and `most` metres: its cylinders, its
+    bosses, and circles in its outline."""
     found = []
     for faces, rough in ((solid.cylinders, False), (solid.knuckles, True)):
         for face in faces:
             if least < face.radius < most and abs(float(face.direction @ direction)) > LEAN and face.arc > LEAST_ARC:
                 found.append(_round(face, solid, rough=rough))
-    if solid.shape.exact and solid.cylinders:
+    if not outlines or (solid.shape.exact and solid.cylinders):
         return found
     known = [(r.face.center, r.face.radius, r.face.inner) for r in found if r.what != "boss"]
     plane = plane_of(direction)
@@ -131,7 +151,7 @@ def rounds_of(solid: Solid, direction: Floats, least: float, most: float, size: 
             for middle, radius, inner in known
         )
         if new:
-            found.append(_outline_round(circle, center, direction, solid, size))
+            found.append(_outline_round(circle, center, direction, solid))
     return found
 
 
@@ -160,7 +180,7 @@ def _across(arc: float, error: float) -> float:
     return error / max(0.05, math.sin(min(arc, math.pi) / 2) ** 2)
 
 
-def _outline_round(circle: OutlineCircle, center: Floats, direction: Floats, solid: Solid, size: float) -> Round:
+def _outline_round(circle: OutlineCircle, center: Floats, direction: Floats, solid: Solid) -> Round:
     face = Cyl(
         center, direction, circle.radius, 0.5 * (circle.high - circle.low), circle.arc, circle.inner
     )  # fmt: skip

@@ -74,7 +74,7 @@ def _faces(body: Body) -> Iterable[Cyl]:
 
 def _circles(body: Body, direction: Floats) -> Iterable[Cyl]:
     low, high = RADII[0] * body.size, RADII[1] * body.size
-    return [r.face for s in body.solids for r in rounds_of(s, direction, low, high, body.size) if r.face.arc > 2.0]
+    return [r.face for s in body.solids for r in rounds_of(s, direction, low, high) if r.face.arc > 2.0]
 
 
 def _bars(faces: Iterable[Cyl], direction: Floats) -> list[Cyl]:

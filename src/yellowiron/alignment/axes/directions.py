@@ -62,8 +62,64 @@ def direction_of(
         best = int(np.argmax(np.round(alike @ weights, 9)))
         kept = alike[best]
         if weights[kept].sum() > 0.3 * weights.sum():
-            return _mean(ways[kept], weights[kept], ways[best], expected, slides)
+            return _mean(ways[kept], weights[kept], ways[best], expected)
     return _without_faces([bodies[n] for n in names if n in bodies], slides, expected)
+
+
+def completed(
+    frame: Frame, linkages: Sequence[Sequence[JointTemplate]], template: Template, bodies: Mapping[str, Body],
+    lines: Mapping[str, Line],
+) -> Frame:  # fmt: skip
+    """The machine's directions, those that are not known as its bodies tell them: left is what most pivots are along,
+    up what is across that and the steering's cylinders, or what a large bearing or the flattest extent of its root is
+    along. Their senses are not told."""
+    left, up, forward = frame.left, frame.up, frame.forward
+    if left is None and up is not None and forward is not None:
+        left = np.cross(up, forward)
+    upright = [linkage for linkage in linkages if is_upright(linkage, template)]
+    if left is None:
+        pitching = [j for linkage in linkages if linkage not in upright for j in linkage]
+        names = sorted({str(b) for j in pitching for b in template.bodies_of(j)})
+        slides = [lines[j.name] for j in pitching if j.name in lines]
+        ways, weights = _votes([bodies[n] for n in names], slides, up)
+        if not len(ways):
+            return frame
+        alike = np.abs(ways @ ways.T) > TOGETHER
+        best = int(np.argmax(np.round(alike @ weights, 9)))
+        left = _mean(ways[alike[best]], weights[alike[best]], ways[best], None).vector
+    if up is None and forward is not None:
+        up = np.cross(forward, left)
+    if up is None:
+        up = _upright_way(left, upright, template, bodies, lines)
+    return Frame(forward if forward is not None else np.cross(left, up), left, up)
+
+
+def _upright_way(
+    left: Floats, upright: Sequence[Sequence[JointTemplate]], template: Template, bodies: Mapping[str, Body],
+    lines: Mapping[str, Line],
+) -> Floats:  # fmt: skip
+    for linkage in upright:
+        for joint in linkage:
+            if joint.name in lines and abs(float(lines[joint.name].direction @ left)) < 0.7:
+                return unit(np.cross(left, lines[joint.name].direction))
+    names = sorted({str(b) for linkage in upright for j in linkage for b in template.bodies_of(j)})
+    rings = [
+        (c.radius**2 * c.arc, c.direction)
+        for n in names
+        for s in bodies[n].solids
+        for c in s.cylinders
+        if c.arc > 3.0 and 0.012 < c.radius / bodies[n].size < 0.25 and abs(float(c.direction @ left)) < ACROSS
+    ]
+    if rings:
+        ways, weights = np.array([d for _, d in rings]), np.array([w for w, _ in rings])
+        alike = np.abs(ways @ ways.T) > TOGETHER
+        way = ways[int(np.argmax(np.round(alike @ weights, 9)))]
+        return unit(way - (way @ left) * left)
+    root = bodies.get(template.root) or bodies[min(bodies)]
+    points = root.samples - root.samples.mean(axis=0)
+    flat = points - np.outer(points @ left, left)
+    # The least of the two extents across left: its own is none.
+    return np.asarray(np.linalg.eigh(flat.T @ flat)[1][:, 1], dtype=np.float64)
 
 
 def _votes(bodies: Sequence[Body], slides: Sequence[Line], expected: Floats | None) -> tuple[Floats, Floats]:
@@ -85,9 +141,7 @@ def _votes(bodies: Sequence[Body], slides: Sequence[Line], expected: Floats | No
     return np.array(ways).reshape(-1, 3), np.array(weights)
 
 
-def _mean(
-    ways: Floats, weights: Floats, sense: Floats, expected: Floats | None, slides: Sequence[Line]
-) -> Direction:
+def _mean(ways: Floats, weights: Floats, sense: Floats, expected: Floats | None) -> Direction:
     second = (ways * weights[:, None]).T @ ways / weights.sum()
     values, vectors = np.linalg.eigh(second)
     way = vectors[:, -1] if float(vectors[:, -1] @ sense) > 0 else -vectors[:, -1]

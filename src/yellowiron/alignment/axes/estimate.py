@@ -10,7 +10,7 @@ import numpy as np
 
 from yellowiron.alignment.axes.bodies import Body, bodies_of
 from yellowiron.alignment.axes.cylinder_lines import cylinder_line
-from yellowiron.alignment.axes.directions import Direction, direction_of, is_upright, linkages_of
+from yellowiron.alignment.axes.directions import Direction, completed, direction_of, is_upright, linkages_of
 from yellowiron.alignment.axes.hinges import Clues, bars_between, eye_of, hinge_candidates
 from yellowiron.alignment.axes.turning import slewing_candidate, wheel_candidate
 from yellowiron.alignment.axes.values import AxisEstimate, Candidate, Frame, Line
@@ -41,12 +41,12 @@ def estimate_axes(
     if not solids:
         return {}
     size = size if size is not None else size_of(solids)
-    frame = frame or Frame()
     bodies = bodies_of(solids, sorted(labels.items()), size)
     taken = {i for rows in labels.values() for i in rows}
     loose = [Body(f"solid {s.index}", (s,), size) for s in solids if s.shaft is not None and s.index not in taken]
     linkages = linkages_of(template, bodies)
     lines = _lines(template, bodies, linkages)
+    frame = completed(frame or Frame(), linkages, template, bodies, lines)
     found: dict[str, AxisEstimate] = {}
     for linkage in linkages:
         if len(linkage) == 1:

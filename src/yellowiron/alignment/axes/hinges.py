@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from yellowiron.alignment.axes.bodies import PIVOT, Body, axis_segment
+from yellowiron.alignment.axes.bodies import Body, axis_segment
 from yellowiron.alignment.axes.values import Candidate, Line, Round, plane_of
 from yellowiron.model.geometry import Floats
 
@@ -18,6 +18,8 @@ SAME_CENTRE = 0.15
 by as much in models that are drawn to be looked at."""
 NEAR = 0.02
 """What is further than this share of the machine's size from where two bodies meet speaks less for their hinge."""
+AROUND = 0.04
+"""Nothing further than this from where two bodies meet is looked at, in machine sizes."""
 STOUT = 0.004
 """A pivot with at least this radius, in machine sizes, is no bolt."""
 RIVAL = 0.25
@@ -40,6 +42,10 @@ class Meeting:
     def center(self) -> Floats:
         """The middle of their box."""
         return np.asarray(0.5 * (self.points.min(axis=0) + self.points.max(axis=0)), dtype=np.float64)
+
+    def box(self, margin: float) -> tuple[Floats, Floats]:
+        """Their box (low, high), wider by a margin on every side."""
+        return self.points.min(axis=0) - margin, self.points.max(axis=0) + margin
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,7 +101,8 @@ def _spots(
     a: Body, b: Body, direction: Floats, plane: Floats, meeting: Meeting, clues: Clues, guess: Candidate
 ) -> list[Spot]:
     """Every place about which something is round, the best first, one for each place."""
-    rounds = [(side, r) for side, body in enumerate((a, b)) for r in body.rounds(direction)]
+    box = meeting.box(AROUND * a.size)
+    rounds = [(side, r) for side, body in enumerate((a, b)) for r in body.rounds(direction, box=box)]
     rounds += [(2, r) for r in clues.bars]
     if not rounds:
         return []
@@ -268,11 +275,14 @@ def _guess(
 
 def bars_between(a: Body, b: Body, others: Sequence[Body], direction: Floats) -> tuple[Round, ...]:
     """The pins and round bars of other bodies that are near both."""
+    low, high = np.maximum(a.low, b.low) - 0.01 * a.size, np.minimum(a.high, b.high) + 0.01 * a.size
     found = []
     for other in others:
-        for r in other.rounds(direction, PIVOT):
+        for r in other.rounds(direction, box=(low, high), outlines=False):
             if not r.face.inner and r.face.full and 2 * r.face.half > r.face.radius:
                 ends = axis_segment(r.face)
+                if (ends.max(axis=0) < low).any() or (ends.min(axis=0) > high).any():
+                    continue
                 if max(float(a.distance(ends).min()), float(b.distance(ends).min())) < 1.5 * r.face.radius:
                     found.append(r)
     return tuple(found)

@@ -106,7 +106,7 @@ def slewing_candidate(a: Body, b: Body, frame: Frame) -> Candidate:
     flat = meeting.points @ plane.T
     middle = 0.5 * (np.percentile(flat, 5, axis=0) + np.percentile(flat, 95, axis=0))
     height = float(meeting.center @ up)
-    rounds = [(s, r) for s, body in enumerate((a, b)) for r in body.rounds(up, BEARING)]
+    rounds = [(s, r) for s, body in enumerate((a, b)) for r in body.rounds(up, BEARING, box=meeting.box(0.02 * a.size))]
     best: tuple[float, Floats, float, str] | None = None
     if rounds:
         center = np.array([plane @ r.face.center for _, r in rounds])
