@@ -89,6 +89,16 @@ class Body:
                 found[k] = inside(samples, flat[near], samples.min(axis=0), samples.max(axis=0)).mean()
         return found
 
+    def outline(self, direction: Floats, plane: Floats) -> tuple[Floats, Floats]:
+        """Unit vectors (24, 2) all around in the plane across a direction, and how far its surface reaches along each."""
+        key = ("outline", *np.round(direction, 6).tolist())
+        if key not in self._kept:
+            turn = np.linspace(0.0, 2 * math.pi, 24, endpoint=False)
+            ways = np.stack([np.cos(turn), np.sin(turn)], axis=1)
+            self._kept[key] = (ways, (self.samples @ plane.T @ ways.T).max(axis=0))
+        found: tuple[Floats, Floats] = self._kept[key]  # type: ignore[assignment]
+        return found
+
     def rounds(
         self, direction: Floats, radii: tuple[float, float] = PIVOT, *, box: tuple[Floats, Floats] | None = None,
         outlines: bool = True,

@@ -126,8 +126,8 @@ def _fitted(
     middle = points.mean(axis=0)
     length = max(s for _, _, s in lines)
     width = float(radius[groups[0]].max())
-    across = 0.02 * width if len(np.unique(of[groups[0]])) == bodies else 0.1 * width
-    return middle, direction, across, max(math.radians(0.1), across / max(length, 1e-9))
+    across = 0.04 * width if len(np.unique(of[groups[0]])) == bodies else 0.1 * width
+    return middle, direction, across, max(math.radians(0.2), across / max(length, 1e-9))
 
 
 def _line(faces: list[Cyl], guess: Floats) -> tuple[Floats, Floats, float]:

@@ -146,7 +146,7 @@ def _mean(ways: Floats, weights: Floats, sense: Floats, expected: Floats | None)
     values, vectors = np.linalg.eigh(second)
     way = vectors[:, -1] if float(vectors[:, -1] @ sense) > 0 else -vectors[:, -1]
     scatter = math.sqrt(max(0.0, 1.0 - float(values[-1]) / float(values.sum())))
-    angle = max(math.radians(0.05), scatter / math.sqrt(max(1.0, len(ways) / 4)))
+    angle = max(math.radians(0.1), scatter / math.sqrt(max(1.0, len(ways) / 4)))
     if expected is not None and abs(float(way @ expected)) > math.cos(math.radians(1.5)):
         # The machine's own axis was found from more than this linkage.
         toward = expected if float(expected @ way) > 0 else -expected

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 from yellowiron.alignment.axes.bodies import Body, axis_segment
 from yellowiron.alignment.axes.values import Candidate, Line, Round, plane_of
@@ -20,6 +21,8 @@ NEAR = 0.02
 """What is further than this share of the machine's size from where two bodies meet speaks less for their hinge."""
 AROUND = 0.04
 """Nothing further than this from where two bodies meet is looked at, in machine sizes."""
+END = 1.5
+"""How much more the round end of a body speaks for a pivot than something round anywhere else on it."""
 STOUT = 0.004
 """A pivot with at least this radius, in machine sizes, is no bolt."""
 RIVAL = 0.25
@@ -115,6 +118,8 @@ def _spots(
     stout = np.clip(radius / (STOUT * a.size), 0.3, 1.0)
     quality = np.array([r.quality for _, r in rounds]) * stout
     ends = np.array([axis_segment(r.face, 0.5 * r.face.radius) for _, r in rounds])
+    bodies = (a, b, None)
+    quality *= np.array([_is_end(bodies[s], center[k], r, direction, plane) for k, (s, r) in enumerate(rounds)])
     # How far each is from where the bodies meet.
     away = _nearest(meeting.points, ends)
     quality *= np.exp(-np.maximum(0.0, away - 1.5 * radius) / (NEAR * a.size))
@@ -132,7 +137,11 @@ def _spots(
     gap = np.abs(along[:, None] - along[None]) - half[:, None] - half[None]
     together = np.exp(-0.5 * (apart / slack) ** 2) * np.exp(-np.maximum(gap, 0.0) / (4.0 * least))
     # What each of the bodies, and a pin of neither, has about each centre.
-    support = [_both_ends(np.where(side == s, together * quality[None], 0.0), along, radius) for s in range(3)]
+    # A bar of either is its pin less surely than one of neither: it may as well be a stay.
+    pin = np.where(side == 2, 1.0, np.array([0.4 * (r.what == "pin") for _, r in rounds]))
+    support = [
+        _both_ends(together * quality[None] * share, along, radius) for share in (side == 0, side == 1, pin)
+    ]  # fmt: skip
     # Around a bore or a pin is a lug, and so is inside of an outline; a full round may be either.
     wide = np.array([r.face.inner or r.face.full for _, r in rounds])
     narrow = np.array([not r.face.inner for _, r in rounds])
@@ -152,7 +161,7 @@ def _spots(
     score = 0.5 * (support[0] + support[1]) + 0.25 * support[2]
     score *= _on_line(center, direction, plane, clues, a.size)
     away = np.linalg.norm(center - plane @ guess.origin, axis=1)
-    score *= 0.3 + 0.7 * np.exp(-0.5 * (away / (2.0 * guess.across)) ** 2)
+    score *= 0.5 + 0.5 * np.exp(-0.5 * (away / (2.0 * guess.across)) ** 2)
     score *= 1.0 + 0.3 * _at_pivots(center, plane, clues, a.size)
     order = np.lexsort((np.arange(len(score)), -np.round(score, 9)))
     spots: list[Spot] = []
@@ -176,10 +185,17 @@ def _both_ends(support: Floats, along: Floats, radius: Floats) -> Floats:
     return np.asarray(first + 0.5 * second * (1.0 - np.minimum(first, 1.0)), dtype=np.float64)
 
 
+def _is_end(body: Body | None, center: Floats, r: Round, direction: Floats, plane: Floats) -> float:
+    """More than 1 for the round end of a body: its outline goes no further there."""
+    if body is None or r.face.inner or r.face.full:
+        return 1.0
+    ways, reach = body.outline(direction, plane)
+    beyond = reach - ways @ center
+    return END if (beyond < 1.15 * r.face.radius).mean() > 0.12 else 1.0
+
+
 def _nearest(points: Floats, ends: Floats) -> Floats:
     """(n,) the distance of axis segments (n, 5, 3) from points (m, 3)."""
-    from scipy.spatial import cKDTree
-
     return np.asarray(cKDTree(points).query(ends)[0].min(axis=1), dtype=np.float64)
 
 
@@ -198,8 +214,9 @@ def _on_line(center: Floats, direction: Floats, plane: Floats, clues: Clues, siz
     reach = np.abs(delta @ way)
     spread = np.hypot(np.hypot(line.across, 0.3 * line.width) + 0.001 * size, line.angle * reach)
     place = (delta @ way) / length
-    lengthwise = np.exp(-0.5 * ((place - clues.eye) / (2.0 * clues.room)) ** 2)
-    return (0.1 + 0.9 * np.exp(-0.5 * (off / spread) ** 2)) * (0.1 + 0.9 * lengthwise)
+    # Off the line is wrong; off the end happens: an eye that is not drawn, a trunnion.
+    lengthwise = 1.0 / (1.0 + ((place - clues.eye) / (2.0 * max(clues.room, 0.7 * line.width))) ** 2)
+    return (0.1 + 0.9 * np.exp(-0.5 * (off / spread) ** 2)) * (0.15 + 0.85 * lengthwise)
 
 
 def _at_pivots(center: Floats, plane: Floats, clues: Clues, size: float) -> Floats:
@@ -229,12 +246,16 @@ def _candidate(
 ) -> Candidate:  # fmt: skip
     center = np.array([plane @ r.face.center for r in spot.rounds])
     middle, across = _fused(center, np.array([r.spread for r in spot.rounds]))
-    across = max(1.5 * across, 1e-4 * size)
+    across = max(1.5 * across, (1e-4 if spot.sides == 2 else 2e-4) * size)
     rivals = [other for other in spots if other is not spot]
     for other in rivals:
         likely = math.exp(min(0.0, (other.score - spot.score) / (RIVAL * max(spot.score, 1e-9))))
+        apart = float(np.linalg.norm(other.center - middle))
+        if spot.sides < 2 and apart < max(r.face.radius for r in other.rounds):
+            # The other body's own, but not in line with it: which of them is drawn out of place is not told.
+            likely = 1.0
         if likely > 0.1:
-            across = math.hypot(across, 0.5 * likely * float(np.linalg.norm(other.center - middle)))
+            across = math.hypot(across, 0.5 * likely * apart)
     what = sorted({r.what for r in spot.rounds})
     bodies = {0: "a pin", 1: "one body", 2: "both bodies"}[spot.sides]
     how = f"{' and '.join(what)} of {bodies}"
@@ -260,7 +281,7 @@ def _guess(
         trust = across**2 / (across**2 + clues.room**2)
         place = trust * clues.eye + (1 - trust) * along
         middle = plane @ line.origin + place * way
-        across = math.hypot(max(0.5 * clues.room, 0.3 * abs(clues.eye - place)), line.across)
+        across = math.hypot(max(0.7 * clues.room, 0.3 * abs(clues.eye - place)), line.across)
         how, quality = "where the cylinder ends at the other body", 0.15
     if clues.pivots is not None and len(clues.pivots):
         places = clues.pivots @ plane.T
@@ -307,4 +328,4 @@ def eye_of(
     if wide < 1.3 * own and ahead > 0:
         # A bare bar's end: its eye is not drawn.
         return tip, 2.5 * own + gap
-    return ahead * (tip - wide), 0.35 * wide + 0.5 * gap
+    return ahead * (tip - wide), 0.5 * wide + 0.5 * gap

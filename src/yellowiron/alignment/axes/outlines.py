@@ -97,10 +97,10 @@ def _sides(
     used, rows = np.unique(rows, return_inverse=True)
     rows = rows.reshape(-1, 3)
     flat, height = points[used] @ plane.T, points[used] @ direction
-    cell = 0.02 * least
-    _, first, number = np.unique(np.round(flat / cell).astype(np.int64), axis=0, return_index=True, return_inverse=True)
-    number = number.ravel()
-    corner = flat[first]
+    number = _corners(flat, height, rows, 0.02 * least)
+    count = np.bincount(number)
+    corner = np.stack([np.bincount(number, weights=flat[:, k]) for k in range(2)], axis=1) / count[:, None]
+    flat = corner[number]
     p = flat[rows]
     edge = np.stack([np.linalg.norm(p[:, k] - p[:, (k + 1) % 3], axis=1) for k in range(3)], axis=1)
     k = np.argmax(edge, axis=1)
@@ -121,6 +121,19 @@ def _sides(
     mean = np.zeros((len(sides), 2))
     np.add.at(mean, which, normal)
     return sides[:, :2], corner, mean / np.maximum(np.linalg.norm(mean, axis=1), 1e-300)[:, None], low, high
+
+
+def _corners(flat: Floats, height: Floats, rows: NDArray[np.int64], cell: float) -> NDArray[np.int64]:
+    """(n,) which corner of the outline each point is: those within a cell, and those that a wall's edge along the
+    direction joins, however little that leans."""
+    first = np.unique(np.round(flat / cell).astype(np.int64), axis=0, return_inverse=True)[1].ravel()
+    a = np.concatenate([rows[:, k] for k in range(3)])
+    b = np.concatenate([rows[:, (k + 1) % 3] for k in range(3)])
+    upright = np.linalg.norm(flat[a] - flat[b], axis=1) < 0.1 * np.abs(height[a] - height[b])
+    ends = first[a[upright]], first[b[upright]]
+    count = int(first.max()) + 1
+    graph = coo_array((np.ones(len(ends[0])), ends), shape=(count, count))
+    return np.asarray(connected_components(graph, directed=False)[1][first], dtype=np.int64)
 
 
 def _neighbours(ends: NDArray[np.int64], count: int) -> tuple[NDArray[np.int64], ...]:
