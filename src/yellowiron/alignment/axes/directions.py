@@ -17,8 +17,14 @@ from yellowiron.support.vectors import unit
 
 TOGETHER = math.cos(math.radians(4.0))
 """Cosine up to which round faces point the same way."""
-AS_EXPECTED = 0.97
-"""Cosine up to which a linkage's hinges point the way that its machine's frame says (14°)."""
+UPRIGHT = 0.97
+"""Cosine up to which the hinges of a steering are upright (14°)."""
+BENT = math.cos(math.radians(50.0))
+"""Cosine up to which those of an arm are across the machine, which may be drawn as it steers, …"""
+LEVEL = 0.25
+"""… and they lie level, up to this cosine with the upright."""
+LEAST_WHEEL = 0.004
+"""The least radius of what is round in a wheel, in machine sizes."""
 ACROSS = 0.2
 """Cosine up to which a hinge is across a cylinder of its linkage (78°)."""
 
@@ -53,17 +59,40 @@ def direction_of(
     frame: Frame,
 ) -> Direction:  # fmt: skip
     """The direction of a linkage's hinges."""
-    expected = frame.up if is_upright(linkage, template) else frame.left
+    steering = is_upright(linkage, template)
+    expected = frame.up if steering else frame.left
     slides = [lines[j.name] for j in linkage if j.name in lines]
     names = sorted({str(b) for j in linkage for b in template.bodies_of(j)})
-    ways, weights = _votes([bodies[n] for n in names if n in bodies], slides, expected)
+    ways, weights = _votes([bodies[n] for n in names if n in bodies], slides)
+    if len(ways) and expected is not None:
+        kept = np.abs(ways @ expected) > (UPRIGHT if steering else BENT)
+        if not steering and frame.up is not None:
+            kept &= np.abs(ways @ frame.up) < LEVEL
+        # As the machine's own direction where there is a choice.
+        weights = weights * np.where(np.abs(ways @ expected) > UPRIGHT, 2.0, 1.0)
+        ways, weights = ways[kept], weights[kept]
     if len(ways):
         alike = np.abs(ways @ ways.T) > TOGETHER
         best = int(np.argmax(np.round(alike @ weights, 9)))
         kept = alike[best]
         if weights[kept].sum() > 0.3 * weights.sum():
             return _mean(ways[kept], weights[kept], ways[best], expected)
-    return _without_faces([bodies[n] for n in names if n in bodies], slides, expected)
+    near = None if steering else _wheels_beside(names, template, bodies, frame)
+    return _without_faces([bodies[n] for n in names if n in bodies], slides, expected if near is None else near)
+
+
+def _wheels_beside(
+    names: Sequence[str], template: Template, bodies: Mapping[str, Body], frame: Frame
+) -> Floats | None:
+    """The axis of the wheels that hang on bodies of a linkage: it is the linkage's own direction where a machine is drawn
+    as it steers."""
+    wheels = {r.name for r in template.roles if r.kind == "wheel" and r.name in bodies}
+    for joint in template.joints:
+        pair = {str(b) for b in template.bodies_of(joint)}
+        beside = sorted(pair & wheels)
+        if len(beside) == 1 and pair & set(names):
+            return wheel_direction(bodies[beside[0]], frame.left).vector
+    return None
 
 
 def completed(
@@ -81,7 +110,9 @@ def completed(
         pitching = [j for linkage in linkages if linkage not in upright for j in linkage]
         names = sorted({str(b) for j in pitching for b in template.bodies_of(j)})
         slides = [lines[j.name] for j in pitching if j.name in lines]
-        ways, weights = _votes([bodies[n] for n in names], slides, up)
+        ways, weights = _votes([bodies[n] for n in names], slides)
+        level = np.abs(ways @ up) < LEVEL if up is not None else np.ones(len(ways), dtype=bool)
+        ways, weights = ways[level], weights[level]
         if not len(ways):
             return frame
         alike = np.abs(ways @ ways.T) > TOGETHER
@@ -122,7 +153,7 @@ def _upright_way(
     return np.asarray(np.linalg.eigh(flat.T @ flat)[1][:, 1], dtype=np.float64)
 
 
-def _votes(bodies: Sequence[Body], slides: Sequence[Line], expected: Floats | None) -> tuple[Floats, Floats]:
+def _votes(bodies: Sequence[Body], slides: Sequence[Line]) -> tuple[Floats, Floats]:
     """Directions (n, 3) of what may be a pivot's pin, bore or end, and their weights (n,)."""
     ways, weights = [], []
     for body in bodies:
@@ -134,8 +165,6 @@ def _votes(bodies: Sequence[Body], slides: Sequence[Line], expected: Floats | No
                 if any(abs(float(face.direction @ line.direction)) > ACROSS for line in slides):
                     continue
                 weight = min(face.arc, 2 * math.pi) * math.sqrt(face.radius * min(face.half, 4 * face.radius))
-                if expected is not None and abs(float(face.direction @ expected)) < AS_EXPECTED:
-                    continue
                 ways.append(face.direction)
                 weights.append(weight)
     return np.array(ways).reshape(-1, 3), np.array(weights)
@@ -170,3 +199,27 @@ def _without_faces(bodies: Sequence[Body], slides: Sequence[Line], expected: Flo
     points = np.concatenate([b.samples for b in bodies])
     way = np.linalg.eigh(np.cov((points - points.mean(axis=0)).T))[1][:, 0]
     return Direction(np.asarray(way, dtype=np.float64), math.radians(5.0), "the least extent of its bodies")
+
+
+def wheel_direction(wheel: Body, left: Floats | None) -> Direction:
+    """The direction of a wheel's axis; `left` is the machine's, if it is known."""
+    faces = [
+        c for s in wheel.solids for c in s.cylinders if c.arc > 3.0 and LEAST_WHEEL * wheel.size < c.radius
+    ]
+    if left is not None:
+        faces = [c for c in faces if abs(float(c.direction @ left)) > 0.8]
+    if faces:
+        weight = np.array([c.radius**2 * c.arc for c in faces])
+        ways = np.array([c.direction for c in faces])
+        alike = np.abs(ways @ ways.T) > math.cos(math.radians(3.0))
+        best = int(np.argmax(np.round(alike @ weight, 12)))
+        kept = ways[alike[best]] * np.sign(ways[alike[best]] @ ways[best])[:, None]
+        mean = weight[alike[best]] @ kept
+        return Direction(mean / np.linalg.norm(mean), math.radians(0.2), "what is round in it")
+    points = wheel.samples
+    values, vectors = np.linalg.eigh(np.cov((points - points.mean(axis=0)).T))
+    odd = 0 if values[1] - values[0] > values[2] - values[1] else 2
+    own = np.asarray(vectors[:, odd], dtype=np.float64)
+    if left is not None and abs(float(own @ left)) < math.cos(math.radians(25.0)):
+        return Direction(left, math.radians(3.0), "the machine's own direction")
+    return Direction(own, math.radians(1.0), "its shape")

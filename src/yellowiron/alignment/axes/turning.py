@@ -8,14 +8,14 @@ from collections.abc import Sequence
 import numpy as np
 
 from yellowiron.alignment.axes.bodies import Body
-from yellowiron.alignment.axes.directions import Direction
+from yellowiron.alignment.axes.directions import LEAST_WHEEL, wheel_direction
 from yellowiron.alignment.axes.hinges import meeting_of
 from yellowiron.alignment.axes.outlines import fitted_circle
 from yellowiron.alignment.axes.values import Candidate, Frame, Round, plane_of
 from yellowiron.alignment.features.solids import Cyl
 from yellowiron.model.geometry import Floats
 
-WHEEL = (0.004, 0.2)
+WHEEL = (LEAST_WHEEL, 0.2)
 """Radii of what is round in a wheel, in machine sizes."""
 BEARING = (0.012, 0.25)
 """… and in a slewing bearing."""
@@ -23,7 +23,7 @@ BEARING = (0.012, 0.25)
 
 def wheel_candidate(wheel: Body, frame: Frame) -> Candidate:
     """The axis that a wheel is round about."""
-    way = _wheel_direction(wheel, frame.left)
+    way = wheel_direction(wheel, frame.left)
     rounds = wheel.rounds(way.vector, WHEEL)
     plane = plane_of(way.vector)
     middle = 0.5 * (wheel.samples.min(axis=0) + wheel.samples.max(axis=0))
@@ -36,29 +36,6 @@ def wheel_candidate(wheel: Body, frame: Frame) -> Candidate:
             return Candidate(center @ plane + height * way.vector, way.vector, across, way.angle, 1.0, "what is round in it")
     across = max(off, 0.001 * wheel.size)
     return Candidate(outline @ plane + height * way.vector, way.vector, across, way.angle, 0.5, "its outline")
-
-
-def _wheel_direction(wheel: Body, left: Floats | None) -> Direction:
-    faces = [
-        c for s in wheel.solids for c in s.cylinders if c.arc > 3.0 and WHEEL[0] * wheel.size < c.radius
-    ]
-    if left is not None:
-        faces = [c for c in faces if abs(float(c.direction @ left)) > 0.8]
-    if faces:
-        weight = np.array([c.radius**2 * c.arc for c in faces])
-        ways = np.array([c.direction for c in faces])
-        alike = np.abs(ways @ ways.T) > math.cos(math.radians(3.0))
-        best = int(np.argmax(np.round(alike @ weight, 12)))
-        kept = ways[alike[best]] * np.sign(ways[alike[best]] @ ways[best])[:, None]
-        mean = weight[alike[best]] @ kept
-        return Direction(mean / np.linalg.norm(mean), math.radians(0.2), "what is round in it")
-    points = wheel.samples
-    values, vectors = np.linalg.eigh(np.cov((points - points.mean(axis=0)).T))
-    odd = 0 if values[1] - values[0] > values[2] - values[1] else 2
-    own = np.asarray(vectors[:, odd], dtype=np.float64)
-    if left is not None and abs(float(own @ left)) < math.cos(math.radians(25.0)):
-        return Direction(left, math.radians(3.0), "the machine's own direction")
-    return Direction(own, math.radians(1.0), "its shape")
 
 
 def _outer_circle(flat: Floats) -> tuple[Floats, float, float]:
