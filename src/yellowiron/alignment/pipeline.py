@@ -12,6 +12,7 @@
 10. the machine's frame, then left and right
 11. pins, hardware and all the rest
 12. what a person said before
+13. an estimate of the axis of every joint that was not found
 """
 
 from __future__ import annotations
@@ -28,6 +29,7 @@ from yellowiron.alignment.assignment.root_fallback import with_root
 from yellowiron.alignment.assignment.search import BELIEVED, Search
 from yellowiron.alignment.assignment.sheet_weights import sheet_findings
 from yellowiron.alignment.assignment.weights import side_weights
+from yellowiron.alignment.axes.unfound import axis_findings, lines_of, unfound_axes
 from yellowiron.alignment.features.distance import Touch
 from yellowiron.alignment.features.separate_parts import separate_parts
 from yellowiron.alignment.features.solids import solids_of
@@ -98,7 +100,7 @@ def align(
         solids = solids_of(tracking)
         by_id |= on_tracks(by_id, rows, solids, Touch(solids, answer.contact * observation.size)) | rows
     documents = {item.part: item.reason for item in edits.parts if item.source == "data"} if edits is not None else {}
-    return to_alignment(
+    found = to_alignment(
         assembly,
         whole,
         answer,
@@ -119,6 +121,28 @@ def align(
                 settled=frozenset(edited),
             ),
         ],
+    )
+    return _with_all_axes(found, assembly, whole, answer, observation, frame)
+
+
+def _with_all_axes(
+    found: Alignment,
+    assembly: Assembly,
+    template: Template,
+    answer: Answer,
+    observation: Observation,
+    frame: MachineFrame | None,
+) -> Alignment:
+    """The alignment with an estimate for every joint that the search did not find though both its bodies are there."""
+    known = {*answer.solution.hinge_of, *answer.solution.slide_of}
+    sure = frame.matrix if frame is not None and not frame.doubts else None
+    estimates = unfound_axes(
+        solids_of(assembly), found.parts, template, found=known, size=observation.size, frame=sure
+    )  # fmt: skip
+    return replace(
+        found,
+        axes={**found.axes, **lines_of(estimates)},
+        findings=(*found.findings, *axis_findings(estimates, observation.size)),
     )
 
 
