@@ -5,8 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from yellowiron.alignment.axes.outlines import OutlineCircle, outline_circles
@@ -32,53 +34,53 @@ class Body:
     name: str
     solids: tuple[Solid, ...]
     size: float
-    _rounds: dict[tuple[object, ...], list[Round]] = field(default_factory=dict)
-    _kept: dict[object, object] = field(default_factory=dict)
+    _rounds: dict[tuple[float, ...], list[Round]] = field(default_factory=dict)
+    _flats: dict[tuple[float, ...], tuple[Floats, ...]] = field(default_factory=dict)
+    _outlines: dict[tuple[float, ...], tuple[Floats, Floats]] = field(default_factory=dict)
 
-    @property
+    @cached_property
     def low(self) -> Floats:
         """The lower corner of its box."""
         return np.asarray(np.min([s.low for s in self.solids], axis=0), dtype=np.float64)
 
-    @property
+    @cached_property
     def high(self) -> Floats:
         """The upper corner of its box."""
         return np.asarray(np.max([s.high for s in self.solids], axis=0), dtype=np.float64)
 
-    @property
+    @cached_property
     def samples(self) -> Floats:
         """(n, 3) points all over its surface."""
-        if "samples" not in self._kept:
-            self._kept["samples"] = np.concatenate([surface_points(s, SPACING * self.size) for s in self.solids])
-        samples: Floats = self._kept["samples"]  # type: ignore[assignment]
-        return samples
+        return np.concatenate([surface_points(s, SPACING * self.size) for s in self.solids])
 
-    @property
+    @cached_property
     def tree(self) -> cKDTree:
         """Of `samples`."""
-        if "tree" not in self._kept:
-            self._kept["tree"] = cKDTree(self.samples)
-        tree: cKDTree = self._kept["tree"]  # type: ignore[assignment]
-        return tree
+        return cKDTree(self.samples)
+
+    def nearest(self, points: Floats) -> tuple[Floats, NDArray[np.intp]]:
+        """Of points (n, 3): how far each is from its surface, as finely as that is sampled, and the sample there."""
+        distance, index = self.tree.query(points)
+        return np.asarray(distance, dtype=np.float64), np.asarray(index, dtype=np.intp)
 
     def distance(self, points: Floats) -> Floats:
         """(n,) how far points (n, 3) are from its surface, as finely as that is sampled."""
-        return np.asarray(self.tree.query(points)[0], dtype=np.float64)
+        return self.nearest(points)[0]
 
     def covered(self, center: Floats, ring: Floats, span: Floats, direction: Floats, plane: Floats) -> Floats:
-        """(n,) in [0, 1]: how much of rings around places (n, 2) in the plane across a direction, of those radii (n,), is
-        behind or before its surface, within `span` (n, 2) along the direction."""
+        """(n,) in [0, 1]: how much of rings around places (n, 2) in the plane across a direction, of radii `ring` (n,),
+        its surface covers within `span` (n, 2) along the direction."""
         found = np.zeros(len(center))
         if not len(center):
             return found
-        key = ("flat", *np.round(direction, 6).tolist())
-        if key not in self._kept:
+        key = _key(direction)
+        if key not in self._flats:
             corners = np.concatenate([s.points[s.shape.mesh.triangles] for s in self.solids])
             flat, height = corners @ plane.T, corners @ direction
-            self._kept[key] = (
+            self._flats[key] = (
                 flat, flat.min(axis=1), flat.max(axis=1), height.min(axis=1), height.max(axis=1)
             )  # fmt: skip
-        flat, low, high, bottom, top = self._kept[key]  # type: ignore[misc]
+        flat, low, high, bottom, top = self._flats[key]
         turn = np.linspace(0.0, 2 * math.pi, 8, endpoint=False)
         circle = np.stack([np.cos(turn), np.sin(turn)], axis=1)
         for k in range(len(center)):
@@ -90,31 +92,35 @@ class Body:
         return found
 
     def outline(self, direction: Floats, plane: Floats) -> tuple[Floats, Floats]:
-        """Unit vectors (24, 2) all around in the plane across a direction, and how far its surface reaches along each."""
-        key = ("outline", *np.round(direction, 6).tolist())
-        if key not in self._kept:
+        """Unit vectors (24, 2) all around in the plane across a direction, and how far its surface is along them."""
+        key = _key(direction)
+        if key not in self._outlines:
             turn = np.linspace(0.0, 2 * math.pi, 24, endpoint=False)
             ways = np.stack([np.cos(turn), np.sin(turn)], axis=1)
-            self._kept[key] = (ways, (self.samples @ plane.T @ ways.T).max(axis=0))
-        found: tuple[Floats, Floats] = self._kept[key]  # type: ignore[assignment]
-        return found
+            self._outlines[key] = (ways, (self.samples @ plane.T @ ways.T).max(axis=0))
+        return self._outlines[key]
 
     def rounds(
         self, direction: Floats, radii: tuple[float, float] = PIVOT, *, box: tuple[Floats, Floats] | None = None,
         outlines: bool = True,
     ) -> list[Round]:  # fmt: skip
-        """What is round about a unit direction, with radii in that range of machine sizes, of its solids that reach into
-        a box (low, high); without `outlines` only faces that were recognised."""
+        """What is round about a unit direction, with radii in that range of machine sizes, of its solids that reach
+        into a box (low, high); without `outlines` only faces that were recognised."""
         least, most = radii[0] * self.size, radii[1] * self.size
         found = []
         for solid in self.solids:
             if box is not None and ((solid.low > box[1]).any() or (solid.high < box[0]).any()):
                 continue
-            key = (solid.index, *np.round(direction, 6).tolist(), *radii, outlines)
+            key = (solid.index, *_key(direction), *radii, outlines)
             if key not in self._rounds:
                 self._rounds[key] = rounds_of(solid, direction, least, most, outlines=outlines)
             found += self._rounds[key]
         return found
+
+
+def _key(direction: Floats) -> tuple[float, ...]:
+    """What is the same for directions that are, to rounding."""
+    return tuple(np.round(direction, 6).tolist())
 
 
 def surface_points(solid: Solid, spacing: float) -> Floats:
@@ -194,7 +200,7 @@ def _outline_round(circle: OutlineCircle, center: Floats, direction: Floats, sol
     face = Cyl(
         center, direction, circle.radius, 0.5 * (circle.high - circle.low), circle.arc, circle.inner
     )  # fmt: skip
-    plain = replace(_round(face, solid, rough=False))
+    plain = _round(face, solid, rough=False)
     spread = _across(circle.arc, 0.01 * circle.radius + circle.rms)
     few = min(1.0, 0.4 + 0.1 * circle.corners)
     return replace(plain, spread=spread, quality=0.8 * few * plain.quality, what=f"{plain.what} of few sides")

@@ -99,9 +99,7 @@ def _wall_direction(bodies: list[Body], guess: Floats) -> Floats:
     return np.asarray(way if float(way @ guess) > ALONG else guess, dtype=np.float64)
 
 
-def _fitted(
-    faces: list[tuple[int, Cyl]], guess: Floats, bodies: int
-) -> tuple[Floats, Floats, float, float] | None:
+def _fitted(faces: list[tuple[int, Cyl]], guess: Floats, bodies: int) -> tuple[Floats, Floats, float, float] | None:
     """The least-squares line through the axes of the faces that most of them share: (point, direction, across, angle);
     of twins side by side in the same two bodies the one midway. None without a face of every body."""
     if not faces:

@@ -77,15 +77,13 @@ def direction_of(
         kept = alike[best]
         if weights[kept].sum() > 0.3 * weights.sum():
             return _mean(ways[kept], weights[kept], ways[best], expected)
-    near = None if steering else _wheels_beside(names, template, bodies, frame)
+    near = None if steering else wheels_beside(names, template, bodies, frame)
     return _without_faces([bodies[n] for n in names if n in bodies], slides, expected if near is None else near)
 
 
-def _wheels_beside(
-    names: Sequence[str], template: Template, bodies: Mapping[str, Body], frame: Frame
-) -> Floats | None:
-    """The axis of the wheels that hang on bodies of a linkage: it is the linkage's own direction where a machine is drawn
-    as it steers."""
+def wheels_beside(names: Sequence[str], template: Template, bodies: Mapping[str, Body], frame: Frame) -> Floats | None:
+    """The axis of the wheels that hang on bodies of a linkage: it is the linkage's own direction where a machine is
+    drawn as it steers."""
     wheels = {r.name for r in template.roles if r.kind == "wheel" and r.name in bodies}
     for joint in template.joints:
         pair = {str(b) for b in template.bodies_of(joint)}
@@ -203,9 +201,7 @@ def _without_faces(bodies: Sequence[Body], slides: Sequence[Line], expected: Flo
 
 def wheel_direction(wheel: Body, left: Floats | None) -> Direction:
     """The direction of a wheel's axis; `left` is the machine's, if it is known."""
-    faces = [
-        c for s in wheel.solids for c in s.cylinders if c.arc > 3.0 and LEAST_WHEEL * wheel.size < c.radius
-    ]
+    faces = [c for s in wheel.solids for c in s.cylinders if c.arc > 3.0 and LEAST_WHEEL * wheel.size < c.radius]
     if left is not None:
         faces = [c for c in faces if abs(float(c.direction @ left)) > 0.8]
     if faces:

@@ -10,13 +10,21 @@ import numpy as np
 
 from yellowiron.alignment.axes.bodies import Body, bodies_of
 from yellowiron.alignment.axes.cylinder_lines import cylinder_line
-from yellowiron.alignment.axes.directions import Direction, completed, direction_of, is_upright, linkages_of
+from yellowiron.alignment.axes.directions import (
+    Direction,
+    completed,
+    direction_of,
+    is_upright,
+    linkages_of,
+    wheels_beside,
+)
 from yellowiron.alignment.axes.hinges import Clues, bars_between, eye_of, hinge_candidates
 from yellowiron.alignment.axes.turning import slewing_candidate, wheel_candidate
 from yellowiron.alignment.axes.values import AxisEstimate, Candidate, Frame, Line
 from yellowiron.alignment.features.solids import Solid, size_of
 from yellowiron.model.geometry import Floats
 from yellowiron.model.template import JointTemplate, Template
+from yellowiron.support.vectors import unit
 
 WHEELS = ("wheel", "sprocket", "idler", "roller", "carrier")
 """Kinds of roles that turn about their own axis of symmetry."""
@@ -95,8 +103,12 @@ def _single(
         return _estimate(joint.name, [wheel_candidate(bodies[wheel], frame)])
     if is_upright([joint], template):
         return _estimate(joint.name, [slewing_candidate(bodies[a], bodies[b], frame)])
-    # What swings freely in no loop (an axle that wheels hang on) rolls: its wheels turn across the machine anyway.
-    ways = [w for w in ((frame.forward,) if joint.free else (frame.left, frame.forward, frame.up)) if w is not None]
+    ways = [w for w in (frame.left, frame.forward, frame.up) if w is not None]
+    if joint.free and frame.up is not None:
+        # What swings freely in no loop is an axle: it rolls, along the machine, across its wheels.
+        left = wheels_beside((a, b), template, bodies, frame)
+        left = frame.left if left is None else left
+        ways = [unit(np.cross(left, frame.up))] if left is not None else ways
     if not ways:
         ways = [direction_of([joint], template, bodies, {}, frame).vector]
     tried: list[Candidate] = []
@@ -160,7 +172,8 @@ def _with_twins(hinges: Mapping[str, list[Candidate]]) -> dict[str, list[Candida
             across = max(across, 0.7 * min(best.across, other.across), 0.5 * _apart(best, other))
             found[name] = [replace(best, origin=origin, across=across), *own[1:]]
         elif other.quality > 1.5 * best.quality:
-            twins = replace(moved, across=1.5 * other.across, quality=0.8 * other.quality, how=f"its twin's: {other.how}")
+            quality, how = 0.8 * other.quality, f"its twin's: {other.how}"
+            twins = replace(moved, across=1.5 * other.across, quality=quality, how=how)
             found[name] = [twins, *own]
     return found
 
@@ -199,7 +212,7 @@ def _slide(name: str, line: Line, template: Template, found: Mapping[str, AxisEs
         bodies = {str(b) for b in template.bodies_of(joint)}
         if joint.type == "revolute" and joint.name in found and len(bodies & pair) == 1:
             ends.append((next(iter(bodies & pair)), found[joint.name]))
-    by_body = {body: estimate for body, estimate in reversed(ends)}
+    by_body = dict(reversed(ends))
     if len(by_body) == 2 and line.angle > math.radians(0.6):
         one, other = (by_body[b] for b in sorted(by_body))
         flat = one.direction

@@ -53,9 +53,9 @@ class Meeting:
 
 @dataclass(frozen=True, eq=False)
 class Clues:
-    """What else is known of a hinge: the `line` of the hydraulic cylinder that one of its bodies is of, with where on it
-    its eye should be (`eye`, a coordinate along the line) and how well that is known (`room`, metres); `pivots` (n, 3)
-    of either body's scene nodes; round things of other parts that may be its pin (`bars`)."""
+    """What else is known of a hinge: the `line` of the hydraulic cylinder that one of its bodies is of, with where on
+    it its eye should be (`eye`, a coordinate along the line) and how well that is known (`room`, metres); `pivots`
+    (n, 3) of either body's scene nodes; round things of other parts that may be its pin (`bars`)."""
 
     line: Line | None = None
     eye: float = 0.0
@@ -77,7 +77,7 @@ class Spot:
 def meeting_of(a: Body, b: Body) -> Meeting:
     """Where two bodies come nearest to each other."""
     few, many = (a, b) if len(a.samples) <= len(b.samples) else (b, a)
-    distance, index = many.tree.query(few.samples)
+    distance, index = many.nearest(few.samples)
     gap = float(distance.min())
     close = distance <= 1.5 * gap + 0.006 * a.size
     points = np.concatenate([few.samples[close], many.samples[np.unique(index[close])]])
@@ -196,7 +196,7 @@ def _is_end(body: Body | None, center: Floats, r: Round, direction: Floats, plan
 
 def _nearest(points: Floats, ends: Floats) -> Floats:
     """(n,) the distance of axis segments (n, 5, 3) from points (m, 3)."""
-    return np.asarray(cKDTree(points).query(ends)[0].min(axis=1), dtype=np.float64)
+    return np.asarray(np.min(cKDTree(points).query(ends)[0], axis=1), dtype=np.float64)
 
 
 def _on_line(center: Floats, direction: Floats, plane: Floats, clues: Clues, size: float) -> Floats:
@@ -291,7 +291,7 @@ def _guess(
             middle, across = places[nearest], max(0.004 * a.size, 0.3 * float(away[nearest]))
             quality, how = 0.4, "a pivot of the scene's tree where the two bodies meet"
     height = float(meeting.center @ direction)
-    return Candidate(middle @ plane + height * direction, direction, across, lean, quality, how)
+    return Candidate(middle @ plane + height * direction, direction, across, lean, quality, how, rests_on_round=False)
 
 
 def bars_between(a: Body, b: Body, others: Sequence[Body], direction: Floats) -> tuple[Round, ...]:

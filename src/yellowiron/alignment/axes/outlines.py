@@ -1,5 +1,6 @@
-"""Circles in the outline of a mesh seen along a direction, where no cylinder was recognised: few-sided rounds, decimated
-bores, round ends of lugs. Three corners of the outline in a row are on one circle; corners that agree make a round."""
+"""Circles in the outline of a mesh seen along a direction, where no cylinder was recognised: few-sided rounds,
+decimated bores, round ends of lugs. Three corners of the outline in a row are on one circle; corners that agree make
+a round."""
 
 from __future__ import annotations
 

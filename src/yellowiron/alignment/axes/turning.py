@@ -33,7 +33,9 @@ def wheel_candidate(wheel: Body, frame: Frame) -> Candidate:
         center, score, spread = _commonest(rounds, plane, outline)
         if score > 0.0 and float(np.linalg.norm(center - outline)) < max(0.1 * radius, 3.0 * off):
             across = max(spread, 1e-4 * wheel.size)
-            return Candidate(center @ plane + height * way.vector, way.vector, across, way.angle, 1.0, "what is round in it")
+            return Candidate(
+                center @ plane + height * way.vector, way.vector, across, way.angle, 1.0, "what is round in it"
+            )
     across = max(off, 0.001 * wheel.size)
     return Candidate(outline @ plane + height * way.vector, way.vector, across, way.angle, 0.5, "its outline")
 

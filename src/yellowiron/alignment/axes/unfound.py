@@ -1,4 +1,4 @@
-"""The joints that the search did not find though both their bodies are there: an axis for each, and what to say of it."""
+"""The joints that the search did not find though both their bodies are there: an axis for each, and what to say."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from yellowiron.alignment.axes.estimate import estimate_axes
 from yellowiron.alignment.axes.values import AxisEstimate, Frame
 from yellowiron.alignment.features.solids import Solid
 from yellowiron.model.alignment import PartAssignment, Vector
-from yellowiron.model.finding import Finding
+from yellowiron.model.finding import Finding, Severity
 from yellowiron.model.geometry import Floats
 from yellowiron.model.template import Template
 from yellowiron.support.vectors import triple
@@ -67,7 +67,7 @@ def axis_findings(estimates: Mapping[str, AxisEstimate], size: float) -> list[Fi
         )
         if e.candidates and e.across > SURE * size:
             text += f"; {len(e.candidates)} other lines could be it"
-        severity = "warning" if e.across > SURE * size else "info"
+        severity: Severity = "warning" if e.across > SURE * size else "info"
         hint = "Compare it with the machine; give its pin that role in alignment.json, or draw the pin."
         findings.append(Finding("ALN016", severity, e.joint, text, hint))
     return findings

@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from yellowiron.alignment.features.solids import Cyl
 from yellowiron.model.geometry import Floats
+from yellowiron.support.vectors import angle_between_lines, distance_from_line
 
 
 @dataclass(frozen=True, eq=False)
 class Candidate:
-    """A line that a joint's axis may be: through `origin` (3,) along the unit `direction`, `across` and `angle` as of an
-    `AxisEstimate`, `quality` in [0, 1] for how much speaks for it, `how` in words."""
+    """A line that a joint's axis may be: through `origin` (3,) along the unit `direction`, `across` and `angle` as of
+    an `AxisEstimate`, `quality` in [0, 1] for how much speaks for it, `how` in words; whether it `rests_on_round`
+    things or on nothing but where bodies meet."""
 
     origin: Floats
     direction: Floats
@@ -21,6 +25,7 @@ class Candidate:
     angle: float
     quality: float
     how: str
+    rests_on_round: bool = True
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,6 +44,14 @@ class AxisEstimate:
     angle: float
     how: str
     candidates: tuple[Candidate, ...] = ()
+
+    def holds(self, origin: Sequence[float], direction: Sequence[float]) -> bool:
+        """Whether another line could be the same axis: within three sigma across it, and of its angle or 2°."""
+        way = np.asarray(direction, dtype=np.float64)
+        apart = distance_from_line(self.origin, np.asarray(origin, dtype=np.float64), way)
+        return apart < 3.0 * self.across and angle_between_lines(self.direction, way) < max(
+            3.0 * self.angle, math.radians(2.0)
+        )
 
 
 @dataclass(frozen=True, eq=False)
