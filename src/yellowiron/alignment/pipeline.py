@@ -12,6 +12,7 @@
 10. the machine's frame, then left and right
 11. pins, hardware and all the rest
 12. what a person said before
+13. an estimate of the axis of every joint that was not found
 """
 
 from __future__ import annotations
@@ -29,6 +30,7 @@ from yellowiron.alignment.assignment.root_fallback import with_root
 from yellowiron.alignment.assignment.search import BELIEVED, Search, variants_of
 from yellowiron.alignment.assignment.sheet_weights import sheet_findings
 from yellowiron.alignment.assignment.weights import side_weights
+from yellowiron.alignment.axes.unfound import axis_findings, lines_of, unfound_axes
 from yellowiron.alignment.features.distance import Touch
 from yellowiron.alignment.features.separate_parts import separate_parts
 from yellowiron.alignment.features.solids import solids_of
@@ -36,6 +38,7 @@ from yellowiron.alignment.features.telescopes import Nest
 from yellowiron.alignment.features.tracks import Track, tracks_of
 from yellowiron.alignment.fusion.reading import fused
 from yellowiron.alignment.labelling.coupler import with_couplers
+from yellowiron.alignment.labelling.place import pin_role
 from yellowiron.alignment.labelling.propagation import Propagation
 from yellowiron.alignment.labelling.result import Labels, to_alignment
 from yellowiron.alignment.labelling.review import name_findings, review_findings
@@ -111,7 +114,7 @@ def align(
         solids = solids_of(tracking)
         by_id |= on_tracks(by_id, rows, solids, Touch(solids, answer.contact * observation.size)) | rows
     documents = {item.part: item.reason for item in edits.parts if item.source == "data"} if edits is not None else {}
-    return to_alignment(
+    found = to_alignment(
         assembly,
         whole,
         answer,
@@ -133,6 +136,63 @@ def align(
             ),
         ],
     )
+    return _with_all_axes(found, assembly, whole, answer, observation, frame)
+
+
+def _with_all_axes(
+    found: Alignment,
+    assembly: Assembly,
+    template: Template,
+    answer: Answer,
+    observation: Observation,
+    frame: MachineFrame | None,
+) -> Alignment:
+    """The alignment with an estimate for every joint that the search did not find though both its bodies are there."""
+    known = _standing(found, answer, observation)
+    lent = _unplayed_axes(found, template, answer)
+    sure = frame.matrix if frame is not None and not frame.doubts else None
+    estimates = unfound_axes(
+        solids_of(assembly), found.parts, template, found=known - lent.keys(), size=observation.size, frame=sure
+    )
+    # Of two that say the same the search's is the more exact.
+    same = {j for j, e in estimates.items() if j in lent and j in known and e.holds(*lent[j])}
+    estimates = {j: e for j, e in estimates.items() if j not in same}
+    return replace(
+        found,
+        axes={**lent, **found.axes, **lines_of(estimates)},
+        findings=(*found.findings, *axis_findings(estimates, observation.size)),
+    )
+
+
+def _unplayed_axes(found: Alignment, template: Template, answer: Answer) -> dict[str, tuple[Vector, Vector]]:
+    """Joint → the axis that the search has for it, for those on a pin that has another role than theirs, or none."""
+    roles, structure = {p.role for p in found.parts}, answer.structure
+    axes = {j: structure.axes[structure.hinges[h].axis] for j, h in sorted(answer.solution.hinge_of.items())}
+    pinned = {j for j in axes if structure.hinges[answer.solution.hinge_of[j]].pins}
+    return {
+        j: (triple(axis.origin), triple(axis.direction))
+        for j, axis in axes.items()
+        if j in pinned and pin_role(template.joint(j), template) not in roles
+    }
+
+
+def _standing(found: Alignment, answer: Answer, observation: Observation) -> set[str]:
+    """The joints that the search found, of bodies that the alignment has where the search had them: a person's edits,
+    names and what followed may have put others there."""
+    body_of = {p.part: p.body for p in found.parts}
+    structure, solution, template = answer.structure, answer.solution, answer.template
+    clusters = {j: (structure.hinges[h].a, structure.hinges[h].b) for j, h in solution.hinge_of.items()}
+    clusters |= {j: structure.slides[s][:2] for j, s in solution.slide_of.items()}
+
+    def stands(cluster: int, bodies: set[str | None]) -> bool:
+        members = sorted(structure.clusters[cluster].members)
+        return sum(body_of.get(observation.solids[i].part.id) in bodies for i in members) > 0.5 * len(members)
+
+    return {
+        joint
+        for joint, pair in clusters.items()
+        if all(stands(c, {*template.bodies_of(template.joint(joint))}) for c in pair)
+    }
 
 
 def _without(assembly: Assembly, parts: Collection[str]) -> Assembly:

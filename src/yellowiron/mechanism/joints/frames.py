@@ -131,7 +131,8 @@ def _pivot(
     pins = [row for part in joint.parts if not template.role(part).rigid for row in placement.rows_of_role(part)]
     wheel = next((part for part in joint.parts if template.role(part).kind in WHEELS), None)
     bearing = pin_bearing(placement, pins, bodies) or shared_bearing(placement, bodies)
-    if not pins and joint.name in placement.axes:
+    # A pin that shows no axis (an open or faceted one) is none.
+    if joint.name in placement.axes and (bearing is None or not pins or not len(bearing.features)):
         found = Axis(*placement.axes[joint.name])
         if bearing is None or not agree(bearing.line, found):
             bearing = lone_bearing(placement, bodies, found)

@@ -1,0 +1,226 @@
+"""The axes of a machine's joints from its bodies alone: pins or not, bores or not, whole shells or open ones."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from yellowiron.alignment.axes.bodies import Body, bodies_of
+from yellowiron.alignment.axes.cylinder_lines import cylinder_line
+from yellowiron.alignment.axes.directions import (
+    Direction,
+    completed,
+    direction_of,
+    is_upright,
+    linkages_of,
+    wheels_beside,
+)
+from yellowiron.alignment.axes.hinges import Clues, bars_between, eye_of, hinge_candidates
+from yellowiron.alignment.axes.turning import slewing_candidate, wheel_candidate
+from yellowiron.alignment.axes.values import AxisEstimate, Candidate, Frame, Line
+from yellowiron.alignment.features.solids import Solid, size_of
+from yellowiron.model.geometry import Floats
+from yellowiron.model.template import JointTemplate, Template
+from yellowiron.support.vectors import unit
+
+WHEELS = ("wheel", "sprocket", "idler", "roller", "carrier")
+"""Kinds of roles that turn about their own axis of symmetry."""
+
+
+def estimate_axes(
+    solids: Sequence[Solid],
+    labels: Mapping[str, Sequence[int]],
+    template: Template,
+    *,
+    frame: Frame | None = None,
+    size: float | None = None,
+    pivots: Mapping[str, Floats] | None = None,
+) -> dict[str, AxisEstimate]:
+    """Joint → its axis, for every hinge and slide of a template (with its variants decided) between two bodies that
+    have solids.
+
+    `labels`: body → indices of its solids. `frame`: the machine's directions as far as they are known. `size`: the
+    machine's, metres (its solids' if None). `pivots`: body → (n, 3) origins of its scene nodes, CAD frame. Nothing
+    raises for want of evidence: an axis that nothing shows is a guess, with an uncertainty that says so.
+    """
+    if not solids:
+        return {}
+    size = size if size is not None else size_of(solids)
+    bodies = bodies_of(solids, sorted(labels.items()), size)
+    taken = {i for rows in labels.values() for i in rows}
+    loose = [Body(f"solid {s.index}", (s,), size) for s in solids if s.shaft is not None and s.index not in taken]
+    linkages = linkages_of(template, bodies)
+    lines = _lines(template, bodies, linkages)
+    frame = completed(frame or Frame(), linkages, template, bodies, lines)
+    found: dict[str, AxisEstimate] = {}
+    for linkage in linkages:
+        if len(linkage) == 1:
+            joint = linkage[0]
+            if joint.type == "revolute":
+                found[joint.name] = _single(joint, template, bodies, frame, pivots or {}, loose)
+            continue
+        way = direction_of(linkage, template, bodies, lines, frame)
+        hinges = {
+            j.name: _hinge(j, template, bodies, way, linkage, lines, pivots or {}, loose)
+            for j in linkage
+            if j.type == "revolute"
+        }
+        if not is_upright(linkage, template):
+            hinges = _with_twins(hinges)
+        found |= {name: _estimate(name, candidates) for name, candidates in hinges.items()}
+    for name, line in lines.items():
+        found[name] = _slide(name, line, template, found)
+    return {j.name: found[j.name] for j in template.joints if j.name in found}
+
+
+def _lines(
+    template: Template, bodies: Mapping[str, Body], linkages: Sequence[Sequence[JointTemplate]]
+) -> dict[str, Line]:
+    """Slide → the line of its cylinder."""
+    kinds = {r.name: r.kind for r in template.roles}
+    found = {}
+    for joint in (j for linkage in linkages for j in linkage if j.type == "prismatic"):
+        a, b = (str(name) for name in template.bodies_of(joint))
+        barrel, rod = (b, a) if kinds[a] == "rod" or kinds[b] == "barrel" else (a, b)
+        line = cylinder_line(bodies.get(barrel), bodies.get(rod))
+        if line is not None:
+            found[joint.name] = line
+    return found
+
+
+def _single(
+    joint: JointTemplate, template: Template, bodies: Mapping[str, Body], frame: Frame, pivots: Mapping[str, Floats],
+    loose: Sequence[Body],
+) -> AxisEstimate:  # fmt: skip
+    """The axis of a hinge in no loop: a wheel's, a slewing bearing's, or any other."""
+    kinds = {r.name: r.kind for r in template.roles}
+    a, b = (str(name) for name in template.bodies_of(joint))
+    wheel = next((name for name in (a, b) if kinds[name] in WHEELS), None)
+    if wheel is not None:
+        return _estimate(joint.name, [wheel_candidate(bodies[wheel], frame)])
+    if is_upright([joint], template):
+        return _estimate(joint.name, [slewing_candidate(bodies[a], bodies[b], frame)])
+    ways = [w for w in (frame.left, frame.forward, frame.up) if w is not None]
+    if joint.free and frame.up is not None:
+        # What swings freely in no loop is an axle: it rolls, along the machine, across its wheels.
+        left = wheels_beside((a, b), template, bodies, frame)
+        left = frame.left if left is None else left
+        ways = [unit(np.cross(left, frame.up))] if left is not None else ways
+    if not ways:
+        ways = [direction_of([joint], template, bodies, {}, frame).vector]
+    tried: list[Candidate] = []
+    for way in ways:
+        exact = direction_of([joint], template, bodies, {}, Frame(left=way, up=way))
+        bars = bars_between(bodies[a], bodies[b], _others(bodies, (a, b), loose), exact.vector)
+        clues = Clues(pivots=_pivots_of((a, b), pivots), bars=bars)
+        tried += hinge_candidates(bodies[a], bodies[b], exact.vector, clues, lean=exact.angle)
+    tried.sort(key=lambda c: -round(c.quality, 9))
+    return _estimate(joint.name, tried)
+
+
+def _others(bodies: Mapping[str, Body], pair: tuple[str, str], loose: Sequence[Body]) -> list[Body]:
+    return [*(body for name, body in bodies.items() if name not in pair), *loose]
+
+
+def _pivots_of(pair: tuple[str, str], pivots: Mapping[str, Floats]) -> Floats | None:
+    found = [np.asarray(pivots[name], dtype=np.float64).reshape(-1, 3) for name in pair if name in pivots]
+    return np.concatenate(found) if found else None
+
+
+def _hinge(
+    joint: JointTemplate, template: Template, bodies: Mapping[str, Body], way: Direction,
+    linkage: Sequence[JointTemplate], lines: Mapping[str, Line], pivots: Mapping[str, Floats], loose: Sequence[Body],
+) -> list[Candidate]:  # fmt: skip
+    """Where a hinge of a linkage may be."""
+    kinds = {r.name: r.kind for r in template.roles}
+    a, b = (str(name) for name in template.bodies_of(joint))
+    clues = Clues()
+    for name, other in ((a, b), (b, a)):
+        if kinds[name] not in ("barrel", "rod"):
+            continue
+        slide = next((j for j in linkage if j.name in lines and name in template.bodies_of(j)), None)
+        if slide is None or other in template.bodies_of(slide):
+            continue
+        line = lines[slide.name]
+        # With the rest of the cylinder: an eye may be drawn in one mesh with the other half.
+        halves = [bodies[str(n)] for n in template.bodies_of(slide)]
+        ahead = 1.0 if kinds[name] == "rod" else -1.0
+        clues = Clues(line, *eye_of(line, bodies[name], halves, bodies[other], way.vector, ahead))
+        break
+    bars = bars_between(bodies[a], bodies[b], _others(bodies, (a, b), loose), way.vector)
+    clues = replace(clues, pivots=_pivots_of((a, b), pivots), bars=bars)
+    return hinge_candidates(bodies[a], bodies[b], way.vector, clues, lean=way.angle)
+
+
+def _with_twins(hinges: Mapping[str, list[Candidate]]) -> dict[str, list[Candidate]]:
+    """The candidates of hinges; left and right twins turn about one line, so each of them has the other's best too, and
+    where both have the same, what both know."""
+    found = dict(hinges)
+    for name, own in hinges.items():
+        twin = hinges.get(_other_side(name) or "")
+        if not twin:
+            continue
+        best, other = own[0], twin[0]
+        moved = replace(other, origin=_beside(other, best.origin))
+        if _apart(best, other) < 2.0 * math.hypot(best.across, other.across):
+            share = other.across**2 / (best.across**2 + other.across**2)
+            origin = share * best.origin + (1 - share) * moved.origin
+            across = math.hypot(share * best.across, (1 - share) * other.across)
+            across = max(across, 0.7 * min(best.across, other.across), 0.5 * _apart(best, other))
+            found[name] = [replace(best, origin=origin, across=across), *own[1:]]
+        elif other.quality > 1.5 * best.quality:
+            quality, how = 0.8 * other.quality, f"its twin's: {other.how}"
+            twins = replace(moved, across=1.5 * other.across, quality=quality, how=how)
+            found[name] = [twins, *own]
+    return found
+
+
+def _beside(candidate: Candidate, point: Floats) -> Floats:
+    """A candidate's point beside another."""
+    return candidate.origin + float((point - candidate.origin) @ candidate.direction) * candidate.direction
+
+
+def _other_side(name: str) -> str | None:
+    """The name with left and right exchanged, None where it has no side."""
+    if "_l_" in name or "_l2" in name:
+        return name.replace("_l_", "_r_").replace("_l2", "_r2")
+    if "_r_" in name or "_r2" in name:
+        return name.replace("_r_", "_l_").replace("_r2", "_l2")
+    return None
+
+
+def _apart(one: Candidate, other: Candidate) -> float:
+    delta = one.origin - other.origin
+    return float(np.linalg.norm(delta - (delta @ other.direction) * other.direction))
+
+
+def _estimate(name: str, candidates: Sequence[Candidate]) -> AxisEstimate:
+    best = candidates[0]
+    return AxisEstimate(
+        name, best.origin, best.direction, best.across, best.angle, best.how, tuple(candidates[1:])
+    )  # fmt: skip
+
+
+def _slide(name: str, line: Line, template: Template, found: Mapping[str, AxisEstimate]) -> AxisEstimate:
+    """The axis of a slide: its line; where only its length tells that, the line from pivot to pivot."""
+    ends = []
+    pair = {str(b) for b in template.bodies_of(template.joint(name))}
+    for joint in template.joints:
+        bodies = {str(b) for b in template.bodies_of(joint)}
+        if joint.type == "revolute" and joint.name in found and len(bodies & pair) == 1:
+            ends.append((next(iter(bodies & pair)), found[joint.name]))
+    by_body = dict(reversed(ends))
+    if len(by_body) == 2 and line.angle > math.radians(0.6):
+        one, other = (by_body[b] for b in sorted(by_body))
+        flat = one.direction
+        start, end = (e.origin - float((e.origin - line.origin) @ flat) * flat for e in (one, other))
+        way = end - start
+        length = float(np.linalg.norm(way))
+        across = max(one.across, other.across)
+        if length > 0 and across / length < line.angle:
+            way = way / length if float(way @ line.direction) > 0 else -way / length
+            return AxisEstimate(name, start, way, across, across / length, "the line from pivot to pivot")
+    return AxisEstimate(name, line.origin, line.direction, line.across, line.angle, line.how)

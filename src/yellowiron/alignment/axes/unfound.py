@@ -1,0 +1,73 @@
+"""The joints that the search did not find though both their bodies are there: an axis for each, and what to say."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Mapping, Sequence
+
+import numpy as np
+
+from yellowiron.alignment.axes.estimate import estimate_axes
+from yellowiron.alignment.axes.values import AxisEstimate, Frame
+from yellowiron.alignment.features.solids import Solid
+from yellowiron.model.alignment import PartAssignment, Vector
+from yellowiron.model.finding import Finding, Severity
+from yellowiron.model.geometry import Floats
+from yellowiron.model.template import Template
+from yellowiron.support.vectors import triple
+
+SURE = 0.002
+"""An axis that is known to this share of the machine's size is told for information only."""
+
+
+def unfound_axes(
+    solids: Sequence[Solid],
+    parts: Sequence[PartAssignment],
+    template: Template,
+    *,
+    found: Collection[str],
+    size: float,
+    frame: Floats | None = None,
+    pivots: Mapping[str, Floats] | None = None,
+) -> dict[str, AxisEstimate]:
+    """Joint → its axis, for the template's hinges and slides that are not `found` though parts move with both of their
+    bodies. `frame`: the machine's (4, 4), CAD → machine, if it is known; `pivots` as of `estimate_axes`."""
+    body_of = {p.part: p.body for p in parts if p.body is not None}
+    labels: dict[str, list[int]] = {}
+    for solid in solids:
+        if solid.part.id in body_of:
+            labels.setdefault(body_of[solid.part.id], []).append(solid.index)
+    wanted = {
+        j.name
+        for j in template.joints
+        if j.type in ("revolute", "prismatic") and not j.ring and j.name not in found
+        and all(b in labels for b in template.bodies_of(j))
+    }  # fmt: skip
+    if not wanted:
+        return {}
+    ways = Frame(*(np.asarray(row) for row in frame[:3, :3])) if frame is not None else Frame()
+    estimates = estimate_axes(solids, labels, template, frame=ways, size=size, pivots=pivots)
+    return {name: e for name, e in estimates.items() if name in wanted}
+
+
+def lines_of(estimates: Mapping[str, AxisEstimate]) -> dict[str, tuple[Vector, Vector]]:
+    """The axes as an alignment holds them."""
+    return {name: (triple(e.origin), triple(e.direction)) for name, e in estimates.items()}
+
+
+def axis_findings(estimates: Mapping[str, AxisEstimate], size: float) -> list[Finding]:
+    """ALN016 for every axis that was estimated, the least sure first: to how many millimetres and degrees it is known,
+    and by what."""
+    order = sorted(estimates.values(), key=lambda e: (-round(e.across, 9), e.joint))
+    findings = []
+    for e in order:
+        text = (
+            f"No pin or common bore shows this joint: its axis is estimated to {1e3 * e.across:.0f} mm and "
+            f"{math.degrees(e.angle):.1f}° (one sigma), from {e.how}"
+        )
+        if e.candidates and e.across > SURE * size:
+            text += f"; {len(e.candidates)} other lines could be it"
+        severity: Severity = "warning" if e.across > SURE * size else "info"
+        hint = "Compare it with the machine; give its pin that role in alignment.json, or draw the pin."
+        findings.append(Finding("ALN016", severity, e.joint, text, hint))
+    return findings
