@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from yellowiron.cad.mesh.features.ovals import knuckles, ovals
-from yellowiron.cad.mesh.features.rings import rings
+from yellowiron.cad.mesh.features.rings import rings, untold
 from yellowiron.cad.mesh.features.roundness import Round, fit, grown, least, median, trimmed, widths
 from yellowiron.cad.mesh.features.soup import Flags, Indices, Soup, flat_facets, soup_of
 from yellowiron.cad.mesh.features.strips import by_folds, by_normals
@@ -86,7 +86,7 @@ def find(mesh: Mesh, number: Indices | None = None) -> MeshFeatures:
     errors = _ringed(soup, found, free)
     found.sort(key=lambda pair: int(pair[0].triangles.min()))
     return MeshFeatures(
-        tuple(_feature(soup, r, arc, errors.get(id(r), 0.0)) for r, arc in found),
+        tuple(_feature(soup, r, arc, errors.get(id(r)) or untold(soup, r)) for r, arc in found),
         _planes(soup, free),
         tuple(_feature(soup, k.round, k.arc) for k in knuckles(soup, free)),
     )

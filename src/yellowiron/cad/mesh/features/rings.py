@@ -24,11 +24,17 @@ _FOLD = math.radians(65.0)
 """Two facets of one wall meet at less than this angle: six to a circle, with a margin; walls and ends at more."""
 _CORNERS = 7
 """A wall has corners in at least so many directions from its axis: what has six is a nut."""
+_APART = math.radians(3.0)
+"""Two directions, seen from the axis, are two if they are this far apart."""
 _LEAN = 0.35
 """Sine of the most by which a facet of a wall leans from the axis: those of a thin plate's bore are twisted."""
 _ALL_ROUND = 0.3
 """The normals of a wall that goes all the way round, added up, leave no more than this share of their areas."""
-_STRAY = 0.6
+_GAP = math.radians(80.0)
+"""The widest gap between the corners of a wall, seen from its axis …"""
+_MANY = 9
+"""… if it has corners in so many directions; with fewer, it is `_FOLD`."""
+_STRAY = 0.8
 """A wall's corners stray from its cylinder by no more than this share of the arc's height over its widest chords."""
 _TOLD = 0.4
 """The share of that height by which a radius may be off: some programs move the corners that they leave outward."""
@@ -97,7 +103,7 @@ def _walls(soup: Soup, free: Flags, direction: Floats) -> Iterator[Indices]:
     """The pieces of connected free triangles along a direction that face all ways across it, in the order of their
     first triangles."""
     wall = free & (np.abs(soup.normals @ direction) < _LEAN)
-    tied = (soup.angle < _FOLD) & wall[soup.pair].all(axis=1)
+    tied = (soup.angle < _GAP) & wall[soup.pair].all(axis=1)
     label = linked(soup.pair[tied], len(soup.corners))
     count = np.bincount(label)
     size = np.bincount(label, weights=soup.areas)
@@ -124,14 +130,25 @@ def _ring(soup: Soup, rows: Indices, direction: Floats) -> Ring | None:
         return None
     angles = np.sort(np.arctan2(flat[:, 1] - center[1], flat[:, 0] - center[0]))
     gaps = np.append(np.diff(angles), angles[0] + math.tau - angles[-1])
-    if int((gaps > math.radians(3.0)).sum()) < _CORNERS or float(gaps.max()) > _FOLD:
+    corners = int((gaps > _APART).sum())
+    if corners < _CORNERS or float(gaps.max()) > (_GAP if corners >= _MANY else _FOLD):
         return None
-    wide = min(float(np.percentile(widths(soup, found, rows), _WIDE)), _FOLD)
-    height = radius * (1.0 - math.cos(0.5 * wide))
     stray = float(np.abs(np.linalg.norm(flat - center, axis=1) - radius).max())
-    if stray > _STRAY * height + ROUGH * radius:
+    if stray > _STRAY * _height(soup, found, 100.0) + ROUGH * radius:
         return None
-    return Ring(found, max(stray, _TOLD * height))
+    return Ring(found, max(stray, _TOLD * _height(soup, found)))
+
+
+def untold(soup: Soup, found: Round) -> float:
+    """How far (metres) the radius of a round may be off on which the corners of its facets lie: by what facets as wide
+    as its own cannot tell. 0 for narrow ones."""
+    return max(0.0, _TOLD * _height(soup, found) - ROUGH * found.radius)
+
+
+def _height(soup: Soup, found: Round, percentile: float = _WIDE) -> float:
+    """The height of the arcs over the chords of a round's wider facets, metres."""
+    wide = min(float(np.percentile(widths(soup, found, found.triangles), percentile)), _FOLD)
+    return found.radius * (1.0 - math.cos(0.5 * wide))
 
 
 def _circle(points: Floats) -> tuple[Floats, float] | None:
