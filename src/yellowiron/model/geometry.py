@@ -69,7 +69,8 @@ class CylinderFeature:
     The axis passes through `point` along the unit vector `direction`; the faces span [`lower`, `upper`]
     (metres along `direction`, measured from `point`) and `arc` radians around it (2π: a full cylinder).
     `inner` is true for a bore (material outside), false for a shaft. `exact` is true where it came from a
-    B-rep surface, false where it was fitted to triangles. `area` in m².
+    B-rep surface, false where it was fitted to triangles. `area` in m². `error`: metres by which the radius and the
+    axis may be off, where the triangles are too coarse, too noisy or too few to tell them.
     """
 
     point: tuple[float, float, float]
@@ -81,6 +82,7 @@ class CylinderFeature:
     inner: bool
     exact: bool = True
     area: float = 0.0
+    error: float = 0.0
 
     @property
     def length(self) -> float:

@@ -66,7 +66,7 @@ def discover(assembly: Assembly) -> FoundMachine:
         raise AlignmentError(
             "The CAD model has no parts", where=assembly.name, hint="Check that the file holds solids."
         )
-    apart = separate_parts(assembly)
+    apart = separate_parts(assembly, grounds=False)
     machine = replace(assembly, parts=tuple(p for p in assembly.parts if p.id not in apart))
     solids = solids_of(machine)
     tracks = tracks_of(solids)

@@ -5,5 +5,5 @@ In: an `Assembly`. Out: `Solid` for each part; `Fit`, `SharedAxis` and `Flat` fo
 
 In this order: `solids` (parts in the CAD frame), `distance` (how near meshes are, asked when needed), `contacts`;
 `cylinders` and `undrilled_cylinders`; `undrilled` and `pinless_pivots` (pivots that are not drawn as pins in bores);
-`telescopes`, `wheels`; `track_wheels` and `tracks`. `separate_parts` needs the assembly alone.
+`telescopes`, `wheels`; `track_wheels` and `tracks`. `separate_parts` and `ground` need the assembly alone.
 """

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from yellowiron.alignment.features.solids import Cyl, Patch, Solid, flat_faces, patch, size_of
+from yellowiron.alignment.features.solids import Cyl, Patch, Solid, flat_faces, parallel, patch, size_of
 from yellowiron.alignment.tolerances import FACING, PARALLEL, ROUND_ARC
 from yellowiron.model.geometry import Floats
 from yellowiron.support.vectors import distance_from_line
@@ -120,13 +120,14 @@ def bare_fits_of(solids: tuple[Solid, ...], fits: list[Fit], tolerance: float) -
         room = max(one.half, BESIDE * one.radius)
         for j in sorted(tree.query_ball_point(centres[k], one.half + room + longest + tolerance)):
             b, other = bores[j]
-            if a == b or (other.half, j) < (one.half, k) or abs(float(one.direction @ other.direction)) < PARALLEL:
+            if a == b or (other.half, j) < (one.half, k) or not parallel(one, other, PARALLEL):
                 continue
-            alike = abs(one.radius - other.radius) < max(tolerance, 0.03 * one.radius)
+            error = one.error + other.error
+            alike = abs(one.radius - other.radius) < max(tolerance, 0.03 * one.radius) + error
             near = other.interval(one.center, one.direction)
             apart = max(near[0] - one.half, -one.half - near[1])
             gap = other.off(one.center)
-            if alike and -0.1 * one.half < apart < room + tolerance and gap < max(tolerance, 0.02 * one.radius):
+            if alike and -0.1 * one.half < apart < room + tolerance and gap < max(tolerance, 0.02 * one.radius) + error:
                 found.append(Fit(a, b, one, other, 0.0, gap))
     return found
 
@@ -140,10 +141,11 @@ def _coordinates(cylinders: list[Cyl], origin: Floats, size: float) -> Floats:
 
 
 def _fit(inner: int, shaft: Cyl, outer: int, bore: Cyl, tolerance: float) -> Fit | None:
-    slack = max(tolerance, 0.02 * shaft.radius)
-    if not LOOSEST * bore.radius <= shaft.radius <= bore.radius * 1.004 + 0.2 * tolerance:
+    error = shaft.error + bore.error
+    slack = max(tolerance, 0.02 * shaft.radius) + error
+    if not LOOSEST * bore.radius - error <= shaft.radius <= bore.radius * 1.004 + 0.2 * tolerance + error:
         return None
-    if abs(float(shaft.direction @ bore.direction)) < PARALLEL:
+    if not parallel(shaft, bore, PARALLEL):
         return None
     gap = bore.off(
         shaft.center
@@ -188,7 +190,9 @@ def shared_axes_of(fits: list[Fit], tolerance: float) -> list[SharedAxis]:
             delta = shaft.center - np.array(origins)
             across = delta - np.einsum("ij,ij->i", delta, d)[:, None] * d
             off = np.linalg.norm(across, axis=1)
-            good = (np.abs(d @ shaft.direction) > PARALLEL) & (off < np.maximum(tolerance, 0.04 * shaft.radius))
+            good = (np.abs(d @ shaft.direction) > PARALLEL) & (
+                off < np.maximum(tolerance, 0.04 * shaft.radius) + shaft.error
+            )
             if good.any():
                 found = int(np.argmin(np.where(good, off, np.inf)))
         if found < 0:

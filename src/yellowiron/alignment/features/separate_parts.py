@@ -1,4 +1,4 @@
-"""What stands apart from the machine: a pallet beside it, a second machine in the same file."""
+"""What is no part of the machine: a pallet beside it, a second machine in the same file, the ground it stands on."""
 
 from __future__ import annotations
 
@@ -7,21 +7,27 @@ from collections.abc import Collection
 import numpy as np
 from numpy.typing import NDArray
 
+from yellowiron.alignment.features.ground import grounds_of
 from yellowiron.alignment.tolerances import FAR
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.geometry import Floats
 
 
-def separate_parts(assembly: Assembly, wanted: Collection[str] = ()) -> dict[str, float]:
+def separate_parts(assembly: Assembly, wanted: Collection[str] = (), *, grounds: bool = True) -> dict[str, float]:
     """Part id → metres (between boxes) to the machine, for the parts that stand apart from it.
 
     The machine is the group of most parts (then of most volume) of which each is near another; groups that hold one of
-    the `wanted` parts belong to it too. Parts without a mesh are never apart.
+    the `wanted` parts belong to it too. Parts without a mesh are never apart. With `grounds`, what all of the machine
+    stands on is none of it, 0 m away.
     """
     parts = [p for p in assembly.parts if len(assembly.shape_of(p).mesh.points)]
     if not parts:
         return {}
     points = [assembly.points_of(p) for p in parts]
+    under = [k for k in grounds_of(points) if parts[k].id not in wanted] if grounds else []
+    found = {parts[k].id: 0.0 for k in under}
+    points = [p for k, p in enumerate(points) if k not in under]
+    parts = [p for k, p in enumerate(parts) if k not in under]
     low = np.array([p.min(axis=0) for p in points])
     high = np.array([p.max(axis=0) for p in points])
     volume = np.array([assembly.shape_of(p).volume for p in parts])
@@ -36,7 +42,9 @@ def separate_parts(assembly: Assembly, wanted: Collection[str] = ()) -> dict[str
         main = mine
     kept = {g for g, p in zip(group.tolist(), parts, strict=True) if p.id in wanted}
     main = main | np.isin(group, sorted(kept))
-    return {parts[i].id: float(_gaps(low[i], high[i], low[main], high[main]).min()) for i in np.flatnonzero(~main)}
+    return found | {
+        parts[i].id: float(_gaps(low[i], high[i], low[main], high[main]).min()) for i in np.flatnonzero(~main)
+    }
 
 
 def _gaps(low: Floats, high: Floats, lows: Floats, highs: Floats) -> Floats:

@@ -15,13 +15,16 @@ from yellowiron.support.vectors import distance_from_line, triple
 
 FULL_ARC = 0.6 * 2 * math.pi
 """Radians around: more is taken for a whole cylinder (bores and shafts are often split, slotted or cross-drilled)."""
+MOST_TILT = 0.03
+"""Radians by which the axis of a coarse round face may be tilted at most: what is flat beside it tells it better."""
 SLIGHT = 5e-4
 """Volume over the cube of the diagonal: a hose has less, a plate or a bar more."""
 
 
 @dataclass(frozen=True, eq=False)
 class Cyl:
-    """A cylindrical face in the CAD frame: `center` midway on its axis, unit `direction`, half length `half`."""
+    """A cylindrical face in the CAD frame: `center` midway on its axis, unit `direction`, half length `half`; its
+    radius and axis may be off by `error` metres."""
 
     center: Floats
     direction: Floats
@@ -29,6 +32,7 @@ class Cyl:
     half: float
     arc: float
     inner: bool
+    error: float = 0.0
 
     @property
     def full(self) -> bool:
@@ -115,9 +119,18 @@ class Patch:
 
 def coaxial(a: Cyl, b: Cyl, slack: float, tolerance: float = 0.0) -> bool:
     """True if two cylinders share an axis within `slack` times the smaller radius, or `tolerance` metres."""
-    if abs(float(a.direction @ b.direction)) < 1 - 5e-6 * (1 + 100 * slack):
+    if not parallel(a, b, 1 - 5e-6 * (1 + 100 * slack)):
         return False
-    return b.off(a.center) <= max(tolerance, slack * min(a.radius, b.radius))
+    return b.off(a.center) <= max(tolerance, slack * min(a.radius, b.radius)) + a.error + b.error
+
+
+def parallel(a: Cyl, b: Cyl, cosine: float) -> bool:
+    """True if two axes are parallel within an angle of that cosine, and what the cylinders' errors tilt them by."""
+    found = abs(float(a.direction @ b.direction))
+    if found >= cosine or not (a.error or b.error):
+        return found >= cosine
+    tilt = sum(min(MOST_TILT, c.error / max(c.half, c.error)) for c in (a, b))
+    return math.acos(min(1.0, found)) <= math.acos(cosine) + tilt
 
 
 def size_of(solids: Sequence[Solid]) -> float:
@@ -183,7 +196,8 @@ def _solid(index: int, part: Part, shape: Shape, points: Floats, planes: tuple[P
 def _cyl(c: CylinderFeature, transform: Floats, turn: Floats, scale: float) -> Cyl:
     centre = np.asarray(c.center, dtype=np.float64) @ transform[:3, :3].T + transform[:3, 3]
     direction = turn @ np.asarray(c.direction, dtype=np.float64)
-    return Cyl(centre, direction / np.linalg.norm(direction), c.radius * scale, 0.5 * c.length * scale, c.arc, c.inner)
+    return Cyl(centre, direction / np.linalg.norm(direction), c.radius * scale, 0.5 * c.length * scale, c.arc, c.inner,
+               c.error * scale)  # fmt: skip
 
 
 def _extent(line: Cyl, points: Floats) -> tuple[float, float, float]:
@@ -200,7 +214,8 @@ def _symmetry(cylinders: tuple[Cyl, ...], points: Floats, centre: Floats, inerti
         return None
     line = max(full, key=lambda c: (round(c.radius * c.half, 9), not c.inner))
     reach = _extent(line, points)[0]
-    if line.off(centre) > 0.01 * reach:
+    coarse = line.error / line.radius
+    if line.off(centre) > (0.01 + coarse) * reach:
         return None
     second = 0.5 * np.trace(inertia) * np.eye(3) - inertia
     u = np.linalg.svd(line.direction[None, :])[2][1:]
@@ -211,7 +226,8 @@ def _symmetry(cylinders: tuple[Cyl, ...], points: Floats, centre: Floats, inerti
         return None
     uneven = math.hypot(0.5 * (across[0, 0] - across[1, 1]), across[0, 1]) / total
     leaning = float(np.linalg.norm(tilt)) / (total + 1e-12)
-    return line if uneven < 0.015 and leaning < 0.03 and _round_points(cylinders, points) is not None else None
+    even = uneven < 0.015 + 2 * coarse and leaning < 0.03 + 2 * coarse
+    return line if even and _round_points(cylinders, points) is not None else None
 
 
 def _round_points(cylinders: tuple[Cyl, ...], points: Floats) -> Cyl | None:
@@ -235,7 +251,10 @@ def _shaft(cylinders: tuple[Cyl, ...], points: Floats, volume: float) -> Cyl | N
         return None
     bar = max(bars, key=lambda c: round(c.radius * c.half, 9))
     # A left and a right pin may be one part.
-    equal = [c for c in bars if abs(c.radius - bar.radius) < 0.01 * bar.radius and coaxial(c, bar, 0.02)]
+    equal = [
+        c for c in bars
+        if abs(c.radius - bar.radius) < 0.01 * bar.radius + c.error + bar.error and coaxial(c, bar, 0.02)
+    ]  # fmt: skip
     length = sum(2 * c.half for c in equal)
     if length < bar.radius:
         return None

@@ -77,7 +77,8 @@ def _assignment(part: str, template: Template, labels: Labels, *, whole: bool, r
             return PartAssignment(part, said, body, 1.0, labels.documents[part], "data", before)
         return PartAssignment(part, said, body, 1.0, "set by a person", "edited", before)
     if part in labels.apart:
-        words = f"stands {labels.apart[part]:.3g} m from every part of the machine"
+        metres = labels.apart[part]
+        words = f"stands {metres:.3g} m from every part of the machine" if metres else "lies under the whole machine"
         return PartAssignment(part, None, None, APART, words)
     if place is None:
         return PartAssignment(part, None, None, 0.0, "nothing speaks for any role")

@@ -115,10 +115,15 @@ def _to_one_side(barrels: Sequence[str]) -> Iterator[Finding]:
 
 def _standing_apart(apart: Mapping[str, float], count: int, template: Template) -> Iterator[Finding]:
     where = template.equipment_type
+    hint = "They are left out of the machine; set their role in alignment.json (null: left out)."
+    under = sorted(part for part, metres in apart.items() if not metres)
+    if under:
+        text = f"The whole machine stands on what is taken for the ground: {_some(under)}"
+        yield Finding("ALN009", "warning", where, text, hint)
+    apart = {part: metres for part, metres in apart.items() if metres}
     if apart:
         least = min(apart.values())
         text = f"{len(apart)} parts stand {least:.3g} m or more from the machine: {_some(sorted(apart))}"
-        hint = "They are left out of the machine; set their role in alignment.json (null: left out)."
         yield Finding("ALN009", "warning", where, text, hint)
     if len(apart) > SECOND * count:
         text = f"The CAD model seems to hold more than one machine: {len(apart)} parts stand apart"

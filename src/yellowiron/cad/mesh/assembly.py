@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from yellowiron.cad.mesh import copies, measures, shells
+from yellowiron.cad.mesh import copies, measures, mending, shells
 from yellowiron.cad.mesh.features import facets
 from yellowiron.cad.naming import listed, unique_ids
 from yellowiron.cad.tolerances import LARGEST, SMALLEST
@@ -100,17 +100,17 @@ def _shared(occurrences: Sequence[Occurrence]) -> list[Occurrence]:
 def shape_of(mesh: Mesh, name: str, color: Color | None = None, finishes: tuple[Finish, ...] = ()) -> Shape:
     """The shape of a mesh of triangles: measured, turned right side out, with the cylinders and planes that fit it.
 
-    A closed mesh has its volume, centre and inertia; one that is open anywhere counts as a shell, whose centre is
-    that of its area and whose volume is that of its closed pieces. `mesh` has no triangle without an area.
+    A mesh that is open anywhere has the volume, centre and inertia that it would have with its openings closed; one
+    that encloses nothing then (a flat sheet) the centre of its area. Triangles that are there twice count once. `mesh`
+    has no triangle without an area.
     """
-    number = measures.welded(mesh)
-    turned, volume, closed = shells.right_side_out(mesh, number)
-    mesh = _dressed(turned, mesh)
-    area, centroid = measures.area_properties(mesh)
-    inertia = np.zeros((3, 3))
-    if closed:
-        volume, centroid, inertia = measures.volume_properties(mesh)
-    found = facets.find(mesh, number)
+    whole = mending.mended(mesh)
+    mesh, closed = _dressed(whole.mesh, mesh), whole.closed
+    area, middle = measures.area_properties(whole.once)
+    volume, centroid, inertia = measures.volume_properties(whole.filled)
+    if volume <= 0.0:
+        volume, centroid, inertia = 0.0, middle, np.zeros((3, 3))
+    found = facets.find(whole.once, whole.number)
     return Shape(
         key=_painted(measures.content_key(mesh), mesh, color, finishes),
         name=name,

@@ -80,12 +80,12 @@ def content_key(mesh: Mesh) -> str:
     return digest.hexdigest()[:32]
 
 
-def welded(mesh: Mesh) -> NDArray[np.int64]:
-    """(n,) for every point the number of the point it is one with: those nearer than `WELD` of the size, or than the
-    rounding of coordinates in single precision."""
+def welded(mesh: Mesh, coarser: float = 1.0) -> NDArray[np.int64]:
+    """(n,) for every point the number of the point it is one with: those nearer than `WELD` of the size (`coarser`: so
+    many times that), or than the rounding of coordinates in single precision."""
     low, high = bounds(mesh)
     rounding = 4.0 * float(np.finfo(np.float32).eps) * float(max(np.abs(low).max(), np.abs(high).max()))
-    step = max(float(np.linalg.norm(high - low)) * WELD, rounding, 1e-12)
+    step = max(coarser * float(np.linalg.norm(high - low)) * WELD, rounding, 1e-12)
     points, own = _distinct(mesh.points)
     pairs = cKDTree(points).query_pairs(step, output_type="ndarray")
     label = linked(pairs, len(points))
@@ -106,6 +106,18 @@ def _distinct(points: Floats) -> tuple[Floats, NDArray[np.int64]]:
     if not np.array_equal(distinct[own], points):
         distinct, own = np.unique(points, axis=0, return_inverse=True)
     return distinct, np.asarray(own, dtype=np.int64).reshape(-1)
+
+
+def distinct_triangles(corners: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """The first triangles of those with the same three corners, and for every triangle the number of its first."""
+    ordered = np.sort(corners, axis=1)
+    base = int(corners.max()) + 1
+    if base < 2_000_000:
+        keys = (ordered[:, 0] * base + ordered[:, 1]) * base + ordered[:, 2]
+        _, first, same = np.unique(keys, return_index=True, return_inverse=True)
+    else:
+        _, first, same = np.unique(ordered, axis=0, return_index=True, return_inverse=True)
+    return first.astype(np.int64), same.reshape(-1).astype(np.int64)
 
 
 def compacted(mesh: Mesh) -> Mesh:

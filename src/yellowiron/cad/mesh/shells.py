@@ -110,7 +110,8 @@ def solids(mesh: Mesh) -> Indices:
     count = int(label.max()) + 1 if len(label) else 0
     if count < 2:
         return label
-    volume, sound, low, high = _measures(mesh, number, label, count)
+    volume, low, high = piece_measures(mesh, label, count)
+    sound = closed_pieces(number[mesh.triangles], label, count)
     sign = 1.0 if float(volume[sound].sum()) >= 0.0 else -1.0
     home = np.arange(count)
     for k in np.flatnonzero(sound & (sign * volume < 0.0)).tolist():
@@ -126,10 +127,9 @@ def solids(mesh: Mesh) -> Indices:
     return np.asarray(used, dtype=np.int64)
 
 
-def _measures(
-    mesh: Mesh, number: Indices, label: Indices, count: int
-) -> tuple[Floats, NDArray[np.bool_], Floats, Floats]:
-    """Of every piece: the signed volume, whether it is closed, and its bounds."""
+def piece_measures(mesh: Mesh, label: Indices, count: int) -> tuple[Floats, Floats, Floats]:
+    """Of each of `count` pieces, which `label` (m,) numbers: the signed volume, and the (count, 3) least and largest
+    coordinates."""
     corners = mesh.points[mesh.triangles]
     shifted = corners - mesh.points.mean(axis=0)
     signed = np.einsum("ij,ij->i", shifted[:, 0], cross(shifted[:, 1], shifted[:, 2])) / 6.0
@@ -138,7 +138,7 @@ def _measures(
     high: Floats = np.full((count, 3), -np.inf)
     np.minimum.at(low, label, corners.min(axis=1))
     np.maximum.at(high, label, corners.max(axis=1))
-    return volume, _closed_pieces(number[mesh.triangles], label, count), low, high
+    return volume, low, high
 
 
 def _winding(corners: Floats, point: Floats) -> float:
@@ -150,28 +150,7 @@ def _winding(corners: Floats, point: Floats) -> float:
     return float(np.arctan2(over, below).sum() / (math.tau))
 
 
-def right_side_out(mesh: Mesh, number: Indices | None = None) -> tuple[Mesh, float, bool]:
-    """The mesh with every closed piece turned to face outward, the volume of the closed pieces (m³, hollows within
-    others taken off), and whether all of it is closed. `number` is `welded(mesh)`, where that is known."""
-    number = welded(mesh) if number is None else number
-    label = components(mesh, number)
-    count = int(label.max()) + 1
-    volume, sound, low, high = _measures(mesh, number, label, count)
-    flip = np.zeros(count, dtype=bool)
-    for k in np.flatnonzero(sound & (volume < 0.0)):
-        around = sound & (volume > -volume[k]) & (low <= low[k]).all(axis=1) & (high >= high[k]).all(axis=1)
-        flip[k] = not around.any()
-    turned = flip[label]
-    triangles = np.where(turned[:, None], mesh.triangles[:, ::-1], mesh.triangles).astype(np.int32)
-    normals = mesh.normals
-    if normals is not None and turned.any():
-        normals = normals.copy()
-        normals[np.unique(mesh.triangles[turned])] *= -1.0
-    total = float(np.where(flip, -volume, volume)[sound].sum())
-    return Mesh(mesh.points, triangles, normals, mesh.triangle_colors), max(0.0, total), bool(sound.all())
-
-
-def _closed_pieces(triangles: Indices, label: Indices, count: int) -> NDArray[np.bool_]:
+def closed_pieces(triangles: Indices, label: Indices, count: int) -> NDArray[np.bool_]:
     """(count,) which pieces have every edge once in each direction, or as often in one as in the other."""
     edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
     piece = np.tile(label, 3)

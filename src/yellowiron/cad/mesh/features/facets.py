@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from yellowiron.cad.mesh.features.ovals import knuckles, ovals
+from yellowiron.cad.mesh.features.rings import rings, untold
 from yellowiron.cad.mesh.features.roundness import Round, fit, grown, least, median, trimmed, widths
 from yellowiron.cad.mesh.features.soup import Flags, Indices, Soup, flat_facets, soup_of
 from yellowiron.cad.mesh.features.strips import by_folds, by_normals
@@ -41,6 +42,8 @@ _ROUND = 0.996
 """What has less than this between its two radii is oval."""
 _SLENDER = 4.0
 """What is left of a patch that was no cylinder is one only if it is this many radii long."""
+_PIECE = 0.9 * math.tau
+"""What goes less far around, radians, may be a piece of a ring."""
 _TRIES = 1
 """What has been part of so many patches that were not round is bent in two directions, and not tried again."""
 
@@ -80,12 +83,34 @@ def find(mesh: Mesh, number: Indices | None = None) -> MeshFeatures:
                 free[cylinder.triangles] = False
     rounds = _united(soup, rounds)
     found += [(r, _arc(soup, r)) for r in rounds] + _ovals(soup, free, whole=False)
+    errors = _ringed(soup, found, free)
     found.sort(key=lambda pair: int(pair[0].triangles.min()))
     return MeshFeatures(
-        tuple(_feature(soup, r, arc) for r, arc in found),
+        tuple(_feature(soup, r, arc, errors.get(id(r)) or untold(soup, r)) for r, arc in found),
         _planes(soup, free),
         tuple(_feature(soup, k.round, k.arc) for k in knuckles(soup, free)),
     )
+
+
+def _ringed(soup: Soup, found: list[tuple[Round, float]], free: Flags) -> dict[int, float]:
+    """Adds the rings to what was found, no longer free, in place of the pieces of them that were; the errors of the
+    rounds, metres, by their `id`."""
+    partial = [pair for pair in found if pair[1] < _PIECE]
+    open_ = free.copy()
+    for piece, _ in partial:
+        open_[piece.triangles] = True
+    errors = {}
+    for ring in rings(soup, open_, _TINY * soup.size):
+        arc = _arc(soup, ring.round)
+        if arc < _PIECE or _smooth_ends(soup, ring.round, arc):
+            continue
+        inside = np.zeros(len(soup.corners), dtype=bool)
+        inside[ring.round.triangles] = True
+        found[:] = [pair for pair in found if not inside[pair[0].triangles].any()]
+        found.append((ring.round, arc))
+        free[ring.round.triangles] = False
+        errors[id(ring.round)] = ring.error
+    return errors
 
 
 # ---- what is round ----
@@ -235,7 +260,7 @@ def _runs(soup: Soup, cylinder: Round, rows: Indices) -> list[Indices]:
     return [np.sort(rows[part]) for part in np.split(order, cut)]
 
 
-def _feature(soup: Soup, cylinder: Round, arc: float) -> CylinderFeature:
+def _feature(soup: Soup, cylinder: Round, arc: float, error: float = 0.0) -> CylinderFeature:
     along = cylinder.along(soup.points[soup.corners[cylinder.triangles]].reshape(-1, 3))
     low, high = float(along.min()), float(along.max())
     direction = _canonical(cylinder.direction)
@@ -251,6 +276,7 @@ def _feature(soup: Soup, cylinder: Round, arc: float) -> CylinderFeature:
         inner=cylinder.inner,
         exact=False,
         area=float(soup.areas[cylinder.triangles].sum()),
+        error=error,
     )
 
 

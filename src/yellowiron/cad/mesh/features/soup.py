@@ -124,7 +124,7 @@ def soup_of(mesh: Mesh, number: Indices | None = None) -> Soup:
     size = float(np.linalg.norm(high - low))
     good = twice > 1e-14 * size**2
     # Shells that are drawn from both sides count once.
-    first = np.unique(np.sort(corners, axis=1), axis=0, return_index=True)[1]
+    first = measures.distinct_triangles(corners)[0]
     once = np.zeros(len(corners), dtype=bool)
     once[first] = True
     good &= once

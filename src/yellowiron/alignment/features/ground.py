@@ -1,0 +1,56 @@
+"""What the machine stands on: a drawn floor, a pallet, the slab of a scene."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from scipy.spatial import ConvexHull, QhullError
+
+from yellowiron.model.geometry import Floats
+
+THIN = 0.08
+"""A ground is no thicker than this share of its shorter side."""
+SUNK = 0.02
+"""What stands on a ground may be sunk into it by this share of the machine's size."""
+UNDER = 0.98
+"""A ground lies under this share of all points of the machine at least …"""
+WIDER = 1.05
+"""… and is this many times as large as what they cover of it."""
+FEWEST = 8
+"""So many parts stand on it at least: less is a model of something else, on its base."""
+
+
+def grounds_of(points: Sequence[Floats]) -> list[int]:
+    """The parts, by the numbers of their points (n, 3), that are grounds: flat, under all others, and wider than these
+    together. Whatever stands on a ground is not held by it."""
+    sizes = np.array([float(np.linalg.norm(np.ptp(p, axis=0))) for p in points])
+    found: list[int] = []
+    for k in sorted(np.flatnonzero(sizes >= 0.5 * sizes.max(initial=0.0)).tolist(), key=lambda k: (-sizes[k], k)):
+        others = [p for i, p in enumerate(points) if i != k and i not in found]
+        if len(others) >= FEWEST and _is_under(points[k], np.concatenate(others)):
+            found.append(k)
+    return found
+
+
+def _is_under(ground: Floats, others: Floats) -> bool:
+    """Whether points are those of a ground to other points."""
+    middle = ground.mean(axis=0)
+    axes = np.linalg.eigh((ground - middle).T @ (ground - middle))[1].T[::-1]
+    flat = (ground - middle) @ axes.T
+    _, short, thick = np.ptp(flat, axis=0)
+    if thick > THIN * short or short <= 0.0:
+        return False
+    over = (others - middle) @ axes.T
+    sunk = SUNK * float(np.linalg.norm(np.ptp(over, axis=0)))
+    above = (over[:, 2] > flat[:, 2].min() - sunk).mean(), (over[:, 2] < flat[:, 2].max() + sunk).mean()
+    if max(above) < 1.0:
+        return False
+    try:
+        hull, covered = ConvexHull(flat[:, :2]), ConvexHull(over[:, :2])
+    except QhullError:
+        return False
+    if hull.volume < WIDER * covered.volume:  # of two dimensions: the areas
+        return False
+    inside = (over[:, :2] @ hull.equations[:, :2].T + hull.equations[:, 2] <= sunk).all(axis=1)
+    return bool(inside.mean() >= UNDER)

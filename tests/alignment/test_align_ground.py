@@ -1,0 +1,61 @@
+"""What a machine stands on is no part of it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from kit.machines.defects import drawn
+from kit.machines.solids import box
+from kit.machines.synthetic import Machine, disguise
+from yellowiron.alignment import align
+from yellowiron.alignment.features.separate_parts import separate_parts
+from yellowiron.library import load_template
+from yellowiron.model.assembly import Part
+from yellowiron.model.specification import Specifications
+
+
+def _standing(machine: Machine, wider: float) -> tuple[Machine, str]:
+    """The machine on a slab so many times as long and wide, and the slab's id."""
+    points = np.concatenate([machine.assembly().points_of(p) for p in machine.parts])
+    low, high = points.min(axis=0), points.max(axis=0)
+    length, width = wider * (high - low)[:2]
+    slab = replace(machine, parts=list(machine.parts), shapes=dict(machine.shapes), truth=dict(machine.truth))
+    place = np.eye(4)
+    place[:3, 3] = [*(0.5 * (low + high))[:2], low[2] - 0.05]
+    slab.pose = np.eye(4)
+    slab.add("slab", "", "", box("slab", length, width, 0.1), place)
+    return slab, slab.parts[-1].id
+
+
+@pytest.mark.parametrize("kind", ["loader", "excavator"])
+def test_a_slab_under_the_machine_is_the_ground(kind: str) -> None:
+    machine, slab = _standing(drawn(kind, 3), 1.5)
+    assert separate_parts(machine.assembly()) == {slab: 0.0}
+    assert separate_parts(machine.assembly(), [slab]) == {}
+    assert separate_parts(machine.assembly(), grounds=False) == {}
+
+
+def test_a_slab_narrower_than_the_machine_may_be_a_part_of_it() -> None:
+    machine, _ = _standing(drawn("loader", 3), 0.8)
+    assert separate_parts(machine.assembly()) == {}
+
+
+def test_a_model_of_few_parts_may_have_a_base() -> None:
+    machine, _ = _standing(drawn("loader", 3), 1.5)
+    few: list[Part] = machine.parts[-4:]
+    assert separate_parts(replace(machine, parts=few).assembly()) == {}
+
+
+def test_a_machine_on_a_slab_is_told_as_without() -> None:
+    machine, slab = _standing(drawn("loader", 3), 1.5)
+    assembly, truth, _ = disguise(machine, 3)
+    found = align(assembly, load_template("wheel_loader"), Specifications())
+    ground = [p for p in found.parts if not truth[p.part][0]]
+    assert [(p.role, p.body, p.reason) for p in ground] == [(None, None, "lies under the whole machine")]
+    assert ground[0].confidence > 0.9
+    assert "ALN009" in {f.code for f in found.findings}
+    assert slab in machine.truth
+    assert all(p.body == truth[p.part][1] for p in found.parts)
