@@ -43,6 +43,49 @@ class _Best:
     votes: Votes
 
 
+@dataclass(frozen=True, eq=False)
+class Evidence:
+    """What a machine is judged by: its pieces, which of them can be what a body mainly is (`leading`), the bonds of all,
+    how far names are trusted, how the machine stands, what the names say of each solid, what the contacts gave, and
+    what a person said."""
+
+    pieces: tuple[Piece, ...]
+    leading: tuple[int, ...]
+    bonds: tuple[Bond, ...]
+    trust: float
+    stance: Stance
+    scores: Sequence[Mapping[str, float]]
+    answer: Answer
+    edited: Mapping[int, str]
+
+    @property
+    def between(self) -> list[Bond]:
+        """The bonds of the leading pieces, numbered as these are."""
+        number = {k: n for n, k in enumerate(self.leading)}
+        return [replace(b, a=number[b.a], b=number[b.b]) for b in self.bonds if b.a in number and b.b in number]
+
+    def votes(self, template: Template) -> Votes:
+        """What speaks for every piece and body of a template with its variants decided."""
+        return votes_of(self.pieces, template, self.scores, self.trust, self.answer, self.stance, self.edited)
+
+
+def evidence_of(
+    observation: Observation,
+    scores: Sequence[Mapping[str, float]],
+    answer: Answer,
+    edited: Mapping[int, str],
+    template: Template,
+) -> Evidence:
+    """Everything that is known before anything is judged; the arguments are those of `fused`."""
+    directions = [np.asarray(axis.direction) for axis in answer.structure.axes[:3]]
+    stance = stance_of(observation.solids, observation.size, directions)
+    pieces = pieces_of(observation, frozenset(i for i, said in enumerate(scores) if said) | frozenset(edited))
+    bonds = tuple(bonds_of(observation, pieces, answer.structure, stance))
+    trust = trust_in_names(pieces, bonds, scores, choose(template, {}))
+    leads = tuple(leading(pieces, observation.size))
+    return Evidence(pieces, leads, bonds, trust, stance, scores, answer, edited)
+
+
 def fused(
     observation: Observation,
     template: Template,
@@ -56,31 +99,26 @@ def fused(
     `template` with its variants open, `variants` the choices to try; `scores`: by solid, what its names say; `answer`:
     what the contacts alone gave; `edited`: solid → the body a person gave it. The solution's joints are those that the
     contacts show an exact axis of."""
-    directions = [np.asarray(axis.direction) for axis in answer.structure.axes[:3]]
-    stance = stance_of(observation.solids, observation.size, directions)
-    pieces = pieces_of(observation, frozenset(i for i, said in enumerate(scores) if said) | frozenset(edited))
-    bonds = bonds_of(observation, pieces, answer.structure, stance)
-    trust = trust_in_names(pieces, bonds, scores, choose(template, {}))
-    chief = leading(pieces, observation.size)
-    number = {k: n for n, k in enumerate(chief)}
-    between = [replace(b, a=number[b.a], b=number[b.b]) for b in bonds if b.a in number and b.b in number]
+    evidence = evidence_of(observation, scores, answer, edited, template)
 
-    def tried(chosen: dict[str, str], stance: Stance) -> _Best:
+    def tried(chosen: dict[str, str], evidence: Evidence) -> _Best:
         resolved = choose(template, chosen)
-        votes = votes_of(pieces, resolved, scores, trust, answer, stance, edited)
-        field = field_of([votes[k] for k in chief], between, resolved, weights())
+        votes = evidence.votes(resolved)
+        field = field_of([votes[k] for k in evidence.leading], evidence.between, resolved, weights())
         labels, score = labelled(field)
         played = {field.bodies[n] for n in labels if n < len(field.bodies)}
         score -= MISSING * sum(1 for r in resolved.roles if r.rigid and not r.optional and r.name not in played)
         return _Best(score, chosen, resolved, field, labels, votes)
 
     # Which end is the front is a guess so far.
-    stance = max((stance, stance.turned()), key=lambda s: tried(variants[0], s).score)
-    best = max((tried(chosen, stance) for chosen in variants), key=lambda b: b.score)
+    turned = replace(evidence, stance=evidence.stance.turned())
+    evidence = max((evidence, turned), key=lambda e: tried(variants[0], e).score)
+    best = max((tried(chosen, evidence) for chosen in variants), key=lambda b: b.score)
+    pieces, chief, bonds, trust = evidence.pieces, evidence.leading, evidence.bonds, evidence.trust
     judged = _judged(best, pieces, chief, bonds)
     judged = {i: what for i, what in judged.items() if not _is_pin(i, what, observation, best.template)}
     judged |= _by_name_alone(observation, pieces, scores, trust, judged)
-    return _answer(observation, best, judged, answer), stance
+    return _answer(observation, best, judged, answer), evidence.stance
 
 
 def trust_in_names(
