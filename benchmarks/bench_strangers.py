@@ -2,13 +2,13 @@
 
     python benchmarks/bench_strangers.py [--first SEED] [--count N] [--kinds loader,excavator] [--damages half,opened]
         [--names with,without] [--turn upright|any] [--jobs N] [--limit S] [--out FILE.json] [--words]
-    python benchmarks/bench_strangers.py --real [--models DIR] [--labels DIR] [--only NAME,…] [--held-back] [--names …] …
+    python benchmarks/bench_strangers.py --real [--models DIR] [--labels DIR] [--only NAME,…] [--held-back] …
     python benchmarks/bench_strangers.py --sizes
 
 From the repository's root. `tests/kit/machines/damages.py` has the damages, `tests/kit/scoring.py` the rules by which a
 part, a role and a joint are right; areas are in per cent. Every machine is read from triangles in single precision and
 solved as `yellowiron align` does, without a sheet; seconds are CPU time of that, reading not counted. After `--limit`
-seconds a machine is given up, which counts as all wrong and flagged. Seeds from 1000 on are held back.
+of these seconds a machine is given up, which counts as all wrong and flagged. Seeds from 1000 on are held back.
 
 Real models are those of `benchmarks/strangers/*.json` and of `../shared/data`; their CAD is looked for in `--models`
 (default: the environment's YELLOWIRON_STRANGERS; several folders with ':' between them). What is not there is said. Of
@@ -65,10 +65,10 @@ def _give_up(*_: object) -> None:
 
 
 def solved(given: Scene, limit: int) -> Result:
-    """What alignment makes of a scene within so many seconds of wall clock."""
+    """What alignment makes of a scene within so many seconds of CPU time."""
     template = load_template(given.type)
-    signal.signal(signal.SIGALRM, _give_up)
-    signal.alarm(limit)
+    signal.signal(signal.SIGPROF, _give_up)
+    signal.setitimer(signal.ITIMER_PROF, limit)
     start = time.process_time()
     try:
         assembly, found = find_roles(given.assembly, template, Specifications())
@@ -89,7 +89,7 @@ def solved(given: Scene, limit: int) -> Result:
         failed = str(error) or f"given up after {limit} s"
         return {"seconds": time.process_time() - start, "failed": failed, **lost}
     finally:
-        signal.alarm(0)
+        signal.setitimer(signal.ITIMER_PROF, 0)
     result = score(assembly, found, mechanism, given.truth, given.joints, given.height, template)
     return {
         "seconds": seconds, "failed": failed, "choices": dict(found.choices), "missing": list(found.missing),
@@ -185,7 +185,7 @@ def row(label: str, results: Sequence[Result]) -> str:
         f"{label:34s} {len(read_ones):2d} {sum(r['parts'] for r in read_ones):6d} {mean('parts_right', 'parts'):7.2f} "
         f"{mean('right', 'area'):6.2f} {mean('silent', 'area'):7.2f} {mean('flagged', 'area'):6.2f} "
         f"{mean('roles_right', 'roles'):6.2f} {joints:>8s} {np.mean(times):8.2f} {max(times):8.2f}"
-        + (f"  {failed} failed" if failed else "")
+        + (f"  {failed}: {next(r['failed'] for r in read_ones if r['failed'])[:60]}" if failed else "")
     )
 
 

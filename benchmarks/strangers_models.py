@@ -29,6 +29,8 @@ from yellowiron.model.template import Template
 ROOT = Path(__file__).resolve().parent.parent
 LABELS = ROOT / "benchmarks" / "strangers"
 SHARED = ROOT.parent / "shared" / "data"
+NO_CAD = (".json", ".md", ".txt", ".py", ".pkl", ".png", ".jpg")
+"""Suffixes of what lies beside a model."""
 SAME_BOX = 0.02
 """Two boxes are of one shell if they differ by no more of their size."""
 LINKS = {
@@ -72,21 +74,23 @@ def models(folders: Sequence[Path], labels: Path = LABELS) -> list[Model]:
             continue
         if isinstance(document["parts"], dict) and not all(isinstance(v, dict) for v in document["parts"].values()):
             continue
-        found.append(Model(name, document, _cad(name, [*folders, file.parent])))
+        beside = [p for p in sorted(file.parent.glob(f"{name}.*")) if p.suffix not in NO_CAD]
+        found.append(Model(name, document, beside[0] if beside else _cad(name, folders)))
     return found
 
 
 def _cad(name: str, folders: Sequence[Path]) -> Path | None:
-    """A model's file; its folder, where it has several."""
+    """A model's file, built or fetched; else its folder, or the one file in it."""
     for folder in folders:
-        for found in sorted(folder.rglob(f"{name}*")) if folder.is_dir() else ():
-            if found.is_dir():
-                source = found / "source" if (found / "source").is_dir() else found
-                files = sorted(p for p in source.rglob("*") if p.is_file() and p.suffix not in (".json", ".txt"))
-                if files:
-                    return files[0] if len(files) == 1 else source
-            elif found.stem == name and found.suffix not in (".json", ".md", ".txt"):
-                return found
+        there = sorted(folder.rglob(f"{name}*")) if folder.is_dir() else []
+        files = [p for p in there if p.is_file() and p.stem == name and p.suffix not in NO_CAD]
+        if files:
+            return files[0]
+        for found in (p for p in there if p.is_dir() and p.name == name):
+            source = found / "source" if (found / "source").is_dir() else found
+            files = sorted(p for p in source.rglob("*") if p.is_file() and p.suffix not in NO_CAD)
+            if files:
+                return files[0] if len(files) == 1 else source
     return None
 
 
@@ -99,18 +103,23 @@ def scene_of(model: Model, *, names: str) -> Scene:
     template = load_template(model.labels.get("template", "excavator"))
     entries = list(_entries(model, assembly, template))
     truth = _surface(assembly, entries)
-    up = np.abs(np.array(model.labels["frame"]["up"] if isinstance(model.labels.get("frame"), dict) else (0, 0, 1)))
-    if model.name == "tele_dig_267":
-        up = np.array([0, 1, 0])
-    tall = truth.points @ up
-    height = float(np.ptp(tall))
     joints = tuple(_joints(model, template))
+    height = float(np.ptp(truth.points @ _up(model, joints)))
     if names == "without":
         renamed = nameless(assembly)
         ids = {old.id: new.id for old, new in zip(assembly.parts, renamed.parts, strict=True)}
         truth = replace(truth, whole={ids[i]: n for i, n in truth.whole.items()})
         assembly = renamed
     return Scene(assembly, truth, joints, height, template.equipment_type)
+
+
+def _up(model: Model, joints: Sequence[TrueJoint]) -> np.ndarray:
+    """The direction upwards: the label's, else that of the joint on which the upperstructure turns, else Z."""
+    frame = model.labels.get("frame")
+    if isinstance(frame, dict):
+        return np.array(frame["up"], dtype=np.float64)
+    swing = [j for j in joints if set(j.bodies) == {"undercarriage", "upperstructure"}]
+    return np.array(swing[0].axis if swing else (0.0, 0.0, 1.0))
 
 
 def nameless(assembly: Assembly) -> Assembly:
@@ -173,7 +182,7 @@ def _surface(assembly: Assembly, entries: Sequence[_Entry]) -> Surface:
     """Where which body's surface is; shells of a mesh that are of other bodies by themselves."""
     points, areas, label = [], [], []
     labels: list[tuple[str, str]] = []
-    whole: dict[str, int] = {}
+    whole: dict[str, tuple[int, ...]] = {}
     numbers: dict[str, int] = {}
     for entry in entries:
         mesh = Mesh(assembly.points_of(entry.part), assembly.shape_of(entry.part).mesh.triangles)
@@ -185,12 +194,13 @@ def _surface(assembly: Assembly, entries: Sequence[_Entry]) -> Surface:
         labels.append((entry.role, "|".join(entry.bodies)))
         own = np.full(len(sizes), number)
         if entry.fused:
-            whole[entry.part.id] = number
+            first = len(labels)
             for shell, rows in enumerate(_shells(mesh)):
                 body = _fused(entry, mesh, assembly.shape_of(entry.part).mesh, rows)
                 if body is not None and body not in entry.bodies[:1]:
                     own[rows] = len(labels)
                     labels.append((f"{entry.role} shell {shell}", body))
+            whole[entry.part.id] = (number, *range(first, len(labels)))
         label.append(own)
     ties = {numbers[e.part.id]: numbers[e.tied] for e in entries if e.tied in numbers}
     return Surface(np.concatenate(points), np.concatenate(areas), np.concatenate(label), tuple(labels), whole, ties)

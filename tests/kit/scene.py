@@ -43,8 +43,8 @@ class Surface:
     areas: Array
     label: np.ndarray[tuple[int], np.dtype[np.int64]]
     labels: tuple[tuple[str, str], ...]
-    whole: Mapping[str, int] = field(default_factory=dict)
-    """Part id → the label of all of it, if it is not taken apart."""
+    whole: Mapping[str, tuple[int, ...]] = field(default_factory=dict)
+    """Part id → the label of all of it, if it is not taken apart; then those of its shells that are of others."""
     ties: Mapping[int, int] = field(default_factory=dict)
     """Label → that one whose body it must share."""
 

@@ -13,8 +13,9 @@ across the axis and 2°, or what its label allows. Slides as pivots; where along
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterable, Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -117,7 +118,8 @@ def score(
             vote = votes.setdefault(group, [0.0, 0.0])
             vote[int(exact)] += area
             if good:
-                played.setdefault(true_body.split("|")[0], set()).add(body or EXTRA)
+                for other in truth.whole.get(part.id, (number,)):
+                    played.setdefault(truth.labels[other][1].split("|")[0], set()).add(body or EXTRA)
             else:
                 wrong[true_body] = wrong.get(true_body, 0.0) + area
             if listed:
@@ -163,7 +165,7 @@ def _looked_up(
         centres, sizes = triangles_of(assembly, part)
         areas[part.id] = sizes / factor**2
         if part.id in truth.whole:
-            labels[part.id] = np.full(len(sizes), truth.whole[part.id])
+            labels[part.id] = np.full(len(sizes), truth.whole[part.id][0])
         else:
             labels[part.id] = truth.label[tree.query(centres / factor)[1]]
     return areas, labels
@@ -225,7 +227,8 @@ def _lost(
     """The joints of the truth that were not found, with why; and how many there are."""
     found = [] if mechanism is None else _lines(mechanism, alignment.frame, factor)
     lost, count = [], 0
-    for joint in joints:
+    joints = list(joints)
+    for joint in (_between_twins(j, joints, played) for j in joints):
         count += 1
         ends = [
             frozenset({b, *more, *played.get(b, set())}) for b, more in zip(joint.bodies, joint.others, strict=True)
@@ -246,6 +249,20 @@ def _lost(
         where = f"{best[0] / height:.1%} of the height and {best[1]:.1f} deg off" if between else "no such joint"
         lost.append(f"{joint.name}: {where}")
     return lost, count
+
+
+def _between_twins(joint: TrueJoint, joints: list[TrueJoint], played: Mapping[str, set[str]]) -> TrueJoint:
+    """A joint of a cylinder that was found as one with its twin, in whose mesh it is drawn: halfway to the twin's."""
+    for twin in joints:
+        mirrored = [tuple(sorted(re.sub("_[lr]$", "", b) for b in j.bodies)) for j in (joint, twin)]
+        if twin is joint or twin.type != joint.type or mirrored[0] != mirrored[1]:
+            continue
+        mine, others = (
+            {b for end in j.bodies if end.endswith(("_l", "_r")) for b in played.get(end, set())} for j in (joint, twin)
+        )
+        if mine & others:
+            return replace(joint, point=tuple((0.5 * (np.array(joint.point) + np.array(twin.point))).tolist()))
+    return joint
 
 
 def _joins(line: _Line, ends: list[frozenset[str]]) -> bool:
