@@ -106,6 +106,8 @@ def test_hinges_are_where_the_pins_are(kind: str, defect: str) -> None:
 @pytest.mark.parametrize("kind", ["loader", "excavator"])
 @pytest.mark.parametrize("damage", ["decimated 30", "opened", "loose pins", "8-gon", "scale slips", "double-sided"])
 def test_damaged_meshes_keep_their_hinges(kind: str, damage: str) -> None:
+    if damage.startswith("decimated"):
+        pytest.importorskip("fast_simplification")
     template = template_of(kind, 4)
     machine = from_triangles(damaged(kind, 4, damage))
     truth = true_hinges(base(kind, 4, damage), template)
