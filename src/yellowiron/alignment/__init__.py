@@ -3,8 +3,8 @@
 In: an `Assembly`, a `Template`, `Specifications`, and an earlier `Alignment` that a person edited. Out: an `Alignment`;
 of a machine of no known type, a `FoundMachine`. Each sub-package builds on those before it: `features` (parts and
 contacts), `structure` (rigid clusters, hinges), `assignment` (which cluster is which body), `labelling` (every part's
-role), `axes` (where joints are that no pin shows; it needs `features` only). `discovery` needs the first two, `files` only the model. `pipeline` is the whole way, in order; `tolerances` are
-what several of them share.
+role). `axes` (where joints are that no pin shows) needs `features` only, `discovery` the first two, `files` only the
+model. `pipeline` is the whole way, in order; `tolerances` are what several of them share.
 
 Findings: `ALN001` no part plays a required role · `ALN002` a joint is found but no part of its own plays its pin ·
 `ALN003` the machine's frame is partly a guess · `ALN004` the search was cut short · `ALN005` an edited role exists only
