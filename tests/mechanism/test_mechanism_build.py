@@ -179,6 +179,23 @@ def test_limits_are_read_with_their_sign_and_evidence_or_missed_aloud() -> None:
     assert sum(f.code == "MEC050" for f in missed.findings) == 2
 
 
+@pytest.mark.parametrize("pinned", [True, False])
+def test_an_estimated_axis_stands_in_for_a_pin_that_shows_none(pinned: bool) -> None:
+    assembly, alignment = machine()
+    if pinned:
+        shapes = {k: replace(s, cylinders=()) if k == "short" else s for k, s in assembly.shapes.items()}
+        assembly = replace(assembly, shapes=shapes)
+    else:
+        alignment = without(alignment, "PIN L", "PIN R")
+    estimate = ((0.02, 0.5, 1.01), (0.0, 1.0, 0.0))
+    built = build((assembly, replace(alignment, axes={"base2arm": estimate})))
+    joint = built.joint("base2arm")
+    assert (joint.anchor[0], joint.anchor[2]) == pytest.approx((0.02, 1.01), abs=0.02)
+    assert joint.axis == pytest.approx((0.0, 1.0, 0.0), abs=1e-6)
+    assert "MEC005" not in codes(built)
+    assert not pinned or "MEC009" in codes(built)
+
+
 def test_a_part_of_an_unknown_body_is_left_out_with_an_error() -> None:
     assembly, alignment = machine()
     parts = tuple(replace(a, body="moon") if a.part.endswith("ROD") else a for a in alignment.parts)

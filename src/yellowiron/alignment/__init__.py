@@ -3,14 +3,15 @@
 In: an `Assembly`, a `Template`, `Specifications`, and an earlier `Alignment` that a person edited. Out: an `Alignment`;
 of a machine of no known type, a `FoundMachine`. Each sub-package builds on those before it: `features` (parts and
 contacts), `structure` (rigid clusters, hinges), `assignment` (which cluster is which body), `labelling` (every part's
-role). `discovery` needs the first two, `files` only the model. `pipeline` is the whole way, in order; `tolerances` are
-what several of them share.
+role). `axes` (where joints are that no pin shows) needs `features` only, `discovery` the first two, `files` only the
+model. `pipeline` is the whole way, in order; `tolerances` are what several of them share.
 
 Findings: `ALN001` no part plays a required role · `ALN002` a joint is found but no part of its own plays its pin ·
 `ALN003` the machine's frame is partly a guess · `ALN004` the search was cut short · `ALN005` an edited role exists only
 under another choice of a variant · `ALN006` a hydraulic cylinder is not drawn as the sheet has it ·
 `ALN007` no body is left for parts that could move · `ALN008` a cylinder is to one side · `ALN009` parts stand apart and
-are left out · `ALN010` there seems to be more than one machine · `ALN011` the wheels have no tyres.
+are left out · `ALN010` there seems to be more than one machine · `ALN011` the wheels have no tyres · `ALN016` a joint's
+axis is estimated.
 """
 
 from yellowiron.alignment.assignment.unit_scale import to_scale

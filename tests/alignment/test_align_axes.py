@@ -1,0 +1,241 @@
+"""Axes of joints from bodies that are known: with pins, without, without holes, in shells that are open, decimated."""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+
+import numpy as np
+import pytest
+
+from kit.machines.damages import DAMAGES, base, damaged
+from kit.machines.defects import drawn, spoiled
+from kit.machines.excavators import any_features
+from kit.machines.synthetic import Machine
+from yellowiron.alignment.axes import AxisEstimate, Frame, estimate_axes, group, hinge_proposals
+from yellowiron.alignment.axes.outlines import fitted_circle, outline_circles
+from yellowiron.alignment.axes.unfound import axis_findings, unfound_axes
+from yellowiron.alignment.axes.values import plane_of
+from yellowiron.alignment.features.solids import Solid, size_of, solids_of
+from yellowiron.cad.mesh import polygons
+from yellowiron.cad.mesh.assembly import Occurrence, assemble, shape_of
+from yellowiron.library import load_template
+from yellowiron.model.alignment import PartAssignment
+from yellowiron.model.geometry import Floats, Mesh
+from yellowiron.model.template import JointTemplate, Role, Template, choose
+
+MACHINE = Frame(*np.eye(3))
+TEMPLATES = {"loader": "wheel_loader", "excavator": "excavator"}
+
+
+@cache
+def template_of(kind: str, seed: int) -> Template:
+    machine = drawn(kind, seed)
+    if kind == "excavator":
+        return choose(load_template("excavator"), any_features(seed).choices())
+    twin = any(body == "boom_cylinder_barrel_l" for _, body in machine.truth.values())
+    return choose(load_template("wheel_loader"), {"lift_cylinders": "twin" if twin else "single"})
+
+
+def true_hinges(machine: Machine, template: Template) -> dict[str, tuple[Floats, Floats]]:
+    """Hinge → a point on its pin's axis and its direction, of a machine that has its pins."""
+    pins: dict[str, Solid] = {}
+    for solid in solids_of(machine.assembly()):
+        role, _ = machine.truth[solid.part.id]
+        if solid.part.name == role and solid.line is not None:
+            pins.setdefault(role, solid)
+    found = {}
+    for joint in template.joints:
+        own = [pins[p] for p in joint.parts if p in pins and not template.role(p).rigid]
+        if joint.type == "revolute" and own and own[0].line is not None:
+            found[joint.name] = (own[0].line.center, own[0].line.direction)
+    return found
+
+
+def estimated(machine: Machine, template: Template, frame: Frame | None = MACHINE) -> dict[str, AxisEstimate]:
+    solids = solids_of(machine.assembly())
+    labels: dict[str, list[int]] = {}
+    for solid in solids:
+        body = machine.truth[solid.part.id][1]
+        if body:
+            labels.setdefault(body.partition("|")[0], []).append(solid.index)
+    return estimate_axes(solids, labels, template, frame=frame)
+
+
+def from_triangles(machine: Machine) -> Machine:
+    """With the features that are found on its triangles, as of any mesh file."""
+    used = {p.shape for p in machine.parts}
+    shapes = {k: shape_of(s.mesh, s.name) for k, s in machine.shapes.items() if k in used}
+    machine.shapes.update(shapes)
+    return machine
+
+
+def errors(
+    found: dict[str, AxisEstimate], truth: dict[str, tuple[Floats, Floats]], template: Template, machine: Machine
+) -> dict[str, tuple[float, float, float]]:
+    """Joint → metres across, degrees, and how many of its own sigmas."""
+    bodies = {body.partition("|")[0] for _, body in machine.truth.values()}
+    result = {}
+    for name, (point, way) in truth.items():
+        if not set(template.bodies_of(template.joint(name))) <= bodies:
+            continue
+        e = found[name]
+        delta = e.origin - point
+        across = float(np.linalg.norm(delta - (delta @ way) * way))
+        degrees = math.degrees(math.acos(min(1.0, abs(float(way @ e.direction)))))
+        result[name] = (across, degrees, across / e.across)
+    return result
+
+
+def height_of(machine: Machine) -> float:
+    assembly = machine.assembly()
+    return float(np.ptp(np.concatenate([assembly.points_of(p) for p in assembly.parts])[:, 2]))
+
+
+@pytest.mark.parametrize("kind", ["loader", "excavator"])
+@pytest.mark.parametrize("defect", ["sound", "no pins", "visual"])
+def test_hinges_are_where_the_pins_are(kind: str, defect: str) -> None:
+    template = template_of(kind, 0)
+    machine = spoiled(kind, 0, defect)
+    off = errors(estimated(machine, template), true_hinges(drawn(kind, 0), template), template, machine)
+    assert len(off) >= 13
+    assert all(across < 1e-3 and degrees < 0.2 and sigmas < 1.0 for across, degrees, sigmas in off.values()), off
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", ["loader", "excavator"])
+@pytest.mark.parametrize("damage", ["decimated 30", "opened", "loose pins", "8-gon", "scale slips", "double-sided"])
+def test_damaged_meshes_keep_their_hinges(kind: str, damage: str) -> None:
+    if damage.startswith("decimated"):
+        pytest.importorskip("fast_simplification")
+    template = template_of(kind, 4)
+    machine = from_triangles(damaged(kind, 4, damage))
+    truth = true_hinges(base(kind, 4, damage), template)
+    off = errors(estimated(machine, template), truth, template, machine)
+    right = [across < 0.01 * height_of(machine) and degrees < 2.0 for across, degrees, _ in off.values()]
+    assert damage in DAMAGES and len(right) >= 12
+    assert np.mean(right) >= 0.97, off
+    assert np.mean([sigmas < 2.0 for *_, sigmas in off.values()]) >= 0.9, off
+
+
+def test_the_machines_directions_are_found_where_nobody_says_them() -> None:
+    template = template_of("loader", 1)
+    machine = spoiled("loader", 1, "no pins")
+    off = errors(estimated(machine, template, None), true_hinges(drawn("loader", 1), template), template, machine)
+    assert all(across < 1e-3 and degrees < 0.2 for across, degrees, _ in off.values()), off
+
+
+def two_bodies() -> Template:
+    roles = tuple(Role(n, None, rigid=True, kind="arm") for n in ("lower", "upper"))
+    return Template("thing", "", "lower", roles, (JointTemplate("hinge", "revolute", ("lower", "upper")),))
+
+
+def solids_from(*placed: tuple[Mesh, tuple[float, float, float]]) -> tuple[Solid, ...]:
+    found = []
+    for number, (mesh, at) in enumerate(placed):
+        matrix = np.eye(4)
+        matrix[:3, 3] = at
+        found.append(Occurrence(f"part {number}", (), mesh, matrix))
+    return solids_of(assemble(found, name="thing", format="test", unit=1.0, path=""))
+
+
+def boxes() -> tuple[tuple[Solid, ...], dict[str, list[int]]]:
+    """Two bars that overlap by 0.2 m at x = 1, side by side, nothing round in them."""
+    solids = solids_from(
+        (polygons.box((1.2, 0.1, 0.2)), (0.5, 0.0, 0.0)), (polygons.box((1.3, 0.1, 0.18)), (1.55, 0.1, 0.0))
+    )
+    left = [s.index for s in solids if s.center[0] < 1.0]
+    return solids, {"lower": left, "upper": [s.index for s in solids if s.index not in left]}
+
+
+def test_without_evidence_a_guess_says_how_rough_it_is() -> None:
+    solids, labels = boxes()
+    found = estimate_axes(solids, labels, two_bodies(), frame=Frame(left=np.array([0.0, 1.0, 0.0])))["hinge"]
+    off = np.hypot(found.origin[0] - 1.0, found.origin[2])
+    assert off < 2 * found.across
+    assert found.across > 0.03
+    assert abs(found.direction[1]) > 0.999
+
+
+def test_a_pivot_of_the_scene_tree_is_taken_where_the_bodies_meet() -> None:
+    solids, labels = boxes()
+    pivots = {"upper": np.array([[0.98, 0.0, 0.01], [2.2, 0.0, 0.0]])}
+    left = Frame(left=np.array([0.0, 1.0, 0.0]))
+    found = estimate_axes(solids, labels, two_bodies(), frame=left, pivots=pivots)["hinge"]
+    assert np.allclose(found.origin[[0, 2]], [0.98, 0.01], atol=1e-9)
+    assert "pivot" in found.how
+
+
+def test_what_is_left_out_says_nothing_and_nothing_raises() -> None:
+    template = two_bodies()
+    solids, labels = boxes()
+    assert estimate_axes((), {}, template) == {}
+    assert estimate_axes(solids, {"lower": labels["lower"]}, template) == {}
+    rng = np.random.default_rng(5)
+    for _ in range(20):
+        meshes = []
+        for _ in range(4):
+            points = rng.normal(size=(int(rng.integers(3, 12)), 3)) * rng.choice([1e-3, 1.0, 30.0])
+            points[:, rng.integers(3)] *= rng.choice([0.0, 1.0])
+            meshes.append((Mesh(points, rng.integers(0, len(points), (5, 3)).astype(np.int32)), (0.0, 0.0, 0.0)))
+        try:
+            odd = solids_from(*meshes)
+        except Exception:  # noqa: BLE001  nothing of it can be a part: a reader's business
+            continue
+        half = {"lower": [s.index for s in odd[::2]], "upper": [s.index for s in odd[1::2]]}
+        for e in estimate_axes(odd, half, template).values():
+            assert np.isfinite([*e.origin, *e.direction, e.across, e.angle]).all()
+            assert e.across > 0
+
+
+def test_only_joints_that_were_not_found_are_told() -> None:
+    solids, labels = boxes()
+    parts = [PartAssignment(solids[i].part.id, b, b, 1.0, "") for b, rows in labels.items() for i in rows]
+    template, size = two_bodies(), size_of(solids)
+    assert unfound_axes(solids, parts, template, found={"hinge"}, size=size) == {}
+    found = unfound_axes(solids, parts, template, found=(), size=size)
+    (finding,) = axis_findings(found, size)
+    assert (finding.code, finding.where, finding.severity) == ("ALN016", "hinge", "warning")
+    assert f"{1e3 * found['hinge'].across:.0f} mm" in finding.message
+
+
+@pytest.mark.parametrize("defect", ["sound", "no pins"])
+def test_proposals_before_there_are_labels(defect: str) -> None:
+    template = template_of("excavator", 1)
+    machine = spoiled("excavator", 1, defect)
+    solids = solids_of(machine.assembly())
+    size = size_of(solids)
+    bodies: dict[str, list[int]] = {}
+    for s in solids:
+        bodies.setdefault(machine.truth[s.part.id][1], []).append(s.index)
+    groups = {body: group(solids, rows, size) for body, rows in bodies.items() if body}
+    for name, (point, way) in true_hinges(drawn("excavator", 1), template).items():
+        a, b = (str(body) for body in template.bodies_of(template.joint(name)))
+        best = hinge_proposals(groups[a], groups[b])[0]
+        delta = best.origin - point
+        assert np.linalg.norm(delta - (delta @ way) * way) < 1e-3, name
+        assert best.quality > 0.4
+    assert hinge_proposals(groups["bucket"], groups["undercarriage"]) == []
+
+
+def test_circles_in_an_outline_of_few_sides() -> None:
+    turn = np.arange(8) * math.pi / 4
+    ring = np.stack([0.3 + 0.05 * np.cos(turn), 0.1 + 0.05 * np.sin(turn)], axis=1)
+    points = np.concatenate([np.c_[ring, np.zeros(8)], np.c_[ring, np.full(8, 0.2)]])
+    k = np.arange(8)
+    n = (k + 1) % 8
+    walls = np.concatenate([np.c_[k, n, n + 8], np.c_[k, n + 8, k + 8]]).astype(np.int32)
+    up = np.array([0.0, 0.0, 1.0])
+    plane = plane_of(up)
+    for triangles, inner in ((walls, False), (walls[:, ::-1], True)):
+        (circle,) = outline_circles(points, triangles, up, plane, least=0.01, most=0.2)
+        assert np.allclose(circle.center @ plane, [0.3, 0.1, 0.0], atol=1e-9)
+        assert circle.radius == pytest.approx(0.05)
+        assert (circle.low, circle.high, circle.inner) == (0.0, 0.2, inner)
+        assert circle.arc == pytest.approx(2 * math.pi)
+
+
+def test_a_circle_through_points() -> None:
+    center, radius = fitted_circle(np.array([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0]]) + 5.0)
+    assert np.allclose(center, 5.0) and radius == pytest.approx(1.0)
+    assert fitted_circle(np.array([[0.0, 0.0], [1.0, 1.0], [2.0, 2.0]]))[1] == math.inf
