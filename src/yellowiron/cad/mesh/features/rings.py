@@ -1,5 +1,5 @@
-"""Round walls that are only nearly cylinders: what a converter's decimation, noise or coarse rounding has left of a bore
-or a shaft.
+"""Round walls that are only nearly cylinders: what a converter's decimation, noise or coarse rounding has left of a
+bore or a shaft.
 
 Their facets are few, uneven and twisted, and their corners lie on no one cylinder, but they still go all the way round,
 and what they stand on is still flat and square to their axis. How far they may stray from a cylinder is what their own
@@ -57,7 +57,7 @@ class Ring:
 
 
 def rings(soup: Soup, free: Flags, least: float) -> Iterator[Ring]:
-    """The round walls among the `free` triangles, of a radius of at least `least` metres; what is found is left free."""
+    """The round walls among the `free` triangles, of a radius of at least `least` metres; `free` stays as it is."""
     bent = (soup.angle > SLIGHTEST) & (soup.angle < _FOLD) & free[soup.pair].all(axis=1)
     if int(bent.sum()) < _CORNERS:
         return
