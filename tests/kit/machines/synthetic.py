@@ -32,6 +32,8 @@ class Machine:
     pose: Array = field(default_factory=lambda: np.eye(4))
     frame: Array = field(default_factory=lambda: np.eye(4))
     """CAD → machine, as it should come out."""
+    mixed: dict[str, tuple[tuple[str, str, int], ...]] = field(default_factory=dict)
+    """Of a part that joins several bodies: (role, body, how many triangles), in the order of its triangles."""
 
     def add(self, name: str, role: str, body: str, shape: Shape, transform: Array) -> None:
         key = shape.key

@@ -1,0 +1,267 @@
+"""How right alignment is on strangers' machines: ours damaged as converters and artists do, and real ones with labels.
+
+    python benchmarks/bench_strangers.py [--first SEED] [--count N] [--kinds loader,excavator] [--damages half,opened]
+        [--names with,without] [--turn upright|any] [--jobs N] [--limit S] [--out FILE.json] [--words]
+    python benchmarks/bench_strangers.py --real [--models DIR] [--labels DIR] [--only NAME,…] [--held-back] [--names …] …
+    python benchmarks/bench_strangers.py --sizes
+
+From the repository's root. `tests/kit/machines/damages.py` has the damages, `tests/kit/scoring.py` the rules by which a
+part, a role and a joint are right; areas are in per cent. Every machine is read from triangles in single precision and
+solved as `yellowiron align` does, without a sheet; seconds are CPU time of that, reading not counted. After `--limit`
+seconds a machine is given up, which counts as all wrong and flagged. Seeds from 1000 on are held back.
+
+Real models are those of `benchmarks/strangers/*.json` and of `../shared/data`; their CAD is looked for in `--models`
+(default: the environment's YELLOWIRON_STRANGERS; several folders with ':' between them). What is not there is said. Of
+models labelled `held_back` nothing is done unless `--held-back` is given. `--sizes`: what large models take; they have
+5000 parts, 470 000 triangles in 85 parts, 267 parts with hoses.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import signal
+import sys
+import time
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path[:0] = [str(ROOT / "src"), str(ROOT / "tests"), str(ROOT / "benchmarks")]
+
+from kit.machines.damages import DAMAGES, KINDS  # noqa: E402
+from kit.machines.defects import crowded, drawn  # noqa: E402
+from kit.machines.synthetic import Machine  # noqa: E402
+from kit.scene import TEMPLATES, Scene, read, scene, true_joints  # noqa: E402
+from kit.scoring import Score, score  # noqa: E402
+from strangers_models import LABELS, models, scene_of  # noqa: E402
+from yellowiron.library import load_template  # noqa: E402
+from yellowiron.mechanism import build_mechanism  # noqa: E402
+from yellowiron.model.errors import YellowironError  # noqa: E402
+from yellowiron.model.geometry import Mesh  # noqa: E402
+from yellowiron.model.mechanism import Mechanism  # noqa: E402
+from yellowiron.model.rows import expand  # noqa: E402
+from yellowiron.model.specification import Specifications  # noqa: E402
+from yellowiron.model.template import choose  # noqa: E402
+from yellowiron.pipeline import find_roles  # noqa: E402
+
+Case = tuple[str, ...]
+Result = dict[str, Any]
+FOLDERS = "YELLOWIRON_STRANGERS"
+
+
+class GivenUpError(Exception):
+    """A machine took longer than it may."""
+
+
+def _give_up(*_: object) -> None:
+    raise GivenUpError
+
+
+def solved(given: Scene, limit: int) -> Result:
+    """What alignment makes of a scene within so many seconds of wall clock."""
+    template = load_template(given.type)
+    signal.signal(signal.SIGALRM, _give_up)
+    signal.alarm(limit)
+    start = time.process_time()
+    try:
+        assembly, found = find_roles(given.assembly, template, Specifications())
+        seconds = time.process_time() - start
+        mechanism: Mechanism | None = None
+        chosen = expand(choose(template, found.choices), found.counts)
+        try:
+            mechanism = build_mechanism(assembly, chosen, found, Specifications(), name="found")
+        except YellowironError as error:
+            failed = str(error)
+        else:
+            failed = ""
+    except (YellowironError, GivenUpError) as error:
+        known = np.array([bool(body) for _, body in given.truth.labels])[given.truth.label]
+        area = float(given.truth.areas[known].sum())
+        n, joints = len(given.assembly.parts), len(given.joints)
+        lost = Score(area, 0.0, 0.0, area, n, 0, 0, 1, 0, 0, joints, 0).document()
+        failed = str(error) or f"given up after {limit} s"
+        return {"seconds": time.process_time() - start, "failed": failed, **lost}
+    finally:
+        signal.alarm(0)
+    result = score(assembly, found, mechanism, given.truth, given.joints, given.height, template)
+    return {
+        "seconds": seconds, "failed": failed, "choices": dict(found.choices), "missing": list(found.missing),
+        "moves": sorted({a.name for a in mechanism.actuators}) if mechanism is not None else [],
+        **result.document(),
+    }  # fmt: skip
+
+
+def drawn_case(kind: str, seed: str, damage: str, names: str, turn: str, limit: str) -> Result:
+    """One machine with one damage."""
+    given = scene(kind, int(seed), damage, names=names, turn=turn)
+    return {"kind": kind, "seed": int(seed), "damage": damage, "names": names, **solved(given, int(limit))}
+
+
+def real_case(name: str, folders: str, labels: str, names: str, limit: str) -> Result:
+    """One real model."""
+    (model,) = (m for m in models([Path(f) for f in folders.split(":") if f], Path(labels)) if m.name == name)
+    try:
+        given = scene_of(model, names=names)
+    except YellowironError as error:
+        return {"damage": name, "names": names, "unread": str(error)}
+    return {"kind": given.type, "damage": name, "names": names, **solved(given, int(limit))}
+
+
+def size_case(name: str, limit: str) -> Result:
+    """One large model."""
+    return {"damage": name, "names": "without", **solved(SIZES[name](), int(limit))}
+
+
+def _filled(kind: str, machine: Machine, name: str) -> Scene:
+    assembly, truth = read(machine, 0, np.eye(4), None)
+    joints = tuple(true_joints(drawn(kind, 0), kind, 0, np.eye(4)))
+    return Scene(assembly, truth, joints, float(np.ptp(truth.points[:, 2])), TEMPLATES[kind])
+
+
+def _fine(machine: Machine, parts: int, triangles: int) -> Machine:
+    """The machine's largest parts, their triangles halved until there are as many."""
+    size = {p.id: float(np.prod(np.ptp(machine.shapes[p.shape].mesh.points, axis=0) + 1e-3)) for p in machine.parts}
+    rams = {p.id for p in machine.parts if "piston_rod" in machine.truth[p.id][1] or "barrel" in machine.truth[p.id][1]}
+    order = sorted(machine.parts, key=lambda p: (p.id not in rams, -size[p.id]))
+    chosen = order[:parts]
+    shapes = {p.shape: machine.shapes[p.shape] for p in chosen}
+
+    def count() -> int:
+        return sum(len(shapes[p.shape].mesh.triangles) for p in chosen)
+
+    while count() < triangles:
+        key = min(shapes, key=lambda k: (len(shapes[k].mesh.triangles), k))
+        shapes[key] = replace(shapes[key], mesh=_halved(shapes[key].mesh))
+    ids = {p.id for p in chosen}
+    return replace(machine, parts=chosen, shapes=shapes, truth={i: t for i, t in machine.truth.items() if i in ids})
+
+
+def _halved(mesh: Mesh) -> Mesh:
+    """Every triangle in four."""
+    import trimesh
+
+    points, triangles = trimesh.remesh.subdivide(mesh.points, mesh.triangles)
+    return Mesh(np.asarray(points), np.asarray(triangles, dtype=np.int32))
+
+
+SIZES: dict[str, Callable[[], Scene]] = {
+    "85 parts, 470k triangles": lambda: _filled("excavator", _fine(drawn("excavator", 4), 85, 470_000), "fine"),
+    "267 parts with hoses": lambda: _filled("excavator", hosed(), "hoses"),
+    "5000 parts": lambda: _filled("excavator", crowded(drawn("excavator", 0), 5000), "crowd"),
+}
+
+
+def hosed() -> Machine:
+    """An excavator with 24 hoses between any two bodies, filled up with bolts to 267 parts."""
+    from kit.machines.excavators import excavator
+
+    machine = excavator(0, hoses=24, bolts=True)
+    return crowded(machine, max(267, len(machine.parts)))
+
+
+COLUMNS = f"{'':34s}  n  parts  right%  area%  silent  flagd  roles   joints     mean    max s"
+
+
+def row(label: str, results: Sequence[Result]) -> str:
+    """One line of the table."""
+    read_ones = [r for r in results if "area" in r]
+    if not read_ones:
+        return f"{label:34s} {'; '.join(r.get('unread', '') for r in results)}"
+
+    def mean(top: str, below: str) -> float:
+        return 100 * float(np.mean([r[top] / max(r[below], 1e-12) for r in read_ones]))
+
+    joints = f"{sum(r['joints_right'] for r in read_ones)}/{sum(r['joints'] for r in read_ones)}"
+    times = [r["seconds"] for r in read_ones]
+    failed = sum(bool(r["failed"]) for r in read_ones)
+    return (
+        f"{label:34s} {len(read_ones):2d} {sum(r['parts'] for r in read_ones):6d} {mean('parts_right', 'parts'):7.2f} "
+        f"{mean('right', 'area'):6.2f} {mean('silent', 'area'):7.2f} {mean('flagged', 'area'):6.2f} "
+        f"{mean('roles_right', 'roles'):6.2f} {joints:>8s} {np.mean(times):8.2f} {max(times):8.2f}"
+        + (f"  {failed} failed" if failed else "")
+    )
+
+
+def run(work: list[tuple[Callable[..., Result], Case]], jobs: int) -> Iterator[Result]:
+    """The results of cases, in their order."""
+    if jobs < 2:
+        yield from (function(*case) for function, case in work)
+        return
+    with ProcessPoolExecutor(jobs) as pool:
+        for done in [pool.submit(function, *case) for function, case in work]:
+            yield done.result()
+
+
+def cases(chosen: argparse.Namespace) -> dict[str, list[tuple[Callable[..., Result], Case]]]:
+    """Line of the table → what to run for it."""
+    names, limit = chosen.names.split(","), str(chosen.limit)
+    if chosen.sizes:
+        return {name: [(size_case, (name, limit))] for name in SIZES}
+    table: dict[str, list[tuple[Callable[..., Result], Case]]] = {}
+    if chosen.real:
+        folders = [Path(f) for f in chosen.models.split(":") if f]
+        for model in models(folders, chosen.labels):
+            if chosen.only and model.name not in chosen.only.split(","):
+                continue
+            if model.held_back and not chosen.held_back:
+                print(f"{model.name:34s} held back")
+            elif model.cad is None:
+                print(f"{model.name:34s} skipped: not in {chosen.models or f'--models or ${FOLDERS}'}")
+            else:
+                for naming in names:
+                    table[f"{model.name}, {naming}"] = [
+                        (real_case, (model.name, chosen.models, str(chosen.labels), naming, limit))
+                    ]
+        return table
+    for damage in chosen.damages.split(","):
+        for naming in names:
+            for kind in (k for k in chosen.kinds.split(",") if k in DAMAGES[damage].kinds):
+                seeds = [str(s) for s in range(chosen.first, chosen.first + chosen.count)]
+                line = f"{damage}, {kind}, {naming}"
+                table[line] = [(drawn_case, (kind, s, damage, naming, chosen.turn, limit)) for s in seeds]
+    return table
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--first", type=int, default=0)
+    parser.add_argument("--count", type=int, default=2)
+    parser.add_argument("--kinds", default=",".join(KINDS))
+    parser.add_argument("--damages", default=",".join(DAMAGES))
+    parser.add_argument("--names", default="without")
+    parser.add_argument("--turn", default="upright", choices=("upright", "any"))
+    parser.add_argument("--real", action="store_true")
+    parser.add_argument("--models", default=os.environ.get(FOLDERS, ""))
+    parser.add_argument("--labels", type=Path, default=LABELS)
+    parser.add_argument("--only", default="")
+    parser.add_argument("--held-back", action="store_true")
+    parser.add_argument("--sizes", action="store_true")
+    parser.add_argument("--limit", type=int, default=300)
+    parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--words", action="store_true", help="what is wrong, silent and lost, in words")
+    parser.add_argument("--out", type=Path)
+    chosen = parser.parse_args()
+    print(COLUMNS)
+    table = cases(chosen)
+    results = run([work for line in table.values() for work in line], chosen.jobs)
+    everything: dict[str, list[Result]] = {}
+    for line, work in table.items():
+        everything[line] = [next(results) for _ in work]
+        print(row(line, everything[line]), flush=True)
+        for result in everything[line] if chosen.words else ():
+            for title in ("silent_words", "words", "lost"):
+                for text in result.get(title, ()):
+                    print(f"    {title.removesuffix('_words')}: {text}")
+        if chosen.out is not None:
+            chosen.out.write_text(json.dumps(everything, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
