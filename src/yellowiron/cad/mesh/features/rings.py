@@ -34,6 +34,8 @@ _GAP = math.radians(80.0)
 """The widest gap between the corners of a wall, seen from its axis …"""
 _MANY = 9
 """… if it has corners in so many directions; with fewer, it is `_FOLD`."""
+_TWISTED = 1.4
+"""… or so many times as many as at either of its ends."""
 _STRAY = 0.8
 """A wall's corners stray from its cylinder by no more than this share of the arc's height over its widest chords."""
 _TOLD = 0.4
@@ -128,15 +130,24 @@ def _ring(soup: Soup, rows: Indices, direction: Floats) -> Ring | None:
     found = Round(foot, direction, radius, facing < 0.0, rows)
     if abs(facing) < 0.9 * float(soup.areas[rows].sum()):
         return None
-    angles = np.sort(np.arctan2(flat[:, 1] - center[1], flat[:, 0] - center[0]))
-    gaps = np.append(np.diff(angles), angles[0] + math.tau - angles[-1])
-    corners = int((gaps > _APART).sum())
-    if corners < _CORNERS or float(gaps.max()) > (_GAP if corners >= _MANY else _FOLD):
+    angles, along = np.arctan2(flat[:, 1] - center[1], flat[:, 0] - center[0]), points @ direction
+    corners, gap = _directions(angles)
+    upper = along > along.mean()
+    # What is angular has the same corners at both ends; a round wall that lost most of its corners has others.
+    twisted = corners > _TWISTED * max(_directions(angles[upper])[0], _directions(angles[~upper])[0])
+    if corners < _CORNERS or gap > (_GAP if corners >= _MANY or twisted else _FOLD):
         return None
     stray = float(np.abs(np.linalg.norm(flat - center, axis=1) - radius).max())
     if stray > _STRAY * _height(soup, found, 100.0) + ROUGH * radius:
         return None
     return Ring(found, max(stray, _TOLD * _height(soup, found)))
+
+
+def _directions(angles: Floats) -> tuple[int, float]:
+    """How many directions there are among some angles, and the widest gap between them, radians."""
+    ordered = np.sort(angles)
+    gaps = np.append(np.diff(ordered), ordered[0] + math.tau - ordered[-1])
+    return int((gaps > _APART).sum()), float(gaps.max())
 
 
 def untold(soup: Soup, found: Round) -> float:
