@@ -74,7 +74,8 @@ def rings(soup: Soup, free: Flags, least: float) -> Iterator[Ring]:
 
 def _ways(soup: Soup) -> list[Floats]:
     """The directions in which most of the flat area faces, or the opposite."""
-    total, found = float(soup.areas.sum()), []
+    total = float(soup.areas.sum())
+    found: list[Floats] = []
     left = np.ones(len(soup.corners), dtype=bool)
     while left.any() and len(found) < _WAYS:
         # By facets: a wall's are many and small.
@@ -110,7 +111,7 @@ def _walls(soup: Soup, free: Flags, direction: Floats) -> Iterator[Indices]:
     count = np.bincount(label)
     size = np.bincount(label, weights=soup.areas)
     sums = np.stack([np.bincount(label, weights=soup.areas * soup.normals[:, k]) for k in range(3)], axis=1)
-    sums -= np.outer(sums @ direction, direction)
+    sums = sums - np.outer(sums @ direction, direction)
     for k in np.flatnonzero((count >= _CORNERS) & (np.linalg.norm(sums, axis=1) < _ALL_ROUND * size)).tolist():
         yield np.flatnonzero(label == k)
 
