@@ -11,9 +11,9 @@ from kit.machines.defects import drawn
 from kit.machines.solids import box
 from kit.machines.synthetic import Machine, disguise
 from yellowiron.alignment import align
+from yellowiron.alignment.features.ground import grounds_of
 from yellowiron.alignment.features.separate_parts import separate_parts
 from yellowiron.library import load_template
-from yellowiron.model.assembly import Part
 from yellowiron.model.specification import Specifications
 
 
@@ -45,17 +45,17 @@ def test_a_slab_narrower_than_the_machine_may_be_a_part_of_it() -> None:
 
 def test_a_model_of_few_parts_may_have_a_base() -> None:
     machine, _ = _standing(drawn("loader", 3), 1.5)
-    few: list[Part] = machine.parts[-4:]
-    assert separate_parts(replace(machine, parts=few).assembly()) == {}
+    points = [machine.assembly().points_of(p) for p in machine.parts]
+    assert grounds_of(points) == [len(points) - 1]
+    assert grounds_of(points[-6:]) == []
 
 
 def test_a_machine_on_a_slab_is_told_as_without() -> None:
     machine, slab = _standing(drawn("loader", 3), 1.5)
     assembly, truth, _ = disguise(machine, 3)
     found = align(assembly, load_template("wheel_loader"), Specifications())
-    ground = [p for p in found.parts if not truth[p.part][0]]
-    assert [(p.role, p.body, p.reason) for p in ground] == [(None, None, "lies under the whole machine")]
-    assert ground[0].confidence > 0.9
+    ground = [p for p in found.parts if p.reason.startswith("lies under")]
+    assert [(p.role, p.body, truth[p.part][0]) for p in ground] == [(None, None, "")]
     assert "ALN009" in {f.code for f in found.findings}
     assert slab in machine.truth
-    assert all(p.body == truth[p.part][1] for p in found.parts)
+    assert all(p.body == truth[p.part][1] for p in found.parts if truth[p.part][1])

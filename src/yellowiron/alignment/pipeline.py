@@ -31,6 +31,7 @@ from yellowiron.alignment.assignment.search import BELIEVED, Search, variants_of
 from yellowiron.alignment.assignment.sheet_weights import sheet_findings
 from yellowiron.alignment.assignment.weights import side_weights
 from yellowiron.alignment.axes.unfound import axis_findings, lines_of, unfound_axes
+from yellowiron.alignment.features.copies import copies_of
 from yellowiron.alignment.features.distance import Touch
 from yellowiron.alignment.features.separate_parts import separate_parts
 from yellowiron.alignment.features.solids import solids_of
@@ -79,8 +80,10 @@ def align(
             "The CAD model has no parts", where=assembly.name, hint="Check that the file holds solids."
         )
     edited = _edited(assembly, template, edits)
-    apart = separate_parts(assembly, [part for part, role in edited.items() if role])
-    tracking = _without(assembly, apart)
+    copies = {copy: first for copy, first in copies_of(assembly).items() if copy not in edited}
+    single = _without(assembly, copies)
+    apart = separate_parts(single, [part for part, role in edited.items() if role])
+    tracking = _without(single, apart)
     tracked, tracks = _tracked(tracking, template)
     machine = _without(tracking, set(tracked.values()))
     plain = without_tracks(template)
@@ -113,6 +116,8 @@ def align(
         rows = track_places(tracks, tracked, frame.matrix, whole)
         solids = solids_of(tracking)
         by_id |= on_tracks(by_id, rows, solids, Touch(solids, answer.contact * observation.size)) | rows
+    by_id |= {copy: by_id[first] for copy, first in copies.items() if first in by_id}
+    apart |= {copy: apart[first] for copy, first in copies.items() if first in apart}
     documents = {item.part: item.reason for item in edits.parts if item.source == "data"} if edits is not None else {}
     found = to_alignment(
         assembly,

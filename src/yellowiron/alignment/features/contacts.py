@@ -22,6 +22,8 @@ BESIDE = 1.5
 """Two bores that a pin is missing in are this many radii apart at most (or half as far as the longer one is long)."""
 LOOSEST = 0.84
 """Shaft radius over bore radius: a clearance hole of a small bolt."""
+SLACK = (0.8, 1.2)
+"""The same for pins that were drawn apart from their bores, thinner or thicker by as much as 15 %, with some play."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,7 +84,8 @@ def neighbours(solids: tuple[Solid, ...], slack: float) -> list[tuple[int, int]]
 
 
 def fits_of(solids: tuple[Solid, ...], tolerance: float) -> list[Fit]:
-    """Every shaft in a bore of another part: parallel, concentric, of like radius, overlapping along the axis."""
+    """Every shaft in a bore of another part: parallel, concentric, of like radius, overlapping along the axis; and the
+    bars in bores that are empty then, whose radius is less like theirs (`SLACK`)."""
     shafts = [(s.index, c) for s in solids for c in s.cylinders if c.full and not c.inner]
     bores = [(s.index, c) for s in solids for c in s.cylinders if c.inner and c.arc > ROUND_ARC]
     if not shafts or not bores:
@@ -99,6 +102,17 @@ def fits_of(solids: tuple[Solid, ...], tolerance: float) -> list[Fit]:
         for j in sorted(found):
             outer, bore = bores[j]
             if outer != inner and (fit := _fit(inner, shaft, outer, bore, tolerance)) is not None:
+                fits.append(fit)
+    filled = {id(f.bore) for f in fits}
+    for k, (inner, shaft) in enumerate(shafts):
+        if shaft is not solids[inner].shaft:
+            continue
+        for j in sorted(set(tree.query_ball_point(ahead[k], near)) | set(tree.query_ball_point(behind[k], near))):
+            outer, bore = bores[j]
+            if outer == inner or id(bore) in filled or not bore.full:
+                continue
+            fit = _fit(inner, shaft, outer, bore, tolerance, SLACK)
+            if fit is not None and fit.overlap > 0.5 * bore.half:
                 fits.append(fit)
     return _strongest(fits)
 
@@ -140,10 +154,14 @@ def _coordinates(cylinders: list[Cyl], origin: Floats, size: float) -> Floats:
     return np.concatenate([d * size, foot], axis=1)
 
 
-def _fit(inner: int, shaft: Cyl, outer: int, bore: Cyl, tolerance: float) -> Fit | None:
+def _fit(
+    inner: int, shaft: Cyl, outer: int, bore: Cyl, tolerance: float, ratios: tuple[float, float] = (LOOSEST, 1.004)
+) -> Fit | None:
+    """The fit of a shaft in a bore whose radii have a ratio within `ratios`; None where it does not fit."""
     error = shaft.error + bore.error
     slack = max(tolerance, 0.02 * shaft.radius) + error
-    if not LOOSEST * bore.radius - error <= shaft.radius <= bore.radius * 1.004 + 0.2 * tolerance + error:
+    least, most = ratios
+    if not least * bore.radius - error <= shaft.radius <= most * bore.radius + 0.2 * tolerance + error:
         return None
     if not parallel(shaft, bore, PARALLEL):
         return None

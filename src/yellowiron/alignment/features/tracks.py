@@ -21,8 +21,9 @@ from yellowiron.model.geometry import Floats
 
 LEAST = 20
 """Fewer equal parts in a row are no track."""
-EQUAL = 2e-3
-"""Equal parts differ by no more than this share of their volume and area (a mirror image is equal)."""
+EQUAL = (2e-3, 0.07)
+"""Equal parts differ by no more than this share of their volume and area (a mirror image is equal); the second where
+that gives no track, as of parts that were scaled one by one (a per cent makes three of the volume)."""
 NEXT = 1.35
 """A neighbour in the row is nearer than this many times the usual distance."""
 FLAT = 0.03
@@ -56,14 +57,11 @@ class Track:
 def tracks_of(solids: Sequence[Solid]) -> list[Track]:
     """The machine's tracks: of all classes of equal parts the one whose closed rows are the bulkiest; two of them that
     are equal, or one."""
-    classes = _classes(solids)
+    classes: list[list[int]] = []
     best: list[list[int]] = []
-    bulk = 0.0
-    for members in classes:
-        rows = _rows(members, solids)
-        size = solids[members[0]].size * sum(map(len, rows))
-        if rows and size > bulk:
-            best, bulk = rows, size
+    for equal in EQUAL:
+        classes = classes if best else _classes(solids, equal)
+        best = best or _bulkiest(classes, solids)
     if not best:
         return []
     longest = max(map(len, best))
@@ -85,22 +83,38 @@ def tracks_of(solids: Sequence[Solid]) -> list[Track]:
 
 
 # ---- rows ----
-def _classes(solids: Sequence[Solid]) -> list[list[int]]:
-    """Solids by volume and area, those that are equal (or mirror images) together, in the order of the first."""
+def _bulkiest(classes: list[list[int]], solids: Sequence[Solid]) -> list[list[int]]:
+    """The closed rows of the class whose rows are the bulkiest; none where none has any."""
+    best: list[list[int]] = []
+    bulk = 0.0
+    for members in classes:
+        rows = _rows(members, solids)
+        size = solids[members[0]].size * sum(map(len, rows))
+        if rows and size > bulk:
+            best, bulk = rows, size
+    return best
+
+
+def _classes(solids: Sequence[Solid], equal: float) -> list[list[int]]:
+    """Solids by volume and area, those that are `equal` (or mirror images) together, in the order of the first."""
     order = sorted(range(len(solids)), key=lambda i: (solids[i].volume, solids[i].surface, i))
     classes: list[list[int]] = []
+    # Those to which one more may belong: of a volume not too small.
+    near: list[list[int]] = []
     for i in order:
-        first = classes[-1][0] if classes else -1
-        if first >= 0 and _equal(solids[first], solids[i]):
-            classes[-1].append(i)
+        near = [c for c in near if solids[c[0]].volume >= (1.0 - equal) * solids[i].volume]
+        same = next((c for c in near if _equal(solids[c[0]], solids[i], equal)), None)
+        if same is None:
+            near.append([i])
+            classes.append(near[-1])
         else:
-            classes.append([i])
+            same.append(i)
     return sorted((sorted(c) for c in classes), key=lambda c: c[0])
 
 
-def _equal(a: Solid, b: Solid) -> bool:
-    alike = abs(a.volume - b.volume) <= EQUAL * max(a.volume, b.volume)
-    return alike and abs(a.surface - b.surface) <= EQUAL * max(a.surface, b.surface)
+def _equal(a: Solid, b: Solid, share: float) -> bool:
+    alike = abs(a.volume - b.volume) <= share * max(a.volume, b.volume)
+    return alike and abs(a.surface - b.surface) <= share * max(a.surface, b.surface)
 
 
 def _rows(members: list[int], solids: Sequence[Solid]) -> list[list[int]]:

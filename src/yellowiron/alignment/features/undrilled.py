@@ -107,6 +107,28 @@ def _pairs(fits: Iterable[Fit]) -> set[frozenset[int]]:
     return {_ends(fit) for fit in fits}
 
 
+def rimmed_fits_of(solids: tuple[Solid, ...], fits: list[Fit], touch: Touch) -> list[Fit]:
+    """A fit for every part with a hole that was not recognised as a bore (too coarse, broken, or too rough to be round)
+    around a pin that is in the bores of others."""
+    joined = _pairs(fits)
+    pins = [solids[i] for i in sorted({f.inner for f in fits}) if solids[i].shaft is not None]
+    found = []
+    for pin in pins:
+        bar = pin.shaft
+        assert bar is not None
+        reach = bar.half * np.abs(bar.direction) + bar.radius
+        for other in (solids[i] for i in touch.reaching(bar.center - reach, bar.center + reach)):
+            if other.index == pin.index or other.shaft is not None or frozenset((pin.index, other.index)) in joined:
+                continue
+            low, high = other.span(bar.center, bar.direction)
+            low, high = max(low, -bar.half), min(high, bar.half)
+            if high - low >= LEAST * bar.radius and _rimmed(other, bar):
+                middle = bar.center + 0.5 * (low + high) * bar.direction
+                hole = replace(bar, center=middle, half=0.5 * (high - low), inner=True)
+                found.append(Fit(pin.index, other.index, bar, hole, high - low, 0.0))
+    return found
+
+
 def interrupted_fits_of(solids: tuple[Solid, ...], fits: list[Fit], tolerance: float) -> list[Fit]:
     """A fit for every empty bore on a bar of which only pieces are drawn: equal ones in line of one part, what is
     between them being inside of that part's other shapes. For pairs of parts without a fit."""

@@ -17,7 +17,7 @@ from yellowiron.alignment.features.distance import Touch
 from yellowiron.alignment.features.pinless_pivots import has_drilled_pivots, round_end_fits_of, stay_bars_of
 from yellowiron.alignment.features.solids import Solid, size_of, solids_of
 from yellowiron.alignment.features.telescopes import Nest, nests_of
-from yellowiron.alignment.features.undrilled import interrupted_fits_of, pierced_fits_of
+from yellowiron.alignment.features.undrilled import interrupted_fits_of, pierced_fits_of, rimmed_fits_of
 from yellowiron.alignment.features.undrilled_cylinders import apart_cylinders_of, solid_cylinders_of
 from yellowiron.alignment.features.wheels import Wheel, wheels_of
 from yellowiron.alignment.structure.contact_evidence import ContactEvidence, Contacts, evidence_of, tables_of
@@ -60,6 +60,7 @@ def observe(assembly: Assembly, template: Template, contact: float) -> Observati
         cylinders += apart_cylinders_of(solids, cylinders, tolerance)
     fits = fits_of(solids, tolerance)
     fits += interrupted_fits_of(solids, fits, tolerance)
+    fits += rimmed_fits_of(solids, fits, touch)
     pierced = pierced_fits_of(solids, fits, cylinders, touch, size)
     fits += pierced
     stays: frozenset[int] = frozenset()

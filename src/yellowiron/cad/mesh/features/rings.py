@@ -1,5 +1,5 @@
-"""Round walls that are only nearly cylinders: what a converter's decimation, noise or coarse rounding has left of a bore
-or a shaft.
+"""Round walls that are only nearly cylinders: what a converter's decimation, noise or coarse rounding has left of a
+bore or a shaft.
 
 Their facets are few, uneven and twisted, and their corners lie on no one cylinder, but they still go all the way round,
 and what they stand on is still flat and square to their axis. How far they may stray from a cylinder is what their own
@@ -34,6 +34,8 @@ _GAP = math.radians(80.0)
 """The widest gap between the corners of a wall, seen from its axis …"""
 _MANY = 9
 """… if it has corners in so many directions; with fewer, it is `_FOLD`."""
+_TWISTED = 1.4
+"""… or so many times as many as at either of its ends."""
 _STRAY = 0.8
 """A wall's corners stray from its cylinder by no more than this share of the arc's height over its widest chords."""
 _TOLD = 0.4
@@ -57,7 +59,7 @@ class Ring:
 
 
 def rings(soup: Soup, free: Flags, least: float) -> Iterator[Ring]:
-    """The round walls among the `free` triangles, of a radius of at least `least` metres; what is found is left free."""
+    """The round walls among the `free` triangles, of a radius of at least `least` metres; `free` stays as it is."""
     bent = (soup.angle > SLIGHTEST) & (soup.angle < _FOLD) & free[soup.pair].all(axis=1)
     if int(bent.sum()) < _CORNERS:
         return
@@ -72,7 +74,8 @@ def rings(soup: Soup, free: Flags, least: float) -> Iterator[Ring]:
 
 def _ways(soup: Soup) -> list[Floats]:
     """The directions in which most of the flat area faces, or the opposite."""
-    total, found = float(soup.areas.sum()), []
+    total = float(soup.areas.sum())
+    found: list[Floats] = []
     left = np.ones(len(soup.corners), dtype=bool)
     while left.any() and len(found) < _WAYS:
         # By facets: a wall's are many and small.
@@ -108,7 +111,7 @@ def _walls(soup: Soup, free: Flags, direction: Floats) -> Iterator[Indices]:
     count = np.bincount(label)
     size = np.bincount(label, weights=soup.areas)
     sums = np.stack([np.bincount(label, weights=soup.areas * soup.normals[:, k]) for k in range(3)], axis=1)
-    sums -= np.outer(sums @ direction, direction)
+    sums = sums - np.outer(sums @ direction, direction)
     for k in np.flatnonzero((count >= _CORNERS) & (np.linalg.norm(sums, axis=1) < _ALL_ROUND * size)).tolist():
         yield np.flatnonzero(label == k)
 
@@ -128,15 +131,24 @@ def _ring(soup: Soup, rows: Indices, direction: Floats) -> Ring | None:
     found = Round(foot, direction, radius, facing < 0.0, rows)
     if abs(facing) < 0.9 * float(soup.areas[rows].sum()):
         return None
-    angles = np.sort(np.arctan2(flat[:, 1] - center[1], flat[:, 0] - center[0]))
-    gaps = np.append(np.diff(angles), angles[0] + math.tau - angles[-1])
-    corners = int((gaps > _APART).sum())
-    if corners < _CORNERS or float(gaps.max()) > (_GAP if corners >= _MANY else _FOLD):
+    angles, along = np.arctan2(flat[:, 1] - center[1], flat[:, 0] - center[0]), points @ direction
+    corners, gap = _directions(angles)
+    upper = along > along.mean()
+    # What is angular has the same corners at both ends; a round wall that lost most of its corners has others.
+    twisted = corners > _TWISTED * max(_directions(angles[upper])[0], _directions(angles[~upper])[0])
+    if corners < _CORNERS or gap > (_GAP if corners >= _MANY or twisted else _FOLD):
         return None
     stray = float(np.abs(np.linalg.norm(flat - center, axis=1) - radius).max())
     if stray > _STRAY * _height(soup, found, 100.0) + ROUGH * radius:
         return None
     return Ring(found, max(stray, _TOLD * _height(soup, found)))
+
+
+def _directions(angles: Floats) -> tuple[int, float]:
+    """How many directions there are among some angles, and the widest gap between them, radians."""
+    ordered = np.sort(angles)
+    gaps = np.append(np.diff(ordered), ordered[0] + math.tau - ordered[-1])
+    return int((gaps > _APART).sum()), float(gaps.max())
 
 
 def untold(soup: Soup, found: Round) -> float:
