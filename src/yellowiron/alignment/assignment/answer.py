@@ -19,12 +19,14 @@ SIDED_WEIGHT = 4 * MISSING_WEIGHT
 @dataclass(frozen=True)
 class Judged:
     """What a solid was judged to be where contacts alone do not tell (`alignment.fusion`): its `body`, by how much that
-    is better than the next (`lead`, the score's units), which that is (None: no body), and why."""
+    is better than the next (`lead`, the score's units), which that is (None: no body), and why. `grounded`: its names
+    tell it from every other body; what only contacts, its shape and place speak for is not."""
 
     body: str
     lead: float
     second: str | None
     words: str
+    grounded: bool
 
 
 @dataclass(frozen=True, eq=False)

@@ -256,8 +256,8 @@ def name_scores(parts: tuple[Part, ...], template: Template, whole: Template | N
         shared += 1
     idle = _common_to_most([p.name for p in parts], words)
     bodies: dict[str, list[frozenset[str]]] = {}
-    for body, wanted in _wanted(template, whole or template):
-        bodies.setdefault(body, []).append(wanted)
+    for wanted_body, wanted in _wanted(template, whole or template):
+        bodies.setdefault(wanted_body, []).append(wanted)
     scores = []
     for part in parts:
         said = spoken((part.name, *reversed(part.path[shared:])), words)

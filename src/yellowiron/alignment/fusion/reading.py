@@ -11,7 +11,7 @@ import numpy as np
 from yellowiron.alignment.assignment.answer import Answer, Judged
 from yellowiron.alignment.assignment.cp_sat import MISSING_WEIGHT, Solution
 from yellowiron.alignment.fusion.bonds import Bond, bonds_of
-from yellowiron.alignment.fusion.judge import Field, field_of, labelled, leads
+from yellowiron.alignment.fusion.judge import Field, field_of, labelled, leads, weighed
 from yellowiron.alignment.fusion.pieces import Piece, leading, pieces_of
 from yellowiron.alignment.fusion.stance import Stance, stance_of
 from yellowiron.alignment.fusion.votes import BARS, CLEARLY, Features, Votes, named, votes_of
@@ -26,6 +26,10 @@ BELIEVED = 0.5
 """Names that explain less than this share of what they could of who is beside whom are not believed at all."""
 TRUSTED = 0.8
 """… and from this share on, wholly."""
+TELLING = ("name", "said")
+GROUND = 30.0
+"""By so much names (or a person) speak more for a body than for any other where they tell which it is. Contacts that
+did not find the machine tell nothing for certain."""
 CLEAR_LEAD = 12.0
 """A small piece whose body is better than any other by less than this goes with what it touches."""
 
@@ -45,8 +49,8 @@ class _Best:
 
 @dataclass(frozen=True, eq=False)
 class Evidence:
-    """What a machine is judged by: its pieces, which of them can be what a body mainly is (`leading`), the bonds of all,
-    how far names are trusted, how the machine stands, what the names say of each solid, what the contacts gave, and
+    """What a machine is judged by: its pieces, which of them can be what a body mainly is (`leading`), all bonds, how
+    far names are trusted, how the machine stands, what the names say of each solid, what the contacts gave, and
     what a person said."""
 
     pieces: tuple[Piece, ...]
@@ -185,8 +189,16 @@ def _judged(best: _Best, pieces: Sequence[Piece], chief: Sequence[int], bonds: S
         vote = best.votes[k][body]
         words = _words(body, margin, bodies[other] if other < none else None, vote)
         for i in piece.members:
-            found[i] = Judged(body, margin, bodies[other] if other < none else None, words)
+            found[i] = Judged(
+                body, margin, bodies[other] if other < none else None, words, _grounded(body, best.votes[k])
+            )
     return found
+
+
+def _grounded(body: str, votes: Mapping[str, Features]) -> bool:
+    """True where a piece's names or a person tell its body from every other."""
+    told = {b: weighed({n: f[n] for n in TELLING if n in f}, weights()) for b, f in votes.items()}
+    return told[body] - max((t for b, t in told.items() if b != body), default=0.0) >= GROUND
 
 
 def _words(body: str, lead: float, other: str | None, features: Features) -> str:
@@ -214,7 +226,7 @@ def _by_name_alone(
         lead = 100.0 * (said[best] - (said[others[0]] if others else 0.0))
         if said[best] >= CLEARLY and lead >= CLEAR_LEAD:
             words = f"{best} by its name alone, which says so with {said[best]:.2f}"
-            found[solid.index] = Judged(best, lead, others[0] if others else None, words)
+            found[solid.index] = Judged(best, lead, others[0] if others else None, words, True)
     return found
 
 

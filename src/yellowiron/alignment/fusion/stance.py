@@ -125,12 +125,13 @@ def _mirrored(
         off = float(np.mean(np.minimum(gaps, limit)))
         if rounds > 1:
             good = gaps < limit
-            one, other = points[good], points[nearest[good]]
+            matched = np.asarray(nearest)[good]
+            one, other = points[good], points[matched]
             one, other = one - one.mean(axis=0), other - other.mean(axis=0)
             # min over n of |q - p + 2 n (n.p)|^2 = const + 4 (n.p)(n.q)
             _, vectors = np.linalg.eigh(one.T @ other + other.T @ one)
             direction = vectors[:, 0]
-            middle = 0.5 * float((points[good].mean(axis=0) + points[nearest[good]].mean(axis=0)) @ direction)
+            middle = 0.5 * float((points[good].mean(axis=0) + points[matched].mean(axis=0)) @ direction)
     return direction, off
 
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from yellowiron.alignment.assignment.answer import Answer
+from yellowiron.alignment.assignment.answer import Answer, held_share
 from yellowiron.alignment.fusion.pieces import Piece
 from yellowiron.alignment.fusion.stance import Stance
 from yellowiron.model.template import Template, Usual
@@ -119,15 +119,16 @@ def _depths(template: Template) -> dict[str, int]:
 
 def _solved(answer: Answer) -> dict[int, dict[str, float]]:
     """Solid → the body that the contacts gave it, and the share of that body's joints that they found, squared: one
-    joint of three is nothing, all are nearly certain."""
+    joint of three is nothing, all are nearly certain where most of the machine's are found."""
     solution, template = answer.solution, answer.template
+    whole = held_share(answer) ** 2
     found: dict[int, dict[str, float]] = {}
     for c, body in sorted(solution.body_of.items()):
         joints = [j.name for j in template.joints if body in template.bodies_of(j)]
         held = sum(j in solution.hinge_of or j in solution.slide_of for j in joints)
         share = held / len(joints) if joints else 0.0
         for i in answer.structure.clusters[c].members:
-            found[i] = {body: share * share}
+            found[i] = {body: whole * share * share}
     return found
 
 

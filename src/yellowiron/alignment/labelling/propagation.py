@@ -79,8 +79,9 @@ class Propagation:
     def _bodies(self) -> None:
         if self.answer.judged is not None:
             for i, what in sorted(self.answer.judged.items()):
-                sure = 1.0 - math.exp(-max(what.lead, 0.0) / SURE_LEAD)
-                self.places[i] = Place(what.body, what.body, 0.98 * sure, what.words, what.second, how="judged")
+                sure = 0.98 * (1.0 - math.exp(-max(what.lead, 0.0) / SURE_LEAD))
+                sure = sure if what.grounded else min(sure, DOUBTFUL)
+                self.places[i] = Place(what.body, what.body, sure, what.words, what.second, how="judged")
             return
         second = next_bodies(self.structure, self.template, self.solution)
         for c, body in sorted(self.solution.body_of.items()):
