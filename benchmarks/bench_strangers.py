@@ -37,8 +37,9 @@ sys.path[:0] = [str(ROOT / "src"), str(ROOT / "tests"), str(ROOT / "benchmarks")
 
 from kit.machines.damages import DAMAGES, KINDS  # noqa: E402
 from kit.machines.defects import crowded, drawn  # noqa: E402
+from kit.machines.excavators import excavator  # noqa: E402
 from kit.machines.synthetic import Machine  # noqa: E402
-from kit.scene import TEMPLATES, Scene, read, scene, true_joints  # noqa: E402
+from kit.scene import Scene, read, scene, true_joints  # noqa: E402
 from kit.scoring import Score, score  # noqa: E402
 from strangers_models import LABELS, models, scene_of  # noqa: E402
 from yellowiron.library import load_template  # noqa: E402
@@ -119,14 +120,17 @@ def size_case(name: str, limit: str) -> Result:
     return {"damage": name, "names": "without", **solved(SIZES[name](), int(limit))}
 
 
-def _filled(kind: str, machine: Machine, name: str) -> Scene:
-    assembly, truth = read(machine, 0, np.eye(4), None)
-    joints = tuple(true_joints(drawn(kind, 0), kind, 0, np.eye(4)))
-    return Scene(assembly, truth, joints, float(np.ptp(truth.points[:, 2])), TEMPLATES[kind])
+def _large(seed: int, change: Callable[[Machine], Machine]) -> Scene:
+    """An excavator made large, with the joints of what is left of it."""
+    sound = drawn("excavator", seed)
+    assembly, truth = read(change(sound), seed, np.eye(4), None)
+    there = {body for role, body in truth.labels if not role.endswith("_pin")}
+    joints = tuple(j for j in true_joints(sound, "excavator", seed, np.eye(4)) if set(j.bodies) <= there)
+    return Scene(assembly, truth, joints, float(np.ptp(truth.points[:, 2])), "excavator")
 
 
 def _fine(machine: Machine, parts: int, triangles: int) -> Machine:
-    """The machine's largest parts, their triangles halved until there are as many."""
+    """The machine's cylinders and largest parts, their triangles divided until there are as many."""
     size = {p.id: float(np.prod(np.ptp(machine.shapes[p.shape].mesh.points, axis=0) + 1e-3)) for p in machine.parts}
     rams = {p.id for p in machine.parts if "piston_rod" in machine.truth[p.id][1] or "barrel" in machine.truth[p.id][1]}
     order = sorted(machine.parts, key=lambda p: (p.id not in rams, -size[p.id]))
@@ -138,12 +142,12 @@ def _fine(machine: Machine, parts: int, triangles: int) -> Machine:
 
     while count() < triangles:
         key = min(shapes, key=lambda k: (len(shapes[k].mesh.triangles), k))
-        shapes[key] = replace(shapes[key], mesh=_halved(shapes[key].mesh))
+        shapes[key] = replace(shapes[key], mesh=_divided(shapes[key].mesh))
     ids = {p.id for p in chosen}
     return replace(machine, parts=chosen, shapes=shapes, truth={i: t for i, t in machine.truth.items() if i in ids})
 
 
-def _halved(mesh: Mesh) -> Mesh:
+def _divided(mesh: Mesh) -> Mesh:
     """Every triangle in four."""
     import trimesh
 
@@ -152,18 +156,10 @@ def _halved(mesh: Mesh) -> Mesh:
 
 
 SIZES: dict[str, Callable[[], Scene]] = {
-    "85 parts, 470k triangles": lambda: _filled("excavator", _fine(drawn("excavator", 4), 85, 470_000), "fine"),
-    "267 parts with hoses": lambda: _filled("excavator", hosed(), "hoses"),
-    "5000 parts": lambda: _filled("excavator", crowded(drawn("excavator", 0), 5000), "crowd"),
+    "85 parts, 470k triangles": lambda: _large(4, lambda machine: _fine(machine, 85, 470_000)),
+    "267 parts with hoses": lambda: _large(3, lambda _: crowded(excavator(3, hoses=24), 267)),
+    "5000 parts": lambda: _large(3, lambda machine: crowded(machine, 5000)),
 }
-
-
-def hosed() -> Machine:
-    """An excavator with 24 hoses between any two bodies, filled up with bolts to 267 parts."""
-    from kit.machines.excavators import excavator
-
-    machine = excavator(0, hoses=24, bolts=True)
-    return crowded(machine, max(267, len(machine.parts)))
 
 
 COLUMNS = f"{'':34s}  n  parts  right%  area%  silent  flagd  roles   joints     mean    max s"
