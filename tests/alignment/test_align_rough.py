@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from kit.machines.damages import damaged
-from kit.machines.defects import drawn
+from kit.machines.defects import drawn, merged_bodies, no_pins
 from kit.machines.solids import plate, tube
 from kit.machines.synthetic import Machine, disguise
 from yellowiron.alignment import align
@@ -86,3 +86,14 @@ def test_shoes_that_were_scaled_one_by_one_are_a_track() -> None:
     rows = [[len(t.shoes) for t in tracks_of(solids_of(m.assembly()))] for m in (sound, slipped)]
     assert rows[0] == rows[1]
     assert len(rows[0]) == 2
+
+
+@pytest.mark.parametrize("kind", ["loader", "excavator"])
+def test_empty_bores_in_a_cylinders_own_part_are_its_eyes(kind: str) -> None:
+    """Half of the bodies are one part each, barrels and rods with their eyes among them, and no pin is drawn."""
+    rng = np.random.default_rng([0, 91])
+    machine = no_pins(merged_bodies(drawn(kind, 0), rng), rng)
+    assembly, truth, _ = disguise(machine, 0)
+    template = load_template({"loader": "wheel_loader", "excavator": "excavator"}[kind])
+    found = align(assembly, template, Specifications())
+    assert all(p.body == truth[p.part][1] for p in found.parts if truth[p.part][1])
