@@ -190,11 +190,19 @@ def _sorted_fits(contacts: Contacts, axes: list[SharedAxis], roles: _Roles, *, s
         fits.direct.append((axis, fit))
         fits.pin_on(fit, axis)
     for k, fit in enumerate(contacts.bare, len(contacts.fits)):
-        if not {fit.inner, fit.outer} & (fasteners | set(owner)):
+        if not {fit.inner, fit.outer} & fasteners and _is_eye(fit, owner, contacts.cylinders):
             fits.direct.append((number[k], fit))
             fits.pin_on(fit, number[k])
     _through_rings(fits.pinned, fits.pressed, axes, contacts.tolerance)
     return fits
+
+
+def _is_eye(fit: Fit, owner: dict[int, tuple[str, int]], cylinders: list[DrawnCylinder]) -> bool:
+    """Whether an empty bore of a hydraulic cylinder's own part is its eye, across it; those of wheels are none."""
+    owned = [owner[i] for i in (fit.inner, fit.outer) if i in owner]
+    return len(owned) < 2 and all(
+        kind != "wheel" and abs(float(fit.shaft.direction @ cylinders[k].direction)) < ACROSS for kind, k in owned
+    )
 
 
 def _slides(fit: Fit, owner: dict[int, tuple[str, int]]) -> bool:

@@ -110,9 +110,9 @@ def _walls(soup: Soup, free: Flags, direction: Floats) -> Iterator[Indices]:
     label = linked(soup.pair[tied], len(soup.corners))
     count = np.bincount(label)
     size = np.bincount(label, weights=soup.areas)
-    sums = np.stack([np.bincount(label, weights=soup.areas * soup.normals[:, k]) for k in range(3)], axis=1)
-    sums = sums - np.outer(sums @ direction, direction)
-    for k in np.flatnonzero((count >= _CORNERS) & (np.linalg.norm(sums, axis=1) < _ALL_ROUND * size)).tolist():
+    net: Floats = np.stack([np.bincount(label, weights=soup.areas * soup.normals[:, k]) for k in range(3)], axis=1)
+    net = net - np.outer(net @ direction, direction)
+    for k in np.flatnonzero((count >= _CORNERS) & (np.linalg.norm(net, axis=1) < _ALL_ROUND * size)).tolist():
         yield np.flatnonzero(label == k)
 
 
