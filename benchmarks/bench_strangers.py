@@ -25,7 +25,8 @@ import signal
 import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -35,7 +36,7 @@ import numpy as np
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "src"), str(ROOT / "tests"), str(ROOT / "benchmarks")]
 
-from kit.machines.damages import DAMAGES, KINDS  # noqa: E402
+from kit.machines.damages import DAMAGES, EXTRA, KINDS  # noqa: E402
 from kit.machines.defects import crowded, drawn  # noqa: E402
 from kit.machines.excavators import excavator  # noqa: E402
 from kit.machines.synthetic import Machine  # noqa: E402
@@ -83,7 +84,7 @@ def solved(given: Scene, limit: int) -> Result:
         else:
             failed = ""
     except (YellowironError, GivenUpError) as error:
-        known = np.array([bool(body) for _, body in given.truth.labels])[given.truth.label]
+        known = np.array([b[:1] not in ("", EXTRA) for _, b in given.truth.labels])[given.truth.label]
         area = float(given.truth.areas[known].sum())
         n, joints = len(given.assembly.parts), len(given.joints)
         lost = Score(area, 0.0, 0.0, area, n, 0, 0, 1, 0, 0, joints, 0).document()
@@ -181,18 +182,24 @@ def row(label: str, results: Sequence[Result]) -> str:
         f"{label:34s} {len(read_ones):2d} {sum(r['parts'] for r in read_ones):6d} {mean('parts_right', 'parts'):7.2f} "
         f"{mean('right', 'area'):6.2f} {mean('silent', 'area'):7.2f} {mean('flagged', 'area'):6.2f} "
         f"{mean('roles_right', 'roles'):6.2f} {joints:>8s} {np.mean(times):8.2f} {max(times):8.2f}"
+        + "".join(f"  {r['unread']}" for r in results if "unread" in r)
         + (f"  {failed}: {next(r['failed'] for r in read_ones if r['failed'])[:60]}" if failed else "")
     )
 
 
-def run(work: list[tuple[Callable[..., Result], Case]], jobs: int) -> Iterator[Result]:
+def run(work: Sequence[tuple[Callable[..., Result], Case]], jobs: int) -> Iterator[Result]:
     """The results of cases, in their order."""
-    if jobs < 2:
-        yield from (function(*case) for function, case in work)
-        return
-    with ProcessPoolExecutor(jobs) as pool:
-        for done in [pool.submit(function, *case) for function, case in work]:
-            yield done.result()
+    with ThreadPoolExecutor(jobs) as threads:
+        yield from threads.map(lambda item: _alone(*item), work)
+
+
+def _alone(function: Callable[..., Result], case: Case) -> Result:
+    """A case in a process of its own: what crashes there is a line of the table."""
+    with ProcessPoolExecutor(1) as pool:
+        try:
+            return pool.submit(function, *case).result()
+        except BrokenProcessPool:
+            return {"case": case, "unread": f"crashed: {', '.join(case)}"}
 
 
 def cases(chosen: argparse.Namespace) -> dict[str, list[tuple[Callable[..., Result], Case]]]:

@@ -106,6 +106,7 @@ def test_a_scene_is_the_same_each_time_and_counts_what_is_drawn() -> None:
 
 @pytest.mark.slow
 def test_a_scene_in_millimetres_is_a_thousand_times_as_large() -> None:
+    # Its parts may be refused; its truth is there.
     large, plain = scene("excavator", 4, "millimetres"), scene("excavator", 4, "sound")
     assert large.height == pytest.approx(1000 * plain.height, rel=1e-6)
     assert large.truth.areas.sum() == pytest.approx(1e6 * plain.truth.areas.sum(), rel=1e-5)

@@ -173,7 +173,9 @@ def test_what_is_no_part_of_the_machine_is_right_outside_it() -> None:
     found = score(
         machine.assembly(), Alignment("wheel_loader", np.eye(4), tuple(known)), None, truth, (), 1.0, LOADER
     )  # fmt: skip
-    assert found.silent > 0.5 * found.area
+    assert found.silent == pytest.approx(found.area, rel=1e-9)
+    assert found.right == pytest.approx(found.area, rel=1e-9)
+    assert found.parts_right == found.parts - 1
 
 
 # ---- labels ----

@@ -24,6 +24,8 @@ from yellowiron.library import load_template
 from yellowiron.mechanism import build_mechanism
 from yellowiron.model.alignment import Alignment, PartAssignment
 from yellowiron.model.assembly import Assembly
+from yellowiron.model.errors import CadError
+from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Mesh
 from yellowiron.model.rows import expand
 from yellowiron.model.specification import Specifications
@@ -116,9 +118,14 @@ def named_parts(machine: Machine, kind: str, seed: int) -> list[str]:
 
 
 def read(machine: Machine, seed: int, world: Array, names: list[str] | None) -> tuple[Assembly, Surface]:
-    """The machine as it comes out of a file of triangles in single precision that has no unit but metres."""
+    """The machine as it comes out of a file of triangles in single precision that has no unit but metres; an assembly
+    without parts where all of it is refused."""
     items, truth = occurrences(machine, seed, world, names)
-    return assemble(items, name="machine", format="synthetic", unit=1.0, path="machine.glb"), truth
+    try:
+        return assemble(items, name="machine", format="synthetic", unit=1.0, path="machine.glb"), truth
+    except CadError as error:
+        refused = Finding("CAD003", "error", error.where, error.message, error.hint)
+        return Assembly("machine", "synthetic", 1.0, (), {}, (refused,)), truth
 
 
 def occurrences(machine: Machine, seed: int, world: Array, names: list[str] | None) -> tuple[list[Occurrence], Surface]:

@@ -5,6 +5,9 @@ So it does not matter whether a mesh was taken apart, joined, named, or brought 
 A triangle is right if its part moves with the body that it is labelled with, or with another that the label allows: a
 pin may go with either body that it joins, what a track is made of with its undercarriage. It is silent if it is wrong
 and its part is not listed for review. What was left out when the file was read is wrong and not silent: that is said.
+What is no part of the machine has no share in its area, which a floor would outweigh, but is silent where it is taken
+for a part of it and not listed, up to the machine's own area.
+
 A role (a body, a pin) is right if most of its area is; a pin must play its own role for that. A joint of the truth is
 right if one is found between its bodies, or two over a third body, on its axis: within 1 % of the machine's height
 across the axis and 2°, or what its label allows. Slides as pivots; where along the axis does not matter.
@@ -97,6 +100,7 @@ def score(
     good_bodies = _allowed_bodies(truth, template, areas, labels, by_part)
     total = right = silent = flagged = 0.0
     counted = parts_right = parts_silent = 0
+    taken_in = 0.0
     votes: dict[str, list[float]] = {}
     told: set[str] = set()
     words, silent_words = [], []
@@ -127,9 +131,12 @@ def score(
         if not mine:
             continue
         bad = sum(wrong.values())
-        total, right = total + mine, right + mine - bad
-        flagged += mine if listed else 0.0
-        silent += 0.0 if listed else bad
+        if all(truth.labels[n][1].startswith(EXTRA) for n in np.unique(labels[part.id])):
+            taken_in += 0.0 if listed else bad
+        else:
+            total, right = total + mine, right + mine - bad
+            flagged += mine if listed else 0.0
+            silent += 0.0 if listed else bad
         counted += 1
         parts_right += bad <= 0.5 * mine
         parts_silent += bad > 0.5 * mine and not listed
@@ -137,11 +144,12 @@ def score(
             reason = f"{found.confidence:.2f}: {found.reason}" if found is not None else "not listed"
             text = f"{part.id} ({part.name}): {role}/{body}, {bad / mine:.0%} of it {'+'.join(wrong)} ({reason})"
             (words if listed else silent_words).append(text)
-    known = np.array([bool(body) for _, body in truth.labels])[truth.label]
+    known = np.array([bool(body) and not body.startswith(EXTRA) for _, body in truth.labels])[truth.label]
     dropped = max(0.0, float(truth.areas[known].sum()) - total)
     if dropped > 1e-3 * total:
         total += dropped
         flagged += dropped
+    silent += min(taken_in, total)
     lost, count = _lost(joints, mechanism, alignment, factor, height, played)
     bad_roles = [g for g, (no, yes) in votes.items() if yes <= no]
     return Score(
