@@ -11,7 +11,7 @@ import numpy as np
 
 from yellowiron.kinematics.solver.chain import ClosedChain
 from yellowiron.model.alignment import Alignment, Vector
-from yellowiron.model.assembly import Assembly, DeclaredJoint
+from yellowiron.model.assembly import Assembly, DeclaredJoint, Node
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import DRAWN_OUTSIDE, Joint, Mechanism
@@ -70,6 +70,7 @@ def started(
         replace(p, transform=moves[str(body_of[p.id])] @ p.transform) if body_of.get(p.id) in moves else p
         for p in assembly.parts
     )
+    nodes = _nodes(assembly, {p.node: moves[str(body_of[p.id])] for p in assembly.parts if body_of.get(p.id) in moves})
     joints = []
     for joint in template.joints:
         by = start.coordinates.get(joint.name, 0.0) if joint.type == "revolute" else 0.0
@@ -83,9 +84,23 @@ def started(
             point, direction = alignment.axes[joint.name]
             axes[joint.name] = _moved(moves[body], point, direction) if body is not None else (point, direction)
     return (
-        replace(assembly, parts=parts, joints=tuple(_declared(assembly, body_of, moves))),
+        replace(assembly, parts=parts, joints=tuple(_declared(assembly, body_of, moves)), nodes=nodes),
         replace(template, joints=tuple(joints)),
         replace(alignment, axes=axes),
+    )
+
+
+def _nodes(assembly: Assembly, moves: Mapping[int | None, Floats]) -> tuple[Node, ...]:
+    """The nodes of the scene tree, each moved with its own parts (`moves`), or where it carries none, with its
+    parent."""
+    carrying = {part.node for part in assembly.parts}
+    by: list[Floats | None] = []
+    for number, node in enumerate(assembly.nodes):
+        above = None if node.parent is None else by[node.parent]
+        by.append(moves.get(number) if number in carrying else above)
+    return tuple(
+        node if move is None else replace(node, transform=move @ node.transform)
+        for node, move in zip(assembly.nodes, by, strict=True)
     )
 
 

@@ -21,7 +21,8 @@ class Part:
     `id` is unique and stable: the tree path joined by '/', repeated paths numbered '#2', '#3' in tree order
     (`WHEEL LOADER/FRONT FRAME ASSY/BOLT M24#3`). `path` holds the names of the assemblies above it, outermost
     first. `transform` (4, 4) takes the shape's frame to the CAD file's, metres; its determinant may be negative
-    (a mirrored instance) and its scale differ from 1.
+    (a mirrored instance) and its scale differ from 1. `node` is the number of the one in `Assembly.nodes` that carries
+    it, where the file has a tree of nodes.
     """
 
     id: str
@@ -30,6 +31,28 @@ class Part:
     shape: str
     transform: Floats
     color: Color | None = None
+    node: int | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Node:
+    """A node of the file's scene tree, with or without a mesh: an object, a group, an empty, a bone.
+
+    `parent` is its number in `Assembly.nodes`, where parents stand before their children; None for a root.
+    `transform` (4, 4) takes the node's frame to the CAD file's, metres; it may mirror, scale and shear. Its origin is
+    the point that the node turns about: where a format knows a pivot apart from the origin (FBX, USD), that one. Of a
+    bone it is the head. `bone` is set for the joints of a skeleton.
+    """
+
+    name: str
+    parent: int | None
+    transform: Floats
+    bone: bool = False
+
+    @property
+    def origin(self) -> Floats:
+        """(3,) the point that the node turns about, CAD frame, metres."""
+        return self.transform[:3, 3]
 
 
 @dataclass(frozen=True)
@@ -67,7 +90,7 @@ def loop_axis(point: DeclaredJoint, joints: Sequence[DeclaredJoint]) -> tuple[fl
 @dataclass(frozen=True, eq=False)
 class Assembly:
     """A CAD model in metres, in the CAD file's own frame. `unit` is the file's own unit in metres (0.001: mm); `joints`
-    are those that the file declares, where it is a robot description."""
+    are those that the file declares, where it is a robot description; `nodes` are its scene tree, where it has one."""
 
     name: str
     format: str
@@ -77,6 +100,7 @@ class Assembly:
     findings: tuple[Finding, ...] = ()
     declared_occurrences: int | None = None
     joints: tuple[DeclaredJoint, ...] = ()
+    nodes: tuple[Node, ...] = ()
 
     def part(self, part_id: str) -> Part:
         """The part with that id; `KeyError` if there is none."""
@@ -106,6 +130,14 @@ class Assembly:
                 if one not in spread and other in spread:
                     spread[one] = spread[other]
         return spread
+
+    def nodes_above(self, number: int | None) -> tuple[int, ...]:
+        """A node and those above it, innermost first; () for None."""
+        found: list[int] = []
+        while number is not None:
+            found.append(number)
+            number = self.nodes[number].parent
+        return tuple(found)
 
     def shape_of(self, part: Part) -> Shape:
         """The shape that a part is an occurrence of."""

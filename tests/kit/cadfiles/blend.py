@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+import os
 import pickle
 import subprocess
 import sys
@@ -24,6 +25,7 @@ def blend(path: Path, meshes: Meshes) -> None:
         input=pickle.dumps({key: (points.tolist(), triangles.tolist()) for key, (points, triangles) in meshes.items()}),
         check=True,
         capture_output=True,
+        env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
     )
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import struct
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -70,17 +70,28 @@ def material(number: int, name: str, color: Sequence[float]) -> Record:
 
 
 def model(
-    number: int, name: str, matrix: np.ndarray, *, mesh: bool, scale: Sequence[float] = (1.0, 1.0, 1.0)
+    number: int,
+    name: str,
+    matrix: np.ndarray,
+    *,
+    mesh: bool,
+    scale: Sequence[float] = (1.0, 1.0, 1.0),
+    bone: bool = False,
+    further: Mapping[str, Sequence[float]] | None = None,
 ) -> Record:
-    """A node: a rigid (4, 4) placement in the file's unit, as translation and Euler angles about X first; scale."""
+    """A node: a rigid (4, 4) placement in the file's unit, as translation and Euler angles about X first; scale;
+    `further` vectors of its transform (`RotationPivot`, `GeometricTranslation` …)."""
     r = matrix[:3, :3]
     angles = np.degrees([np.arctan2(r[2, 1], r[2, 2]), np.arcsin(-r[2, 0]), np.arctan2(r[1, 0], r[0, 0])])
     parts = {"Translation": matrix[:3, 3], "Rotation": angles, "Scaling": scale}
     rows = [
         Record("P", [f"Lcl {key}", f"Lcl {key}", "", "A", *(float(v) for v in values)]) for key, values in parts.items()
     ]
+    for key, values in (further or {}).items():
+        rows.append(Record("P", [key, "Vector3D", "Vector", "", *(float(v) for v in values)]))
+    kind = "Mesh" if mesh else "LimbNode" if bone else "Null"
     below = [Record("Version", [232]), Record("Properties70", [], rows)]
-    return Record("Model", [number, Title("Model", name), "Mesh" if mesh else "Null"], below)
+    return Record("Model", [number, Title("Model", name), kind], below)
 
 
 def texture(number: int, file: str) -> Record:

@@ -16,7 +16,7 @@ from yellowiron.alignment.features.solids import size_of, solids_of
 from yellowiron.alignment.tolerances import CONTACT
 from yellowiron.model.assembly import Assembly, DeclaredJoint
 from yellowiron.model.finding import Finding
-from yellowiron.model.geometry import CylinderFeature, PlaneFeature, Shape
+from yellowiron.model.geometry import CylinderFeature, Floats, PlaneFeature, Shape
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import Template
 
@@ -114,11 +114,18 @@ def scaled(assembly: Assembly, factor: float) -> Assembly:
     shapes = {key + mark: _larger(shape, factor, shape.key + mark) for key, shape in assembly.shapes.items()}
     parts = []
     for part in assembly.parts:
-        matrix = part.transform.copy()
-        matrix[:3, 3] *= factor
-        parts.append(replace(part, transform=matrix, shape=part.shape + mark))
+        parts.append(replace(part, transform=_farther(part.transform, factor), shape=part.shape + mark))
     joints = tuple(_joint(joint, factor) for joint in assembly.joints)
-    return replace(assembly, parts=tuple(parts), shapes=shapes, unit=assembly.unit * factor, joints=joints)
+    nodes = tuple(replace(node, transform=_farther(node.transform, factor)) for node in assembly.nodes)
+    unit = assembly.unit * factor
+    return replace(assembly, parts=tuple(parts), shapes=shapes, unit=unit, joints=joints, nodes=nodes)
+
+
+def _farther(transform: Floats, factor: float) -> Floats:
+    """A (4, 4) transform, its place `factor` times as far from the origin."""
+    matrix = transform.copy()
+    matrix[:3, 3] *= factor
+    return matrix
 
 
 def _joint(joint: DeclaredJoint, factor: float) -> DeclaredJoint:

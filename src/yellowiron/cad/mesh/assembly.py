@@ -12,7 +12,7 @@ from yellowiron.cad.mesh import copies, measures, mending, shells
 from yellowiron.cad.mesh.features import facets
 from yellowiron.cad.naming import listed, unique_ids
 from yellowiron.cad.tolerances import LARGEST, SMALLEST
-from yellowiron.model.assembly import Assembly, Part
+from yellowiron.model.assembly import Assembly, Node, Part
 from yellowiron.model.errors import CadError
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Color, Finish, Floats, Mesh, Shape
@@ -23,7 +23,8 @@ _AGAIN = "Export the file again."
 @dataclass(frozen=True, eq=False)
 class Occurrence:
     """A mesh at a place: its name, those of the assemblies above, the mesh (shared by all occurrences of it), the
-    (4, 4) transform into the file's frame (metres), the colour and the finish (or those that its triangles number)."""
+    (4, 4) transform into the file's frame (metres), the colour and the finish (or those that its triangles number), the
+    number of its node where the file has a tree of them."""
 
     name: str
     path: tuple[str, ...]
@@ -31,6 +32,7 @@ class Occurrence:
     transform: Floats
     color: Color | None = None
     finishes: tuple[Finish, ...] = ()
+    node: int | None = None
 
 
 def assemble(
@@ -42,6 +44,7 @@ def assemble(
     path: str,
     findings: Sequence[Finding] = (),
     declared: int | None = None,
+    nodes: Sequence[Node] = (),
 ) -> Assembly:
     """The assembly of placed meshes; those that cannot be parts are left out, with a finding. `CadError` if none can.
 
@@ -78,11 +81,22 @@ def assemble(
         remarks.append(Finding("CAD002", "info", path, f"Without usable geometry: {listed(empty)}"))
     ids = unique_ids((*item.path, item.name) for item, _ in found)
     parts = tuple(
-        Part(id, item.name, item.path, shape.key, item.transform, item.color)
+        Part(id, item.name, item.path, shape.key, item.transform, item.color, item.node)
         for id, (item, shape) in zip(ids, found, strict=True)
     )
     remarks += _plausibility(parts, shapes, path)
-    return Assembly(name, format, unit, parts, shapes, tuple(remarks), declared)
+    return Assembly(name, format, unit, parts, shapes, tuple(remarks), declared, nodes=sound(nodes))
+
+
+def sound(nodes: Sequence[Node]) -> tuple[Node, ...]:
+    """Nodes as they are; one whose place is not finite is where its parent is."""
+    found: list[Node] = []
+    for node in nodes:
+        if not np.isfinite(node.transform).all():
+            place = np.eye(4) if node.parent is None else found[node.parent].transform
+            node = replace(node, transform=place)
+        found.append(node)
+    return tuple(found)
 
 
 def _shared(occurrences: Sequence[Occurrence]) -> list[Occurrence]:

@@ -117,7 +117,17 @@ def _below(assembly: Assembly, names: tuple[str, ...]) -> Assembly:
 
 
 def _joined(read: Sequence[Assembly], folder: Path, findings: Sequence[Finding]) -> Assembly:
-    parts = [part for assembly in read for part in assembly.parts]
+    starts = [sum(len(other.nodes) for other in read[:k]) for k in range(len(read))]
+    parts = [
+        part if part.node is None else replace(part, node=part.node + start)
+        for assembly, start in zip(read, starts, strict=True)
+        for part in assembly.parts
+    ]
+    nodes = (
+        node if node.parent is None else replace(node, parent=node.parent + start)
+        for assembly, start in zip(read, starts, strict=True)
+        for node in assembly.nodes
+    )
     ids = unique_ids((*part.path, part.name) for part in parts)
     declared = [a.declared_occurrences for a in read]
     return Assembly(
@@ -129,4 +139,5 @@ def _joined(read: Sequence[Assembly], folder: Path, findings: Sequence[Finding])
         findings=tuple(dict.fromkeys([*findings, *(f for a in read for f in a.findings)])),
         declared_occurrences=sum(d for d in declared if d is not None) if None not in declared else None,
         joints=tuple(joint for assembly in read for joint in assembly.joints),
+        nodes=tuple(nodes),
     )

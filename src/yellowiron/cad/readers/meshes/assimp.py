@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 import struct
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -21,7 +21,7 @@ from yellowiron.cad.appearance.textures import Pictures, finish
 from yellowiron.cad.mesh import assembly
 from yellowiron.cad.mesh.assembly import Occurrence
 from yellowiron.cad.naming import decode_name, is_generic
-from yellowiron.model.assembly import Assembly
+from yellowiron.model.assembly import Assembly, Node
 from yellowiron.model.errors import CadError
 from yellowiron.model.geometry import Color, Floats, Mesh
 
@@ -44,7 +44,14 @@ _GEOMETRY = re.compile(
 _LINK = re.compile(rb'\x01CS\x02\0\0\0OOL(.{8})L(.{8})|\bC:\s*"OO"\s*,\s*(-?\d+)\s*,\s*(-?\d+)', re.DOTALL)
 """What hangs below what in an FBX file, by their numbers (binary or text)."""
 _HELPER = "_$AssimpFbx$_"
-"""Marks nodes that stand for one step of an FBX node's transform."""
+"""Marks nodes that stand for one step of an FBX node's transform …"""
+_PIVOT, _GEOMETRIC = "RotationPivot", "Geometric"
+"""… of which one puts the point that the node turns about, and some move its mesh alone."""
+_BONE = re.compile(
+    rb'S(?:.{4})([^\0]{0,300})\0\x01ModelS\x08\0\0\0LimbNode|\bModel:[^\n{"]*"Model::([^"\n]*)",\s*"LimbNode"',
+    re.DOTALL,
+)
+"""A bone in an FBX file, binary or text, and its name."""
 
 
 def read_collada(path: str) -> Assembly:
@@ -62,7 +69,9 @@ def read_collada(path: str) -> Assembly:
     if any(_INDICES.search(str(e.tag)) and _NO_INDEX.search(e.text or "") for e in entries):
         raise CadError("The COLLADA file is broken: an index in it is no whole number", where=path, hint=_HINT)
     # The library calls nodes by their ids.
-    return _read(path, "COLLADA", 0, frame, {n["id"]: n["name"] for n in nodes if n.get("id") and n.get("name")})
+    titles = {n["id"]: n["name"] for n in nodes if n.get("id") and n.get("name")}
+    bones = {name for n in nodes if n.get("type") == "JOINT" for key in ("id", "name") if (name := n.get(key))}
+    return _read(path, "COLLADA", 0, frame, titles, bones=bones)
 
 
 def read_fbx(path: str) -> Assembly:
@@ -73,7 +82,8 @@ def read_fbx(path: str) -> Assembly:
     data = Path(path).read_bytes()
     up, unit = _setting(data, b"UpAxis"), _setting(data, b"UnitScaleFactor")
     frame = _FROM_Y_UP["Z_UP"] if up == 2.0 else np.eye(4)
-    read = _read(path, "FBX", assimp_py.Process_GlobalScale, frame, {}, _declared(data))
+    bones = {(binary or text).decode("utf-8", "replace") for binary, text in _BONE.findall(data)}
+    read = _read(path, "FBX", assimp_py.Process_GlobalScale, frame, {}, _declared(data), bones)
     # The library has used the unit, centimetres by default, up.
     return replace(read, unit=0.01 * (unit or 1.0))
 
@@ -102,9 +112,18 @@ def _setting(data: bytes, name: bytes) -> float | None:
     return None
 
 
-def _read(path: str, format: str, flags: int, frame: Floats, titles: Mapping[str, str], declared: int = 0) -> Assembly:
+def _read(
+    path: str,
+    format: str,
+    flags: int,
+    frame: Floats,
+    titles: Mapping[str, str],
+    declared: int = 0,
+    bones: Collection[str] = (),
+) -> Assembly:
     """`frame` (4, 4) takes what the library delivers to the file's own axes; `titles` are better names of nodes;
-    `declared` is how many nodes with meshes the file says it has, if it does."""
+    `declared` is how many nodes with meshes the file says it has, if it does; `bones` are the library's names of
+    bones."""
     import assimp_py
 
     try:
@@ -120,15 +139,16 @@ def _read(path: str, format: str, flags: int, frame: Floats, titles: Mapping[str
     meshes = [_mesh(entry, unit, looks) for entry in scene.meshes]
     known: dict[tuple[int, ...], Dressed | None] = {}
     occurrences = []
-    nodes = list(_nodes(scene.root_node, frame, titles))
-    for names, indices, transform in nodes:
+    tree: list[Node] = []
+    nodes = list(_nodes(scene.root_node, frame, titles, bones, tree))
+    for names, indices, transform, number in nodes:
         if indices not in known:
             kept = [meshes[i] for i in indices if len(meshes[i][0].triangles)]
             known[indices] = joined(kept) if kept else None
         one = known[indices]
         if one is not None:
             transform[:3, :3] /= unit
-            occurrences.append(Occurrence(names[-1], names[:-1], one.mesh, transform, one.color, one.finishes))
+            occurrences.append(Occurrence(names[-1], names[:-1], one.mesh, transform, one.color, one.finishes, number))
     root = decode_name(titles.get(scene.root_node.name, ""), "utf-8")
     return assembly.assemble(
         occurrences,
@@ -138,28 +158,43 @@ def _read(path: str, format: str, flags: int, frame: Floats, titles: Mapping[str
         path=path,
         findings=pictures.findings(),
         declared=max(declared, len(nodes)),
+        nodes=[replace(n, transform=n.transform / [[unit] * 3 + [1.0]]) for n in tree],
     )
 
 
 def _nodes(
-    node: Any, frame: Floats, titles: Mapping[str, str]
-) -> Iterator[tuple[tuple[str, ...], tuple[int, ...], Floats]]:
-    """Every node with meshes: names from the root, the meshes' numbers, (4, 4) transform into the file's frame."""
-    stack: list[tuple[Any, tuple[str, ...], Floats]] = [(node, (), frame)]
+    node: Any, frame: Floats, titles: Mapping[str, str], bones: Collection[str], tree: list[Node]
+) -> Iterator[tuple[tuple[str, ...], tuple[int, ...], Floats, int | None]]:
+    """Every node with meshes: names from the root, the meshes' numbers, (4, 4) transform into the file's frame, its
+    number in `tree`, to which all nodes but the root are added, their lengths scaled as those of the transforms."""
+    stack: list[tuple[Any, tuple[str, ...], Floats, int | None, Floats | None]] = [(node, (), frame, None, None)]
     while stack:
-        here, names, matrix = stack.pop()
-        matrix = matrix @ np.asarray(here.transformation, dtype=np.float64).reshape(4, 4)
-        if here is not node and _HELPER not in here.name:
-            names = (*names, decode_name(titles.get(here.name, here.name), "utf-8") or "Part")
+        here, names, outer, number, pivot = stack.pop()
+        matrix = outer @ np.asarray(here.transformation, dtype=np.float64).reshape(4, 4)
+        if _HELPER in here.name:
+            step = here.name.rpartition(_HELPER)[2].lstrip("_")
+            # What moves the mesh alone moves no node, and is undone (…Inverse) for the nodes below.
+            if step == _PIVOT:
+                pivot = matrix
+            elif step.startswith(_GEOMETRIC) and not step.endswith("Inverse") and pivot is None:
+                pivot = outer
+        elif here is not node:
+            title = decode_name(titles.get(here.name, here.name), "utf-8") or "Part"
+            place = matrix.copy()
+            if pivot is not None:
+                place[:, 3] = pivot[:, 3]
+            tree.append(Node(title, number, place, here.name in bones))
+            names, number, pivot = (*names, title), len(tree) - 1, None
         if len(here.mesh_indices):
-            yield names or ("Part",), tuple(int(i) for i in here.mesh_indices), matrix
-        stack += [(child, names, matrix) for child in reversed(here.children)]
+            yield names or ("Part",), tuple(int(i) for i in here.mesh_indices), matrix, number
+        stack += [(child, names, matrix, number, pivot) for child in reversed(here.children)]
 
 
 def _mesh(entry: Any, unit: float, looks: Sequence[Look]) -> tuple[Mesh, Look, Floats | None, Floats | None]:
     """A mesh in metres, its look, its triangles' texture coordinates (m, 3, 2) and colours (m, 3)."""
     points = np.asarray(entry.vertices, dtype=np.float64).reshape(-1, 3) * unit
-    indices = np.asarray(entry.indices, dtype=np.int64)
+    # A mesh of loose points and edges has no indices.
+    indices = np.asarray(() if entry.indices is None else entry.indices, dtype=np.int64)
     # Points and lines come as meshes of their own, with fewer corners a face.
     corners = indices.reshape(-1, 3) if len(indices) == 3 * entry.num_faces else np.zeros((0, 3), dtype=np.int64)
     look = looks[entry.material_index] if 0 <= entry.material_index < len(looks) else Look()

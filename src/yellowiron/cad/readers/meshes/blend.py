@@ -21,10 +21,10 @@ from yellowiron.cad.appearance.textures import Picture, Pictures, finish
 from yellowiron.cad.mesh import assembly
 from yellowiron.cad.mesh.assembly import Occurrence
 from yellowiron.cad.naming import decode_name
-from yellowiron.model.assembly import Assembly
+from yellowiron.model.assembly import Assembly, Node
 from yellowiron.model.errors import CadError
 from yellowiron.model.finding import Finding
-from yellowiron.model.geometry import Color, Mesh
+from yellowiron.model.geometry import Color, Floats, Mesh
 
 _HINT = "Open it in Blender and export it as GLB."
 _PASSED = re.compile(r"\bERROR\b\s+(.*)")
@@ -59,8 +59,10 @@ def read_blend(path: str) -> Assembly:
     meshes: dict[str, Dressed | None] = {}
     occurrences = []
     declared = 0
+    tree = _Tree(unit)
     for instance in graph.object_instances:
         shown = instance.object
+        node = tree.instance(instance)
         if shown.type not in _SOLID or not instance.show_self:
             continue
         declared += 1
@@ -71,14 +73,13 @@ def read_blend(path: str) -> Assembly:
         found = meshes[key]
         if found is None:
             continue
-        place = np.array(instance.matrix_world, dtype=np.float64)
-        place[:3, 3] *= unit
+        place = _in_metres(instance.matrix_world, unit)
         above = instance.parent.original if instance.is_instance and instance.parent else None
         name = decode_name(own.name, "utf-8")
-        occurrences.append(Occurrence(name, _above(own, above), found.mesh, place, found.color, found.finishes))
+        occurrences.append(Occurrence(name, _above(own, above), found.mesh, place, found.color, found.finishes, node))
     return assembly.assemble(
         occurrences, name=Path(path).stem, format="Blender", unit=unit, path=path,
-        findings=[*findings, *pictures.findings()], declared=declared,
+        findings=[*findings, *pictures.findings()], declared=declared, nodes=tree.nodes,
     )  # fmt: skip
 
 
@@ -117,6 +118,52 @@ def _missing(path: str) -> list[Finding]:
         return []
     words = f"What the file links to is missing: {', '.join(sorted(gone)[:5])}"
     return [Finding("CAD008", "error", path, words, "Put the libraries where the file names them.")]
+
+
+def _in_metres(matrix: Any, unit: float) -> Floats:
+    place = np.array(matrix, dtype=np.float64)
+    place[:3, 3] *= unit
+    return place
+
+
+class _Tree:
+    """The scene tree: a node for every object, every bone of an armature, and every instance of an object."""
+
+    def __init__(self, unit: float) -> None:
+        self.nodes: list[Node] = []
+        self._unit = unit
+        self._known: dict[tuple[str, ...], int] = {}
+
+    def instance(self, instance: Any) -> int:
+        """The number of an instance's node, which is its object's where it is none of another."""
+        if not instance.is_instance or instance.parent is None:
+            return self._object(instance.object.original)
+        above = self._object(instance.parent.original)
+        return self._add(instance.object.original.name, above, instance.matrix_world)
+
+    def _object(self, own: Any) -> int:
+        if (own.name_full,) in self._known:
+            return self._known[own.name_full,]
+        above = None
+        if own.parent is not None:
+            above = self._object(own.parent)
+            if own.parent_type == "BONE":
+                above = self._known.get((own.parent.name_full, own.parent_bone), above)
+        number = self._known[own.name_full,] = self._add(own.name, above, own.matrix_world)
+        for bone in own.pose.bones if own.type == "ARMATURE" and own.pose is not None else ():
+            self._bone(own, bone)
+        return number
+
+    def _bone(self, armature: Any, bone: Any) -> int:
+        key = (armature.name_full, bone.name)
+        if key not in self._known:
+            above = self._known[armature.name_full,] if bone.parent is None else self._bone(armature, bone.parent)
+            self._known[key] = self._add(bone.name, above, armature.matrix_world @ bone.matrix, bone=True)
+        return self._known[key]
+
+    def _add(self, name: str, above: int | None, matrix: Any, *, bone: bool = False) -> int:
+        self.nodes.append(Node(decode_name(name, "utf-8"), above, _in_metres(matrix, self._unit), bone))
+        return len(self.nodes) - 1
 
 
 def _above(own: Any, instancer: Any) -> tuple[str, ...]:

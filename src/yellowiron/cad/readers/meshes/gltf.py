@@ -26,7 +26,7 @@ from yellowiron.cad.mesh import assembly
 from yellowiron.cad.mesh.assembly import Occurrence
 from yellowiron.cad.naming import decode_name, decode_text, is_generic
 from yellowiron.cad.readers.meshes.gltf_materials import STEPS, Materials
-from yellowiron.model.assembly import Assembly
+from yellowiron.model.assembly import Assembly, Node
 from yellowiron.model.errors import CadError
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats, Mesh
@@ -52,12 +52,13 @@ _KNOWN = {
 
 @dataclass(frozen=True, eq=False)
 class _Node:
-    """An occurrence of a mesh: names from the root, (4, 4) transform."""
+    """An occurrence of a mesh: names from the root, (4, 4) transform, its number in the tree."""
 
     path: tuple[str, ...]
     name: str
     mesh: int
     transform: Floats
+    number: int
 
 
 def read_gltf(path: str) -> Assembly:
@@ -69,13 +70,13 @@ def read_gltf(path: str) -> Assembly:
     document, blob = _container(path)
     _require(document, path)
     buffers = _buffers(document, blob, path)
-    nodes = _nodes(document, path)
+    tree, nodes = _nodes(document, path)
     findings: list[Finding] = []
     materials = Materials(document, buffers, path)
     found = _meshes(document, buffers, {n.mesh for n in nodes}, materials, findings)
     broken = {n.mesh for n in nodes if n.mesh not in found and _has_triangles(document, n.mesh)}
     occurrences = [
-        Occurrence(n.name, n.path, one.mesh, n.transform, one.color, one.finishes)
+        Occurrence(n.name, n.path, one.mesh, n.transform, one.color, one.finishes, n.number)
         for n in nodes
         if (one := found.get(n.mesh)) is not None
     ]
@@ -96,6 +97,7 @@ def read_gltf(path: str) -> Assembly:
         path=path,
         findings=findings,
         declared=sum(1 for n in nodes if n.mesh in found or n.mesh in broken),
+        nodes=tree,
     )
 
 
@@ -199,36 +201,44 @@ def _fetch(uri: str, path: str) -> bytes:
 
 
 # ---- the tree ----
-def _nodes(document: dict[str, Any], path: str) -> list[_Node]:
-    """Every occurrence of a mesh in the scene, in tree order."""
+def _nodes(document: dict[str, Any], path: str) -> tuple[list[Node], list[_Node]]:
+    """The scene's tree, and every occurrence of a mesh in it, in tree order."""
     entries, meshes = _list(document, "nodes"), _list(document, "meshes")
     scenes, chosen = _list(document, "scenes"), document.get("scene", 0)
     children = {c for entry in entries for c in _plain_list(entry, "children")}
     roots = [i for i in range(len(entries)) if i not in children]
     if scenes and isinstance(chosen, int) and 0 <= chosen < len(scenes):
         roots = _plain_list(scenes[chosen], "nodes")
+    bones = {
+        joint for skin in _list(document, "skins") for joint in _plain_list(skin, "joints") if isinstance(joint, int)
+    }
+    tree: list[Node] = []
     found: list[_Node] = []
     seen: set[int] = set()
-    stack: list[tuple[Any, tuple[str, ...], Floats]] = [(root, (), np.eye(4)) for root in reversed(roots)]
+    stack: list[tuple[Any, tuple[str, ...], int | None]] = [(root, (), None) for root in reversed(roots)]
     while stack:
-        index, above, outer = stack.pop()
+        index, above, parent = stack.pop()
         if not isinstance(index, int) or not 0 <= index < len(entries):
             raise CadError(f"The glTF tree names a node that is not there: {index}", where=path, hint=_DAMAGED)
         if index in seen or len(above) > _DEEPEST:
             raise CadError("The glTF tree is broken: a node hangs in it twice", where=path, hint=_DAMAGED)
         seen.add(index)
         entry = entries[index]
-        matrix = outer @ _matrix(entry, index, path)
+        matrix = _matrix(entry, index, path)
+        with np.errstate(all="ignore"):
+            matrix = matrix if parent is None else tree[parent].transform @ matrix
         mesh = entry.get("mesh")
         name = decode_name(str(entry.get("name") or ""), "utf-8")
+        number = len(tree)
+        tree.append(Node(name or "Node", parent, matrix, index in bones))
         if mesh is not None:
             if not isinstance(mesh, int) or not 0 <= mesh < len(meshes):
                 raise CadError(f"The glTF tree names a mesh that is not there: {mesh}", where=path, hint=_DAMAGED)
             own = decode_name(str(meshes[mesh].get("name") or ""), "utf-8")
-            found.append(_Node(above, (own if is_generic(name) and own else name) or "Part", mesh, matrix))
+            found.append(_Node(above, (own if is_generic(name) and own else name) or "Part", mesh, matrix, number))
         below = (*above, name or "Assembly")
-        stack += [(child, below, matrix) for child in reversed(_plain_list(entry, "children"))]
-    return found
+        stack += [(child, below, number) for child in reversed(_plain_list(entry, "children"))]
+    return tree, found
 
 
 def _matrix(entry: Mapping[str, Any], index: int, path: str) -> Floats:

@@ -11,7 +11,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from pxr import Gf, Sdf, Tf, Usd, UsdGeom
+from pxr import Gf, Sdf, Tf, Usd, UsdGeom, UsdSkel
 
 from yellowiron.cad.appearance.looks import Dressed
 from yellowiron.cad.mesh import assembly, polygons
@@ -19,7 +19,7 @@ from yellowiron.cad.mesh.assembly import Occurrence
 from yellowiron.cad.naming import decode_name, is_generic
 from yellowiron.cad.readers.usd.joints import usd_joints
 from yellowiron.cad.readers.usd.looks import Looks
-from yellowiron.model.assembly import Assembly
+from yellowiron.model.assembly import Assembly, Node
 from yellowiron.model.errors import CadError
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats, Mesh
@@ -39,6 +39,7 @@ def read_usd(path: str) -> Assembly:
     unit, remarks = _unit(stage, path)
     findings += remarks
     looks = Looks(path)
+    tree, numbers = _tree(stage, unit)
     meshes: dict[Sdf.Path, Dressed | None] = {}
     occurrences: list[Occurrence] = []
     declared = _hollow(stage)
@@ -51,12 +52,15 @@ def read_usd(path: str) -> Assembly:
         if found is not None:
             names = _names(prim)
             place = _in_metres(transform, unit)
-            occurrences.append(Occurrence(names[-1], tuple(names[:-1]), found.mesh, place, found.color, found.finishes))
+            node = numbers.get(_named(prim, len(names)).GetPath())
+            occurrences.append(
+                Occurrence(names[-1], tuple(names[:-1]), found.mesh, place, found.color, found.finishes, node)
+            )
     findings += looks.findings()
     root = stage.GetDefaultPrim()
     name = root.GetName() if root and not is_generic(root.GetName()) else Path(path).stem
     read = assembly.assemble(
-        occurrences, name=name, format="USD", unit=unit, path=path, findings=findings, declared=declared
+        occurrences, name=name, format="USD", unit=unit, path=path, findings=findings, declared=declared, nodes=tree
     )
     return replace(read, joints=tuple(usd_joints(stage, unit, _names)))
 
@@ -106,6 +110,65 @@ def _refers(prim: Usd.Prim) -> bool:
     """Whether a prim says what it refers to, and has not been made to refer to nothing."""
     stated = [prim.GetMetadata(key) for key in ("references", "payload") if prim.HasAuthoredMetadata(key)]
     return any(not listed.isExplicit or listed.explicitItems for listed in stated)
+
+
+def _tree(stage: Usd.Stage, unit: float) -> tuple[list[Node], dict[Sdf.Path, int]]:
+    """The stage's transformable prims as nodes, metres, with the joints of its skeletons at rest below them; and the
+    number of each prim's."""
+    cache = UsdGeom.XformCache()
+    nodes: list[Node] = []
+    numbers: dict[Sdf.Path, int] = {}
+    prims = iter(Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies(Usd.PrimDefaultPredicate)))
+    for prim in prims:
+        if not prim.IsA(UsdGeom.Xformable):
+            continue
+        if prim.IsA(UsdGeom.PointInstancer):
+            # Its prototypes are not where their copies are.
+            prims.PruneChildren()
+        above = prim.GetPath().GetParentPath()
+        while above not in numbers and not above.isEmpty and above != Sdf.Path.absoluteRootPath:
+            above = above.GetParentPath()
+        place = _matrix(cache.GetLocalToWorldTransform(prim))
+        place[:3, 3] = _pivot(prim, place, cache)
+        title = decode_name(prim.GetDisplayName() or prim.GetName(), "utf-8")
+        numbers[prim.GetPath()] = len(nodes)
+        nodes.append(Node(title, numbers.get(above), _in_metres(place, unit)))
+        if prim.IsA(UsdSkel.Skeleton):
+            nodes += _bones(UsdSkel.Skeleton(prim), len(nodes) - 1, unit)
+    return nodes, numbers
+
+
+def _pivot(prim: Usd.Prim, place: Floats, cache: UsdGeom.XformCache) -> Floats:
+    """(3,) the point that a prim turns about: its origin, or where its pivot is."""
+    ops = UsdGeom.Xformable(prim).GetOrderedXformOps()
+    at = next((k for k, op in enumerate(ops) if op.GetOpName().endswith(":pivot") and not op.IsInverseOp()), None)
+    if at is None:
+        return place[:3, 3].copy()
+    inner = np.eye(4)
+    for op in ops[: at + 1]:
+        inner = inner @ _matrix(op.GetOpTransform(Usd.TimeCode.Default()))
+    reset = UsdGeom.Xformable(prim).GetResetXformStack()
+    outer = np.eye(4) if reset else _matrix(cache.GetParentToWorldTransform(prim))
+    return np.asarray((outer @ inner)[:3, 3])
+
+
+def _bones(skeleton: UsdSkel.Skeleton, above: int, unit: float) -> list[Node]:
+    """The joints of a skeleton as it was bound, in the order of its topology."""
+    names = [Sdf.Path(name) for name in skeleton.GetJointsAttr().Get() or []]
+    places = skeleton.GetBindTransformsAttr().Get() or []
+    number = {name: above + 1 + k for k, name in enumerate(names)}
+    if len(number) != len(names) or len(places) != len(names):
+        return []
+    return [
+        Node(decode_name(name.name, "utf-8"), _before(name, number, above), _in_metres(_matrix(place), unit), bone=True)
+        for name, place in zip(names, places, strict=True)
+    ]
+
+
+def _before(name: Sdf.Path, number: dict[Sdf.Path, int], above: int) -> int:
+    """The number of a joint's parent, where it stands before it."""
+    found = number.get(name.GetParentPath(), above)
+    return found if found < number[name] else above
 
 
 def _drawn(stage: Usd.Stage) -> Iterator[tuple[Usd.Prim, Floats]]:
@@ -167,6 +230,13 @@ def _names(prim: Usd.Prim) -> list[str]:
     while len(names) > 1 and (is_generic(names[-1]) or names[-1].casefold().rstrip("_0123456789") in _PLAIN):
         names.pop()
     return names
+
+
+def _named(prim: Usd.Prim, depth: int) -> Usd.Prim:
+    """The prim, or the one above it, that is so many below the root: the one that a part's name is of."""
+    while prim.GetPath().pathElementCount > depth:
+        prim = prim.GetParent()
+    return prim
 
 
 def _mesh(prim: Usd.Prim, unit: float, looks: Looks, findings: list[Finding]) -> Dressed | None:
