@@ -20,7 +20,7 @@ import pickle
 import sys
 import zlib
 from collections import Counter
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -211,9 +211,10 @@ def fit(folder: Path, rounds: int) -> None:
         sys.stdout.flush()
     averaged = {**{n: round(float(v), 2) for n, v in zip(names, mean / steps, strict=True)}}
     known = {n: averaged.get(n, start[n]) for n in start}
+    drawn = ("loader", "excavator", "drawn")
     source = (
         f"Structured perceptron on {len(problems)} machines that contacts alone do not tell, of them "
-        f"{sum(p.name.split('-')[0] not in ('loader', 'excavator') for p in problems)} of strangers: "
+        f"{sum(p.name.split('-')[0] not in drawn for p in problems)} of strangers: "
         "benchmarks/fit_fusion.py."
     )
     DATA.write_text(json.dumps({"source": source, "weights": known}, indent=1) + "\n", encoding="utf-8")

@@ -81,7 +81,7 @@ def evidence_of(
     template: Template,
 ) -> Evidence:
     """Everything that is known before anything is judged; the arguments are those of `fused`."""
-    directions = [np.asarray(axis.direction) for axis in answer.structure.axes[:3]]
+    directions = [np.asarray(axis.direction) for axis in observation.evidence[0].axes] if observation.evidence else []
     stance = stance_of(observation.solids, observation.size, directions)
     pieces = pieces_of(observation, frozenset(i for i, said in enumerate(scores) if said) | frozenset(edited))
     bonds = tuple(bonds_of(observation, pieces, answer.structure, stance))

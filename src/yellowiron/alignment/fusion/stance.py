@@ -13,9 +13,13 @@ import numpy as np
 from scipy.spatial import ConvexHull, cKDTree
 
 from yellowiron.alignment.features.solids import Solid
+from yellowiron.alignment.tolerances import SAME_DIRECTION
 from yellowiron.model.geometry import Floats
 from yellowiron.support.vectors import unit
 
+SEVERAL = 4
+HINGED = 0.6
+"""So much less unlike its mirror image a machine may be along the direction of at least `SEVERAL` hinges."""
 POINTS = 2500
 """The surface is looked at by so many points."""
 SOLE = 0.012
@@ -70,9 +74,10 @@ class Stance:
 
 
 def stance_of(solids: Sequence[Solid], size: float, hinges: Sequence[Floats] = ()) -> Stance:
-    """How the machine stands. `hinges`: directions of axes that were found; `size`: the machine's diagonal, metres."""
+    """How the machine stands. `hinges`: directions of axes that were found, of which most lie across the machine;
+    `size`: the machine's diagonal, metres."""
     points = surface_points(solids)
-    left, likeness = _across(points, size, hinges)
+    left, likeness = _across(points, size, _commonest(hinges))
     up = _up(points, left, size)
     forward = np.cross(left, up)
     reach = points @ forward
@@ -97,8 +102,22 @@ def surface_points(solids: Sequence[Solid], count: int = POINTS) -> Floats:
     return np.asarray(np.einsum("ij,ijk->ik", weights, corners[chosen]))
 
 
+def _commonest(hinges: Sequence[Floats]) -> list[Floats]:
+    """The direction that at least half of several axes have, if there is one."""
+    if len(hinges) < SEVERAL:
+        return []
+    every = np.array(hinges)
+    alike = np.abs(every @ every.T) > SAME_DIRECTION
+    first = int(np.argmax(alike.sum(axis=1)))
+    if alike[first].sum() < 0.5 * len(hinges):
+        return []
+    turned = every[alike[first]]
+    return [unit((turned * np.sign(turned @ every[first])[:, None]).sum(axis=0))]
+
+
 def _across(points: Floats, size: float, hinges: Sequence[Floats]) -> tuple[Floats, float]:
-    """The direction along which the surface is most like its mirror image."""
+    """The direction along which the surface is most like its mirror image; that of the hinges before others: half a
+    machine is like nothing."""
     principal = np.linalg.svd(points - points.mean(axis=0), full_matrices=False)[2]
     tree, limit = cKDTree(points), UNLIKE * size
     best = (np.inf, np.array([0.0, 1.0, 0.0]))
@@ -107,7 +126,7 @@ def _across(points: Floats, size: float, hinges: Sequence[Floats]) -> tuple[Floa
         for middle in (np.median(along), 0.5 * (along.min() + along.max()), along.mean()):
             own = number < 3 + len(hinges)
             direction, off = _mirrored(points, tree, start, middle, limit, rounds=1 if own else ROUNDS)
-            off *= 1.0 if own else USUAL
+            off *= (1.0 if number < 3 else HINGED) if own else USUAL
             if off < best[0] - 1e-12:
                 best = (off, direction)
     return unit(best[1]), 1.0 - best[0] / limit

@@ -1,0 +1,115 @@
+"""Fusion: names, shapes, places and contacts judged together where contacts alone find no machine."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from kit.machines.defects import drawn
+from kit.machines.synthetic import disguise
+from kit.scene import scene
+from yellowiron.alignment import align
+from yellowiron.alignment.features.solids import size_of, solids_of
+from yellowiron.alignment.fusion.bonds import Bond
+from yellowiron.alignment.fusion.judge import Annealing, field_of, labelled, leads, score_of
+from yellowiron.alignment.fusion.stance import stance_of
+from yellowiron.alignment.fusion.votes import borrowed
+from yellowiron.alignment.fusion.weights import weights
+from yellowiron.library import load_template
+from yellowiron.model.specification import Specifications
+from yellowiron.model.template import Template, choose
+
+
+@pytest.fixture(scope="module")
+def excavator() -> Template:
+    return choose(load_template("excavator"), {"boom_cylinders": "single"})
+
+
+def _bond(a: int, b: int, **more: bool) -> Bond:
+    given = {"hinge": False, "slide": False, **more}
+    return Bond(a, b, {"beside": 1.0}, True, given["hinge"], given["slide"])
+
+
+def test_the_names_decide_where_nothing_else_speaks(excavator: Template) -> None:
+    votes = [{"boom": {"name": 1.0}, "arm": {}}, {"arm": {"name": 1.0}, "boom": {}}]
+    field = field_of(votes, [_bond(0, 1)], excavator, weights())
+    labels, _ = labelled(field)
+    assert [field.bodies[n] for n in labels] == ["boom", "arm"]
+    lead, second = leads(field, labels)
+    assert (lead > 0).all()
+    assert field.bodies[second[0]] == "arm"
+
+
+def test_neighbours_tell_what_names_leave_open(excavator: Template) -> None:
+    """Two nameless pieces between the boom and the bucket: one is the arm, what it carries at its end goes with it."""
+    open_ = {"boom": {}, "arm": {}, "bucket": {}}
+    votes = [{"boom": {"name": 1.0}}, open_, {"bucket": {"name": 1.0}}]
+    field = field_of(votes, [_bond(0, 1, hinge=True), _bond(1, 2, hinge=True)], excavator, weights())
+    labels, _ = labelled(field)
+    assert field.bodies[labels[1]] == "arm"
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.integers(0, 10_000))
+def test_conditionals_are_differences_of_the_score(seed: int) -> None:
+    template = choose(load_template("excavator"), {})
+    rng = np.random.default_rng(seed)
+    bodies = [r.name for r in template.roles if r.rigid][:12]
+    votes = [{b: {"name": float(rng.random())} for b in bodies} for _ in range(6)]
+    pairs = [(a, b) for a in range(6) for b in range(a + 1, 6) if rng.random() < 0.6]
+    bonds = [_bond(a, b, hinge=bool(rng.random() < 0.5), slide=bool(rng.random() < 0.3)) for a, b in pairs]
+    field = field_of(votes, bonds, template, weights())
+    labels = rng.choice(len(field.bodies), size=6)
+    labels = np.array([n if field.bodies[n] in bodies else len(field.bodies) for n in labels], dtype=np.int64)
+    state = Annealing(field, labels)
+    piece = int(rng.integers(6))
+    found = state.conditional(piece)
+    state.put(piece, int(labels[piece]))
+    for one in range(len(field.bodies) + 1):
+        if field.unary[piece, one] < -1e5:
+            continue
+        other = labels.copy()
+        other[piece] = one
+        gain = score_of(field, other) - score_of(field, labels)
+        assert found[one] - found[labels[piece]] == pytest.approx(gain, abs=1e-6)
+
+
+def test_a_body_nothing_names_borrows_its_neighbours_name(excavator: Template) -> None:
+    said = borrowed([{"arm": 1.0}, {"bucket": 1.0}], excavator)
+    assert said[0]["boom"] == pytest.approx(0.75)
+    assert "boom" not in borrowed([{"arm": 1.0}, {"boom": 1.0}], excavator)[0]
+
+
+@pytest.mark.parametrize("kind", ["loader", "excavator"])
+@pytest.mark.parametrize("seed", [2, 4])
+def test_the_stance_is_read_off_the_surface(kind: str, seed: int) -> None:
+    """Turned anyhow: up within 15 degrees (a loader's wheels on a rolled axle), forward the right way round."""
+    machine = drawn(kind, seed)
+    assembly, _, back = disguise(machine, seed)
+    solids = solids_of(assembly)
+    stance = stance_of(solids, size_of(solids))
+    cosines = np.einsum("ij,ij->i", stance.rotation, np.asarray(back)[:3, :3])
+    assert cosines[2] > np.cos(np.radians(15))
+    assert cosines[0] > np.cos(np.radians(25))  # it may be drawn while steering
+    turned = stance.turned()
+    assert np.allclose(turned.rotation[2], stance.rotation[2])
+    assert np.linalg.det(turned.rotation) == pytest.approx(1.0)
+
+
+@pytest.mark.slow
+def test_names_lead_where_the_geometry_is_not_whole() -> None:
+    """Half of the triangles gone, no pins and no holes told apart: the names still say what is what, and whatever is
+    wrong is listed."""
+    given_scene = scene("excavator", 3, "decimated 30", names="with")
+    parts = tuple(
+        replace(p, transform=p.transform) for p in given_scene.assembly.parts if "pin" not in p.name.casefold()
+    )
+    found = align(
+        replace(given_scene.assembly, parts=parts), load_template("excavator"), Specifications()
+    )  # fmt: skip
+    bodies = {p.body for p in found.parts}
+    assert {"undercarriage", "upperstructure", "boom", "arm", "bucket"} <= bodies
