@@ -75,6 +75,8 @@ def models(folders: Sequence[Path], labels: Path = LABELS) -> list[Model]:
         if isinstance(document["parts"], dict) and not all(isinstance(v, dict) for v in document["parts"].values()):
             continue
         beside = [p for p in sorted(file.parent.glob(f"{name}.*")) if p.suffix not in NO_CAD]
+        if document.get("template", "excavator") is None:
+            continue
         found.append(Model(name, document, beside[0] if beside else _cad(name, folders)))
     return found
 

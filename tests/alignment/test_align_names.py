@@ -64,7 +64,7 @@ def test_tokens() -> None:
         ("Solid17", set()),
         ("Part_003", set()),
         ("Boss-Extrude2", set()),
-        ("light", {"upperstructure"}),
+        ("light", {"rear", "frame"}),
         ("cover plate", set()),
         ("Lager", set()),
         ("\u00c5\u00c4", set()),
