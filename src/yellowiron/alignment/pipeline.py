@@ -9,6 +9,7 @@
 7. rigid clusters and the hinges between them
 8. names, and the sheet's diameters, as weights
 9. clusters to bodies by CP-SAT, one variant against the other
+   where that finds too few joints: names, shapes, places and contacts judged together (`fusion`)
 10. the machine's frame, then left and right
 11. pins, hardware and all the rest
 12. what a person said before
@@ -92,12 +93,13 @@ def align(
         lambda contact: replace(observe(machine, plain, contact), up=up), plain, specifications, choices or {}, edited
     )
     answer, observation, scores = search.run()
+    agreement = search.agreement
     if held_share(answer) >= HELD:
         answer, frame = _framed(answer, observation, tracks)
     else:
         observation = replace(observe(machine, plain, CONTACT[-1]), up=up)
         scores = name_scores(tuple(s.part for s in observation.solids), plain, template)
-        answer, frame = _fused(answer, observation, scores, plain, choices or {}, edited, tracks)
+        answer, frame, agreement = _fused(answer, observation, scores, plain, choices or {}, edited, tracks)
     propagation = Propagation(
         observation,
         answer,
@@ -129,7 +131,7 @@ def align(
         remarks=[
             # What reading the file found; the rest was of an earlier model.
             *(f for f in (edits.findings if edits is not None else ()) if f.code in ("ALN012", "ALN013")),
-            *name_findings(search.agreement, BELIEVED, template.equipment_type),
+            *name_findings(agreement, BELIEVED, template.equipment_type),
             *sheet_findings(answer.structure, observation.cylinders, answer.template, specifications, answer.solution),
             *review_findings(
                 observation.solids,
@@ -226,20 +228,21 @@ def _fused(
     choices: Mapping[str, str],
     edited: Mapping[str, str],
     tracks: list[Track],
-) -> tuple[Answer, MachineFrame | None]:
-    """What names, shapes, places and contacts say together, and the machine's frame: that of its joints, or as the
-    machine stands where these leave it open."""
+) -> tuple[Answer, MachineFrame | None, float]:
+    """What names, shapes, places and contacts say together; the machine's frame, that of its joints, or as the machine
+    stands where these leave it open; and how far the names are to be believed."""
     solids = observation.solids
     if not solids:
-        return answer, None
+        return answer, None, 1.0
     told = {s.index: template.body_of(edited[s.part.id]) for s in solids if template.knows(edited.get(s.part.id, ""))}
     said = {i: body for i, body in told.items() if body is not None}
-    answer, stance = fused(observation, template, variants_of(template, choices), scores, answer, said)
-    solution = answer.solution
+    found = fused(observation, template, variants_of(template, choices), scores, answer, said)
+    answer, solution = found.answer, found.answer.solution
     frame = machine_frame(solids, answer.structure, solution, observation.wheels, answer.template, tracks)
     if frame.doubts:
-        frame = MachineFrame(stance.matrix(), ("it is read off how the machine stands",))
-    return replace(answer, solution=with_root(solution, answer.structure, solids, answer.template)), frame
+        frame = MachineFrame(found.stance.matrix(), ("it is read off how the machine stands",))
+    answer = replace(answer, solution=with_root(solution, answer.structure, solids, answer.template))
+    return answer, frame, found.trust
 
 
 def _surfaces(observation: Observation, answer: Answer) -> dict[str, float]:

@@ -73,6 +73,15 @@ class Evidence:
         return votes_of(self.pieces, template, self.scores, self.trust, self.answer, self.stance, self.edited)
 
 
+@dataclass(frozen=True, eq=False)
+class Fused:
+    """The fused `answer`, how the machine stands, and how far its names were trusted (0 to 1)."""
+
+    answer: Answer
+    stance: Stance
+    trust: float
+
+
 def evidence_of(
     observation: Observation,
     scores: Sequence[Mapping[str, float]],
@@ -97,8 +106,8 @@ def fused(
     scores: Sequence[Mapping[str, float]],
     answer: Answer,
     edited: Mapping[int, str],
-) -> tuple[Answer, Stance]:
-    """The answer that names, shapes, places and contacts give together, and how the machine stands.
+) -> Fused:
+    """The answer that names, shapes, places and contacts give together.
 
     `template` with its variants open, `variants` the choices to try; `scores`: by solid, what its names say; `answer`:
     what the contacts alone gave; `edited`: solid → the body a person gave it. The solution's joints are those that the
@@ -122,7 +131,7 @@ def fused(
     judged = _judged(best, pieces, chief, bonds)
     judged = {i: what for i, what in judged.items() if not _is_pin(i, what, observation, best.template)}
     judged |= _by_name_alone(observation, pieces, scores, trust, judged)
-    return _answer(observation, best, judged, answer), evidence.stance
+    return Fused(_answer(observation, best, judged, answer), evidence.stance, trust)
 
 
 def trust_in_names(
