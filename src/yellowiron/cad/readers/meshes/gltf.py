@@ -25,6 +25,7 @@ from yellowiron.cad.appearance.looks import Dressed, Look, joined
 from yellowiron.cad.mesh import assembly
 from yellowiron.cad.mesh.assembly import Occurrence
 from yellowiron.cad.naming import decode_name, decode_text, is_generic
+from yellowiron.cad.readers.meshes.gltf_compressed import DRACO, MESHOPT, is_fallback, plain
 from yellowiron.cad.readers.meshes.gltf_materials import STEPS, Materials
 from yellowiron.model.assembly import Assembly, Node
 from yellowiron.model.errors import CadError
@@ -32,9 +33,10 @@ from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats, Mesh
 
 _MAGIC, _JSON, _BIN = b"glTF", 0x4E4F534A, 0x004E4942
-_AGAIN = "Export it again as GLB, without compression (no Draco, no meshopt)."
+_AGAIN = "Export it again as GLB, without compression."
 _DAMAGED = "Copy or export it again; the file is damaged."
-_READABLE = {"KHR_mesh_quantization", "KHR_texture_transform", "KHR_texture_basisu", "EXT_texture_webp"}
+_READABLE = {"KHR_mesh_quantization", "EXT_mesh_gpu_instancing", DRACO, *MESHOPT}
+_NEEDLESS = re.compile(r"[A-Z0-9]+_(?:materials?|textures?|lights?|image|animation|audio|lod|xmp)(?:_\w+)?")
 """Extensions that a file may require: of geometry, what is decoded here; of looks, what geometry can do without."""
 _SIZES = {5120: 1, 5121: 1, 5122: 2, 5123: 2, 5125: 4, 5126: 4}
 _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
@@ -69,9 +71,9 @@ def read_gltf(path: str) -> Assembly:
     """
     document, blob = _container(path)
     _require(document, path)
-    buffers = _buffers(document, blob, path)
+    document, buffers, faults = plain(document, _buffers(document, blob, path), path)
     tree, nodes = _nodes(document, path)
-    findings: list[Finding] = []
+    findings = [Finding("CAD003", "error", path, f"Compressed geometry is broken: {w}", _AGAIN) for w in faults[:5]]
     materials = Materials(document, buffers, path)
     found = _meshes(document, buffers, {n.mesh for n in nodes}, materials, findings)
     broken = {n.mesh for n in nodes if n.mesh not in found and _has_triangles(document, n.mesh)}
@@ -154,7 +156,7 @@ def _document(text: bytes, path: str) -> dict[str, Any]:
 def _require(document: dict[str, Any], path: str) -> None:
     """`CadError` for what the file needs and is not readable here."""
     required = {str(name) for name in _plain_list(document, "extensionsRequired")}
-    beyond = sorted(name for name in required - _READABLE if not name.startswith("KHR_materials_"))
+    beyond = sorted(name for name in required - _READABLE if not _NEEDLESS.fullmatch(name))
     if beyond:
         raise CadError(f"The glTF file needs {', '.join(beyond)}, which is not readable here", where=path, hint=_AGAIN)
 
@@ -173,6 +175,9 @@ def _buffers(document: dict[str, Any], blob: bytes | None, path: str) -> list[by
     buffers = []
     for number, entry in enumerate(_list(document, "buffers")):
         length, uri = entry.get("byteLength"), entry.get("uri")
+        if is_fallback(entry):
+            buffers.append(b"")
+            continue
         data = _fetch(uri, path) if isinstance(uri, str) else blob if number == 0 and blob is not None else b""
         if not isinstance(length, int) or length < 0 or length > len(data):
             words = f"The glTF file is truncated: it declares {length} bytes of geometry and has {len(data)}"
@@ -304,8 +309,8 @@ def _fault(document: dict[str, Any], buffers: Sequence[bytes], primitive: Mappin
     attributes = primitive.get("attributes")
     if not isinstance(attributes, dict) or "POSITION" not in attributes:
         return "it has no points"
-    if "extensions" in primitive and {"KHR_draco_mesh_compression"} & set(primitive["extensions"]):
-        return "its triangles are compressed"
+    if "extensions" in primitive and {DRACO} & set(primitive["extensions"]):
+        return "its compressed triangles are broken"
     if primitive.get("mode", 4) == _FAN:
         return "its triangles are fans"
     wanted = [attributes["POSITION"], *([primitive["indices"]] if "indices" in primitive else [])]

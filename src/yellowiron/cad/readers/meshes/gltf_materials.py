@@ -16,10 +16,10 @@ from yellowiron.cad.appearance.textures import Picture, Pictures, finish
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Color, Floats, Mesh
 
-_TYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5126: "<f4"}
+_TYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 STEPS = {5120: 127.0, 5121: 255.0, 5122: 32767.0, 5123: 65535.0}
 """What a normalised integer is divided by."""
-_WIDTHS = {"VEC2": 2, "VEC3": 3, "VEC4": 4}
+_WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 _OLD = "KHR_materials_pbrSpecularGlossiness"
 _MOVED = "KHR_texture_transform"
 
@@ -97,11 +97,7 @@ class Materials:
         return self._pictures.inside(data, name)
 
     def _view(self, number: int) -> bytes:
-        view = _at(self._list("bufferViews"), number)
-        buffer, start, length = (view.get(k, 0) for k in ("buffer", "byteOffset", "byteLength"))
-        if not all(isinstance(v, int) and v >= 0 for v in (buffer, start, length)) or buffer >= len(self._buffers):
-            return b""
-        return self._buffers[buffer][start : start + length]
+        return _view(self._document, self._buffers, number)
 
     def _uvs(self, primitive: Mapping[str, Any], entry: Mapping[str, Any] | None, mesh: Mesh) -> Floats | None:
         if entry is None:
@@ -122,28 +118,49 @@ class Materials:
     def _accessor(self, primitive: Mapping[str, Any], name: str, mesh: Mesh) -> Floats | None:
         """(m, 3, k) an attribute's numbers at the triangles' corners; None where it is absent or broken."""
         number = _object(primitive, "attributes").get(name)
-        entry = _at(self._list("accessors"), number)
-        kind, width = _TYPES.get(entry.get("componentType", 0)), _WIDTHS.get(str(entry.get("type")))
-        view = _at(self._list("bufferViews"), entry.get("bufferView"))
-        count, start = entry.get("count"), entry.get("byteOffset", 0)
-        if kind is None or width is None or not isinstance(count, int) or not isinstance(start, int) or start < 0:
+        values = accessor(self._document, self._buffers, number, normalized=name.startswith("COLOR"))
+        if values is None or values.shape[1] < 2 or (len(mesh.triangles) and mesh.triangles.max() >= len(values)):
             return None
-        size = np.dtype(kind).itemsize * width
-        stride = view.get("byteStride") or size
-        data = self._view(entry["bufferView"]) if view else b""
-        if not 0 < count <= 1 << 28 or not isinstance(stride, int) or not size <= stride <= 252:
-            return None
-        if start + (count - 1) * stride + size > len(data) or (len(mesh.triangles) and mesh.triangles.max() >= count):
-            return None
-        raw = np.ndarray((count, width), dtype=kind, buffer=data, offset=start, strides=(stride, size // width))
-        values = raw.astype(np.float64)
-        if entry.get("normalized") or (name.startswith("COLOR") and kind != "<f4"):
-            values /= STEPS.get(entry["componentType"], 1.0)
         return np.asarray(values[mesh.triangles])
 
     def _list(self, key: str) -> list[Mapping[str, Any]]:
-        found = self._document.get(key, [])
-        return [item if isinstance(item, dict) else {} for item in found] if isinstance(found, list) else []
+        return _list(self._document, key)
+
+
+def accessor(
+    document: Mapping[str, Any], buffers: Sequence[bytes], number: Any, *, normalized: bool = False
+) -> Floats | None:
+    """(n, k) the numbers of an accessor, integers divided by their range where it, or `normalized`, says so; None where
+    it is absent or broken."""
+    entry = _at(_list(document, "accessors"), number)
+    kind, width = _TYPES.get(entry.get("componentType", 0)), _WIDTHS.get(str(entry.get("type")))
+    view = _at(_list(document, "bufferViews"), entry.get("bufferView"))
+    count, start = entry.get("count"), entry.get("byteOffset", 0)
+    if kind is None or width is None or not isinstance(count, int) or not isinstance(start, int) or start < 0:
+        return None
+    size = np.dtype(kind).itemsize * width
+    stride = view.get("byteStride") or size
+    data = _view(document, buffers, entry["bufferView"]) if view else b""
+    if not 0 < count <= 1 << 28 or not isinstance(stride, int) or not size <= stride <= 252:
+        return None
+    if start + (count - 1) * stride + size > len(data):
+        return None
+    raw = np.ndarray((count, width), dtype=kind, buffer=data, offset=start, strides=(stride, size // width))
+    values = raw.astype(np.float64)
+    return values / STEPS.get(entry["componentType"], 1.0) if entry.get("normalized") or normalized else values
+
+
+def _view(document: Mapping[str, Any], buffers: Sequence[bytes], number: int) -> bytes:
+    view = _at(_list(document, "bufferViews"), number)
+    buffer, start, length = (view.get(k, 0) for k in ("buffer", "byteOffset", "byteLength"))
+    if not all(isinstance(v, int) and v >= 0 for v in (buffer, start, length)) or buffer >= len(buffers):
+        return b""
+    return buffers[buffer][start : start + length]
+
+
+def _list(document: Mapping[str, Any], key: str) -> list[Mapping[str, Any]]:
+    found = document.get(key, [])
+    return [item if isinstance(item, dict) else {} for item in found] if isinstance(found, list) else []
 
 
 def _object(entry: Mapping[str, Any], key: str) -> Mapping[str, Any]:
