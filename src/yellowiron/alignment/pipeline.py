@@ -155,7 +155,7 @@ def _with_all_axes(
     frame: MachineFrame | None,
 ) -> Alignment:
     """The alignment with an estimate for every joint that the search did not find though both its bodies are there."""
-    known = _standing(found, answer, observation)
+    known = _standing(found, answer, observation) | _declared(found, assembly, template)
     lent = _unplayed_axes(found, template, answer)
     sure = frame.matrix if frame is not None and not frame.doubts else None
     estimates = unfound_axes(
@@ -169,6 +169,13 @@ def _with_all_axes(
         axes={**lent, **found.axes, **lines_of(estimates)},
         findings=(*found.findings, *axis_findings(estimates, observation.size)),
     )
+
+
+def _declared(found: Alignment, assembly: Assembly, template: Template) -> set[str]:
+    """The joints between two bodies that the CAD file declares a joint of: no guess is better."""
+    played = assembly.played({p.part: p.body for p in found.parts})
+    pairs = {frozenset(played.get(b) for b in j.bodies) for j in assembly.joints if j.type != "fixed"}
+    return {j.name for j in template.joints if frozenset(template.bodies_of(j)) in pairs}
 
 
 def _unplayed_axes(found: Alignment, template: Template, answer: Answer) -> dict[str, tuple[Vector, Vector]]:

@@ -65,7 +65,7 @@ class DeclaredAxis:
 
 def declared_axes(assembly: Assembly, alignment: Alignment) -> tuple[DeclaredAxis, ...]:
     """The declared hinges and slides whose bodies the alignment knows."""
-    played = _played(assembly, alignment) if assembly.joints else {}
+    played = _played(assembly, alignment)
     turn, move = alignment.frame[:3, :3], alignment.frame[:3, 3]
     found = []
     for joint in assembly.joints:
@@ -174,18 +174,7 @@ def _named(
 
 
 def _played(assembly: Assembly, alignment: Alignment) -> dict[str, str | None]:
-    """Declared body → the mechanism's body that most of its surface is; one that draws nothing is what it is welded
-    to."""
-    bodies = {a.part: a.body for a in alignment.parts}
-    played: dict[str, str | None] = {}
-    for link, parts in assembly.links().items():
-        area: dict[str, float] = {}
-        for part in parts:
-            body = bodies.get(part.id)
-            if body is not None:
-                area[body] = area.get(body, 0.0) + assembly.shape_of(part).area
-        played[link] = max(sorted(area), key=lambda b: area[b]) if area else None
-    return assembly.over_welds(played)
+    return assembly.played({a.part: a.body for a in alignment.parts})
 
 
 def _size(mechanism: Mechanism) -> float:

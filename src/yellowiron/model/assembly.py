@@ -131,6 +131,19 @@ class Assembly:
                     spread[one] = spread[other]
         return spread
 
+    def played(self, body_of: Mapping[str, str | None]) -> dict[str, str | None]:
+        """Body of the declared joints → the machine's body that most of its surface is, by part id `body_of`; one that
+        draws nothing is what it is welded to."""
+        played: dict[str, str | None] = {}
+        for link, parts in self.links().items():
+            area: dict[str, float] = {}
+            for part in parts:
+                body = body_of.get(part.id)
+                if body is not None:
+                    area[body] = area.get(body, 0.0) + self.shape_of(part).area
+            played[link] = max(sorted(area), key=lambda b: area[b]) if area else None
+        return self.over_welds(played)
+
     def nodes_above(self, number: int | None) -> tuple[int, ...]:
         """A node and those above it, innermost first; () for None."""
         found: list[int] = []

@@ -131,7 +131,13 @@ def fused(
     judged = _judged(best, pieces, chief, bonds)
     judged = {i: what for i, what in judged.items() if not _is_pin(i, what, observation, best.template)}
     judged |= _by_name_alone(observation, pieces, scores, trust, judged)
-    return Fused(_answer(observation, best, judged, answer), evidence.stance, trust)
+    return Fused(_answer(observation, best, judged or _all_root(pieces, best.template), answer), evidence.stance, trust)
+
+
+def _all_root(pieces: Sequence[Piece], template: Template) -> dict[int, Judged]:
+    """A machine of which nothing could be told stands as one thing on its root: doubtful, but it can be looked at."""
+    words = f"no body could be told from another: all of it stands as {template.root}"
+    return {i: Judged(template.root, 0.0, None, words, False) for p in pieces for i in sorted(p.members)}
 
 
 def trust_in_names(
