@@ -24,6 +24,7 @@ from dataclasses import replace
 import numpy as np
 
 from yellowiron.alignment.assignment.answer import Answer, held_share, is_whole, rivals_of
+from yellowiron.alignment.assignment.collision import collision_parts
 from yellowiron.alignment.assignment.cp_sat import solve
 from yellowiron.alignment.assignment.machine_frame import MachineFrame, machine_frame
 from yellowiron.alignment.assignment.names import name_scores
@@ -81,8 +82,10 @@ def align(
             "The CAD model has no parts", where=assembly.name, hint="Check that the file holds solids."
         )
     edited = _edited(assembly, template, edits)
-    copies = {copy: first for copy, first in copies_of(assembly).items() if copy not in edited}
-    single = _without(assembly, copies)
+    bumpers = collision_parts(assembly.parts) - edited.keys()
+    drawn = _without(assembly, bumpers)
+    copies = {copy: first for copy, first in copies_of(drawn).items() if copy not in edited}
+    single = _without(drawn, copies)
     apart = separate_parts(single, [part for part, role in edited.items() if role])
     tracking = _without(single, apart)
     tracked, tracks = _tracked(tracking, template)
@@ -125,7 +128,7 @@ def align(
         assembly,
         whole,
         answer,
-        Labels(by_id, apart, edited, documents),
+        Labels(by_id, apart, bumpers, edited, documents),
         frame or MachineFrame(np.eye(4)),
         axes=_axes(answer, observation),
         remarks=[
@@ -140,6 +143,7 @@ def align(
                 apart={part: metres for part, metres in apart.items() if part not in edited},
                 played=frozenset(p.role for p in places.values()) | frozenset(edited.values()),
                 settled=frozenset(edited),
+                bumpers=bumpers,
             ),
         ],
     )
