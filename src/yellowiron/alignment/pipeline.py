@@ -215,7 +215,8 @@ def _framed(answer: Answer, observation: Observation, tracks: list[Track]) -> tu
     if frame is not None and solution.body_of:
         sided = side_weights(solids, structure, template, solution, frame, answer.unary)
         if sided != answer.unary:
-            solution = solve(structure, template, unary=sided, barred=answer.barred) or solution
+            told = solve(structure, template, unary=sided, barred=answer.barred)
+            solution = told if told is not None and told.body_of else solution
             frame = machine_frame(solids, structure, solution, observation.wheels, template, tracks)
     return replace(answer, solution=with_root(solution, structure, solids, template)), frame
 
