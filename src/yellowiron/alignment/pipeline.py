@@ -18,6 +18,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Collection, Mapping
 from dataclasses import replace
 
@@ -89,15 +90,18 @@ def align(
     machine = _without(tracking, set(tracked.values()))
     plain = without_tracks(template)
     up = _upright(tracks)
-    search = Search(
-        lambda contact: replace(observe(machine, plain, contact), up=up), plain, specifications, choices or {}, edited
-    )
+
+    @functools.cache
+    def look(contact: float) -> Observation:
+        return replace(observe(machine, plain, contact), up=up)
+
+    search = Search(look, plain, specifications, choices or {}, edited)
     answer, observation, scores = search.run()
     agreement = search.agreement
     if held_share(answer) >= HELD:
         answer, frame = _framed(answer, observation, tracks)
     else:
-        observation = replace(observe(machine, plain, CONTACT[-1]), up=up)
+        observation = look(CONTACT[-1])
         scores = name_scores(tuple(s.part for s in observation.solids), plain, template)
         answer, frame, agreement = _fused(answer, observation, scores, plain, choices or {}, edited, tracks)
     propagation = Propagation(

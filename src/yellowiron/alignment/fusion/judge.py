@@ -58,7 +58,8 @@ class Field:
 
     def exactly(self, held: Ints) -> Ints:
         """(bonds,) whether each bond holds exactly the joint that it would hold."""
-        return np.where(held < self.joints, self.exact[np.arange(len(held)), self.sliding[held]], 0)
+        exact = np.where(self.sliding[held], self.exact[:, 1], self.exact[:, 0])
+        return np.where(held < self.joints, exact, 0)
 
 
 def field_of(
@@ -153,7 +154,8 @@ class Annealing:
         self.field = field
         self.labels = labels.copy()
         self.around = [_Around.of(field, p) for p in range(len(labels))]
-        joined = field.joint < field.joints
+        self._joints = field.joints
+        joined = field.joint < self._joints
         self._joined = joined.astype(np.float64)
         # Of two labels there is one joint at most: what holds it can be summed up by the other end's label.
         sliding = field.sliding[field.joint].astype(bool)
@@ -173,9 +175,15 @@ class Annealing:
         if len(around.bonds):
             held = field.joint[self.labels[p], self.labels[around.others]]
             exact = np.where(field.sliding[held], around.exact[1], around.exact[0])
-            self.near += sign * np.bincount(held, weights=around.near, minlength=field.joints + 1)
-            self.exact += sign * np.bincount(held, weights=exact, minlength=field.joints + 1)
+            self.near += sign * np.bincount(held, weights=around.near, minlength=self._joints + 1)
+            self.exact += sign * np.bincount(held, weights=exact, minlength=self._joints + 1)
         self.played[self.labels[p]] += sign
+
+    def _free(self, count: Floats, weight: float) -> Floats:
+        """(joints + 1,) what holding each joint would add: nothing where one is held; the last is no joint."""
+        gain = np.where(count <= 0, weight, 0.0)
+        gain[-1] = 0.0
+        return gain
 
     def conditional(self, p: int) -> Floats:
         """(labels,) what each label of piece p would score, all others as they are, up to a constant. The counts are
@@ -189,12 +197,12 @@ class Annealing:
             same = np.bincount(theirs, weights=around.same, minlength=n)
             same[-1] = 0.0
             scores += same + self._joined @ np.bincount(theirs, weights=around.joined, minlength=n)
-            near = np.bincount(theirs, weights=around.near, minlength=n) > 0
-            scores += (field.held[0] * (self.near <= 0))[field.joint] * self._joined @ near
+            near = np.minimum(np.bincount(theirs, weights=around.near, minlength=n), 1.0)
+            scores += self._free(self.near, field.held[0])[field.joint] @ near
             for kind, exact in zip(self._kinds, around.exact, strict=True):
                 if exact.any():
-                    there = np.bincount(theirs, weights=exact, minlength=n) > 0
-                    scores += (field.held[1] * (self.exact <= 0))[field.joint] * kind @ there
+                    there = np.minimum(np.bincount(theirs, weights=exact, minlength=n), 1.0)
+                    scores += (self._free(self.exact, field.held[1])[field.joint] * kind) @ there
         return np.asarray(scores)
 
     def put(self, p: int, label: int) -> None:
@@ -210,19 +218,22 @@ class Annealing:
                 scores = scores + temperature * rng.gumbel(size=len(scores))
             self.put(p, int(np.argmax(scores)))
 
-    def swap(self, temperature: float, rng: np.random.Generator) -> None:
-        """Tries two bodies in each other's place (Metropolis)."""
+    def swap(self, temperature: float, rng: np.random.Generator, score: float) -> float:
+        """Tries two bodies in each other's place (Metropolis); `score` is that of the labels, returned as it is then."""
         played = np.flatnonzero(self.played[:-1] > 0)
         if len(played) < 1:
-            return
+            return score
         a = int(rng.choice(played))
         b = int(rng.integers(len(self.field.bodies)))
         other = self.labels.copy()
         other[self.labels == a], other[self.labels == b] = b, a
-        gain = score_of(self.field, other) - score_of(self.field, self.labels)
+        changed = score_of(self.field, other)
+        gain = changed - score
         if gain > 0 or (temperature > 0 and np.log(rng.random()) < gain / temperature):
             self.labels = other
             self._count()
+            return changed
+        return score
 
 
 def labelled(field: Field, start: Ints | None = None, *, hot: float = HOT, sweeps: int = SWEEPS) -> tuple[Ints, float]:
@@ -232,9 +243,9 @@ def labelled(field: Field, start: Ints | None = None, *, hot: float = HOT, sweep
     best, score = state.labels.copy(), score_of(field, state.labels)
     for temperature in [*np.geomspace(hot, COLD, sweeps), *[0.0] * 6]:
         state.sweep(temperature, rng)
-        for _ in range(SWAPS):
-            state.swap(temperature, rng)
         reached = score_of(field, state.labels)
+        for _ in range(SWAPS):
+            reached = state.swap(temperature, rng, reached)
         if reached > score:
             best, score = state.labels.copy(), reached
     return best, score
