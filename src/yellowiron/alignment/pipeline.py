@@ -18,6 +18,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Collection, Mapping
 from dataclasses import replace
 
@@ -92,15 +93,18 @@ def align(
     machine = _without(tracking, set(tracked.values()))
     plain = without_tracks(template)
     up = _upright(tracks)
-    search = Search(
-        lambda contact: replace(observe(machine, plain, contact), up=up), plain, specifications, choices or {}, edited
-    )
+
+    @functools.cache
+    def look(contact: float) -> Observation:
+        return replace(observe(machine, plain, contact), up=up)
+
+    search = Search(look, plain, specifications, choices or {}, edited)
     answer, observation, scores = search.run()
     agreement = search.agreement
     if held_share(answer) >= HELD:
         answer, frame = _framed(answer, observation, tracks)
     else:
-        observation = replace(observe(machine, plain, CONTACT[-1]), up=up)
+        observation = look(CONTACT[-1])
         scores = name_scores(tuple(s.part for s in observation.solids), plain, template)
         answer, frame, agreement = _fused(answer, observation, scores, plain, choices or {}, edited, tracks)
     propagation = Propagation(
@@ -226,7 +230,8 @@ def _framed(answer: Answer, observation: Observation, tracks: list[Track]) -> tu
     if frame is not None and solution.body_of:
         sided = side_weights(solids, structure, template, solution, frame, answer.unary)
         if sided != answer.unary:
-            solution = solve(structure, template, unary=sided, barred=answer.barred) or solution
+            told = solve(structure, template, unary=sided, barred=answer.barred)
+            solution = told if told is not None and told.body_of else solution
             frame = machine_frame(solids, structure, solution, observation.wheels, template, tracks)
     return replace(answer, solution=with_root(solution, structure, solids, template)), frame
 
