@@ -159,7 +159,13 @@ def _with_all_axes(
     lent = _unplayed_axes(found, template, answer)
     sure = frame.matrix if frame is not None and not frame.doubts else None
     estimates = unfound_axes(
-        solids_of(assembly), found.parts, template, found=known - lent.keys(), size=observation.size, frame=sure
+        solids_of(assembly),
+        found.parts,
+        template,
+        found=known - lent.keys(),
+        size=observation.size,
+        frame=sure,
+        assembly=assembly,
     )
     # Of two that say the same the search's is the more exact.
     same = {j for j, e in estimates.items() if j in lent and j in known and e.holds(*lent[j])}
