@@ -227,9 +227,9 @@ def _apart(one: Candidate, other: Candidate) -> float:
 
 
 def _estimate(name: str, candidates: Sequence[Candidate]) -> AxisEstimate:
-    best = candidates[0]
+    best, *others = candidates
     return AxisEstimate(
-        name, best.origin, best.direction, best.across, best.angle, best.how, tuple(candidates[1:])
+        name, best.origin, best.direction, best.across, best.angle, best.how, tuple(others), best.quality
     )  # fmt: skip
 
 
