@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -14,6 +15,7 @@ from kit.machines.excavators import any_features
 from kit.machines.synthetic import Machine
 from yellowiron.alignment.axes import AxisEstimate, Frame, estimate_axes, group, hinge_proposals
 from yellowiron.alignment.axes.outlines import fitted_circle, outline_circles
+from yellowiron.alignment.axes.pivots import pivots_of
 from yellowiron.alignment.axes.unfound import axis_findings, unfound_axes
 from yellowiron.alignment.axes.values import plane_of
 from yellowiron.alignment.features.solids import Solid, size_of, solids_of
@@ -21,6 +23,7 @@ from yellowiron.cad.mesh import polygons
 from yellowiron.cad.mesh.assembly import Occurrence, assemble, shape_of
 from yellowiron.library import load_template
 from yellowiron.model.alignment import PartAssignment
+from yellowiron.model.assembly import Assembly, Node
 from yellowiron.model.geometry import Floats, Mesh
 from yellowiron.model.template import JointTemplate, Role, Template, choose
 
@@ -159,11 +162,59 @@ def test_without_evidence_a_guess_says_how_rough_it_is() -> None:
 
 def test_a_pivot_of_the_scene_tree_is_taken_where_the_bodies_meet() -> None:
     solids, labels = boxes()
-    pivots = {"upper": np.array([[0.98, 0.0, 0.01], [2.2, 0.0, 0.0]])}
+    pivots = {"hinge": np.array([[0.98, 0.0, 0.01], [2.2, 0.0, 0.0]])}
     left = Frame(left=np.array([0.0, 1.0, 0.0]))
     found = estimate_axes(solids, labels, two_bodies(), frame=left, pivots=pivots)["hinge"]
     assert np.allclose(found.origin[[0, 2]], [0.98, 0.01], atol=1e-9)
     assert "pivot" in found.how
+
+
+def scene_tree(*, origin: tuple[float, float, float], middle: bool = False) -> tuple[Assembly, dict[str, str]]:
+    """Two bars under a group, the upper one under a node of its own with that origin, or in the middle of its mesh."""
+    nodes = [Node("machine", None, np.eye(4)), *(Node(n, 0, np.eye(4)) for n in ("lower", "upper"))]
+    at = np.eye(4)
+    at[:3, 3] = (1.55, 0.1, 0.0) if middle else origin
+    nodes[2] = replace(nodes[2], transform=at)
+    placed = (((1.2, 0.1, 0.2), (0.5, 0.0, 0.0)), ((1.3, 0.1, 0.18), (1.55, 0.1, 0.0)))
+    items = []
+    for (extent, center), node in zip(placed, nodes[1:], strict=True):
+        matrix = np.eye(4)
+        matrix[:3, 3] = center
+        items.append(Occurrence(node.name, ("machine",), polygons.box(extent), matrix))
+    assembly = assemble(items, name="thing", format="test", unit=1.0, path="")
+    parts = tuple(replace(p, node=1 + k) for k, p in enumerate(assembly.parts))
+    return replace(assembly, parts=parts, nodes=tuple(nodes)), {p.id: p.name for p in parts}
+
+
+def test_nodes_that_carry_one_body_and_not_the_other_are_pivots() -> None:
+    assembly, body_of = scene_tree(origin=(0.98, 0.0, 0.01))
+    assert np.allclose(pivots_of(assembly, body_of, two_bodies())["hinge"], [[0.98, 0.0, 0.01]], atol=1e-3)
+    # The scene's own origin, and the middle of a mesh, are where a program puts them.
+    assert pivots_of(*scene_tree(origin=(0.0, 0.0, 0.0)), two_bodies()) == {}
+    assert pivots_of(*scene_tree(origin=(0.0, 0.0, 0.0), middle=True), two_bodies()) == {}
+    assert pivots_of(replace(assembly, nodes=(), parts=tuple(replace(p, node=None) for p in assembly.parts)),
+                     body_of, two_bodies()) == {}  # fmt: skip
+
+
+def test_a_pivot_far_from_where_the_bodies_meet_is_not_believed() -> None:
+    solids, labels = boxes()
+    left = Frame(left=np.array([0.0, 1.0, 0.0]))
+    found = estimate_axes(solids, labels, two_bodies(), frame=left, pivots={"hinge": np.array([[1.9, 0.0, 0.0]])})
+    assert "pivot" not in found["hinge"].how
+    assert abs(found["hinge"].origin[0] - 1.0) < 0.1
+
+
+def test_an_arm_without_cylinders_turns_about_parallel_axes() -> None:
+    """No chain is closed, but the template's would be."""
+    template = template_of("excavator", 2)
+    machine = spoiled("excavator", 2, "no pins")
+    machine.parts = [p for p in machine.parts if "cylinder" not in machine.truth[p.id][1]
+                     and "piston_rod" not in machine.truth[p.id][1]]  # fmt: skip
+    found = estimated(machine, template, None)
+    truth = true_hinges(drawn("excavator", 2), template)
+    for name in ("upperstructure2boom_joint", "boom2arm_joint", "arm2bucket_joint"):
+        if name in found:
+            assert abs(float(found[name].direction @ truth[name][1])) > math.cos(math.radians(0.5)), name
 
 
 def test_what_is_left_out_says_nothing_and_nothing_raises() -> None:

@@ -163,14 +163,25 @@ def _with_all_axes(
     frame: MachineFrame | None,
 ) -> Alignment:
     """The alignment with an estimate for every joint that the search did not find though both its bodies are there."""
-    known = _standing(found, answer, observation) | _declared(found, assembly, template)
+    declared = _declared(found, assembly, template)
+    known = _standing(found, answer, observation) | declared
     lent = _unplayed_axes(found, template, answer)
     sure = frame.matrix if frame is not None and not frame.doubts else None
+    # Where contacts did not find the machine, what they take for a hinge without a pin may be none.
+    turning = {j.name for j in template.joints if j.type == "revolute"} if answer.judged is not None else set()
+    rough = {j: found.axes[j] for j in (known - declared) & turning if j in found.axes}
     estimates = unfound_axes(
-        solids_of(assembly), found.parts, template, found=known - lent.keys(), size=observation.size, frame=sure
+        solids_of(assembly),
+        found.parts,
+        template,
+        found=known - lent.keys() - rough.keys(),
+        size=observation.size,
+        frame=sure,
+        assembly=assembly,
     )
     # Of two that say the same the search's is the more exact.
     same = {j for j, e in estimates.items() if j in lent and j in known and e.holds(*lent[j])}
+    same |= {j for j, e in estimates.items() if j in rough and not e.beats(*rough[j])}
     estimates = {j: e for j, e in estimates.items() if j not in same}
     return replace(
         found,

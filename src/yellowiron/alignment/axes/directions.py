@@ -10,6 +10,7 @@ import numpy as np
 
 from yellowiron.alignment.axes.bodies import PIVOT, Body
 from yellowiron.alignment.axes.values import Frame, Line
+from yellowiron.alignment.fusion.stance import stance_of
 from yellowiron.model.geometry import Floats
 from yellowiron.model.template import JointTemplate, Template
 from yellowiron.support import graphs
@@ -25,6 +26,8 @@ LEVEL = 0.25
 """… and they lie level, up to this cosine with the upright."""
 LEAST_WHEEL = 0.004
 """The least radius of what is round in a wheel, in machine sizes."""
+NEAR_LEFT = math.cos(math.radians(5.0))
+"""Cosine up to which pivots tell the machine's left better than its symmetry does."""
 ACROSS = 0.2
 """Cosine up to which a hinge is across a cylinder of its linkage (78°)."""
 
@@ -38,14 +41,22 @@ class Direction:
     how: str
 
 
-def linkages_of(template: Template, bodies: Mapping[str, Body]) -> list[tuple[JointTemplate, ...]]:
-    """The template's joints between bodies that are there, in groups that closed chains hold together."""
+def linkages_of(template: Template, bodies: Mapping[str, Body]) -> list[tuple[tuple[JointTemplate, ...], bool]]:
+    """The template's joints between bodies that are there, in groups that closed chains hold together where all bodies
+    are there, and whether a group is planar: a hinge that no chain closes is a group by itself and is not, nor is an
+    upright one of which the rest is not there."""
     edges: dict[str, tuple[str, str]] = {}
     for joint in template.joints:
         a, b = template.bodies_of(joint)
-        if joint.type in ("revolute", "prismatic") and not joint.ring and a in bodies and b in bodies and a != b:
-            edges[joint.name] = (str(a), str(b))
-    return [tuple(template.joint(name) for name in block) for block in graphs.blocks(edges)]
+        if joint.type in ("revolute", "prismatic") and not joint.ring and a is not None and b is not None and a != b:
+            edges[joint.name] = (a, b)
+    found = []
+    for block in graphs.blocks(edges):
+        there = tuple(template.joint(name) for name in block if set(edges[name]) <= bodies.keys())
+        if there:
+            planar = len(block) > 1 and not (len(there) == 1 and is_upright(there, template))
+            found.append((there, planar))
+    return found
 
 
 def is_upright(linkage: Sequence[JointTemplate], template: Template) -> bool:
@@ -97,58 +108,64 @@ def completed(
     frame: Frame, linkages: Sequence[Sequence[JointTemplate]], template: Template, bodies: Mapping[str, Body],
     lines: Mapping[str, Line],
 ) -> Frame:  # fmt: skip
-    """The machine's directions, those that are not known as its bodies tell them: left is what most pivots are along,
-    up what is across that and the steering's cylinders, or what a large bearing or the flattest extent of its root is
-    along. Their senses are not told."""
+    """The machine's directions, those that are not known as its bodies tell them: left is what most pivots are along
+    that are near to where its left is like its right; up what a large bearing or the steering's cylinders say, else how
+    it stands. Their senses are not told."""
     left, up, forward = frame.left, frame.up, frame.forward
     if left is None and up is not None and forward is not None:
         left = np.cross(up, forward)
+    if up is None and forward is not None and left is not None:
+        up = np.cross(forward, left)
     upright = [linkage for linkage in linkages if is_upright(linkage, template)]
-    if left is None:
+    if left is None or up is None:
         pitching = [j for linkage in linkages if linkage not in upright for j in linkage]
         names = sorted({str(b) for j in pitching for b in template.bodies_of(j)})
         slides = [lines[j.name] for j in pitching if j.name in lines]
         ways, weights = _votes([bodies[n] for n in names], slides)
-        level = np.abs(ways @ up) < LEVEL if up is not None else np.ones(len(ways), dtype=bool)
-        ways, weights = ways[level], weights[level]
-        if not len(ways):
-            return frame
-        alike = np.abs(ways @ ways.T) > TOGETHER
-        best = int(np.argmax(np.round(alike @ weights, 9)))
-        left = _mean(ways[alike[best]], weights[alike[best]], ways[best], None).vector
-    if up is None and forward is not None:
-        up = np.cross(forward, left)
-    if up is None:
-        up = _upright_way(left, upright, template, bodies, lines)
+        solids = [s for name in sorted(bodies) for s in bodies[name].solids]
+        stance = stance_of(solids, bodies[min(bodies)].size, [] if left is not None else list(ways))
+        if left is None:
+            near = np.abs(ways @ stance.left) > NEAR_LEFT if len(ways) else np.zeros(0, dtype=bool)
+            left = stance.left
+            if near.any():
+                ways, weights = ways[near], weights[near]
+                alike = np.abs(ways @ ways.T) > TOGETHER
+                best = int(np.argmax(np.round(alike @ weights, 9)))
+                left = _mean(ways[alike[best]], weights[alike[best]], ways[best], None).vector
+        if up is None:
+            up = _upright_way(left, upright, template, bodies, lines)
+        if up is None:
+            stands = stance.rotation[2] - float(stance.rotation[2] @ left) * left
+            up = unit(stands if float(np.linalg.norm(stands)) > 0.5 else np.cross(stance.rotation[0], left))
     return Frame(forward if forward is not None else np.cross(left, up), left, up)
 
 
 def _upright_way(
     left: Floats, upright: Sequence[Sequence[JointTemplate]], template: Template, bodies: Mapping[str, Body],
     lines: Mapping[str, Line],
-) -> Floats:  # fmt: skip
+) -> Floats | None:  # fmt: skip
+    """What is across left and the cylinders of a steering, or what a large bearing is along that both bodies on it
+    have; None where neither says so."""
     for linkage in upright:
         for joint in linkage:
             if joint.name in lines and abs(float(lines[joint.name].direction @ left)) < 0.7:
                 return unit(np.cross(left, lines[joint.name].direction))
-    names = sorted({str(b) for linkage in upright for j in linkage for b in template.bodies_of(j)})
     rings = [
-        (c.radius**2 * c.arc, c.direction)
-        for n in names
-        for s in bodies[n].solids
+        (c.radius**2 * c.arc, name, c.direction)
+        for name in sorted({str(b) for linkage in upright for j in linkage for b in template.bodies_of(j)})
+        for s in bodies[name].solids
         for c in s.cylinders
-        if c.arc > 3.0 and 0.012 < c.radius / bodies[n].size < 0.25 and abs(float(c.direction @ left)) < ACROSS
+        if c.arc > 3.0 and 0.012 < c.radius / bodies[name].size < 0.25 and abs(float(c.direction @ left)) < ACROSS
     ]
-    if rings:
-        ways, weights = np.array([d for _, d in rings]), np.array([w for w, _ in rings])
-        alike = np.abs(ways @ ways.T) > TOGETHER
-        way = ways[int(np.argmax(np.round(alike @ weights, 9)))]
-        return unit(way - (way @ left) * left)
-    root = bodies.get(template.root) or bodies[min(bodies)]
-    points = root.samples - root.samples.mean(axis=0)
-    flat = points - np.outer(points @ left, left)
-    # The least of the two extents across left: its own is none.
-    return np.asarray(np.linalg.eigh(flat.T @ flat)[1][:, 1], dtype=np.float64)
+    if not rings:
+        return None
+    ways, weights = np.array([d for *_, d in rings]), np.array([w for w, *_ in rings])
+    alike = np.abs(ways @ ways.T) > TOGETHER
+    best = int(np.argmax(np.round(alike @ weights, 9)))
+    if len({name for (_, name, _), same in zip(rings, alike[best], strict=True) if same}) < 2:
+        return None
+    way = ways[best]
+    return unit(way - (way @ left) * left)
 
 
 def _votes(bodies: Sequence[Body], slides: Sequence[Line]) -> tuple[Floats, Floats]:

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from yellowiron.alignment.axes.bodies import Body, bodies_of
 from yellowiron.alignment.axes.cylinder_lines import cylinder_line
@@ -18,16 +19,18 @@ from yellowiron.alignment.axes.directions import (
     linkages_of,
     wheels_beside,
 )
-from yellowiron.alignment.axes.hinges import Clues, bars_between, eye_of, hinge_candidates
+from yellowiron.alignment.axes.hinges import AT_PIVOT, Clues, bars_between, eye_of, hinge_candidates
 from yellowiron.alignment.axes.turning import slewing_candidate, wheel_candidate
 from yellowiron.alignment.axes.values import AxisEstimate, Candidate, Frame, Line
 from yellowiron.alignment.features.solids import Solid, size_of
 from yellowiron.model.geometry import Floats
 from yellowiron.model.template import JointTemplate, Template
-from yellowiron.support.vectors import unit
+from yellowiron.support.vectors import angle_between_lines, distance_from_line, unit
 
 WHEELS = ("wheel", "sprocket", "idler", "roller", "carrier")
 """Kinds of roles that turn about their own axis of symmetry."""
+PIVOT_TAKEN = 0.4
+"""Quality from which a hinge that is drawn at a pivot of the scene's tree has it to itself."""
 
 
 def estimate_axes(
@@ -43,7 +46,8 @@ def estimate_axes(
     have solids.
 
     `labels`: body → indices of its solids. `frame`: the machine's directions as far as they are known. `size`: the
-    machine's, metres (its solids' if None). `pivots`: body → (n, 3) origins of its scene nodes, CAD frame. Nothing
+    machine's, metres (its solids' if None). `pivots`: joint → (n, 3) places of the scene's tree that it
+    may turn about (`pivots_of`), CAD frame. Nothing
     raises for want of evidence: an axis that nothing shows is a guess, with an uncertainty that says so.
     """
     if not solids:
@@ -52,21 +56,25 @@ def estimate_axes(
     bodies = bodies_of(solids, sorted(labels.items()), size)
     taken = {i for rows in labels.values() for i in rows}
     loose = [Body(f"solid {s.index}", (s,), size) for s in solids if s.shaft is not None and s.index not in taken]
-    linkages = linkages_of(template, bodies)
+    groups = linkages_of(template, bodies)
+    linkages = [joints for joints, _ in groups]
     lines = _lines(template, bodies, linkages)
     frame = completed(frame or Frame(), linkages, template, bodies, lines)
     found: dict[str, AxisEstimate] = {}
-    for linkage in linkages:
-        if len(linkage) == 1:
-            joint = linkage[0]
+    for linkage, planar in groups:
+        if not planar:
+            (joint,) = linkage
             if joint.type == "revolute":
                 found[joint.name] = _single(joint, template, bodies, frame, pivots or {}, loose)
             continue
         way = direction_of(linkage, template, bodies, lines, frame)
-        hinges = {
-            j.name: _hinge(j, template, bodies, way, linkage, lines, pivots or {}, loose)
-            for j in linkage
-            if j.type == "revolute"
+        turning = [j for j in linkage if j.type == "revolute"]
+        hinges = {j.name: _hinge(j, template, bodies, way, linkage, lines, None, loose) for j in turning}
+        left = _left_pivots(turning, hinges, pivots or {}, template, size)
+        hinges |= {
+            j.name: _hinge(j, template, bodies, way, linkage, lines, left[j.name], loose)
+            for j in turning
+            if j.name in left
         }
         if not is_upright(linkage, template):
             hinges = _with_twins(hinges)
@@ -115,7 +123,7 @@ def _single(
     for way in ways:
         exact = direction_of([joint], template, bodies, {}, Frame(left=way, up=way))
         bars = bars_between(bodies[a], bodies[b], _others(bodies, (a, b), loose), exact.vector)
-        clues = Clues(pivots=_pivots_of((a, b), pivots), bars=bars)
+        clues = Clues(pivots=pivots.get(joint.name), bars=bars)
         tried += hinge_candidates(bodies[a], bodies[b], exact.vector, clues, lean=exact.angle)
     tried.sort(key=lambda c: -round(c.quality, 9))
     return _estimate(joint.name, tried)
@@ -125,14 +133,9 @@ def _others(bodies: Mapping[str, Body], pair: tuple[str, str], loose: Sequence[B
     return [*(body for name, body in bodies.items() if name not in pair), *loose]
 
 
-def _pivots_of(pair: tuple[str, str], pivots: Mapping[str, Floats]) -> Floats | None:
-    found = [np.asarray(pivots[name], dtype=np.float64).reshape(-1, 3) for name in pair if name in pivots]
-    return np.concatenate(found) if found else None
-
-
 def _hinge(
     joint: JointTemplate, template: Template, bodies: Mapping[str, Body], way: Direction,
-    linkage: Sequence[JointTemplate], lines: Mapping[str, Line], pivots: Mapping[str, Floats], loose: Sequence[Body],
+    linkage: Sequence[JointTemplate], lines: Mapping[str, Line], pivots: Floats | None, loose: Sequence[Body],
 ) -> list[Candidate]:  # fmt: skip
     """Where a hinge of a linkage may be."""
     kinds = {r.name: r.kind for r in template.roles}
@@ -151,8 +154,34 @@ def _hinge(
         clues = Clues(line, *eye_of(line, bodies[name], halves, bodies[other], way.vector, ahead))
         break
     bars = bars_between(bodies[a], bodies[b], _others(bodies, (a, b), loose), way.vector)
-    clues = replace(clues, pivots=_pivots_of((a, b), pivots), bars=bars)
+    clues = replace(clues, pivots=pivots, bars=bars)
     return hinge_candidates(bodies[a], bodies[b], way.vector, clues, lean=way.angle)
+
+
+def _left_pivots(
+    turning: Sequence[JointTemplate], hinges: Mapping[str, Sequence[Candidate]], pivots: Mapping[str, Floats],
+    template: Template, size: float,
+) -> dict[str, Floats]:  # fmt: skip
+    """Hinge → its pivots of the scene's tree, those left out that what is drawn shows to be of another hinge of one of
+    its bodies."""
+
+    def at(name: str, points: Floats) -> NDArray[np.bool_]:
+        best = hinges[name][0]
+        off = [distance_from_line(p, best.origin, best.direction) for p in points]
+        return np.asarray((np.array(off) < AT_PIVOT * size) & (best.quality > PIVOT_TAKEN))
+
+    found = {}
+    for joint in turning:
+        points = pivots.get(joint.name)
+        if points is None:
+            continue
+        pair = set(template.bodies_of(joint))
+        rivals = [j.name for j in turning if j is not joint and pair & set(template.bodies_of(j))]
+        taken = np.any([at(name, points) for name in rivals], axis=0) if rivals else np.zeros(len(points), dtype=bool)
+        kept = points[~taken | at(joint.name, points)]
+        if len(kept):
+            found[joint.name] = kept
+    return found
 
 
 def _with_twins(hinges: Mapping[str, list[Candidate]]) -> dict[str, list[Candidate]]:
@@ -198,9 +227,9 @@ def _apart(one: Candidate, other: Candidate) -> float:
 
 
 def _estimate(name: str, candidates: Sequence[Candidate]) -> AxisEstimate:
-    best = candidates[0]
+    best, *others = candidates
     return AxisEstimate(
-        name, best.origin, best.direction, best.across, best.angle, best.how, tuple(candidates[1:])
+        name, best.origin, best.direction, best.across, best.angle, best.how, tuple(others), best.quality
     )  # fmt: skip
 
 
@@ -220,7 +249,8 @@ def _slide(name: str, line: Line, template: Template, found: Mapping[str, AxisEs
         way = end - start
         length = float(np.linalg.norm(way))
         across = max(one.across, other.across)
-        if length > 0 and across / length < line.angle:
+        bent = angle_between_lines(way / length, line.direction) > 3.0 * line.angle if length > 0 else True
+        if not bent and across / length < line.angle:
             way = way / length if float(way @ line.direction) > 0 else -way / length
             return AxisEstimate(name, start, way, across, across / length, "the line from pivot to pivot")
     return AxisEstimate(name, line.origin, line.direction, line.across, line.angle, line.how)

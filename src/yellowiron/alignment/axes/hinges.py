@@ -28,6 +28,12 @@ STOUT = 0.004
 RIVAL = 0.25
 """How much less than the best must speak for another line that it is no rival: a rival at that distance is as likely as
 exp(−1)."""
+OFF_LINE = 0.1
+"""How much what is round in both bodies speaks for a hinge off the line of the cylinder: eyes may be bent away."""
+PIVOT_QUALITY = 0.7
+"""How much a pivot of the scene's tree speaks for a hinge where two bodies meet: of 30 in five models 28 were it."""
+AT_PIVOT = 0.006
+"""What is round within this share of the machine's size of such a pivot is about it."""
 LEAST_QUALITY = 0.04
 """Below this the place where the bodies meet is the better guess."""
 KEPT = 4
@@ -107,8 +113,9 @@ def _spots(
     box = meeting.box(AROUND * a.size)
     rounds = [(side, r) for side, body in enumerate((a, b)) for r in body.rounds(direction, box=box)]
     rounds += [(2, r) for r in clues.bars]
+    at_pivots = _pivot_spots(a, b, plane, meeting, clues)
     if not rounds:
-        return []
+        return at_pivots
     center = np.array([plane @ r.face.center for _, r in rounds])
     along = np.array([float(r.face.center @ direction) for _, r in rounds])
     half = np.array([r.face.half for _, r in rounds])
@@ -125,7 +132,7 @@ def _spots(
     quality *= np.exp(-np.maximum(0.0, away - 1.5 * radius) / (NEAR * a.size))
     keep = quality > 0.02
     if not keep.any():
-        return []
+        return at_pivots
     rows = np.flatnonzero(keep)
     rounds = [rounds[k] for k in rows]
     center, along, half, radius = center[rows], along[rows], half[rows], radius[rows]
@@ -142,6 +149,7 @@ def _spots(
     support = [
         _both_ends(together * quality[None] * share, along, radius) for share in (side == 0, side == 1, pin)
     ]  # fmt: skip
+    drawn = (np.minimum(support[0], support[1]) > 0.4) * OFF_LINE
     # Around a bore or a pin is a lug, and so is inside of an outline; a full round may be either.
     wide = np.array([r.face.inner or r.face.full for _, r in rounds])
     narrow = np.array([not r.face.inner for _, r in rounds])
@@ -159,10 +167,10 @@ def _spots(
         own = 0.5 * cover * np.maximum(support[1 - s], 0.6 * support[2])[lacking]
         support[s][lacking] = np.maximum(support[s][lacking], own)
     score = 0.5 * (support[0] + support[1]) + 0.25 * support[2]
-    score *= _on_line(center, direction, plane, clues, a.size)
+    score *= np.maximum(_on_line(center, direction, plane, clues, a.size), drawn)
     away = np.linalg.norm(center - plane @ guess.origin, axis=1)
     score *= 0.5 + 0.5 * np.exp(-0.5 * (away / (2.0 * guess.across)) ** 2)
-    score *= 1.0 + 0.3 * _at_pivots(center, plane, clues, a.size)
+    score += PIVOT_QUALITY * _at_pivots(center, plane, clues, a.size)
     order = np.lexsort((np.arange(len(score)), -np.round(score, 9)))
     spots: list[Spot] = []
     for k in order:
@@ -172,7 +180,22 @@ def _spots(
         sides = len({int(side[m]) for m in members} - {2})
         middle = _fused(center[members], spread[members])[0]
         spots.append(Spot(middle, float(score[k]), tuple(rounds[m][1] for m in members), sides))
-    return spots
+    # What is round at a pivot is more exact than it.
+    spots += [p for p in at_pivots if all(np.linalg.norm(p.center - s.center) > 0.5 * AT_PIVOT * a.size for s in spots)]
+    return sorted(spots, key=lambda spot: -round(spot.score, 9))
+
+
+def _pivot_spots(a: Body, b: Body, plane: Floats, meeting: Meeting, clues: Clues) -> list[Spot]:
+    """The pivots of the scene's tree that both bodies reach, those near to where they meet first."""
+    if clues.pivots is None or not len(clues.pivots):
+        return []
+    flat = clues.pivots @ plane.T
+    beyond = np.max([np.asarray(cKDTree(body.samples @ plane.T).query(flat)[0]) for body in (a, b)], axis=0)
+    away = cKDTree(meeting.points @ plane.T).query(flat)[0]
+    score = PIVOT_QUALITY * np.exp(-((beyond / (0.5 * NEAR * a.size)) ** 2))
+    score *= 0.5 + 0.5 * np.exp(-((away / (2.0 * NEAR * a.size)) ** 2))
+    order = np.argsort(-np.round(score, 9), kind="stable")
+    return [Spot(flat[k], float(score[k]), (), 0) for k in order if score[k] > LEAST_QUALITY]
 
 
 def _both_ends(support: Floats, along: Floats, radius: Floats) -> Floats:
@@ -225,7 +248,7 @@ def _at_pivots(center: Floats, plane: Floats, clues: Clues, size: float) -> Floa
         return np.zeros(len(center))
     flat = clues.pivots @ plane.T
     apart = np.linalg.norm(center[:, None] - flat[None], axis=2).min(axis=1)
-    return np.asarray(np.exp(-0.5 * (apart / (0.003 * size)) ** 2), dtype=np.float64)
+    return np.asarray(np.exp(-0.5 * (apart / (0.5 * AT_PIVOT * size)) ** 2), dtype=np.float64)
 
 
 def _fused(center: Floats, spread: Floats) -> tuple[Floats, float]:
@@ -244,21 +267,26 @@ def _candidate(
     spot: Spot, spots: Sequence[Spot], direction: Floats, plane: Floats, meeting: Meeting, clues: Clues, lean: float,
     size: float,
 ) -> Candidate:  # fmt: skip
-    center = np.array([plane @ r.face.center for r in spot.rounds])
-    middle, across = _fused(center, np.array([r.spread for r in spot.rounds]))
-    across = max(1.5 * across, (1e-4 if spot.sides == 2 else 2e-4) * size)
+    if spot.rounds:
+        center = np.array([plane @ r.face.center for r in spot.rounds])
+        middle, across = _fused(center, np.array([r.spread for r in spot.rounds]))
+        across = max(1.5 * across, (1e-4 if spot.sides == 2 else 2e-4) * size)
+    else:
+        middle, across = spot.center, 0.3 * AT_PIVOT * size
     rivals = [other for other in spots if other is not spot]
     for other in rivals:
         likely = math.exp(min(0.0, (other.score - spot.score) / (RIVAL * max(spot.score, 1e-9))))
         apart = float(np.linalg.norm(other.center - middle))
-        if spot.sides < 2 and apart < max(r.face.radius for r in other.rounds):
+        if spot.sides < 2 and apart < max((r.face.radius for r in other.rounds), default=0.0):
             # The other body's own, but not in line with it: which of them is drawn out of place is not told.
             likely = 1.0
         if likely > 0.1:
             across = math.hypot(across, 0.5 * likely * apart)
     what = sorted({r.what for r in spot.rounds})
     bodies = {0: "a pin", 1: "one body", 2: "both bodies"}[spot.sides]
-    how = f"{' and '.join(what)} of {bodies}"
+    how = f"{' and '.join(what)} of {bodies}" if what else "a pivot of the scene's tree where the two bodies meet"
+    if what and clues.pivots is not None and _at_pivots(middle[None], plane, clues, size)[0] > 0.5:
+        how += " at a pivot of the scene's tree"
     height = float(meeting.center @ direction)
     return Candidate(middle @ plane + height * direction, direction, across, lean, min(1.0, spot.score), how)
 
@@ -266,8 +294,7 @@ def _candidate(
 def _guess(
     a: Body, b: Body, direction: Floats, plane: Floats, meeting: Meeting, clues: Clues, lean: float
 ) -> Candidate:
-    """Where the bodies come nearest to each other; of a cylinder's end on its line; at a pivot of the scene's tree if
-    one is near."""
+    """Where the bodies come nearest to each other; of a cylinder's end on its line."""
     flat = meeting.points @ plane.T
     middle = 0.5 * (np.percentile(flat, 5, axis=0) + np.percentile(flat, 95, axis=0))
     reach = float(np.linalg.norm(np.ptp(flat, axis=0))) / 2
@@ -283,13 +310,6 @@ def _guess(
         middle = plane @ line.origin + place * way
         across = math.hypot(max(0.7 * clues.room, 0.3 * abs(clues.eye - place)), line.across)
         how, quality = "where the cylinder ends at the other body", 0.15
-    if clues.pivots is not None and len(clues.pivots):
-        places = clues.pivots @ plane.T
-        away = np.linalg.norm(places - middle, axis=1)
-        nearest = int(np.argmin(np.round(away, 9)))
-        if away[nearest] < 2.0 * across + 0.01 * a.size:
-            middle, across = places[nearest], max(0.004 * a.size, 0.3 * float(away[nearest]))
-            quality, how = 0.4, "a pivot of the scene's tree where the two bodies meet"
     height = float(meeting.center @ direction)
     return Candidate(middle @ plane + height * direction, direction, across, lean, quality, how, rests_on_round=False)
 

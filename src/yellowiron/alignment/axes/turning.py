@@ -17,6 +17,8 @@ from yellowiron.model.geometry import Floats
 
 WHEEL = (LEAST_WHEEL, 0.2)
 """Radii of what is round in a wheel, in machine sizes."""
+RING = 0.06
+"""What is larger is no more likely to be one, in machine sizes."""
 BEARING = (0.012, 0.25)
 """… and in a slewing bearing."""
 
@@ -94,7 +96,13 @@ def slewing_candidate(a: Body, b: Body, frame: Frame) -> Candidate:
         arc = np.array([min(1.0, r.face.arc / (2 * math.pi)) for _, r in rounds])
         ends = np.array([[float((r.face.center - meeting.center) @ up), r.face.half] for _, r in rounds])
         gap = np.maximum(0.0, np.abs(ends[:, 0]) - ends[:, 1])
-        weight = radius * arc * np.exp(-gap / (0.03 * a.size))
+        # A counterweight's round back is larger than any bearing, and often about another line.
+        weight = np.minimum(radius, RING * a.size) * arc**2 * np.exp(-gap / (0.03 * a.size))
+        if frame.left is not None:
+            sides = [body.samples @ frame.left for body in (a, b)]
+            middles = np.array([0.5 * (side.min() + side.max()) for side in sides])
+            off = np.abs((center @ plane @ frame.left)[:, None] - middles).min(axis=1)
+            weight *= 0.4 + 0.6 * np.exp(-0.5 * (off / (0.01 * a.size)) ** 2)
         weight *= np.exp(-0.5 * (np.linalg.norm(center - middle, axis=1) / (0.08 * a.size)) ** 2)
         apart = np.linalg.norm(center[:, None] - center[None], axis=2)
         alike = apart < 0.06 * np.minimum(radius[:, None], radius[None])

@@ -8,9 +8,11 @@ from collections.abc import Collection, Mapping, Sequence
 import numpy as np
 
 from yellowiron.alignment.axes.estimate import estimate_axes
+from yellowiron.alignment.axes.pivots import pivots_of
 from yellowiron.alignment.axes.values import AxisEstimate, Frame
 from yellowiron.alignment.features.solids import Solid
 from yellowiron.model.alignment import PartAssignment, Vector
+from yellowiron.model.assembly import Assembly
 from yellowiron.model.finding import Finding, Severity
 from yellowiron.model.geometry import Floats
 from yellowiron.model.template import Template
@@ -28,10 +30,11 @@ def unfound_axes(
     found: Collection[str],
     size: float,
     frame: Floats | None = None,
-    pivots: Mapping[str, Floats] | None = None,
+    assembly: Assembly | None = None,
 ) -> dict[str, AxisEstimate]:
     """Joint → its axis, for the template's hinges and slides that are not `found` though parts move with both of their
-    bodies. `frame`: the machine's (4, 4), CAD → machine, if it is known; `pivots` as of `estimate_axes`."""
+    bodies. `frame`: the machine's (4, 4), CAD → machine, if it is known; `assembly`: the model,
+    whose scene's tree tells pivots."""
     body_of = {p.part: p.body for p in parts if p.body is not None}
     labels: dict[str, list[int]] = {}
     for solid in solids:
@@ -46,6 +49,7 @@ def unfound_axes(
     if not wanted:
         return {}
     ways = Frame(*(np.asarray(row) for row in frame[:3, :3])) if frame is not None else Frame()
+    pivots = pivots_of(assembly, body_of, template) if assembly is not None and assembly.nodes else None
     estimates = estimate_axes(solids, labels, template, frame=ways, size=size, pivots=pivots)
     return {name: e for name, e in estimates.items() if name in wanted}
 

@@ -13,6 +13,12 @@ from yellowiron.model.geometry import Floats
 from yellowiron.support.vectors import angle_between_lines, distance_from_line
 
 
+SURE_QUALITY = 0.5
+"""What an axis is more than a guess from."""
+RIVAL_QUALITY = 1.5
+"""So many times as much must speak for a line as for another before it goes before what was found otherwise."""
+
+
 @dataclass(frozen=True, eq=False)
 class Candidate:
     """A line that a joint's axis may be: through `origin` (3,) along the unit `direction`, `across` and `angle` as of
@@ -33,8 +39,8 @@ class AxisEstimate:
     """A joint's axis as far as the drawing tells: the line through `origin` (3,) along the unit `direction`.
 
     The true axis is within `across` metres of it, measured across, with a probability of about two thirds, and within
-    twice that with one of about 95 %; the same for `angle`, radians. `how` says in words what it rests on; `candidates`
-    are other lines that could be it, the best first.
+    twice that with one of about 95 %; the same for `angle`, radians. `how` says in words what it rests on, `quality` in
+    [0, 1] how much speaks for it; `candidates` are other lines that could be it, the best first.
     """
 
     joint: str
@@ -44,6 +50,20 @@ class AxisEstimate:
     angle: float
     how: str
     candidates: tuple[Candidate, ...] = ()
+    quality: float = 1.0
+
+    def beats(self, origin: Sequence[float], direction: Sequence[float]) -> bool:
+        """Whether another line can not be this axis and much less speaks for it, if anything."""
+        if self.holds(origin, direction):
+            return False
+        point, way = np.asarray(origin, dtype=np.float64), np.asarray(direction, dtype=np.float64)
+        rivals = [
+            c.quality
+            for c in self.candidates
+            if distance_from_line(c.origin, point, way) < max(c.across, self.across)
+            and angle_between_lines(c.direction, way) < math.radians(2.0)
+        ]
+        return self.quality > max([SURE_QUALITY, *(RIVAL_QUALITY * q for q in rivals)])
 
     def holds(self, origin: Sequence[float], direction: Sequence[float]) -> bool:
         """Whether another line could be the same axis: within three sigma across it, and of its angle or 2°."""
