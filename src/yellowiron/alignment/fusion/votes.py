@@ -56,6 +56,10 @@ def votes_of(
     solved = _solved(answer)
     apart = joints_apart(template)
     saids = borrowed([named(piece, scores) for piece in pieces], template)
+    areas: dict[str, float] = {}
+    for piece in pieces:
+        for body in {b for i in piece.members for b in solved.get(i, ())}:
+            areas[body] = areas.get(body, 0.0) + piece.area
     votes: Votes = []
     for piece, said in zip(pieces, saids, strict=True):
         mine: dict[str, Features] = {}
@@ -66,6 +70,8 @@ def votes_of(
             if shape is None:
                 continue
             contact = max((solved[i].get(body, 0.0) for i in piece.members if i in solved), default=0.0)
+            # All of a cluster is one guess of the contacts, and counts once.
+            contact *= piece.area / areas.get(body, piece.area)
             found = {"name": trust * name, "contacts": contact, "said": float(body in told), **shape}
             if body in template.usual:
                 depth = apart.get((template.root, body), 0)
