@@ -25,6 +25,12 @@ LOOSEST = 0.84
 SLACK = (0.8, 1.2)
 """The same for pins that were drawn apart from their bores, thinner or thicker by as much as 15 %, with some play."""
 
+ROUNDING = 1e-7
+"""Metres by which a sample may be off a triangle's box and still be in it."""
+
+AT_ONCE = 1_000_000
+"""So many samples of triangles are looked at in one step."""
+
 
 @dataclass(frozen=True, eq=False)
 class Fit:
@@ -227,18 +233,19 @@ def shared_axes_of(fits: list[Fit], tolerance: float) -> list[SharedAxis]:
 
 
 class Patches:
-    """Triangles on the planes of shapes, found once for each shape."""
+    """Triangles on the planes of solids, found once for each: `world(solid, plane)`."""
 
     def __init__(self, tolerance: float) -> None:
         self.tolerance = tolerance
         self._of = functools.cache(self._find)
+        self.world = functools.cache(self._world)
 
     def _find(self, solid: Solid, plane: int) -> Patch:
         if not solid.shape.planes:
             return patch(solid.shape, flat_faces(solid.shape)[plane], self.tolerance)
         return patch(solid.shape, solid.shape.planes[plane], self.tolerance)
 
-    def world(self, solid: Solid, plane: int) -> Floats:
+    def _world(self, solid: Solid, plane: int) -> Floats:
         """(m, 3, 3) corners in the CAD frame."""
         corners = self._of(solid, plane).corners
         moved = corners.reshape(-1, 3) @ solid.part.transform[:3, :3].T + solid.part.transform[:3, 3]
@@ -288,9 +295,8 @@ def _overlap(sa: Solid, sb: Solid, i: int, j: int, patches: Patches) -> Flat | N
         return None
     basis = np.linalg.svd(normal[None, :])[2][1:]
     fa, fb = ta @ basis.T, tb @ basis.T
-    la, ha = fa.reshape(-1, 2).min(axis=0), fa.reshape(-1, 2).max(axis=0)
-    lb, hb = fb.reshape(-1, 2).min(axis=0), fb.reshape(-1, 2).max(axis=0)
-    low, high = np.maximum(la, lb), np.minimum(ha, hb)
+    (la, ha), (lb, hb) = _ends(fa), _ends(fb)
+    low, high = np.maximum(la.min(axis=0), lb.min(axis=0)), np.minimum(ha.max(axis=0), hb.max(axis=0))
     if (high <= low).any():
         return None
     area, middle, width = covered(fa, fb, low, high)
@@ -315,18 +321,43 @@ def covered(fa: Floats, fb: Floats, low: Floats, high: Floats, count: int = 24) 
 
 
 def inside(samples: Floats, triangles: Floats, low: Floats, high: Floats) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
-    """Which samples (n, 2) lie in any of the triangles (m, 3, 2) that reach the box [low, high]."""
-    near = (triangles.max(axis=1) >= low).all(axis=1) & (triangles.min(axis=1) <= high).all(axis=1)
-    tri = triangles[near]
-    if not len(tri) or not len(samples):
-        return np.zeros(len(samples), dtype=np.bool_)
-    hit = np.ones((len(samples), len(tri)), dtype=np.bool_)
-    edge = tri[:, 1] - tri[:, 0]
-    other = tri[:, 2] - tri[:, 0]
+    """Which samples (n, 2) lie in any of the triangles (m, 3, 2) that reach the box [low, high]. Quickest where the
+    samples are a grid: a triangle is asked of no cell but those of its box."""
+    (xs, column), (ys, row) = (np.unique(samples[:, k], return_inverse=True) for k in range(2))
+    there = np.zeros((len(xs), len(ys)), dtype=np.bool_)
+    there[column, row] = True
+    lowest, highest = _ends(triangles)
+    left, right = (np.searchsorted(xs, v) for v in (lowest[:, 0] - ROUNDING, highest[:, 0] + ROUNDING))
+    bottom, top = (np.searchsorted(ys, v) for v in (lowest[:, 1] - ROUNDING, highest[:, 1] + ROUNDING))
+    near = (lowest <= high).all(axis=1) & (highest >= low).all(axis=1) & (right > left) & (top > bottom)
+    numbers = np.flatnonzero(near)
+    tall = (top - bottom)[numbers]
+    cells = (right - left)[numbers] * tall
+    hit = np.zeros_like(there)
+    for part in np.split(np.arange(len(numbers)), np.flatnonzero(np.diff(np.cumsum(cells) // AT_ONCE)) + 1):
+        which = np.repeat(part, cells[part])
+        cell = np.arange(len(which)) - np.repeat(np.cumsum(cells[part]) - cells[part], cells[part])
+        i, j = left[numbers][which] + cell // tall[which], bottom[numbers][which] + cell % tall[which]
+        some = there[i, j] & ~hit[i, j]
+        i, j, which = i[some], j[some], which[some]
+        within = _within(xs[i], ys[j], triangles[numbers[which]])
+        hit[i[within], j[within]] = True
+    return np.asarray(hit[column, row], dtype=np.bool_)
+
+
+def _within(x: Floats, y: Floats, tri: Floats) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+    """Whether points (n,) lie each in its triangle (n, 3, 2)."""
+    edge, other = tri[:, 1] - tri[:, 0], tri[:, 2] - tri[:, 0]
     sign = np.where(edge[:, 0] * other[:, 1] - edge[:, 1] * other[:, 0] >= 0, 1.0, -1.0)
+    found = np.ones(len(x), dtype=np.bool_)
     for k in range(3):
-        p, q = tri[:, k], tri[:, (k + 1) % 3]
-        e = q - p
-        cross = e[:, 0] * (samples[:, 1, None] - p[:, 1]) - e[:, 1] * (samples[:, 0, None] - p[:, 0])
-        hit &= cross * sign >= -1e-12
-    return np.asarray(hit.any(axis=1), dtype=np.bool_)
+        p = tri[:, k]
+        e = tri[:, (k + 1) % 3] - p
+        found &= (e[:, 0] * (y - p[:, 1]) - e[:, 1] * (x - p[:, 0])) * sign >= -1e-12
+    return found
+
+
+def _ends(triangles: Floats) -> tuple[Floats, Floats]:
+    """(m, k) lower and upper corners of the boxes of triangles (m, 3, k)."""
+    a, b, c = triangles[:, 0], triangles[:, 1], triangles[:, 2]
+    return np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
