@@ -88,7 +88,7 @@ class Body:
             near &= (bottom <= span[k, 1]) & (top >= span[k, 0])
             if near.any():
                 samples = center[k] + ring[k] * circle
-                found[k] = inside(samples, flat[near], samples.min(axis=0), samples.max(axis=0)).mean()
+                found[k] = inside(samples, flat[near]).mean()
         return found
 
     def outline(self, direction: Floats, plane: Floats) -> tuple[Floats, Floats]:

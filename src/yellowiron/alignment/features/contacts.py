@@ -309,40 +309,51 @@ def _overlap(sa: Solid, sb: Solid, i: int, j: int, patches: Patches) -> Flat | N
 def covered(fa: Floats, fb: Floats, low: Floats, high: Floats, count: int = 24) -> tuple[float, Floats, float]:
     """Area, centre and extent of what two sets of triangles (m, 3, 2) both cover, on a grid over [low, high]."""
     steps = (np.arange(count) + 0.5) / count
-    gx, gy = np.meshgrid(low[0] + steps * (high[0] - low[0]), low[1] + steps * (high[1] - low[1]))
-    samples = np.c_[gx.ravel(), gy.ravel()]
-    few, many = sorted((fa, fb), key=len)
-    chosen = samples[inside(samples, few, low, high)]
-    chosen = chosen[inside(chosen, many, low, high)]
-    if not len(chosen):
+    xs, ys = low[0] + steps * (high[0] - low[0]), low[1] + steps * (high[1] - low[1])
+    there = np.ones((count, count), dtype=np.bool_)
+    for triangles in sorted((fa, fb), key=len):
+        there = _on_grid(xs, ys, there, triangles)
+    row, column = np.nonzero(there.T)
+    if not len(row):
         return 0.0, low, 0.0
-    area = float(len(chosen) / len(samples) * np.prod(high - low))
+    chosen = np.c_[xs[column], ys[row]]
+    area = float(len(chosen) / count**2 * np.prod(high - low))
     return area, chosen.mean(axis=0), float(np.linalg.norm(np.ptp(chosen, axis=0)))
 
 
-def inside(samples: Floats, triangles: Floats, low: Floats, high: Floats) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
-    """Which samples (n, 2) lie in any of the triangles (m, 3, 2) that reach the box [low, high]. Quickest where the
-    samples are a grid: a triangle is asked of no cell but those of its box."""
+Cells = np.ndarray[tuple[int, int], np.dtype[np.bool_]]
+
+
+def inside(samples: Floats, triangles: Floats) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+    """Which samples (n, 2) lie in any of the triangles (m, 3, 2)."""
     (xs, column), (ys, row) = (np.unique(samples[:, k], return_inverse=True) for k in range(2))
     there = np.zeros((len(xs), len(ys)), dtype=np.bool_)
     there[column, row] = True
-    lowest, highest = _ends(triangles)
-    left, right = (np.searchsorted(xs, v) for v in (lowest[:, 0] - ROUNDING, highest[:, 0] + ROUNDING))
-    bottom, top = (np.searchsorted(ys, v) for v in (lowest[:, 1] - ROUNDING, highest[:, 1] + ROUNDING))
-    near = (lowest <= high).all(axis=1) & (highest >= low).all(axis=1) & (right > left) & (top > bottom)
-    numbers = np.flatnonzero(near)
-    tall = (top - bottom)[numbers]
-    cells = (right - left)[numbers] * tall
+    return np.asarray(_on_grid(xs, ys, there, triangles)[column, row], dtype=np.bool_)
+
+
+def _on_grid(xs: Floats, ys: Floats, there: Cells, triangles: Floats) -> Cells:
+    """Which of the cells of a grid, (len(xs), len(ys)), that are `there` lie in any of the triangles (m, 3, 2): each
+    triangle is asked of the cells of its box alone."""
     hit = np.zeros_like(there)
-    for part in np.split(np.arange(len(numbers)), np.flatnonzero(np.diff(np.cumsum(cells) // AT_ONCE)) + 1):
+    lowest, highest = _ends(triangles)
+    left, right = np.searchsorted(xs, lowest[:, 0] - ROUNDING), np.searchsorted(xs, highest[:, 0] + ROUNDING)
+    bottom, top = np.searchsorted(ys, lowest[:, 1] - ROUNDING), np.searchsorted(ys, highest[:, 1] + ROUNDING)
+    numbers = np.flatnonzero((right > left) & (top > bottom))
+    if not len(numbers) or not there.any():
+        return hit
+    left, bottom, tall = left[numbers], bottom[numbers], (top - bottom)[numbers]
+    cells = (right[numbers] - left) * tall
+    ends = np.cumsum(cells)
+    for part in np.split(np.arange(len(numbers)), np.flatnonzero(np.diff(ends // AT_ONCE)) + 1):
         which = np.repeat(part, cells[part])
-        cell = np.arange(len(which)) - np.repeat(np.cumsum(cells[part]) - cells[part], cells[part])
-        i, j = left[numbers][which] + cell // tall[which], bottom[numbers][which] + cell % tall[which]
+        cell = np.arange(len(which)) - np.repeat(ends[part] - cells[part] - (ends[part[0]] - cells[part[0]]), cells[part])
+        i, j = left[which] + cell // tall[which], bottom[which] + cell % tall[which]
         some = there[i, j] & ~hit[i, j]
         i, j, which = i[some], j[some], which[some]
         within = _within(xs[i], ys[j], triangles[numbers[which]])
         hit[i[within], j[within]] = True
-    return np.asarray(hit[column, row], dtype=np.bool_)
+    return hit
 
 
 def _within(x: Floats, y: Floats, tri: Floats) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:

@@ -14,6 +14,9 @@ from yellowiron.model.geometry import Floats
 SAMPLES = 12
 """Points of a part that are asked whether they are inside of another."""
 
+COMMON = 0.95
+"""This share of the parts is not long."""
+
 
 class Touch:
     """Mesh distances of one assembly, remembered, and by every other look at the same solids. `tolerance` metres counts
@@ -24,6 +27,13 @@ class Touch:
         self._tolerance = tolerance
         self._low = np.array([s.low for s in solids]).reshape(-1, 3)
         self._high = np.array([s.high for s in solids]).reshape(-1, 3)
+        # Few parts are long: all others that reach a place begin not far before it.
+        width = self._high[:, 0] - self._low[:, 0]
+        self._width = float(np.quantile(width, COMMON)) if len(width) else 0.0
+        self._long = np.flatnonzero(width > self._width)
+        short = np.flatnonzero(width <= self._width)
+        self._order = short[np.argsort(self._low[short, 0], kind="stable")]
+        self._starts = self._low[self._order, 0]
 
     def distance(self, a: int, b: int) -> float:
         """Metres between two solids; 0 where they cut each other."""
@@ -43,7 +53,10 @@ class Touch:
 
     def reaching(self, low: Floats, high: Floats) -> list[int]:
         """The solids whose boxes reach a box, (3,) corners."""
-        return np.flatnonzero((self._low <= high).all(axis=1) & (self._high >= low).all(axis=1)).tolist()
+        first, last = np.searchsorted(self._starts, (low[0] - 1.001 * self._width - 1e-9, high[0] + 1e-9))
+        some = np.concatenate([self._long, self._order[first:last]])
+        found = some[(self._low[some] <= high).all(axis=1) & (self._high[some] >= low).all(axis=1)]
+        return np.sort(found).tolist()
 
     def pierced(self, index: int, bar: Cyl, radius: float) -> bool:
         """True if a solid's mesh comes within a radius of the axis of a bar, between its ends."""
