@@ -10,12 +10,10 @@ import numpy as np
 
 from yellowiron.alignment.features.solids import Cyl, Solid
 from yellowiron.model.geometry import Floats
+from yellowiron.support.spans import Spans
 
 SAMPLES = 12
 """Points of a part that are asked whether they are inside of another."""
-
-COMMON = 0.95
-"""This share of the parts is not long."""
 
 
 class Touch:
@@ -27,13 +25,7 @@ class Touch:
         self._tolerance = tolerance
         self._low = np.array([s.low for s in solids]).reshape(-1, 3)
         self._high = np.array([s.high for s in solids]).reshape(-1, 3)
-        # Few parts are long: all others that reach a place begin not far before it.
-        width = self._high[:, 0] - self._low[:, 0]
-        self._width = float(np.quantile(width, COMMON)) if len(width) else 0.0
-        self._long = np.flatnonzero(width > self._width)
-        short = np.flatnonzero(width <= self._width)
-        self._order = short[np.argsort(self._low[short, 0], kind="stable")]
-        self._starts = self._low[self._order, 0]
+        self._spans = Spans(self._low[:, 0], self._high[:, 0])
 
     def distance(self, a: int, b: int) -> float:
         """Metres between two solids; 0 where they cut each other."""
@@ -53,8 +45,7 @@ class Touch:
 
     def reaching(self, low: Floats, high: Floats) -> list[int]:
         """The solids whose boxes reach a box, (3,) corners."""
-        first, last = np.searchsorted(self._starts, (low[0] - 1.001 * self._width - 1e-9, high[0] + 1e-9))
-        some = np.concatenate([self._long, self._order[first:last]])
+        some = self._spans.reaching(float(low[0]), float(high[0]))
         found = some[(self._low[some] <= high).all(axis=1) & (self._high[some] >= low).all(axis=1)]
         return np.sort(found).tolist()
 
