@@ -200,7 +200,7 @@ def test_a_face_that_cannot_be_recognised_has_no_feature(monkeypatch: pytest.Mon
     class Refusing:
         def __init__(self, face: Any) -> None: ...
 
-        def IsPlane(self, tolerance: float, plane: Any) -> bool:  # noqa: N802
+        def IsPlane(self, tolerance: float, plane: Any) -> bool:
             raise Standard_NullObject("GeomAdaptor_Surface::Load")
 
     monkeypatch.setattr(features, "ShapeAnalysis_CanonicalRecognition", Refusing)

@@ -7,6 +7,7 @@ reader found do, and only over the area that both really cover.
 from __future__ import annotations
 
 import functools
+import weakref
 from dataclasses import dataclass
 
 import numpy as np
@@ -273,7 +274,7 @@ def flats_of(solids: tuple[Solid, ...], pairs: list[tuple[int, int]], tolerance:
         )
         best: Flat | None = None
         for i, j in np.argwhere(opposed & (apart < tolerance)):
-            flat = _overlap(sa, sb, int(ka[i]), int(kb[j]), patches)
+            flat = _overlap_of(sa, sb, int(ka[i]), int(kb[j]), patches)
             if flat is not None:
                 flats.append(flat)
                 best = flat if best is None or flat.area > best.area else best
@@ -288,11 +289,26 @@ def _crossing(solid: Solid, low: Floats, high: Floats) -> NDArray[np.intp]:
     return np.flatnonzero(off <= reach + 1e-9)
 
 
-def _overlap(sa: Solid, sb: Solid, i: int, j: int, patches: Patches) -> Flat | None:
-    normal = sa.plane_normals[i]
+_overlaps: weakref.WeakKeyDictionary[
+    Solid, weakref.WeakKeyDictionary[Solid, dict[tuple[int, int, int, int], Flat | None]]
+] = weakref.WeakKeyDictionary()
+"""Of solids that are still in use: planes, and how many triangles of each → what they cover of each other."""
+
+
+def _overlap_of(sa: Solid, sb: Solid, i: int, j: int, patches: Patches) -> Flat | None:
+    """Where two planes lie on each other; most tolerances take the same triangles for them."""
     ta, tb = patches.world(sa, i), patches.world(sb, j)
     if not len(ta) or not len(tb):
         return None
+    known = _overlaps.setdefault(sa, weakref.WeakKeyDictionary()).setdefault(sb, {})
+    key = (i, j, len(ta), len(tb))
+    if key not in known:
+        known[key] = _overlap(sa, sb, i, ta, tb)
+    return known[key]
+
+
+def _overlap(sa: Solid, sb: Solid, i: int, ta: Floats, tb: Floats) -> Flat | None:
+    normal = sa.plane_normals[i]
     basis = np.linalg.svd(normal[None, :])[2][1:]
     fa, fb = ta @ basis.T, tb @ basis.T
     (la, ha), (lb, hb) = _ends(fa), _ends(fb)
@@ -347,7 +363,9 @@ def _on_grid(xs: Floats, ys: Floats, there: Cells, triangles: Floats) -> Cells:
     ends = np.cumsum(cells)
     for part in np.split(np.arange(len(numbers)), np.flatnonzero(np.diff(ends // AT_ONCE)) + 1):
         which = np.repeat(part, cells[part])
-        cell = np.arange(len(which)) - np.repeat(ends[part] - cells[part] - (ends[part[0]] - cells[part[0]]), cells[part])
+        cell = np.arange(len(which)) - np.repeat(
+            ends[part] - cells[part] - (ends[part[0]] - cells[part[0]]), cells[part]
+        )
         i, j = left[which] + cell // tall[which], bottom[which] + cell % tall[which]
         some = there[i, j] & ~hit[i, j]
         i, j, which = i[some], j[some], which[some]
