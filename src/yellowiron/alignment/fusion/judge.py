@@ -219,7 +219,7 @@ class Annealing:
             self.put(p, int(np.argmax(scores)))
 
     def swap(self, temperature: float, rng: np.random.Generator, score: float) -> float:
-        """Tries two bodies in each other's place (Metropolis); `score` is that of the labels, returned as it is then."""
+        """Tries two bodies in each other's place (Metropolis); returns the labels' score, which was `score`."""
         played = np.flatnonzero(self.played[:-1] > 0)
         if len(played) < 1:
             return score
