@@ -3,6 +3,7 @@ cylinder, a wheel, a ring in its bore."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -102,10 +103,13 @@ def _principal(own: list[Solid]) -> Floats:
     return np.asarray(vectors.T[::-1], dtype=np.float64)
 
 
-def leading(pieces: tuple[Piece, ...], size: float) -> list[int]:
-    """The pieces that can be what a body mainly is; the others only go with it."""
+def leading(pieces: tuple[Piece, ...], size: float, said: Mapping[int, str]) -> list[int]:
+    """The pieces that can be what a body mainly is; the others only go with it. `said`: piece → the body that its names
+    speak of; of one that no large piece is named for, small ones are all there is."""
     total = sum(p.area for p in pieces)
-    return [
+    found = [
         k for k, p in enumerate(pieces)
         if p.kind or p.area > LARGE * total or (p.slender and p.spread[0] > LONG * size)
     ]  # fmt: skip
+    named = {said[k] for k in found if k in said}
+    return sorted({*found, *(k for k, body in said.items() if body not in named)})

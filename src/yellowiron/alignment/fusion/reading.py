@@ -14,7 +14,7 @@ from yellowiron.alignment.fusion.bonds import Bond, bonds_of
 from yellowiron.alignment.fusion.judge import Field, field_of, labelled, leads, weighed
 from yellowiron.alignment.fusion.pieces import Piece, leading, pieces_of
 from yellowiron.alignment.fusion.stance import Stance, stance_of
-from yellowiron.alignment.fusion.votes import BARS, CLEARLY, Features, Votes, joints_apart, named, votes_of
+from yellowiron.alignment.fusion.votes import BARS, CLEARLY, Features, Votes, clearly_named, joints_apart, votes_of
 from yellowiron.alignment.fusion.weights import weights
 from yellowiron.alignment.structure.clusters import Structure, labelled_structure
 from yellowiron.alignment.structure.observation import Observation
@@ -97,7 +97,7 @@ def evidence_of(
     pieces = pieces_of(observation, frozenset(i for i, said in enumerate(scores) if said) | frozenset(edited))
     bonds = tuple(bonds_of(observation, pieces, answer.structure, stance))
     trust = trust_in_names(pieces, bonds, scores, choose(template, {}))
-    leads = tuple(leading(pieces, observation.size))
+    leads = tuple(leading(pieces, observation.size, clearly_named(pieces, scores) if trust > 0.0 else {}))
     return Evidence(pieces, leads, bonds, trust, stance, scores, answer, edited)
 
 
@@ -149,11 +149,7 @@ def trust_in_names(
     much more often than any two pieces are (the chance taken off, as in Cohen's kappa); two joints count
     half."""
     apart = joints_apart(template)
-    said: dict[int, str] = {}
-    for k, piece in enumerate(pieces):
-        found = named(piece, scores)
-        if found and max(found.values()) >= CLEARLY:
-            said[k] = max(sorted(found), key=lambda b: found[b])
+    said = clearly_named(pieces, scores)
 
     def explained(a: int, b: int) -> float:
         return EXPLAINED.get(apart.get((said[a], said[b]), 99), 0.0)

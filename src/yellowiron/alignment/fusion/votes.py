@@ -91,6 +91,16 @@ def named(piece: Piece, scores: Sequence[Mapping[str, float]]) -> dict[str, floa
     return found
 
 
+def clearly_named(pieces: Sequence[Piece], scores: Sequence[Mapping[str, float]]) -> dict[int, str]:
+    """Piece → the body that its names speak of, where they do so clearly."""
+    said: dict[int, str] = {}
+    for k, piece in enumerate(pieces):
+        found = named(piece, scores)
+        if found and max(found.values()) >= CLEARLY:
+            said[k] = max(sorted(found), key=lambda b: found[b])
+    return said
+
+
 def borrowed(saids: list[dict[str, float]], template: Template) -> list[dict[str, float]]:
     """What names say, where a body that no name speaks of clearly borrows those of the bodies of its kind that it has a
     joint with: of two arms both called arm, one is the boom."""
