@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from kit.machines.solids import bolt, box, lathe, place, plate, tube
-from yellowiron.alignment.features.contacts import covered, fits_of, flats_of, neighbours, shared_axes_of
+from yellowiron.alignment.features.contacts import covered, fits_of, flats_of, inside, neighbours, shared_axes_of
 from yellowiron.alignment.features.solids import Solid, flat_faces, solids_of
 from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.geometry import Shape
@@ -108,3 +108,20 @@ def test_covered_area() -> None:
     assert area == pytest.approx(0.5, rel=0.02)
     assert centre == pytest.approx([1 / 3, 1 / 3], abs=0.01)
     assert math.isclose(covered(one, other[:1], np.zeros(2), np.ones(2))[0], 0.0, abs_tol=0.06)
+
+
+@settings(max_examples=30, deadline=None)
+@given(st.integers(0, 10_000), st.integers(0, 400), st.sampled_from([0.03, 0.3, 2.0]))
+def test_samples_in_triangles_are_those_of_the_formula(seed: int, count: int, size: float) -> None:
+    """Against the side of every edge of every triangle; on a grid with holes, and where nothing is a grid."""
+    rng = np.random.default_rng(seed)
+    triangles = rng.random((count, 1, 2)) + size * (rng.random((count, 3, 2)) - 0.5)
+    steps = (np.arange(12) + 0.5) / 12
+    grid = np.stack(np.meshgrid(steps, steps), axis=-1).reshape(-1, 2)
+    for samples in (grid[rng.random(len(grid)) < 0.6], rng.random((9, 2))):
+        true = np.zeros(len(samples), dtype=bool)
+        for a, b, c in triangles:
+            edges = [(q - p, samples - p) for p, q in ((a, b), (b, c), (c, a))]
+            sides = [e[0] * d[:, 1] - e[1] * d[:, 0] for e, d in edges]
+            true |= (np.array(sides) >= 0).all(axis=0) | (np.array(sides) <= 0).all(axis=0)
+        assert (inside(samples, triangles) == true).all()

@@ -179,7 +179,7 @@ class Annealing:
             self.exact += sign * np.bincount(held, weights=exact, minlength=self._joints + 1)
         self.played[self.labels[p]] += sign
 
-    def _free(self, count: Floats, weight: float) -> Floats:
+    def _free(self, count: np.ndarray[Any, np.dtype[Any]], weight: float) -> Floats:
         """(joints + 1,) what holding each joint would add: nothing where one is held; the last is no joint."""
         gain = np.where(count <= 0, weight, 0.0)
         gain[-1] = 0.0
