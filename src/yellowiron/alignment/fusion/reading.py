@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -14,7 +14,16 @@ from yellowiron.alignment.fusion.bonds import Bond, bonds_of
 from yellowiron.alignment.fusion.judge import Field, field_of, labelled, leads, weighed
 from yellowiron.alignment.fusion.pieces import Piece, leading, pieces_of
 from yellowiron.alignment.fusion.stance import Stance, stance_of
-from yellowiron.alignment.fusion.votes import BARS, CLEARLY, Features, Votes, clearly_named, joints_apart, votes_of
+from yellowiron.alignment.fusion.votes import (
+    BARS,
+    CLEARLY,
+    Features,
+    Votes,
+    clearly_named,
+    joints_apart,
+    named,
+    votes_of,
+)
 from yellowiron.alignment.fusion.weights import weights
 from yellowiron.alignment.structure.clusters import Structure, labelled_structure
 from yellowiron.alignment.structure.observation import Observation
@@ -122,18 +131,26 @@ def fused(
         field = field_of([votes[k] for k in evidence.leading], evidence.between, resolved, weights())
         labels, score = labelled(field)
         played = {field.bodies[n] for n in labels if n < len(field.bodies)}
-        score -= MISSING * sum(1 for r in resolved.roles if r.rigid and not r.optional and r.name not in played)
+        score -= MISSING * len(_missing(resolved, played))
         return _Best(score, chosen, resolved, field, labels, votes)
 
     # Which end is the front is a guess so far.
     turned = replace(evidence, stance=evidence.stance.turned())
     evidence = max((evidence, turned), key=lambda e: tried(variants[0], e).score)
     best = max((tried(chosen, evidence) for chosen in variants), key=lambda b: b.score)
-    pieces, chief, bonds, trust = evidence.pieces, evidence.leading, evidence.bonds, evidence.trust
-    judged = _judged(best, pieces, chief, bonds)
+    pieces, trust = evidence.pieces, evidence.trust
+    judged = _judged(best, evidence)
     judged = {i: what for i, what in judged.items() if not _is_pin(i, what, observation, best.template)}
     judged |= _by_name_alone(observation, pieces, scores, trust, judged)
     return Fused(_answer(observation, best, judged or _all_root(pieces, best.template), answer), evidence.stance, trust)
+
+
+def _missing(template: Template, played: Collection[str]) -> list[str]:
+    """The bodies that nothing plays and that tell against a variant: where no hydraulic cylinder is drawn at all, none
+    of theirs do."""
+    drawn = any(template.role(b).kind in BARS for b in played)
+    wanted = [r for r in template.roles if r.rigid and not r.optional and r.name not in played]
+    return [r.name for r in wanted if drawn or r.kind not in BARS]
 
 
 def _all_root(pieces: Sequence[Piece], template: Template) -> dict[int, Judged]:
@@ -169,8 +186,9 @@ def _is_pin(i: int, what: Judged, observation: Observation, template: Template) 
     return i in observation.evidence[-1].fasteners and template.role(what.body).kind not in BARS
 
 
-def _judged(best: _Best, pieces: Sequence[Piece], chief: Sequence[int], bonds: Sequence[Bond]) -> dict[int, Judged]:
+def _judged(best: _Best, evidence: Evidence) -> dict[int, Judged]:
     """Solid → what it was judged to be: the leading pieces first, then the others among the bodies these play."""
+    pieces, chief, bonds = evidence.pieces, evidence.leading, evidence.bonds
     bodies = best.field.bodies
     none = len(bodies)
     label_of = {k: int(best.labels[n]) for n, k in enumerate(chief)}
@@ -202,16 +220,17 @@ def _judged(best: _Best, pieces: Sequence[Piece], chief: Sequence[int], bonds: S
                 continue
         vote = best.votes[k][body]
         words = _words(body, margin, bodies[other] if other < none else None, vote)
+        grounded = _grounded(body, best.votes[k], named(piece, evidence.scores), evidence.trust)
         for i in piece.members:
-            found[i] = Judged(
-                body, margin, bodies[other] if other < none else None, words, _grounded(body, best.votes[k])
-            )
+            found[i] = Judged(body, margin, bodies[other] if other < none else None, words, grounded)
     return found
 
 
-def _grounded(body: str, votes: Mapping[str, Features]) -> bool:
-    """True where a piece's names or a person tell its body from every other."""
-    told = {b: weighed({n: f[n] for n in TELLING if n in f}, weights()) for b, f in votes.items()}
+def _grounded(body: str, votes: Mapping[str, Features], said: Mapping[str, float], trust: float) -> bool:
+    """True where a piece's names or a person tell its body from every other, of other variants (`said` by the names)
+    as well."""
+    told = {b: weights()["name"] * trust * score for b, score in said.items() if b not in votes}
+    told |= {b: weighed({n: f[n] for n in TELLING if n in f}, weights()) for b, f in votes.items()}
     return told[body] - max((t for b, t in told.items() if b != body), default=0.0) >= GROUND
 
 
