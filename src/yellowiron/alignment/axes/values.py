@@ -12,7 +12,6 @@ from yellowiron.alignment.features.solids import Cyl
 from yellowiron.model.geometry import Floats
 from yellowiron.support.vectors import angle_between_lines, distance_from_line
 
-
 SURE_QUALITY = 0.5
 """What an axis is more than a guess from."""
 RIVAL_QUALITY = 1.5
