@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -29,6 +29,8 @@ GAIN = 0.9
 """An axis is placed if its uncertainty becomes less than this share of what it was."""
 CONTRADICTED = 3.0
 """A value that is further off than so many sigmas afterwards cannot be met."""
+LOOKS = 2
+"""How often what it comes to is measured anew."""
 ROUNDS = 8
 """Of reweighting what does not fit (P. J. Huber, Ann. Math. Stat. 35, 1964)."""
 
@@ -75,7 +77,7 @@ def place_axes(axes: Sequence[OpenAxis], build: Build) -> PlacedAxes:
     columns = [(k, way) for k in range(len(axes)) for way in ways[k]]
 
     def values(shifts: Mapping[str, Floats]) -> Floats:
-        found = _measured(build(shifts)) if shifts else base
+        found = _measured(build(shifts), names) if shifts else base
         return np.array([_value(found.get(n)) for n in names])
 
     start = (values({}) - spec) / sigma
@@ -86,19 +88,24 @@ def place_axes(axes: Sequence[OpenAxis], build: Build) -> PlacedAxes:
     rows = np.abs(slope).max(axis=1) > TELLS
     if not rows.any():
         return PlacedAxes()
-    slope, start, names = slope[rows], start[rows], [n for n, told in zip(names, rows, strict=True) if told]
-    x, weight = np.zeros(len(columns)), np.ones(len(names))
-    left = start
-    for _ in range(ROUNDS):
-        normal = (slope * weight[:, None]).T @ slope + np.eye(len(x))
-        x = np.linalg.solve(normal, -(slope * weight[:, None]).T @ start)
-        left = start + slope @ x
-        weight = np.minimum(1.0, CONTRADICTED / np.maximum(np.abs(left), 1e-9))
+    slope, start, spec, sigma = slope[rows], start[rows], spec[rows], sigma[rows]
+    names = [n for n, told in zip(names, rows, strict=True) if told]
+    x, left = np.zeros(len(columns)), start
+    for _ in range(LOOKS):
+        # Gauss-Newton from where it is, with the slopes of the start; what does not fit weighs less.
+        at, there, weight = x, left, np.ones(len(names))
+        for _ in range(ROUNDS):
+            normal = (slope * weight[:, None]).T @ slope + np.eye(len(x))
+            x = np.linalg.solve(normal, (slope * weight[:, None]).T @ (slope @ at - there))
+            weight = np.minimum(1.0, CONTRADICTED / np.maximum(np.abs(there + slope @ (x - at)), 1e-9))
+        trial = (values(_moves(axes, ways, x)) - spec) / sigma
+        left = np.where(np.isfinite(trial), trial, there + slope @ (x - at))
     known = np.sqrt(np.diag(np.linalg.inv(normal)))
     unmet = np.abs(left) > CONTRADICTED
-    findings = [_unmet(base[n], off) for n, off, bad in zip(names, left * sigma[rows], unmet, strict=True) if bad]
+    findings = [_unmet(base[n], off) for n, off, bad in zip(names, left * sigma, unmet, strict=True) if bad]
     if unmet.mean() > 0.5:
         return PlacedAxes(findings=tuple(findings))
+    moves = _moves(axes, ways, x)
     shifts, across, sources = {}, {}, {}
     for k, axis in enumerate(axes):
         own = [c for c, (of, _) in enumerate(columns) if of == k]
@@ -108,18 +115,27 @@ def place_axes(axes: Sequence[OpenAxis], build: Build) -> PlacedAxes:
                 if row > TELLS and not bad]  # fmt: skip
         if not told:
             continue
-        shifts[axis.joint] = np.asarray(x[own] @ ways[k], dtype=np.float64)
+        shifts[axis.joint] = moves[axis.joint]
         across[axis.joint] = axis.across * float(np.sqrt((known[own] ** 2).mean()))
         sources[axis.joint] = CALIBRATED + "; ".join(dict.fromkeys(base[n].specification for n in told))
         findings.append(_placed(axis, shifts[axis.joint], across[axis.joint], sources[axis.joint]))
     return PlacedAxes(shifts, across, sources, tuple(findings))
 
 
-def _measured(mechanism: Mechanism) -> dict[str, Measurement]:
-    """Measurement → what the machine makes of it, of those that are published; none where the joints make no tree."""
+def _moves(axes: Sequence[OpenAxis], ways: Sequence[Floats], x: Floats) -> dict[str, Floats]:
+    """Joint → by what its axis moves, from coordinates (2 n,) in sigmas."""
+    return {axis.joint: np.asarray(x[2 * k : 2 * k + 2] @ ways[k]) for k, axis in enumerate(axes)}
+
+
+def _measured(mechanism: Mechanism, names: Collection[str] | None = None) -> dict[str, Measurement]:
+    """Measurement → what the machine makes of it, of those (of `names`) that are published; none where the joints make
+    no tree."""
     known = {fold(name) for name, entry in mechanism.specifications.items() if entry.get("value") is not None}
     taken = calibrating(mechanism)
-    asked = tuple(m for m in mechanism.measurements if fold(m.specification) in known - taken)
+    asked = tuple(
+        m for m in mechanism.measurements
+        if fold(m.specification) in known - taken and (names is None or m.name in names)
+    )  # fmt: skip
     try:
         found = measure(replace(mechanism, measurements=asked)) if asked else ()
     except MechanismError:
