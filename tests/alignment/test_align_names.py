@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from yellowiron.alignment.assignment.collision import collision_parts
 from yellowiron.alignment.assignment.names import (
     concepts,
     exact_role,
@@ -47,6 +48,10 @@ def test_tokens() -> None:
         ("LIFT CYL ROD EYE", {"boom", "cylinder", "rod"}),
         ("liftCylinderTube2", {"boom", "cylinder", "barrel"}),
         ("FRT FRAME LH", {"front", "frame", "left"}),
+        ("Wheel_FL", {"front", "left", "wheel"}),
+        ("Wheel.RR", {"rear", "right", "wheel"}),
+        ("LiftRam_L", {"boom", "cylinder", "left"}),
+        ("axe de l'essieu", {"pin", "axle"}),
         ("WHEELS", {"wheel"}),
         ("Hubzylinder Kolbenstange li", {"boom", "cylinder", "rod", "left"}),
         ("Hubzylinderkolbenstange", {"boom", "cylinder", "rod"}),
@@ -140,3 +145,20 @@ def test_scores_name_the_body(template: Template) -> None:
     assert max(scores[0], key=lambda b: scores[0][b]) == template.body_of("boom_pin")
     assert max(scores[1], key=lambda b: scores[1][b]) == "bucket"
     assert scores[2] == {}
+
+
+def test_a_word_that_many_names_have_says_less(digger: Template) -> None:
+    """Exporters put assemblies before parts' names: they say where a part is, not what."""
+    stem = "upperstructure"
+    names = [f"{stem} {rest}" for rest in ("boom", "arm", "bucket", "hood")] + ["boom", "arm", "track shoe", "idler"]
+    scores = dict(zip(names, name_scores(tuple(part(n) for n in names), digger), strict=True))
+    assert max(scores[f"{stem} boom"], key=lambda b: scores[f"{stem} boom"][b]) == "boom"
+    assert scores[f"{stem} boom"]["boom"] > 2 * scores[f"{stem} boom"].get("upperstructure", 0.0)
+
+
+def test_collision_meshes() -> None:
+    names = ["Boom", "UCX_Boom_01", "Bucket", "Col_Bucket_Floor_mesh", "Column", "Cab-convcolonly", "Collar"]
+    found = collision_parts([part(n) for n in names])
+    assert found == {"UCX_Boom_01", "Col_Bucket_Floor_mesh", "Cab-convcolonly"}
+    assert collision_parts([part("Boom", "Colliders"), part("Arm")]) == {"Boom"}
+    assert not collision_parts([part(f"Col_{k}") for k in range(9)])

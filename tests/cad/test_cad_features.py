@@ -191,6 +191,25 @@ def test_crossed_bores_to_the_formula(convert: Any) -> None:
     assert shape.exact
 
 
+def test_a_face_that_cannot_be_recognised_has_no_feature(monkeypatch: pytest.MonkeyPatch) -> None:
+    """OCCT cannot load the surfaces of some sound faces into its recognition of planes and cylinders."""
+    from OCP.Standard import Standard_NullObject
+
+    from yellowiron.cad.brep import features
+
+    class Refusing:
+        def __init__(self, face: Any) -> None: ...
+
+        def IsPlane(self, tolerance: float, plane: Any) -> bool:
+            raise Standard_NullObject("GeomAdaptor_Surface::Load")
+
+    monkeypatch.setattr(features, "ShapeAnalysis_CanonicalRecognition", Refusing)
+    shape = shape_of(to_nurbs(box(100, 200, 300)))
+    assert (shape.planes, shape.cylinders) == ((), ())
+    assert shape.closed
+    assert shape.volume == pytest.approx(0.1 * 0.2 * 0.3)
+
+
 def test_several_lumps_of_sheet() -> None:
     faces = faces_of(box(100, 200, 300))
     shape = shape_of(compound(faces[0], faces[2]))

@@ -18,12 +18,14 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Collection, Mapping
 from dataclasses import replace
 
 import numpy as np
 
 from yellowiron.alignment.assignment.answer import Answer, held_share, is_whole, rivals_of
+from yellowiron.alignment.assignment.collision import collision_parts
 from yellowiron.alignment.assignment.cp_sat import solve
 from yellowiron.alignment.assignment.machine_frame import MachineFrame, machine_frame
 from yellowiron.alignment.assignment.names import name_scores
@@ -81,23 +83,28 @@ def align(
             "The CAD model has no parts", where=assembly.name, hint="Check that the file holds solids."
         )
     edited = _edited(assembly, template, edits)
-    copies = {copy: first for copy, first in copies_of(assembly).items() if copy not in edited}
-    single = _without(assembly, copies)
+    bumpers = collision_parts(assembly.parts) - edited.keys()
+    drawn = _without(assembly, bumpers)
+    copies = {copy: first for copy, first in copies_of(drawn).items() if copy not in edited}
+    single = _without(drawn, copies)
     apart = separate_parts(single, [part for part, role in edited.items() if role])
     tracking = _without(single, apart)
     tracked, tracks = _tracked(tracking, template)
     machine = _without(tracking, set(tracked.values()))
     plain = without_tracks(template)
     up = _upright(tracks)
-    search = Search(
-        lambda contact: replace(observe(machine, plain, contact), up=up), plain, specifications, choices or {}, edited
-    )
+
+    @functools.cache
+    def look(contact: float) -> Observation:
+        return replace(observe(machine, plain, contact), up=up)
+
+    search = Search(look, plain, specifications, choices or {}, edited)
     answer, observation, scores = search.run()
     agreement = search.agreement
     if held_share(answer) >= HELD:
         answer, frame = _framed(answer, observation, tracks)
     else:
-        observation = replace(observe(machine, plain, CONTACT[-1]), up=up)
+        observation = look(CONTACT[-1])
         scores = name_scores(tuple(s.part for s in observation.solids), plain, template)
         answer, frame, agreement = _fused(answer, observation, scores, plain, choices or {}, edited, tracks)
     propagation = Propagation(
@@ -125,7 +132,7 @@ def align(
         assembly,
         whole,
         answer,
-        Labels(by_id, apart, edited, documents),
+        Labels(by_id, apart, bumpers, edited, documents),
         frame or MachineFrame(np.eye(4)),
         axes=_axes(answer, observation),
         remarks=[
@@ -140,6 +147,7 @@ def align(
                 apart={part: metres for part, metres in apart.items() if part not in edited},
                 played=frozenset(p.role for p in places.values()) | frozenset(edited.values()),
                 settled=frozenset(edited),
+                bumpers=bumpers,
             ),
         ],
     )
@@ -234,7 +242,8 @@ def _framed(answer: Answer, observation: Observation, tracks: list[Track]) -> tu
     if frame is not None and solution.body_of:
         sided = side_weights(solids, structure, template, solution, frame, answer.unary)
         if sided != answer.unary:
-            solution = solve(structure, template, unary=sided, barred=answer.barred) or solution
+            told = solve(structure, template, unary=sided, barred=answer.barred)
+            solution = told if told is not None and told.body_of else solution
             frame = machine_frame(solids, structure, solution, observation.wheels, template, tracks)
     return replace(answer, solution=with_root(solution, structure, solids, template)), frame
 

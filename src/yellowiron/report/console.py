@@ -280,7 +280,7 @@ def build_summary(document: Mapping[str, Any], reasons: Sequence[str], folder: s
         if mobility
         else "",
     )
-    blocks: list[RenderableType] = [line, "", measurement_table(document["measurements"])]
+    blocks: list[RenderableType] = [line, Text(document["verdict"]), "", measurement_table(document["measurements"])]
     if reasons:
         blocks += [
             "",

@@ -12,6 +12,7 @@ from yellowiron.model.finding import Finding
 from yellowiron.model.mechanism import Body, Joint, Measurement, Mechanism
 from yellowiron.model.specification import Specification, Specifications
 from yellowiron.model.template import Template
+from yellowiron.report.verdict import levers_of, verdict
 from yellowiron.support.text import to_json
 
 REVOLUTE_TOLERANCE = 0.1
@@ -44,6 +45,7 @@ def report_document(facts: BuildFacts) -> dict[str, Any]:
     everything = (*facts.findings, *facts.specifications.findings, *alignment.findings, *mechanism.findings)
     return {
         "machine": mechanism.name,
+        "verdict": verdict(levers_of(mechanism, facts.template, alignment)),
         "equipment_type": mechanism.equipment_type,
         "frame": alignment.frame,
         "alignment": _alignment_counts(alignment),

@@ -25,9 +25,10 @@ class LedSets(Generic[Node]):
     def leader(self, node: Node) -> Node:
         """The leader of a node's set; a node that was not known is a set of its own."""
         above = self._above
-        while above.setdefault(node, node) != node:
-            above[node] = above[above[node]]
-            node = above[node]
+        lead = above.setdefault(node, node)
+        while lead != node:
+            above[node] = node = above[lead]
+            lead = above[node]
         return node
 
     def join(self, leading: Node, other: Node) -> bool:

@@ -5,13 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from yellowiron.alignment.assignment.cp_sat import MISSING_WEIGHT, Solution, solve
+from yellowiron.alignment.assignment.cp_sat import MISSING_WEIGHT, Effort, Solution, solve
 from yellowiron.alignment.assignment.weights import Weights
 from yellowiron.alignment.structure.clusters import Structure
 from yellowiron.model.template import Template
 
 MARGIN = 20
 """An assignment is doubtful if the best without it scores this little less: less than a name is worth."""
+RIVALS = 4.0
+"""CP-SAT's deterministic time for all of a machine's rivals; machines that are nearly whole take 0.03 to 0.4."""
 SIDED_WEIGHT = 4 * MISSING_WEIGHT
 """What a variant loses for a cylinder that stands to one side where it should be in the middle."""
 
@@ -69,13 +71,16 @@ def held_share(answer: Answer) -> float:
 
 def rivals_of(answer: Answer) -> dict[int, str | None]:
     """Clusters that could as well be another body (or none), and which: where a machine is not whole, its joints alone
-    may not tell."""
-    found = {}
+    may not tell. All are, from where `RIVALS` is spent: nobody looked."""
+    found: dict[int, str | None] = {}
+    effort = Effort(RIVALS)
     for cluster, body in sorted(answer.solution.body_of.items()):
         other = solve(
             answer.structure, answer.template, unary=answer.unary, barred=answer.barred, without=(cluster, body),
-            at_least=answer.solution.objective - MARGIN - MISSING_WEIGHT,
+            at_least=answer.solution.objective - MARGIN - MISSING_WEIGHT, effort=effort,
         )  # fmt: skip
+        if other is None and effort.spent:
+            found[cluster] = None
         if other is not None and answer.solution.score - other.score < MARGIN:
             found[cluster] = other.body_of.get(cluster)
     return found

@@ -21,8 +21,26 @@ TYPED = ("wheel", "barrel", "rod")
 """Kinds of clusters that are told by their shape, and play nothing but bodies of that kind."""
 SEED = 1
 """The same answer every time."""
-EFFORT = 30.0
-"""CP-SAT's deterministic time, in its own seconds: the answer does not depend on the machine's load."""
+MOST = 10.0
+"""What one program may take, of CP-SAT's deterministic time: the answer does not depend on the machine's load. Those of
+machines that are whole take 0.01 to 0.7."""
+
+WRITING = 2e-5
+"""What writing down a program counts a variable, in the same time."""
+
+
+@dataclass
+class Effort:
+    """What several programs may take together: `left` of CP-SAT's deterministic time, `each` of them no more than so
+    much. What has run out of it gives the best found so far, or none."""
+
+    left: float
+    each: float = MOST
+
+    @property
+    def spent(self) -> bool:
+        """True where nothing is left."""
+        return self.left <= 0.0
 
 
 @dataclass(frozen=True)
@@ -59,16 +77,21 @@ def solve(
     barred: Collection[tuple[str, int]] = (),
     without: tuple[int, str] | None = None,
     at_least: int | None = None,
+    effort: Effort | None = None,
 ) -> Solution | None:
     """The best assignment of clusters to the template's rigid roles (a resolved template, see `choose`).
 
     `unary[(cluster, body)]` adds weight (a joint counts `JOINT_WEIGHT`); names, sizes and sides come in by it.
     `barred`: (joint, hinge) that cannot be the same; `without`: (cluster, body) that is not to be. None where no
-    assignment's objective is `at_least` so much: to be told so is quicker than the best.
+    assignment's objective is `at_least` so much: to be told so is quicker than the best; and where `effort` (default:
+    `MOST`), which this takes from, was spent before one was found.
     """
     from ortools.sat.python import cp_model
 
     # The search depends on the order in which variables and constraints are made: the steps below fix it.
+    effort = effort if effort is not None else Effort(MOST)
+    if effort.spent and at_least is not None:
+        return None
     unary = unary or {}
     program = _Program(cp_model.CpModel())
     linked = {i for h in structure.hinges for i in (h.a, h.b)} | {i for s in structure.slides for i in s[:2]}
@@ -87,8 +110,9 @@ def solve(
     solver = cp_model.CpSolver()
     solver.parameters.num_workers = 1
     solver.parameters.random_seed = SEED
-    solver.parameters.max_deterministic_time = EFFORT
+    solver.parameters.max_deterministic_time = max(0.0, min(effort.left, effort.each))
     status = solver.solve(program.model)
+    effort.left -= solver.response_proto.deterministic_time + WRITING * len(program.model.proto.variables)
     if status in (cp_model.OPTIMAL, cp_model.FEASIBLE):
         return _solution(program, solver, structure, template, proven=status == cp_model.OPTIMAL)
     if at_least is not None:
@@ -107,10 +131,13 @@ def _add_bodies(program: _Program, structure: Structure, template: Template, clu
             typed = role.kind if role.kind in TYPED else ""
             if cluster.kind == typed:
                 x[c, name] = model.new_bool_var(f"x_{c}_{name}")
-    for c in range(len(structure.clusters)):
-        model.add_at_most_one([v for (k, _), v in x.items() if k == c])
-    for name in bodies:
-        model.add_at_most_one([v for (_, b), v in x.items() if b == name])
+    by_cluster: dict[int, list[Any]] = {c: [] for c in range(len(structure.clusters))}
+    by_body: dict[str, list[Any]] = {name: [] for name in bodies}
+    for (c, name), variable in x.items():
+        by_cluster[c].append(variable)
+        by_body[name].append(variable)
+    for group in (*by_cluster.values(), *by_body.values()):
+        model.add_at_most_one(group)
 
 
 def _add_joint(

@@ -28,12 +28,14 @@ CLEAR = 0.3
 EXACT = 1.5
 """What a part counts for a body if it bears the very name of one of the body's roles."""
 SOME = 8
-MOST = 0.6
-"""A word that more than this share of at least `SOME` names has tells no part from another."""
+COMMON, IDLE = 0.3, 0.6
+"""A word that more than a share of `COMMON` of at least `SOME` different names has counts less, one that more than
+`IDLE` have nothing: it tells no part from another."""
 ALIKE = 0.79
 """Words less alike than this are different words, not typos."""
 _SPLIT = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+")
 _CJK = re.compile(r"[぀-ヿ㐀-鿿]")
+_ELIDED = re.compile(r"\b[dl]['\u2019](?=\w)", re.IGNORECASE)
 _HIGH = re.compile(r"[\x80-\xff\u0152-\u2122]{2,}")
 _COUNT = re.compile(r"[\s_#.-]*\d*$")
 _SIDES = {"l": "left", "r": "right"}
@@ -41,8 +43,8 @@ _OPPOSED = (("left", "right"), ("front", "rear"), ("barrel", "rod"))
 _PLACES = frozenset({"left", "right", "front", "rear"})
 """They tell one body from another, and are no name of any."""
 _SMALL = frozenset(
-    ("a", "an", "and", "d", "da", "das", "de", "del", "den", "der", "des", "die", "du", "e", "el", "et", "for", "l",
-     "la", "las", "le", "les", "los", "of", "the", "und", "y")
+    ("a", "an", "and", "d", "da", "das", "de", "del", "den", "der", "des", "die", "du", "e", "el", "et", "for", "la",
+     "las", "le", "les", "los", "of", "the", "und", "y")
 )  # fmt: skip
 _PLAIN = frozenset(
     ("back", "base", "body", "left", "long", "main", "mesh", "node", "part", "plate", "right", "short", "side", "small",
@@ -97,7 +99,8 @@ def _spelled_out(word: str) -> str:
 def tokens(text: str) -> list[str]:
     """Lower-case words of a name: split at case changes, digits and punctuation, without accents; numbers and small
     words (de, la, of) dropped."""
-    plain = "".join(c for c in unicodedata.normalize("NFKD", text.replace("ß", "ss")) if not unicodedata.combining(c))
+    text = _ELIDED.sub("", text.replace("ß", "ss"))
+    plain = "".join(c for c in unicodedata.normalize("NFKD", text) if not unicodedata.combining(c))
     return [t for t in (t.casefold() for t in _SPLIT.findall(plain)) if not t.isdigit() and t not in _SMALL]
 
 
@@ -239,29 +242,37 @@ def _wanted(template: Template, whole: Template) -> Iterator[tuple[str, frozense
             yield body, role_concepts(role)
 
 
-def _common_to_most(names: Sequence[str], words: Vocabulary) -> frozenset[str]:
-    """Concepts of most of the names, where there are some: the machine's own name, put before every part's."""
-    counts = Counter(concept for name in names for concept in concepts(name, words))
-    return frozenset(c for c, n in counts.items() if len(names) >= SOME and n > MOST * len(names))
+def _telling(names: Sequence[str], words: Vocabulary) -> dict[str, float]:
+    """Concept → how well it tells parts from each other, 0 to 1, for those that not every word does: the machine's own
+    name, put before every part's. Names that differ in their numbers alone are one."""
+    said = {tuple(tokens(name)) or name: concepts(name, words) for name in names}
+    if len(said) < SOME:
+        return {}
+    counts = Counter(concept for found in said.values() for concept in found)
+    shares = {concept: n / len(said) for concept, n in counts.items() if n > COMMON * len(said)}
+    return {concept: max(0.0, (IDLE - share) / (IDLE - COMMON)) for concept, share in shares.items()}
 
 
 def name_scores(parts: tuple[Part, ...], template: Template, whole: Template | None = None) -> list[dict[str, float]]:
     """For every part: body → how well its names speak of it (`EXACT` where it bears the exact name of one of its
-    roles). Names of assemblies that hold all parts say nothing, nor does a word that most parts' own names have.
+    roles). Names of assemblies that hold all parts say nothing, nor does a word that most parts' own names have; one
+    that many have says less.
     `whole`: a template with further bodies, of which the template's nearest above is meant."""
     words = vocabulary(whole or template)
     roles = exact_roles(template)
     shared = 0
     while len({p.path[: shared + 1] for p in parts}) == 1 and all(len(p.path) > shared for p in parts):
         shared += 1
-    idle = _common_to_most([p.name for p in parts], words)
+    telling = _telling([p.name for p in parts], words)
     bodies: dict[str, list[frozenset[str]]] = {}
     for wanted_body, wanted in _wanted(template, whole or template):
         bodies.setdefault(wanted_body, []).append(wanted)
     scores = []
     for part in parts:
         said = spoken((part.name, *reversed(part.path[shared:])), words)
-        said = {concept: weight for concept, weight in said.items() if concept not in idle or weight < 1.0}
+        # What an assembly is called counts as it stands: all that is in it may well be most of the machine.
+        said = {c: w * telling.get(c, 1.0) if w == 1.0 else w for c, w in said.items()}
+        said = {c: w for c, w in said.items() if w > 0.0}
         found = {b: s for b, wanted in bodies.items() if (s := max(likeness(said, w) for w in wanted)) > CLEAR}
         named = exact_role(part, roles)
         body = template.body_of(named) if named is not None else None

@@ -2,7 +2,8 @@
 
 A machine that is found whole (every body, every joint, no hydraulic cylinder left over) can be so only under a variant
 with as many cylinders as are drawn: these come first, with the likeliest readings, from the tightest tolerance to the
-widest; then the readings that weld less carefully; only then the other variants.
+widest; then the readings that weld less carefully; only then the other variants. Where contacts do not hold the
+machine together, nothing ends that but `EFFORT`: the best so far is the answer then.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 
 from yellowiron.alignment.assignment.answer import Answer, is_whole
-from yellowiron.alignment.assignment.cp_sat import MISSING_WEIGHT, solve
+from yellowiron.alignment.assignment.cp_sat import JOINT_WEIGHT, MISSING_WEIGHT, TYPED, Effort, solve
 from yellowiron.alignment.assignment.names import name_scores
 from yellowiron.alignment.assignment.one_sided import one_sided
 from yellowiron.alignment.assignment.sheet_weights import sheet_weights
@@ -26,8 +27,12 @@ from yellowiron.model.geometry import Floats
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import Template, choose
 
-HOPELESS = 200
-"""A reading that cannot come nearer than this to the best one's score is not looked at any further."""
+EFFORT = 4.0
+"""CP-SAT's deterministic time for a search: of machines that are whole, or nearly, it took 0.01 to 1.8."""
+EACH = 1.0
+"""… and for one program of it: 0.01 to 0.7."""
+AGAIN = 0.5
+"""The share of it for a search made again without names."""
 BELIEVED = 0.6
 """Names that agree less with the joints than this have no say in the search."""
 
@@ -45,6 +50,7 @@ class Search:
     best: Answer | None = None
     agreement: float = 1.0
     _named: bool = True
+    _effort: Effort = field(default_factory=lambda: Effort(EFFORT, EACH))
     _looked: dict[float, tuple[Observation, list[dict[str, float]], list[Structure]]] = field(default_factory=dict)
 
     def run(self) -> tuple[Answer, Observation, list[dict[str, float]]]:
@@ -57,6 +63,7 @@ class Search:
             self.best = None
             self._looked = {c: (s, [{} for _ in s.solids], known) for c, (s, _, known) in self._looked.items()}
             self._named = False
+            self._effort = Effort(AGAIN * EFFORT, EACH)
             answer, observation, _ = self._run()
             if len(believed) != len(observation.solids):
                 believed = [{} for _ in observation.solids]
@@ -71,6 +78,8 @@ class Search:
                     first, *rest = _by_cylinders(variants, self.template, len(structure.slides))
                     for chosen in itertools.chain(*rest) if others else first:
                         self._try(contact, structure, chosen)
+                        if self._effort.spent:
+                            return self._result()
                     if self.best is not None and is_whole(self.best) and not self.edited:
                         return self._result()
         return self._result()
@@ -107,18 +116,27 @@ class Search:
             for key, weight in more.items():
                 unary[key] = unary.get(key, 0) + weight
         barred = _barred(structure, resolved, observation.up)
-        least = None
-        if self.best is not None:
-            barrels = sum(1 for r in resolved.roles if r.rigid and not r.optional and r.kind == "barrel")
-            short = 2 * abs(barrels - len(structure.slides))
-            least = self.best.score + MISSING_WEIGHT * short - HOPELESS
-        solution = solve(structure, resolved, unary=unary, barred=barred, at_least=least)
+        least = _least(self.best, structure, resolved) if self.best is not None else None
+        solution = solve(structure, resolved, unary=unary, barred=barred, at_least=least, effort=self._effort)
         if solution is None:
             return
         sided = one_sided(observation, structure, solution, self.template, resolved)
         answer = Answer(contact, structure, chosen, resolved, solution, unary, sided, barred)
         if self.best is None or (is_whole(answer), answer.score) > (is_whole(self.best), self.best.score):
             self.best = answer
+
+
+def _least(best: Answer, structure: Structure, template: Template) -> int:
+    """The objective below which no answer of a structure is better than the best: what is missing or idle whatever is
+    chosen counts against it, and a machine found whole, which beats every other, has at least its joints."""
+    missing = 0
+    for kind in TYPED:
+        drawn = sum(1 for c in structure.clusters if c.kind == kind)
+        roles = [r for r in template.roles if r.rigid and r.kind == kind]
+        missing += max(0, sum(not r.optional for r in roles) - drawn) + max(0, drawn - len(roles))
+    better = best.score + MISSING_WEIGHT * missing + 1
+    joints = sum(1 for j in template.joints if j.type in ("revolute", "prismatic"))
+    return better if is_whole(best) else min(better, JOINT_WEIGHT * joints)
 
 
 def _equal(one: Structure, other: Structure) -> bool:

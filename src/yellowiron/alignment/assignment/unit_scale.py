@@ -40,8 +40,10 @@ def to_scale(assembly: Assembly, template: Template, specifications: Specificati
     """
     wanted = next((w.name for w in template.wanted if w.length_of == "*"), None)
     length = specifications.number(wanted) if wanted is not None else None
+    if length is None or length <= 0.0:
+        return assembly
     drawn = _extent(assembly)
-    if length is None or length <= 0.0 or drawn <= 0.0 or POSES[0] <= drawn / length <= POSES[1]:
+    if drawn <= 0.0 or POSES[0] <= drawn / length <= POSES[1]:
         return assembly
     read = f"The CAD model is {drawn:.4g} m long, the sheet's machine {length:.4g} m"
     fitting = {name: unit / assembly.unit for name, unit in UNITS.items()}

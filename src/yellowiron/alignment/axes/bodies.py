@@ -16,6 +16,7 @@ from yellowiron.alignment.axes.values import Round, plane_of
 from yellowiron.alignment.features.contacts import inside
 from yellowiron.alignment.features.solids import Cyl, Solid
 from yellowiron.model.geometry import Floats
+from yellowiron.support.spans import Spans
 
 SPACING = 0.008
 """Points on a surface are this share of the machine's size apart."""
@@ -36,6 +37,7 @@ class Body:
     size: float
     _rounds: dict[tuple[float, ...], list[Round]] = field(default_factory=dict)
     _flats: dict[tuple[float, ...], tuple[Floats, ...]] = field(default_factory=dict)
+    _spans: dict[tuple[float, ...], Spans] = field(default_factory=dict)
     _outlines: dict[tuple[float, ...], tuple[Floats, Floats]] = field(default_factory=dict)
 
     @cached_property
@@ -80,15 +82,16 @@ class Body:
             self._flats[key] = (
                 flat, flat.min(axis=1), flat.max(axis=1), height.min(axis=1), height.max(axis=1)
             )  # fmt: skip
+            self._spans[key] = Spans(flat[:, :, 0].min(axis=1), flat[:, :, 0].max(axis=1))
         flat, low, high, bottom, top = self._flats[key]
         turn = np.linspace(0.0, 2 * math.pi, 8, endpoint=False)
         circle = np.stack([np.cos(turn), np.sin(turn)], axis=1)
         for k in range(len(center)):
-            near = (low <= center[k] + ring[k]).all(axis=1) & (high >= center[k] - ring[k]).all(axis=1)
-            near &= (bottom <= span[k, 1]) & (top >= span[k, 0])
+            some = self._spans[key].reaching(center[k, 0] - ring[k], center[k, 0] + ring[k])
+            near = (low[some] <= center[k] + ring[k]).all(axis=1) & (high[some] >= center[k] - ring[k]).all(axis=1)
+            near &= (bottom[some] <= span[k, 1]) & (top[some] >= span[k, 0])
             if near.any():
-                samples = center[k] + ring[k] * circle
-                found[k] = inside(samples, flat[near], samples.min(axis=0), samples.max(axis=0)).mean()
+                found[k] = inside(center[k] + ring[k] * circle, flat[some[near]]).mean()
         return found
 
     def outline(self, direction: Floats, plane: Floats) -> tuple[Floats, Floats]:

@@ -7,6 +7,7 @@ reader found do, and only over the area that both really cover.
 from __future__ import annotations
 
 import functools
+import weakref
 from dataclasses import dataclass
 
 import numpy as np
@@ -24,6 +25,12 @@ LOOSEST = 0.84
 """Shaft radius over bore radius: a clearance hole of a small bolt."""
 SLACK = (0.8, 1.2)
 """The same for pins that were drawn apart from their bores, thinner or thicker by as much as 15 %, with some play."""
+
+ROUNDING = 1e-7
+"""Metres by which a sample may be off a triangle's box and still be in it."""
+
+AT_ONCE = 1_000_000
+"""So many samples of triangles are looked at in one step."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -227,18 +234,19 @@ def shared_axes_of(fits: list[Fit], tolerance: float) -> list[SharedAxis]:
 
 
 class Patches:
-    """Triangles on the planes of shapes, found once for each shape."""
+    """Triangles on the planes of solids, found once for each: `world(solid, plane)`."""
 
     def __init__(self, tolerance: float) -> None:
         self.tolerance = tolerance
         self._of = functools.cache(self._find)
+        self.world = functools.cache(self._world)
 
     def _find(self, solid: Solid, plane: int) -> Patch:
         if not solid.shape.planes:
             return patch(solid.shape, flat_faces(solid.shape)[plane], self.tolerance)
         return patch(solid.shape, solid.shape.planes[plane], self.tolerance)
 
-    def world(self, solid: Solid, plane: int) -> Floats:
+    def _world(self, solid: Solid, plane: int) -> Floats:
         """(m, 3, 3) corners in the CAD frame."""
         corners = self._of(solid, plane).corners
         moved = corners.reshape(-1, 3) @ solid.part.transform[:3, :3].T + solid.part.transform[:3, 3]
@@ -266,7 +274,7 @@ def flats_of(solids: tuple[Solid, ...], pairs: list[tuple[int, int]], tolerance:
         )
         best: Flat | None = None
         for i, j in np.argwhere(opposed & (apart < tolerance)):
-            flat = _overlap(sa, sb, int(ka[i]), int(kb[j]), patches)
+            flat = _overlap_of(sa, sb, int(ka[i]), int(kb[j]), patches)
             if flat is not None:
                 flats.append(flat)
                 best = flat if best is None or flat.area > best.area else best
@@ -281,16 +289,30 @@ def _crossing(solid: Solid, low: Floats, high: Floats) -> NDArray[np.intp]:
     return np.flatnonzero(off <= reach + 1e-9)
 
 
-def _overlap(sa: Solid, sb: Solid, i: int, j: int, patches: Patches) -> Flat | None:
-    normal = sa.plane_normals[i]
+_overlaps: weakref.WeakKeyDictionary[
+    Solid, weakref.WeakKeyDictionary[Solid, dict[tuple[int, int, int, int], Flat | None]]
+] = weakref.WeakKeyDictionary()
+"""Of solids that are still in use: planes, and how many triangles of each → what they cover of each other."""
+
+
+def _overlap_of(sa: Solid, sb: Solid, i: int, j: int, patches: Patches) -> Flat | None:
+    """Where two planes lie on each other; most tolerances take the same triangles for them."""
     ta, tb = patches.world(sa, i), patches.world(sb, j)
     if not len(ta) or not len(tb):
         return None
+    known = _overlaps.setdefault(sa, weakref.WeakKeyDictionary()).setdefault(sb, {})
+    key = (i, j, len(ta), len(tb))
+    if key not in known:
+        known[key] = _overlap(sa, sb, i, ta, tb)
+    return known[key]
+
+
+def _overlap(sa: Solid, sb: Solid, i: int, ta: Floats, tb: Floats) -> Flat | None:
+    normal = sa.plane_normals[i]
     basis = np.linalg.svd(normal[None, :])[2][1:]
     fa, fb = ta @ basis.T, tb @ basis.T
-    la, ha = fa.reshape(-1, 2).min(axis=0), fa.reshape(-1, 2).max(axis=0)
-    lb, hb = fb.reshape(-1, 2).min(axis=0), fb.reshape(-1, 2).max(axis=0)
-    low, high = np.maximum(la, lb), np.minimum(ha, hb)
+    (la, ha), (lb, hb) = _ends(fa), _ends(fb)
+    low, high = np.maximum(la.min(axis=0), lb.min(axis=0)), np.minimum(ha.max(axis=0), hb.max(axis=0))
     if (high <= low).any():
         return None
     area, middle, width = covered(fa, fb, low, high)
@@ -303,30 +325,68 @@ def _overlap(sa: Solid, sb: Solid, i: int, j: int, patches: Patches) -> Flat | N
 def covered(fa: Floats, fb: Floats, low: Floats, high: Floats, count: int = 24) -> tuple[float, Floats, float]:
     """Area, centre and extent of what two sets of triangles (m, 3, 2) both cover, on a grid over [low, high]."""
     steps = (np.arange(count) + 0.5) / count
-    gx, gy = np.meshgrid(low[0] + steps * (high[0] - low[0]), low[1] + steps * (high[1] - low[1]))
-    samples = np.c_[gx.ravel(), gy.ravel()]
-    few, many = sorted((fa, fb), key=len)
-    chosen = samples[inside(samples, few, low, high)]
-    chosen = chosen[inside(chosen, many, low, high)]
-    if not len(chosen):
+    xs, ys = low[0] + steps * (high[0] - low[0]), low[1] + steps * (high[1] - low[1])
+    there = np.ones((count, count), dtype=np.bool_)
+    for triangles in sorted((fa, fb), key=len):
+        there = _on_grid(xs, ys, there, triangles)
+    row, column = np.nonzero(there.T)
+    if not len(row):
         return 0.0, low, 0.0
-    area = float(len(chosen) / len(samples) * np.prod(high - low))
+    chosen = np.c_[xs[column], ys[row]]
+    area = float(len(chosen) / count**2 * np.prod(high - low))
     return area, chosen.mean(axis=0), float(np.linalg.norm(np.ptp(chosen, axis=0)))
 
 
-def inside(samples: Floats, triangles: Floats, low: Floats, high: Floats) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
-    """Which samples (n, 2) lie in any of the triangles (m, 3, 2) that reach the box [low, high]."""
-    near = (triangles.max(axis=1) >= low).all(axis=1) & (triangles.min(axis=1) <= high).all(axis=1)
-    tri = triangles[near]
-    if not len(tri) or not len(samples):
-        return np.zeros(len(samples), dtype=np.bool_)
-    hit = np.ones((len(samples), len(tri)), dtype=np.bool_)
-    edge = tri[:, 1] - tri[:, 0]
-    other = tri[:, 2] - tri[:, 0]
+Cells = np.ndarray[tuple[int, int], np.dtype[np.bool_]]
+
+
+def inside(samples: Floats, triangles: Floats) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+    """Which samples (n, 2) lie in any of the triangles (m, 3, 2)."""
+    (xs, column), (ys, row) = (np.unique(samples[:, k], return_inverse=True) for k in range(2))
+    there = np.zeros((len(xs), len(ys)), dtype=np.bool_)
+    there[column, row] = True
+    return np.asarray(_on_grid(xs, ys, there, triangles)[column, row], dtype=np.bool_)
+
+
+def _on_grid(xs: Floats, ys: Floats, there: Cells, triangles: Floats) -> Cells:
+    """Which of the cells of a grid, (len(xs), len(ys)), that are `there` lie in any of the triangles (m, 3, 2): each
+    triangle is asked of the cells of its box alone."""
+    hit = np.zeros_like(there)
+    lowest, highest = _ends(triangles)
+    left, right = np.searchsorted(xs, lowest[:, 0] - ROUNDING), np.searchsorted(xs, highest[:, 0] + ROUNDING)
+    bottom, top = np.searchsorted(ys, lowest[:, 1] - ROUNDING), np.searchsorted(ys, highest[:, 1] + ROUNDING)
+    numbers = np.flatnonzero((right > left) & (top > bottom))
+    if not len(numbers) or not there.any():
+        return hit
+    left, bottom, tall = left[numbers], bottom[numbers], (top - bottom)[numbers]
+    cells = (right[numbers] - left) * tall
+    ends = np.cumsum(cells)
+    for part in np.split(np.arange(len(numbers)), np.flatnonzero(np.diff(ends // AT_ONCE)) + 1):
+        which = np.repeat(part, cells[part])
+        cell = np.arange(len(which)) - np.repeat(
+            ends[part] - cells[part] - (ends[part[0]] - cells[part[0]]), cells[part]
+        )
+        i, j = left[which] + cell // tall[which], bottom[which] + cell % tall[which]
+        some = there[i, j] & ~hit[i, j]
+        i, j, which = i[some], j[some], which[some]
+        within = _within(xs[i], ys[j], triangles[numbers[which]])
+        hit[i[within], j[within]] = True
+    return hit
+
+
+def _within(x: Floats, y: Floats, tri: Floats) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+    """Whether points (n,) lie each in its triangle (n, 3, 2)."""
+    edge, other = tri[:, 1] - tri[:, 0], tri[:, 2] - tri[:, 0]
     sign = np.where(edge[:, 0] * other[:, 1] - edge[:, 1] * other[:, 0] >= 0, 1.0, -1.0)
+    found = np.ones(len(x), dtype=np.bool_)
     for k in range(3):
-        p, q = tri[:, k], tri[:, (k + 1) % 3]
-        e = q - p
-        cross = e[:, 0] * (samples[:, 1, None] - p[:, 1]) - e[:, 1] * (samples[:, 0, None] - p[:, 0])
-        hit &= cross * sign >= -1e-12
-    return np.asarray(hit.any(axis=1), dtype=np.bool_)
+        p = tri[:, k]
+        e = tri[:, (k + 1) % 3] - p
+        found &= (e[:, 0] * (y - p[:, 1]) - e[:, 1] * (x - p[:, 0])) * sign >= -1e-12
+    return found
+
+
+def _ends(triangles: Floats) -> tuple[Floats, Floats]:
+    """(m, k) lower and upper corners of the boxes of triangles (m, 3, k)."""
+    a, b, c = triangles[:, 0], triangles[:, 1], triangles[:, 2]
+    return np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import functools
+import weakref
 from typing import Any
 
 import fcl
@@ -10,64 +10,93 @@ import numpy as np
 
 from yellowiron.alignment.features.solids import Cyl, Solid
 from yellowiron.model.geometry import Floats
+from yellowiron.support.spans import Spans
 
 SAMPLES = 12
 """Points of a part that are asked whether they are inside of another."""
 
 
 class Touch:
-    """Mesh distances of one assembly, remembered. `tolerance` metres counts as touching."""
+    """Mesh distances of one assembly, remembered, and by every other look at the same solids. `tolerance` metres counts
+    as touching."""
 
     def __init__(self, solids: tuple[Solid, ...], tolerance: float) -> None:
         self._solids = solids
         self._tolerance = tolerance
         self._low = np.array([s.low for s in solids]).reshape(-1, 3)
         self._high = np.array([s.high for s in solids]).reshape(-1, 3)
-        self._object = functools.cache(self._build)
-        self.distance = functools.cache(self._distance)
-        self.sunk = functools.cache(self._sunk)
+        self._spans = Spans(self._low[:, 0], self._high[:, 0])
 
-    def _build(self, index: int) -> Any:
-        solid = self._solids[index]
-        model = fcl.BVHModel()
-        triangles = solid.shape.mesh.triangles
-        model.beginModel(len(solid.points), len(triangles))
-        model.addSubModel(np.ascontiguousarray(solid.points), np.ascontiguousarray(triangles))
-        model.endModel()
-        return fcl.CollisionObject(model)
-
-    def _distance(self, a: int, b: int) -> float:
+    def distance(self, a: int, b: int) -> float:
         """Metres between two solids; 0 where they cut each other."""
-        first, second = self._object(min(a, b)), self._object(max(a, b))
-        if fcl.collide(first, second, fcl.CollisionRequest(), fcl.CollisionResult()):
-            return 0.0
-        return max(0.0, float(fcl.distance(first, second, fcl.DistanceRequest(), fcl.DistanceResult())))
+        first, second = self._solids[min(a, b)], self._solids[max(a, b)]
+        known = _distances.setdefault(first, weakref.WeakKeyDictionary())
+        if second not in known:
+            known[second] = _distance(_object_of(first), _object_of(second))
+        return known[second]
 
-    def _sunk(self, a: int, b: int) -> float:
+    def sunk(self, a: int, b: int) -> float:
         """The share of solid `a` that is inside of solid `b`, by some of its points; 0 where `b` is open."""
         inner, outer = self._solids[a], self._solids[b]
-        if not outer.shape.closed:
-            return 0.0
-        points = np.concatenate([inner.center[None], inner.points[:: max(1, len(inner.points) // SAMPLES)]])
-        within = [abs(_winding(outer.points[outer.shape.mesh.triangles] - point)) for point in points]
-        return float(np.mean(np.minimum(within, 1.0)))
+        known = _shares.setdefault(inner, weakref.WeakKeyDictionary())
+        if outer not in known:
+            known[outer] = _sunk(inner, outer)
+        return known[outer]
 
     def reaching(self, low: Floats, high: Floats) -> list[int]:
         """The solids whose boxes reach a box, (3,) corners."""
-        return np.flatnonzero((self._low <= high).all(axis=1) & (self._high >= low).all(axis=1)).tolist()
+        some = self._spans.reaching(float(low[0]), float(high[0]))
+        found = some[(self._low[some] <= high).all(axis=1) & (self._high[some] >= low).all(axis=1)]
+        return np.sort(found).tolist()
 
     def pierced(self, index: int, bar: Cyl, radius: float) -> bool:
         """True if a solid's mesh comes within a radius of the axis of a bar, between its ends."""
         u = np.linalg.svd(bar.direction[None, :])[2][1]
         turn = np.stack([u, np.cross(bar.direction, u), bar.direction], axis=1)
         core = fcl.CollisionObject(fcl.Cylinder(radius, 2.0 * bar.half), fcl.Transform(turn, bar.center))
-        return bool(fcl.collide(self._object(index), core, fcl.CollisionRequest(), fcl.CollisionResult()))
+        return bool(fcl.collide(_object_of(self._solids[index]), core, fcl.CollisionRequest(), fcl.CollisionResult()))
 
     def touching(self, a: int, b: int) -> bool:
         """True within the tolerance (boxes first)."""
         sa, sb = self._solids[a], self._solids[b]
         apart = np.maximum(sa.low - sb.high, sb.low - sa.high).max()
         return bool(apart <= self._tolerance) and self.distance(min(a, b), max(a, b)) <= self._tolerance
+
+
+_objects: weakref.WeakKeyDictionary[Solid, Any] = weakref.WeakKeyDictionary()
+_distances: weakref.WeakKeyDictionary[Solid, weakref.WeakKeyDictionary[Solid, float]] = weakref.WeakKeyDictionary()
+_shares: weakref.WeakKeyDictionary[Solid, weakref.WeakKeyDictionary[Solid, float]] = weakref.WeakKeyDictionary()
+"""What was measured of solids that are still in use: it is the same with every contact tolerance."""
+
+
+def _object_of(solid: Solid) -> Any:
+    """A solid as the collision library wants it."""
+    if solid not in _objects:
+        model = fcl.BVHModel()
+        triangles = solid.shape.mesh.triangles
+        model.beginModel(len(solid.points), len(triangles))
+        model.addSubModel(np.ascontiguousarray(solid.points), np.ascontiguousarray(triangles))
+        model.endModel()
+        _objects[solid] = fcl.CollisionObject(model)
+    return _objects[solid]
+
+
+def _distance(first: Any, second: Any) -> float:
+    if fcl.collide(first, second, fcl.CollisionRequest(), fcl.CollisionResult()):
+        return 0.0
+    return max(0.0, float(fcl.distance(first, second, fcl.DistanceRequest(), fcl.DistanceResult())))
+
+
+def _sunk(inner: Solid, outer: Solid) -> float:
+    if not outer.shape.closed:
+        return 0.0
+    points = np.concatenate([inner.center[None], inner.points[:: max(1, len(inner.points) // SAMPLES)]])
+    within = np.zeros(len(points))
+    beside = ((points >= outer.low) & (points <= outer.high)).all(axis=1)
+    corners = outer.points[outer.shape.mesh.triangles] if beside.any() else np.zeros((0, 3, 3))
+    for k in np.flatnonzero(beside):
+        within[k] = min(1.0, abs(_winding(corners - points[k])))
+    return float(np.mean(within))
 
 
 def _winding(corners: Floats) -> float:

@@ -27,21 +27,25 @@ def grounds_of(points: Sequence[Floats]) -> list[int]:
     sizes = np.array([float(np.linalg.norm(np.ptp(p, axis=0))) for p in points])
     found: list[int] = []
     for k in sorted(np.flatnonzero(sizes >= 0.5 * sizes.max(initial=0.0)).tolist(), key=lambda k: (-sizes[k], k)):
+        middle, axes = _lying(points[k])
+        if axes is None or len(points) - len(found) <= FEWEST:
+            continue
         others = [p for i, p in enumerate(points) if i != k and i not in found]
-        if len(others) >= FEWEST and _is_under(points[k], np.concatenate(others)):
+        if _is_under((points[k] - middle) @ axes.T, (np.concatenate(others) - middle) @ axes.T):
             found.append(k)
     return found
 
 
-def _is_under(ground: Floats, others: Floats) -> bool:
-    """Whether points are those of a ground to other points."""
+def _lying(ground: Floats) -> tuple[Floats, Floats | None]:
+    """The middle of points, and their principal axes (rows, the longest first) if they are flat."""
     middle = ground.mean(axis=0)
     axes = np.linalg.eigh((ground - middle).T @ (ground - middle))[1].T[::-1]
-    flat = (ground - middle) @ axes.T
-    _, short, thick = np.ptp(flat, axis=0)
-    if thick > THIN * short or short <= 0.0:
-        return False
-    over = (others - middle) @ axes.T
+    _, short, thick = np.ptp((ground - middle) @ axes.T, axis=0)
+    return middle, axes if thick <= THIN * short and short > 0.0 else None
+
+
+def _is_under(flat: Floats, over: Floats) -> bool:
+    """Whether flat points are those of a ground to other points, both along the ground's axes."""
     sunk = SUNK * float(np.linalg.norm(np.ptp(over, axis=0)))
     above = (over[:, 2] > flat[:, 2].min() - sunk).mean(), (over[:, 2] < flat[:, 2].max() + sunk).mean()
     if max(above) < 1.0:

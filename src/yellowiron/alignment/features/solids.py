@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import weakref
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -166,7 +166,18 @@ def _solids(assembly: Assembly) -> tuple[Solid, ...]:
         away = float(np.linalg.norm(0.5 * (points.min(axis=0) + points.max(axis=0)) - middle))
         return (-round(shape.area, 5), round(away, 4), part.id)
 
-    return tuple(_solid(i, *item) for i, item in enumerate(sorted(solids, key=rank)))
+    return tuple(_numbered(i, *item) for i, item in enumerate(sorted(solids, key=rank)))
+
+
+_seen: weakref.WeakKeyDictionary[Part, Solid] = weakref.WeakKeyDictionary()
+"""Parts that are still in use: what is computed of them is the same in every assembly of them."""
+
+
+def _numbered(index: int, part: Part, shape: Shape, points: Floats, planes: tuple[PlaneFeature, ...]) -> Solid:
+    known = _seen.get(part)
+    if known is None or known.shape is not shape:
+        known = _seen[part] = _solid(index, part, shape, points, planes)
+    return known if known.index == index else replace(known, index=index)
 
 
 def _solid(index: int, part: Part, shape: Shape, points: Floats, planes: tuple[PlaneFeature, ...]) -> Solid:

@@ -6,6 +6,7 @@ in. Hydraulic cylinders of such models: `undrilled_cylinders`.
 
 from __future__ import annotations
 
+import weakref
 from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass, replace
 
@@ -248,18 +249,32 @@ def _through(solid: Solid, bars: list[Cyl], solids: tuple[Solid, ...], touch: To
         for other in (solids[i] for i in touch.reaching(bar.center - reach, bar.center + reach)):
             if other.index == solid.index or (other.slight and other.shape.closed):
                 continue
-            low, high = other.span(bar.center, bar.direction)
-            low, high = max(low, -bar.half), min(high, bar.half)
-            if high - low < LEAST * bar.radius:
+            known = _holes.setdefault(bar, weakref.WeakKeyDictionary())
+            if other not in known:
+                known[other] = _hole(other, bar, touch)
+            hole = known[other]
+            if hole is None:
                 continue
-            if not (_rimmed(other, bar) or touch.pierced(other.index, bar, CORE * bar.radius)):
-                continue
-            middle = bar.center + 0.5 * (low + high) * bar.direction
-            hole = replace(bar, center=middle, half=0.5 * (high - low), inner=True)
-            fit = Fit(solid.index, other.index, bar, hole, high - low, 0.0)
+            fit = Fit(solid.index, other.index, bar, hole, 2 * hole.half, 0.0)
             if other.index not in best or fit.overlap > best[other.index].overlap:
                 best[other.index] = fit
     return [best[k] for k in sorted(best)]
+
+
+_holes: weakref.WeakKeyDictionary[Cyl, weakref.WeakKeyDictionary[Solid, Cyl | None]] = weakref.WeakKeyDictionary()
+"""What bars that are still in use run through: it is the same with every contact tolerance."""
+
+
+def _hole(other: Solid, bar: Cyl, touch: Touch) -> Cyl | None:
+    """Where a bar runs through a part, whether that has a hole for it or not."""
+    low, high = other.span(bar.center, bar.direction)
+    low, high = max(low, -bar.half), min(high, bar.half)
+    if high - low < LEAST * bar.radius:
+        return None
+    if not (_rimmed(other, bar) or touch.pierced(other.index, bar, CORE * bar.radius)):
+        return None
+    middle = bar.center + 0.5 * (low + high) * bar.direction
+    return replace(bar, center=middle, half=0.5 * (high - low), inner=True)
 
 
 def _rimmed(solid: Solid, bar: Cyl) -> bool:

@@ -36,9 +36,9 @@ SEED = 1
 class Field:
     """The score as arrays. Labels are the `bodies`, and last: none. `unary` (pieces, labels). Bond k joins the pieces
     `ends[k]`; its `weights[k]` are what it counts for one body, and for bodies that a joint joins; it holds a joint
-    nearly (`near[k]`) or exactly (`exact[k, joint]`). `joint` (labels, labels): the joint between two labels, or the
-    number of joints. `played` (labels,): what each body counts that is there; `held` what a joint counts that is held
-    nearly, and exactly."""
+    nearly (`near[k]`), or exactly as a hinge and as a slide (`exact[k]`). `joint` (labels, labels): the joint between
+    two labels, or the number of joints. `sliding` (joints + 1,): which joints are slides. `played` (labels,): what each
+    body counts that is there; `held` what a joint counts that is held nearly, and exactly."""
 
     bodies: tuple[str, ...]
     unary: Floats
@@ -47,13 +47,19 @@ class Field:
     near: Ints
     exact: Ints
     joint: Ints
+    sliding: Ints
     played: Floats
     held: tuple[float, float]
 
     @property
     def joints(self) -> int:
         """How many joints there are."""
-        return self.exact.shape[1] - 1
+        return len(self.sliding) - 1
+
+    def exactly(self, held: Ints) -> Ints:
+        """(bonds,) whether each bond holds exactly the joint that it would hold."""
+        exact = np.where(self.sliding[held], self.exact[:, 1], self.exact[:, 0])
+        return np.where(held < self.joints, exact, 0)
 
 
 def field_of(
@@ -77,9 +83,6 @@ def field_of(
     joint = np.full((none + 1, none + 1), len(joints), dtype=np.int64)
     for k, (_, a, b) in enumerate(joints):
         joint[a, b] = joint[b, a] = k
-    slides = np.array([slide for slide, _, _ in joints] + [False])
-    exact = np.array([np.where(slides, b.slide, b.hinge) for b in bonds], dtype=np.int64).reshape(-1, len(slides))
-    exact[:, -1] = 0
     near = weights["near"]
     played = np.array([0.0 if template.role(b).optional else weights["required"] for b in bodies] + [0.0])
     for _, a, b in joints:
@@ -92,8 +95,9 @@ def field_of(
             -1, 2
         ),
         np.array([b.beside for b in bonds], dtype=np.int64),
-        exact,
+        np.array([(b.hinge, b.slide) for b in bonds], dtype=np.int64).reshape(-1, 2),
         joint,
+        np.array([slide for slide, _, _ in joints] + [False], dtype=np.int64),
         played,
         (near, weights["exact"]),
     )
@@ -113,7 +117,7 @@ def score_of(field: Field, labels: Ints) -> float:
     total = field.unary[np.arange(len(labels)), labels].sum()
     total += field.weights[:, 0] @ same + field.weights[:, 1] @ (held < joints)
     near = np.bincount(held, weights=field.near, minlength=joints + 1)[:joints]
-    exact = np.bincount(held, weights=field.exact[np.arange(len(held)), held], minlength=joints + 1)[:joints]
+    exact = np.bincount(held, weights=field.exactly(held), minlength=joints + 1)[:joints]
     played = np.bincount(labels, minlength=none + 1)[:none]
     return float(
         total
@@ -123,62 +127,88 @@ def score_of(field: Field, labels: Ints) -> float:
     )
 
 
+@dataclass(frozen=True, eq=False)
+class _Around:
+    """The bonds of one piece: their numbers, the pieces at their other ends, what they count for one body and for
+    bodies that a joint joins; whether each is `near`, and `exact` as a hinge and as a slide."""
+
+    bonds: Ints
+    others: Ints
+    same: Floats
+    joined: Floats
+    near: Ints
+    exact: tuple[Ints, Ints]
+
+    @classmethod
+    def of(cls, field: Field, p: int) -> _Around:
+        bonds = np.flatnonzero((field.ends == p).any(axis=1))
+        others = np.where(field.ends[bonds, 0] == p, field.ends[bonds, 1], field.ends[bonds, 0])
+        weights, exact = field.weights[bonds], field.exact[bonds]
+        return cls(bonds, others, weights[:, 0], weights[:, 1], field.near[bonds], (exact[:, 0], exact[:, 1]))
+
+
 class Annealing:
     """The state of one search: labels, and how often each joint is held and each body played."""
 
     def __init__(self, field: Field, labels: Ints) -> None:
         self.field = field
         self.labels = labels.copy()
-        self.bonds: list[Ints] = [np.zeros(0, dtype=np.int64) for _ in labels]
-        for p in range(len(labels)):
-            self.bonds[p] = np.flatnonzero((field.ends == p).any(axis=1))
-        self.others = [
-            np.where(field.ends[k, 0] == p, field.ends[k, 1], field.ends[k, 0]) for p, k in enumerate(self.bonds)
-        ]
-        self.rows = np.arange(len(field.bodies) + 1)
+        self.around = [_Around.of(field, p) for p in range(len(labels))]
+        self._joints = field.joints
+        joined = field.joint < self._joints
+        self._joined = joined.astype(np.float64)
+        # Of two labels there is one joint at most: what holds it can be summed up by the other end's label.
+        sliding = field.sliding[field.joint].astype(bool)
+        self._kinds = (joined & ~sliding, joined & sliding)
         self._count()
 
     def _count(self) -> None:
         field, joints = self.field, self.field.joints
         held = field.joint[self.labels[field.ends[:, 0]], self.labels[field.ends[:, 1]]]
         self.near = np.bincount(held, weights=field.near, minlength=joints + 1)
-        self.exact = np.bincount(held, weights=field.exact[np.arange(len(held)), held], minlength=joints + 1)
+        self.exact = np.bincount(held, weights=field.exactly(held), minlength=joints + 1)
         self.played = np.bincount(self.labels, minlength=len(field.bodies) + 1)
+
+    def _add(self, p: int, sign: int) -> None:
+        """Counts a piece, with its label, or (-1) no longer."""
+        field, around = self.field, self.around[p]
+        if len(around.bonds):
+            held = field.joint[self.labels[p], self.labels[around.others]]
+            exact = np.where(field.sliding[held], around.exact[1], around.exact[0])
+            self.near += sign * np.bincount(held, weights=around.near, minlength=self._joints + 1)
+            self.exact += sign * np.bincount(held, weights=exact, minlength=self._joints + 1)
+        self.played[self.labels[p]] += sign
+
+    def _free(self, count: Floats, weight: float) -> Floats:
+        """(joints + 1,) what holding each joint would add: nothing where one is held; the last is no joint."""
+        gain = np.where(count <= 0, weight, 0.0)
+        gain[-1] = 0.0
+        return gain
 
     def conditional(self, p: int) -> Floats:
         """(labels,) what each label of piece p would score, all others as they are, up to a constant. The counts are
         left without the piece; `put` adds it again."""
-        field, bonds = self.field, self.bonds[p]
-        theirs = self.labels[self.others[p]]
-        held = field.joint[self.labels[p], theirs]
-        np.subtract.at(self.near, held, field.near[bonds])
-        np.subtract.at(self.exact, held, field.exact[bonds, held])
-        self.played[self.labels[p]] -= 1
+        field, around = self.field, self.around[p]
+        self._add(p, -1)
         scores = field.unary[p].copy()
         scores[:-1] += field.played[:-1] * (self.played[:-1] == 0)
-        if len(bonds):
-            table = field.joint[:, theirs]
-            np.add.at(scores, theirs, np.where(theirs < len(field.bodies), field.weights[bonds, 0], 0.0))
-            scores += (table < field.joints) @ field.weights[bonds, 1]
-            near = np.zeros((len(scores), field.joints + 1), dtype=bool)
-            exact = np.zeros_like(near)
-            for k in range(len(bonds)):
-                column = table[:, k]
-                if field.near[bonds[k]]:
-                    near[self.rows, column] = True
-                exact[self.rows, column] |= field.exact[bonds[k], column].astype(bool)
-            scores += near[:, :-1] @ (field.held[0] * (self.near[:-1] <= 0))
-            scores += exact[:, :-1] @ (field.held[1] * (self.exact[:-1] <= 0))
+        if len(around.bonds):
+            theirs, n = self.labels[around.others], len(scores)
+            same = np.bincount(theirs, weights=around.same, minlength=n)
+            same[-1] = 0.0
+            scores += same + self._joined @ np.bincount(theirs, weights=around.joined, minlength=n)
+            near = np.minimum(np.bincount(theirs, weights=around.near, minlength=n), 1.0)
+            scores += self._free(self.near, field.held[0])[field.joint] @ near
+            for kind, exact in zip(self._kinds, around.exact, strict=True):
+                if exact.any():
+                    there = np.minimum(np.bincount(theirs, weights=exact, minlength=n), 1.0)
+                    scores += (self._free(self.exact, field.held[1])[field.joint] * kind) @ there
         return np.asarray(scores)
 
     def put(self, p: int, label: int) -> None:
         """Gives piece p a label, after `conditional`."""
-        field, bonds = self.field, self.bonds[p]
         self.labels[p] = label
-        held = field.joint[label, self.labels[self.others[p]]]
-        np.add.at(self.near, held, field.near[bonds])
-        np.add.at(self.exact, held, field.exact[bonds, held])
-        self.played[label] += 1
+        self._add(p, 1)
 
     def sweep(self, temperature: float, rng: np.random.Generator) -> None:
         """Every piece once, in a random order; without temperature: to its best label."""
@@ -188,19 +218,22 @@ class Annealing:
                 scores = scores + temperature * rng.gumbel(size=len(scores))
             self.put(p, int(np.argmax(scores)))
 
-    def swap(self, temperature: float, rng: np.random.Generator) -> None:
-        """Tries two bodies in each other's place (Metropolis)."""
+    def swap(self, temperature: float, rng: np.random.Generator, score: float) -> float:
+        """Tries two bodies in each other's place (Metropolis); returns the labels' score, which was `score`."""
         played = np.flatnonzero(self.played[:-1] > 0)
         if len(played) < 1:
-            return
+            return score
         a = int(rng.choice(played))
         b = int(rng.integers(len(self.field.bodies)))
         other = self.labels.copy()
         other[self.labels == a], other[self.labels == b] = b, a
-        gain = score_of(self.field, other) - score_of(self.field, self.labels)
+        changed = score_of(self.field, other)
+        gain = changed - score
         if gain > 0 or (temperature > 0 and np.log(rng.random()) < gain / temperature):
             self.labels = other
             self._count()
+            return changed
+        return score
 
 
 def labelled(field: Field, start: Ints | None = None, *, hot: float = HOT, sweeps: int = SWEEPS) -> tuple[Ints, float]:
@@ -210,9 +243,9 @@ def labelled(field: Field, start: Ints | None = None, *, hot: float = HOT, sweep
     best, score = state.labels.copy(), score_of(field, state.labels)
     for temperature in [*np.geomspace(hot, COLD, sweeps), *[0.0] * 6]:
         state.sweep(temperature, rng)
-        for _ in range(SWAPS):
-            state.swap(temperature, rng)
         reached = score_of(field, state.labels)
+        for _ in range(SWAPS):
+            reached = state.swap(temperature, rng, reached)
         if reached > score:
             best, score = state.labels.copy(), reached
     return best, score

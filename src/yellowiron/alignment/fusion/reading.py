@@ -14,7 +14,7 @@ from yellowiron.alignment.fusion.bonds import Bond, bonds_of
 from yellowiron.alignment.fusion.judge import Field, field_of, labelled, leads, weighed
 from yellowiron.alignment.fusion.pieces import Piece, leading, pieces_of
 from yellowiron.alignment.fusion.stance import Stance, stance_of
-from yellowiron.alignment.fusion.votes import BARS, CLEARLY, Features, Votes, named, votes_of
+from yellowiron.alignment.fusion.votes import BARS, CLEARLY, Features, Votes, joints_apart, named, votes_of
 from yellowiron.alignment.fusion.weights import weights
 from yellowiron.alignment.structure.clusters import Structure, labelled_structure
 from yellowiron.alignment.structure.observation import Observation
@@ -22,9 +22,11 @@ from yellowiron.model.template import Template, choose
 
 MISSING = 60.0
 """What a variant loses for every body of its own that nothing plays."""
-BELIEVED = 0.5
+EXPLAINED = {0: 1.0, 1: 1.0, 2: 0.5}
+"""How well names explain that two pieces are neighbours, by the joints between the bodies that they name."""
+BELIEVED = 0.45
 """Names that explain less than this share of what they could of who is beside whom are not believed at all."""
-TRUSTED = 0.8
+TRUSTED = 0.7
 """… and from this share on, wholly."""
 TELLING = ("name", "said")
 GROUND = 30.0
@@ -144,20 +146,21 @@ def trust_in_names(
     pieces: Sequence[Piece], bonds: Sequence[Bond], scores: Sequence[Mapping[str, float]], template: Template
 ) -> float:
     """How far a machine's names are to be believed, 0 to 1: neighbours should be one body, or two that a joint joins,
-    much more often than any two pieces are (the chance taken off, as in Cohen's kappa)."""
-    joined = {frozenset(str(b) for b in template.bodies_of(j)) for j in template.joints}
+    much more often than any two pieces are (the chance taken off, as in Cohen's kappa); two joints count
+    half."""
+    apart = joints_apart(template)
     said: dict[int, str] = {}
     for k, piece in enumerate(pieces):
         found = named(piece, scores)
         if found and max(found.values()) >= CLEARLY:
             said[k] = max(sorted(found), key=lambda b: found[b])
 
-    def explained(a: int, b: int) -> bool:
-        return said[a] == said[b] or frozenset((said[a], said[b])) in joined
+    def explained(a: int, b: int) -> float:
+        return EXPLAINED.get(apart.get((said[a], said[b]), 99), 0.0)
 
     near = [explained(b.a, b.b) for b in bonds if b.beside and b.a in said and b.b in said]
     every = [explained(a, b) for a, b in itertools.combinations(sorted(said), 2)]
-    if not near or all(every):
+    if not near or min(every) == 1.0:
         return 1.0
     chance = float(np.mean(every))
     kappa = (float(np.mean(near)) - chance) / (1.0 - chance)

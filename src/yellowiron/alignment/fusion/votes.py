@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+import networkx
 import numpy as np
 
 from yellowiron.alignment.assignment.answer import Answer, held_share
@@ -33,7 +34,7 @@ PLACE, LENGTH, AREA = np.array([0.05, 0.05, 0.03]), 0.35, 0.8
 of length and area."""
 FURTHER = np.array([0.03, 0.01, 0.03])
 """How much further a body may be with every joint between it and the root: arms are drawn in any pose."""
-LENT = 0.75
+LENT = 0.85
 """What a name counts for a body next to the one it names, where nothing bears the neighbour's own name."""
 
 
@@ -53,8 +54,12 @@ def votes_of(
     total = sum(p.area for p in pieces) or 1.0
     largest = max((p.area for p in pieces), default=1.0)
     solved = _solved(answer)
-    depth = _depths(template)
+    apart = joints_apart(template)
     saids = borrowed([named(piece, scores) for piece in pieces], template)
+    areas: dict[str, float] = {}
+    for piece in pieces:
+        for body in {b for i in piece.members for b in solved.get(i, ())}:
+            areas[body] = areas.get(body, 0.0) + piece.area
     votes: Votes = []
     for piece, said in zip(pieces, saids, strict=True):
         mine: dict[str, Features] = {}
@@ -65,9 +70,12 @@ def votes_of(
             if shape is None:
                 continue
             contact = max((solved[i].get(body, 0.0) for i in piece.members if i in solved), default=0.0)
+            # All of a cluster is one guess of the contacts, and counts once.
+            contact *= piece.area / areas.get(body, piece.area)
             found = {"name": trust * name, "contacts": contact, "said": float(body in told), **shape}
             if body in template.usual:
-                found |= _unusual(piece, template.usual[body], piece.area / total, stance, depth[body])
+                depth = apart.get((template.root, body), 0)
+                found |= _unusual(piece, template.usual[body], piece.area / total, stance, depth)
             mine[body] = {key: value for key, value in found.items() if value}
         votes.append(mine)
     return votes
@@ -103,18 +111,11 @@ def borrowed(saids: list[dict[str, float]], template: Template) -> list[dict[str
     ]
 
 
-def _depths(template: Template) -> dict[str, int]:
-    """Body → how many joints lead to it from the root."""
-    depth = {template.root: 0}
-    pairs = [template.bodies_of(j) for j in template.joints]
-    grown = True
-    while grown:
-        grown = False
-        for a, b in (*pairs, *((b, a) for a, b in pairs)):
-            if a in depth and b is not None and depth.get(b, 99) > depth[str(a)] + 1:
-                depth[b] = depth[str(a)] + 1
-                grown = True
-    return {r.name: depth.get(r.name, 0) for r in template.roles}
+def joints_apart(template: Template) -> dict[tuple[str, str], int]:
+    """(body, body) → how many joints lead from one to the other; pairs that none lead between are left out."""
+    graph = networkx.Graph([template.bodies_of(j) for j in template.joints])
+    reached = networkx.all_pairs_shortest_path_length(graph)
+    return {(str(a), str(b)): n for a, ends in reached for b, n in ends.items()}
 
 
 def _solved(answer: Answer) -> dict[int, dict[str, float]]:

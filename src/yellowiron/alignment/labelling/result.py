@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 from yellowiron.alignment.assignment.answer import Answer, is_whole
@@ -24,11 +24,12 @@ APART = 0.6
 @dataclass(frozen=True, eq=False)
 class Labels:
     """What is known of the parts, by part id: their `places`; metres from the rest of those that stand `apart` and are
-    left out; the roles that a person gave (`edited`, "": none), which win; and for those of them that a document
-    placed, why (`documents`)."""
+    left out; those that are only collision meshes (`bumpers`); the roles that a person gave (`edited`, "": none), which
+    win; and for those of them that a document placed, why (`documents`)."""
 
     places: Mapping[str, Place]
     apart: Mapping[str, float]
+    bumpers: Collection[str]
     edited: Mapping[str, str]
     documents: Mapping[str, str]
 
@@ -80,6 +81,8 @@ def _assignment(part: str, template: Template, labels: Labels, *, whole: bool, r
         metres = labels.apart[part]
         words = f"stands {metres:.3g} m from every part of the machine" if metres else "lies under the whole machine"
         return PartAssignment(part, None, None, APART, words)
+    if part in labels.bumpers:
+        return PartAssignment(part, None, None, APART, "a collision mesh, by its name: no part of the machine")
     if place is None:
         return PartAssignment(part, None, None, 0.0, "nothing speaks for any role")
     evidence = grounds(place, whole=whole, rung=rung)
@@ -91,7 +94,7 @@ def _assignment(part: str, template: Template, labels: Labels, *, whole: bool, r
 
 def _is_doubted(part: str, labels: Labels) -> bool:
     """True for what a person should look at: a part without a place, or with a weak one."""
-    if part in labels.edited or part in labels.apart:
+    if part in labels.edited or part in labels.apart or part in labels.bumpers:
         return False
     place = labels.places.get(part)
     return place is None or place.confidence < REVIEW

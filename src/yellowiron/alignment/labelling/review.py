@@ -3,7 +3,7 @@ body, parts that stand apart, wheels without tyres."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 
 from yellowiron.alignment.assignment.answer import Answer
 from yellowiron.alignment.assignment.cp_sat import Solution
@@ -86,16 +86,25 @@ def review_findings(
     apart: Mapping[str, float],
     played: frozenset[str],
     settled: frozenset[str],
+    bumpers: Collection[str],
 ) -> list[Finding]:
     """The remarks: ALN007 (`loose` solids), ALN008 (the answer's barrels to one side), ALN009 and ALN010 (`apart`: part
-    id → metres from the rest), ALN011. `played` are the roles that parts have; `settled` part ids are a person's, of
-    which nothing is said."""
+    id → metres from the rest), ALN011, ALN017 (`bumpers`: ids of collision meshes). `played` are the roles that parts
+    have; `settled` part ids are a person's, of which nothing is said."""
     return [
         *_without_a_body([solids[i].part.id for i in sorted(loose)], {*settled, *apart}, answer.template),
         *_to_one_side(answer.sided),
         *_standing_apart(apart, len(solids), answer.template),
         *_without_tyres(answer, played),
+        *_bumping(sorted(bumpers), answer.template),
     ]
+
+
+def _bumping(parts: Sequence[str], template: Template) -> Iterator[Finding]:
+    if parts:
+        text = f"{len(parts)} parts are collision meshes by their names, and left out: {_some(parts)}"
+        hint = "The machine gets colliders of its own; set a part's role in alignment.json if it is one."
+        yield Finding("ALN017", "info", template.equipment_type, text, hint)
 
 
 def _without_a_body(loose: Sequence[str], settled: set[str], template: Template) -> Iterator[Finding]:

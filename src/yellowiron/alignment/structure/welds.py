@@ -70,15 +70,17 @@ def _plain(groups: Groups, evidence: ContactEvidence, pairs: Pairs) -> Pairs:
     """Joins the pairs whose groups share no pin line and hinge on no common third; returns the others."""
     on = axes_by_group(groups, evidence, without=evidence.bolted)
     by_axis = _by_axis(on)
+
+    def beside(axes: set[int]) -> set[int]:
+        return {groups.find(g) for k in axes for g in by_axis[k]}
+
     rest: Pairs = []
     for a, b in pairs:
         ga, gb = groups.find(a), groups.find(b)
         if ga == gb or not groups.may_join(ga, gb):
             continue
         la, lb = on.get(ga, set()), on.get(gb, set())
-        beside_a = {groups.find(g) for k in la for g in by_axis[k]}
-        beside_b = {groups.find(g) for k in lb for g in by_axis[k]}
-        if la and lb and (la & lb or (beside_a & beside_b) - {ga, gb}):
+        if la and lb and (la & lb or (beside(la) & beside(lb)) - {ga, gb}):
             rest.append((a, b))
             continue
         groups.join(ga, gb)

@@ -22,6 +22,7 @@ from OCP.GeomAbs import (
 from OCP.gp import gp_Cylinder, gp_Lin, gp_Pln, gp_Pnt, gp_Vec
 from OCP.GProp import GProp_GProps
 from OCP.ShapeAnalysis import ShapeAnalysis_CanonicalRecognition
+from OCP.Standard import Standard_Failure, Standard_NullObject
 from OCP.TopAbs import TopAbs_EDGE, TopAbs_FORWARD, TopAbs_REVERSED
 from OCP.TopExp import TopExp_Explorer
 from OCP.TopLoc import TopLoc_Location
@@ -173,9 +174,17 @@ def _recognise(face: Any, surface: Any, area: float, center: tuple[float, float,
     tolerance = min(max(BRep_Tool.Tolerance_s(face), RECOGNITION[0]), RECOGNITION[1])
     recognition = ShapeAnalysis_CanonicalRecognition(face)
     plane, cylinder = gp_Pln(), gp_Cylinder()
-    if recognition.IsPlane(tolerance, plane):
+    try:
+        kind = _PLANE if recognition.IsPlane(tolerance, plane) else _FREE
+        kind = _CYLINDER if kind == _FREE and recognition.IsCylinder(tolerance, cylinder) else kind
+    except (
+        Standard_Failure,
+        Standard_NullObject,
+    ):  # no subclasses in Python; a surface that it cannot load, of a face that is sound otherwise
+        return Face(_FREE, area, center)
+    if kind == _PLANE:
         return Face(_PLANE, area, center, normal=_outward(face, surface))
-    if recognition.IsCylinder(tolerance, cylinder):
+    if kind == _CYLINDER:
         patch = _sampled_patch(face, surface, cylinder, area)
         if patch is not None:
             return Face(_CYLINDER, area, center, patch=patch)
