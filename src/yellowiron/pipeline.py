@@ -10,6 +10,8 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from yellowiron import cad, checks, kinematics, library, report, specs, usd
 from yellowiron.alignment import align, declared_roles, read_alignment, to_scale, write_alignment
 from yellowiron.mechanism import build_mechanism, compare_declared, declared_findings, declared_values
@@ -17,12 +19,14 @@ from yellowiron.model.alignment import Alignment
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import MechanismError
 from yellowiron.model.finding import Finding
+from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Measurement, Mechanism
 from yellowiron.model.rows import expand
 from yellowiron.model.specification import Specifications
 from yellowiron.model.sweep import Sweep
 from yellowiron.model.template import Template, choose
 from yellowiron.support.output import output_folder
+from yellowiron.support.vectors import triple
 
 _LIBRARIES = (
     "mujoco", "ortools.sat.python.cp_model", "pxr.Usd", "pxr.UsdPhysics", "scipy.optimize", "scipy.spatial",
@@ -136,6 +140,7 @@ def build(
             template = expand(chosen, alignment.counts)
 
         with clock.stage("mechanism", "Building the mechanism"):
+            alignment, tape = on_sheet(assembly, template, alignment, specifications, data)
             mechanism = _complete(assembly, template, alignment, specifications, data)
             compared = compare_declared(mechanism, assembly, alignment)
             lent = declared_values(mechanism, template, assembly, alignment, compared, specifications)
@@ -147,6 +152,7 @@ def build(
                 assembly, template, alignment = kinematics.started(assembly, template, alignment, start)
                 mechanism = _complete(assembly, template, alignment, specifications, data)
                 mechanism = replace(mechanism, findings=(*mechanism.findings, *start.findings))
+            mechanism = replace(mechanism, findings=(*mechanism.findings, *tape))
 
         with clock.stage("measure", "Measuring the machine against its sheet"):
             measurements = kinematics.measure(mechanism)
@@ -233,6 +239,34 @@ def find_roles(
         if len(other.missing) < 0.5 * len(alignment.missing):
             return apart, other
     return assembly, alignment
+
+
+def on_sheet(
+    assembly: Assembly,
+    template: Template,
+    alignment: Alignment,
+    specifications: Specifications,
+    data: library.Documents | None = None,
+) -> tuple[Alignment, tuple[Finding, ...]]:
+    """The alignment with those of its axes that are known roughly placed where the sheet's dimensions put them, and
+    what there is to say of it. `template` has its variants decided."""
+    rough = {j: s for j, s in alignment.across.items() if j in alignment.axes}
+    if not rough or not specifications.values:
+        return alignment, ()
+
+    def moved(shifts: Mapping[str, Floats]) -> Alignment:
+        axes = {j: (triple(np.array(alignment.axes[j][0]) + by), alignment.axes[j][1]) for j, by in shifts.items()}
+        return replace(alignment, axes={**alignment.axes, **axes})
+
+    def built(shifts: Mapping[str, Floats]) -> Mechanism:
+        name = template.equipment_type
+        mechanism = build_mechanism(assembly, template, moved(shifts), specifications, name=name, documents=data)
+        return kinematics.calibrate(mechanism)
+
+    axes = [kinematics.OpenAxis(j, np.array(alignment.axes[j][1]), across) for j, across in sorted(rough.items())]
+    placed = kinematics.place_axes(axes, built)
+    across = {**alignment.across, **placed.across}
+    return replace(moved(placed.shifts), across=across, calibrated=placed.sources), placed.findings
 
 
 def compare_with_declared(

@@ -196,6 +196,16 @@ def test_nodes_that_carry_one_body_and_not_the_other_are_pivots() -> None:
                      body_of, two_bodies()) == {}  # fmt: skip
 
 
+def test_bones_that_carry_nothing_are_pivots_of_every_hinge() -> None:
+    """A skinned mesh hangs under no bone of its armature."""
+    assembly, body_of = scene_tree(origin=(0.0, 0.0, 0.0))
+    head = np.eye(4)
+    head[:3, 3] = (0.97, 0.0, 0.02)
+    bones = (Node("bone", 0, head, bone=True), Node("other", 0, head @ head))
+    found = pivots_of(replace(assembly, nodes=(*assembly.nodes, *bones)), body_of, two_bodies())
+    assert np.allclose(found["hinge"], [[0.97, 0.0, 0.02]], atol=1e-3)
+
+
 def test_a_pivot_far_from_where_the_bodies_meet_is_not_believed() -> None:
     solids, labels = boxes()
     left = Frame(left=np.array([0.0, 1.0, 0.0]))

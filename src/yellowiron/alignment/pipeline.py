@@ -33,7 +33,7 @@ from yellowiron.alignment.assignment.root_fallback import with_root
 from yellowiron.alignment.assignment.search import BELIEVED, Search, variants_of
 from yellowiron.alignment.assignment.sheet_weights import sheet_findings
 from yellowiron.alignment.assignment.weights import side_weights
-from yellowiron.alignment.axes.unfound import axis_findings, lines_of, unfound_axes
+from yellowiron.alignment.axes.unfound import axis_findings, lines_of, rough_axes, unfound_axes
 from yellowiron.alignment.features.copies import copies_of
 from yellowiron.alignment.features.distance import Touch
 from yellowiron.alignment.features.separate_parts import separate_parts
@@ -186,6 +186,7 @@ def _with_all_axes(
     return replace(
         found,
         axes={**lent, **found.axes, **lines_of(estimates)},
+        across=rough_axes(estimates, template, observation.size),
         findings=(*found.findings, *axis_findings(estimates, observation.size)),
     )
 

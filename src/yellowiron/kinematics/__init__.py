@@ -20,6 +20,8 @@ KIN009  a driven slide has no ends of stroke, so what follows from it has no lim
 KIN010  a cylinder's closed length was calibrated: on what, and how well (a warning where it fits badly)
 KIN011  a closed length is unknown, and no measured specification depends on it
 KIN012  a driven joint is drawn outside its limits; the machine starts in the nearest legal pose
+KIN013  an axis that nothing drawn shows was placed by published dimensions: by which, and how well
+KIN014  a published dimension cannot be met wherever the axes that nothing drawn shows may be
 ======  ========================================================================================================
 """
 
@@ -32,6 +34,7 @@ from yellowiron.support.lazy import lazy_names
 if TYPE_CHECKING:
     from yellowiron.kinematics.completion import complete
     from yellowiron.kinematics.levers import lever_table
+    from yellowiron.kinematics.measuring.axis_placement import OpenAxis, PlacedAxes, place_axes
     from yellowiron.kinematics.measuring.calibration import calibrate
     from yellowiron.kinematics.measuring.measurement import key_poses, measure
     from yellowiron.kinematics.poses import pose_tables
@@ -43,6 +46,8 @@ if TYPE_CHECKING:
 __all__ = [
     "ClosedChain",
     "KinematicsError",
+    "OpenAxis",
+    "PlacedAxes",
     "State",
     "attached",
     "branch_pivots",
@@ -53,6 +58,7 @@ __all__ = [
     "legal_start",
     "lever_table",
     "measure",
+    "place_axes",
     "pose_tables",
     "started",
 ]
@@ -62,6 +68,8 @@ __getattr__, __dir__ = lazy_names(
     {
         "ClosedChain": "solver.chain",
         "KinematicsError": "solver.chain",
+        "OpenAxis": "measuring.axis_placement",
+        "PlacedAxes": "measuring.axis_placement",
         "State": "solver.chain",
         "attached": "solver.floating",
         "branch_pivots": "solver.branches",
@@ -72,6 +80,7 @@ __getattr__, __dir__ = lazy_names(
         "legal_start": "start",
         "lever_table": "levers",
         "measure": "measuring.measurement",
+        "place_axes": "measuring.axis_placement",
         "pose_tables": "poses",
         "started": "start",
     },

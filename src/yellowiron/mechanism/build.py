@@ -92,7 +92,9 @@ def build_mechanism(
     powered |= stated
     actuators = drives.actuators(template, frames, fitted, stated, findings)
     slides = {f.cylinder.slide: f for group in fitted.values() for f in group}
-    joints = tuple(_joint(frame, tree, slides, powered, specifications, findings) for frame in frames.values())
+    joints = tuple(
+        _joint(_sourced(frame, alignment), tree, slides, powered, specifications, findings) for frame in frames.values()
+    )
 
     # What everything weighs.
     by_document = documents.materials if documents is not None else {}
@@ -181,6 +183,12 @@ def _uncuttable(tree: Tree, frames: Mapping[str, JointFrame]) -> list[Finding]:
         for name, kind in kinds.items()
         if kind in ("fixed", "prismatic")
     ]
+
+
+def _sourced(frame: JointFrame, alignment: Alignment) -> JointFrame:
+    """A joint's frame, its source saying by which published dimensions its axis was placed, if it was."""
+    by = alignment.calibrated.get(frame.joint.name)
+    return frame if by is None else replace(frame, source={**frame.source, "axis": by})
 
 
 def _joint(

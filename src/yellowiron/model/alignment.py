@@ -40,7 +40,9 @@ class Alignment:
     `choices` are the template's variants as found in the CAD (`{"lift_cylinders": "twin"}`); `missing` lists roles
     that the template requires and no part plays; `to_review` the part ids and roles a person should look at. `counts`:
     row of the template → how many parts it has (`rows.expand` makes them concrete). `axes`: joints that turn about no
-    pin of their own → the axis found for them, a point (metres) and a unit vector in the CAD file's frame.
+    pin of their own → the axis found for them, a point (metres) and a unit vector in the CAD file's frame. `across`:
+    those of them that are known roughly → how well across the axis, metres (one sigma). `calibrated`: those that the
+    sheet's dimensions placed → by which, in words.
     """
 
     equipment_type: str
@@ -52,3 +54,5 @@ class Alignment:
     findings: tuple[Finding, ...] = ()
     counts: Mapping[str, int] = field(default_factory=dict)
     axes: Mapping[str, tuple[Vector, Vector]] = field(default_factory=dict)
+    across: Mapping[str, float] = field(default_factory=dict)
+    calibrated: Mapping[str, str] = field(default_factory=dict)

@@ -110,7 +110,7 @@ def _single(
     if wheel is not None:
         return _estimate(joint.name, [wheel_candidate(bodies[wheel], frame)])
     if is_upright([joint], template):
-        return _estimate(joint.name, [slewing_candidate(bodies[a], bodies[b], frame)])
+        return _estimate(joint.name, [slewing_candidate(bodies[a], bodies[b], frame, pivots.get(joint.name))])
     ways = [w for w in (frame.left, frame.forward, frame.up) if w is not None]
     if joint.free and frame.up is not None:
         # What swings freely in no loop is an axle: it rolls, along the machine, across its wheels.

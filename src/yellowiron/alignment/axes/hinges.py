@@ -100,7 +100,9 @@ def hinge_candidates(
     meeting = meeting_of(a, b)
     guess = _guess(a, b, direction, plane, meeting, clues, lean)
     spots = _spots(a, b, direction, plane, meeting, clues, guess)
-    found = [_candidate(spot, spots, direction, plane, meeting, clues, lean, a.size) for spot in spots[: KEPT + 1]]
+    found = [
+        _candidate(spot, spots, direction, plane, meeting, clues, guess, lean, a.size) for spot in spots[: KEPT + 1]
+    ]
     if not found or found[0].quality < LEAST_QUALITY:
         return [guess, *found[:KEPT]]
     return found
@@ -264,13 +266,13 @@ def _fused(center: Floats, spread: Floats) -> tuple[Floats, float]:
 
 
 def _candidate(
-    spot: Spot, spots: Sequence[Spot], direction: Floats, plane: Floats, meeting: Meeting, clues: Clues, lean: float,
-    size: float,
+    spot: Spot, spots: Sequence[Spot], direction: Floats, plane: Floats, meeting: Meeting, clues: Clues,
+    guess: Candidate, lean: float, size: float,
 ) -> Candidate:  # fmt: skip
     if spot.rounds:
         center = np.array([plane @ r.face.center for r in spot.rounds])
         middle, across = _fused(center, np.array([r.spread for r in spot.rounds]))
-        across = max(1.5 * across, (1e-4 if spot.sides == 2 else 2e-4) * size)
+        across = max(1.5 * across, 1e-4 * size) if spot.sides == 2 else max(2.5 * across, 3e-4 * size)
     else:
         middle, across = spot.center, 0.3 * AT_PIVOT * size
     rivals = [other for other in spots if other is not spot]
@@ -282,6 +284,9 @@ def _candidate(
             likely = 1.0
         if likely > 0.1:
             across = math.hypot(across, 0.5 * likely * apart)
+    # Where little speaks for it, so it may be where the bodies meet.
+    likely = math.exp(min(0.0, (guess.quality - spot.score) / (RIVAL * max(spot.score, 1e-9))))
+    across = math.hypot(across, 0.5 * likely * float(np.linalg.norm(plane @ guess.origin - middle)))
     what = sorted({r.what for r in spot.rounds})
     bodies = {0: "a pin", 1: "one body", 2: "both bodies"}[spot.sides]
     how = f"{' and '.join(what)} of {bodies}" if what else "a pivot of the scene's tree where the two bodies meet"
@@ -308,7 +313,7 @@ def _guess(
         trust = across**2 / (across**2 + clues.room**2)
         place = trust * clues.eye + (1 - trust) * along
         middle = plane @ line.origin + place * way
-        across = math.hypot(max(0.7 * clues.room, 0.3 * abs(clues.eye - place)), line.across)
+        across = math.hypot(max(1.2 * clues.room, 0.5 * abs(clues.eye - place)), line.across)
         how, quality = "where the cylinder ends at the other body", 0.15
     height = float(meeting.center @ direction)
     return Candidate(middle @ plane + height * direction, direction, across, lean, quality, how, rests_on_round=False)

@@ -19,6 +19,10 @@ WHEEL = (LEAST_WHEEL, 0.2)
 """Radii of what is round in a wheel, in machine sizes."""
 RING = 0.06
 """What is larger is no more likely to be one, in machine sizes."""
+PIVOT_SPREAD = 0.002
+"""How well a pivot of the scene's tree tells a slewing axis, in machine sizes, …"""
+PIVOT_REACH = 0.05
+"""… if it is this near to where the axis is guessed."""
 BEARING = (0.012, 0.25)
 """… and in a slewing bearing."""
 
@@ -78,9 +82,10 @@ def _commonest(rounds: Sequence[Round], plane: Floats, near: Floats) -> tuple[Fl
     return middle, float(total[best]), math.hypot(float(spread[kept].min()), scatter)
 
 
-def slewing_candidate(a: Body, b: Body, frame: Frame) -> Candidate:
+def slewing_candidate(a: Body, b: Body, frame: Frame, pivots: Floats | None = None) -> Candidate:
     """The upright axis on which one frame turns on the other: what is round about one upright line in both, most of
-    all the bearing between them; else the middle of the lower one, with much doubt."""
+    all the bearing between them; else a pivot of the scene's tree (`pivots`, (n, 3)) near it, or the middle of where
+    they meet, with much doubt."""
     up = frame.up if frame.up is not None else _flat_way([a, b])
     plane = plane_of(up)
     meeting = meeting_of(a, b)
@@ -124,6 +129,12 @@ def slewing_candidate(a: Body, b: Body, frame: Frame) -> Candidate:
     if best is None:
         reach = float(np.linalg.norm(np.ptp(flat, axis=0))) / 2
         best = (0.1, middle, max(0.2 * reach, 0.01 * a.size), "the middle of where the bodies meet")
+    if pivots is not None and best[2] > PIVOT_SPREAD * a.size:
+        places = pivots @ plane.T
+        away = np.linalg.norm(places - best[1], axis=1)
+        k = int(np.argmin(np.round(away, 9)))
+        if away[k] < PIVOT_REACH * a.size:
+            best = (0.5, places[k], PIVOT_SPREAD * a.size, "a pivot of the scene's tree")
     lean = math.radians(0.3 if frame.up is not None else 2.0)
     return Candidate(best[1] @ plane + height * up, up, best[2], lean, best[0], best[3])
 

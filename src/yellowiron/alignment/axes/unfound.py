@@ -59,6 +59,12 @@ def lines_of(estimates: Mapping[str, AxisEstimate]) -> dict[str, tuple[Vector, V
     return {name: (triple(e.origin), triple(e.direction)) for name, e in estimates.items()}
 
 
+def rough_axes(estimates: Mapping[str, AxisEstimate], template: Template, size: float) -> dict[str, float]:
+    """Hinge → how well its axis is known, metres, of those that are told as a warning."""
+    hinges = {j.name for j in template.joints if j.type == "revolute"}
+    return {name: e.across for name, e in estimates.items() if name in hinges and e.across > SURE * size}
+
+
 def axis_findings(estimates: Mapping[str, AxisEstimate], size: float) -> list[Finding]:
     """ALN016 for every axis that was estimated, the least sure first: to how many millimetres and degrees it is known,
     and by what."""

@@ -16,8 +16,8 @@ from yellowiron.model.specification import fold
 from yellowiron.model.template import MeasurementTemplate
 
 CALIBRATED = "calibrated on "
-"""How a cylinder's `sources["closed_length"]` begins where measurements placed it; their specifications follow,
-separated by '; '."""
+"""How a cylinder's `sources["closed_length"]`, and a joint's `source["axis"]`, begins where measurements placed it;
+their specifications follow, separated by '; '."""
 _POSES = 4
 
 
@@ -35,10 +35,10 @@ def measure(mechanism: Mechanism, *, bench: Bench | None = None) -> tuple[Measur
 
 
 def calibrating(mechanism: Mechanism) -> frozenset[str]:
-    """Folded names of the specifications that placed a cylinder, and so prove nothing."""
+    """Folded names of the specifications that placed a cylinder or an axis, and so prove nothing."""
     names: set[str] = set()
-    for cylinder in mechanism.cylinders:
-        source = cylinder.sources.get("closed_length", "")
+    sources = [c.sources.get("closed_length", "") for c in mechanism.cylinders]
+    for source in (*sources, *(str(j.source.get("axis", "")) for j in mechanism.joints)):
         if source.startswith(CALIBRATED):
             names.update(fold(name) for name in source.removeprefix(CALIBRATED).split(";"))
     return frozenset(names)
