@@ -16,6 +16,7 @@ from yellowiron.alignment import align
 from yellowiron.alignment.features.solids import size_of, solids_of
 from yellowiron.alignment.fusion.bonds import Bond
 from yellowiron.alignment.fusion.judge import Annealing, field_of, labelled, leads, score_of
+from yellowiron.alignment.fusion.pieces import Piece, leading
 from yellowiron.alignment.fusion.stance import stance_of
 from yellowiron.alignment.fusion.votes import borrowed
 from yellowiron.alignment.fusion.weights import weights
@@ -113,3 +114,28 @@ def test_names_lead_where_the_geometry_is_not_whole() -> None:
     )  # fmt: skip
     bodies = {p.body for p in found.parts}
     assert {"undercarriage", "upperstructure", "boom", "arm", "bucket"} <= bodies
+
+
+def test_a_cylinder_may_be_called_after_the_arm_it_stands_on(excavator: Template) -> None:
+    """`Stick_Ram` alone is the arm's; where the bucket's is named nowhere, it may be the bucket's, and the boom's the
+    arm's."""
+    said = [{"boom_cylinder_barrel": 0.8}, {"boom_cylinder_barrel": 0.8}, {"arm_cylinder_barrel": 0.8}]
+    lent = borrowed(said, excavator)
+    assert 0.6 < lent[2]["bucket_cylinder_barrel"] < lent[2]["arm_cylinder_barrel"]
+    assert 0.6 < lent[1]["arm_cylinder_barrel"] < lent[1]["boom_cylinder_barrel"]
+    named = [*said, {"bucket_cylinder_barrel": 0.8}]
+    assert borrowed(named, excavator) == named
+    loader = choose(load_template("wheel_loader"), {})
+    steering = [{"steering_cylinder_barrel_l": 0.9}]
+    assert borrowed(steering, loader) == steering
+
+
+def test_small_pieces_play_what_nothing_large_is_named_for() -> None:
+    """A cut of a hydraulic cylinder into many small meshes that all bear its name."""
+    piece = Piece(
+        frozenset({0}), "", -1, 1.0, np.zeros(3), np.ones(3), np.zeros(3), np.ones(3), np.eye(3), np.zeros((1, 3))
+    )
+    large, small = replace(piece, area=10.0), replace(piece, members=frozenset({1}), area=0.001)
+    assert leading((large, small), 1.0, {}) == [0]
+    assert leading((large, small), 1.0, {0: "boom", 1: "boom"}) == [0]
+    assert leading((large, small), 1.0, {0: "boom", 1: "arm_cylinder_barrel"}) == [0, 1]

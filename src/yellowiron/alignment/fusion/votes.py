@@ -102,8 +102,9 @@ def clearly_named(pieces: Sequence[Piece], scores: Sequence[Mapping[str, float]]
 
 
 def borrowed(saids: list[dict[str, float]], template: Template) -> list[dict[str, float]]:
-    """What names say, where a body that no name speaks of clearly borrows those of the bodies of its kind that it has a
-    joint with: of two arms both called arm, one is the boom."""
+    """What names say, where a body that no name speaks of clearly borrows those of a neighbour of its kind: of two arms
+    both called arm, one is the boom; a cylinder is as often called after the arm it stands on as after the one it
+    moves."""
     spoken = {body for said in saids for body, score in said.items() if score >= CLEARLY}
     kinds = {r.name: r.kind for r in template.roles if r.rigid}
     lent: dict[str, set[str]] = {}
@@ -112,6 +113,13 @@ def borrowed(saids: list[dict[str, float]], template: Template) -> list[dict[str
             alike = own != other and kinds.get(str(own)) == kinds.get(str(other)) == "arm"
             if alike and own not in spoken and other in spoken:
                 lent.setdefault(str(own), set()).add(str(other))
+    inner = _cylinders_before(template)
+    for own in (b for b in sorted(inner) if b not in spoken):
+        # What is lent is missed by its owner, who may have to borrow in turn.
+        owing: str | None = own
+        while owing is not None and inner.get(owing, frozenset()) & spoken and owing not in lent:
+            lent[owing] = set(inner[owing] & spoken)
+            owing = min(lent[owing])
     return [
         {
             **said,
@@ -119,6 +127,27 @@ def borrowed(saids: list[dict[str, float]], template: Template) -> list[dict[str
         }
         for said in saids
     ]
+
+
+def _cylinders_before(template: Template) -> dict[str, frozenset[str]]:
+    """Barrel or rod → those of the cylinders that move the body which its own cylinder stands on: an arm."""
+    apart, arms = joints_apart(template), {r.name for r in template.roles if r.kind == "arm"}
+    ends: dict[tuple[str, str], list[str]] = {}
+    for one in (c for a in template.actuators for c in a.cylinders):
+        joints = {j.name: j for j in template.joints}
+        if not {one.slide, one.barrel_joint, one.rod_joint} <= joints.keys():
+            continue
+        halves = [str(b) for b in template.bodies_of(joints[one.slide])]
+        around = [str(b) for n in (one.barrel_joint, one.rod_joint) for b in template.bodies_of(joints[n])]
+        around = sorted((b for b in around if b not in halves), key=lambda b: apart.get((template.root, b), 0))
+        ends[halves[0], halves[1]] = around
+    found: dict[str, frozenset[str]] = {}
+    for own, around in ends.items():
+        before = [other for other, theirs in ends.items() if other != own and theirs[-1] == around[0] in arms]
+        for k, half in enumerate(own):
+            if before:
+                found[half] = frozenset(other[k] for other in before)
+    return found
 
 
 def joints_apart(template: Template) -> dict[tuple[str, str], int]:
