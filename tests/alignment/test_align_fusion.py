@@ -18,7 +18,7 @@ from yellowiron.alignment.fusion.bonds import Bond
 from yellowiron.alignment.fusion.judge import Annealing, field_of, labelled, leads, score_of
 from yellowiron.alignment.fusion.pieces import Piece, leading
 from yellowiron.alignment.fusion.stance import stance_of
-from yellowiron.alignment.fusion.votes import borrowed
+from yellowiron.alignment.fusion.votes import LENT, borrowed
 from yellowiron.alignment.fusion.weights import weights
 from yellowiron.library import load_template
 from yellowiron.model.specification import Specifications
@@ -81,7 +81,7 @@ def test_conditionals_are_differences_of_the_score(seed: int) -> None:
 
 def test_a_body_nothing_names_borrows_its_neighbours_name(excavator: Template) -> None:
     said = borrowed([{"arm": 1.0}, {"bucket": 1.0}], excavator)
-    assert said[0]["boom"] == pytest.approx(0.75)
+    assert said[0]["boom"] == pytest.approx(LENT)
     assert "boom" not in borrowed([{"arm": 1.0}, {"boom": 1.0}], excavator)[0]
 
 
