@@ -152,8 +152,10 @@ def without_case(text: str) -> str:
 def _expand(statement: Statement, style: DecimalStyle) -> Iterator[Claim]:
     text, unit = spelled_out(GRAVITATIONAL.sub("", statement.text), statement.unit)
     text = _feet_spelled_out(text, unit)
-    readings = [r for r in read(text, unit=unit, style=style) if not r.condition]
+    every = read(text, unit=unit, style=style)
+    readings = [r for r in every if not r.condition]
     label = _without_conditions(statement.label)
+    yield from _at_radius(statement, label, every)
     kept: list[Reading] = []
     for reading in readings:
         if any(_restates(earlier, reading) for earlier in kept):
@@ -164,13 +166,23 @@ def _expand(statement: Statement, style: DecimalStyle) -> Iterator[Claim]:
         yield from _claims_of_reading(statement, own, reading)
 
 
+def _at_radius(statement: Statement, label: str, readings: Sequence[Reading]) -> Iterator[Claim]:
+    """The length at which a load is lifted, said behind it: "Maximum lifting capacity: 3,030 kg at 2.7 m"."""
+    for load, where in pairwise(readings):
+        quantity = where.numbers[0]
+        if where.condition and len(where.numbers) == 1 and quantity.dimension == "length":
+            if load.numbers[0].dimension == "mass" and not load.condition:
+                partner = where.partner[0] if where.partner else None
+                yield _checked(Claim(statement, f"{label} radius", " ".join(statement.column), quantity, partner))
+
+
 def _labels_of_each(text: str, label: str, readings: Sequence[Reading], kept: Sequence[Reading]) -> list[str]:
     """The label of each reading: parts of one that names alternatives, for numbers with slashes between them."""
     whole = [label] * len(kept)
     if len(kept) < 2 or len(kept) != len(readings) or any(len(r.numbers) != 1 or r.partner for r in kept):
         return whole
     between = [text[a.numbers[0].end : b.numbers[0].start] for a, b in pairwise(kept)]
-    if any(part.strip() not in ("/", "／") for part in between):
+    if not all(re.fullmatch(r"[^\W\d()]*\s*[/／]\s*", part.strip()) for part in between):
         return whole
     return alternatives(label, len(kept)) or whole
 
@@ -231,10 +243,15 @@ def _claims_of_reading(statement: Statement, label: str, reading: Reading) -> It
     words = COUNTED_PARTS.sub(" ", words) if reading.count is not None else words
     several = _several(label, reading)
     partner = reading.partner[0] if reading.partner else None
+    ranged = reading.kind == "range"
     for index, quantity in enumerate(reading.numbers):
+        if ranged and index == 0 and quantity.value == 0:
+            ranged = False  # "0 - 5 km/h" says how much it is at most
+            continue
         other = reading.partner[index] if index < len(reading.partner) else partner
         doubt = f"the sheet counts {several} of them, which together give more" if several > 1 else ""
-        yield _checked(Claim(statement, words, head, quantity, other, ranged=reading.kind == "range", doubt=doubt))
+        own = f"{words} {('minimum', 'maximum')[index]}" if ranged else words
+        yield _checked(Claim(statement, own, head, quantity, other, ranged=ranged, doubt=doubt))
 
 
 def _several(label: str, reading: Reading) -> int:
@@ -259,6 +276,11 @@ def _factors(statement: Statement, label: str, reading: Reading) -> Iterator[Cla
             head = " ".join(h for h in statement.column if h != text)
             yield _checked(Claim(statement, " ".join([*others, name]), head, quantity, partner))
         return
+    first, partner = reading.numbers[0], reading.partner[0] if reading.partner else None
+    if all(same(first, other) for other in reading.numbers[1:]):
+        yield _checked(Claim(statement, label, " ".join(statement.column), first, partner))
+    elif len(reading.numbers) == 2 and re.search(r"[Øø⌀φΦ]\s*$", statement.text.partition(first.text)[0]):
+        yield _checked(Claim(statement, f"{label} diameter", " ".join(statement.column), first, partner))
 
 
 def _without_conditions(label: str) -> str:

@@ -132,7 +132,9 @@ def _gutter(lines: Sequence[TextLine], bars: Sequence[Box], across: Sequence[Box
     for x in [*_of_repeated_labels(lines), *_of_right_set_labels(lines), *drawn]:
         first, last, weight = _run(lines, across, x)
         part = lines[first:last]
-        parts = sum(_has_value_left_of(line, x) for line in part) >= 2 or (x in drawn and _begun_at(part, x) >= 3)
+        parts = sum(_has_value_left_of(line, x) for line in part) >= 2 or (
+            x in drawn and _begun_at(part, x) >= 3 and not _parts_labels_from_values(part, x)
+        )
         if weight >= 3 and parts and (best is None or weight > best[0]):
             best = (weight, x, first, last)
     return best[1:] if best else None
@@ -140,6 +142,17 @@ def _gutter(lines: Sequence[TextLine], bars: Sequence[Box], across: Sequence[Box
 
 def _has_value_left_of(line: TextLine, x: float) -> bool:
     return any(p.x0 < x - 2 and (kind_of(p) == "value" or _says_all(line, i)) for i, p in enumerate(line.pieces))
+
+
+def _parts_labels_from_values(lines: Sequence[TextLine], x: float) -> bool:
+    """Whether what stands right of an x are the values of the words left of it: cells filled side by side are no
+    columns of text."""
+    both = [
+        (before[-1], after[0])
+        for line in lines
+        if (before := [p for p in line.pieces if p.x0 < x - 2]) and (after := [p for p in line.pieces if p.x0 >= x - 2])
+    ]
+    return 2 * sum(kind_of(a) == "text" and kind_of(b) in ("value", "unit") for a, b in both) > len(both) > 0
 
 
 def _begun_at(lines: Sequence[TextLine], x: float) -> int:

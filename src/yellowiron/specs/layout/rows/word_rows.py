@@ -50,7 +50,10 @@ def read_words(column: TextColumn, line: TextLine, state: ReaderState) -> None:
 
 
 def _is_larger_over_labels(piece: TextPiece, column: TextColumn) -> bool:
-    return piece.size > LARGER * column.size and piece.x0 < labels_reach(column.block)
+    """Whether words alone on their line are set larger than the rows, and begin over their labels or stand in the
+    middle of the page."""
+    centred = abs((piece.x0 + piece.x1) / 2 - column.page.width / 2) < 0.01 * column.page.width
+    return piece.size > LARGER * column.size and (piece.x0 < labels_reach(column.block) or centred)
 
 
 _Section = tuple[Heading, tuple[TextPiece, ...]]
