@@ -25,6 +25,7 @@ _OF_NEXT = re.compile(
 )
 """What stands before a number and says which it is, though no separator parts it from the number before: "Min. 3 m to
 Max. 7 m", "Retracted: 2 m Extended: 5 m"."""
+_NAMED = re.compile(r"[:：]\s*$")
 _JUNK = re.compile(r"[\s:=~≈<>≤≥Øø⌀•.·]+")
 
 
@@ -210,5 +211,7 @@ def _qualified(text: str, readings: list[tuple[Reading, int, int]]) -> tuple[Rea
         if _CONDITION.search(tail):
             tail = _CONDITION.sub("", tail)
         words = " ".join(_JUNK.sub(" ", part).strip() for part in (_CONDITION.sub("", head), tail)).strip("()[]【】〔〕,;/| -–~～")
+        if index and before.strip() == "," and not words and _NAMED.search(text[: readings[index - 1][1]]):
+            words = result[-1].qualifier  # "Retracted: 2.3 m, Extended: 3.3 m, 4.3 m"
         result.append(replace(reading, qualifier=" ".join(words.split()), condition=condition))
     return tuple(result)
