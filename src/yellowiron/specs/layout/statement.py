@@ -245,7 +245,7 @@ def kind_of(piece: TextPiece) -> str:
         return "unit"
     if not bare.strip("-–—−/. "):
         return "mark"
-    return "value" if looks_like_value(bare) else "text"
+    return "value" if looks_like_value(bare) or lists_items(bare) else "text"
 
 
 _VALUE_START = re.compile(
@@ -262,8 +262,6 @@ _NOT_A_VALUE = re.compile(
 @functools.lru_cache(maxsize=65536)
 def looks_like_value(text: str) -> bool:
     """Whether a piece of text is a value rather than a label: it begins with a number and is mostly numbers."""
-    if lists_items(text):
-        return True
     if not _VALUE_START.match(text) or _NOT_A_VALUE.match(text):
         return False
     readings = read(text)

@@ -239,12 +239,16 @@ def _word(run: list[_Glyph]) -> Word:
 
 
 def _repaired(text: str) -> str:
-    """A word with full-width letters as plain ones, and put right where its bytes were read in the wrong encoding:
+    """A word with full-width letters and digits as plain ones, and put right where its bytes were read in the wrong encoding:
     "１．５ｋＮ" → "1.5kN", "mÂ³" → "m³"."""
     if any(mark in text for mark in "ÂÃâ"):
         with contextlib.suppress(UnicodeError):
             text = text.encode("cp1252").decode("utf-8")
-    return "".join(unicodedata.normalize("NFKC", c) if "\uff01" <= c <= "\uff5e" and c != "～" else c for c in text)
+    return "".join(unicodedata.normalize("NFKC", c) if "\uff0e" <= c <= "\uff5a" and _is_plain(c) else c for c in text)
+
+
+def _is_plain(character: str) -> bool:
+    return character == "．" or character.isalnum()
 
 
 def _with_superscripts(words: list[Word]) -> list[Word]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
+from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -11,7 +12,7 @@ from yellowiron.specs.language.decimal_style import DecimalStyle
 from yellowiron.specs.language.numbers import Reading, read
 from yellowiron.specs.language.quantities import FEET_DASH, FEET_INCHES, Quantity, same
 from yellowiron.specs.language.vocabulary import tokens
-from yellowiron.specs.layout.statement import GRAVITATIONAL, Statement
+from yellowiron.specs.layout.statement import COUNTED, GRAVITATIONAL, Statement
 from yellowiron.specs.values.enumerations import COUNTED_PARTS, alternatives, enumerated
 
 _TIMES = re.compile(r"(?<![\d.,])([2-9])\s*[x×](?![\w])|[x×]\s*([2-9])(?![\d.,])", re.IGNORECASE)
@@ -131,7 +132,36 @@ def configured(claims: Sequence[Claim], config: str) -> list[Claim]:
         named = {column for column in columns if any(len(phrases_in(h)) > 0 and phrases_in(h) <= asked for h in column)}
         if named:
             others.update(columns - named)
-    return [c for c in claims if c.statement.column not in others]
+    return _in_line(asked, [c for c in claims if c.statement.column not in others])
+
+
+def _in_line(asked: AbstractSet[str], claims: Sequence[Claim]) -> list[Claim]:
+    """The claims without those of other columns than the one at whose head a value stands that the configuration names
+    to the letter ("2.9 m" beside "Arm length"): where each cell of a row is in line with one of the values there, only
+    the cell under that one."""
+    rows: dict[tuple[int, int], list[Statement]] = {}
+    for claim in claims:
+        row = rows.setdefault((claim.statement.page, claim.statement.row), [])
+        if claim.statement not in row:
+            row.append(claim.statement)
+    dropped: set[Statement] = set()
+    for (page, _), heads in rows.items():
+        named = [s for s in heads if without_case(s.text) in asked]
+        if len(named) != 1 or len(heads) < 2:
+            continue
+        for (other_page, _), cells in rows.items():
+            if other_page == page and len(cells) == len(heads) and cells[0].box[1] >= heads[0].box[1] - 1:
+                level = all(_overlap(a, b) for a, b in zip(_sorted(heads), _sorted(cells), strict=True))
+                dropped.update(c for c in cells if level and not _overlap(named[0], c))
+    return [c for c in claims if c.statement not in dropped]
+
+
+def _sorted(cells: Sequence[Statement]) -> list[Statement]:
+    return sorted(cells, key=lambda s: s.box[0])
+
+
+def _overlap(a: Statement, b: Statement) -> bool:
+    return a.box[0] < b.box[2] and b.box[0] < a.box[2]
 
 
 def phrases_in(text: str) -> set[str]:
@@ -277,7 +307,8 @@ def _factors(statement: Statement, label: str, reading: Reading) -> Iterator[Cla
             yield _checked(Claim(statement, " ".join([*others, name]), head, quantity, partner))
         return
     first, partner = reading.numbers[0], reading.partner[0] if reading.partner else None
-    if all(same(first, other) for other in reading.numbers[1:]):
+    counts = COUNTED.search(label) and reading.numbers[-1].value == 2 and not first.unit
+    if (counts and len(reading.numbers) == 2) or all(same(first, other) for other in reading.numbers[1:]):
         yield _checked(Claim(statement, label, " ".join(statement.column), first, partner))
     elif len(reading.numbers) == 2 and re.search(r"[Øø⌀φΦ]\s*$", statement.text.partition(first.text)[0]):
         yield _checked(Claim(statement, f"{label} diameter", " ".join(statement.column), first, partner))

@@ -18,6 +18,7 @@ from yellowiron.specs.layout.statement import (
     ascending,
     is_key,
     is_unit,
+    lists_items,
     looks_like_value,
     split_inline,
     unit_in_label,
@@ -102,7 +103,7 @@ def _facts(grid: TableGrid) -> frozenset[int]:
 
 def _values_of(filled: Sequence[Cell]) -> list[Cell]:
     """A row's cells of values; all of them where each has a label inside."""
-    values = [c for c in filled if looks_like_value(c.text)]
+    values = [c for c in filled if looks_like_value(c.text) or (len(c.lines) == 1 and lists_items(c.text))]
     if len(values) == 2 and values[0] is not filled[-1] and all(is_circumstance(p) for p in values[0].pieces):
         values = values[1:]
     if not values and all(split_inline(c.text)[0] for c in filled):
