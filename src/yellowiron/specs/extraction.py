@@ -125,12 +125,11 @@ def from_sheets(
     style = sheets[0].style if sheets else "point"
     values = _by_rules(wanted, claimed.printed, known, config, style)
     values = second_reading(wanted, values, claimed.near, known, config)
+    # Words read from a picture have a say only where no text has.
+    open_ = [w for w in wanted if values[w.name].status == "missing"]
     if claimed.recognised:
-        # Words read from a picture have a say only where no text has.
-        open_ = [w for w in wanted if values[w.name].status == "missing"]
         values |= _by_rules(open_, claimed.recognised, known, config, style)
-    if any(own for own, _ in claimed.near_recognised):
-        values = second_reading(wanted, values, claimed.near_recognised, known, config)
+    values |= second_reading(open_, {w.name: values[w.name] for w in open_}, claimed.near_recognised, known, config)
     claims = [*claimed.printed, *claimed.recognised]
     findings = [*unread_pages(sheets), *ignored_phrases(config, claims, known, sheets)]
     if extractor != "rules":

@@ -150,7 +150,13 @@ def _line(rows: Sequence[dict[str, str]], scale: float) -> list[Word]:
     baseline = statistics.median(int(r["top"]) + int(r["height"]) for r in standing) / scale
     size = statistics.median(int(r["height"]) for r in full) / scale / _CAP
     return [
-        Word(_mended(r["text"].strip()), int(r["left"]) / scale, (int(r["left"]) + int(r["width"])) / scale, baseline, size)
+        Word(
+            _mended(r["text"].strip()),
+            int(r["left"]) / scale,
+            (int(r["left"]) + int(r["width"])) / scale,
+            baseline,
+            size,
+        )
         for r in rows
     ]
 

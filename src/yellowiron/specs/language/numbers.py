@@ -210,7 +210,9 @@ def _qualified(text: str, readings: list[tuple[Reading, int, int]]) -> tuple[Rea
         condition = _CONDITION.search(head if index == 0 or head else before) is not None
         if _CONDITION.search(tail):
             tail = _CONDITION.sub("", tail)
-        words = " ".join(_JUNK.sub(" ", part).strip() for part in (_CONDITION.sub("", head), tail)).strip("()[]【】〔〕,;/| -–~～")
+        words = " ".join(_JUNK.sub(" ", part).strip() for part in (_CONDITION.sub("", head), tail)).strip(
+            "()[]【】〔〕,;/| -–~～"
+        )
         if index and before.strip() == "," and not words and _NAMED.search(text[: readings[index - 1][1]]):
             words = result[-1].qualifier  # "Retracted: 2.3 m, Extended: 3.3 m, 4.3 m"
         result.append(replace(reading, qualifier=" ".join(words.split()), condition=condition))

@@ -103,7 +103,11 @@ def unit_pattern() -> str:
     exponent: "1.007 m39.6 in" is metres and inches."""
     spellings = [s for _, pattern in _units() for s in _alternatives(pattern)]
     spellings = [re.sub(r"\(\?:([23])\|", r"(?:\1(?![.,]?\\d)|", s) for s in spellings]
-    return "(?:" + "|".join(sorted(spellings, key=len, reverse=True)) + r")(?:(?<![A-Za-z])|(?![A-Za-zµÀ-ÖØ-öø-ɏ]))(?! ?[CF]\b)"
+    return (
+        "(?:"
+        + "|".join(sorted(spellings, key=len, reverse=True))
+        + r")(?:(?<![A-Za-z])|(?![A-Za-zµÀ-ÖØ-öø-ɏ]))(?! ?[CF]\b)"
+    )
 
 
 def _alternatives(pattern: str) -> list[str]:

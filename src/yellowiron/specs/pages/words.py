@@ -239,8 +239,8 @@ def _word(run: list[_Glyph]) -> Word:
 
 
 def _repaired(text: str) -> str:
-    """A word with full-width letters and digits as plain ones, and put right where its bytes were read in the wrong encoding:
-    "１．５ｋＮ" → "1.5kN", "mÂ³" → "m³"."""
+    """A word with full-width letters and digits as plain ones, and put right where its bytes were read in the wrong
+    encoding: "１．５ｋＮ" → "1.5kN", "mÂ³" → "m³"."""
     if any(mark in text for mark in "ÂÃâ"):
         with contextlib.suppress(UnicodeError):
             text = text.encode("cp1252").decode("utf-8")

@@ -200,10 +200,11 @@ def _at_radius(statement: Statement, label: str, readings: Sequence[Reading]) ->
     """The length at which a load is lifted, said behind it: "Maximum lifting capacity: 3,030 kg at 2.7 m"."""
     for load, where in pairwise(readings):
         quantity = where.numbers[0]
-        if where.condition and len(where.numbers) == 1 and quantity.dimension == "length":
-            if load.numbers[0].dimension == "mass" and not load.condition:
-                partner = where.partner[0] if where.partner else None
-                yield _checked(Claim(statement, f"{label} radius", " ".join(statement.column), quantity, partner))
+        if not where.condition or load.condition or len(where.numbers) != 1:
+            continue
+        if (load.numbers[0].dimension, quantity.dimension) == ("mass", "length"):
+            partner = where.partner[0] if where.partner else None
+            yield _checked(Claim(statement, f"{label} radius", " ".join(statement.column), quantity, partner))
 
 
 def _labels_of_each(text: str, label: str, readings: Sequence[Reading], kept: Sequence[Reading]) -> list[str]:
@@ -280,8 +281,7 @@ def _claims_of_reading(statement: Statement, label: str, reading: Reading) -> It
             continue
         other = reading.partner[index] if index < len(reading.partner) else partner
         doubt = f"the sheet counts {several} of them, which together give more" if several > 1 else ""
-        own = f"{words} {('minimum', 'maximum')[index]}" if ranged else words
-        yield _checked(Claim(statement, own, head, quantity, other, ranged=ranged, doubt=doubt))
+        yield _checked(Claim(statement, words, head, quantity, other, ranged=ranged, doubt=doubt))
 
 
 def _several(label: str, reading: Reading) -> int:
