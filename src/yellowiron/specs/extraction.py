@@ -26,7 +26,7 @@ from yellowiron.specs.values.cross_check import second_reading, stands_in
 from yellowiron.specs.values.decision import Column, Sheets, decide, quantity_words, unreadable
 from yellowiron.specs.values.matching import match
 from yellowiron.specs.values.requested import asked
-from yellowiron.specs.values.tolerances import DOUBTFUL
+from yellowiron.specs.values.tolerances import PICTURED
 from yellowiron.specs.values.values_in_labels import in_label
 from yellowiron.support.guard import Wording, run_guarded
 
@@ -241,7 +241,7 @@ def _at_most_review(value: Specification, pictures: AbstractSet[tuple[str, int]]
     return replace(
         value,
         status="review",
-        confidence=min(value.confidence, DOUBTFUL),
+        confidence=min(value.confidence, PICTURED),
         reason=f"page {seen.page} is a picture: its text is what tesseract makes of it; {value.reason}",
         hint=f'Compare it with the page; settle it with --set "{value.name}=VALUE UNIT".',
     )

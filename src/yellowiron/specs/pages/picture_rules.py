@@ -13,7 +13,7 @@ _LEVEL_PT = 40.0
 """Points that a level edge is long at least."""
 _WALL_PT = 14.0
 """Points that an upright edge is high at least: more than a capital letter of a heading."""
-_GAP_PT = 1.0
+_GAP_PT = 2.5
 """Points within which two edges are the sides of one rule, and a step may be missing."""
 _MOST = 1500
 """Edges of a page; more are a photograph's."""
@@ -43,7 +43,7 @@ def _runs(mask: NDArray[np.bool_], least: float, gap: float) -> list[tuple[float
                 continue
             merged = next(
                 (i for i, (y, a, b) in enumerate(found[-40:], start=max(0, len(found) - 40))
-                 if row - y <= 3 * gap and first < b and a < last),
+                 if row - y <= gap and first < b and a < last),
                 None,
             )  # fmt: skip
             if merged is None:

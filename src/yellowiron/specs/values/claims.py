@@ -390,9 +390,13 @@ _SYSTEM = re.compile(
 )
 
 
+def is_system(head: str) -> bool:
+    """Whether a head names a system of measurement: "Metric"."""
+    return _SYSTEM.fullmatch(head.strip(" ()")) is not None
+
+
 def _without_system(column: Sequence[str]) -> list[str]:
-    """A column's heads without those that name a system of measurement."""
-    return [head for head in column if not _SYSTEM.fullmatch(head.strip(" ()"))]
+    return [head for head in column if not is_system(head)]
 
 
 def _metric_first(a: Claim, b: Claim) -> Claim:
