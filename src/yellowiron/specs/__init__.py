@@ -12,10 +12,10 @@ pages in a guarded child process, `extraction` goes the whole way and `findings`
 
 from __future__ import annotations
 
+from yellowiron.specs.columns import columns_of
 from yellowiron.specs.evidence_images import draw_evidence
 from yellowiron.specs.extraction import Extractor, extract, read
 from yellowiron.specs.llm.endpoint import EndpointError, ModelOptions
-from yellowiron.specs.values.columns import columns_of
 from yellowiron.specs.values.overrides import accept, merge, parse_settings, split_settings
 from yellowiron.specs.values.requested import missing_values
 
