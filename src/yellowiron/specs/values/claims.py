@@ -280,8 +280,16 @@ def _claims_of_reading(statement: Statement, label: str, reading: Reading) -> It
             ranged = False  # "0 - 5 km/h" says how much it is at most
             continue
         other = reading.partner[index] if index < len(reading.partner) else partner
-        doubt = f"the sheet counts {several} of them, which together give more" if several > 1 else ""
+        doubt = f"the sheet counts {several} of them: this is what they give together" if several > 1 else ""
+        if several > 1:
+            quantity, other = _times(quantity, several), other and _times(other, several)
         yield _checked(Claim(statement, words, head, quantity, other, ranged=ranged, doubt=doubt))
+
+
+def _times(quantity: Quantity, count: int) -> Quantity:
+    return replace(
+        quantity, value=count * quantity.value, half=count * quantity.half, text=f"{count} x {quantity.text}"
+    )
 
 
 def _several(label: str, reading: Reading) -> int:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bisect import bisect_left
+from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -193,11 +193,18 @@ def _label_starts(lines: Sequence[TextLine]) -> dict[int, list[tuple[float, bool
 
 def _of_broken_rules(lines: Sequence[TextLine], across: Sequence[Box]) -> list[float]:
     """Where a rule begins beside another one at the same height, as under the headings of two columns, and words."""
-    thin = [b for b in across if b[3] - b[1] <= 6]
-    begins = {b[0] for b in thin if any(0 < b[0] - a[2] < 40 and abs(a[1] - b[1]) < 1.5 for a in thin)}
+    thin = sorted({b for b in across if b[3] - b[1] <= 6}, key=lambda b: b[1])
+    heights = [b[1] for b in thin]
+    begins: set[float] = set()
+    for b in thin:
+        level = thin[bisect_right(heights, b[1] - 1.5) : bisect_left(heights, b[1] + 1.5)]
+        if b[0] not in begins and any(0 < b[0] - a[2] < 40 for a in level):
+            begins.add(b[0])
+    pieces = sorted((p for line in lines for p in line.pieces), key=lambda p: p.x0)
+    starts = [p.x0 for p in pieces]
     found = []
     for x in sorted(begins):
-        kinds = [kind_of(p) for line in lines for p in line.pieces if abs(p.x0 - x) < 12]
+        kinds = [kind_of(p) for p in pieces[bisect_right(starts, x - 12) : bisect_left(starts, x + 12)]]
         if len(kinds) >= 3 and kinds.count("text") >= 0.6 * len(kinds):
             found.append(x)
     return found
