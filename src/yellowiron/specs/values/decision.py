@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -82,7 +83,7 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
 
 def _is_broken_off(label: str) -> bool:
     """Whether a label ends in the middle: behind a comma, or in brackets that are not closed."""
-    return label.rstrip().endswith((",", "，", "、", "-", "/")) or label.count("(") > label.count(")")
+    return re.search(r"[,，、]$|\w[-/]$", label.rstrip()) is not None or label.count("(") > label.count(")")
 
 
 def missing(wanted: Wanted) -> Specification:
