@@ -168,3 +168,14 @@ def test_values_to_review_are_accepted_by_hand(tmp_path: Path) -> None:
     assert by_hand.values["Operating Weight"].value == 22500.0
     with pytest.raises(YellowironError, match="is no value to review"):
         accept(found, ["Bucket Width"], asked)
+
+
+def test_a_part_too_small_for_its_range_is_not_the_whole_machine(tmp_path: Path) -> None:
+    crane = template(
+        wanted("Boom Length Extended", "length", "maximum boom length", minimum=6.0, maximum=100.0),
+        wanted("Overall Length", "length", "maximum length", minimum=4.0, maximum=30.0),
+    )
+    c = canvas(tmp_path / "a.pdf")
+    lattice(c, 60, 700, (200, 160), [("Boom length", "Min. 3.27m to Max. 5.51m"), ("Cab width", "2.1 m")], heads=0)
+    c.save()
+    assert "ok" not in {s.status for s in extract(crane, [tmp_path / "a.pdf"])}
