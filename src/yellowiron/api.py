@@ -46,18 +46,24 @@ def extract(
     sheets: Sequence[Path | str],
     *,
     config: str = "",
+    settings: Sequence[str] = (),
+    accepted: Sequence[str] = (),
     extractor: specs.Extractor = "rules",
     model: specs.ModelOptions | None = None,
     show: Path | str | None = None,
     progress: Progress = lambda words: None,
 ) -> Specifications:
     """The values that a type's template asks specification sheets (PDF files) for, in SI, each with its status and its
-    evidence. `config` picks a column; `extractor` and `model` say who reads; `show` is a folder for pictures of the
-    pages with a box around every value."""
+    evidence. `config` picks a column; `settings` ("Boom Length=5.7 m") are values by hand, `accepted` the names of
+    values to review that a person has looked at ("all-proven": every one that the layout leaves no doubt of);
+    `extractor` and `model` say who reads; `show` is a folder for pictures of the pages with a box around every
+    value."""
     progress("Reading the specification sheets")
     template = library.load_template(equipment_type, sheet_only=True)
     paths = [Path(sheet) for sheet in sheets]
+    given = specs.parse_settings(settings, template)
     found = specs.extract(template, paths, config=config, extractor=extractor, model=model, progress=progress)
+    found = specs.merge(specs.accept(found, accepted, template), given)
     if show is not None:
         with output_folder(Path(show)) as folder:
             specs.draw_evidence(paths, found, folder)

@@ -139,6 +139,12 @@ def extract(
     equipment_type: Type,
     sheets: Annotated[list[Path], typer.Argument(metavar="PDF...", help="Specification sheets.")],
     show: Annotated[Path | None, typer.Option("--show", help="Write the pages as pictures, values boxed.")] = None,
+    settings: Settings = None,
+    accept: Annotated[
+        list[str] | None,
+        typer.Option("--accept", help="A value to review that is right: its name, or all-proven; may be repeated."),
+    ] = None,
+    models: Annotated[bool, typer.Option("--models", help="List the columns that --config takes, and stop.")] = False,
     as_json: Json = False,
     *,
     reading: dict[str, Any],
@@ -147,8 +153,17 @@ def extract(
     from yellowiron import library, specs
     from yellowiron.report import missing_limits, specification_entry, specification_table
 
+    if models:
+        with _progress(as_json) as progress:
+            columns = specs.columns_of([specs.read(sheet, progress=progress) for sheet in sheets])
+        words = "\n".join(f"{c.name}  (page {c.page} of {c.file}, {c.values} values)" for c in columns)
+        _show({"columns": [asdict(c) for c in columns]}, Text(words or "The sheets have no columns."), as_json)
+        return
     with _progress(as_json) as progress:
-        found = yellowiron.extract(equipment_type, sheets, show=show, progress=progress, **reading)
+        found = yellowiron.extract(
+            equipment_type, sheets, settings=settings or (), accepted=accept or (), show=show, progress=progress,
+            **reading,
+        )  # fmt: skip
     template = library.load_template(equipment_type, sheet_only=True)
     entries = [specification_entry(s) for s in found]
     missing, findings = specs.missing_values(template, found), [asdict(f) for f in found.findings]

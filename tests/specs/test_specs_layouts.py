@@ -126,7 +126,7 @@ def test_borderless_columns_with_wrapped_labels(tmp_path: Path) -> None:
         "Maximum Travel Speed": round(4.2 / 3.6, 9),
     }
     flow = found.get("Main Pump Flow")  # "(2x)": both pumps together give twice as much
-    assert flow is not None and (flow.status, flow.value) == ("review", pytest.approx(235e-3 / 60))
+    assert flow is not None and (flow.status, flow.value) == ("review", pytest.approx(470e-3 / 60))
     assert "counts 2 of them" in flow.reason
     bore = found.get("Bucket Cylinder Bore")
     assert bore is not None and bore.status == "conflict" and bore.value is None

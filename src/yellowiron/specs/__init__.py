@@ -1,8 +1,9 @@
 """Specification sheets: PDF → layout statements → the values a template asks for, each with its evidence.
 
 `extract` reads sheets by rules, without any network, or with a language model that the user names; `parse_settings`
-takes values a person gives; `merge` decides between sources; `draw_evidence` shows on pictures of the pages where each
-value stands; `missing_values` says what a person can still give.
+takes values a person gives, `accept` their word for values to review; `merge` decides between sources; `columns_of`
+names the columns that a configuration may choose among; `draw_evidence` shows on pictures of the pages where each value
+stands; `missing_values` says what a person can still give.
 
 In: paths of PDFs and a `Template`; out: `Specifications`. `pages` (what is drawn) and `language` (what words and
 numbers mean) ← `layout` (statements) ← `values` (claims, matches, decisions) ← `llm`; `reader` and `ocr` read a PDF's
@@ -11,20 +12,24 @@ pages in a guarded child process, `extraction` goes the whole way and `findings`
 
 from __future__ import annotations
 
+from yellowiron.specs.columns import columns_of
 from yellowiron.specs.evidence_images import draw_evidence
-from yellowiron.specs.extraction import Extractor, extract
+from yellowiron.specs.extraction import Extractor, extract, read
 from yellowiron.specs.llm.endpoint import EndpointError, ModelOptions
-from yellowiron.specs.values.overrides import merge, parse_settings, split_settings
+from yellowiron.specs.values.overrides import accept, merge, parse_settings, split_settings
 from yellowiron.specs.values.requested import missing_values
 
 __all__ = [
     "EndpointError",
     "Extractor",
     "ModelOptions",
+    "accept",
+    "columns_of",
     "draw_evidence",
     "extract",
     "merge",
     "missing_values",
     "parse_settings",
+    "read",
     "split_settings",
 ]

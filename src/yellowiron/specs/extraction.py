@@ -26,7 +26,7 @@ from yellowiron.specs.values.cross_check import second_reading, stands_in
 from yellowiron.specs.values.decision import Column, Sheets, decide, quantity_words, unreadable
 from yellowiron.specs.values.matching import match
 from yellowiron.specs.values.requested import asked
-from yellowiron.specs.values.tolerances import DOUBTFUL
+from yellowiron.specs.values.tolerances import PICTURED
 from yellowiron.specs.values.values_in_labels import in_label
 from yellowiron.support.guard import Wording, run_guarded
 
@@ -105,6 +105,7 @@ def _recognised(sheet: Sheet, path: Path, progress: Callable[[str], None]) -> Sh
         style=sheet.style if sheet.statements else decimal_style([page.text for page in pages]),
         stated=(*sheet.stated, *(one for page in pages for one in page.stated)),
         recognised=tuple(sorted(known)),
+        near=(*sheet.near, *(near for page in pages for near in page.near)),
     )
 
 
@@ -124,10 +125,11 @@ def from_sheets(
     style = sheets[0].style if sheets else "point"
     values = _by_rules(wanted, claimed.printed, known, config, style)
     values = second_reading(wanted, values, claimed.near, known, config)
+    # Words read from a picture have a say only where no text has.
+    open_ = [w for w in wanted if values[w.name].status == "missing"]
     if claimed.recognised:
-        # Words read from a picture have a say only where no text has.
-        open_ = [w for w in wanted if values[w.name].status == "missing"]
         values |= _by_rules(open_, claimed.recognised, known, config, style)
+    values |= second_reading(open_, {w.name: values[w.name] for w in open_}, claimed.near_recognised, known, config)
     claims = [*claimed.printed, *claimed.recognised]
     findings = [*unread_pages(sheets), *ignored_phrases(config, claims, known, sheets)]
     if extractor != "rules":
@@ -151,17 +153,20 @@ def _numbered(sheet: Sheet, number: int) -> Sheet:
 @dataclass(frozen=True)
 class _Claimed:
     """What the sheets claim of the configuration that is meant: `printed` in their text, `recognised` on pictures of
-    pages; `near`: of each sheet the second reading's values that stand in no cell of another configuration."""
+    pages; `near`, `near_recognised`: of each sheet the second reading's values that stand in no cell of another
+    configuration."""
 
     printed: Sequence[Claim]
     recognised: Sequence[Claim]
     near: Sequence[tuple[Sequence[Near], DecimalStyle]]
+    near_recognised: Sequence[tuple[Sequence[Near], DecimalStyle]]
 
 
 def _claimed(sheets: Sequence[Sheet], config: str) -> _Claimed:
     printed: list[Claim] = []
     recognised: list[Claim] = []
     near: list[tuple[list[Near], DecimalStyle]] = []
+    near_recognised: list[tuple[list[Near], DecimalStyle]] = []
     for sheet in sheets:
         every = claims_of(sheet.statements, sheet.style)
         meant = configured(every, config)
@@ -169,8 +174,10 @@ def _claimed(sheets: Sequence[Sheet], config: str) -> _Claimed:
             (recognised if claim.statement.page in sheet.recognised else printed).append(claim)
         kept = {claim.statement for claim in meant}
         others = [claim.statement for claim in every if claim.statement not in kept]
-        near.append(([n for n in sheet.near if not any(stands_in(n.statement, s) for s in others)], sheet.style))
-    return _Claimed(printed, recognised, near)
+        own = [n for n in sheet.near if not any(stands_in(n.statement, s) for s in others)]
+        near.append(([n for n in own if n.statement.page not in sheet.recognised], sheet.style))
+        near_recognised.append(([n for n in own if n.statement.page in sheet.recognised], sheet.style))
+    return _Claimed(printed, recognised, near, near_recognised)
 
 
 def _known(sheets: Sequence[Sheet]) -> Sheets:
@@ -234,7 +241,7 @@ def _at_most_review(value: Specification, pictures: AbstractSet[tuple[str, int]]
     return replace(
         value,
         status="review",
-        confidence=min(value.confidence, DOUBTFUL),
+        confidence=min(value.confidence, PICTURED),
         reason=f"page {seen.page} is a picture: its text is what tesseract makes of it; {value.reason}",
         hint=f'Compare it with the page; settle it with --set "{value.name}=VALUE UNIT".',
     )

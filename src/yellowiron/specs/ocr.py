@@ -8,6 +8,7 @@ from __future__ import annotations
 import csv
 import functools
 import io
+import re
 import shutil
 import statistics
 import subprocess
@@ -16,10 +17,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+
 from yellowiron.model.errors import SheetError
+from yellowiron.specs.layout.nearest import Near, nearest_of
 from yellowiron.specs.layout.router import statements_of
 from yellowiron.specs.layout.statement import Statement
-from yellowiron.specs.pages.words import Page, Word
+from yellowiron.specs.pages.picture_rules import rules_of_picture
+from yellowiron.specs.pages.words import Page, Word, read_page
 from yellowiron.specs.values.stated_configuration import Stated, stated_in
 from yellowiron.support.guard import beat
 
@@ -35,6 +40,10 @@ _NOISE = 50.0
 """Confidence (of 100) below which a word without a digit is dirt, or the dots of a leader."""
 _DOUBTFUL = 60.0
 """Median confidence (of 100) below which a page may be in another script."""
+_SHORTEST = 15.0
+"""Points; shorter strokes are parts of letters that are drawn, or of a machine."""
+_FEWEST = 4
+"""Rules and fills; a file with fewer has its tables in its pictures."""
 _CAP = 0.72
 """Height of a capital letter or digit as a share of the size of its font."""
 _LOW = set("gjpqyQ,;()[]{}|/")
@@ -49,6 +58,7 @@ class Recognised:
     statements: tuple[Statement, ...]
     text: str
     stated: tuple[Stated, ...]
+    near: tuple[Near, ...] = ()
 
 
 def program() -> str | None:
@@ -62,22 +72,32 @@ def recognise(path: Path, numbers: Sequence[int]) -> list[Recognised]:
     import pypdfium2
 
     found: list[Recognised] = []
+    failure: SheetError | None = None
     document = pypdfium2.PdfDocument(path)
     try:
         for number in numbers[:MOST_PAGES]:
             beat(f"Recognising the text of page {number} of {path.name}")
-            page = _page(document[number - 1], number)
+            try:
+                page = _page(document[number - 1], number)
+            except SheetError as error:  # a page that takes too long costs no other
+                failure = error
+                continue
             if page.readable:
                 text = " ".join(w.text for w in page.words)
-                found.append(Recognised(number, tuple(statements_of(page)), text, tuple(stated_in(text, number))))
+                statements, near = tuple(statements_of(page)), nearest_of(page)
+                found.append(Recognised(number, statements, text, tuple(stated_in(text, number)), near))
     finally:
         document.close()
+    if failure is not None and not found:
+        raise failure
     return found
 
 
 def _page(page: object, number: int) -> Page:
-    """A page as it looks, its words read from its picture. Points, from the top left."""
-    width, height = page.get_size()  # type: ignore[attr-defined]
+    """A page as it looks, its words read from its picture, its rules and fills from the file or else from the picture.
+    Points, from the top left."""
+    drawn = read_page(page, number)
+    width, height = drawn.width, drawn.height
     scale = min(_RESOLUTION / 72.0, (_MOST_PIXELS / max(width * height, 1.0)) ** 0.5)
     picture = page.render(scale=scale, grayscale=True).to_pil()  # type: ignore[attr-defined]
     stream = io.BytesIO()
@@ -87,7 +107,20 @@ def _page(page: object, number: int) -> Page:
         others, surer = _words(stream.getvalue(), _CJK, scale)
         if surer > sure:
             words = others
-    return Page(number, width, height, tuple(words), characters=sum(len(w.text) for w in words), images=1)
+    rules = [r for r in drawn.rules if (r.x1 - r.x0 if r.horizontal else r.bottom - r.top) >= _SHORTEST]
+    bars = [b for b in drawn.bars if b[2] - b[0] >= _SHORTEST]
+    if len(rules) + len(bars) < _FEWEST:
+        rules = [*rules, *rules_of_picture(np.asarray(picture), scale)]
+    return Page(
+        number,
+        width,
+        height,
+        tuple(words),
+        tuple(rules),
+        tuple(bars),
+        characters=sum(len(w.text) for w in words),
+        images=1,
+    )
 
 
 def _words(picture: bytes, languages: Sequence[str], scale: float) -> tuple[list[Word], float]:
@@ -117,9 +150,23 @@ def _line(rows: Sequence[dict[str, str]], scale: float) -> list[Word]:
     baseline = statistics.median(int(r["top"]) + int(r["height"]) for r in standing) / scale
     size = statistics.median(int(r["height"]) for r in full) / scale / _CAP
     return [
-        Word(r["text"].strip(), int(r["left"]) / scale, (int(r["left"]) + int(r["width"])) / scale, baseline, size)
+        Word(
+            _mended(r["text"].strip()),
+            int(r["left"]) / scale,
+            (int(r["left"]) + int(r["width"])) / scale,
+            baseline,
+            size,
+        )
         for r in rows
     ]
+
+
+def _mended(text: str) -> str:
+    """A word without what is left of a leader's dots, its raised exponent of a unit put right: ".265" → "265",
+    "kgf/cm?" → "kgf/cm2"."""
+    text = re.sub(r"(?<=/cm)[?*°’'\"]$", "2", text)
+    text = re.sub(r"(?<=[A-Za-z])[.…]{2,}$|^[.…]+(?=\d{3})|^[.…]{2,}(?=\d)", "", text)
+    return text or "."
 
 
 @functools.cache

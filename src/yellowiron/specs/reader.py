@@ -12,8 +12,9 @@ from yellowiron.model.errors import SheetError
 from yellowiron.specs.language.decimal_style import DecimalStyle, decimal_style
 from yellowiron.specs.layout.nearest import Near, nearest_of
 from yellowiron.specs.layout.router import statements_of
+from yellowiron.specs.layout.rows.lines import TextLine, lines_of
 from yellowiron.specs.layout.statement import Statement
-from yellowiron.specs.pages.words import read_page
+from yellowiron.specs.pages.words import Page, read_page
 from yellowiron.specs.values.stated_configuration import Stated, stated_in
 from yellowiron.support.guard import beat
 
@@ -89,7 +90,7 @@ def read_sheet(path: Path) -> Sheet:
                     hint="Get the file again, or print it to a new PDF.",
                 ) from error
             if page.readable:
-                statements.extend(_proven(statements_of(page), page.text))
+                statements.extend(proven(statements_of(page), page))
                 texts.append(" ".join(w.text for w in page.words))
                 stated.extend(stated_in(texts[-1], number))
                 near.extend(nearest_of(page))
@@ -108,14 +109,18 @@ def read_sheet(path: Path) -> Sheet:
         document.close()
 
 
-def _proven(statements: Sequence[Statement], text: str) -> list[Statement]:
-    """The statements, each with whether the words of its quote stand together in a page's text: what was put together
-    across columns does not."""
-    whole = _squeezed(text)
+def proven(statements: Sequence[Statement], page: Page) -> list[Statement]:
+    """The statements, each with whether the words of its quote stand together on their page: side by side on a line,
+    or one after the other in the file's own text. The file's order alone says little: many write all labels first."""
+    whole = "\n".join([_squeezed(page.text), *(_squeezed(_printed(line)) for line in lines_of(page.words))])
     return [
         s if all(_squeezed(part) in whole for part in s.quote.split(" … ")) else replace(s, proven=False)
         for s in statements
     ]
+
+
+def _printed(line: TextLine) -> str:
+    return " ".join(piece.printed for piece in line.pieces)
 
 
 def _squeezed(text: str) -> str:

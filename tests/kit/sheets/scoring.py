@@ -103,14 +103,19 @@ def _bare(text: str) -> str:
 
 
 def page_texts(path: Path) -> dict[int, str]:
-    """The text of each page (1 = first) as PDFium gives it, without spaces and leaders."""
+    """The text of each page (1 = first), without spaces and leaders: as PDFium gives it in the file's order, then line
+    by line as pdfplumber finds it on the page."""
+    import pdfplumber
     import pypdfium2
 
     document = pypdfium2.PdfDocument(path)
     try:
-        return {
-            number: _bare(document[number - 1].get_textpage().get_text_range())
-            for number in range(1, len(document) + 1)
-        }
+        texts = [document[index].get_textpage().get_text_range() for index in range(len(document))]
     finally:
         document.close()
+    with pdfplumber.open(path) as plumbed:
+        lines = [page.extract_text() for page in plumbed.pages]
+    return {
+        number: "\n".join([_bare(text), *map(_bare, lined.splitlines())])
+        for number, (text, lined) in enumerate(zip(texts, lines, strict=True), start=1)
+    }

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import Literal
 
 from yellowiron.specs.language.decimal_style import DecimalStyle
@@ -16,8 +17,15 @@ from yellowiron.specs.language.quantities import Quantity, quantities_in, same
 from yellowiron.support.units import parse_quantity
 
 _TIMES = re.compile(r"\s*[x×✕*]\s*[Øø⌀]?\s*", re.IGNORECASE)
-_DASH = re.compile(r"(?:\s*(?:[-–—~]|\.\.\.|…)|\s+(?:to|bis|à|a))\s*[Øø⌀]?\s*")
+_DASH = re.compile(r"(?:\s*(?:[-–—~～〜∼]|\.\.\.|…)|\s+(?:to|bis|à|a))\s*[Øø⌀]?\s*")
 _CONDITION = re.compile(r"(?:\bat|@|\bbei|\bà|\bfor|\bfür|\bpour|\bwith|\bper)\s*$", re.IGNORECASE)
+_OF_NEXT = re.compile(
+    r"(?:(?:^|[\s,;/|~–-])(?:to|bis|à|a)\s+|[\s,;/|~–-]*)((?:\b(?:min|max|mid|low|high)\w*\.?|[^\W\d][^\d,;:()|/]*[:：])\s*)$",
+    re.IGNORECASE,
+)
+"""What stands before a number and says which it is, though no separator parts it from the number before: "Min. 3 m to
+Max. 7 m", "Retracted: 2 m Extended: 5 m"."""
+_NAMED = re.compile(r"[:：]\s*$")
 _JUNK = re.compile(r"[\s:=~≈<>≤≥Øø⌀•.·]+")
 
 
@@ -58,7 +66,7 @@ def parse_one(text: str, *, where: str = "") -> Quantity:
 
 def read(text: str, *, unit: str = "", style: DecimalStyle = "unknown") -> tuple[Reading, ...]:
     """The readings of a cell's text. `unit` is that of its column or label, for numbers printed without one."""
-    quantities = quantities_in(text, unit, style)
+    quantities = _with_following_unit(text, quantities_in(text, unit, style))
     readings: list[tuple[Reading, int, int]] = []
     index = 0
     while index < len(quantities):
@@ -67,6 +75,19 @@ def read(text: str, *, unit: str = "", style: DecimalStyle = "unknown") -> tuple
         readings.append((reading, quantities[index].start, last.end))
         index += used
     return _qualified(text, _paired(text, readings))
+
+
+_NAMED_NEXT = re.compile(r"\s*(?:[-–—~～/|,]|to|bis|à|a)\s*(?:min|max|low|high)\w*\.?\s*:?\s*", re.IGNORECASE)
+
+
+def _with_following_unit(text: str, quantities: list[Quantity]) -> list[Quantity]:
+    """ "Low 2.5 - High 5.0 km/h": a number without a unit has that of the next, which a word tells from it."""
+    found = list(quantities)
+    for index in range(len(found) - 2, -1, -1):
+        one, following = found[index], found[index + 1]
+        if not one.unit and following.unit and _NAMED_NEXT.fullmatch(text[one.end : following.start]):
+            found[index] = replace(one, unit=following.unit)
+    return found
 
 
 def _reading(text: str, quantities: list[Quantity], index: int) -> tuple[Reading, int]:
@@ -114,7 +135,7 @@ def _shared_unit(run: list[Quantity]) -> tuple[Quantity, ...]:
 def _paired(text: str, readings: list[tuple[Reading, int, int]]) -> list[tuple[Reading, int, int]]:
     """Neighbours that are one value in two systems of measurement become one reading with its partner."""
     paired: list[tuple[Reading, int, int]] = []
-    for reading, start, end in readings:
+    for reading, start, end in _listed_twice(text, readings):
         if paired:
             before, first, last = paired[-1]
             if not before.partner and _is_other_system(before, reading) and _only_brackets(text[last:start]):
@@ -122,6 +143,21 @@ def _paired(text: str, readings: list[tuple[Reading, int, int]]) -> list[tuple[R
                 continue
         paired.append((reading, start, end))
     return _product_of_pairs(text, paired)
+
+
+def _listed_twice(text: str, readings: list[tuple[Reading, int, int]]) -> list[tuple[Reading, int, int]]:
+    """ "23 km/h / 25 km/h (14.3 mph / 15.5 mph)": a list in one system, and the same again in the other one."""
+    half = len(readings) // 2
+    if half < 2 or len(readings) % 2:
+        return readings
+    pairs = list(zip(readings[:half], readings[half:], strict=True))
+    alike = all(_is_other_system(a, b) and all(map(same, a.numbers, b.numbers)) for (a, _, _), (b, _, _) in pairs)
+    if not alike or not all(_only_brackets(text[a[2] : b[1]]) for a, b in pairwise(readings)):
+        return readings
+    return [
+        (replace(a, partner=b.numbers), start, end if index < half - 1 else last)
+        for index, ((a, start, end), (b, _, last)) in enumerate(pairs)
+    ]
 
 
 def _product_of_pairs(text: str, readings: list[tuple[Reading, int, int]]) -> list[tuple[Reading, int, int]]:
@@ -152,7 +188,7 @@ def _is_other_system(a: Reading, b: Reading) -> bool:
 
 
 def _only_brackets(text: str) -> bool:
-    return re.fullmatch(r"[\s()\[\]/|,;–-]*", text) is not None
+    return re.fullmatch(r"[\s()\[\]【】〔〕（）/|,;–-]*", text) is not None
 
 
 def _qualified(text: str, readings: list[tuple[Reading, int, int]]) -> tuple[Reading, ...]:
@@ -161,15 +197,23 @@ def _qualified(text: str, readings: list[tuple[Reading, int, int]]) -> tuple[Rea
     edges = [0, *(end for _, _, end in readings)]
     for index, (reading, start, end) in enumerate(readings):
         before = text[edges[index] : start]
+        own = _OF_NEXT.search(before) if index else None
         following = readings[index + 1][1] if index + 1 < len(readings) else len(text)
         after = text[end:following]
-        head = re.split(r"[,;()\[\]/|]", before)[-1] if index else before
-        if index and not re.search(r"[,;()\[\]/|]", before):
+        head = re.split(r"[,;()\[\]【】〔〕/|]", before)[-1] if index else before
+        if own is not None:
+            head = own.group(1)
+        elif index and not re.search(r"[,;()\[\]【】〔〕/|]", before):
             head = ""
-        tail = after if following == len(text) else re.split(r"[,;()\[\]/|]", after)[0]
+        last = following == len(text)
+        tail = after if last else re.split(r"[,;()\[\]【】〔〕/|]", _OF_NEXT.sub("", after))[0]
         condition = _CONDITION.search(head if index == 0 or head else before) is not None
         if _CONDITION.search(tail):
             tail = _CONDITION.sub("", tail)
-        words = " ".join(_JUNK.sub(" ", part).strip() for part in (_CONDITION.sub("", head), tail)).strip("()[],;/| -–")
+        words = " ".join(_JUNK.sub(" ", part).strip() for part in (_CONDITION.sub("", head), tail)).strip(
+            "()[]【】〔〕,;/| -–~～"
+        )
+        if index and before.strip() == "," and not words and _NAMED.search(text[: readings[index - 1][1]]):
+            words = result[-1].qualifier  # "Retracted: 2.3 m, Extended: 3.3 m, 4.3 m"
         result.append(replace(reading, qualifier=" ".join(words.split()), condition=condition))
     return tuple(result)

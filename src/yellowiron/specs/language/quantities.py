@@ -122,6 +122,9 @@ def quantities_in(text: str, unit: str, style: DecimalStyle) -> list[Quantity]:
         if start is None:
             break
         at = start.start()
+        if text[at] in ".," and at > 0 and text[at - 1].isalnum():
+            position = at + 1  # "3.3m,4.3m"
+            continue
         if at > 0 and _inside_a_word(text, at):
             position = _end_of_word(text, at)
             continue
@@ -159,6 +162,8 @@ def _ends_in_unit() -> re.Pattern[str]:
 def _inside_a_word(text: str, at: int) -> bool:
     """A digit glued to letters before it is part of a name ("L5", "ISO14396"), unless those are a unit ("km/h4.0") or
     a cross ("x441")."""
+    number = _number_with_unit().match(text, at)
+    measured = number is not None and bool(number["unit"])
     text = text[max(0, at - _LONGEST_WORD) : at]
     before = re.search(r"[A-Za-z][A-Za-z0-9./-]*$", text)
     if before is None:
@@ -166,6 +171,8 @@ def _inside_a_word(text: str, at: int) -> bool:
     word = before.group(0)
     if word.lower() == "x" or _ends_in_unit().search(text):
         return False
+    if measured and re.search(r"[A-Za-z]{4,}/$", word):
+        return False  # "continuous/1.5 rpm"
     return word[-1].isalnum() or word[-1] in "-/"
 
 

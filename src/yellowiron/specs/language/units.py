@@ -41,11 +41,12 @@ inch                | length        | imperial | in\\.?|inch(?:es)?|"|″|”|''
 foot                | length        | imperial | ft\\.?|feet|foot|'|′|’
 kilogram            | mass          | metric   | kgs?|kilograms?
 metric_ton          | mass          | metric   | t|tonnes?|mt|metric tons?
+short_ton           | mass          | imperial | short tons?
 pound               | mass          | imperial | lbs?\\.?|pounds?
 megapascal          | pressure      | metric   | MPa
 kilopascal          | pressure      | metric   | kPa
 bar                 | pressure      | metric   | bars?
-kgf/centimeter**2   | pressure      | metric   | kgf?/cm(?:2|²)
+kgf/centimeter**2   | pressure      | metric   | kgf? ?/ ?cm(?:2|²)
 psi                 | pressure      | imperial | psi|lbf?/in(?:2|²)
 liter/minute        | flow          | metric   | (?:l|L|ltr\\.?|lit(?:er|re)s?)/min\\.?|lpm|LPM|(?:l|L) ?min-1
 gallon/minute       | flow          | imperial | (?:US |U\\.S\\. )?gal(?:lons?)?\\.?/min\\.?|gpm|GPM|USgpm
@@ -67,7 +68,7 @@ kilowatt            | power         | metric   | kW
 watt                | power         | metric   | W
 horsepower          | power         | imperial | hp|HP|bhp
 metric_horsepower   | power         | metric   | PS|CV|ch
-kilometer/hour      | speed         | metric   | km/h|kph|km/hr|kmh
+kilometer/hour      | speed         | metric   | km/h|kph|km/hr|kmh|kmph
 meter/second        | speed         | metric   | m/s(?:ec)?\\.?
 meter/minute        | speed         | metric   | m/min\\.?|mpm
 centimeter/second   | speed         | metric   | cm/s(?:ec)?\\.?
@@ -102,7 +103,11 @@ def unit_pattern() -> str:
     exponent: "1.007 m39.6 in" is metres and inches."""
     spellings = [s for _, pattern in _units() for s in _alternatives(pattern)]
     spellings = [re.sub(r"\(\?:([23])\|", r"(?:\1(?![.,]?\\d)|", s) for s in spellings]
-    return "(?:" + "|".join(sorted(spellings, key=len, reverse=True)) + r")(?![A-Za-zµÀ-ɏ])(?! ?[CF]\b)"
+    return (
+        "(?:"
+        + "|".join(sorted(spellings, key=len, reverse=True))
+        + r")(?:(?<![A-Za-z])|(?![A-Za-zµÀ-ÖØ-öø-ɏ]))(?! ?[CF]\b)"
+    )
 
 
 def _alternatives(pattern: str) -> list[str]:

@@ -6,6 +6,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import replace
 
+from yellowiron.specs.language.numbers import read
 from yellowiron.specs.layout.grids.lattice import grids_of
 from yellowiron.specs.layout.grids.nested_rows import read_boxes
 from yellowiron.specs.layout.grids.open_sided import heads_above
@@ -17,7 +18,7 @@ from yellowiron.specs.layout.rows.legends import key_legend, labelled, spelled
 from yellowiron.specs.layout.rows.lines import TextLine, blocks_of, lines_of
 from yellowiron.specs.layout.rows.margin import without_keys
 from yellowiron.specs.layout.rows.row_reader import read_block
-from yellowiron.specs.layout.statement import Statement, kind_of, unit_said
+from yellowiron.specs.layout.statement import COUNTED, Statement, kind_of, unit_noted, unit_said
 from yellowiron.specs.pages.strokes import Box
 from yellowiron.specs.pages.words import Page, Word
 
@@ -66,7 +67,30 @@ def statements_of(page: Page) -> list[Statement]:
         above = heads_above(free, grid.box, columns_of(grid), boxes)
         found.extend(read_grid(page, filled.grid, row, title, above))
         row += grid.rows + 1
-    return labelled(found, keys)
+    return _in_noted_unit(labelled(found, keys), lines)
+
+
+_LEAST_NOTED = 100.0
+"""Bare numbers under this may count things, whatever unit a note gives."""
+
+
+def _in_noted_unit(statements: Sequence[Statement], lines: Sequence[TextLine]) -> list[Statement]:
+    """The statements, bare numbers in the unit of length that the nearest note under them or over them gives, in their
+    column of the page: "All dimensions are in mm"."""
+    notes = [(p.box, unit) for line in lines for p in line.pieces if (unit := unit_noted(p.bare))]
+    if not notes:
+        return list(statements)
+    return [_noted(s, notes) for s in statements]
+
+
+def _noted(statement: Statement, notes: Sequence[tuple[Box, str]]) -> Statement:
+    readings = read(statement.text)
+    numbers = [q for r in readings for q in r.numbers]
+    if statement.unit or COUNTED.search(statement.label) or any(q.unit or q.value < _LEAST_NOTED for q in numbers):
+        return statement
+    box = statement.box
+    beside = [(abs(b[1] - box[1]), unit) for b, unit in notes if len({u for _, u in notes}) == 1 or b[0] < box[2]]
+    return replace(statement, unit=min(beside)[1]) if numbers and beside else statement
 
 
 _NOTE = re.compile(r"[\u00b9\u00b2\u00b3\u2070-\u2079*†‡§]+[)]?|[(\[]?\d[)\]]")

@@ -217,6 +217,19 @@ def unit_of_heading(text: str) -> tuple[str, str]:
     return unit_in_label(text)
 
 
+_NOTE_OF_UNIT = re.compile(
+    r"(?:\b(?:all|dimensions|measurements|figures|maße|cotes|medidas)\b[^.;]*?\b(?:are\b[^.;]*?)?\b(?:in|en)\b|"
+    r"\bunits?\s*[:：])\s*(mm|cm|millimet(?:er|re)s?)\b",
+    re.IGNORECASE,
+)
+
+
+def unit_noted(text: str) -> str:
+    """The unit of length that a note gives to the bare numbers about it: "All dimensions are in mm"; "" otherwise."""
+    match = _NOTE_OF_UNIT.search(text)
+    return match.group(1) if match else ""
+
+
 def unit_said(text: str) -> str:
     """The unit that words give to all the numbers under them, and nothing else: "Unit: mm" → "mm"; "" otherwise."""
     match = _HEADED_BY_UNIT.search(text.strip("()[]（）【】 "))
@@ -232,7 +245,7 @@ def kind_of(piece: TextPiece) -> str:
         return "unit"
     if not bare.strip("-–—−/. "):
         return "mark"
-    return "value" if looks_like_value(bare) else "text"
+    return "value" if looks_like_value(bare) or lists_items(bare) else "text"
 
 
 _VALUE_START = re.compile(
@@ -262,6 +275,14 @@ def looks_like_value(text: str) -> bool:
     return len(words_beside_numbers(text, readings)) <= 8
 
 
+_ITEM = re.compile(r"(?:^|[\s|,;/)])[^\W\d][^\d:|;]*[:：]\s*[<>≤≥~±Øø⌀φ]*\s*\d")
+
+
+def lists_items(text: str) -> bool:
+    """Whether a text lists several values, each behind its own name: "Retracted: 2.3 m Extended: 5.1 m"."""
+    return len(_ITEM.findall(text)) > 1 and _ITEM.match(text) is not None
+
+
 def words_beside_numbers(text: str, readings: Sequence[Reading]) -> list[str]:
     """The words of a text that belong to no quantity."""
     rest = text
@@ -278,6 +299,8 @@ def split_inline(text: str) -> tuple[str, str]:
 
     The value is what follows a colon, or the quantities with units at the end.
     """
+    if lists_items(text):
+        return "", ""
     colon = re.match(r"^(.*?[^\W\d].*?)\s*[:=]\s+(.+)$", text)
     if colon and looks_like_value(colon.group(2)):
         return colon.group(1), colon.group(2)

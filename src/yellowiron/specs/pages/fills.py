@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from collections.abc import Set as AbstractSet
 
 from yellowiron.specs.pages.strokes import SNAP, Box, DrawnRule
 
@@ -15,17 +16,33 @@ _FEWEST = 2
 def edges_of_fills(bars: Sequence[Box], walls: Sequence[DrawnRule]) -> list[DrawnRule]:
     """The edges of filled boxes that stand side by side like a table's cells, and of those over and under them; none
     where drawn walls part the columns."""
-    cells = [b for b in bars if b[3] - b[1] <= _HIGHEST and b[2] - b[0] >= 12]
+    cells = sorted({b for b in bars if b[3] - b[1] <= _HIGHEST and b[2] - b[0] >= 12})
     beside = [(a, b) for a in cells for b in cells if abs(a[2] - b[0]) <= SNAP and _overlap(a, b) > 0.6]
-    if len(beside) < _FEWEST:
-        return []
-    table = {box for pair in beside for box in pair}
-    while more := [c for c in cells if c not in table and any(_continues(c, member) for member in table)]:
-        table.update(more)
-    left, right = min(box[0] for box in table), max(box[2] for box in table)
-    if len({round(w.x0) for w in walls if left + SNAP < w.x0 < right - SNAP}) > 1:
-        return []
-    return [edge for box in sorted(table) for edge in _edges(box)]
+    found: list[DrawnRule] = []
+    while beside:
+        table = set(beside[0])
+        while more := [c for c in cells if c not in table and any(_belongs(c, member) for member in table)]:
+            table.update(more)
+        pairs = [pair for pair in beside if pair[0] in table]
+        beside = [pair for pair in beside if pair[0] not in table]
+        if len(pairs) >= _FEWEST and not _are_walled(table, walls):
+            found.extend(edge for box in sorted(table) for edge in _edges(box))
+    return found
+
+
+def _are_walled(table: AbstractSet[Box], walls: Sequence[DrawnRule]) -> bool:
+    """Whether drawn walls part the columns of a table of filled cells."""
+    left, right = min(b[0] for b in table), max(b[2] for b in table)
+    top, bottom = min(b[1] for b in table), max(b[3] for b in table)
+    inner = {round(w.x0) for w in walls
+             if left + SNAP < w.x0 < right - SNAP and w.top < bottom - SNAP and w.bottom > top + SNAP}  # fmt: skip
+    return len(inner) > 1
+
+
+def _belongs(a: Box, b: Box) -> bool:
+    """Whether a box stands beside, over or under a cell of a table."""
+    level = (abs(a[2] - b[0]) <= SNAP or abs(b[2] - a[0]) <= SNAP) and _overlap(a, b) > 0.6
+    return level or _continues(a, b)
 
 
 def _overlap(a: Box, b: Box) -> float:

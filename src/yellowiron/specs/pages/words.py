@@ -5,9 +5,11 @@ Only reading is done here; what belongs together is decided in `layout`.
 
 from __future__ import annotations
 
+import contextlib
 import ctypes
 import math
 import re
+import unicodedata
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -228,12 +230,25 @@ def _words(glyphs: list[_Glyph]) -> tuple[list[Word], list[Box]]:
 
 
 def _word(run: list[_Glyph]) -> Word:
-    first, text = run[0], "".join(g.text for g in run)
+    first, text = run[0], _repaired("".join(g.text for g in run))
     signs = _SIGNS.search(text)
     host = text[: signs.start()] if signs else ""
     # "Ground clearance²" has a note, "4.2 m³" has not.
     marks = text[len(host) :] if host and not _SUPERSCRIPT_UNITS.search(host) else ""
     return Word(host if marks else text, first.x0, run[-1].x1, first.baseline, first.size, first.bold, marks)
+
+
+def _repaired(text: str) -> str:
+    """A word with full-width letters and digits as plain ones, and put right where its bytes were read in the wrong
+    encoding: "１．５ｋＮ" → "1.5kN", "mÂ³" → "m³"."""
+    if any(mark in text for mark in "ÂÃâ"):
+        with contextlib.suppress(UnicodeError):
+            text = text.encode("cp1252").decode("utf-8")
+    return "".join(unicodedata.normalize("NFKC", c) if "\uff0e" <= c <= "\uff5a" and _is_plain(c) else c for c in text)
+
+
+def _is_plain(character: str) -> bool:
+    return character == "．" or character.isalnum()
 
 
 def _with_superscripts(words: list[Word]) -> list[Word]:

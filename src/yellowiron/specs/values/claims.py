@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
+from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -11,7 +12,7 @@ from yellowiron.specs.language.decimal_style import DecimalStyle
 from yellowiron.specs.language.numbers import Reading, read
 from yellowiron.specs.language.quantities import FEET_DASH, FEET_INCHES, Quantity, same
 from yellowiron.specs.language.vocabulary import tokens
-from yellowiron.specs.layout.statement import GRAVITATIONAL, Statement
+from yellowiron.specs.layout.statement import COUNTED, GRAVITATIONAL, Statement
 from yellowiron.specs.values.enumerations import COUNTED_PARTS, alternatives, enumerated
 
 _TIMES = re.compile(r"(?<![\d.,])([2-9])\s*[x×](?![\w])|[x×]\s*([2-9])(?![\d.,])", re.IGNORECASE)
@@ -131,7 +132,36 @@ def configured(claims: Sequence[Claim], config: str) -> list[Claim]:
         named = {column for column in columns if any(len(phrases_in(h)) > 0 and phrases_in(h) <= asked for h in column)}
         if named:
             others.update(columns - named)
-    return [c for c in claims if c.statement.column not in others]
+    return _in_line(asked, [c for c in claims if c.statement.column not in others])
+
+
+def _in_line(asked: AbstractSet[str], claims: Sequence[Claim]) -> list[Claim]:
+    """The claims without those of other columns than the one at whose head a value stands that the configuration names
+    to the letter ("2.9 m" beside "Arm length"): where each cell of a row is in line with one of the values there, only
+    the cell under that one."""
+    rows: dict[tuple[int, int], list[Statement]] = {}
+    for claim in claims:
+        row = rows.setdefault((claim.statement.page, claim.statement.row), [])
+        if claim.statement not in row:
+            row.append(claim.statement)
+    dropped: set[Statement] = set()
+    for (page, _), heads in rows.items():
+        named = [s for s in heads if without_case(s.text) in asked]
+        if len(named) != 1 or len(heads) < 2:
+            continue
+        for (other_page, _), cells in rows.items():
+            if other_page == page and len(cells) == len(heads) and cells[0].box[1] >= heads[0].box[1] - 1:
+                level = all(_overlap(a, b) for a, b in zip(_sorted(heads), _sorted(cells), strict=True))
+                dropped.update(c for c in cells if level and not _overlap(named[0], c))
+    return [c for c in claims if c.statement not in dropped]
+
+
+def _sorted(cells: Sequence[Statement]) -> list[Statement]:
+    return sorted(cells, key=lambda s: s.box[0])
+
+
+def _overlap(a: Statement, b: Statement) -> bool:
+    return a.box[0] < b.box[2] and b.box[0] < a.box[2]
 
 
 def phrases_in(text: str) -> set[str]:
@@ -152,8 +182,10 @@ def without_case(text: str) -> str:
 def _expand(statement: Statement, style: DecimalStyle) -> Iterator[Claim]:
     text, unit = spelled_out(GRAVITATIONAL.sub("", statement.text), statement.unit)
     text = _feet_spelled_out(text, unit)
-    readings = [r for r in read(text, unit=unit, style=style) if not r.condition]
+    every = read(text, unit=unit, style=style)
+    readings = [r for r in every if not r.condition]
     label = _without_conditions(statement.label)
+    yield from _at_radius(statement, label, every)
     kept: list[Reading] = []
     for reading in readings:
         if any(_restates(earlier, reading) for earlier in kept):
@@ -164,13 +196,24 @@ def _expand(statement: Statement, style: DecimalStyle) -> Iterator[Claim]:
         yield from _claims_of_reading(statement, own, reading)
 
 
+def _at_radius(statement: Statement, label: str, readings: Sequence[Reading]) -> Iterator[Claim]:
+    """The length at which a load is lifted, said behind it: "Maximum lifting capacity: 3,030 kg at 2.7 m"."""
+    for load, where in pairwise(readings):
+        quantity = where.numbers[0]
+        if not where.condition or load.condition or len(where.numbers) != 1:
+            continue
+        if (load.numbers[0].dimension, quantity.dimension) == ("mass", "length"):
+            partner = where.partner[0] if where.partner else None
+            yield _checked(Claim(statement, f"{label} radius", " ".join(statement.column), quantity, partner))
+
+
 def _labels_of_each(text: str, label: str, readings: Sequence[Reading], kept: Sequence[Reading]) -> list[str]:
     """The label of each reading: parts of one that names alternatives, for numbers with slashes between them."""
     whole = [label] * len(kept)
     if len(kept) < 2 or len(kept) != len(readings) or any(len(r.numbers) != 1 or r.partner for r in kept):
         return whole
     between = [text[a.numbers[0].end : b.numbers[0].start] for a, b in pairwise(kept)]
-    if any(part.strip() not in ("/", "／") for part in between):
+    if not all(re.fullmatch(r"[^\W\d()]*\s*[/／]\s*", part.strip()) for part in between):
         return whole
     return alternatives(label, len(kept)) or whole
 
@@ -231,10 +274,22 @@ def _claims_of_reading(statement: Statement, label: str, reading: Reading) -> It
     words = COUNTED_PARTS.sub(" ", words) if reading.count is not None else words
     several = _several(label, reading)
     partner = reading.partner[0] if reading.partner else None
+    ranged = reading.kind == "range"
     for index, quantity in enumerate(reading.numbers):
+        if ranged and index == 0 and quantity.value == 0:
+            ranged = False  # "0 - 5 km/h" says how much it is at most
+            continue
         other = reading.partner[index] if index < len(reading.partner) else partner
-        doubt = f"the sheet counts {several} of them, which together give more" if several > 1 else ""
-        yield _checked(Claim(statement, words, head, quantity, other, ranged=reading.kind == "range", doubt=doubt))
+        doubt = f"the sheet counts {several} of them: this is what they give together" if several > 1 else ""
+        if several > 1:
+            quantity, other = _times(quantity, several), other and _times(other, several)
+        yield _checked(Claim(statement, words, head, quantity, other, ranged=ranged, doubt=doubt))
+
+
+def _times(quantity: Quantity, count: int) -> Quantity:
+    return replace(
+        quantity, value=count * quantity.value, half=count * quantity.half, text=f"{count} x {quantity.text}"
+    )
 
 
 def _several(label: str, reading: Reading) -> int:
@@ -259,6 +314,12 @@ def _factors(statement: Statement, label: str, reading: Reading) -> Iterator[Cla
             head = " ".join(h for h in statement.column if h != text)
             yield _checked(Claim(statement, " ".join([*others, name]), head, quantity, partner))
         return
+    first, partner = reading.numbers[0], reading.partner[0] if reading.partner else None
+    counts = COUNTED.search(label) and reading.numbers[-1].value == 2 and not first.unit
+    if (counts and len(reading.numbers) == 2) or all(same(first, other) for other in reading.numbers[1:]):
+        yield _checked(Claim(statement, label, " ".join(statement.column), first, partner))
+    elif len(reading.numbers) == 2 and re.search(r"[Øø⌀φΦ]\s*$", statement.text.partition(first.text)[0]):
+        yield _checked(Claim(statement, f"{label} diameter", " ".join(statement.column), first, partner))
 
 
 def _without_conditions(label: str) -> str:
@@ -337,9 +398,13 @@ _SYSTEM = re.compile(
 )
 
 
+def is_system(head: str) -> bool:
+    """Whether a head names a system of measurement: "Metric"."""
+    return _SYSTEM.fullmatch(head.strip(" ()")) is not None
+
+
 def _without_system(column: Sequence[str]) -> list[str]:
-    """A column's heads without those that name a system of measurement."""
-    return [head for head in column if not _SYSTEM.fullmatch(head.strip(" ()"))]
+    return [head for head in column if not is_system(head)]
 
 
 def _metric_first(a: Claim, b: Claim) -> Claim:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -60,6 +61,8 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
         doubt = doubt or f"only part of the label says {wanted.name}"
     if not top.claim.statement.proven:
         doubt = doubt or "its words do not stand together in the page's text"
+    if _is_broken_off(top.claim.statement.label):
+        doubt = doubt or "its label goes on elsewhere"
     if top.claim.ranged:
         doubt = doubt or "the sheet prints a range"
     value = quantity.si_value
@@ -76,6 +79,11 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
         hint=check_hint(wanted.name) if doubt else "",
         candidates=(_candidate(top, sheets, value),),
     )
+
+
+def _is_broken_off(label: str) -> bool:
+    """Whether a label ends in the middle: behind a comma, or in brackets that are not closed."""
+    return re.search(r"[,，、]$|\w[-/]$", label.rstrip()) is not None or label.count("(") > label.count(")")
 
 
 def missing(wanted: Wanted) -> Specification:
@@ -111,9 +119,17 @@ def evidence_of(found: Match, sheets: Sheets) -> Evidence:
     return Evidence(sheets.files[statement.sheet], statement.page, quote, (box[0], box[1], box[2], box[3]))
 
 
-def _preference(found: Match) -> tuple[float, bool, bool, bool, float]:
+def _preference(found: Match) -> tuple[float, bool, bool, bool, bool, float]:
     claim, imperial = found.claim, _is_imperial(found.claim.quantity) and found.claim.partner is None
-    return (found.score, not claim.statement.example, claim.partner is not None, not imperial, -claim.statement.page)
+    statement = claim.statement
+    return (
+        found.score,
+        statement.proven,
+        not statement.example,
+        claim.partner is not None,
+        not imperial,
+        -statement.page,
+    )
 
 
 # ---- configurations ------------------------------------------------------------------------------------------------

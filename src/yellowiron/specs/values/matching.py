@@ -76,7 +76,7 @@ def match(claims: Sequence[Claim], wanted: Sequence[Wanted]) -> dict[str, list[M
             continue
         if any(m.by_label for m in matches):
             matches = [m for m in matches if m.by_label]
-        matches = [m for m in matches if _possible(m)] or matches
+        matches = _of_possible(matches)
         best = max((m.score, _specific(m)) for m in matches)
         kept = [m for m in matches if m.score >= best[0] - 1e-9 and (m.score > 0.999 or _specific(m) >= best[1])]
         for one in kept:
@@ -85,6 +85,20 @@ def match(claims: Sequence[Claim], wanted: Sequence[Wanted]) -> dict[str, list[M
             unsaid = len(kept) > 1 and (_EXTREME & set(tokens(one.wanted.name))) - said.label - said.head - said.context
             found[one.wanted.name].append(replace(one, score=one.score - _UNSAID) if unsaid else one)
     return found
+
+
+def _of_possible(matches: Sequence[Match]) -> list[Match]:
+    """The matches of values that can be so much; where one that cannot says more of the label, its further words are
+    left over: the boom's length is no machine's, though it be too short for the boom."""
+    possible = [m for m in matches if _possible(m)]
+    impossible = [m for m in matches if not _possible(m)]
+    if not possible or not impossible:
+        return list(matches)
+    closest = max(impossible, key=_specific)
+    if _specific(closest) <= max(map(_specific, possible)):
+        return possible
+    words = set(tokens(closest.phrase))
+    return [replace(m, rest=m.rest or tuple(sorted(words - set(tokens(m.phrase))))) for m in possible]
 
 
 def _possible(found: Match) -> bool:

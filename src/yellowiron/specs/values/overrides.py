@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.finding import Finding
 from yellowiron.model.specification import Specification, Specifications, fold
 from yellowiron.model.template import Template, Variant, Wanted
 from yellowiron.specs.language.numbers import parse_one
-from yellowiron.specs.values.requested import asked, hint_for
+from yellowiron.specs.values.requested import asked, hint_for, usual
+from yellowiron.specs.values.tolerances import DOUBTFUL
 from yellowiron.support.text import display
 from yellowiron.support.units import SI_UNIT
 
@@ -71,6 +73,42 @@ def parse_settings(texts: Iterable[str], template: Template) -> Specifications:
             )
         found[wanted.name] = specification
     return Specifications(found)
+
+
+ALL_PROVEN = "all-proven"
+"""What `--accept` takes for every value to review whose layout was understood and of which the sheets say one thing."""
+
+
+def accept(specifications: Specifications, names: Iterable[str], template: Template) -> Specifications:
+    """The specifications with values to review settled as a person who looked at them says: those named, and with
+    `ALL_PROVEN` every one that stands on a page with text, in a layout that was understood, within its range, and
+    without another candidate. `YellowironError` for a name that is not to review."""
+    values = dict(specifications.values)
+    known = {fold(w.name): w for w in asked(template)}
+    for name in names:
+        if fold(name) == fold(ALL_PROVEN):
+            chosen = [s.name for s in values.values() if s.status == "review" and _is_proven(s, known[fold(s.name)])]
+        else:
+            found = specifications.get(name)
+            if found is None or found.value is None or found.status not in ("review", "ok"):
+                review = [s.name for s in values.values() if s.status == "review"]
+                raise YellowironError(
+                    f"'{name}' is no value to review",
+                    where="--accept",
+                    hint=f"To review: {', '.join(review) or 'none'}. A conflict is settled with --set or --config.",
+                )
+            chosen = [found.name]
+        for one in chosen:
+            if values[one].status == "review":
+                reason = f"accepted by hand; {values[one].reason}"
+                values[one] = replace(values[one], status="ok", source="set", confidence=1.0, reason=reason, hint="")
+    return Specifications(values, specifications.findings)
+
+
+def _is_proven(value: Specification, wanted: Wanted) -> bool:
+    others = {c.value for c in value.candidates} - {value.value}
+    inside = value.value is not None and usual(wanted, value.value)
+    return value.evidence is not None and inside and not others and value.confidence >= DOUBTFUL
 
 
 def merge(*weakest_first: Specifications) -> Specifications:

@@ -56,11 +56,9 @@ def usual(wanted: Wanted, value: float) -> bool:
 
 def missing_values(template: Template, specifications: Specifications) -> tuple[dict[str, str], ...]:
     """What a person can still give: of every value that no sheet says or that cannot be read, its `name`, `what` it
-    is, `where` makers usually print it, and what to `set` (`"Axle Height=VALUE mm"`, with its quotes; "" for a type
-    that cannot be built, as nothing takes its values)."""
+    is, `where` makers usually print it, and what to `set` (`"Axle Height=VALUE mm"`, with its quotes)."""
     open_ = {s.name for s in specifications if s.status in ("missing", "unreadable")}
-    found = ({"name": w.name, **_explained(w)} for w in asked(template) if w.name in open_)
-    return tuple({**one, "set": ""} if template.sheet_only else one for one in found)
+    return tuple({"name": w.name, **_explained(w)} for w in asked(template) if w.name in open_)
 
 
 def _explained(wanted: Wanted) -> dict[str, str]:

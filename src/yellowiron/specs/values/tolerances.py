@@ -8,3 +8,5 @@ SURE = 0.7
 """Score from which one undisputed claim is `ok`: less than a third of its label says anything else."""
 DOUBTFUL = 0.5
 """The most confidence of a value that a person should look at: as likely wrong as right."""
+PICTURED = 0.45
+"""The most confidence of a value read from a picture: a digit may be another, and its words prove nothing."""

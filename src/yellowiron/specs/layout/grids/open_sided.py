@@ -68,7 +68,8 @@ def _joined(walls: Sequence[DrawnRule]) -> list[DrawnRule]:
     joined: list[DrawnRule] = []
     for wall in sorted(walls, key=lambda w: (round(w.x0), w.top)):
         last = joined[-1] if joined else None
-        if last is not None and abs(last.x0 - wall.x0) <= 1 and wall.top <= last.bottom + 1:
+        touch = last is not None and last.top - 1 <= wall.top <= last.bottom + 1
+        if last is not None and touch and abs(last.x0 - wall.x0) <= 1:
             joined[-1] = DrawnRule(last.x0, last.top, last.x0, max(last.bottom, wall.bottom))
         else:
             joined.append(wall)

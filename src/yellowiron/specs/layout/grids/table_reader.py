@@ -9,7 +9,7 @@ from itertools import pairwise
 
 from yellowiron.specs.layout.grids.table_grid import Cell, TableGrid
 from yellowiron.specs.layout.rows.cells import is_circumstance, marked_by_footnote
-from yellowiron.specs.layout.rows.headings import names_no_columns
+from yellowiron.specs.layout.rows.headings import in_capitals, names_no_columns
 from yellowiron.specs.layout.statement import (
     COUNTED,
     EXAMPLE,
@@ -18,6 +18,7 @@ from yellowiron.specs.layout.statement import (
     ascending,
     is_key,
     is_unit,
+    lists_items,
     looks_like_value,
     split_inline,
     unit_in_label,
@@ -49,14 +50,17 @@ def read_grid(
     heads = _head_rows(page, grid)
     naming = frozenset(heads)
     titles = _titles(grid)
+    facts = _facts(grid)
     for index in range(grid.rows):
         cells = _row_cells(grid, index)
         filled = [c for c in cells if c.lines]
         values = _values_of(filled)
         if not values:
-            if len(filled) == 1 and filled[0].columns[1] - filled[0].columns[0] == grid.columns:
+            if len(filled) == 1 and _is_section(grid, filled[0]):
                 section = " ".join(p.text for p in filled[0].pieces)
-            elif not (filled and filled[0].columns[0] == 0 and names_no_columns([c.text for c in filled])):
+            elif index not in facts and not (
+                filled and filled[0].columns[0] == 0 and names_no_columns([c.text for c in filled])
+            ):
                 heads.append(index)
             continue
         if not _labels(cells, values[0]) and (not heads or index in naming):
@@ -74,9 +78,32 @@ def read_grid(
     return found
 
 
+def _is_section(grid: TableGrid, cell: Cell) -> bool:
+    """Whether words alone in their row head the rows under them: they span the table, or begin it in capitals or, as
+    no label does, in bold."""
+    if cell.columns[1] - cell.columns[0] == grid.columns:
+        return True
+    labels = [c for c in grid.cells if c.columns[0] == 0 and c.lines and c is not cell]
+    bold = _is_bold(cell) and not any(map(_is_bold, labels))
+    return cell.columns[0] == 0 and (bold or all(map(in_capitals, cell.pieces)))
+
+
+def _facts(grid: TableGrid) -> frozenset[int]:
+    """The rows of words that head nothing: several, one after the other, each a label beside the only other column
+    ("Make | …", "Model | …")."""
+    if grid.columns != 2:
+        return frozenset()
+    worded = {
+        row
+        for row in range(grid.rows)
+        if len(filled := [c for c in _row_cells(grid, row) if c.lines]) == 2 and not _values_of(filled)
+    }
+    return frozenset(row for row in worded if {row - 1, row + 1} & worded)
+
+
 def _values_of(filled: Sequence[Cell]) -> list[Cell]:
     """A row's cells of values; all of them where each has a label inside."""
-    values = [c for c in filled if looks_like_value(c.text)]
+    values = [c for c in filled if looks_like_value(c.text) or (len(c.lines) == 1 and lists_items(c.text))]
     if len(values) == 2 and values[0] is not filled[-1] and all(is_circumstance(p) for p in values[0].pieces):
         values = values[1:]
     if not values and all(split_inline(c.text)[0] for c in filled):

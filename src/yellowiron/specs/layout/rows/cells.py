@@ -160,8 +160,11 @@ def _with_notes(cells: list[ValueCell], after: list[TextPiece], kinds: _Kinds) -
 def is_circumstance(piece: TextPiece) -> bool:
     """Whether a piece that begins with an angle is the label of the value beside it: "40° full turn"."""
     readings = read(piece.bare)
-    first = readings[0].numbers[0]
-    return len(readings) == 1 and first.dimension == "angle" and bool(words_beside_numbers(piece.bare, readings))
+    return (
+        len(readings) == 1
+        and readings[0].numbers[0].dimension == "angle"
+        and bool(words_beside_numbers(piece.bare, readings))
+    )
 
 
 def _beside(values: Sequence[TextPiece], units: Sequence[TextPiece]) -> list[TextPiece]:

@@ -26,7 +26,7 @@ class Heading:
 def is_heading(piece: TextPiece, size: float) -> bool:
     """Whether words are set like a heading over rows of a size: larger, or in capitals."""
     return len(EXAMPLE.sub("", piece.text).split()) <= 9 and (
-        piece.size > LARGER * size or (_in_capitals(piece) and (piece.bold or len(piece.text) > 5))
+        piece.size > LARGER * size or (in_capitals(piece) and (piece.bold or len(piece.text) > 5))
     )
 
 
@@ -35,7 +35,8 @@ def is_title(piece: TextPiece, size: float) -> bool:
     return piece.bold or is_heading(piece, size)
 
 
-def _in_capitals(piece: TextPiece) -> bool:
+def in_capitals(piece: TextPiece) -> bool:
+    """Whether words are set in capitals."""
     letters = [c for c in EXAMPLE.sub("", piece.text) if c.isalpha()]
     return len(letters) >= 4 and sum(c.isupper() for c in letters) > 0.85 * len(letters)
 
@@ -48,7 +49,7 @@ def names_no_columns(row: Sequence[str]) -> bool:
 def bar_under(page: Page, piece: TextPiece, size: float) -> Box | None:
     """The filled bar an emphasised piece is printed on, if that is no higher than a heading needs; shaded rows of a
     table are none."""
-    if not (piece.bold or piece.size > 1.05 * size or _in_capitals(piece)):
+    if not (piece.bold or piece.size > 1.05 * size or in_capitals(piece)):
         return None
     for bar in page.bars:
         if bar[3] - bar[1] < 3.2 * piece.size and bar[2] - bar[0] > 6 * piece.size and inside(piece.box, bar):
@@ -76,11 +77,12 @@ def body_size(words: Iterable[Word]) -> float:
 
 
 def labels_reach(block: TextBlock) -> float:
-    """Where most labels of a column of text end, at the right."""
+    """Where most labels of a column of text end, at the right; at its own end where labels and values are not parted,
+    as nothing heads a column there."""
     ends = sorted(
         a.x1
         for line in block.lines
         for a, b in zip(line.pieces, line.pieces[1:], strict=False)
         if kind_of(a) == "text" and kind_of(b) in ("value", "unit")
     )
-    return ends[len(ends) // 2] if ends else block.x0
+    return ends[len(ends) // 2] if ends else block.x1

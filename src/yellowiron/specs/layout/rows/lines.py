@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bisect import bisect_left
+from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -132,7 +132,9 @@ def _gutter(lines: Sequence[TextLine], bars: Sequence[Box], across: Sequence[Box
     for x in [*_of_repeated_labels(lines), *_of_right_set_labels(lines), *drawn]:
         first, last, weight = _run(lines, across, x)
         part = lines[first:last]
-        parts = sum(_has_value_left_of(line, x) for line in part) >= 2 or (x in drawn and _begun_at(part, x) >= 3)
+        parts = sum(_has_value_left_of(line, x) for line in part) >= 2 or (
+            x in drawn and _begun_at(part, x) >= 3 and not _parts_labels_from_values(part, x)
+        )
         if weight >= 3 and parts and (best is None or weight > best[0]):
             best = (weight, x, first, last)
     return best[1:] if best else None
@@ -140,6 +142,17 @@ def _gutter(lines: Sequence[TextLine], bars: Sequence[Box], across: Sequence[Box
 
 def _has_value_left_of(line: TextLine, x: float) -> bool:
     return any(p.x0 < x - 2 and (kind_of(p) == "value" or _says_all(line, i)) for i, p in enumerate(line.pieces))
+
+
+def _parts_labels_from_values(lines: Sequence[TextLine], x: float) -> bool:
+    """Whether what stands right of an x are the values of the words left of it: cells filled side by side are no
+    columns of text."""
+    both = [
+        (before[-1], after[0])
+        for line in lines
+        if (before := [p for p in line.pieces if p.x0 < x - 2]) and (after := [p for p in line.pieces if p.x0 >= x - 2])
+    ]
+    return 2 * sum(kind_of(a) == "text" and kind_of(b) in ("value", "unit") for a, b in both) > len(both) > 0
 
 
 def _begun_at(lines: Sequence[TextLine], x: float) -> int:
@@ -180,11 +193,18 @@ def _label_starts(lines: Sequence[TextLine]) -> dict[int, list[tuple[float, bool
 
 def _of_broken_rules(lines: Sequence[TextLine], across: Sequence[Box]) -> list[float]:
     """Where a rule begins beside another one at the same height, as under the headings of two columns, and words."""
-    thin = [b for b in across if b[3] - b[1] <= 6]
-    begins = {b[0] for b in thin if any(0 < b[0] - a[2] < 40 and abs(a[1] - b[1]) < 1.5 for a in thin)}
+    thin = sorted({b for b in across if b[3] - b[1] <= 6}, key=lambda b: b[1])
+    heights = [b[1] for b in thin]
+    begins: set[float] = set()
+    for b in thin:
+        level = thin[bisect_right(heights, b[1] - 1.5) : bisect_left(heights, b[1] + 1.5)]
+        if b[0] not in begins and any(0 < b[0] - a[2] < 40 for a in level):
+            begins.add(b[0])
+    pieces = sorted((p for line in lines for p in line.pieces), key=lambda p: p.x0)
+    starts = [p.x0 for p in pieces]
     found = []
     for x in sorted(begins):
-        kinds = [kind_of(p) for line in lines for p in line.pieces if abs(p.x0 - x) < 12]
+        kinds = [kind_of(p) for p in pieces[bisect_right(starts, x - 12) : bisect_left(starts, x + 12)]]
         if len(kinds) >= 3 and kinds.count("text") >= 0.6 * len(kinds):
             found.append(x)
     return found

@@ -47,6 +47,9 @@ class ReaderState:
     orphans: list[int] = field(default_factory=list)
     last: tuple[Sequence[TextLine], range, str] | None = None
     beside: Beside | None = None
+    circuit: TextPiece | None = None
+    """The label of a row of words that names a hydraulic circuit ("Pilot pump: gear type"), which holds for the rows
+    after it up to the next row of words."""
 
     def open_section(self, heading: Heading, heads: tuple[TextPiece, ...]) -> None:
         """A heading ends what held above it; `heads` stand on its line."""
@@ -54,7 +57,7 @@ class ReaderState:
             self.kept = []
         elif self.heads and not self.data_since_heads and all(len(line) > 1 for line in self.heads):
             self.kept = list(self.heads)  # a table's own heads, above its first section
-        self.section, self.unit = heading.text, ""
+        self.section, self.unit, self.circuit = heading.text, "", None
         self.headings.append(heading)
         self.context, self.pending, self.heads = [], [], [heads] if heads else list(self.kept)
         self.indented = self.data_since_heads = False

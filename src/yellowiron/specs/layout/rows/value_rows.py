@@ -46,6 +46,8 @@ def read_values(page: Page, row: Sequence[TextLine], state: ReaderState, number:
     _end_heads(row, cells, state)
     _keep_sub_heading(cells, pending, state)
     context = [*state.context, *(p for p in pending if p not in state.context)]
+    if state.circuit is not None:
+        context.insert(0, state.circuit)
     marked = bool(EXAMPLE.search(state.section)) or any(
         EXAMPLE.search(p.text) for p in [*context, *(q for c in cells for q in [*c.notes, *c.label, *c.values])]
     )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from yellowiron.specs.language.vocabulary import CIRCUITS, tokens
 from yellowiron.specs.layout.rows.headings import (
     Heading,
     bar_under,
@@ -47,10 +48,15 @@ def read_words(column: TextColumn, line: TextLine, state: ReaderState) -> None:
         state.add_label(texts[0])
     else:
         state.pending = []
+        if at_label and len(texts) == 2:
+            state.circuit = texts[0] if CIRCUITS & set(tokens(texts[0].bare)) else None
 
 
 def _is_larger_over_labels(piece: TextPiece, column: TextColumn) -> bool:
-    return piece.size > LARGER * column.size and piece.x0 < labels_reach(column.block)
+    """Whether words alone on their line are set larger than the rows, and begin over their labels or stand in the
+    middle of the page."""
+    centred = abs((piece.x0 + piece.x1) / 2 - column.page.width / 2) < 0.01 * column.page.width
+    return piece.size > LARGER * column.size and (piece.x0 < labels_reach(column.block) or centred)
 
 
 _Section = tuple[Heading, tuple[TextPiece, ...]]

@@ -1,0 +1,173 @@
+"""Extraction from makers' own PDFs, against what a person read beside them (`benchmarks/brochures/*.json`).
+
+Run from the repository's root: `YELLOWIRON_BROCHURES=FOLDER python benchmarks/bench_brochures.py [--held] [--all]
+[--faults] [--only SLUG,…]`. The PDFs are not in the repository: each truth says where its own is from, and FOLDER
+holds it as `SLUG.pdf`. What is not there is skipped, by name. Without `--held` or `--all` only the open ones are read.
+
+A reading is one `extract` of one PDF, with `--config` where the PDF has several models. Of the values that the page
+prints and the type asks for: `ok` and right; for review with the right value first; for review with another; missing
+(or in conflict, unreadable). *Wrong* is every `ok` that is not what is printed, also of a value that is not printed at
+all. What the page itself leaves open (`one_of`: two weights beside one label) is in no share, but no other value may
+be `ok`. `--config`: values of readings with a model, whose first value is of that model's column. Seconds are
+processor time of reading, without text recognition's child.
+"""
+
+from __future__ import annotations
+
+import argparse
+import functools
+import json
+import os
+import resource
+import sys
+from dataclasses import dataclass, field
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path[:0] = [str(ROOT / "src")]
+
+from yellowiron.library import load_template  # noqa: E402
+from yellowiron.model.errors import SheetError  # noqa: E402
+from yellowiron.model.specification import Specification, Specifications  # noqa: E402
+from yellowiron.specs.extraction import from_sheets, read  # noqa: E402
+from yellowiron.support.units import parse_quantity  # noqa: E402
+
+TRUTHS = ROOT / "benchmarks" / "brochures"
+SLACK = 2e-3
+"""Relative: the horsepower and the pound have more digits than a page prints."""
+
+
+@dataclass
+class Tally:
+    """What became of the printed values of one or more readings."""
+
+    printed: int = 0
+    ok: int = 0
+    first: int = 0
+    other: int = 0
+    missed: int = 0
+    wrong: int = 0
+    configured: int = 0
+    from_column: int = 0
+    pages: int = 0
+    seconds: float = 0.0
+    faults: list[str] = field(default_factory=list)
+
+    def add(self, one: Tally) -> None:
+        for name in (
+            "printed", "ok", "first", "other", "missed", "wrong", "configured", "from_column", "pages", "seconds",
+        ):  # fmt: skip
+            setattr(self, name, getattr(self, name) + getattr(one, name))
+        self.faults += one.faults
+
+    def line(self, name: str) -> str:
+        def share(count: int) -> str:
+            return f"{count:4} {count / max(self.printed, 1):6.1%}"
+
+        config = f"{self.from_column}/{self.configured}" if self.configured else "–"
+        return (
+            f"{name:22} {self.printed:4} ok {share(self.ok)}  review right {share(self.first)}  "
+            f"review other {share(self.other)}  missed {share(self.missed)}  wrong {self.wrong}  "
+            f"config {config:>8}  {self.seconds / max(self.pages, 1):.2f} s a page"
+        )
+
+
+def first(value: Specification) -> float | None:
+    """The value that a person is shown first."""
+    return value.value if value.value is not None or not value.candidates else value.candidates[0].value
+
+
+def near(printed: str, value: float | None) -> bool:
+    expected = parse_quantity(printed, where=printed)[0]
+    return value is not None and abs(value - expected) <= SLACK * abs(expected) + 1e-9
+
+
+def judge(where: str, truth: dict[str, dict[str, object]], found: Specifications, config: str) -> Tally:
+    tally = Tally()
+    for name, value in found.values.items():
+        known = truth.get(name)
+        seen = f"“{value.evidence.quote}”" if value.evidence else ""
+        said = f"{where} {name}: {value.status} {first(value)} {seen} {value.reason}"
+        if known is None or "one_of" in known:
+            allowed = [] if known is None else list(map(str, known["one_of"]))  # type: ignore[call-overload]
+            if value.status == "ok" and not any(near(one, value.value) for one in allowed):
+                tally.wrong += 1
+                tally.faults.append(f"WRONG {said}")
+            continue
+        tally.printed += 1
+        right = near(str(known["value"]), first(value))
+        if config:
+            tally.configured += first(value) is not None
+            tally.from_column += right
+        if value.status == "ok":
+            tally.ok += right
+            tally.wrong += not right
+        elif value.status == "review":
+            tally.first += right
+            tally.other += not right
+        else:
+            tally.missed += 1
+        if value.status != "ok" or not right:
+            mark = "WRONG" if value.status == "ok" else "right, " + value.status if right else value.status.upper()
+            others = "".join(f" [{c.value} {c.configuration} {c.reason}]" for c in value.candidates[:4])
+            tally.faults.append(f"{mark}; printed {known['value']}; {said}{others}")
+    return tally
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--held", action="store_true", help="the held-back ones instead of the open ones")
+    parser.add_argument("--all", action="store_true")
+    parser.add_argument("--faults", action="store_true")
+    parser.add_argument("--only", default="")
+    arguments = parser.parse_args()
+    folder = Path(os.environ.get("YELLOWIRON_BROCHURES", ""))
+    if not os.environ.get("YELLOWIRON_BROCHURES") or not folder.is_dir():
+        print("skipped: YELLOWIRON_BROCHURES names no folder of PDFs")
+        return
+    load = functools.cache(functools.partial(load_template, sheet_only=True))
+    totals = {False: Tally(), True: Tally()}
+    for path in sorted(TRUTHS.glob("*.json")):
+        truth = json.loads(path.read_text(encoding="utf-8"))
+        if (arguments.only and path.stem not in arguments.only.split(",")) or not (
+            arguments.all or arguments.only or truth["held"] == arguments.held
+        ):
+            continue
+        pdf = folder / f"{path.stem}.pdf"
+        if not pdf.is_file():
+            print(f"{path.stem:22} skipped: {pdf.name} is not there")
+            continue
+        before = _seconds()
+        try:
+            sheet = read(pdf)
+        except SheetError as error:
+            lost = sum("value" in known for reading in truth["readings"] for known in reading["values"].values())
+            tally = Tally(printed=lost, missed=lost, faults=[f"UNREAD {path.stem}: {error}"])
+            print(tally.line(path.stem))
+            totals[truth["picture"]].add(tally)
+            continue
+        tally = Tally(pages=sheet.pages, seconds=_seconds() - before)
+        for reading in truth["readings"]:
+            config = reading["config"] or ""
+            before = _seconds()
+            found = from_sheets(load(truth["type"]), [sheet], config=config)
+            tally.seconds += (_seconds() - before) / len(truth["readings"])
+            tally.add(judge(f"{path.stem} {config}".strip(), reading["values"], found, config))
+        print(tally.line(path.stem + (" (picture)" if truth["picture"] else "")))
+        totals[truth["picture"]].add(tally)
+    for picture, tally in totals.items():
+        if tally.pages:
+            print(tally.line("PICTURES" if picture else "TEXT"))
+    if arguments.faults:
+        print("\n".join(f for tally in totals.values() for f in tally.faults))
+
+
+def _seconds() -> float:
+    return sum(
+        usage.ru_utime + usage.ru_stime
+        for usage in map(resource.getrusage, (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
+    )
+
+
+if __name__ == "__main__":
+    main()

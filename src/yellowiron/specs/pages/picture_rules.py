@@ -1,0 +1,54 @@
+"""Rules and the edges of fills on the picture of a page: long straight steps of its grey."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from yellowiron.specs.pages.strokes import DrawnRule
+
+_STEP = 14
+"""Of 255 grey levels: the least step of an edge; a light band behind a row is one."""
+_LEVEL_PT = 40.0
+"""Points that a level edge is long at least."""
+_WALL_PT = 14.0
+"""Points that an upright edge is high at least: more than a capital letter of a heading."""
+_GAP_PT = 2.5
+"""Points within which two edges are the sides of one rule, and a step may be missing."""
+_MOST = 1500
+"""Edges of a page; more are a photograph's."""
+
+
+def rules_of_picture(picture: NDArray[np.uint8], scale: float) -> list[DrawnRule]:
+    """The rules of a page's grey picture at `scale` pixels a point, in points from the top left; the edges of fills
+    are rules, too. None where a photograph covers the page."""
+    grey = picture.astype(np.int16)
+    level = _runs(np.abs(np.diff(grey, axis=0)) >= _STEP, _LEVEL_PT * scale, _GAP_PT * scale)
+    upright = _runs((np.abs(np.diff(grey, axis=1)) >= _STEP).T, _WALL_PT * scale, _GAP_PT * scale)
+    if len(level) + len(upright) > _MOST:
+        return []
+    rules = [DrawnRule(a / scale, (y + 1) / scale, b / scale, (y + 1) / scale) for y, a, b in level]
+    return rules + [DrawnRule((x + 1) / scale, a / scale, (x + 1) / scale, b / scale) for x, a, b in upright]
+
+
+def _runs(mask: NDArray[np.bool_], least: float, gap: float) -> list[tuple[float, float, float]]:
+    """The long runs of True along the rows of a mask, as (row, first, last + 1); those of neighbouring rows are one."""
+    found: list[tuple[float, float, float]] = []
+    for row in np.flatnonzero(mask.sum(axis=1) >= least):
+        at = np.flatnonzero(mask[row])
+        breaks = np.flatnonzero(np.diff(at) > gap)
+        firsts, lasts = at[np.r_[0, breaks + 1]], at[np.r_[breaks, len(at) - 1]]
+        for first, last in zip(firsts, lasts, strict=True):
+            if last - first < least:
+                continue
+            merged = next(
+                (i for i, (y, a, b) in enumerate(found[-40:], start=max(0, len(found) - 40))
+                 if row - y <= gap and first < b and a < last),
+                None,
+            )  # fmt: skip
+            if merged is None:
+                found.append((float(row), float(first), float(last) + 1))
+            else:
+                y, a, b = found[merged]
+                found[merged] = (y, min(a, float(first)), max(b, float(last) + 1))
+    return found

@@ -1,0 +1,39 @@
+"""Rules and edges of fills on the picture of a page."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from yellowiron.specs.ocr import _mended
+from yellowiron.specs.pages.picture_rules import rules_of_picture
+
+
+def test_rules_and_fills_of_a_picture() -> None:
+    scale = 2.0
+    picture = np.full((400, 600), 250, np.uint8)
+    picture[100:102, 40:440] = 30  # a rule, 200 points long
+    picture[200:230, 40:440] = 225  # a light band behind a row
+    picture[60:260, 300:302] = 30  # a wall
+    picture[300:318, 100:112] = 0  # a letter
+    rules = rules_of_picture(picture, scale)
+    level = sorted({round(r.top) for r in rules if r.horizontal})
+    assert level == [50, 100, 115]
+    walls = [r for r in rules if not r.horizontal]
+    assert {round(w.x0) for w in walls} >= {150}
+    assert not [r for r in rules if r.horizontal and r.x1 - r.x0 < 40]
+    wall = next(w for w in walls if round(w.x0) == 150)
+    assert wall.bottom - wall.top == pytest.approx(100.0, abs=2.0)
+
+
+def test_a_photograph_has_no_rules() -> None:
+    picture = np.random.default_rng(7).integers(0, 255, (900, 1300), dtype=np.uint8)
+    picture = np.repeat(np.repeat(picture[:90, :13], 10, axis=0), 100, axis=1)
+    assert rules_of_picture(np.tile(picture, (30, 1))[:26000], 1.0) == []
+
+
+@pytest.mark.parametrize(
+    ("seen", "meant"), [(".265", "265"), ("kgf/cm?", "kgf/cm2"), ("power...", "power"), ("2.5", "2.5")]
+)
+def test_words_as_they_are_misread(seen: str, meant: str) -> None:
+    assert _mended(seen) == meant
