@@ -10,9 +10,15 @@ The public names; each is imported on first use, because CAD, USD and physics li
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import sys
 
-from yellowiron.support.lazy import lazy_names
+if sys.argv[:1] == ["-m"] and not sys.flags.safe_path and not __file__.startswith(f"{sys.path[0]}/yellowiron/"):
+    # `python -m yellowiron`: Python put the current folder first, where a `numpy.py` may lie (docs/security.md).
+    del sys.path[0]
+
+from typing import TYPE_CHECKING  # noqa: E402
+
+from yellowiron.support.lazy import lazy_names  # noqa: E402
 
 if TYPE_CHECKING:
     from yellowiron.api import Roles, align, check, convert, export, extract, measure, new_template, simulate

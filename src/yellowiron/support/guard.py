@@ -16,12 +16,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from pkgutil import resolve_name
-from typing import IO, Any, cast
+from typing import IO, Any, NoReturn, cast
 
 from yellowiron.model.errors import YellowironError
-from yellowiron.support import limits
+from yellowiron.support import isolated, limits, plugins
 
 _CRASH_HINT = "The file is damaged, or made to break its reader; open it in its own program and export it again."
+_PACKAGE = Path(__file__).resolve().parent.parent
 _BEAT = 1.0
 """Seconds between two signs of life."""
 _LAST_WORDS = 65536
@@ -64,14 +65,13 @@ def run_guarded(
         with os.fdopen(life, "rb", buffering=0) as lives:
             with os.fdopen(told, "wb", buffering=0):
                 call.write_bytes(pickle.dumps((target, args, memory_mb, str(answer), told)))
-                # The parent's import path goes along, so that a source checkout works as an installation does.
-                environment = {**os.environ, "PYTHONPATH": os.pathsep.join(p for p in sys.path if p)}
                 child = subprocess.Popen(
-                    [sys.executable, "-m", "yellowiron.support.guard", str(call)],
+                    [*isolated.interpreter(), isolated.__file__, str(_PACKAGE), str(call), *_folders()],
                     stdin=subprocess.DEVNULL,
                     stdout=subprocess.DEVNULL,
                     stderr=subprocess.PIPE,
-                    env=environment,
+                    # For the programs that a reader starts, which may be Python's, too.
+                    env={name: value for name, value in os.environ.items() if not name.startswith("PYTHON")},
                     start_new_session=True,
                     pass_fds=(told,),
                 )
@@ -158,10 +158,17 @@ def _obituary(who: str, returncode: int, noise: bytes) -> str:
     return f"{who} ended with code {returncode} and no result{detail}"
 
 
-def _child(call: Path) -> None:
+def _folders() -> list[str]:
+    """What a child may import from, behind its interpreter's own: the folder of this package, and those of packages
+    that bring plugins."""
+    return [str(_PACKAGE.parent), *plugins.folders()]
+
+
+def run_child(call: str) -> NoReturn:
+    """Does what the file `call` asks for, writes the answer beside it and ends the process: a guarded child's work."""
     global _life
     limits.die_with_parent()
-    target, args, memory_mb, answer, _life = pickle.loads(call.read_bytes())
+    target, args, memory_mb, answer, _life = pickle.loads(Path(call).read_bytes())
     if memory_mb is not None:
         limits.limit_memory(memory_mb)
     limits.leave_no_core()
@@ -185,8 +192,3 @@ def _child(call: Path) -> None:
     # Past this point only library teardown could run, and that is where some readers crash.
     os._exit(0)
 
-
-if __name__ == "__main__":
-    from yellowiron.support import guard  # as others import it: this one is `__main__`
-
-    guard._child(Path(sys.argv[1]))
