@@ -16,9 +16,9 @@ if sys.argv[:1] == ["-m"] and not sys.flags.safe_path and not __file__.startswit
     # `python -m yellowiron`: Python put the current folder first, where a `numpy.py` may lie (docs/security.md).
     del sys.path[0]
 
-from typing import TYPE_CHECKING  # noqa: E402
+from typing import TYPE_CHECKING
 
-from yellowiron.support.lazy import lazy_names  # noqa: E402
+from yellowiron.support.lazy import lazy_names
 
 if TYPE_CHECKING:
     from yellowiron.api import Roles, align, check, convert, export, extract, measure, new_template, simulate

@@ -18,13 +18,15 @@ import signal
 import sys
 import time
 from collections.abc import Iterator
+from typing import IO
 
 from yellowiron.model.errors import YellowironError
 
 try:
+    import fcntl
     import resource
 except ImportError:  # not on Windows
-    resource = None  # type: ignore[assignment]
+    fcntl = resource = None  # type: ignore[assignment]
 
 _PR_SET_PDEATHSIG = 1
 """linux/prctl.h."""
@@ -46,6 +48,22 @@ def limit_memory(megabytes: int) -> None:
     if resource is not None and sys.platform != "darwin":
         limit = megabytes * 1024 * 1024
         resource.setrlimit(resource.RLIMIT_AS, (limit, limit))
+
+
+def largest_file() -> float:
+    """Bytes that a file written by this process may have."""
+    limit = resource.getrlimit(resource.RLIMIT_FSIZE)[0] if resource is not None else -1
+    return math.inf if limit < 0 else limit
+
+
+def lock(file: IO[str]) -> bool:
+    """Whether no other process holds this file; this one then does, until it closes it or ends. `OSError` where the
+    file system has no locks."""
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    return True
 
 
 def leave_no_core() -> None:
