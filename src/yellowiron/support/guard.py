@@ -25,6 +25,8 @@ _CRASH_HINT = "The file is damaged, or made to break its reader; open it in its 
 _PACKAGE = Path(__file__).resolve().parent.parent
 _BEAT = 1.0
 """Seconds between two signs of life."""
+_LOOK = 0.05
+"""Seconds between two looks at how much memory a child has taken."""
 _LAST_WORDS = 65536
 
 
@@ -48,14 +50,15 @@ def run_guarded(
     error: type[YellowironError] = YellowironError,
     timeout_s: float = 600.0,
     memory_mb: int | None = 8192,
+    resident_mb: int | None = None,
     wording: Wording = READING,
     progress: Callable[[str], None] = lambda words: None,
 ) -> Any:
     """The result of `module:function` called with `args` in a child process; both travel by pickle.
 
     A `YellowironError` raised there is raised here. A crash, more than `timeout_s` seconds without a sign of life
-    (`beat`; readers give none) or more than `memory_mb` of address space raise `error`, naming `where`. `progress` is
-    called with what the child says of itself. `YellowironError` on a system without the processes and limits that this
+    (`beat`; readers give none), more than `memory_mb` of address space or `resident_mb` of memory in use (Linux) raise
+    `error`, naming `where`. `progress` is called with what the child says of itself. `YellowironError` on a system without the processes and limits that this
     takes (`yellowiron.support.limits` says which has what).
     """
     limits.require_supported_platform()
@@ -77,7 +80,12 @@ def run_guarded(
                 )
             with child:
                 try:
-                    noise = _attend(child, lives, timeout_s, progress)
+                    noise = _attend(child, lives, timeout_s, resident_mb, progress)
+                except _GreedyError as greedy:
+                    raise error(
+                        f"{wording.who} needs more than {resident_mb} MB of memory for this file and was stopped",
+                        where=where, hint="Split the file, if it is none that is made to fill the memory.",
+                    ) from greedy  # fmt: skip
                 except subprocess.TimeoutExpired as expired:
                     raise error(
                         f"{wording.late} {timeout_s:g} s and was stopped", where=where, hint=wording.hint
@@ -104,11 +112,19 @@ def run_guarded(
     return value
 
 
+class _GreedyError(Exception):
+    """A child that took more memory than it may."""
+
+
 def _attend(
-    child: subprocess.Popen[bytes], life: IO[bytes], timeout_s: float, progress: Callable[[str], None]
+    child: subprocess.Popen[bytes],
+    life: IO[bytes],
+    timeout_s: float,
+    resident_mb: int | None,
+    progress: Callable[[str], None],
 ) -> bytes:
     """Waits for the child to end; what it wrote to its error output, the last of it. `TimeoutExpired` where it gave no
-    sign of life for so long."""
+    sign of life for so long, `_GreedyError` where it took more memory."""
     noise, words, end = b"", b"", time.monotonic() + timeout_s
     with selectors.DefaultSelector() as streams:
         streams.register(cast(IO[bytes], child.stderr), selectors.EVENT_READ)
@@ -116,7 +132,9 @@ def _attend(
         while streams.get_map():
             if (left := end - time.monotonic()) <= 0.0:
                 raise subprocess.TimeoutExpired(child.args, timeout_s)
-            for key, _ in streams.select(left):
+            if resident_mb is not None and limits.memory_in_use(child.pid) > resident_mb:
+                raise _GreedyError
+            for key, _ in streams.select(min(left, _LOOK) if resident_mb is not None else left):
                 data = os.read(key.fd, 65536)
                 if not data:
                     streams.unregister(key.fileobj)
@@ -171,6 +189,7 @@ def run_child(call: str) -> NoReturn:
     target, args, memory_mb, answer, _life = pickle.loads(Path(call).read_bytes())
     if memory_mb is not None:
         limits.limit_memory(memory_mb)
+        limits.limit_files(memory_mb)
     limits.leave_no_core()
     outcome: tuple[str, Any]
     try:

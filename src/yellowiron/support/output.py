@@ -19,6 +19,8 @@ _SAID = {
     errno.EDQUOT: ("your share of the disk is used up", _ROOM),
     errno.EFBIG: ("a file would be larger than this process may write", "Raise the limit (ulimit -f)."),
     errno.EROFS: ("the disk is read-only", _HINT),
+    errno.EEXIST: ("a file is in the way", "Name another folder."),
+    errno.ENOTDIR: ("a file is in the way", "Name another folder."),
     errno.EIO: ("the disk does not take it", "Name a folder on another disk."),
 }
 _PROBE = 1024 * 1024
@@ -128,7 +130,7 @@ def _cause(error: Exception, holder: Path) -> OSError | None:
     """What kept a file from being written, where that is why something failed."""
     if isinstance(error, OSError):
         ours = str(holder.parent) in f"{error.filename} {error.filename2}"
-        return error if ours or error.errno in _SAID else None
+        return error if ours or error.errno in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG) else None
     if isinstance(error, YellowironError) and str(holder) not in error.where:
         return None
     largest = limits.largest_file()
