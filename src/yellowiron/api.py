@@ -174,9 +174,9 @@ def new_template(
     without one nothing is written. `like` is a library type, or a template folder, whose roles, names and limits are
     taken over where bodies match.
 
-    Returns {folder (null where nothing is written), equipment_type, bodies: [{role, kind, parts, reason}], joints: [{name, type, bodies, point, axis,
-    pins, reason}], findings}: points in metres and axes in the CAD file's frame; findings of the geometry, then of the
-    template's lint. Raises `YellowironError` also where nothing turns or slides.
+    Returns {folder (null where nothing is written), equipment_type, bodies: [{role, kind, parts, reason}], joints:
+    [{name, type, bodies, point, axis, pins, reason}], findings}: points in metres and axes in the CAD file's frame;
+    findings of the geometry, then of the template's lint. Raises `YellowironError` also where nothing turns or slides.
     """
     from yellowiron import cad
     from yellowiron.alignment import align as align_parts

@@ -234,6 +234,7 @@ def test_a_crowded_page_ends_in_time(tmp_path: Path) -> None:
     assert {s.status for s in extract(ASKED, [tmp_path / "crowd.pdf"])} == {"missing"}
 
 
+@pytest.mark.slow
 def test_many_pages_are_read(tmp_path: Path) -> None:
     c = canvas(tmp_path / "book.pdf")
     for number in range(1001):

@@ -43,10 +43,9 @@ def read_cad(path: str | Path, *, timeout_s: float = 600.0, memory_mb: int = 819
     """The assembly in a CAD file, or in all those of a folder, in metres, in the file's own frame.
 
     Which formats are read is `formats.FORMATS` and what other packages add to it; cylinders and planes of triangles are
-    fitted to them.
-    The reader may take `timeout_s` seconds, `memory_mb` MB of address space, and of memory 1 GB and 100 times the file's
-    size. `CadError` for a file that is missing, empty, damaged,
-    of no or of an unreadable CAD format, or without a part in it.
+    fitted to them. The reader may take `timeout_s` seconds, `memory_mb` MB of address space, and of memory 1 GB and 100
+    times the file's size. `CadError` for a file that is missing, empty, damaged, of no or of an unreadable CAD format,
+    or without a part in it.
     """
     source = Path(path)
     known = None if source.is_dir() else format_of(source)

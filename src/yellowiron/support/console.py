@@ -90,16 +90,16 @@ def called(app: Callable[..., Any]) -> int:
     import typer
 
     # Of typer's own copy of click, or of click itself: that depends on typer's version.
-    complaint = next(kind for kind in typer.BadParameter.__mro__ if kind.__name__ == "ClickException")
+    complaint: type[Exception] = next(k for k in typer.BadParameter.__mro__ if k.__name__ == "ClickException")
     try:
         return int(app(prog_name="yellowiron", standalone_mode=False) or 0)
     except complaint as error:
         if type(error).__name__ == "NoArgsIsHelpError":
-            error.show()
+            error.show()  # type: ignore[attr-defined]
             return 2
         context = getattr(error, "ctx", None)
         command = context.command_path if context is not None else "yellowiron"
-        message = " ".join(error.format_message().split())
+        message = " ".join(error.format_message().replace("Value error, ", "").split())
         raise YellowironError(message, where=command, hint=f"`{command} --help` says what it takes.") from error
     except typer.Abort:
         return 128 + signal.SIGINT

@@ -58,8 +58,9 @@ def run_guarded(
 
     A `YellowironError` raised there is raised here. A crash, more than `timeout_s` seconds without a sign of life
     (`beat`; readers give none), more than `memory_mb` of address space or `resident_mb` of memory in use (Linux) raise
-    `error`, naming `where`. `progress` is called with what the child says of itself. `YellowironError` on a system without the processes and limits that this
-    takes (`yellowiron.support.limits` says which has what).
+    `error`, naming `where`. `progress` is called with what the child says of itself. `YellowironError` on a system
+    without the processes and limits that this takes (`yellowiron.support.limits` says which has what). The child
+    imports from the installation alone (`yellowiron.support.isolated`).
     """
     limits.require_supported_platform()
     with tempfile.TemporaryDirectory(prefix="yellowiron-") as folder:
@@ -210,4 +211,3 @@ def run_child(call: str) -> NoReturn:
         os._exit(os.EX_IOERR)
     # Past this point only library teardown could run, and that is where some readers crash.
     os._exit(0)
-

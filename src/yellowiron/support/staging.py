@@ -1,4 +1,4 @@
-"""A folder's files replaced all or none: written into a folder inside it, kept a list of, then renamed into their places.
+"""A folder's files replaced all or none: written into a folder inside it, listed, then renamed into their places.
 
 Inside a folder `.yellowiron-…` of the folder that is written to, and so on its file system: `new` holds what is to
 come, `old` what it replaces, `files` names both, and `state` says how far it is. A failure puts back what was there;

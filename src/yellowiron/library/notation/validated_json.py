@@ -120,9 +120,7 @@ def read_json(path: Path) -> Any:
     except UnicodeDecodeError as error:
         raise TemplateError("The file is not text in UTF-8", where=str(path), hint="Save it as UTF-8.") from error
     try:
-        return json.loads(
-            text, object_pairs_hook=pairs, parse_constant=number, parse_float=number, parse_int=whole
-        )
+        return json.loads(text, object_pairs_hook=pairs, parse_constant=number, parse_float=number, parse_int=whole)
     except json.JSONDecodeError as error:
         raise TemplateError(
             f"The file is not JSON: {error.msg}",

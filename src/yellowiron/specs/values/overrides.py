@@ -98,7 +98,9 @@ def _rank(specification: Specification) -> int:
 def _halves(text: str) -> tuple[str, str]:
     if not text.isprintable():
         raise YellowironError(
-            "A value by hand has a line break, or a sign that cannot be seen", where=_WHERE, hint="Write it on one line."
+            "A value by hand has a line break, or a sign that cannot be seen",
+            where=_WHERE,
+            hint="Write it on one line.",
         )
     name, equals, value = text.partition("=")
     if not equals or not name.strip() or not value.strip():
