@@ -86,16 +86,17 @@ def printable(text: str) -> str:
 
 
 def called(app: Callable[..., Any]) -> int:
-    """The exit code of a typer app; what is wrong with its command line is a `YellowironError`."""
+    """The exit code of a typer app; what is wrong with its command line, or with a file, is a `YellowironError`."""
     import typer
 
     # Of typer's own copy of click, or of click itself: that depends on typer's version.
     complaint: type[Exception] = next(k for k in typer.BadParameter.__mro__ if k.__name__ == "ClickException")
     try:
         return int(app(prog_name="yellowiron", standalone_mode=False) or 0)
-    except complaint as error:
+    except complaint as caught:
+        error: Any = caught
         if type(error).__name__ == "NoArgsIsHelpError":
-            error.show()  # type: ignore[attr-defined]
+            error.show()
             return 2
         context = getattr(error, "ctx", None)
         command = context.command_path if context is not None else "yellowiron"
@@ -106,7 +107,20 @@ def called(app: Callable[..., Any]) -> int:
     except OSError as error:
         if error.filename is None and error.errno in (errno.ENOSPC, errno.EIO, errno.EBADF, errno.EPIPE):
             raise _unprintable(error) from error
-        raise
+        raise YellowironError(
+            f"A file cannot be used: {error.strerror or error}",
+            where=str(error.filename or command_line()),
+            hint="Check the path, its permissions, and the room on its disk.",
+        ) from error
+    except MemoryError as error:
+        raise YellowironError(
+            "There is not enough memory", where=command_line(), hint="Close other programs, or split the model."
+        ) from error
+
+
+def command_line() -> str:
+    """What was typed."""
+    return " ".join(["yellowiron", *sys.argv[1:]])
 
 
 @contextmanager

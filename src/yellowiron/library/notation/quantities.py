@@ -11,6 +11,7 @@ from yellowiron.support.units import LARGEST, SI_UNIT, parse_quantity, registry
 _STARTS_A_NUMBER = re.compile(r"^[-+−]?\s*\.?\d")
 _NUMBER_AND_UNIT = re.compile(r"^\s*([-+−]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?)\s*(.*?)\s*$")
 _LARGEST = 1e15
+_NO_NAMES = ("nan", "inf", "infinity")
 _POWER = re.compile(r"([A-Za-z])([23])\b")
 _NAME = re.compile(r"^([-−]?)\s*([^\W\d_].*)$", re.DOTALL)
 
@@ -47,7 +48,7 @@ def limit(value: float | str | None, dimension: str, *, where: str) -> float | s
         return None
     if isinstance(value, str) and not _STARTS_A_NUMBER.match(value.strip()):
         match = _NAME.match(value.strip())
-        if match is None:
+        if match is None or match.group(2).split()[0].casefold() in _NO_NAMES:
             raise TemplateError(
                 f"'{value}' is neither a number nor the name of a specification",
                 where=where,
