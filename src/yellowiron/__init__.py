@@ -8,8 +8,6 @@
 The public names; each is imported on first use, because CAD, USD and physics libraries take seconds to load.
 """
 
-from __future__ import annotations
-
 import sys
 
 if sys.argv[:1] == ["-m"] and not sys.flags.safe_path and not __file__.startswith(f"{sys.path[0]}/yellowiron/"):

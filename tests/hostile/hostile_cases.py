@@ -1,5 +1,5 @@
-"""The table of hostile and odd inputs: a line each. `{here}` is an empty folder of the case's own, `{small}` that of the
-smallest machine (`small.glb`, `type`); neither may have anything new in it afterwards."""
+"""The table of hostile and odd inputs: a line each. `{here}` is an empty folder of the case's own, `{small}` that of
+the smallest machine (`small.glb`, `type`); neither may have anything new in it afterwards."""
 
 from __future__ import annotations
 
@@ -115,7 +115,8 @@ CASES = (
     Case("input", "a device for CAD", "convert /dev/zero --out {here}/a.usd", "a device"),
     Case("input", "a pipe for a sheet", "extract wheel_loader {here}/a.pdf", "a pipe", pipe("a.pdf")),
     Case("input", "a device for a sheet", "extract wheel_loader /dev/zero", "a device"),
-    Case("input", "a sheet of 2 GB", "extract wheel_loader {here}/a.pdf", "512 MB", large("a.pdf", 2 << 30, b"%PDF-1.7")),
+    Case("input", "a sheet of 2 GB", "extract wheel_loader {here}/a.pdf", "512 MB",
+         large("a.pdf", 2 << 30, b"%PDF-1.7")),
     Case("input", "CAD of 20 GB", "convert {here}/a.step --out {here}/a.usd", "4096 MB",
          large("a.step", 20 << 30, b"ISO-10303-21;")),
     Case("input", "a pipe for a document", BUILD + " --data {here}/a.json", "a pipe", pipe("a.json")),
@@ -130,7 +131,8 @@ CASES = (
          archive("a.fcstd", 6500 << 20)),
     Case("input", "an archive of 100 times 65 MB", "convert {here}/a.3mf --out {here}/a.usd", "unpacks to 6500 MB",
          archive("a.3mf", 65 << 20, 100)),
-    Case("input", "an archive of a million files", "convert {here}/a.3mf --out {here}/a.usd", "too many files", crowded),
+    Case("input", "an archive of a million files", "convert {here}/a.3mf --out {here}/a.usd", "too many files",
+         crowded),
     Case("input", "a limit of 1e308", OWN, NUMBER, joint(Limit=[0, 1e308])),
     Case("input", "a limit of 1e308 m", OWN, "that a machine can have", joint(Limit=["0 rad", "1e308 rad"])),
     # -- numbers that are none
@@ -149,7 +151,8 @@ CASES = (
     Case("numbers", "a number of 5000 digits", OWN, "", joints('{"h": {"Limit": [0, %s]}}' % ("9" * 5000))),
     Case("numbers", "nan as text in a template", OWN, "", joint(Limit=["nan deg", "10 deg"])),
     Case("numbers", "Arabic digits in a template", OWN, "not a number", joint(Limit=["0 deg", "٤٥ deg"])),
-    Case("numbers", "NaN in a document", BUILD + " --data {here}/a.json", NUMBER, text("a.json", '{"frame": {"density": NaN}}')),
+    Case("numbers", "NaN in a document", BUILD + " --data {here}/a.json", NUMBER,
+         text("a.json", '{"frame": {"density": NaN}}')),
     Case("numbers", "a density of 1e300", BUILD + " --data {here}/a.json", "finite",
          text("a.json", '{"frame": {"density": "1e300 kg/m^3"}}')),
     Case("numbers", "a payload of nan", "simulate {small}/none.usda --engine mujoco --payload nan", "mass"),
@@ -185,8 +188,8 @@ CASES = (
     # -- places
     Case("places", "out where the CAD lies", "build {small}/type --cad {small}/small.glb --out {small}", "lies in"),
     Case("places", "out in the folder that is the CAD", "build {small}/type --cad {here} --out {here}/out", "lies in"),
-    Case("places", "out where the sheet lies", BUILD.replace("{here}/out", "{here}") + " --specs {here}/a.pdf", "lies in",
-         text("a.pdf", "%PDF-")),
+    Case("places", "out where the sheet lies", BUILD.replace("{here}/out", "{here}") + " --specs {here}/a.pdf",
+         "lies in", text("a.pdf", "%PDF-")),
     Case("places", "an export beside the machine", "export {here}/a.usda --to mjcf --out {here}", "lies in",
          text("a.usda", "#usda 1.0")),
     Case("places", "pictures beside the sheet", "extract wheel_loader {here}/a.pdf --show {here}", "lies in",

@@ -3,21 +3,12 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 from hostile_cases import CASES, Case
 
-from kit.builds import MadeOnce, console, reading_once
-from kit.small import write_small
-
-
-@pytest.fixture(scope="module")
-def small(made_once: MadeOnce) -> Iterator[Path]:
-    folder = made_once("small_machine", lambda place: write_small(place) and None)
-    with reading_once(made_once, folder):
-        yield folder
+from kit.builds import console
 
 
 @pytest.mark.parametrize("case", CASES, ids=[f"{c.group}: {c.name}" for c in CASES])

@@ -22,7 +22,11 @@ def plant(folder: Path, *, spare: Iterable[str] = ()) -> Path:
     returned; those of `spare` are left out."""
     folder.mkdir(parents=True, exist_ok=True)
     marker = folder.parent / f"{folder.name}.ran"
-    source = f"open({str(marker)!r}, 'a').write(__name__ + '\\n')\n"
+    # With what is there before anything can be imported.
+    source = (
+        f"import posix\nfile = posix.open({str(marker)!r}, posix.O_WRONLY | posix.O_CREAT | posix.O_APPEND)\n"
+        "posix.write(file, __name__.encode() + b'\\n')\nposix.close(file)\n"
+    )
     names = {*sys.stdlib_module_names, *packages_distributions(), "usercustomize", "sitecustomize", "tutor"}
     for name in sorted(names - {*spare, "yellowiron"}):
         if name.isidentifier():
@@ -32,7 +36,7 @@ def plant(folder: Path, *, spare: Iterable[str] = ()) -> Path:
             (folder / package).mkdir()
             for name in ("__init__", "__main__", "cli", "guard"):
                 (folder / package / f"{name}.py").write_text(source)
-    (folder / "evil.pth").write_text(f"import builtins; builtins.{source}")
+    (folder / "evil.pth").write_text(f"import {', '.join(('random', 'tutor'))}\n")
     info = folder / "tutor-1.0.dist-info"
     info.mkdir()
     (info / "METADATA").write_text("Metadata-Version: 2.1\nName: tutor\nVersion: 1.0\n")

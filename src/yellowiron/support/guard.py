@@ -74,8 +74,7 @@ def run_guarded(
                     stdin=subprocess.DEVNULL,
                     stdout=subprocess.DEVNULL,
                     stderr=subprocess.PIPE,
-                    # For the programs that a reader starts, which may be Python's, too.
-                    env={name: value for name, value in os.environ.items() if not name.startswith("PYTHON")},
+                    env=isolated.shielded(os.environ),
                     start_new_session=True,
                     pass_fds=(told,),
                 )

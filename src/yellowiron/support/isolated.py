@@ -8,6 +8,10 @@ parent's, wherever that is: in a wheel, an editable installation or a checkout.
 
 import sys
 
+TYPE_CHECKING = False  # typing's own is not needed for this, and takes time
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
 
 def interpreter() -> list[str]:
     """The command that starts this Python without the current folder and `PYTHON…` variables in its import path."""
@@ -15,6 +19,13 @@ def interpreter() -> list[str]:
     flags += ["-s"] if sys.flags.no_user_site else []
     flags += ["-B"] if sys.dont_write_bytecode else []
     return [sys.executable, *flags]
+
+
+def shielded(environment: "Mapping[str, str]") -> dict[str, str]:
+    """An environment in which no program of Python's looks for modules in the current folder or on PYTHONPATH: readers
+    and libraries start such programs themselves, as glfw does when it is imported."""
+    own = {name: value for name, value in environment.items() if not name.startswith("PYTHON")}
+    return {**own, "PYTHONSAFEPATH": "1"}
 
 
 def _load(package: str) -> None:
