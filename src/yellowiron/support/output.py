@@ -43,11 +43,12 @@ def output_folder(target: Path) -> Iterator[Path]:
     there = place.is_dir()
     with _staging(place if there else place.parent, target) as holder:
         yield holder / "new"
-        if there:
-            _refuse_clashes(holder / "new", place)
-            staging.install(holder, place)
-        else:
-            (holder / "new").rename(place)
+        with _moved(target):
+            if there:
+                _refuse_clashes(holder / "new", place)
+                staging.install(holder, place)
+            else:
+                (holder / "new").rename(place)
 
 
 @contextmanager
@@ -66,8 +67,9 @@ def output_file(target: Path, *, suffixes: Collection[str] = ()) -> Iterator[Pat
         raise OutputError("The output file is a device or a pipe", where=str(target), hint="Name a file.")
     with _staging(place.parent, target) as holder:
         yield holder / "new" / place.name
-        _refuse_clashes(holder / "new", place.parent)
-        staging.install(holder, place.parent)
+        with _moved(target):
+            _refuse_clashes(holder / "new", place.parent)
+            staging.install(holder, place.parent)
 
 
 def keep_apart(target: Path, inputs: Iterable[Path]) -> None:
@@ -117,6 +119,14 @@ def _staging(base: Path, target: Path) -> Iterator[Path]:
             if cause is None:
                 raise
             raise _said(cause, target) from error
+
+
+@contextmanager
+def _moved(target: Path) -> Iterator[None]:
+    try:
+        yield
+    except OSError as error:
+        raise _said(error, target) from error
 
 
 def _remove(folders: Iterable[Path]) -> None:
