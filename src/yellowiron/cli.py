@@ -18,7 +18,7 @@ from rich.text import Text
 
 import yellowiron
 from yellowiron.model.errors import YellowironError
-from yellowiron.support import console
+from yellowiron.report import terminal
 from yellowiron.support.limits import require_supported_platform
 
 app = typer.Typer(
@@ -350,7 +350,7 @@ def new_template(
 
 def _version(asked: bool) -> None:
     if asked:
-        console.print_text(Text(f"yellowiron {yellowiron.__version__}"))
+        terminal.print_text(Text(f"yellowiron {yellowiron.__version__}"))
         raise typer.Exit
 
 
@@ -365,15 +365,15 @@ def options(
 
 def main() -> None:
     """The console script: whatever is unusable is one sentence on stderr and exit code 2, never a traceback."""
-    console.prepare()
+    terminal.prepare()
     try:
         require_supported_platform()
         # A terminated run leaves as an interrupted one does: its child ends, its temporary folders go.
         signal.signal(signal.SIGTERM, lambda number, frame: sys.exit(128 + number))
-        code = console.called(app)
-        console.flush()
+        code = terminal.called(app)
+        terminal.flush()
     except YellowironError as error:
-        console.complain(error)
+        terminal.complain(error)
         code = 2
     sys.exit(code)
 
@@ -391,9 +391,9 @@ def _progress(quiet: bool) -> Iterator[Any]:
 
 def _show(document: Any, renderable: RenderableType, as_json: bool) -> None:
     if as_json:
-        console.print_json(document)
+        terminal.print_json(document)
     else:
-        console.print_text(renderable)
+        terminal.print_text(renderable)
 
 
 if __name__ == "__main__":

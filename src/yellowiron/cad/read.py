@@ -30,7 +30,7 @@ from pkgutil import resolve_name
 from yellowiron.cad.recognition import format_of
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import CadError
-from yellowiron.support.files import MEGABYTE
+from yellowiron.support.files.inputs import MEGABYTE
 from yellowiron.support.guard import run_guarded
 
 _BESIDE_MB, _TIMES = 1024, 100

@@ -10,7 +10,7 @@ from pathlib import Path
 from yellowiron.cad import formats, proprietary
 from yellowiron.cad.formats import CadFormat, NoReaderError
 from yellowiron.model.errors import CadError
-from yellowiron.support.files import MEGABYTE, require_file
+from yellowiron.support.files.inputs import MEGABYTE, require_file
 
 _BOM = b"\xef\xbb\xbf"
 _HEAD = 65536

@@ -15,7 +15,7 @@ from yellowiron.specs.layout.router import statements_of
 from yellowiron.specs.layout.statement import Statement
 from yellowiron.specs.pages.words import read_page
 from yellowiron.specs.values.stated_configuration import Stated, stated_in
-from yellowiron.support.files import require_file
+from yellowiron.support.files.inputs import require_file
 from yellowiron.support.guard import beat
 
 TIMEOUT_S = 60.0

@@ -23,6 +23,7 @@ from yellowiron.support import isolated, limits, plugins
 
 _CRASH_HINT = "The file is damaged, or made to break its reader; open it in its own program and export it again."
 _PACKAGE = Path(__file__).resolve().parent.parent
+_RUN = "yellowiron.support.guard:run_child"
 _BEAT = 1.0
 """Seconds between two signs of life."""
 _LOOK = 0.05
@@ -70,7 +71,7 @@ def run_guarded(
             with os.fdopen(told, "wb", buffering=0):
                 call.write_bytes(pickle.dumps((target, args, memory_mb, str(answer), told)))
                 child = subprocess.Popen(
-                    [*isolated.interpreter(), isolated.__file__, str(_PACKAGE), str(call), *_folders()],
+                    [*isolated.interpreter(), isolated.__file__, str(_PACKAGE), _RUN, str(call), *_folders()],
                     stdin=subprocess.DEVNULL,
                     stdout=subprocess.DEVNULL,
                     stderr=subprocess.PIPE,

@@ -41,9 +41,9 @@ def _load(package: str) -> None:
 
 
 if __name__ == "__main__":
-    package, call, *folders = sys.argv[1:]
+    package, target, call, *folders = sys.argv[1:]
     sys.path += [folder for folder in folders if folder not in sys.path]
     _load(package)
-    from yellowiron.support.guard import run_child
+    from pkgutil import resolve_name
 
-    run_child(call)
+    resolve_name(target)(call)

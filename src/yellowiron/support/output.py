@@ -10,7 +10,8 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from yellowiron.model.errors import OutputError, YellowironError
-from yellowiron.support import limits, staging
+from yellowiron.support import limits
+from yellowiron.support.files import staging
 
 _HINT = "Name a folder that you may write to."
 _ROOM = "Make room there, or name a folder on another disk."

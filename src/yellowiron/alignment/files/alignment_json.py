@@ -18,7 +18,7 @@ from yellowiron.model.errors import AlignmentError, OutputError
 from yellowiron.model.finding import Finding
 from yellowiron.model.rows import count_members
 from yellowiron.model.template import Template
-from yellowiron.support.files import MEGABYTE, read_input
+from yellowiron.support.files.inputs import MEGABYTE, read_input
 
 FORMAT = 1
 _LARGEST = 64 * MEGABYTE

@@ -17,7 +17,7 @@ from jsonschema.exceptions import ValidationError
 
 from yellowiron.model.errors import TemplateError
 from yellowiron.model.specification import fold
-from yellowiron.support.files import MEGABYTE, read_input
+from yellowiron.support.files.inputs import MEGABYTE, read_input
 
 LARGEST = 16 * MEGABYTE
 """Bytes; no template comes near, and a file beyond is not read."""

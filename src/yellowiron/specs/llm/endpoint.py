@@ -270,7 +270,7 @@ def _keep(key: str, found: Mapping[str, Any]) -> None:
         return
     with contextlib.suppress(OSError):
         path = folder / "answers" / f"{key}.json"
-        path.parent.mkdir(parents=True, exist_ok=True)
+        path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
         part = path.with_suffix(f".{os.getpid()}.part")
         part.write_text(json.dumps(found, sort_keys=True), encoding="utf-8")
         part.replace(path)
