@@ -17,6 +17,8 @@ from packaging.requirements import Requirement
 from packaging.specifiers import SpecifierSet
 from packaging.utils import canonicalize_name
 
+UNBOUNDED = ("omniverse-asset-validator", "scipy-stubs", "types-jsonschema")
+"""Of the developers' tools."""
 COPYLEFT = ("GPL-", "GNU General Public", "AGPL", "GNU Affero")
 LESSER = ("LGPL", "Lesser", "exception", "Exception")
 
@@ -54,9 +56,7 @@ def test_every_dependency_has_bounds_and_comes_from_an_index(project: dict[str, 
     for line in map(Requirement, lines):
         assert line.url is None, line
         signs = {one.operator for one in line.specifier}
-        assert {">=", "<"} <= signs or line.name in ("omniverse-asset-validator", "scipy-stubs", "types-jsonschema"), (
-            line
-        )
+        assert {">=", "<"} <= signs or line.name in UNBOUNDED, line
 
 
 def test_nothing_was_installed_from_elsewhere(installed: dict[str, Distribution]) -> None:
@@ -108,3 +108,11 @@ def test_what_is_imported_is_declared(root: Path, project: dict[str, Any]) -> No
                 if not ours and not absent and not declared & {canonicalize_name(o) for o in owners.get(top, ())}:
                     missing[top] = str(file)
     assert missing == {}
+
+
+def _is_installed(name: str) -> bool:
+    try:
+        distribution(name)
+    except PackageNotFoundError:
+        return False
+    return True
