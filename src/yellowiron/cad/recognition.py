@@ -18,6 +18,8 @@ _LARGEST = 4096 * MEGABYTE
 """Bytes of a CAD file."""
 _UNPACKED, _LARGEST_DIRECTORY = 2048 * MEGABYTE, 64 * MEGABYTE
 """Bytes of all that is in an archive, unpacked, and of its table of contents."""
+_DENSEST = 50
+"""Times its size that a large archive may unpack to; numbers as text come to 5 to 15."""
 _UNPACK = "Split the model, if this is one; else the file is made to fill your disk."
 _STEP = next(known for known in formats.FORMATS if known.name == "STEP")
 
@@ -103,8 +105,9 @@ def _members(path: Path) -> tuple[str, ...] | None:
             raise CadError("The archive holds too many files to be a CAD model", where=str(path), hint=_UNPACK)
         with zipfile.ZipFile(path) as archive:
             unpacked = sum(one.file_size for one in archive.infolist())
-            if unpacked > _UNPACKED:
-                words = f"The archive unpacks to {unpacked / MEGABYTE:.0f} MB, more than {_UNPACKED / MEGABYTE:.0f} MB"
+            most = min(_UNPACKED, max(_UNPACKED // 8, _DENSEST * path.stat().st_size))
+            if unpacked > most:
+                words = f"The archive unpacks to {unpacked / MEGABYTE:.0f} MB, more than {most / MEGABYTE:.0f} MB"
                 raise CadError(words, where=str(path), hint=_UNPACK)
             return tuple(name.lower() for name in archive.namelist())
     except (zipfile.BadZipFile, OSError, NotImplementedError, ValueError):
