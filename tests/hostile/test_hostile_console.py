@@ -12,7 +12,7 @@ import pytest
 
 from kit.planted import PACKAGE
 
-LIST, SHOW, ERROR = "templates list", "templates show wheel_loader", "templates show ünbekannt"
+LIST, SHOW, ERROR = "templates list", "templates show skid_steer", "templates show ünbekannt"
 ASCII = "PYTHONUTF8=0 PYTHONCOERCECLOCALE=0 LC_ALL=C"
 FULL = ">/dev/full"
 

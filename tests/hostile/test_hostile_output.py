@@ -170,7 +170,7 @@ def test_a_mount_point(tmp_path: Path) -> None:
     assert done.returncode == 0, done.stderr
 
 
-@pytest.mark.parametrize("size", ["16k", "64k"])
+@pytest.mark.parametrize("size", [pytest.param("16k", marks=pytest.mark.slow), "64k"])
 def test_a_full_disk(size: str, tmp_path: Path) -> None:
     done = mounted('print(command("templates", "copy", "wheel_loader", disk), held())', size, tmp_path)
     assert done.stdout == "2 []\n" and "the disk is full" in done.stderr, done.stdout + done.stderr
