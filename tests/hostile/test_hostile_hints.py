@@ -5,8 +5,8 @@ from __future__ import annotations
 import ast
 from pathlib import Path
 
-FAMILY = {"YellowironError", "CadError", "SheetError", "TemplateError", "AlignmentError", "MechanismError", "OutputError",
-          "NoReaderError", "EndpointError", "KinematicsError"}  # fmt: skip
+FAMILY = {"YellowironError", "CadError", "SheetError", "TemplateError", "AlignmentError", "MechanismError",
+          "OutputError", "NoReaderError", "EndpointError", "KinematicsError"}  # fmt: skip
 
 
 def test_every_error_has_where_and_hint(root: Path) -> None:
