@@ -8,7 +8,11 @@
 The public names; each is imported on first use, because CAD, USD and physics libraries take seconds to load.
 """
 
-from __future__ import annotations
+import sys
+
+if sys.argv[:1] == ["-m"] and not sys.flags.safe_path and not __file__.startswith(f"{sys.path[0]}/yellowiron/"):
+    # `python -m yellowiron`: Python put the current folder first, where a `numpy.py` may lie (docs/security.md).
+    del sys.path[0]
 
 from typing import TYPE_CHECKING
 

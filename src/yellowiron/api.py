@@ -7,8 +7,10 @@ words at every step.
 
 from __future__ import annotations
 
+import contextlib
 import os
 import re
+import tempfile
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
@@ -22,7 +24,7 @@ from yellowiron.model.finding import Finding
 from yellowiron.model.mechanism import Measurement, Mechanism
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import Template
-from yellowiron.support.output import output_file, output_folder
+from yellowiron.support.output import keep_apart, output_file, output_folder
 from yellowiron.support.text import to_json
 
 if TYPE_CHECKING:
@@ -62,6 +64,8 @@ def extract(
     template = library.load_template(equipment_type, sheet_only=True)
     paths = [Path(sheet) for sheet in sheets]
     given = specs.parse_settings(settings, template)
+    if show is not None:
+        keep_apart(Path(show), paths)
     found = specs.extract(template, paths, config=config, extractor=extractor, model=model, progress=progress)
     found = specs.merge(specs.accept(found, accepted, template), given)
     if show is not None:
@@ -158,6 +162,7 @@ def export(
 
     title = exporters.find_exporter(to).title
     file = _file(machine)
+    keep_apart(Path(out), [file])
     with output_folder(Path(out)) as folder:
         progress(f"Writing {title}")
         inside = exporters.export(usd.read_mechanism(file), file, folder, to=to).relative_to(folder)
@@ -171,13 +176,13 @@ def new_template(
     like: str | Path | None = None,
     progress: Progress = lambda words: None,
 ) -> dict[str, Any]:
-    """Proposes a template for the machine of a CAD model and writes it to the folder `out`, which is new or empty
-    (default: named after the CAD file, here). `like` is a library type, or a template folder, whose roles, names and
-    limits are taken over where bodies match.
+    """Proposes a template for the machine of a CAD model and writes it to the folder `out`, which is new or empty;
+    without one nothing is written. `like` is a library type, or a template folder, whose roles, names and limits are
+    taken over where bodies match.
 
-    Returns {folder, equipment_type, bodies: [{role, kind, parts, reason}], joints: [{name, type, bodies, point, axis,
-    pins, reason}], findings}: points in metres and axes in the CAD file's frame; findings of the geometry, then of the
-    template's lint. Raises `YellowironError` also where nothing turns or slides.
+    Returns {folder (null where nothing is written), equipment_type, bodies: [{role, kind, parts, reason}], joints:
+    [{name, type, bodies, point, axis, pins, reason}], findings}: points in metres and axes in the CAD file's frame;
+    findings of the geometry, then of the template's lint. Raises `YellowironError` also where nothing turns or slides.
     """
     from yellowiron import cad
     from yellowiron.alignment import align as align_parts
@@ -185,13 +190,15 @@ def new_template(
 
     cad_file = Path(cad_file)
     name = re.sub(r"\W+", "_", cad_file.stem).strip("_").casefold() or "machine"
-    folder = Path(out) if out is not None else Path(name)
-    if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
-        raise OutputError(
-            "The folder is there already, and nothing is overwritten",
-            where=str(folder),
-            hint="Name a folder that is new or empty with --out.",
-        )
+    folder = Path(out) if out is not None else None
+    if folder is not None:
+        keep_apart(folder, [cad_file])
+        if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
+            raise OutputError(
+                "The folder is there already, and nothing is overwritten",
+                where=str(folder),
+                hint="Name a folder that is new or empty with --out.",
+            )
     progress("Reading the CAD model")
     assembly = cad.read_cad(cad_file)
     progress("Finding bodies and joints")
@@ -201,13 +208,18 @@ def new_template(
         progress(f"Comparing with {like}")
         lent = library.likeness(like, align_parts(assembly, library.load_template(like), Specifications()))
     proposal = library.propose(found, name=name, like=lent)
-    with output_folder(folder) as temporary:
+    with contextlib.ExitStack() as stack:
+        if folder is not None:
+            temporary = stack.enter_context(output_folder(folder))
+        else:
+            temporary = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="yellowiron-"))) / name
+            temporary.mkdir()
         for kind, document in proposal.documents.items():
             (temporary / f"{kind}.json").write_text(to_json(document), encoding="utf-8")
         (temporary / "proposal.md").write_text(proposal.words, encoding="utf-8")
         findings = library.lint(library.load_template(temporary)).findings
     return {
-        "folder": str(folder),
+        "folder": str(folder) if folder is not None else None,
         "equipment_type": name,
         "bodies": [
             {"role": role, "kind": body.kind, "parts": list(body.parts), "reason": body.reason}

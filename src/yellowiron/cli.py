@@ -18,8 +18,8 @@ from rich.text import Text
 
 import yellowiron
 from yellowiron.model.errors import YellowironError
+from yellowiron.report import terminal
 from yellowiron.support.limits import require_supported_platform
-from yellowiron.support.text import to_json
 
 app = typer.Typer(
     name="yellowiron",
@@ -350,7 +350,7 @@ def new_template(
         str | None, typer.Option("--like", help="A type to take roles, names and limits from where bodies match.")
     ] = None,
     out: Annotated[
-        Path | None, typer.Option("--out", help="The folder to write (default: the CAD file's name).")
+        Path | None, typer.Option("--out", help="The folder to write; without it nothing is written.")
     ] = None,
     as_json: Json = False,
 ) -> None:
@@ -365,7 +365,7 @@ def new_template(
 
 def _version(asked: bool) -> None:
     if asked:
-        _print(Text(f"yellowiron {yellowiron.__version__}"))
+        terminal.print_text(Text(f"yellowiron {yellowiron.__version__}"))
         raise typer.Exit
 
 
@@ -379,44 +379,36 @@ def options(
 
 
 def main() -> None:
-    """The console script: an unusable input is one sentence on stderr and exit code 2, never a traceback."""
+    """The console script: whatever is unusable is one sentence on stderr and exit code 2, never a traceback."""
+    terminal.prepare()
     try:
         require_supported_platform()
         # A terminated run leaves as an interrupted one does: its child ends, its temporary folders go.
         signal.signal(signal.SIGTERM, lambda number, frame: sys.exit(128 + number))
-        app()
+        code = terminal.called(app)
+        terminal.flush()
     except YellowironError as error:
-        console = Console(stderr=True)
-        console.print(Text.assemble(("error: ", "bold red"), error.message), soft_wrap=True)
-        if error.where:
-            console.print(Text.assemble(("where: ", "bold"), error.where), soft_wrap=True)
-        if error.hint:
-            console.print(Text.assemble(("hint:  ", "bold"), error.hint), soft_wrap=True)
-        sys.exit(2)
+        terminal.complain(error)
+        code = 2
+    sys.exit(code)
 
 
 @contextmanager
 def _progress(quiet: bool) -> Iterator[Any]:
     """A function that says what is being done, shown on stderr when it is a terminal."""
-    console = Console(stderr=True)
-    if quiet or not console.is_terminal:
+    stderr = Console(stderr=True)
+    if quiet or not stderr.is_terminal:
         yield lambda words: None
         return
-    with console.status("") as status:
+    with stderr.status("") as status:
         yield lambda words: status.update(f"{words} …")
 
 
 def _show(document: Any, renderable: RenderableType, as_json: bool) -> None:
     if as_json:
-        sys.stdout.write(to_json(document))
+        terminal.print_json(document)
     else:
-        _print(renderable)
-
-
-def _print(renderable: RenderableType) -> None:
-    console = Console()
-    # A pipe has no width: let tables be as wide as their text.
-    Console(width=None if console.is_terminal else 160).print(renderable)
+        terminal.print_text(renderable)
 
 
 if __name__ == "__main__":

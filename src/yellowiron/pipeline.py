@@ -25,7 +25,7 @@ from yellowiron.model.rows import expand
 from yellowiron.model.specification import Specifications
 from yellowiron.model.sweep import Sweep
 from yellowiron.model.template import Template, choose
-from yellowiron.support.output import output_folder
+from yellowiron.support.output import keep_apart, output_folder
 from yellowiron.support.vectors import triple
 
 _LIBRARIES = (
@@ -108,6 +108,7 @@ def build(
     """
     clock = _Clock(progress)
     cad_file, out = Path(cad_file), Path(out)
+    keep_apart(out, [cad_file, *map(Path, sheets)])
     with output_folder(out) as folder:
         # Libraries load in a stage of their own: their second or two is no stage's work.
         with clock.stage("load", "Loading libraries"):

@@ -18,6 +18,7 @@ import pytest
 import yellowiron.cad
 from kit.cadfiles import blend as cad_blend
 from kit.cadfiles.exports import ITEMS, WRITERS
+from kit.packages import install_package
 from yellowiron import cli
 from yellowiron.cad import formats, read_cad
 from yellowiron.model.assembly import Assembly
@@ -415,8 +416,10 @@ def test_a_reader_that_goes_on_for_ever_is_one_sentence(
     """By its own limit or by the guard's: the program ends with code 2."""
     work = "def work():\n    while True: pass\n"
     text = f"from yellowiron.support.limits import must_end\n\n{work}\ndef read(path):\n    {body}\n"
-    (tmp_path / "reader_without_end.py").write_text(text)
-    monkeypatch.syspath_prepend(tmp_path)
+    install_package(
+        tmp_path / "site", monkeypatch, name="endless", group="yellowiron.tests",
+        entries={"it": "reader_without_end:read"}, modules={"reader_without_end": text},
+    )  # fmt: skip
     endless = tuple(replace(f, reader="reader_without_end:read") if f.name == "OBJ" else f for f in formats.FORMATS)
     monkeypatch.setattr(formats, "FORMATS", endless)
     monkeypatch.setattr(yellowiron.cad, "read_cad", functools.partial(read_cad, timeout_s=limit))

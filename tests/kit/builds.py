@@ -46,7 +46,7 @@ def reading_once(made_once: MadeOnce, *folders: Path) -> Iterator[None]:
 
     def read(path: str | Path, **limits: Any) -> Any:
         file = Path(os.path.realpath(path))
-        known = file.is_file() and any(file.is_relative_to(folder.resolve()) for folder in folders)
+        known = any(file.is_relative_to(folder.resolve()) for folder in folders) and file.is_file()
         return read_once(file, made_once) if known else read_cad(path, **limits)
 
     with pytest.MonkeyPatch.context() as patch:

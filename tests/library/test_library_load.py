@@ -285,7 +285,7 @@ def test_a_row_of_parts(tmp_path: Path) -> None:
     assert template.joints[0].parts == ("shoe[i]", "shoe[i+1]")
 
 
-@given(st.floats(-1e6, 1e6), st.sampled_from(["m", "rad"]))
+@given(st.floats(-5e3, 5e3), st.sampled_from(["m", "rad"]))
 def test_numbers_survive_a_file(value: float, unit: str) -> None:
     dimension = "length" if unit == "m" else "angle"
     back = quantity(number_text(value, unit), dimension, where="")
@@ -356,5 +356,5 @@ def test_copy_never_overwrites(tmp_path: Path) -> None:
     assert [p.name for p in tmp_path.iterdir()] == ["joints.json"]
     with pytest.raises(OutputError):
         library.copy_template("wheel_loader", tmp_path / "joints.json")
-    with pytest.raises(OutputError, match="cannot be copied"):
+    with pytest.raises(OutputError, match="in the way"):
         library.copy_template("wheel_loader", tmp_path / "joints.json" / "below")

@@ -13,8 +13,10 @@ from pathlib import Path
 
 import pytest
 
+from kit.packages import install_package
 from yellowiron.model.errors import YellowironError
 from yellowiron.simulation import examine, installed_engines
+from yellowiron.simulation.registry import GROUP
 
 ENGINE = """
 import os, signal, time
@@ -48,23 +50,22 @@ class Engine:
     def close(self):
         pass
 """
-STARTED = """
-import yellowiron.simulation.registry as engines
+ENTRIES = """
+from yellowiron.simulation.registry import EngineEntry
 
-engines.ENGINES = {
-    **engines.ENGINES,
-    "bad": engines.EngineEntry("bad_engine", 0.01),
-    "absent": engines.EngineEntry("no_such_engine", 0.01, install="pip install absent"),
-}
+BAD = EngineEntry("bad_engine", 0.01)
+ABSENT = EngineEntry("no_such_engine", 0.01, install="pip install absent")
 """
 
 
 @pytest.fixture
 def bad(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A folder in which the child's Python finds an engine `bad`, still to be written."""
-    (tmp_path / "sitecustomize.py").write_text(STARTED)
-    monkeypatch.syspath_prepend(tmp_path)
-    return tmp_path
+    """A folder of a package with an engine `bad`, still to be written."""
+    install_package(
+        tmp_path / "site", monkeypatch, name="bad-engines", group=GROUP,
+        entries={"bad": "bad_entries:BAD", "absent": "bad_entries:ABSENT"}, modules={"bad_entries": ENTRIES},
+    )  # fmt: skip
+    return tmp_path / "site"
 
 
 def write(folder: Path, deed: str) -> None:

@@ -92,7 +92,9 @@ RANGED = template(
         ("Bore=0 mm", "more than 0"),
         ("Bore=-5 mm", "more than 0"),
         ("Bore=1e999 mm", "more than 0"),
-        ("Rack Back=1e999 rad", "finite"),
+        ("Rack Back=1e999 rad", "from -360 ° to 360 °"),
+        ("Rack Back=-400 deg", "from -360 ° to 360 °"),
+        ("Bore=1e60 mm", "more than 0 and at most"),
     ],
 )
 def test_values_that_cannot_be_are_refused(text: str, hint: str) -> None:

@@ -10,9 +10,17 @@ from pathlib import Path
 from yellowiron.cad import formats, proprietary
 from yellowiron.cad.formats import CadFormat, NoReaderError
 from yellowiron.model.errors import CadError
+from yellowiron.support.files.inputs import MEGABYTE, require_file
 
 _BOM = b"\xef\xbb\xbf"
 _HEAD = 65536
+_LARGEST = 4096 * MEGABYTE
+"""Bytes of a CAD file."""
+_UNPACKED, _LARGEST_DIRECTORY = 2048 * MEGABYTE, 64 * MEGABYTE
+"""Bytes of all that is in an archive, unpacked, and of its table of contents."""
+_DENSEST = 50
+"""Times its size that a large archive may unpack to; numbers as text come to 5 to 15."""
+_UNPACK = "Split the model, if this is one; else the file is made to fill your disk."
 _STEP = next(known for known in formats.FORMATS if known.name == "STEP")
 
 
@@ -76,10 +84,11 @@ def _opened(path: Path) -> _File:
     if path.is_dir():
         raise CadError("This is a folder, not a CAD file", where=str(path), hint="Name the STEP file in it.")
     try:
+        if not path.exists():
+            raise CadError("There is no such CAD file", where=str(path), hint="Check the path.")
+        require_file(path, what="The CAD file", most=_LARGEST, error=CadError)
         with path.open("rb") as file:
             head = file.read(_HEAD)
-    except FileNotFoundError as error:
-        raise CadError("There is no such CAD file", where=str(path), hint="Check the path.") from error
     except OSError as error:
         raise CadError(
             f"The CAD file cannot be opened: {error.strerror}", where=str(path), hint="Check its permissions."
@@ -90,11 +99,28 @@ def _opened(path: Path) -> _File:
 
 
 def _members(path: Path) -> tuple[str, ...] | None:
+    """The names in an archive, None where it is not whole. `CadError` where it is made to fill memory or disk."""
     try:
+        if _directory(path) > _LARGEST_DIRECTORY:
+            raise CadError("The archive holds too many files to be a CAD model", where=str(path), hint=_UNPACK)
         with zipfile.ZipFile(path) as archive:
+            unpacked = sum(one.file_size for one in archive.infolist())
+            most = min(_UNPACKED, max(_UNPACKED // 8, _DENSEST * path.stat().st_size))
+            if unpacked > most:
+                words = f"The archive unpacks to {unpacked / MEGABYTE:.0f} MB, more than {most / MEGABYTE:.0f} MB"
+                raise CadError(words, where=str(path), hint=_UNPACK)
             return tuple(name.lower() for name in archive.namelist())
     except (zipfile.BadZipFile, OSError, NotImplementedError, ValueError):
         return None
+
+
+def _directory(path: Path) -> int:
+    """Bytes of a zip archive's table of contents, as its end says: PKWARE's APPNOTE, 4.3.16."""
+    with path.open("rb") as file:
+        file.seek(max(0, path.stat().st_size - 65558))
+        end = file.read()
+    at = end.rfind(b"PK\5\6")
+    return int.from_bytes(end[at + 12 : at + 16], "little") if at >= 0 else 0
 
 
 def _is(known: CadFormat, head: bytes) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from yellowiron.checks.reading.opening import open_stage, register_schemas
+from yellowiron.model.errors import YellowironError
 from yellowiron.model.finding import Finding
 
 _ORDER = {"error": 0, "warning": 1, "info": 2}
@@ -17,7 +18,7 @@ def check(path: str | Path) -> tuple[Finding, ...]:
     `YellowironError` where there is no such file or it is no USD. References that lead nowhere are findings.
     """
     register_schemas()
-    from pxr import UsdUtils
+    from pxr import Tf, UsdUtils
 
     from yellowiron.checks.reading.stage import read_view
     from yellowiron.checks.rules import RULES
@@ -30,6 +31,11 @@ def check(path: str | Path) -> tuple[Finding, ...]:
         view = read_view(stage, file.name)
         found = [finding for rule in RULES for finding in rule(view)]
         found += validate(stage)
+    except Tf.ErrorException as error:
+        words = " ".join(str(error).split())[:200]
+        raise YellowironError(
+            f"The file is damaged: {words}", where=str(path), hint="Copy it again, or write it again."
+        ) from error
     finally:
         del quiet
     return tuple(sorted(found, key=lambda f: (_ORDER[f.severity], f.code)))

@@ -9,6 +9,8 @@ import numpy as np
 
 from yellowiron.model.geometry import Mesh
 
+_LONGEST = 100
+"""Letters of a file name."""
 MOST_TRIANGLES = 200_000
 """The largest STL that MuJoCo reads; a larger mesh becomes several."""
 
@@ -53,7 +55,7 @@ def _stl(points: np.ndarray, triangles: np.ndarray) -> bytes:
 
 def plain(name: str) -> str:
     """A name in letters, digits, `_`, `-` and `.` that a file may have on every system."""
-    return re.sub(r"[^A-Za-z0-9_.-]+", "_", name).strip("._") or "part"
+    return re.sub(r"[^A-Za-z0-9_.-]+", "_", name).strip("._")[:_LONGEST] or "part"
 
 
 def unique(name: str, taken: set[str]) -> str:

@@ -71,7 +71,9 @@ def read_geometry(path: str | Path) -> Geometry:
     try:
         stage = Usd.Stage.Open(str(path))
     except Tf.ErrorException as error:
-        raise YellowironError("The file cannot be read as USD", where=str(path)) from error
+        raise YellowironError(
+            "The file cannot be read as USD", where=str(path), hint="It is damaged or no USD; write it again."
+        ) from error
     with Usd.EditContext(stage, stage.GetSessionLayer()):
         for prim in [p for p in stage.Traverse() if p.GetVariantSets().HasVariantSet("Physics")]:
             prim.GetVariantSet("Physics").SetVariantSelection("on")

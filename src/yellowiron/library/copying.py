@@ -13,6 +13,7 @@ from yellowiron.library.parsing.wanted import complete
 from yellowiron.library.type_folders import DOCUMENTS, find_template
 from yellowiron.model.errors import OutputError
 from yellowiron.model.specification import fold
+from yellowiron.support.output import output_folder
 
 
 def copy_template(type_or_folder: str | Path, folder: str | Path) -> Path:
@@ -41,16 +42,10 @@ def copy_template(type_or_folder: str | Path, folder: str | Path) -> Path:
                     where=str(source),
                     hint="Put textures into the template's own folder.",
                 )
-    try:
+    with output_folder(target) as staged:
         for name, file in files.items():
-            (target / name).parent.mkdir(parents=True, exist_ok=True)
-            _copy(file, target / name)
-    except OSError as error:
-        raise OutputError(
-            f"The template cannot be copied: {error.strerror}",
-            where=str(target),
-            hint="Name a folder you may write to.",
-        ) from error
+            (staged / name).parent.mkdir(parents=True, exist_ok=True)
+            _copy(file, staged / name)
     return target
 
 

@@ -48,7 +48,7 @@ def load_template(type_or_folder: str | Path, *, sheet_only: bool = False) -> Te
             f"Of a {folder.resolve().name.replace('_', ' ')} only the sheet can be read so far: "
             "its template has no bodies and joints to build from",
             where=str(folder),
-            hint="Use `yellowiron extract`, or begin a template with `yellowiron templates new --from CAD`.",
+            hint="Use `yellowiron extract`, or begin a template with `yellowiron templates new --from CAD --out DIR`.",
         )
     if "joints" not in paths:
         raise TemplateError(

@@ -265,7 +265,11 @@ def proposal_table(document: Mapping[str, Any]) -> RenderableType:
     folder = document["folder"]
     blocks: list[RenderableType] = [table, ""]
     blocks += [finding_table(document["findings"]), ""] if document["findings"] else []
-    words = f"{folder}: {len(document['bodies'])} bodies; proposal.md says why. Build with it by naming the folder."
+    words = f"{len(document['bodies'])} bodies"
+    if folder is None:
+        words += ". Nothing is written: name a folder with --out."
+    else:
+        words = f"{folder}: {words}; proposal.md says why. Build with it by naming the folder."
     return Group(*blocks, Text(words, "dim"))
 
 

@@ -156,8 +156,9 @@ def _with_hint(message: str, hint: str) -> str:
 
 
 def write_document(document: Mapping[str, Any], path: Path) -> None:
-    """Writes a document as JSON, the same bytes for the same content."""
-    path.write_text(to_json(document), encoding="utf-8")
+    """Writes a document as JSON, the same bytes for the same content. A byte of a file's name that is no letter in any
+    encoding is written as JSON spells it."""
+    path.write_text(to_json(document), encoding="utf-8", errors="backslashreplace")
 
 
 def _repeatable(run: Mapping[str, Any]) -> dict[str, Any]:

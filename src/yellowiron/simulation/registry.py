@@ -78,7 +78,9 @@ def find_engine(name: str) -> EngineEntry:
     if name in plugins:
         return plugins[name].load(EngineEntry)
     if name not in ENGINES:
-        raise YellowironError(f"There is no engine '{name}'", hint=f"Known: {', '.join(engine_names())}.")
+        raise YellowironError(
+            f"There is no engine '{name}'", where="--engine", hint=f"Known: {', '.join(engine_names())}."
+        )
     return ENGINES[name]
 
 
@@ -92,7 +94,9 @@ def import_engine(name: str) -> ModuleType:
         return importlib.import_module(entry.module)
     except ModuleNotFoundError as error:
         raise YellowironError(
-            f"The engine '{name}' needs the module '{error.name}', which is not installed", hint=f"{entry.install}"
+            f"The engine '{name}' needs the module '{error.name}', which is not installed",
+            where="--engine",
+            hint=entry.install,
         ) from error
 
 

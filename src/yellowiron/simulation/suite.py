@@ -22,7 +22,7 @@ from yellowiron.simulation.machine_tests.hydraulics import run_tests
 from yellowiron.simulation.payload import RatedPayload
 from yellowiron.simulation.registry import find_engine, import_engine
 from yellowiron.simulation.strokes.result import simulation_document
-from yellowiron.simulation.strokes.run import simulate
+from yellowiron.simulation.strokes.run import check_timestep, simulate
 from yellowiron.support.guard import Wording, beat, run_guarded
 
 PATIENCE = "YELLOWIRON_PATIENCE"
@@ -48,6 +48,8 @@ def examine(
     `YellowironError`. `base` and `payload` are for the strokes; driving is empty, the template's tests say their own.
     Errors as in `simulate`, `drive` and `run_tests`; a machine that has nothing to drive on is no error but a reason.
     """
+    if dt is not None:
+        check_timestep(dt)
     made: tuple[dict[str, Any], tuple[Sweep, ...]] = run_guarded(
         "yellowiron.simulation.suite:examined",
         usd_path, engine, test, base, payload, dt,

@@ -8,7 +8,7 @@ from typing import Any
 
 from yellowiron.model.errors import OutputError, SheetError
 from yellowiron.model.specification import Evidence, Specifications
-from yellowiron.specs.reader import MEMORY_MB, TIMEOUT_S, check_file
+from yellowiron.specs.reader import MEMORY_MB, RESIDENT_MB, TIMEOUT_S, check_file
 from yellowiron.support.guard import beat, run_guarded
 
 _SCALE = 1.6
@@ -48,6 +48,7 @@ def draw_evidence(sheets: Sequence[Path], specifications: Specifications, folder
             error=SheetError,
             timeout_s=TIMEOUT_S,
             memory_mb=MEMORY_MB,
+            resident_mb=RESIDENT_MB,
         )
         written.extend(folder / name for name in pages)
     return tuple(written)

@@ -20,7 +20,7 @@ from yellowiron.specs.layout.nearest import Near
 from yellowiron.specs.llm.agreement import agreed
 from yellowiron.specs.llm.endpoint import Endpoint, EndpointError, ModelOptions
 from yellowiron.specs.llm.extractor import find
-from yellowiron.specs.reader import MEMORY_MB, TIMEOUT_S, Sheet, check_file
+from yellowiron.specs.reader import MEMORY_MB, RESIDENT_MB, TIMEOUT_S, Sheet, check_file
 from yellowiron.specs.values.claims import Claim, claims_of, configured
 from yellowiron.specs.values.cross_check import second_reading, stands_in
 from yellowiron.specs.values.decision import Column, Sheets, decide, quantity_words, unreadable
@@ -74,6 +74,7 @@ def read(path: Path, *, progress: Callable[[str], None] = lambda words: None) ->
         error=SheetError,
         timeout_s=TIMEOUT_S,
         memory_mb=MEMORY_MB,
+        resident_mb=RESIDENT_MB,
         progress=progress,
     )
     assert isinstance(sheet, Sheet)
@@ -92,6 +93,7 @@ def _recognised(sheet: Sheet, path: Path, progress: Callable[[str], None]) -> Sh
             error=SheetError,
             timeout_s=2.0 * ocr.PAGE_TIMEOUT_S,
             memory_mb=MEMORY_MB,
+            resident_mb=RESIDENT_MB,
             wording=Wording("Text recognition"),
             progress=progress,
         )

@@ -16,14 +16,17 @@ from yellowiron.specs.layout.rows.lines import TextLine, lines_of
 from yellowiron.specs.layout.statement import Statement
 from yellowiron.specs.pages.words import Page, read_page
 from yellowiron.specs.values.stated_configuration import Stated, stated_in
+from yellowiron.support.files.inputs import require_file
 from yellowiron.support.guard import beat
 
 TIMEOUT_S = 60.0
 """For one page; the reader gives a sign of life at each."""
 MEMORY_MB = 4096
+RESIDENT_MB = 1024
+"""Of memory in use; half of it is a page of a very large drawing."""
 _MOST_S = 600.0
 """For a whole file."""
-_MOST_PAGES = 400
+_MOST_PAGES = 5000
 _MOST_BYTES = 512 * 1024 * 1024
 
 
@@ -137,7 +140,7 @@ def check_file(path: Path) -> None:
             hint="Give the sheet's file.",
         )
     try:
-        size = path.stat().st_size
+        size = require_file(path, what=path.name, most=_MOST_BYTES, error=SheetError)
         with path.open("rb") as stream:
             head = stream.read(1024)
             stream.seek(max(0, size - 8192))
@@ -148,10 +151,6 @@ def check_file(path: Path) -> None:
         ) from error
     if size == 0:
         raise SheetError(f"{path.name} is empty", where=str(path), hint="Get the file again.")
-    if size > _MOST_BYTES:
-        raise SheetError(
-            f"{path.name} is larger than 512 MB", where=str(path), hint="Give the specification pages only."
-        )
     if b"%PDF-" not in head:
         raise SheetError(f"{path.name} is not a PDF", where=str(path), hint="Give the sheet as a PDF file.")
     if b"%%EOF" not in tail:

@@ -2,7 +2,8 @@
 
 `$YELLOWIRON_CACHE` names the folder, or is `off`; else it is `$XDG_CACHE_HOME/yellowiron`, else `~/.cache/yellowiron`.
 It may be deleted at any time. A hit gives the same arrays as a miss; an entry that cannot be read is made anew, and a
-folder that cannot be written is done without.
+folder that cannot be written is done without. So is one that is another user's, or that others may write to: what it
+holds is numbers and texts, nothing that is run or unpickled, but a machine's shapes are not to be a stranger's.
 """
 
 from __future__ import annotations
@@ -11,7 +12,9 @@ import contextlib
 import hashlib
 import io
 import os
+import stat
 import tempfile
+import zipfile
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -27,7 +30,12 @@ Arrays = tuple[NDArray[Any], ...]
 
 
 def cache_folder() -> Path | None:
-    """Where things are kept; None: nowhere. The folder need not exist."""
+    """Where things are kept; None: nowhere. The folder need not exist; others may not write to it."""
+    folder = _named()
+    return folder if folder is None or _is_ours(folder) else None
+
+
+def _named() -> Path | None:
     chosen = os.environ.get(VARIABLE, "").strip()
     if chosen.lower() in OFF:
         return None
@@ -40,6 +48,17 @@ def cache_folder() -> Path | None:
         return Path.home() / ".cache" / "yellowiron"
     except RuntimeError:
         return None
+
+
+def _is_ours(path: Path) -> bool:
+    """Whether only this user, and root, can have put there what is at a path, or nothing is there yet."""
+    try:
+        there = path.stat()
+    except FileNotFoundError:
+        return True
+    except OSError:
+        return False
+    return there.st_uid in (os.geteuid(), 0) and not there.st_mode & stat.S_IWOTH
 
 
 def remember(kind: str, key: str, make: Callable[[], Arrays]) -> Arrays:
@@ -59,13 +78,18 @@ def remember(kind: str, key: str, make: Callable[[], Arrays]) -> Arrays:
 def _read(path: Path) -> Arrays | None:
     """None where there is no whole entry: its last bytes are the digest of the others."""
     try:
+        if not (_is_ours(path.parent) and _is_ours(path)):
+            return None
         data = path.read_bytes()
     except OSError:
         return None
     if hashlib.sha256(data[:-_DIGEST]).digest() != data[-_DIGEST:]:
         return None
-    with np.load(io.BytesIO(data[:-_DIGEST]), allow_pickle=False) as entry:
-        return tuple(entry[f"arr_{number}"] for number in range(len(entry.files)))
+    try:
+        with np.load(io.BytesIO(data[:-_DIGEST]), allow_pickle=False) as entry:
+            return tuple(entry[f"arr_{number}"] for number in range(len(entry.files)))
+    except (ValueError, TypeError, KeyError, EOFError, zipfile.BadZipFile):  # whole, and no entry of ours
+        return None
 
 
 def _write(path: Path, arrays: Arrays) -> None:
@@ -74,7 +98,8 @@ def _write(path: Path, arrays: Arrays) -> None:
     np.savez(entry, *arrays)
     data = entry.getvalue()
     with contextlib.suppress(OSError):
-        path.parent.mkdir(parents=True, exist_ok=True)
+        path.parent.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
+        path.parent.mkdir(exist_ok=True, mode=0o700)
         handle, name = tempfile.mkstemp(prefix=".new-", dir=path.parent)
         try:
             with os.fdopen(handle, "wb") as file:

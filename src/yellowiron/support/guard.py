@@ -16,14 +16,18 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from pkgutil import resolve_name
-from typing import IO, Any, cast
+from typing import IO, Any, NoReturn, cast
 
 from yellowiron.model.errors import YellowironError
-from yellowiron.support import limits
+from yellowiron.support import isolated, limits, plugins
 
 _CRASH_HINT = "The file is damaged, or made to break its reader; open it in its own program and export it again."
+_PACKAGE = Path(__file__).resolve().parent.parent
+_RUN = "yellowiron.support.guard:run_child"
 _BEAT = 1.0
 """Seconds between two signs of life."""
+_LOOK = 0.05
+"""Seconds between two looks at how much memory a child has taken."""
 _LAST_WORDS = 65536
 
 
@@ -47,15 +51,17 @@ def run_guarded(
     error: type[YellowironError] = YellowironError,
     timeout_s: float = 600.0,
     memory_mb: int | None = 8192,
+    resident_mb: int | None = None,
     wording: Wording = READING,
     progress: Callable[[str], None] = lambda words: None,
 ) -> Any:
     """The result of `module:function` called with `args` in a child process; both travel by pickle.
 
     A `YellowironError` raised there is raised here. A crash, more than `timeout_s` seconds without a sign of life
-    (`beat`; readers give none) or more than `memory_mb` of address space raise `error`, naming `where`. `progress` is
-    called with what the child says of itself. `YellowironError` on a system without the processes and limits that this
-    takes (`yellowiron.support.limits` says which has what).
+    (`beat`; readers give none), more than `memory_mb` of address space or `resident_mb` of memory in use (Linux) raise
+    `error`, naming `where`. `progress` is called with what the child says of itself. `YellowironError` on a system
+    without the processes and limits that this takes (`yellowiron.support.limits` says which has what). The child
+    imports from the installation alone (`yellowiron.support.isolated`).
     """
     limits.require_supported_platform()
     with tempfile.TemporaryDirectory(prefix="yellowiron-") as folder:
@@ -64,20 +70,23 @@ def run_guarded(
         with os.fdopen(life, "rb", buffering=0) as lives:
             with os.fdopen(told, "wb", buffering=0):
                 call.write_bytes(pickle.dumps((target, args, memory_mb, str(answer), told)))
-                # The parent's import path goes along, so that a source checkout works as an installation does.
-                environment = {**os.environ, "PYTHONPATH": os.pathsep.join(p for p in sys.path if p)}
                 child = subprocess.Popen(
-                    [sys.executable, "-m", "yellowiron.support.guard", str(call)],
+                    [*isolated.interpreter(), isolated.__file__, str(_PACKAGE), _RUN, str(call), *_folders()],
                     stdin=subprocess.DEVNULL,
                     stdout=subprocess.DEVNULL,
                     stderr=subprocess.PIPE,
-                    env=environment,
+                    env=isolated.shielded(os.environ),
                     start_new_session=True,
                     pass_fds=(told,),
                 )
             with child:
                 try:
-                    noise = _attend(child, lives, timeout_s, progress)
+                    noise = _attend(child, lives, timeout_s, resident_mb, progress)
+                except _GreedyError as greedy:
+                    raise error(
+                        f"{wording.who} needs more than {resident_mb} MB of memory for this file and was stopped",
+                        where=where, hint="Split the file, if it is none that is made to fill the memory.",
+                    ) from greedy  # fmt: skip
                 except subprocess.TimeoutExpired as expired:
                     raise error(
                         f"{wording.late} {timeout_s:g} s and was stopped", where=where, hint=wording.hint
@@ -104,11 +113,19 @@ def run_guarded(
     return value
 
 
+class _GreedyError(Exception):
+    """A child that took more memory than it may."""
+
+
 def _attend(
-    child: subprocess.Popen[bytes], life: IO[bytes], timeout_s: float, progress: Callable[[str], None]
+    child: subprocess.Popen[bytes],
+    life: IO[bytes],
+    timeout_s: float,
+    resident_mb: int | None,
+    progress: Callable[[str], None],
 ) -> bytes:
     """Waits for the child to end; what it wrote to its error output, the last of it. `TimeoutExpired` where it gave no
-    sign of life for so long."""
+    sign of life for so long, `_GreedyError` where it took more memory."""
     noise, words, end = b"", b"", time.monotonic() + timeout_s
     with selectors.DefaultSelector() as streams:
         streams.register(cast(IO[bytes], child.stderr), selectors.EVENT_READ)
@@ -116,7 +133,9 @@ def _attend(
         while streams.get_map():
             if (left := end - time.monotonic()) <= 0.0:
                 raise subprocess.TimeoutExpired(child.args, timeout_s)
-            for key, _ in streams.select(left):
+            if resident_mb is not None and limits.memory_in_use(child.pid) > resident_mb:
+                raise _GreedyError
+            for key, _ in streams.select(min(left, _LOOK) if resident_mb is not None else left):
                 data = os.read(key.fd, 65536)
                 if not data:
                     streams.unregister(key.fileobj)
@@ -158,12 +177,20 @@ def _obituary(who: str, returncode: int, noise: bytes) -> str:
     return f"{who} ended with code {returncode} and no result{detail}"
 
 
-def _child(call: Path) -> None:
+def _folders() -> list[str]:
+    """What a child may import from, behind its interpreter's own: the folder of this package, and those of packages
+    that bring plugins."""
+    return [str(_PACKAGE.parent), *plugins.folders()]
+
+
+def run_child(call: str) -> NoReturn:
+    """Does what the file `call` asks for, writes the answer beside it and ends the process: a guarded child's work."""
     global _life
     limits.die_with_parent()
-    target, args, memory_mb, answer, _life = pickle.loads(call.read_bytes())
+    target, args, memory_mb, answer, _life = pickle.loads(Path(call).read_bytes())
     if memory_mb is not None:
         limits.limit_memory(memory_mb)
+        limits.limit_files(memory_mb)
     limits.leave_no_core()
     outcome: tuple[str, Any]
     try:
@@ -184,9 +211,3 @@ def _child(call: Path) -> None:
         os._exit(os.EX_IOERR)
     # Past this point only library teardown could run, and that is where some readers crash.
     os._exit(0)
-
-
-if __name__ == "__main__":
-    from yellowiron.support import guard  # as others import it: this one is `__main__`
-
-    guard._child(Path(sys.argv[1]))

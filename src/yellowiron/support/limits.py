@@ -14,17 +14,21 @@ from __future__ import annotations
 import contextlib
 import ctypes
 import math
+import os
 import signal
 import sys
 import time
 from collections.abc import Iterator
+from pathlib import Path
+from typing import IO
 
 from yellowiron.model.errors import YellowironError
 
 try:
+    import fcntl
     import resource
 except ImportError:  # not on Windows
-    resource = None  # type: ignore[assignment]
+    fcntl = resource = None  # type: ignore[assignment]
 
 _PR_SET_PDEATHSIG = 1
 """linux/prctl.h."""
@@ -46,6 +50,38 @@ def limit_memory(megabytes: int) -> None:
     if resource is not None and sys.platform != "darwin":
         limit = megabytes * 1024 * 1024
         resource.setrlimit(resource.RLIMIT_AS, (limit, limit))
+
+
+def limit_files(megabytes: int) -> None:
+    """Bounds every file that this process writes: an archive may unpack to more than the disk has."""
+    if resource is not None:
+        limit = min(megabytes * 1024 * 1024, int(min(largest_file(), 2**62)))
+        resource.setrlimit(resource.RLIMIT_FSIZE, (limit, resource.getrlimit(resource.RLIMIT_FSIZE)[1]))
+
+
+def memory_in_use(process: int) -> float:
+    """Megabytes of memory that a process has in use; 0 where the system does not say (it does on Linux)."""
+    try:
+        pages = int(Path(f"/proc/{process}/statm").read_text(encoding="ascii").split()[1])
+    except (OSError, ValueError, IndexError):
+        return 0.0
+    return pages * os.sysconf("SC_PAGE_SIZE") / 2**20
+
+
+def largest_file() -> float:
+    """Bytes that a file written by this process may have."""
+    limit = resource.getrlimit(resource.RLIMIT_FSIZE)[0] if resource is not None else -1
+    return math.inf if limit < 0 else limit
+
+
+def lock(file: IO[str]) -> bool:
+    """Whether no other process holds this file; this one then does, until it closes it or ends. `OSError` where the
+    file system has no locks."""
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    return True
 
 
 def leave_no_core() -> None:

@@ -7,10 +7,12 @@ entry is loaded.
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from importlib.metadata import EntryPoint, entry_points
+from importlib.metadata import EntryPoint, distributions, entry_points
+from pathlib import Path
 from typing import Any, TypeVar
 
 from yellowiron.model.errors import YellowironError
@@ -59,6 +61,14 @@ def in_a_sentence(what: str, where: str) -> Iterator[None]:
     except Exception as error:
         said = " ".join(f"{type(error).__name__}: {error}".split())[:300]
         raise YellowironError(f"{what}: {said}", where=where, hint=_HINT) from error
+
+
+def folders() -> tuple[str, ...]:
+    """The folders of the import path, in its order, that packages with an entry for us lie in; never the current
+    one."""
+    brought = [d for d in distributions() if any(e.group.startswith("yellowiron.") for e in d.entry_points)]
+    places = {Path(str(package.locate_file(""))).resolve() for package in brought} - {Path.cwd()}
+    return tuple(str(Path(folder).resolve()) for folder in sys.path if Path(folder).resolve() in places)
 
 
 def all_plugins(group: str) -> list[Plugin]:

@@ -53,6 +53,6 @@ def plain(value: Any) -> Any:
     return value
 
 
-def to_json(document: Any) -> str:
+def to_json(document: Any, *, ascii_only: bool = False) -> str:
     """A document as the text of a JSON file: two-space indent, the writer's key order, UTF-8, a closing newline."""
-    return json.dumps(plain(document), indent=2, ensure_ascii=False) + "\n"
+    return json.dumps(plain(document), indent=2, ensure_ascii=ascii_only) + "\n"

@@ -28,7 +28,24 @@ SI_UNIT = {
 }
 """Dimension (the word a template uses) → the SI unit its values are kept in."""
 
-_NUMBER = re.compile(r"^\s*([-+−]?\d+(?:\.\d*)?(?:[eE][-+]?\d+)?|[-+−]?\.\d+)\s*(.*?)\s*$")
+LARGEST = {
+    "length": 1e4,
+    "angle": 1e4,
+    "mass": 1e8,
+    "pressure": 1e10,
+    "flow": 1e3,
+    "volume": 1e6,
+    "force": 1e10,
+    "torque": 1e11,
+    "power": 1e10,
+    "speed": 1e4,
+    "angular_speed": 1e5,
+    "time": 1e7,
+    "count": 1e6,
+}
+"""Dimension → the size, in SI, beyond which no value of a machine is: far beyond the largest ever built."""
+
+_NUMBER = re.compile(r"^\s*([-+−]?[0-9]+(?:\.[0-9]*)?(?:[eE][-+]?[0-9]+)?|[-+−]?\.[0-9]+)\s*(.*?)\s*$")
 _SPELLING = {
     "°": "degree",
     "deg": "degree",

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import tempfile
 from pathlib import Path
 
 from pxr import Sdf
 
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import OutputError
+from yellowiron.support.output import output_file
 from yellowiron.usd.authoring.materials import Look, look_of, write_pictures
 from yellowiron.usd.authoring.metadata import set_custom
 from yellowiron.usd.authoring.stage import (
@@ -37,19 +37,9 @@ def write_assembly(assembly: Assembly, path: str | Path) -> Path:
     target = Path(path)
     check_target(target)
     layer, looks = _author(assembly, binary=target.suffix.lower() != ".usda")
-    try:
-        target.parent.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryDirectory(prefix=f".{target.stem}-", dir=target.parent) as folder:
-            written = save_layer(layer, Path(folder) / target.name)
-            # Their names hold their content: what is there already is the same.
-            for file in write_pictures(looks, Path(folder)):
-                (target.parent / file.parent.name).mkdir(exist_ok=True)
-                file.replace(target.parent / file.parent.name / file.name)
-            written.replace(target)
-    except OSError as error:
-        raise OutputError(
-            "The USD file cannot be written", where=str(target), hint="Check the folder, its permissions and its space."
-        ) from error
+    with output_file(target) as file:
+        save_layer(layer, file)
+        write_pictures(looks, file.parent)
     return target
 
 

@@ -18,8 +18,13 @@ from yellowiron.model.errors import AlignmentError, OutputError
 from yellowiron.model.finding import Finding
 from yellowiron.model.rows import count_members
 from yellowiron.model.template import Template
+from yellowiron.support.files.inputs import MEGABYTE, read_input
 
 FORMAT = 1
+_LARGEST = 64 * MEGABYTE
+"""Bytes of a file: that of a model of a hundred thousand parts."""
+_RIGID, _FARTHEST = 1e-5, 1e6
+"""How far a frame's axes may be from unit vectors at right angles, and its origin (m) from the CAD model's."""
 _NUMBERS = re.compile(r"\[\n\s*([-+\d.e,\s]+?)\s*\]")
 
 
@@ -203,12 +208,11 @@ def _assignment(entry: Mapping[str, Any], role: str | None, template: Template, 
 
 def _load(source: Path) -> dict[str, Any]:
     hint = "Hand in the alignment.json that an earlier run wrote."
+    data = read_input(source, what="The alignment", most=_LARGEST, error=AlignmentError)
     try:
-        document = json.loads(source.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise AlignmentError(
-            f"The alignment cannot be read: {error.strerror or error}", where=str(source), hint=hint
-        ) from error
+        document = json.loads(data.decode("utf-8-sig"))
+    except RecursionError as error:
+        raise AlignmentError("The alignment is nested too deep", where=str(source), hint=hint) from error
     except ValueError as error:
         raise AlignmentError(f"The alignment is no JSON: {error}", where=str(source), hint=hint) from error
     if not isinstance(document, dict) or not isinstance(document.get("parts"), list):
@@ -227,10 +231,18 @@ def _frame(value: object, source: Path) -> np.ndarray[tuple[int, int], np.dtype[
         frame = np.array(value, dtype=np.float64)
     except (TypeError, ValueError):
         frame = np.zeros(0)
+    hint = "Leave it as the last run wrote it."
     if frame.shape != (4, 4) or not np.isfinite(frame).all():
+        raise AlignmentError("`frame` is no 4 by 4 matrix", where=str(source), hint=hint)
+    turn = frame[:3, :3]
+    with np.errstate(over="ignore", invalid="ignore"):
+        rigid = np.allclose(turn @ turn.T, np.eye(3), rtol=0.0, atol=_RIGID) and np.linalg.det(turn) > 0.0
+    if not rigid or not np.allclose(frame[3], (0.0, 0.0, 0.0, 1.0), rtol=0.0, atol=_RIGID):
         raise AlignmentError(
-            "`frame` is no 4 by 4 matrix", where=str(source), hint="Leave it as the last run wrote it."
+            "`frame` does more than turn and move: it mirrors, shears, scales or flattens", where=str(source), hint=hint
         )
+    if np.abs(frame[:3, 3]).max() > _FARTHEST:
+        raise AlignmentError(f"`frame` moves by more than {_FARTHEST:g} m", where=str(source), hint=hint)
     return frame
 
 

@@ -160,7 +160,11 @@ class _Document:
                 ET.SubElement(element, "freejoint", name=f"{body.name}.free")
                 self._drawn += [*body.origin, 1.0, 0.0, 0.0, 0.0]
         elif any(known.body1 == body.name for known in self._order) or body.name == self._mechanism.root:
-            raise MechanismError(f"two tree joints lead to the body '{body.name}'", where=joint.name)
+            raise MechanismError(
+                f"two tree joints lead to the body '{body.name}'",
+                where=joint.name,
+                hint="Build the machine again, or correct its template.",
+            )
         else:
             self._order.append(joint)
             self._drawn += [1.0, 0.0, 0.0, 0.0] if joint.type == "spherical" else [0.0] * _POSITIONS.get(joint.type, 0)

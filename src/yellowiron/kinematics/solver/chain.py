@@ -236,7 +236,9 @@ class ClosedChain:
     def _index(self, joint: str) -> int:
         if joint in self.independent or joint in self.idle:
             if self._joints[joint].type == "spherical":
-                raise MechanismError("a spherical joint takes no single target", where=joint)
+                raise MechanismError(
+                    "a spherical joint takes no single target", where=joint, hint="Name another joint."
+                )
             return self._body.joints[joint][0]
         known = joint in self._joints
         raise MechanismError(
@@ -367,7 +369,9 @@ class ClosedChain:
             return float(state.position[self._body.joints[joint][0]])
         entry = self._joints[joint]
         if entry.type != "revolute":
-            raise MechanismError(f"a {entry.type} joint has no single coordinate", where=joint)
+            raise MechanismError(
+                f"a {entry.type} joint has no single coordinate", where=joint, hint="Ask for its rotation."
+            )
         self._at(state)
         relative = self._rotation(entry.body0).T @ self._rotation(entry.body1)
         _, b, c = self._axes[joint]

@@ -16,6 +16,7 @@ from yellowiron.model.mechanism import Body, Joint, Mechanism
 ARM = 0.5
 """Metres between a cut joint's first and further connection points: turns an angle between two axes into a gap."""
 _SMALLEST_MASS = 1e-9
+_HINT = "Build the machine again, or correct the joints of its template."
 _KIND = {"revolute": "mjJNT_HINGE", "prismatic": "mjJNT_SLIDE", "spherical": "mjJNT_BALL"}
 
 
@@ -61,7 +62,9 @@ def build(mechanism: Mechanism) -> Multibody:
         model = spec.compile()
     except ValueError as error:
         raise MechanismError(
-            f"the mechanism makes no multibody model: {str(error).splitlines()[0]}", where=mechanism.name
+            f"the mechanism makes no multibody model: {str(error).splitlines()[0]}",
+            where=mechanism.name,
+            hint=_HINT,
         ) from error
     addresses = {n: (int(model.joint(n).qposadr[0]), int(model.joint(n).dofadr[0])) for n in moving}
     ids = {body.name: int(model.body(body.name).id) for body in mechanism.bodies}
@@ -84,11 +87,13 @@ def _check_joints(mechanism: Mechanism) -> None:
     """`MechanismError` where a joint names no body, a slide is cut or a distance joint is not."""
     known = {body.name for body in mechanism.bodies}
     if mechanism.root not in known:
-        raise MechanismError(f"the root body '{mechanism.root}' does not exist", where=mechanism.name)
+        raise MechanismError(f"the root body '{mechanism.root}' does not exist", where=mechanism.name, hint=_HINT)
     for joint in mechanism.joints:
         for end in (joint.body0, joint.body1):
             if end not in known:
-                raise MechanismError(f"the joint names a body '{end}' that does not exist", where=joint.name)
+                raise MechanismError(
+                    f"the joint names a body '{end}' that does not exist", where=joint.name, hint=_HINT
+                )
         if joint.cut and joint.type == "prismatic":
             raise MechanismError(
                 "a slide is cut, and cylinders must stay in the tree", where=joint.name, hint="Cut a pivot of its loop."
@@ -119,7 +124,9 @@ def _leading_joints(mechanism: Mechanism) -> dict[str, Joint]:
     while waiting:
         ready = [name for name, joint in waiting.items() if joint.body0 in reached]
         if not ready:
-            raise MechanismError("the tree joints form a ring away from the root", where=next(iter(waiting)))
+            raise MechanismError(
+                "the tree joints form a ring away from the root", where=next(iter(waiting)), hint=_HINT
+            )
         for name in ready:
             ordered[name] = waiting.pop(name)
             reached.add(name)
@@ -181,5 +188,5 @@ def _unit(joint: Joint) -> Floats:
     axis = np.array(joint.axis, dtype=np.float64)
     length = float(np.linalg.norm(axis))
     if not 1e-6 < length < np.inf:
-        raise MechanismError("the joint has no axis", where=joint.name)
+        raise MechanismError("the joint has no axis", where=joint.name, hint=_HINT)
     return axis / length

@@ -6,10 +6,12 @@ import math
 import re
 
 from yellowiron.model.errors import TemplateError, YellowironError
-from yellowiron.support.units import SI_UNIT, parse_quantity, registry
+from yellowiron.support.units import LARGEST, SI_UNIT, parse_quantity, registry
 
 _STARTS_A_NUMBER = re.compile(r"^[-+−]?\s*\.?\d")
-_NUMBER_AND_UNIT = re.compile(r"^\s*([-+−]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*$")
+_NUMBER_AND_UNIT = re.compile(r"^\s*([-+−]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?)\s*(.*?)\s*$")
+_LARGEST = 1e15
+_NO_NAMES = ("nan", "inf", "infinity")
 _POWER = re.compile(r"([A-Za-z])([23])\b")
 _NAME = re.compile(r"^([-−]?)\s*([^\W\d_].*)$", re.DOTALL)
 
@@ -30,11 +32,13 @@ def quantity(value: float | str, dimension: str, *, where: str) -> float:
             )
     else:
         number, unit = float(value), ""
-    if not math.isfinite(number):
-        raise TemplateError(f"{number} is not a number that can be used", where=where)
-    if unit:
-        return number
-    return math.radians(number) if dimension == "angle" else number
+    if dimension == "angle" and not unit:
+        number = math.radians(number)
+    if not abs(number) <= LARGEST[dimension]:
+        raise TemplateError(
+            f"'{value}' is no {dimension} that a machine can have", where=where, hint="Check number and unit."
+        )
+    return number
 
 
 def limit(value: float | str | None, dimension: str, *, where: str) -> float | str | None:
@@ -44,7 +48,7 @@ def limit(value: float | str | None, dimension: str, *, where: str) -> float | s
         return None
     if isinstance(value, str) and not _STARTS_A_NUMBER.match(value.strip()):
         match = _NAME.match(value.strip())
-        if match is None:
+        if match is None or match.group(2).split()[0].casefold() in _NO_NAMES:
             raise TemplateError(
                 f"'{value}' is neither a number nor the name of a specification",
                 where=where,
@@ -79,8 +83,10 @@ def in_unit(value: float | str, unit: str, *, where: str) -> float:
                 ) from error
     else:
         number = float(value)
-    if not (math.isfinite(number) and number > 0.0):
-        raise TemplateError(f"'{value}' should be more than 0 and finite", where=where)
+    if not 0.0 < number <= _LARGEST:
+        raise TemplateError(
+            f"'{value}' should be more than 0 and finite", where=where, hint=f"Write a number in {unit}."
+        )
     return number
 
 

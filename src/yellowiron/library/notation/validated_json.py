@@ -10,16 +10,21 @@ import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any
 
 from jsonschema import Draft202012Validator
 from jsonschema.exceptions import ValidationError
 
 from yellowiron.model.errors import TemplateError
 from yellowiron.model.specification import fold
+from yellowiron.support.files.inputs import MEGABYTE, read_input
 
-LARGEST = 16 * 1024 * 1024
+LARGEST = 16 * MEGABYTE
 """Bytes; no template comes near, and a file beyond is not read."""
+_LARGEST_NUMBER = 1e15
+"""In size; the stiffest drive stays far below."""
+_LONGEST_NAME, _LONGEST_TEXT = 200, 4000
+"""Letters of a key, and of any other text."""
 _ENUM_WORDS = 12
 _FORMAT_HINT = "docs/template-format.md lists every key."
 
@@ -38,6 +43,10 @@ class Document:
 
 class _TwiceError(ValueError):
     """A key given twice in one object."""
+
+
+class _UnusableError(ValueError):
+    """A key, a text or a number that no document can have."""
 
 
 def where(path: Path, keys: Iterable[object]) -> str:
@@ -82,24 +91,36 @@ def read_json(path: Path) -> Any:
     def pairs(items: list[tuple[str, Any]]) -> dict[str, Any]:
         found: dict[str, str] = {}
         for key, _ in items:
+            if not key.strip() or not key.isprintable():
+                raise _UnusableError(f"'{_short(key)}' is no name" if key.strip() else "a name is empty")
+            if len(key) > _LONGEST_NAME:
+                raise _UnusableError(f"the name '{_short(key)}' has {len(key)} letters, more than {_LONGEST_NAME}")
             if fold(key) in found:
                 raise _TwiceError(key)
             found[fold(key)] = key
+        for _, value in items:
+            for text in value if isinstance(value, list) else (value,):
+                if isinstance(text, str) and len(text) > _LONGEST_TEXT:
+                    raise _UnusableError(f"the text '{_short(text)}' has more than {_LONGEST_TEXT} letters")
         return dict(items)
 
-    def constant(text: str) -> NoReturn:
-        raise ValueError(f"{text} is not a JSON number")
+    def number(text: str) -> float:
+        value = float(text)
+        if not abs(value) <= _LARGEST_NUMBER:
+            raise _UnusableError(f"{_short(text)} is no number that can be used")
+        return value
 
+    def whole(text: str) -> int:
+        number(text)
+        return int(text)
+
+    data = read_input(path, what="The document", most=LARGEST, error=TemplateError)
     try:
-        if path.stat().st_size > LARGEST:
-            raise TemplateError("The file is too large for a template", where=str(path), hint="Is it the right file?")
-        text = path.read_text(encoding="utf-8-sig")
-    except OSError as error:
-        raise TemplateError(f"The file cannot be read: {error.strerror}", where=str(path)) from error
+        text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise TemplateError("The file is not text in UTF-8", where=str(path), hint="Save it as UTF-8.") from error
     try:
-        return json.loads(text, object_pairs_hook=pairs, parse_constant=constant)
+        return json.loads(text, object_pairs_hook=pairs, parse_constant=number, parse_float=number, parse_int=whole)
     except json.JSONDecodeError as error:
         raise TemplateError(
             f"The file is not JSON: {error.msg}",
@@ -114,7 +135,7 @@ def read_json(path: Path) -> Any:
         ) from error
     except (ValueError, RecursionError) as error:
         reason = "it is nested too deep" if isinstance(error, RecursionError) else str(error)
-        raise TemplateError(f"The file is not usable JSON: {reason}", where=str(path)) from error
+        raise TemplateError(f"The file is not usable JSON: {reason}", where=str(path), hint=_FORMAT_HINT) from error
 
 
 def read_document(path: Path, kind: str) -> Document:
@@ -129,7 +150,7 @@ def check_document(path: Path, content: Any, kind: str) -> Document:
         data = _canonical(content, schema, schema, path, ())
         errors = sorted(Draft202012Validator(schema).iter_errors(data), key=lambda e: [str(p) for p in e.absolute_path])
     except RecursionError as error:
-        raise TemplateError("The file is nested too deep", where=str(path)) from error
+        raise TemplateError("The file is nested too deep", where=str(path), hint=_FORMAT_HINT) from error
     if errors:
         deepest = errors[0]
         while deepest.context and deepest.validator == "anyOf":
@@ -160,7 +181,9 @@ def _canonical(
         for key, item in value.items():
             name, sub = known.get(fold(key), (key, other))
             if name in result:
-                raise TemplateError(f"The key '{name}' is there twice", where=where(path, keys))
+                raise TemplateError(
+                    f"The key '{name}' is there twice", where=where(path, keys), hint="Keep one of the two."
+                )
             result[name] = _canonical(item, sub, root, path, (*keys, name))
         return result
     if isinstance(value, list):

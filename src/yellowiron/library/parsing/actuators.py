@@ -48,7 +48,9 @@ def read_actuators(document: Document, joints: tuple[JointTemplate, ...]) -> tup
             slide = joint(cylinder["slide"], *keys, "slide")
             if slide.type != "prismatic":
                 raise TemplateError(
-                    f"The slide '{slide.name}' of actuator '{name}' is not prismatic", where=document.at(*keys, "slide")
+                    f"The slide '{slide.name}' of actuator '{name}' is not prismatic",
+                    where=document.at(*keys, "slide"),
+                    hint="Name the joint between its barrel and its rod.",
                 )
             cylinders.append(
                 CylinderTemplate(
@@ -66,6 +68,7 @@ def read_actuators(document: Document, joints: tuple[JointTemplate, ...]) -> tup
             raise TemplateError(
                 f"Actuator '{name}' is a {entry['kind']} and needs '{needed}', and nothing else that moves",
                 where=document.at(name),
+                hint="docs/template-format.md has an example of each kind.",
             )
         actuators.append(
             ActuatorTemplate(

@@ -21,7 +21,9 @@ def read_material(document: Document, key: str, entry: Mapping[str, Any]) -> Mat
     static, dynamic = entry.get("static friction"), entry.get("dynamic friction")
     if static is not None and dynamic is not None and dynamic > static:
         raise TemplateError(
-            f"The dynamic friction of '{key}' is above its static friction", where=document.at(key, "dynamic friction")
+            f"The dynamic friction of '{key}' is above its static friction",
+            where=document.at(key, "dynamic friction"),
+            hint="What slides rubs no more than what stands.",
         )
     texture = entry.get("texture")
     if texture is not None and not (document.path.parent / texture).is_file():

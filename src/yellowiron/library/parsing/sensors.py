@@ -41,7 +41,9 @@ def read_sensor(
     for low, high in (("near", "far"), ("lowest", "highest"), ("minimum", "maximum")):
         if low in everything and high in everything and everything[low] >= everything[high]:
             raise TemplateError(
-                f"'{low}' of sensor '{name}' is not below its '{high}'", where=document.at(name, "parameters")
+                f"'{low}' of sensor '{name}' is not below its '{high}'",
+                where=document.at(name, "parameters"),
+                hint="Exchange the two.",
             )
     mount = base.mount if base is not None else {}
     if "mount" in entry:
@@ -92,9 +94,13 @@ def _mount(document: Document, name: str, entry: Mapping[str, Any], template: Te
     place = places[0]
     for key in entry:
         if key != place and key not in _POSE.get(place, ()):
-            raise TemplateError(f"A mount on a {place} has no '{key}'", where=where)
+            raise TemplateError(
+                f"A mount on a {place} has no '{key}'", where=where, hint="docs/sensors.md has every key of a mount."
+            )
     if "position" in entry and ("at" in entry or "on" in entry):
-        raise TemplateError("A mount has either a 'position' or an 'at' with 'on'", where=where)
+        raise TemplateError(
+            "A mount has either a 'position' or an 'at' with 'on'", where=where, hint="Keep one of the two."
+        )
     mount: dict[str, Any] = {place: _spelled(entry[place], place, template, document.at(name, "mount", place))}
     for key, dimension in (("position", "length"), ("offset", "length"), ("orientation", "angle")):
         if key in entry:
@@ -139,4 +145,5 @@ def _check_place(document: Document, name: str, sensor_type: str, mount: Mapping
         raise TemplateError(
             f"A {sensor_type} is mounted on a {' or '.join(allowed)}, not on a {place}",
             where=document.at(name, "mount"),
+            hint="docs/sensors.md says what each is mounted on.",
         )

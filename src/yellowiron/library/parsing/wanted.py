@@ -31,7 +31,11 @@ def read_wanted(document: Document, roles: tuple[Role, ...]) -> tuple[Wanted, ..
             for key in ("minimum", "maximum")
         ]
         if bounds[0] is not None and bounds[1] is not None and bounds[0] >= bounds[1]:
-            raise TemplateError(f"The minimum of '{name}' is not below its maximum", where=document.at(name, "minimum"))
+            raise TemplateError(
+                f"The minimum of '{name}' is not below its maximum",
+                where=document.at(name, "minimum"),
+                hint="Exchange the two.",
+            )
         mass_of = entry.get("mass_of")
         if mass_of not in (None, EVERYTHING):
             if fold(mass_of) not in bodies:

@@ -149,7 +149,9 @@ class NewtonEngine:
 
 def _index(found: Mapping[str, int], path: str) -> int:
     if path not in found:
-        raise YellowironError("Newton has left out a body or joint of the machine", where=path)
+        raise YellowironError(
+            "Newton has left out a body or joint of the machine", where=path, hint="Simulate it in mujoco or physx."
+        )
     return found[path]
 
 

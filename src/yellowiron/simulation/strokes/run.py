@@ -36,6 +36,16 @@ _CHUNK = 50
 (MuJoCo, fixed base: 12.0 µs a step, with 250 at once 13.0)."""
 
 
+def check_timestep(seconds: float) -> None:
+    """`YellowironError` for a time step that is none, or longer than 0.1 s."""
+    if not 0.0 < seconds <= 0.1:
+        raise YellowironError(
+            "The time step must be above 0 and at most 0.1 s",
+            where=f"--dt {seconds:g}",
+            hint="Leave it out: engines have their own.",
+        )
+
+
 def simulate(
     usd_path: str | Path,
     *,
@@ -56,12 +66,13 @@ def simulate(
     """
     entry = find_engine(engine)
     if base not in ("fixed", "floating"):
-        raise YellowironError(f"There is no base '{base}'", hint="A base is fixed or floating.")
+        raise YellowironError(f"There is no base '{base}'", where="--base", hint="A base is fixed or floating.")
     step = entry.timestep if dt is None else dt
-    if not 0.0 < step <= 0.1:
-        raise YellowironError("The time step must be above 0 and at most 0.1 s", where=f"{step:g} s")
+    check_timestep(step)
     if not 0.0 <= payload_kg < math.inf:
-        raise YellowironError("The payload must be 0 kg or more", where=f"{payload_kg:g} kg")
+        raise YellowironError(
+            "The payload must be 0 kg or more", where=f"--payload {payload_kg:g}", hint="Write 5000, 5.5 t, or rated."
+        )
     import_engine(engine)
     read, changed = held_machine(usd_path, base)
     mechanism = with_payload(read, payload_kg)

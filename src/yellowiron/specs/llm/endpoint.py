@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from yellowiron.model.errors import YellowironError
 from yellowiron.support.cache import cache_folder
+from yellowiron.support.output import output_file
 
 if TYPE_CHECKING:
     from openai import OpenAI
@@ -111,8 +112,8 @@ class Endpoint:
 
     def __exit__(self, *_: object) -> None:
         if self.options.record is not None:
-            self.options.record.parent.mkdir(parents=True, exist_ok=True)
-            self.options.record.write_text("".join(f"{line}\n" for line in self._record), encoding="utf-8")
+            with output_file(self.options.record) as file:
+                file.write_text("".join(f"{line}\n" for line in self._record), encoding="utf-8")
         if self._client is not None:
             self._client.close()
 
@@ -269,7 +270,7 @@ def _keep(key: str, found: Mapping[str, Any]) -> None:
         return
     with contextlib.suppress(OSError):
         path = folder / "answers" / f"{key}.json"
-        path.parent.mkdir(parents=True, exist_ok=True)
+        path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
         part = path.with_suffix(f".{os.getpid()}.part")
         part.write_text(json.dumps(found, sort_keys=True), encoding="utf-8")
         part.replace(path)

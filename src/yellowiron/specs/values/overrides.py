@@ -14,7 +14,7 @@ from yellowiron.specs.language.numbers import parse_one
 from yellowiron.specs.values.requested import asked, hint_for, usual
 from yellowiron.specs.values.tolerances import DOUBTFUL
 from yellowiron.support.text import display
-from yellowiron.support.units import SI_UNIT
+from yellowiron.support.units import LARGEST, SI_UNIT
 
 _WHERE = "--set"
 _SIGNED = {"angle", "count"}
@@ -134,6 +134,12 @@ def _rank(specification: Specification) -> int:
 
 
 def _halves(text: str) -> tuple[str, str]:
+    if not text.isprintable():
+        raise YellowironError(
+            "A value by hand has a line break, or a sign that cannot be seen",
+            where=_WHERE,
+            hint="Write it on one line.",
+        )
     name, equals, value = text.partition("=")
     if not equals or not name.strip() or not value.strip():
         raise YellowironError(
@@ -153,6 +159,11 @@ def _choice(variant: Variant, value: str) -> str:
 
 def _specification(wanted: Wanted, value: str, text: str) -> Specification:
     unit = SI_UNIT[wanted.dimension]
+    if "," in value or any(c.isdecimal() and not c.isascii() for c in value):
+        raise YellowironError(
+            f"'{value}' is not a number as it is written here", where=f"{_WHERE} {text}",
+            hint="Write digits 0 to 9, with a point for decimals and nothing between thousands: 1234.5 mm.",
+        )  # fmt: skip
     quantity = parse_one(value, where=f"{_WHERE} {text}")
     if quantity.unit == "" and unit != "1":
         raise YellowironError(
@@ -179,19 +190,15 @@ def _check_range(wanted: Wanted, value: float, text: str, setting: str) -> None:
     """`YellowironError` for a value that the wanted entry's range, or its dimension, rules out."""
     unit = SI_UNIT[wanted.dimension]
     low, high = wanted.minimum, wanted.maximum
-    least = low if low is not None else -math.inf
-    most = high if high is not None else math.inf
+    bound = 2.0 * math.pi if wanted.dimension == "angle" else LARGEST[wanted.dimension]
+    least = low if low is not None else -bound
+    most = high if high is not None else bound
     slack = _ROUNDING * max(abs(b) for b in (least, most, 0.0) if math.isfinite(b))
     positive = low is None and wanted.dimension not in _SIGNED
     if math.isfinite(value) and least - slack <= value <= most + slack and (value > 0.0 or not positive):
         return
-    if low is not None and high is not None:
-        usual = f"from {display(low, unit)} to {display(high, unit)}"
-    elif low is not None:
-        usual = f"at least {display(low, unit)}"
-    else:
-        usual = "more than 0" if positive else "finite"
-        usual += f" and at most {display(high, unit)}" if high is not None else ""
+    start = "more than 0" if positive else f"from {display(least, unit)}"
+    usual = f"{start} {'and at most' if positive else 'to'} {display(most, unit)}"
     raise YellowironError(
         f"'{text}' is outside what {wanted.name} can be",
         where=f"{_WHERE} {setting}",

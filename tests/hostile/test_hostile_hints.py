@@ -1,0 +1,20 @@
+"""Every error that is raised says where, and what to do."""
+
+from __future__ import annotations
+
+import ast
+from pathlib import Path
+
+FAMILY = {"YellowironError", "CadError", "SheetError", "TemplateError", "AlignmentError", "MechanismError",
+          "OutputError", "NoReaderError", "EndpointError", "KinematicsError"}  # fmt: skip
+
+
+def test_every_error_has_where_and_hint(root: Path) -> None:
+    bare = []
+    for file in sorted((root / "src").rglob("*.py")):
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Raise) and isinstance(node.exc, ast.Call) and isinstance(node.exc.func, ast.Name):
+                said = {keyword.arg for keyword in node.exc.keywords}
+                if node.exc.func.id in FAMILY and not {"where", "hint"} <= said:
+                    bare.append(f"{file.relative_to(root)}:{node.lineno}")
+    assert bare == []
