@@ -46,7 +46,7 @@ def test_one_sheet_of_every_layout_of_the_plain_sets(tmp_path: Path) -> None:
 
 
 REACHED = {
-    "fresh": (0.97, 0.98), "fresh2": (0.98, 0.99), "fresh3": (0.97, 0.98), "fresh4": (0.96, 0.98),
+    "fresh": (0.97, 0.98), "fresh2": (0.98, 0.99), "fresh3": (0.97, 0.98), "fresh4": (0.955, 0.98),
     "fresh5": (0.94, 0.98), "fresh6": (0.96, 0.98), "fresh7": (0.88, 0.93), "fresh8": (0.95, 0.96),
     "fresh9": (0.95, 0.96),
     "fresh10": (0.95, 0.95), "fresh11": (0.97, 0.98), "fresh12": (0.98, 0.98), "fresh13": (0.94, 0.98),
