@@ -13,8 +13,9 @@ demo: $(STAMP)
 	  --cad $(EXAMPLE)/wheel_loader.step --specs $(EXAMPLE)/specifications.pdf --out out/wheel_loader --simulate
 
 # Fast tests first: a mistake shows before the slow ones start. A file's tests share their fixtures: one worker each.
-# The slow ones are begun in the order of tests/conftest.py.
-PYTEST := $(VENV)/bin/python -m pytest -n 2 --dist loadfile
+# The slow ones are begun in the order of tests/conftest.py. Hundreds of processes import the sources: they are compiled
+# once, even where the environment asks Python to keep nothing.
+PYTEST := PYTHONDONTWRITEBYTECODE= $(VENV)/bin/python -m pytest -n 2 --dist loadfile
 
 test: $(ENGINES)
 	$(PYTEST) -m "not slow"

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from importlib.util import find_spec
+
 import pytest
 
 from yellowiron.simulation.engine import Engine, Setup
@@ -9,6 +11,11 @@ from yellowiron.simulation.registry import ENGINES, load_engine
 
 MODULES = {"mujoco": "mujoco", "newton": "newton", "physx": "ovphysx"}
 EVERY = [pytest.param(name, marks=() if name == "mujoco" else pytest.mark.slow) for name in ENGINES]
+
+
+def installed(engine: str) -> pytest.MarkDecorator:
+    """The mark that skips tests where the engine is not installed, asked without importing it, which takes seconds."""
+    return pytest.mark.skipif(find_spec(MODULES[engine]) is None, reason=f"needs {ENGINES[engine].install}")
 
 
 def need(engine: str) -> None:

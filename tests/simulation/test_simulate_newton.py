@@ -5,14 +5,14 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from in_engines import installed
 
 from yellowiron.simulation import rated_payload, simulate
 from yellowiron.simulation.driving.wheeled import drive
 from yellowiron.simulation.engine import Base
 from yellowiron.usd import read_mechanism
 
-pytest.importorskip("newton", reason="needs pip install 'yellowiron[newton]'")
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, installed("newton")]
 
 
 @pytest.mark.parametrize(("base", "actuator"), [("fixed", "steering"), ("floating", "bucket")])

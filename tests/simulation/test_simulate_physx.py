@@ -6,14 +6,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from in_engines import installed
 
 from yellowiron.simulation import rated_payload, simulate
 from yellowiron.simulation.engine import Base, Setup, coordinates, tell
 from yellowiron.simulation.registry import ENGINES
 from yellowiron.usd import read_mechanism
 
-pytest.importorskip("ovphysx", reason="needs pip install 'yellowiron[physx]'")
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, installed("physx")]
 
 
 @pytest.mark.parametrize(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 
 import numpy as np
@@ -40,9 +41,18 @@ def _shape(name: str, mesh: trimesh.Trimesh, cylinders: list[CylinderFeature], p
 
 def plate(name: str, outline: Array, thickness: float, holes: list[tuple[float, float, float]] | None = None) -> Shape:
     """A convex `outline` (n, 2) in x, y, extruded from z = −t/2 to t/2, with round through holes (x, y, radius)."""
-    if not HOLLOW and holes:
+    return _plate(name, tuple(map(tuple, outline.tolist())), thickness, tuple(holes or ()), HOLLOW)
+
+
+@functools.cache
+def _plate(
+    name: str, corners: tuple[tuple[float, ...], ...], thickness: float, holes: tuple[tuple[float, float, float], ...],
+    hollow: bool,
+) -> Shape:  # fmt: skip
+    outline = np.array(corners)
+    if not hollow and holes:
         outline = np.concatenate([outline, around(*holes)])  # a hole may be beside the outline, and widens it
-    holes = (holes or []) if HOLLOW else []
+    holes = holes if hollow else ()
     hull = outline[ConvexHull(outline).vertices]
     turn = np.linspace(0.0, 2 * math.pi, SEGMENTS, endpoint=False)
     rim = []
@@ -95,7 +105,7 @@ def plate(name: str, outline: Array, thickness: float, holes: list[tuple[float, 
         )
         for x, y, r in holes
     ]
-    if not HOLLOW:
+    if not hollow:
         cylinders += [
             CylinderFeature((x, y, 0.0), (0.0, 0.0, 1.0), r, -half, half, arc, False, True, arc * r * thickness)
             for x, y, r, arc in _ends(hull)
@@ -126,7 +136,12 @@ def _ends(hull: Array) -> list[tuple[float, float, float, float]]:
 
 def lathe(name: str, profile: list[tuple[float, float]]) -> Shape:
     """A closed `profile` of (radius, z), counter-clockwise with r to the right and z up, turned about z."""
-    rows = [np.array(p, dtype=np.float64) for p in (profile if HOLLOW or name in RINGS else _filled(profile))]
+    return _lathe(name, tuple(profile if HOLLOW or name in RINGS else _filled(profile)))
+
+
+@functools.cache
+def _lathe(name: str, profile: tuple[tuple[float, float], ...]) -> Shape:
+    rows = [np.array(p, dtype=np.float64) for p in profile]
     turn = np.linspace(0.0, 2 * math.pi, SEGMENTS, endpoint=False)
     ring = np.stack([np.cos(turn), np.sin(turn)], axis=1)
     points = np.concatenate([np.c_[r * ring, np.full(SEGMENTS, z)] for r, z in rows])

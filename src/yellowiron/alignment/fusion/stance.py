@@ -140,7 +140,7 @@ def _mirrored(
     may be to one side."""
     for _ in range(rounds):
         mirrored = points - 2.0 * (points @ direction - middle)[:, None] * direction
-        gaps, nearest = tree.query(mirrored)
+        gaps, nearest = tree.query(mirrored, distance_upper_bound=limit)  # infinite beyond
         off = float(np.mean(np.minimum(gaps, limit)))
         if rounds > 1:
             good = gaps < limit
