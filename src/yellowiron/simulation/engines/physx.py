@@ -203,6 +203,8 @@ def _prepare() -> None:
     """What holds for the whole process: no GPU, PhysX's schemas known to its own USD, errors only in the log."""
     warp.config.quiet = True
     ovphysx.PhysX.set_cpu_mode(True)
+    # One machine is too little to share out: with threads of its own a step takes half as long again.
+    ovphysx.set_global_config(GlobalConfigKey.NUM_THREADS, 0)
     ovphysx.set_global_config(GlobalConfigKey.LOG_LEVEL, int(LogLevel.ERROR))
     schemas = metadata.distribution("physx-usd-schemas")
     folders = [str(schemas.locate_file(f"physx_usd_schemas/{name}/resources")) for name in _SCHEMAS]
