@@ -209,6 +209,25 @@ def test_the_mass_a_cylinder_sees_is_the_booms_over_its_lever():
         assert chain.effective_mass(state, "ram") == pytest.approx(inertia / lever**2, rel=1e-7)
 
 
+def test_the_mass_a_cylinder_raises_is_the_slope_of_the_heights():
+    mechanism = crane(0.5)
+    chain = ClosedChain(mechanism)
+
+    def moment(stroke: float) -> float:
+        rotations, origins = chain.placements([chain.solve({"ram": stroke})])
+        arms = {b.name: np.asarray(b.center_of_mass) - np.asarray(b.origin) for b in mechanism.bodies}
+        at = {b.name: chain.body_index(b.name) for b in mechanism.bodies}
+        return sum(
+            b.mass * float(origins[0, at[b.name], 2] + rotations[0, at[b.name], 2] @ arms[b.name])
+            for b in mechanism.bodies
+        )
+
+    for stroke in (-0.1, 0.0, 0.2):
+        slope = (moment(stroke + 1e-5) - moment(stroke - 1e-5)) / 2e-5
+        assert abs(slope) > 10.0
+        assert chain.raised_mass(chain.solve({"ram": stroke}), "ram") == pytest.approx(slope, rel=1e-6)
+
+
 def test_a_branch_near_its_dead_point_is_a_finding():
     mechanism = crane(0.5)
     longest = 1.0 + math.hypot(1.0, 0.2) - mechanism.cylinders[0].drawn_length

@@ -30,16 +30,10 @@ def beside(chain: ClosedChain, state: State, joint: str) -> tuple[list[State], f
 def weight(chain: ClosedChain, state: State, joint: str) -> float:
     """Force (N) or torque (N·m) along a joint's coordinate that holds the machine's weight: the potential energy's
     slope, the root upright."""
-    ends, way = beside(chain, state, joint)
-    if way <= 0.0:
+    try:
+        return GRAVITY * chain.raised_mass(state, joint)
+    except np.linalg.LinAlgError:  # a dead point: no velocity of the coordinate moves anything
         return 0.0
-    rotations, origins = chain.placements(ends)
-    energy = np.zeros(2)
-    for body in chain.mechanism.bodies:
-        index = chain.body_index(body.name)
-        arm = np.asarray(body.center_of_mass) - np.asarray(body.origin)
-        energy += GRAVITY * body.mass * (origins[:, index, 2] + rotations[:, index, 2] @ arm)
-    return float(energy[1] - energy[0]) / way
 
 
 def carried(

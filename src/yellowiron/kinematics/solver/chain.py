@@ -419,6 +419,14 @@ class ClosedChain:
         mujoco.mj_mulM(self._model, self._data, momentum, velocity)
         return float(velocity @ momentum)
 
+    def raised_mass(self, state: State, joint: str) -> float:
+        """How fast the bodies' mass rises per unit velocity of an independent coordinate, the root held upright:
+        Σ m·dz, kg·m per metre or radian. Times gravity, it is the force that holds the weight."""
+        velocity = self.tangent(state, joint)
+        jacobian = np.zeros((3, self._model.nv))
+        mujoco.mj_jacSubtreeCom(self._model, self._data, jacobian, 0)
+        return float(self._model.body_subtreemass[0] * (jacobian[2] @ velocity))
+
 
 def _continued(states: Sequence[State]) -> Floats:
     """Where the last three positions of a sweep lead to: a parabola through them, one step on."""
