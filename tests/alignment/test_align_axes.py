@@ -227,6 +227,7 @@ def test_an_arm_without_cylinders_turns_about_parallel_axes() -> None:
             assert abs(float(found[name].direction @ truth[name][1])) > math.cos(math.radians(0.5)), name
 
 
+@pytest.mark.slow
 def test_what_is_left_out_says_nothing_and_nothing_raises() -> None:
     template = two_bodies()
     solids, labels = boxes()

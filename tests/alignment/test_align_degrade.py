@@ -72,6 +72,7 @@ def test_no_pins_at_all(template: Template, embedded: bool) -> None:
     assert sum(f.code == "ALN002" for f in found.findings) >= 14
 
 
+@pytest.mark.slow
 def test_triangles_alone(template: Template) -> None:
     machine = loader(2)
     machine.shapes = {k: replace(s, cylinders=(), planes=()) for k, s in machine.shapes.items()}

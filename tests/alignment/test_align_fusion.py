@@ -56,8 +56,8 @@ def test_neighbours_tell_what_names_leave_open(excavator: Template) -> None:
 
 @settings(max_examples=25, deadline=None)
 @given(st.integers(0, 10_000))
-def test_conditionals_are_differences_of_the_score(seed: int) -> None:
-    template = choose(load_template("excavator"), {})
+def test_conditionals_are_differences_of_the_score(excavator: Template, seed: int) -> None:
+    template = choose(excavator, {})
     rng = np.random.default_rng(seed)
     bodies = [r.name for r in template.roles if r.rigid][:12]
     votes = [{b: {"name": float(rng.random())} for b in bodies} for _ in range(6)]

@@ -88,7 +88,7 @@ def test_shoes_that_were_scaled_one_by_one_are_a_track() -> None:
     assert len(rows[0]) == 2
 
 
-@pytest.mark.parametrize("kind", ["loader", "excavator"])
+@pytest.mark.parametrize("kind", ["loader", pytest.param("excavator", marks=pytest.mark.slow)])
 def test_empty_bores_in_a_cylinders_own_part_are_its_eyes(kind: str) -> None:
     """Half of the bodies are one part each, barrels and rods with their eyes among them, and no pin is drawn."""
     rng = np.random.default_rng([0, 91])

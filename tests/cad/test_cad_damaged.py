@@ -302,9 +302,9 @@ def test_a_ply_that_has_other_lines_than_it_says(tmp_path: Path) -> None:
     ("name", "target"),
     [
         ("STEP", "step:read_step"),
-        ("IGES", "iges:read_iges"),
-        ("BREP", "brep_file:read_brep"),
-        ("FreeCAD", "freecad:read_freecad"),
+        pytest.param("IGES", "iges:read_iges", marks=pytest.mark.slow),
+        pytest.param("BREP", "brep_file:read_brep", marks=pytest.mark.slow),
+        pytest.param("FreeCAD", "freecad:read_freecad", marks=pytest.mark.slow),
     ],
 )
 def test_what_is_worked_on_for_ever_is_ended(name: str, target: str, tmp_path: Path) -> None:
