@@ -42,6 +42,7 @@ from yellowiron.alignment.features.telescopes import Nest
 from yellowiron.alignment.features.tracks import Track, tracks_of
 from yellowiron.alignment.fusion.reading import fused
 from yellowiron.alignment.labelling.coupler import with_couplers
+from yellowiron.alignment.labelling.fittings import fittings_of, sitting
 from yellowiron.alignment.labelling.place import pin_role
 from yellowiron.alignment.labelling.propagation import Propagation
 from yellowiron.alignment.labelling.result import Labels, to_alignment
@@ -91,6 +92,8 @@ def align(
     tracking = _without(single, apart)
     tracked, tracks = _tracked(tracking, template)
     machine = _without(tracking, set(tracked.values()))
+    fittings = fittings_of(machine) - edited.keys()
+    machine = _without(machine, fittings)
     plain = without_tracks(template)
     up = _upright(tracks)
 
@@ -123,8 +126,11 @@ def align(
     whole = choose(template, answer.choices)
     if tracks and frame is not None:
         rows = track_places(tracks, tracked, frame.matrix, whole)
-        solids = solids_of(tracking)
+        solids = solids_of(_without(tracking, fittings))
         by_id |= on_tracks(by_id, rows, solids, Touch(solids, answer.contact * observation.size)) | rows
+    if fittings:
+        solids = solids_of(tracking)
+        by_id |= sitting(by_id, fittings, solids, Touch(solids, answer.contact * observation.size))
     by_id |= {copy: by_id[first] for copy, first in copies.items() if first in by_id}
     apart |= {copy: apart[first] for copy, first in copies.items() if first in apart}
     documents = {item.part: item.reason for item in edits.parts if item.source == "data"} if edits is not None else {}
@@ -151,7 +157,7 @@ def align(
             ),
         ],
     )
-    return _with_all_axes(found, assembly, whole, answer, observation, frame)
+    return _with_all_axes(found, _without(assembly, fittings), whole, answer, observation, frame)
 
 
 def _with_all_axes(

@@ -9,7 +9,8 @@ import fcl
 import numpy as np
 
 from yellowiron.alignment.features.solids import Cyl, Solid
-from yellowiron.model.geometry import Floats
+from yellowiron.model.assembly import Part
+from yellowiron.model.geometry import Floats, Shape
 from yellowiron.support.spans import Spans
 
 SAMPLES = 12
@@ -63,7 +64,7 @@ class Touch:
         return bool(apart <= self._tolerance) and self.distance(min(a, b), max(a, b)) <= self._tolerance
 
 
-_objects: weakref.WeakKeyDictionary[Solid, Any] = weakref.WeakKeyDictionary()
+_objects: weakref.WeakKeyDictionary[Part, tuple[Shape, Any]] = weakref.WeakKeyDictionary()
 _distances: weakref.WeakKeyDictionary[Solid, weakref.WeakKeyDictionary[Solid, float]] = weakref.WeakKeyDictionary()
 _shares: weakref.WeakKeyDictionary[Solid, weakref.WeakKeyDictionary[Solid, float]] = weakref.WeakKeyDictionary()
 """What was measured of solids that are still in use: it is the same with every contact tolerance."""
@@ -71,14 +72,15 @@ _shares: weakref.WeakKeyDictionary[Solid, weakref.WeakKeyDictionary[Solid, float
 
 def _object_of(solid: Solid) -> Any:
     """A solid as the collision library wants it."""
-    if solid not in _objects:
+    known = _objects.get(solid.part)
+    if known is None or known[0] is not solid.shape:
         model = fcl.BVHModel()
         triangles = solid.shape.mesh.triangles
         model.beginModel(len(solid.points), len(triangles))
         model.addSubModel(np.ascontiguousarray(solid.points), np.ascontiguousarray(triangles))
         model.endModel()
-        _objects[solid] = fcl.CollisionObject(model)
-    return _objects[solid]
+        known = _objects[solid.part] = (solid.shape, fcl.CollisionObject(model))
+    return known[1]
 
 
 def _distance(first: Any, second: Any) -> float:
