@@ -83,7 +83,7 @@ def make(how: str, *words: Any) -> Any:
         message, where, hint = map(str, words[1:])
         return found(message, where=where, hint=hint)
     if how == "value" and _is_value(found):
-        value = object.__new__(found)
+        value: Any = object.__new__(found)
         for field, content in zip(fields(found), words[1:], strict=True):
             object.__setattr__(value, field.name, content)
         return value

@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 
 from yellowiron.cad.appearance.looks import Dressed, Look, dress
+from yellowiron.cad.bounds import limited
 from yellowiron.cad.mesh import assembly, polygons
 from yellowiron.cad.mesh.assembly import Occurrence
 from yellowiron.cad.naming import decode_name
@@ -35,7 +36,6 @@ _MARKED = {"INSERT": b"AcDbBlockReference", "3DFACE": b"AcDbFace", "MESH": b"AcD
 """What else stands in some of them, once, since release 13; in tables the first one does, too."""
 _TABLE = b"ACAD_TABLE"
 _DEEPEST = 20
-_MOST = 200_000
 
 
 def read_dxf(path: str) -> Assembly:
@@ -86,9 +86,7 @@ def assembled(document: Any, path: str, format: str, faults: int = 0) -> Assembl
     blocks: dict[str, list[tuple[str, Dressed]]] = {}
     acis = 0
     lost: list[str] = []
-    placements = list(_inserted(document.modelspace(), (), np.eye(4), 0, lost))
-    if len(placements) > _MOST:
-        raise CadError(f"The {format} file places more than {_MOST} blocks", where=path, hint=_DAMAGED)
+    placements = list(limited(_inserted(document.modelspace(), (), np.eye(4), 0, lost), path))
     raw: list[tuple[tuple[str, ...], str, Dressed, Floats]] = []
     for names, layout, transform in placements:
         key = layout.block_record_handle if hasattr(layout, "block_record_handle") else layout.layout_key
@@ -158,10 +156,12 @@ def _meshes(layout: Any, document: Any) -> Iterator[tuple[str, Dressed]]:
     points: dict[str, list[Floats]] = {}
     triangles: dict[str, list[Any]] = {}
     colors: dict[str, list[tuple[Color | None, int]]] = {}
+    count: dict[str, int] = {}
     for entity in layout:
         for vertices, faces in _faces(entity):
             layer = entity.dxf.layer
-            start = sum(len(p) for p in points.get(layer, []))
+            start = count.get(layer, 0)
+            count[layer] = start + len(vertices)
             counts = [len(f) for f in faces]
             cut, _ = polygons.fans(counts, [i for f in faces for i in f])
             points.setdefault(layer, []).append(np.array(vertices, dtype=np.float64).reshape(-1, 3))
