@@ -26,7 +26,7 @@ _PACKAGE = Path(__file__).resolve().parent.parent
 _RUN = "yellowiron.support.guard:run_child"
 _BEAT = 1.0
 """Seconds between two signs of life."""
-_LOOK = 0.05
+_LOOK = 0.02
 """Seconds between two looks at how much memory a child has taken."""
 _LAST_WORDS = 65536
 

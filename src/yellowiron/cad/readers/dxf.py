@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from yellowiron.cad.appearance.looks import Dressed, Look, dress
-from yellowiron.cad.bounds import limited
+from yellowiron.cad.bounds import limited, require_occurrences
 from yellowiron.cad.mesh import assembly, polygons
 from yellowiron.cad.mesh.assembly import Occurrence
 from yellowiron.cad.naming import decode_name
@@ -86,6 +86,7 @@ def assembled(document: Any, path: str, format: str, faults: int = 0) -> Assembl
     blocks: dict[str, list[tuple[str, Dressed]]] = {}
     acis = 0
     lost: list[str] = []
+    require_occurrences(_declared(document.modelspace(), {}, 0), path)
     placements = list(limited(_inserted(document.modelspace(), (), np.eye(4), 0, lost), path))
     raw: list[tuple[tuple[str, ...], str, Dressed, Floats]] = []
     for names, layout, transform in placements:
@@ -128,6 +129,19 @@ def assembled(document: Any, path: str, format: str, faults: int = 0) -> Assembl
 
 def _at(points: Floats, transform: Floats) -> Floats:
     return np.asarray(points @ transform[:3, :3].T + transform[:3, 3])
+
+
+def _declared(layout: Any, known: dict[tuple[str, int], int], depth: int) -> int:
+    """How many occurrences of it and of blocks a layout comes to; a few blocks that hold rows of each other are more
+    than anybody can count one by one."""
+    count = 1
+    for insert in layout.query("INSERT") if depth < _DEEPEST else ():
+        key = insert.dxf.name, depth
+        if key not in known:
+            block = insert.block()
+            known[key] = _declared(block, known, depth + 1) if block is not None else 0
+        count += max(1, insert.mcount) * known[key]
+    return count
 
 
 def _inserted(

@@ -6,6 +6,7 @@ With or without physics: here it is a tree of parts, with the joints that the fi
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -40,7 +41,9 @@ def read_usd(path: str) -> Assembly:
     unit, remarks = _unit(stage, path)
     findings += remarks
     looks = Looks(path)
-    tree, numbers = _tree(stage, unit, path)
+    everything = Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies(Usd.PrimDefaultPredicate))
+    deque(limited(everything, path), maxlen=0)
+    tree, numbers = _tree(stage, unit)
     meshes: dict[Sdf.Path, Dressed | None] = {}
     occurrences: list[Occurrence] = []
     declared = _hollow(stage)
@@ -113,14 +116,14 @@ def _refers(prim: Usd.Prim) -> bool:
     return any(not listed.isExplicit or listed.explicitItems for listed in stated)
 
 
-def _tree(stage: Usd.Stage, unit: float, path: str) -> tuple[list[Node], dict[Sdf.Path, int]]:
+def _tree(stage: Usd.Stage, unit: float) -> tuple[list[Node], dict[Sdf.Path, int]]:
     """The stage's transformable prims as nodes, metres, with the joints of its skeletons at rest below them; and the
     number of each prim's."""
     cache = UsdGeom.XformCache()
     nodes: list[Node] = []
     numbers: dict[Sdf.Path, int] = {}
     prims = iter(Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies(Usd.PrimDefaultPredicate)))
-    for prim in limited(prims, path):
+    for prim in prims:
         if not prim.IsA(UsdGeom.Xformable):
             continue
         if prim.IsA(UsdGeom.PointInstancer):
