@@ -7,6 +7,7 @@ type of numbers may make pointers of them.
 
 from __future__ import annotations
 
+import functools
 import io
 import pickle
 import sys
@@ -53,7 +54,7 @@ class _Pickler(pickle.Pickler):
         if value is make:
             return "make"
         if _is_value(kind):
-            return make, ("value", _name(kind), *(getattr(value, field.name) for field in fields(value)))
+            return make, ("value", _name(kind), *(getattr(value, name) for name in _fields(kind)))
         raise TypeError(f"{kind.__module__}.{kind.__qualname__} is no answer")
 
 
@@ -84,21 +85,29 @@ def make(how: str, *words: Any) -> Any:
         return found(message, where=where, hint=hint)
     if how == "value" and _is_value(found):
         value: Any = object.__new__(found)
-        for field, content in zip(fields(found), words[1:], strict=True):
-            object.__setattr__(value, field.name, content)
+        for name, content in zip(_fields(found), words[1:], strict=True):
+            object.__setattr__(value, name, content)
         return value
     raise pickle.UnpicklingError(f"nothing is made of {how}")
 
 
+@functools.cache
 def _is_value(kind: type) -> bool:
     """Whether a class is a frozen dataclass of this package."""
     return is_dataclass(kind) and kind.__module__.startswith(_OURS) and kind.__dataclass_params__.frozen  # type: ignore[attr-defined]
 
 
+@functools.cache
+def _fields(kind: Any) -> tuple[str, ...]:
+    return tuple(field.name for field in fields(kind))
+
+
+@functools.cache
 def _name(kind: type) -> str:
     return f"{kind.__module__}:{kind.__qualname__}"
 
 
+@functools.cache
 def _found(name: str) -> type:
     """The class of this package that has a name."""
     module, _, title = name.partition(":")
