@@ -11,6 +11,7 @@ import functools
 import io
 import pickle
 import sys
+from collections.abc import Hashable
 from dataclasses import fields, is_dataclass
 from importlib import import_module
 from pathlib import Path, PurePath
@@ -39,7 +40,8 @@ def loads(data: bytes) -> Any:
 class _Pickler(pickle.Pickler):
     def reducer_override(self, value: Any) -> Any:
         """How a value that is no plain data is made again."""
-        numpy, kind = sys.modules.get("numpy"), type(value)
+        numpy = sys.modules.get("numpy")
+        kind: Any = type(value)
         if numpy is not None and isinstance(value, (numpy.ndarray, numpy.generic)):
             if value.dtype.str not in _NUMBERS:
                 raise TypeError(f"an array of {value.dtype} is no answer")
@@ -92,9 +94,10 @@ def make(how: str, *words: Any) -> Any:
 
 
 @functools.cache
-def _is_value(kind: type) -> bool:
+def _is_value(kind: Hashable) -> bool:
     """Whether a class is a frozen dataclass of this package."""
-    return is_dataclass(kind) and kind.__module__.startswith(_OURS) and kind.__dataclass_params__.frozen  # type: ignore[attr-defined]
+    frozen = getattr(getattr(kind, "__dataclass_params__", None), "frozen", False)
+    return isinstance(kind, type) and is_dataclass(kind) and kind.__module__.startswith(_OURS) and bool(frozen)
 
 
 @functools.cache
@@ -103,7 +106,7 @@ def _fields(kind: Any) -> tuple[str, ...]:
 
 
 @functools.cache
-def _name(kind: type) -> str:
+def _name(kind: Any) -> str:
     return f"{kind.__module__}:{kind.__qualname__}"
 
 
