@@ -14,7 +14,7 @@ import pytest
 from yellowiron.model.errors import CadError, YellowironError
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Mesh
-from yellowiron.support import answers
+from yellowiron.support.files import answers
 from yellowiron.support.guard import run_guarded
 
 

@@ -19,7 +19,8 @@ from pkgutil import resolve_name
 from typing import IO, Any, NoReturn, cast
 
 from yellowiron.model.errors import YellowironError
-from yellowiron.support import answers, isolated, limits, plugins
+from yellowiron.support import isolated, limits, plugins
+from yellowiron.support.files import answers
 
 _CRASH_HINT = "The file is damaged, or made to break its reader; open it in its own program and export it again."
 _PACKAGE = Path(__file__).resolve().parent.parent
