@@ -7,6 +7,7 @@ import zipfile
 from pathlib import Path
 
 import pytest
+import trimesh
 
 from kit.cadfiles.step import Node, Use, box, cylinder, moved, translation, write_step
 from yellowiron.cad import read_cad
@@ -329,3 +330,16 @@ def test_warnings_leave_no_file_behind(tmp_path: Path, monkeypatch: pytest.Monke
     except CadError as error:
         assert error.hint
     assert [p.name for p in tmp_path.iterdir()] == ["box.xml"]
+
+
+@pytest.mark.parametrize("suffix", [".mjcf", ".xml"])
+def test_an_mjcf_file_is_read_by_either_suffix(suffix: str, tmp_path: Path) -> None:
+    """With the meshes beside it; MuJoCo itself opens .xml alone."""
+    (tmp_path / "meshes").mkdir()
+    trimesh.creation.box((1.0, 2.0, 3.0)).export(tmp_path / "meshes" / "box.stl")
+    (tmp_path / f"a{suffix}").write_text(
+        '<mujoco><asset><mesh name="m" file="meshes/box.stl"/></asset>'
+        '<worldbody><body name="arm"><geom type="mesh" mesh="m"/></body></worldbody></mujoco>'
+    )
+    read = read_cad(tmp_path / f"a{suffix}")
+    assert read.format == "MJCF" and abs(read.shape_of(read.parts[0]).volume - 6.0) < 1e-9

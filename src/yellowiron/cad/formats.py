@@ -51,6 +51,12 @@ class CadFormat:
     names and meshes in a file, in its own numbers, for a folder whose files are to share one guessed unit."""
     needs: str = ""
     """`(path: str) -> None`: raises `NoReaderError` where a program that the reader needs is not here."""
+    memory: int = 200
+    """Times its bytes, unpacked, that its reader may take beside 1 GB: half as much again as sound models took
+    (docs/security.md)."""
+    others: re.Pattern[str] | None = None
+    """Is found in the name, in small letters, of a file that one of the format may refer to, and whose triangles are
+    then read with it."""
     diagnosis: str = ""
     """`(data: bytes) -> str`: what is wrong with a file at which the reader crashed or hung; "" if it cannot tell. It
     runs in this process."""
@@ -82,6 +88,9 @@ def _starts(pattern: bytes) -> re.Pattern[bytes]:
     return re.compile(pattern, re.DOTALL)
 
 
+_MESH_FILES, _BUFFERS, _LAYERS = (
+    re.compile(pattern) for pattern in (r"\.(?:stl|obj|dae|glb|gltf|bin)\Z", r"\.bin\Z", r"\.usd[acz]?\Z")
+)
 _MESHES, _EXACT = "yellowiron.cad.readers.meshes", "yellowiron.cad.readers.exact"
 _ROBOTS = "yellowiron.cad.readers.robots"
 
@@ -93,50 +102,70 @@ FORMATS: tuple[CadFormat, ...] = (
     CadFormat(
         "STEP", (".step", ".stp", ".p21"), f"{_EXACT}.step:read_step", content=_starts(_PART21), plausible=_NEVER,
         diagnosis=f"{_EXACT}.part21:diagnose",
+        memory=40,
     ),
     CadFormat(
         "DWG", (".dwg",), "yellowiron.cad.readers.dwg:read_dwg", content=_starts(rb"AC10\d\d"),
         needs="yellowiron.cad.readers.dwg:require_program",
     ),
-    CadFormat("FreeCAD", (".fcstd",), f"{_EXACT}.freecad:read_freecad", member=re.compile(r"\Adocument\.xml\Z")),
-    CadFormat("3MF", (".3mf",), f"{_MESHES}.threemf:read_3mf", member=re.compile(r"\.model\Z")),
-    CadFormat("GLB", (".glb",), f"{_MESHES}.gltf:read_gltf", content=_starts(rb"glTF")),
+    CadFormat(
+        "FreeCAD", (".fcstd",), f"{_EXACT}.freecad:read_freecad", member=re.compile(r"\Adocument\.xml\Z"), memory=60,
+    ),
+    CadFormat("3MF", (".3mf",), f"{_MESHES}.threemf:read_3mf", member=re.compile(r"\.model\Z"), memory=60),
+    CadFormat("GLB", (".glb",), f"{_MESHES}.gltf:read_gltf", content=_starts(rb"glTF"), memory=150, others=_BUFFERS),
     CadFormat(
         "FBX", (".fbx",), f"{_MESHES}.assimp:read_fbx", content=_starts(rb"Kaydara FBX|\s*; FBX \d"),
+        memory=200,
     ),
     CadFormat(
         "USD", (".usd", ".usda", ".usdc", ".usdz"), "yellowiron.cad.readers.usd.stage:read_usd",
         content=_starts(rb"PXR-USDC|#usda"), member=re.compile(r"\.usd[ac]?\Z"),
+        memory=300, others=_LAYERS,
     ),
     CadFormat("Blender", (".blend",), f"{_MESHES}.blend:read_blend", content=_starts(rb"BLENDER")),
     CadFormat(
         "PLY", (".ply",), f"{_MESHES}.ply:read_ply", content=_starts(rb"ply[ \t]*\r?\n"), plausible=_PLAIN,
         meshes=f"{_MESHES}.ply:meshes_of",
+        memory=150,
     ),
     CadFormat(
         "BREP", (".brep", ".brp"), f"{_EXACT}.brep_file:read_brep", plausible=_PLAIN,
         content=_starts(rb"\s*(?:DBRep_DrawableShape|(?:Open )?CASCADE Topology V)"),
+        memory=60,
     ),
     CadFormat(
         "DXF", (".dxf",), "yellowiron.cad.readers.dxf:read_dxf", plausible=_PLAIN,
         content=re.compile(rb"AutoCAD Binary DXF|\s*(?:999\r?\n.*\r?\n)*\s*0\r?\n\s*SECTION\r?\n"),
+        memory=60,
     ),
     CadFormat(
         "COLLADA", (".dae",), f"{_MESHES}.assimp:read_collada", content=_starts(_ROOT % b"COLLADA"), plausible=_PLAIN,
+        memory=100,
     ),
-    CadFormat("URDF", (".urdf",), f"{_ROBOTS}.urdf:read_urdf", content=_starts(_ROOT % b"robot")),
-    CadFormat("MJCF", (".mjcf",), f"{_ROBOTS}.mjcf:read_mjcf", content=_starts(_ROOT % b"mujoco")),
-    CadFormat("IGES", (".igs", ".iges"), f"{_EXACT}.iges:read_iges", content=_starts(rb".{72}S {6}1[ \r\n]")),
+    CadFormat(
+        "URDF", (".urdf",), f"{_ROBOTS}.urdf:read_urdf", content=_starts(_ROOT % b"robot"),
+        memory=150, others=_MESH_FILES,
+    ),
+    CadFormat(
+        "MJCF", (".mjcf",), f"{_ROBOTS}.mjcf:read_mjcf", content=_starts(_ROOT % b"mujoco"),
+        memory=150, others=_MESH_FILES,
+    ),
+    CadFormat(
+        "IGES", (".igs", ".iges"), f"{_EXACT}.iges:read_iges", content=_starts(rb".{72}S {6}1[ \r\n]"), memory=60,
+    ),
     CadFormat(
         "glTF", (".gltf",), f"{_MESHES}.gltf:read_gltf", plausible=_starts(rb"[\xef\xbb\xbf \t\r\n]*\{"),
+        memory=150, others=_BUFFERS,
     ),
     CadFormat(
         "STL", (".stl",), f"{_MESHES}.stl:read_stl", meshes=f"{_MESHES}.stl:meshes_of",
         plausible=_starts(rb"\s*solid|(?=.{84})[^\0]{0,4095}\0"),
+        memory=60,
     ),
     CadFormat(
         "OBJ", (".obj",), f"{_MESHES}.obj:read_obj", meshes=f"{_MESHES}.obj:meshes_of",
         plausible=re.compile(_TEXT + rb"(?s:.*?)^[ \t]*(?:v|vn|vt|f|o|g|mtllib|usemtl)[ \t]", re.MULTILINE),
+        memory=80,
     ),
 )  # fmt: skip
 """The formats of this package, in the order in which a file is tried for them."""

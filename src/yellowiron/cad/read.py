@@ -27,15 +27,14 @@ from __future__ import annotations
 from pathlib import Path
 from pkgutil import resolve_name
 
+from yellowiron.cad.need import need_mb
 from yellowiron.cad.recognition import format_of
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import CadError
-from yellowiron.support.files.inputs import MEGABYTE
 from yellowiron.support.guard import run_guarded
 
-_BESIDE_MB, _TIMES = 1024, 200
-"""Memory that a reader may take: so much, and so many times the file. Measured beside the 70 to 110 MB of the libraries
-are 90 times a STEP file, 150 times an FBX file."""
+_BESIDE_MB = 896
+"""Memory that a reader may take beside what its file needs: with what it may take between two looks, 1 GB."""
 _FOLDER = "yellowiron.cad.readers.folder:read_folder"
 
 
@@ -43,9 +42,9 @@ def read_cad(path: str | Path, *, timeout_s: float = 600.0, memory_mb: int = 819
     """The assembly in a CAD file, or in all those of a folder, in metres, in the file's own frame.
 
     Which formats are read is `formats.FORMATS` and what other packages add to it; cylinders and planes of triangles are
-    fitted to them. The reader may take `timeout_s` seconds, `memory_mb` MB of address space, and of memory 1 GB and 200
-    times the file's size. `CadError` for a file that is missing, empty, damaged, of no or of an unreadable CAD format,
-    or without a part in it.
+    fitted to them. The reader may take `timeout_s` seconds, `memory_mb` MB of address space, and 1 GB of memory beside
+    what a file of its format and size needs (`yellowiron.cad.need`). `CadError` for a file that is missing, empty,
+    damaged, of no or of an unreadable CAD format, or without a part in it.
     """
     source = Path(path)
     known = None if source.is_dir() else format_of(source)
@@ -57,7 +56,7 @@ def read_cad(path: str | Path, *, timeout_s: float = 600.0, memory_mb: int = 819
             error=CadError,
             timeout_s=timeout_s,
             memory_mb=memory_mb,
-            resident_mb=min(memory_mb, _BESIDE_MB + _TIMES * _megabytes(source)),
+            resident_mb=min(memory_mb, _BESIDE_MB + need_mb(source, known)),
         )
     except CadError as error:
         # What the reader says itself is better than a guess; a crash or hang says nothing.
@@ -68,9 +67,3 @@ def read_cad(path: str | Path, *, timeout_s: float = 600.0, memory_mb: int = 819
         symptom = error.message[0].lower() + error.message[1:]
         raise CadError(f"{cause} ({symptom})", where=error.where, hint=error.hint) from error
     return assembly
-
-
-def _megabytes(source: Path) -> int:
-    """The size of a file, or of all in a folder, rounded up."""
-    files = [source] if source.is_file() else [f for f in source.rglob("*") if f.is_file()]
-    return 1 + sum(f.stat().st_size for f in files) // MEGABYTE

@@ -4,27 +4,32 @@ In the order in which they build on each other: `words` and `rows` (how values, 
 `document` (the report as one document; what fell short), `console` (tables for a terminal), `html` (the page).
 """
 
-from yellowiron.report.console import (
-    alignment_table,
-    build_summary,
-    finding_table,
-    lint_table,
-    measurement_table,
-    proposal_table,
-    simulation_table,
-    specification_table,
-)
-from yellowiron.report.document import (
-    BuildFacts,
-    alignment_entry,
-    fell_short,
-    missing_limits,
-    report_document,
-    specification_entry,
-    within_tolerance,
-    write_document,
-)
-from yellowiron.report.html.page import page
+from typing import TYPE_CHECKING
+
+from yellowiron.support.lazy import lazy_names
+
+if TYPE_CHECKING:
+    from yellowiron.report.console import (
+        alignment_table,
+        build_summary,
+        finding_table,
+        lint_table,
+        measurement_table,
+        proposal_table,
+        simulation_table,
+        specification_table,
+    )
+    from yellowiron.report.document import (
+        BuildFacts,
+        alignment_entry,
+        fell_short,
+        missing_limits,
+        report_document,
+        specification_entry,
+        within_tolerance,
+        write_document,
+    )
+    from yellowiron.report.html.page import page
 
 __all__ = [
     "BuildFacts",
@@ -45,3 +50,26 @@ __all__ = [
     "within_tolerance",
     "write_document",
 ]
+
+__getattr__, __dir__ = lazy_names(
+    __name__,
+    {
+        "BuildFacts": "document",
+        "alignment_entry": "document",
+        "alignment_table": "console",
+        "build_summary": "console",
+        "fell_short": "document",
+        "finding_table": "console",
+        "lint_table": "console",
+        "measurement_table": "console",
+        "missing_limits": "document",
+        "page": "html.page",
+        "proposal_table": "console",
+        "report_document": "document",
+        "simulation_table": "console",
+        "specification_entry": "document",
+        "specification_table": "console",
+        "within_tolerance": "document",
+        "write_document": "document",
+    },
+)

@@ -6,8 +6,6 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Iterable, Mapping
 from typing import Generic, TypeVar
 
-import networkx as nx
-
 Node = TypeVar("Node", bound=Hashable)
 Edge = TypeVar("Edge")
 Name = TypeVar("Name", bound=Hashable)
@@ -75,6 +73,8 @@ def blocks(edges: Mapping[Name, tuple[Node, Node]]) -> list[tuple[Name, ...]]:
     Several edges may join the same two nodes: every edge is a node of its own between its ends, so two of them are a
     loop.
     """
+    import networkx as nx  # a fifth of a second, which not every command has to spend
+
     graph = nx.Graph()
     for name, pair in edges.items():
         graph.add_edges_from(((False, node), (True, name)) for node in pair)

@@ -20,13 +20,14 @@ from typing import IO, Any, NoReturn, cast
 
 from yellowiron.model.errors import YellowironError
 from yellowiron.support import isolated, limits, plugins
+from yellowiron.support.files import answers
 
 _CRASH_HINT = "The file is damaged, or made to break its reader; open it in its own program and export it again."
 _PACKAGE = Path(__file__).resolve().parent.parent
 _RUN = "yellowiron.support.guard:run_child"
 _BEAT = 1.0
 """Seconds between two signs of life."""
-_LOOK = 0.05
+_LOOK = 0.02
 """Seconds between two looks at how much memory a child has taken."""
 _LAST_WORDS = 65536
 
@@ -103,8 +104,11 @@ def run_guarded(
             )
         if not answer.exists():
             raise error(_obituary(wording.who, child.returncode, noise), where=where, hint=wording.hint)
-        kind, value = pickle.loads(answer.read_bytes())
-    if kind == "error":
+        try:
+            kind, value = answers.loads(answer.read_bytes())
+        except Exception as broken:  # what broke it may have been the file
+            raise error(f"{wording.who} gave no answer that is one", where=where, hint=wording.hint) from broken
+    if kind == "error" and isinstance(value, YellowironError):
         raise value
     if kind == "memory":
         raise error(f"{wording.who} needs more than {memory_mb} MB of memory", where=where, hint="Split the file.")
@@ -141,9 +145,9 @@ def _attend(
                     streams.unregister(key.fileobj)
                 elif key.fileobj is life:
                     end = time.monotonic() + timeout_s
-                    *lines, words = (words + data).split(b"\n")
+                    *lines, words = (words[-_LAST_WORDS:] + data).split(b"\n")
                     for line in filter(None, lines):
-                        progress(line.decode())
+                        progress(line.decode(errors="replace"))
                 else:
                     noise = (noise + data)[-_LAST_WORDS:]
     child.wait(max(0.0, end - time.monotonic()))
@@ -203,7 +207,7 @@ def run_child(call: str) -> NoReturn:
         outcome = ("failure", f"{type(error).__name__}: {error}"[:500])
     part = Path(f"{answer}.part")
     try:
-        part.write_bytes(pickle.dumps(outcome))
+        part.write_bytes(answers.dumps(outcome))
         part.rename(answer)
     except OSError as error:
         sys.stderr.write(str(error.strerror))

@@ -60,12 +60,14 @@ def limit_files(megabytes: int) -> None:
 
 
 def memory_in_use(process: int) -> float:
-    """Megabytes of memory that a process has in use; 0 where the system does not say (it does on Linux)."""
+    """Megabytes of memory that a process, and those that it has started, have in use; 0 where the system does not say
+    (it does on Linux)."""
     try:
         pages = int(Path(f"/proc/{process}/statm").read_text(encoding="ascii").split()[1])
+        started = Path(f"/proc/{process}/task/{process}/children").read_text(encoding="ascii").split()
     except (OSError, ValueError, IndexError):
         return 0.0
-    return pages * os.sysconf("SC_PAGE_SIZE") / 2**20
+    return pages * os.sysconf("SC_PAGE_SIZE") / 2**20 + sum(memory_in_use(int(child)) for child in started)
 
 
 def largest_file() -> float:

@@ -7,8 +7,6 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-import numpy as np
-
 _DISPLAY = {
     "m": ("mm", 1e3),
     "rad": ("°", 180.0 / math.pi),
@@ -35,17 +33,17 @@ def display(value: float | None, unit: str, *, digits: int = 5) -> str:
 
 def plain(value: Any) -> Any:
     """A value as JSON knows it: arrays and tuples become lists, floats 12 significant digits (the rest is noise)."""
-    if isinstance(value, np.ndarray):
+    if hasattr(value, "tolist"):  # numpy's, which errors and help do without: it takes a tenth of a second
         return plain(value.tolist())
     if isinstance(value, Mapping):
         return {str(k): plain(v) for k, v in value.items()}
     if isinstance(value, (list, tuple)):
         return [plain(v) for v in value]
-    if isinstance(value, (bool, np.bool_)):
+    if isinstance(value, bool):
         return bool(value)
-    if isinstance(value, (int, np.integer)):
+    if isinstance(value, int):
         return int(value)
-    if isinstance(value, (float, np.floating)):
+    if isinstance(value, float):
         if not math.isfinite(value):
             return None
         rounded = float(f"{value:.12g}")

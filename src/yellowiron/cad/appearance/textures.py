@@ -145,7 +145,9 @@ def _means(data: bytes) -> tuple[Color, Color]:
 
     with Image.open(BytesIO(data), formats=_FORMATS) as image:
         image.draft("RGB", (256, 256))
-        small = image.convert("RGBA").resize((64, 64), Image.Resampling.BOX)
+        # Made small first where that is the same: a picture of 8192 by 8192 points is 200 MB, and with opacity more.
+        whole = image if image.mode == "RGB" else image.convert("RGBA")
+        small = whole.resize((64, 64), Image.Resampling.BOX).convert("RGBA")
     points = np.asarray(small, dtype=np.float64).reshape(-1, 4) / 255.0
     weight = points[:, 3:] if points[:, 3].sum() > 0.0 else np.ones((len(points), 1))
     mean, raw = ((v * weight).sum(axis=0) / weight.sum() for v in (linear_values(points[:, :3]), points[:, :3]))

@@ -29,6 +29,7 @@ from OCP.XCAFDoc import (
     XCAFDoc_ShapeTool,
 )
 
+from yellowiron.cad.bounds import limited
 from yellowiron.cad.brep.tessellate import MILLIMETRE
 from yellowiron.cad.naming import decode_name, occurrence_name
 from yellowiron.model.errors import CadError
@@ -84,7 +85,7 @@ def open_step(path: str, encoding: str, *, inner_names: bool = True) -> tuple[Pr
         raise CadError(
             f"The reader delivered units of {unit.GetUnitValue():g} m, not mm", where=path, hint=EXPORT_AGAIN
         )
-    return ProductTree(document, encoding), names
+    return ProductTree(document, encoding, path), names
 
 
 def new_document() -> Any:
@@ -149,8 +150,9 @@ def add_products(document: Any, roots: Sequence[Product]) -> None:
 class ProductTree:
     """The product tree of an XCAF document."""
 
-    def __init__(self, document: Any, encoding: str) -> None:
+    def __init__(self, document: Any, encoding: str, path: str) -> None:
         self.encoding = encoding
+        self._path = path
         self._document = document  # its labels die with it
         roots = LabelSequence()
         XCAFDoc_DocumentTool.ShapeTool_s(document.Main()).GetFreeShapes(roots)
@@ -159,12 +161,14 @@ class ProductTree:
 
     def leaves(self) -> Iterator[Leaf]:
         """Every occurrence of a product without components, in tree order."""
-        for root in self.roots:
-            yield from self._walk(Leaf(self.product_name(root) or _nameless(root), (), root, TopLoc_Location()))
+        roots = (Leaf(self.product_name(root) or _nameless(root), (), root, TopLoc_Location()) for root in self.roots)
+        for one in limited((found for root in roots for found in self._walk(root)), self._path):
+            if not XCAFDoc_ShapeTool.IsAssembly_s(one.label):
+                yield one
 
     def _walk(self, at: Leaf) -> Iterator[Leaf]:
+        yield at
         if not XCAFDoc_ShapeTool.IsAssembly_s(at.label):
-            yield at
             return
         inherited = at.color or label_color(at.label) or at.inherited
         components = LabelSequence()

@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 
 from yellowiron.cad.appearance.looks import Dressed, Look, dress
+from yellowiron.cad.bounds import limited, require_occurrences
 from yellowiron.cad.mesh import assembly, polygons
 from yellowiron.cad.mesh.assembly import Occurrence
 from yellowiron.cad.naming import decode_name
@@ -35,7 +36,6 @@ _MARKED = {"INSERT": b"AcDbBlockReference", "3DFACE": b"AcDbFace", "MESH": b"AcD
 """What else stands in some of them, once, since release 13; in tables the first one does, too."""
 _TABLE = b"ACAD_TABLE"
 _DEEPEST = 20
-_MOST = 200_000
 
 
 def read_dxf(path: str) -> Assembly:
@@ -86,9 +86,8 @@ def assembled(document: Any, path: str, format: str, faults: int = 0) -> Assembl
     blocks: dict[str, list[tuple[str, Dressed]]] = {}
     acis = 0
     lost: list[str] = []
-    placements = list(_inserted(document.modelspace(), (), np.eye(4), 0, lost))
-    if len(placements) > _MOST:
-        raise CadError(f"The {format} file places more than {_MOST} blocks", where=path, hint=_DAMAGED)
+    require_occurrences(_declared(document.modelspace(), {}, 0), path)
+    placements = list(limited(_inserted(document.modelspace(), (), np.eye(4), 0, lost), path))
     raw: list[tuple[tuple[str, ...], str, Dressed, Floats]] = []
     for names, layout, transform in placements:
         key = layout.block_record_handle if hasattr(layout, "block_record_handle") else layout.layout_key
@@ -132,6 +131,19 @@ def _at(points: Floats, transform: Floats) -> Floats:
     return np.asarray(points @ transform[:3, :3].T + transform[:3, 3])
 
 
+def _declared(layout: Any, known: dict[tuple[str, int], int], depth: int) -> int:
+    """How many occurrences of it and of blocks a layout comes to; a few blocks that hold rows of each other are more
+    than anybody can count one by one."""
+    count = 1
+    for insert in layout.query("INSERT") if depth < _DEEPEST else ():
+        key = insert.dxf.name, depth
+        if key not in known:
+            block = insert.block()
+            known[key] = _declared(block, known, depth + 1) if block is not None else 0
+        count += max(1, insert.mcount) * known[key]
+    return count
+
+
 def _inserted(
     layout: Any, names: tuple[str, ...], transform: Floats, depth: int, lost: list[str]
 ) -> Iterator[tuple[tuple[str, ...], Any, Floats]]:
@@ -158,10 +170,12 @@ def _meshes(layout: Any, document: Any) -> Iterator[tuple[str, Dressed]]:
     points: dict[str, list[Floats]] = {}
     triangles: dict[str, list[Any]] = {}
     colors: dict[str, list[tuple[Color | None, int]]] = {}
+    count: dict[str, int] = {}
     for entity in layout:
         for vertices, faces in _faces(entity):
             layer = entity.dxf.layer
-            start = sum(len(p) for p in points.get(layer, []))
+            start = count.get(layer, 0)
+            count[layer] = start + len(vertices)
             counts = [len(f) for f in faces]
             cut, _ = polygons.fans(counts, [i for f in faces for i in f])
             points.setdefault(layer, []).append(np.array(vertices, dtype=np.float64).reshape(-1, 3))

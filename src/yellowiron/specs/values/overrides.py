@@ -167,7 +167,9 @@ def _specification(wanted: Wanted, value: str, text: str) -> Specification:
     quantity = parse_one(value, where=f"{_WHERE} {text}")
     if quantity.unit == "" and unit != "1":
         raise YellowironError(
-            f"'{value}' has no unit, and {wanted.name} is a {wanted.dimension}", where=_WHERE, hint=hint_for(wanted)
+            f"'{value}' has no unit, and {wanted.name} has one ({wanted.dimension})",
+            where=_WHERE,
+            hint=hint_for(wanted),
         )
     if quantity.unit != "" and quantity.si_unit != unit:
         raise YellowironError(

@@ -1,1 +1,2 @@
-"""Files as they come and go: bounded `inputs`, and folders whose files are replaced all or none (`staging`)."""
+"""Files as they come and go: bounded `inputs`, what guarded children write (`answers`), and folders whose files are
+replaced all or none (`staging`)."""

@@ -87,9 +87,17 @@ def beside(soup: Soup, chosen: Indices) -> Indices:
         faces = soup.pair[:, side]
         local = np.argmax(soup.corners[faces] == soup.opposite[:, side][:, None], axis=1)
         of_triangle[faces, local] = row
-    found = [of_triangle[:, pair] for pair in ((0, 1), (1, 2), (0, 2))]
+
+    def joined(one: Indices, other: Indices) -> Indices:
+        """A number for each two rows that are there and two: all pairs as they are would be most of a reader's
+        memory."""
+        low, high = np.minimum(one, other), np.maximum(one, other)
+        good = (low >= 0) & (low != high)
+        return np.asarray(low[good] * len(chosen) + high[good])
+
+    found = [joined(of_triangle[:, i], of_triangle[:, j]) for i, j in ((0, 1), (1, 2), (0, 2))]
     left, right = of_triangle[soup.pair[:, 0]], of_triangle[soup.pair[:, 1]]
-    found += [np.stack([left[:, i], right[:, j]], axis=1) for i in range(3) for j in range(3)]
+    found += [joined(left[:, i], right[:, j]) for i in range(3) for j in range(3)]
     facet = soup.facets
     faces = np.concatenate([soup.pair[chosen, 0], soup.pair[chosen, 1]])
     rows = np.tile(np.arange(len(chosen)), 2)
@@ -99,10 +107,8 @@ def beside(soup: Soup, chosen: Indices) -> Indices:
     for step in range(1, 6):
         near = label[step:] == label[:-step]
         near &= sizes[label[step:]] <= _CROWD
-        found.append(np.stack([rows[:-step][near], rows[step:][near]], axis=1))
-    pairs = np.concatenate(found)
-    low, high = pairs.min(axis=1), pairs.max(axis=1)
-    keys = np.unique((low * len(chosen) + high)[(low >= 0) & (low != high)])
+        found.append(joined(rows[:-step][near], rows[step:][near]))
+    keys = np.unique(np.concatenate(found))
     return np.stack([keys // len(chosen), keys % len(chosen)], axis=1)
 
 

@@ -30,7 +30,8 @@ def read_brep(path: str) -> Assembly:
     with file_must_end(Path(path).stat().st_size):
         document = new_document()
         add_product(document, Path(path).stem, shape)
-        return products.assemble(ProductTree(document, "utf-8"), path=path, format="BREP", unit=1e-3, findings=[unit])
+        tree = ProductTree(document, "utf-8", path)
+        return products.assemble(tree, path=path, format="BREP", unit=1e-3, findings=[unit])
 
 
 def shape_in(file: str, path: str) -> Any:

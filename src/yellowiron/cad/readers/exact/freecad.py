@@ -7,9 +7,10 @@ used by them.
 
 from __future__ import annotations
 
+import itertools
 import struct
 import zipfile
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -20,6 +21,7 @@ from OCP.gp import gp_Pnt, gp_Quaternion, gp_Trsf, gp_Vec
 from OCP.TopAbs import TopAbs_FACE
 from OCP.TopLoc import TopLoc_Location
 
+from yellowiron.cad.bounds import limited
 from yellowiron.cad.brep import products
 from yellowiron.cad.brep.to_shape import subshapes
 from yellowiron.cad.brep.xcaf import Product, ProductTree, add_products, new_document
@@ -76,7 +78,7 @@ def read_freecad(path: str) -> Assembly:
             shapes = _shapes(archive, objects, path)
     except (zipfile.BadZipFile, ElementTree.ParseError, KeyError, ValueError, EOFError, NotImplementedError) as error:
         raise CadError(f"The FreeCAD file is broken: {error}", where=path, hint=_DAMAGED) from error
-    document = _Document(objects, shapes, path)
+    document = _Document(objects, shapes, path, limited(itertools.count(), path))
     owned = {m for o in objects.values() for m in o.members}
     roots: list[tuple[Product, Any]] = []
     for name in objects:
@@ -85,7 +87,7 @@ def read_freecad(path: str) -> Assembly:
     with file_must_end(Path(path).stat().st_size):
         made = new_document()
         add_products(made, [_at(product, place) for product, place in roots])
-        tree = ProductTree(made, "utf-8")
+        tree = ProductTree(made, "utf-8", path)
         return products.assemble(tree, path=path, format="FreeCAD", unit=1e-3, findings=_damage(root, objects, path))
 
 
@@ -104,12 +106,15 @@ class _Document:
     objects: Mapping[str, _Object]
     shapes: Mapping[str, Any]
     path: str
+    steps: Iterator[int]
+    """A number for every object that is placed, as far as they go."""
 
 
 def _add(
     held: list[tuple[Product, Any]], name: str, outer: Any, document: _Document, depth: int = 0, label: str = ""
 ) -> None:
     """Adds an object, and what it groups or links to, at its place; `outer` is from the document's origin."""
+    next(document.steps)
     one = document.objects.get(name)
     if one is None or (not one.shown and not label):
         return

@@ -91,7 +91,7 @@ def _read(path: str) -> Assembly:
     document = new_document()
     model = _Model(reader, path)
     add_products(document, model.products())
-    tree = ProductTree(document, "utf-8")
+    tree = ProductTree(document, "utf-8", path)
     if not tree.roots:
         raise CadError("The IGES file holds nothing that can be read as a part", where=path, hint=EXPORT_AGAIN)
     return products.assemble(tree, path=path, format="IGES", unit=model.unit, findings=model.findings)

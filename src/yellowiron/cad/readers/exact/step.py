@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+from yellowiron.cad.bounds import require_occurrences
 from yellowiron.cad.brep import products
 from yellowiron.cad.brep.products import Piece
 from yellowiron.cad.brep.xcaf import Leaf, open_step
@@ -58,6 +59,8 @@ def _read(path: str) -> Assembly:
             where=path,
             hint="Copy or export it again; the end of the file is missing.",
         )
+    if facts.occurrences is not None:
+        require_occurrences(facts.occurrences, path)
     encoding = sniff_encoding(facts.names)
     findings = encoding_remarks(encoding, path)
     if blank >= 0:

@@ -15,6 +15,7 @@ import numpy as np
 
 from yellowiron.cad.appearance.looks import Dressed, Look, dress
 from yellowiron.cad.appearance.textures import Pictures, finish
+from yellowiron.cad.bounds import CORNERS, require_polygon
 from yellowiron.cad.mesh import assembly
 from yellowiron.cad.mesh.assembly import Occurrence
 from yellowiron.cad.naming import decode_name, decode_text, encoding_remarks, is_generic
@@ -110,6 +111,7 @@ def _groups(path: str, findings: list[Finding]) -> list[tuple[str, Dressed]]:
 class _Reading:
     """What the lines read so far say, and which object, group and material the next faces are of."""
 
+    path: str
     points: list[tuple[float, float, float]] = field(default_factory=list)
     paint: list[tuple[float, float, float]] = field(default_factory=list)
     coordinates: list[tuple[float, float]] = field(default_factory=list)
@@ -137,7 +139,8 @@ class _Reading:
 
     def face(self, rest: str) -> None:
         """`f` and its corners, `point/coordinate/normal` each: a fan of triangles."""
-        entries = rest.split()
+        entries = rest.split(None, CORNERS)
+        require_polygon(len(entries), self.path)
         corners = [_index(entry, len(self.points)) for entry in entries]
         if len(corners) < 3:
             raise ValueError
@@ -187,7 +190,7 @@ _STEPS: dict[str, Callable[[_Reading, str], None]] = {
 
 
 def _parsed(path: str) -> _File:
-    reading, last, strange = _Reading(), "", 0
+    reading, last, strange = _Reading(path), "", 0
     data = Path(path).read_bytes()
     text, encoding = decode_text(data, _NAMES.findall(data))
     for number, line in enumerate(text.replace("\\\n", " ").splitlines(), start=1):

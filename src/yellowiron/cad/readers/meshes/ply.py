@@ -41,6 +41,14 @@ def read_ply(path: str) -> Assembly:
     )  # fmt: skip
 
 
+def _require_room(data: bytes, path: str) -> None:
+    """`CadError` where the header declares more than the file has bytes for."""
+    declared = sum(int(count) for _, count in _ELEMENT.findall(data.partition(b"end_header")[0]))
+    if declared > len(data):
+        words = f"The PLY file declares {declared} points and faces and has {len(data)} bytes: it is truncated, or lies"
+        raise CadError(words, where=path, hint=_DAMAGED)
+
+
 def _damage(data: bytes, read: int, path: str) -> list[Finding]:
     """A finding where a file holds another number of lines or faces than its header says."""
     head, _, body = data.partition(b"end_header")
@@ -66,6 +74,7 @@ def _mesh(file: Path, findings: list[Finding]) -> Mesh:
     path, data = str(file), file.read_bytes()
     if b"end_header" not in data[:65536]:
         raise CadError("The PLY file is truncated: its header has no end", where=path, hint=_DAMAGED)
+    _require_room(data, path)
     try:
         loaded: dict[str, Any] = load_ply(BytesIO(data))
     except (ValueError, IndexError, KeyError, TypeError, struct.error) as error:

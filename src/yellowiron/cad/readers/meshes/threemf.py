@@ -14,6 +14,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 
+from yellowiron.cad.bounds import limited
 from yellowiron.cad.mesh import assembly
 from yellowiron.cad.mesh.assembly import Occurrence
 from yellowiron.cad.naming import decode_name, is_generic
@@ -27,8 +28,6 @@ _DAMAGED = "Copy or export it again; the file is damaged."
 _LARGEST = 2 * 1024**3
 """Bytes of one document when unpacked."""
 _DEEPEST = 50
-_MOST = 200_000
-"""Occurrences: components that hold each other many times over are a trap."""
 
 
 @dataclass
@@ -58,12 +57,8 @@ def read_3mf(path: str) -> Assembly:
                 items += _model(root, f"/{name}", own, objects)
     except (zipfile.BadZipFile, ElementTree.ParseError, ValueError, KeyError, EOFError, NotImplementedError) as error:
         raise CadError(f"The 3MF file is broken: {error}", where=path, hint=_DAMAGED) from error
-    placements = []
-    for key, matrix in items:
-        for found in _placed(key, matrix, (), objects, path):
-            placements.append(found)
-            if len(placements) > _MOST:
-                raise CadError(f"The 3MF file places more than {_MOST} parts", where=path, hint=_DAMAGED)
+    held = (found for key, matrix in items for found in _placed(key, matrix, (), objects, path))
+    placements = [found for found in limited(held, path) if found[1].mesh is not None]
     occurrences = [
         Occurrence(names[-1], names[:-1], one.mesh, matrix, one.color)
         for names, one, matrix in placements
@@ -108,15 +103,14 @@ def _model(
 def _placed(
     key: tuple[str, str], matrix: Floats, above: tuple[str, ...], objects: dict[tuple[str, str], _Object], path: str
 ) -> Iterator[tuple[tuple[str, ...], _Object, Floats]]:
-    """Every mesh below an object, with its names and transform."""
+    """An object and all below it, with names and transforms."""
     if key not in objects:
         raise CadError(f"The 3MF file names an object that is not there: {key[1]}", where=path, hint=_DAMAGED)
     if len(above) > _DEEPEST:
         raise CadError("The 3MF file is broken: an object holds itself", where=path, hint=_DAMAGED)
     one = objects[key]
     names = (*above, one.name)
-    if one.mesh is not None:
-        yield names, one, matrix
+    yield names, one, matrix
     for other, place in one.components:
         yield from _placed(other, matrix @ place, names, objects, path)
 

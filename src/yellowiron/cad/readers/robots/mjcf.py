@@ -35,7 +35,7 @@ def read_mjcf(path: str) -> Assembly:
     # Else a warning is written to a file in the working folder; what it is about is found here or refused.
     mujoco.set_mju_user_warning(lambda message: None)
     try:
-        spec = mujoco.MjSpec.from_file(path)
+        spec = _spec(path)
         # Nothing may be left out or made one because it does not collide or move.
         spec.compiler.discardvisual = False
         spec.compiler.fusestatic = False
@@ -95,6 +95,17 @@ def _geom(model: Any, kind: Any, index: int, size: tuple[float, ...]) -> Mesh:
     ball = polygons.ball(1.0)
     radii = np.array(size) if kind == types.mjGEOM_ELLIPSOID else np.full(3, size[0])
     return Mesh(ball.points * radii, ball.triangles)
+
+
+def _spec(path: str) -> Any:
+    """The file's model. MuJoCo opens files by their suffix, and knows .xml alone."""
+    import mujoco
+
+    if path.lower().endswith(".xml"):
+        return mujoco.MjSpec.from_file(path)
+    spec = mujoco.MjSpec.from_string(Path(path).read_text(encoding="utf-8"))
+    spec.modelfiledir = str(Path(path).absolute().parent)
+    return spec
 
 
 def _bodies(model: Any, body: int) -> tuple[str, ...]:

@@ -6,6 +6,7 @@ With or without physics: here it is a tree of parts, with the joints that the fi
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -14,6 +15,7 @@ import numpy as np
 from pxr import Gf, Sdf, Tf, Usd, UsdGeom, UsdSkel
 
 from yellowiron.cad.appearance.looks import Dressed
+from yellowiron.cad.bounds import limited, require_polygon
 from yellowiron.cad.mesh import assembly, polygons
 from yellowiron.cad.mesh.assembly import Occurrence
 from yellowiron.cad.naming import decode_name, is_generic
@@ -39,11 +41,13 @@ def read_usd(path: str) -> Assembly:
     unit, remarks = _unit(stage, path)
     findings += remarks
     looks = Looks(path)
+    everything = Usd.PrimRange(stage.GetPseudoRoot(), Usd.TraverseInstanceProxies(Usd.PrimDefaultPredicate))
+    deque(limited(everything, path), maxlen=0)
     tree, numbers = _tree(stage, unit)
     meshes: dict[Sdf.Path, Dressed | None] = {}
     occurrences: list[Occurrence] = []
     declared = _hollow(stage)
-    for prim, transform in _drawn(stage):
+    for prim, transform in limited(_drawn(stage), path):
         declared += 1
         source = prim.GetPrimInPrototype().GetPath() if prim.IsInstanceProxy() else prim.GetPath()
         if source not in meshes:
@@ -250,13 +254,14 @@ def _mesh(prim: Usd.Prim, unit: float, looks: Looks, findings: list[Finding]) ->
     points = np.asarray(mesh.GetPointsAttr().Get() or [], dtype=np.float64).reshape(-1, 3)
     counts = np.asarray(mesh.GetFaceVertexCountsAttr().Get() or [], dtype=np.int64)
     corners = np.asarray(mesh.GetFaceVertexIndicesAttr().Get() or [], dtype=np.int64)
+    name = str(prim.GetPath())
     sound = (counts >= 0).all() and counts.sum() == len(corners)
     if not sound or (len(corners) and not 0 <= corners.min() <= corners.max() < len(points)):
-        name = str(prim.GetPath())
         findings.append(
             Finding("CAD003", "error", name, "Left out: its faces name points that are not there", _DAMAGED)
         )
         return None
+    require_polygon(int(counts.max(initial=0)), name)
     numbers, polygon = polygons.fans(counts, np.arange(len(corners)))
     if mesh.GetOrientationAttr().Get() == UsdGeom.Tokens.leftHanded:
         numbers = numbers[:, ::-1]
