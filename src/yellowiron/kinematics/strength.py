@@ -1,0 +1,74 @@
+"""What a drive has to hold: the weight it feels through the linkage, and drives made strong enough for it. SI."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from yellowiron.kinematics.solver.chain import ClosedChain, State
+from yellowiron.kinematics.solver.pose_grid import PoseGrid
+from yellowiron.model.finding import Finding
+from yellowiron.model.mechanism import DEFAULT, Joint
+from yellowiron.support.text import display
+
+GRAVITY = 9.81
+_STEP = 1e-4
+"""Metres or radians to either side of a coordinate: for slopes."""
+_SPARE = 1.5
+"""A cylinder of unknown pressure holds so many times the weight on it."""
+_USUAL = 0.9
+"""In this share of its poses: near a dead point the lever is nothing."""
+_MOST = 10.0
+"""Drawn near a dead point it is made no stronger than so many times, if it is not so for its other poses."""
+_POSES = 25
+
+
+def beside(chain: ClosedChain, state: State, joint: str) -> tuple[list[State], float]:
+    """The states a little below and above one along a joint's coordinate, and how far they are apart; 0 or less where
+    the linkage locks."""
+    place = chain.coordinate(state, joint)
+    ends = [chain.reach({joint: place + step}, start=state)[0] for step in (-_STEP, _STEP)]
+    return ends, chain.coordinate(ends[1], joint) - chain.coordinate(ends[0], joint)
+
+
+def weight(chain: ClosedChain, state: State, joint: str) -> float:
+    """Force (N) or torque (N·m) along a joint's coordinate that holds the machine's weight: the potential energy's
+    slope, the root upright."""
+    ends, way = beside(chain, state, joint)
+    if way <= 0.0:
+        return 0.0
+    rotations, origins = chain.placements(ends)
+    energy = np.zeros(2)
+    for body in chain.mechanism.bodies:
+        index = chain.body_index(body.name)
+        arm = np.asarray(body.center_of_mass) - np.asarray(body.origin)
+        energy += GRAVITY * body.mass * (origins[:, index, 2] + rotations[:, index, 2] @ arm)
+    return float(energy[1] - energy[0]) / way
+
+
+def strong_enough(chain: ClosedChain, grids: list[PoseGrid], joints: dict[str, Joint]) -> tuple[Finding, ...]:
+    """Raises, in `joints`, the force of the drives of those cylinders whose pressure is the template's where it cannot
+    hold the machine's own weight; a finding for each."""
+    findings = []
+    guessed = {c.slide for c in chain.mechanism.cylinders if c.sources.get("pressure", "").startswith(DEFAULT)}
+    for component, grid in zip(chain.components(), grids, strict=True):
+        states = grid.states[:: max(1, len(grid.states) // _POSES)]
+        for name in component.drivers:
+            drive = joints[name].drive
+            if name not in guessed or drive is None or not math.isfinite(drive.max_force) or not len(states):
+                continue
+            held = float(np.quantile([abs(weight(chain, state, name)) for state in states], _USUAL))
+            drawn = min(abs(weight(chain, chain.drawn, name)), _MOST * drive.max_force / _SPARE)
+            force = _SPARE * max(held, drawn)
+            if force <= drive.max_force:
+                continue
+            words = (
+                f"with the template's pressure it has {display(drive.max_force, 'N')} and could not hold the machine's "
+                f"own weight: it is given {display(force, 'N')}, {_SPARE:g} times what that takes"
+            )
+            findings.append(Finding("KIN015", "warning", name, words, "Give pressure and weight, or a sheet."))
+            source = f"{drive.source}; raised to {_SPARE:g} times the machine's own weight on it"
+            joints[name] = replace(joints[name], drive=replace(drive, max_force=force, source=source))
+    return tuple(findings)
