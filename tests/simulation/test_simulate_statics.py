@@ -9,8 +9,9 @@ import time
 import numpy as np
 import pytest
 
-from yellowiron.kinematics import GRAVITY, ClosedChain, weight
+from yellowiron.kinematics import ClosedChain, weight
 from yellowiron.kinematics.measuring.quantities import Unmeasurable
+from yellowiron.kinematics.strength import GRAVITY
 from yellowiron.model.mechanism import Drive, Mechanism
 from yellowiron.simulation.machine_tests.rig import locked
 from yellowiron.simulation.machine_tests.statics import (

@@ -43,10 +43,9 @@ if TYPE_CHECKING:
     from yellowiron.kinematics.solver.chain import ClosedChain, KinematicsError, State
     from yellowiron.kinematics.solver.floating import attached
     from yellowiron.kinematics.start import legal_start, started
-    from yellowiron.kinematics.strength import GRAVITY, beside, weight
+    from yellowiron.kinematics.strength import beside, weight
 
 __all__ = [
-    "GRAVITY",
     "ClosedChain",
     "KinematicsError",
     "OpenAxis",
@@ -72,7 +71,6 @@ __getattr__, __dir__ = lazy_names(
     __name__,
     {
         "ClosedChain": "solver.chain",
-        "GRAVITY": "strength",
         "KinematicsError": "solver.chain",
         "OpenAxis": "measuring.axis_placement",
         "PlacedAxes": "measuring.axis_placement",

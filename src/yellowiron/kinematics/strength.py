@@ -52,23 +52,30 @@ def strong_enough(chain: ClosedChain, grids: list[PoseGrid], joints: dict[str, J
     """Raises, in `joints`, the force of the drives of those cylinders whose pressure is the template's where it cannot
     hold the machine's own weight; a finding for each."""
     findings = []
-    guessed = {c.slide for c in chain.mechanism.cylinders if c.sources.get("pressure", "").startswith(DEFAULT)}
+    guessed = {
+        c.slide
+        for c in chain.mechanism.cylinders
+        if c.sources.get("pressure", "").startswith(DEFAULT) or not c.push_force > 0.0
+    }
     for component, grid in zip(chain.components(), grids, strict=True):
         states = grid.states[:: max(1, len(grid.states) // _POSES)]
         for name in component.drivers:
             drive = joints[name].drive
-            if name not in guessed or drive is None or not math.isfinite(drive.max_force) or not len(states):
+            if name not in guessed or drive is None or drive.kind != "position" or not len(states):
                 continue
             held = float(np.quantile([abs(weight(chain, state, name)) for state in states], _USUAL))
-            drawn = min(abs(weight(chain, chain.drawn, name)), _MOST * drive.max_force / _SPARE)
+            known = math.isfinite(drive.max_force)
+            drawn = abs(weight(chain, chain.drawn, name))
+            drawn = min(drawn, _MOST * (drive.max_force / _SPARE if known else held))
             force = _SPARE * max(held, drawn)
-            if force <= drive.max_force:
+            if not force > 0.0 or (known and force <= drive.max_force):
                 continue
+            has = f"with the template's pressure it has {display(drive.max_force, 'N')} and could not hold"
             words = (
-                f"with the template's pressure it has {display(drive.max_force, 'N')} and could not hold the machine's "
-                f"own weight: it is given {display(force, 'N')}, {_SPARE:g} times what that takes"
+                f"{has if known else 'nothing gives its force, which must hold'} the machine's own weight: it is given "
+                f"{display(force, 'N')}, {_SPARE:g} times what that takes"
             )
             findings.append(Finding("KIN015", "warning", name, words, "Give pressure and weight, or a sheet."))
-            source = f"{drive.source}; raised to {_SPARE:g} times the machine's own weight on it"
+            source = f"{drive.source}; {_SPARE:g} times the machine's own weight on it"
             joints[name] = replace(joints[name], drive=replace(drive, max_force=force, source=source))
     return tuple(findings)

@@ -129,6 +129,8 @@ def fits_of(solids: tuple[Solid, ...], tolerance: float) -> list[Fit]:
                 fits.append(fit)
     filled |= {id(f.bore) for f in fits}
     for k, (inner, shaft) in enumerate(shafts):
+        if shaft is solids[inner].shaft:  # a bar of its own that is too thick is the pin of something else
+            continue
         for j in sorted(set(tree.query_ball_point(ahead[k], near)) | set(tree.query_ball_point(behind[k], near))):
             outer, bore = bores[j]
             if outer == inner or id(bore) in filled or not bore.full:

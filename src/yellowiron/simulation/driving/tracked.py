@@ -7,7 +7,8 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from yellowiron.kinematics import GRAVITY, ClosedChain
+from yellowiron.kinematics import ClosedChain
+from yellowiron.kinematics.strength import GRAVITY
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Mechanism
 from yellowiron.simulation.commands import motions

@@ -10,10 +10,11 @@ from pathlib import Path
 import numpy as np
 
 from yellowiron import usd
-from yellowiron.kinematics import GRAVITY, State, attached, weight
+from yellowiron.kinematics import State, attached, weight
 from yellowiron.kinematics.measuring.bench import Bench
 from yellowiron.kinematics.measuring.quantities import Unmeasurable
 from yellowiron.kinematics.measuring.sheet import specified
+from yellowiron.kinematics.strength import GRAVITY
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.geometry import Floats
 from yellowiron.model.machine_tests import MachineTest
