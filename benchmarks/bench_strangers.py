@@ -14,6 +14,9 @@ Real models are those of `benchmarks/strangers/*.json` and of `../shared/data`; 
 (default: the environment's YELLOWIRON_STRANGERS; several folders with ':' between them). What is not there is said. Of
 models labelled `held_back` nothing is done unless `--held-back` is given. `--sizes`: what large models take; they have
 5000 parts, 470 000 triangles in 85 parts, 267 parts with hoses.
+
+The last column of real models says which actuators move in MuJoCo, each alone over a quarter of its stroke, the base
+fixed, and whether the loops hold (`strangers_driven.py`).
 """
 
 from __future__ import annotations
@@ -42,6 +45,7 @@ from kit.machines.excavators import excavator  # noqa: E402
 from kit.machines.synthetic import Machine  # noqa: E402
 from kit.scene import Scene, read, scene, true_joints  # noqa: E402
 from kit.scoring import Score, score  # noqa: E402
+from strangers_driven import Driven, driven  # noqa: E402
 from strangers_models import LABELS, models, scene_of  # noqa: E402
 from yellowiron.library import load_template  # noqa: E402
 from yellowiron.mechanism import build_mechanism  # noqa: E402
@@ -66,8 +70,8 @@ def _give_up(*_: object) -> None:
     raise GivenUpError
 
 
-def solved(given: Scene, limit: int) -> Result:
-    """What alignment makes of a scene within so many seconds of CPU time."""
+def solved(given: Scene, limit: int, *, drive: bool = False) -> Result:
+    """What alignment makes of a scene within so many seconds of CPU time; with `drive` also how it moves in MuJoCo."""
     template = load_template(given.type)
     signal.signal(signal.SIGPROF, _give_up)
     signal.setitimer(signal.ITIMER_PROF, limit)
@@ -89,13 +93,15 @@ def solved(given: Scene, limit: int) -> Result:
         n, joints = len(given.assembly.parts), len(given.joints)
         lost = Score(area, 0.0, 0.0, area, n, 0, 0, 1, 0, 0, joints, 0).document()
         failed = str(error) or f"given up after {limit} s"
-        return {"seconds": time.process_time() - start, "failed": failed, **lost}
+        moves = {"driven": Driven(failed=failed).words} if drive else {}
+        return {"seconds": time.process_time() - start, "failed": failed, **moves, **lost}
     finally:
         signal.setitimer(signal.ITIMER_PROF, 0)
     result = score(assembly, found, mechanism, given.truth, given.joints, given.height, template)
     return {
         "seconds": seconds, "failed": failed, "choices": dict(found.choices), "missing": list(found.missing),
         "moves": sorted({a.name for a in mechanism.actuators}) if mechanism is not None else [],
+        **({"driven": driven(assembly, chosen, found).words} if drive else {}),
         **result.document(),
     }  # fmt: skip
 
@@ -113,7 +119,7 @@ def real_case(name: str, folders: str, labels: str, names: str, limit: str) -> R
         given = scene_of(model, names=names)
     except YellowironError as error:
         return {"damage": name, "names": names, "unread": str(error)}
-    return {"kind": given.type, "damage": name, "names": names, **solved(given, int(limit))}
+    return {"kind": given.type, "damage": name, "names": names, **solved(given, int(limit), drive=True)}
 
 
 def size_case(name: str, limit: str) -> Result:
@@ -166,7 +172,7 @@ SIZES: dict[str, Callable[[], Scene]] = {
 }
 
 
-COLUMNS = f"{'':34s}  n  parts  right%  area%  silent  flagd  roles   joints     mean    max s"
+COLUMNS = f"{'':34s}  n  parts  right%  area%  silent  flagd  roles   joints     mean    max s  moves in MuJoCo"
 
 
 def row(label: str, results: Sequence[Result]) -> str:
@@ -187,6 +193,7 @@ def row(label: str, results: Sequence[Result]) -> str:
         f"{mean('roles_right', 'roles'):6.2f} {joints:>8s} {np.mean(times):8.2f} {max(times):8.2f}"
         + "".join(f"  {r['unread']}" for r in results if "unread" in r)
         + "".join(f"  {r['size']}: {r['seconds']:.1f} CPU s" for r in results if "size" in r)
+        + "".join(f"  {r['driven']}" for r in results if "driven" in r)
         + (f"  {failed}: {next(r['failed'] for r in read_ones if r['failed'])[:60]}" if failed else "")
     )
 

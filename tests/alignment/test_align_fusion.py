@@ -14,7 +14,7 @@ from kit.machines.synthetic import disguise
 from kit.scene import scene
 from yellowiron.alignment import align
 from yellowiron.alignment.features.solids import size_of, solids_of
-from yellowiron.alignment.fusion.bonds import Bond
+from yellowiron.alignment.fusion.bonds import Bond, out_of_line
 from yellowiron.alignment.fusion.judge import Annealing, field_of, labelled, leads, score_of
 from yellowiron.alignment.fusion.pieces import Piece, leading
 from yellowiron.alignment.fusion.stance import stance_of
@@ -139,3 +139,28 @@ def test_small_pieces_play_what_nothing_large_is_named_for() -> None:
     assert leading((large, small), 1.0, {}) == [0]
     assert leading((large, small), 1.0, {0: "boom", 1: "boom"}) == [0]
     assert leading((large, small), 1.0, {0: "boom", 1: "arm_cylinder_barrel"}) == [0, 1]
+
+
+def test_what_is_off_the_line_of_a_bar_is_not_of_its_half_of_a_cylinder(excavator: Template) -> None:
+    bar = {"boom_piston_rod": {"bar": 1.0}, "boom": {}}
+    lined = np.array([[False, True], [True, False]])
+    together = field_of([bar, bar], [], excavator, weights())
+    apart = field_of([bar, bar], [], excavator, weights(), lined)
+    rods = np.full(2, together.bodies.index("boom_piston_rod"))
+    assert score_of(apart, rods) == pytest.approx(score_of(together, rods) + weights()["astray"])
+    labels, score = labelled(apart)
+    assert score == pytest.approx(score_of(apart, labels))
+    assert len(set(labels.tolist())) == 2
+
+
+def test_a_pipe_along_a_bar_is_in_line_and_a_pedal_beside_it_is_not() -> None:
+    def piece(center: tuple[float, float, float], spread: tuple[float, float, float]) -> Piece:
+        middle, half = np.array(center), 0.5 * np.array(spread)
+        return Piece(
+            frozenset({0}), "", -1, 1.0, middle - half, middle + half, middle, np.array(spread), np.eye(3),
+            middle[None],
+        )  # fmt: skip
+
+    bar = piece((0, 0, 0), (1.5, 0.1, 0.1))
+    pipe, pedal = piece((0.2, 0.12, 0), (1.0, 0.02, 0.02)), piece((0.2, 0.5, 0), (0.2, 0.06, 0.06))
+    assert out_of_line([bar, pipe, pedal]).tolist() == [[False, False, True], [False, False, True], [True, True, False]]

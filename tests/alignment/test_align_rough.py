@@ -43,6 +43,13 @@ def test_a_pin_up_to_15_percent_off_its_bores_is_in_them(ratio: float, held: int
     assert len(fits_of(solids, 1e-5)) == held
 
 
+def test_a_boss_right_through_an_empty_bore_that_is_too_narrow_is_in_it() -> None:
+    solids = solids_of(_pinned(0.05 * 1.3).assembly())
+    # The same bar, as a boss of a larger part.
+    parts = tuple(replace(s, shaft=None) if s.part.name == "pin" else s for s in solids)
+    assert len(fits_of(parts, 1e-5)) == 2
+
+
 def test_a_hole_that_is_no_bore_holds_the_pin_through_it() -> None:
     machine = _pinned(0.05)
     shape = machine.shapes["plate1"]

@@ -18,7 +18,7 @@ from yellowiron import library
 from yellowiron.library.notation.quantities import limit, number_text, quantity
 from yellowiron.library.type_folders import DOCUMENTS, library_folder
 from yellowiron.model.errors import OutputError
-from yellowiron.model.template import Template, choose
+from yellowiron.model.template import Template, choose, without_absent_axles
 from yellowiron.support.units import SI_UNIT
 
 DATA = Path(__file__).resolve().parent.parent / "data" / "templates"
@@ -358,3 +358,14 @@ def test_copy_never_overwrites(tmp_path: Path) -> None:
         library.copy_template("wheel_loader", tmp_path / "joints.json")
     with pytest.raises(OutputError, match="in the way"):
         library.copy_template("wheel_loader", tmp_path / "joints.json" / "below")
+
+
+def test_wheels_of_an_axle_that_is_not_drawn_turn_on_what_carries_it() -> None:
+    loader = choose(library.load_template("wheel_loader"), {})
+    bodies = {r.name for r in loader.roles if r.rigid}
+    assert without_absent_axles(loader, bodies) is loader
+    bare = without_absent_axles(loader, bodies - {"rear_axle", "rocker"})
+    assert not bare.role("rear_axle").rigid
+    assert bare.role("rocker").rigid
+    assert bare.bodies_of(bare.joint("rear_wheel_l_joint")) == ("rear_frame", "rear_wheel_l")
+    assert "rear_frame2rear_axle_joint" not in {j.name for j in bare.joints}

@@ -21,6 +21,9 @@ from mechanism_machine import (
 )
 
 from yellowiron.mechanism import build_mechanism
+from yellowiron.mechanism.actuation.cylinder_geometry import CylinderGeometry
+from yellowiron.mechanism.actuation.cylinders import _Sizes, _usual_stroke
+from yellowiron.mechanism.values import Known
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.mechanism import Cylinder, Mechanism
 from yellowiron.model.specification import Specifications
@@ -83,6 +86,25 @@ def test_a_missing_stroke_is_the_piston_s_travel() -> None:
     assert only(built).stroke == pytest.approx(STROKE)
     assert built.joint("slide").upper == pytest.approx(STROKE - EXTENSION)
     assert "MEC023" in codes(built)
+
+
+def test_a_stroke_that_nothing_shows_is_what_cylinders_of_that_length_have() -> None:
+    """Of six cylinders of the examples (bore, closed length, stroke in mm): within a bore and a half of the rest."""
+    known = [
+        (140, 2180, 1490),
+        (120, 1690, 1105),
+        (130, 1930, 1334),
+        (180, 1130, 540),
+        (150, 1240, 764),
+        (95, 745, 441),
+    ]
+    for bore, closed, stroke in known:
+        sizes = _Sizes(
+            template().actuators[0].cylinders[0], "b", "r", CylinderGeometry(to_eye=0.1), Known(bore, ""), Known(0, "")
+        )
+        assert _usual_stroke(sizes, closed + 0.1) == pytest.approx(stroke, abs=1.5 * bore)
+        no_bore = replace(sizes, bore=Known(0.0, ""), geometry=CylinderGeometry())
+        assert _usual_stroke(no_bore, closed + 0.5 * stroke) == pytest.approx(stroke, rel=0.35)
 
 
 def limited(upper: float | str, document: str = "") -> Template:

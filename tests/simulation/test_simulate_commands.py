@@ -7,11 +7,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from yellowiron.kinematics import ClosedChain
+from yellowiron.kinematics import ClosedChain, weight
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.mechanism import Mechanism
 from yellowiron.simulation.commands import RAMP, Pace, motions, phases, travel
-from yellowiron.simulation.loads import paces, weight
+from yellowiron.simulation.loads import paces
 
 
 @given(

@@ -9,10 +9,10 @@ import time
 import numpy as np
 import pytest
 
-from yellowiron.kinematics import ClosedChain
+from yellowiron.kinematics import ClosedChain, weight
 from yellowiron.kinematics.measuring.quantities import Unmeasurable
+from yellowiron.kinematics.strength import GRAVITY
 from yellowiron.model.mechanism import Drive, Mechanism
-from yellowiron.simulation.loads import GRAVITY, weight
 from yellowiron.simulation.machine_tests.rig import locked
 from yellowiron.simulation.machine_tests.statics import (
     actuator_area,

@@ -56,7 +56,7 @@ from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import AlignmentError
 from yellowiron.model.geometry import Floats
 from yellowiron.model.specification import Specifications
-from yellowiron.model.template import Template, choose
+from yellowiron.model.template import Template, choose, without_absent_axles
 from yellowiron.support.vectors import triple
 
 HELD = 0.7
@@ -157,7 +157,8 @@ def align(
             ),
         ],
     )
-    return _with_all_axes(found, _without(assembly, fittings), whole, answer, observation, frame)
+    drawn_axles = without_absent_axles(whole, {p.body for p in found.parts if p.body is not None})
+    return _with_all_axes(found, _without(assembly, fittings), drawn_axles, answer, observation, frame)
 
 
 def _with_all_axes(

@@ -22,6 +22,7 @@ KIN011  a closed length is unknown, and no measured specification depends on it
 KIN012  a driven joint is drawn outside its limits; the machine starts in the nearest legal pose
 KIN013  an axis that nothing drawn shows was placed by published dimensions: by which, and how well
 KIN014  a published dimension cannot be met wherever the axes that nothing drawn shows may be
+KIN015  with the template's pressure a cylinder could not hold the machine's own weight; its force was raised
 ======  ========================================================================================================
 """
 
@@ -42,6 +43,7 @@ if TYPE_CHECKING:
     from yellowiron.kinematics.solver.chain import ClosedChain, KinematicsError, State
     from yellowiron.kinematics.solver.floating import attached
     from yellowiron.kinematics.start import legal_start, started
+    from yellowiron.kinematics.strength import beside, weight
 
 __all__ = [
     "ClosedChain",
@@ -50,6 +52,7 @@ __all__ = [
     "PlacedAxes",
     "State",
     "attached",
+    "beside",
     "branch_pivots",
     "branch_sine",
     "calibrate",
@@ -61,6 +64,7 @@ __all__ = [
     "place_axes",
     "pose_tables",
     "started",
+    "weight",
 ]
 
 __getattr__, __dir__ = lazy_names(
@@ -72,6 +76,7 @@ __getattr__, __dir__ = lazy_names(
         "PlacedAxes": "measuring.axis_placement",
         "State": "solver.chain",
         "attached": "solver.floating",
+        "beside": "strength",
         "branch_pivots": "solver.branches",
         "branch_sine": "solver.branches",
         "calibrate": "measuring.calibration",
@@ -83,5 +88,6 @@ __getattr__, __dir__ = lazy_names(
         "place_axes": "measuring.axis_placement",
         "pose_tables": "poses",
         "started": "start",
+        "weight": "strength",
     },
 )

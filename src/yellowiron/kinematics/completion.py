@@ -13,6 +13,7 @@ from yellowiron.kinematics.solver.branches import branch_pivots, branch_sines
 from yellowiron.kinematics.solver.chain import ClosedChain, Component, State
 from yellowiron.kinematics.solver.independence import independent_joints, suspects
 from yellowiron.kinematics.solver.pose_grid import PoseGrid, explore, joint_values
+from yellowiron.kinematics.strength import strong_enough
 from yellowiron.kinematics.tolerances import PINS_APART
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
@@ -67,7 +68,7 @@ def complete(mechanism: Mechanism) -> Mechanism:
 
     Findings: KIN001 stroke past a dead point, KIN002 unreachable combination of strokes, KIN003 branch, KIN004 passive
     twin out of stroke, KIN005 mobility, KIN006 stated limit against the loop's, KIN007 drive without force or speed,
-    KIN008 pins out of parallel, KIN009 no ends of stroke.
+    KIN008 pins out of parallel, KIN009 no ends of stroke, KIN015 too weak for its own weight.
     Raises `MechanismError` where the joints are no tree with cuts.
     """
     chain = ClosedChain(mechanism)
@@ -83,6 +84,7 @@ def complete(mechanism: Mechanism) -> Mechanism:
         _limit(component, grid, rotations, work)
     _check_twins(mechanism, work)
     loops = _branches(mechanism, grids, placed, work)
+    work.findings += strong_enough(chain, grids, work.joints)
     _gains(mechanism, grids, work)
     return replace(
         whole,
@@ -266,7 +268,7 @@ def _branches(mechanism: Mechanism, grids: list[PoseGrid], placed: list[tuple[Fl
 def _gains(mechanism: Mechanism, grids: list[PoseGrid], work: _Work) -> None:
     masses = _seen_masses(work.chain, grids)
     for joint in mechanism.joints:
-        drive = joint.drive
+        drive = work.joints[joint.name].drive
         if drive is None or joint.name not in work.chain.independent:
             continue
         if drive.kind == "velocity":

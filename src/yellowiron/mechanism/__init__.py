@@ -30,6 +30,7 @@ MEC013  an actuator has no cylinder in the CAD model; its hinge is driven direct
 MEC014  no rod in its bore shows the axis of a slide: it is along the line that both its bodies are on
 MEC015  no part is the root body; another body stands in for it
 MEC016  nothing that is drawn shows a joint's axis: it is where the CAD file declares it
+MEC017  an axle is not drawn; its wheels turn on the body that would carry it
 MEC020  a bore or rod diameter differs between sheet and CAD
 MEC021  the piston's travel in CAD is not the stroke
 MEC022  a cylinder's closed length is not known; mid-stroke was assumed
@@ -45,6 +46,7 @@ MEC031  an open or empty solid: its mass is that of a thin shell
 MEC032  masses were scaled to published weights (a warning where the factor is not plausible)
 MEC033  published component weights leave nothing of the operating weight
 MEC034  a body has no volume and no area; it weighs 1 kg
+MEC035  no weight is published and the machine would weigh far more than usual: it was scaled to what is usual
 MEC040  a site's place was not found
 MEC041  no plane meets the edge of an edge site; its x axis points from the hinge to the edge
 MEC050  a limit names a specification that is not known; the joint is not limited there

@@ -28,7 +28,7 @@ from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Drive, Joint, Mechanism, Vector
 from yellowiron.model.specification import Specifications
-from yellowiron.model.template import JointTemplate, Material, Template
+from yellowiron.model.template import JointTemplate, Material, Template, without_absent_axles
 from yellowiron.support.vectors import clean_triple
 
 
@@ -64,6 +64,7 @@ def build_mechanism(
     # Where the parts and the joints are.
     placement, findings = place(assembly, template, alignment)
     template = _standing(template, placement, assembly.name, findings)
+    template = _with_drawn_axles(template, placement, findings)
     wheels = hidden_wheels(placement, template, findings)
     frames, remarks = joint_frames(placement, template, wheels)
     findings += remarks
@@ -148,6 +149,17 @@ def _standing(template: Template, placement: Placement, where: str, findings: li
     words = f"No part of the CAD model is the root body: '{stand}' stands in for it."
     findings.append(Finding("MEC015", "error", template.root, words, hint))
     return replace(template, root=stand)
+
+
+def _with_drawn_axles(template: Template, placement: Placement, findings: list[Finding]) -> Template:
+    """The template without axles that are not drawn, with a finding for each."""
+    names = [r.name for r in template.roles if r.rigid]
+    merged = without_absent_axles(template, [name for name in names if placement.has_body(name)])
+    for name in names:
+        if not merged.role(name).rigid:
+            words = f"No part of the CAD model is '{name}': its wheels turn on '{merged.body_of(name)}'."
+            findings.append(Finding("MEC017", "warning", name, words, "Give its parts that role in the alignment."))
+    return merged
 
 
 def _weld_loose(

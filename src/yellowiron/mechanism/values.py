@@ -7,12 +7,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from yellowiron.model.finding import Finding
+from yellowiron.model.mechanism import DEFAULT
 from yellowiron.model.specification import Specification, Specifications
 from yellowiron.model.template import ActuatorTemplate
 from yellowiron.support.text import display
 
-DEFAULT = "template's default"
-"""The source of a value that the template assumes."""
 _JOINT_KEYS: Mapping[str, str] = {
     "torque": "max_force",
     "pressure": "max_force",

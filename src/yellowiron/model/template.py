@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
@@ -299,3 +299,25 @@ def choose(template: Template, choices: Mapping[str, str]) -> Template:
             actuators.append(replace(actuator, cylinders=cylinders, joints=motors))
     sensors = tuple(replace(s, when={}) for s in template.sensors if holds(s.when))
     return replace(template, roles=roles, joints=joints, actuators=tuple(actuators), variants=(), sensors=sensors)
+
+
+def without_absent_axles(template: Template, present: Collection[str]) -> Template:
+    """The template (its variants decided) without the axles that no part is drawn for: of the bodies that are not
+    `present`, those that hold nothing but wheels on the body above them. Their wheels, and what else moves with them,
+    then move on that body."""
+    wheels = {r.name for r in template.roles if r.kind == "wheel"}
+    known = [j for j in template.joints if all(template.knows(part.partition("[")[0]) for part in j.parts)]
+    ends = {j.name: template.bodies_of(j) for j in known}
+    absent = set()
+    for role in template.roles:
+        if not role.rigid or role.name in present or role.name == template.root or role.parent is None:
+            continue
+        others = {b for pair in ends.values() if role.name in pair for b in pair if b != role.name}
+        above = template.body_of(role.parent)
+        if above in others and others & wheels and others <= wheels | {above}:
+            absent.add(role.name)
+    if not absent:
+        return template
+    merged = replace(template, roles=tuple(replace(r, rigid=r.rigid and r.name not in absent) for r in template.roles))
+    gone = {j.name for j in known if absent & {*ends[j.name]} and len(set(merged.bodies_of(j))) == 1}
+    return replace(merged, joints=tuple(j for j in template.joints if j.name not in gone))

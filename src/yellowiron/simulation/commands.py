@@ -25,8 +25,8 @@ SETTLE = 1.5
 """Seconds at the start, for a machine to come to rest on its drives and tyres."""
 CRAWL = 0.1
 """Share of its full speed at which a motor turns a wheel while the machine stands on the ground."""
-
-
+SWING = 0.25
+"""Radians to either side by which a driven hinge without limits is turned."""
 _GRID = 1001
 _SAMPLE = 0.05
 """Seconds between two poses of a path that the kinematics is asked for."""
@@ -101,6 +101,9 @@ def _motions(mechanism: Mechanism, actuator: Actuator) -> Iterator[Motion]:
         speed = joint.drive.max_velocity if math.isfinite(joint.drive.max_velocity) else 1.0
         if joint.drive.kind == "velocity":
             yield Motion(actuator.name, joint.name, entry.sign, False, speed, drives=joint.body1 in wheels)
+        elif joint.lower is None and joint.upper is None and joint.type == "revolute":
+            # A hinge that is driven directly, of which nobody says how far it turns.
+            yield Motion(actuator.name, joint.name, entry.sign, True, min(speed, 1.0), -SWING, SWING, 2.0 * SWING)
         elif joint.lower is not None and joint.upper is not None:
             if joint.name in cylinders and cylinders[joint.name].speed > 0.0:
                 speed = cylinders[joint.name].speed

@@ -7,33 +7,13 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from yellowiron.kinematics import ClosedChain, State
+from yellowiron.kinematics import ClosedChain, weight
 from yellowiron.model.geometry import Floats
 from yellowiron.simulation.commands import Motion, Pace, sampled
 
-GRAVITY = 9.81
 SPARE = 0.8
 """Share of a drive's force, less the weight it holds, that the targets' acceleration may ask for."""
 _POINTS = 13
-_STEP = 1e-4
-"""Metres or radians to either side of a coordinate: for slopes."""
-
-
-def beside(chain: ClosedChain, state: State, joint: str) -> tuple[list[State], float]:
-    """The states a little below and above one along a joint's coordinate, and how far they are apart; 0 or less where
-    the linkage locks."""
-    place = chain.coordinate(state, joint)
-    ends = [chain.reach({joint: place + step}, start=state)[0] for step in (-_STEP, _STEP)]
-    return ends, chain.coordinate(ends[1], joint) - chain.coordinate(ends[0], joint)
-
-
-def weight(chain: ClosedChain, state: State, joint: str) -> float:
-    """Force (N) or torque (N·m) along a joint's coordinate that holds the machine's weight: the potential energy's
-    slope, the root upright."""
-    try:
-        return GRAVITY * chain.raised_mass(state, joint)
-    except np.linalg.LinAlgError:  # a dead point: no velocity of the coordinate moves anything
-        return 0.0
 
 
 def carried(
@@ -59,7 +39,9 @@ def carried(
             continue
         sags = [weight(chain, state, motion.joint) / joint.drive.stiffness for state in states]
         further = np.interp(np.arange(count), steps[: len(sags)], sags)
-        told[motion.joint] = np.clip(wanted[motion.joint] + further, joint.lower, joint.upper)
+        told[motion.joint] = wanted[motion.joint] + further
+        if joint.lower is not None and joint.upper is not None:
+            told[motion.joint] = np.clip(told[motion.joint], joint.lower, joint.upper)
     return told
 
 

@@ -25,6 +25,12 @@ LOOSEST = 0.84
 """Shaft radius over bore radius: a clearance hole of a small bolt."""
 SLACK = (0.8, 1.2)
 """The same for pins that were drawn apart from their bores, thinner or thicker by as much as 15 %, with some play."""
+THROUGH = (1.0, 2.2)
+"""The same for what is drawn right through an empty bore that is too narrow for it: nothing else is there on its very
+axis over all its length."""
+
+WHOLLY = 0.95
+"""… of which it covers this share at least."""
 
 ROUNDING = 1e-7
 """Metres by which a sample may be off a triangle's box and still be in it."""
@@ -120,6 +126,17 @@ def fits_of(solids: tuple[Solid, ...], tolerance: float) -> list[Fit]:
                 continue
             fit = _fit(inner, shaft, outer, bore, tolerance, SLACK)
             if fit is not None and fit.overlap > 0.5 * bore.half:
+                fits.append(fit)
+    filled |= {id(f.bore) for f in fits}
+    for k, (inner, shaft) in enumerate(shafts):
+        if shaft is solids[inner].shaft:  # a bar of its own that is too thick is the pin of something else
+            continue
+        for j in sorted(set(tree.query_ball_point(ahead[k], near)) | set(tree.query_ball_point(behind[k], near))):
+            outer, bore = bores[j]
+            if outer == inner or id(bore) in filled or not bore.full:
+                continue
+            fit = _fit(inner, shaft, outer, bore, tolerance, THROUGH)
+            if fit is not None and fit.overlap > WHOLLY * 2 * bore.half:
                 fits.append(fit)
     return _strongest(fits)
 

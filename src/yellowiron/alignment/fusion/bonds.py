@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from yellowiron.alignment.fusion.pieces import Piece
 from yellowiron.alignment.fusion.stance import Stance
@@ -19,6 +20,9 @@ FEW = 0.15
 """A name of more than this share of the pieces says nothing of which belong together."""
 ASIDE = 0.02
 """Twins are this near to each other's mirror image, in machine sizes."""
+BESIDE = 2.0
+"""What is of one half of a hydraulic cylinder is off the line of its longest bar by no more than so many of its widths
+(ports, pipes along it, clamps), and no farther beyond its ends than this share of its length."""
 SMALL = 0.34
 """An assembly of more than this share of the pieces says nothing."""
 
@@ -99,6 +103,26 @@ def _mirrored(pieces: Sequence[Piece], stance: Stance) -> set[tuple[int, int]]:
             if a < b and equal and np.allclose(one.spread, other.spread, rtol=0.03, atol=0.002 * stance.size):
                 found.add((a, b))
     return found
+
+
+def out_of_line(pieces: Sequence[Piece]) -> NDArray[np.bool_]:
+    """(pieces, pieces) whether two cannot be of one half of a hydraulic cylinder: one is a bar, the longer of the two,
+    and the other off its line."""
+    found = np.zeros((len(pieces), len(pieces)), dtype=np.bool_)
+    centers = np.array([p.center for p in pieces]).reshape(-1, 3)
+    lengths = np.array([p.spread[0] for p in pieces])
+    widths = np.array([p.spread[1] for p in pieces])
+    for a, bar in enumerate(pieces):
+        if not bar.slender:
+            continue
+        delta = centers - bar.center
+        along = delta @ bar.axes[0]
+        off = np.linalg.norm(delta - np.outer(along, bar.axes[0]), axis=1)
+        away = (off > BESIDE * bar.spread[1] + 0.5 * np.minimum(widths, bar.spread[1])) | (
+            np.abs(along) > 0.5 * lengths + (0.5 + 0.25 * BESIDE) * bar.spread[0]
+        )
+        found[a] |= away & (lengths <= bar.spread[0])
+    return found | found.T
 
 
 def _pair(a: int, b: int) -> tuple[int, int]:

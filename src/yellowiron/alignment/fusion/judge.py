@@ -16,9 +16,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from yellowiron.alignment.fusion.bonds import Bond
-from yellowiron.alignment.fusion.votes import Features
+from yellowiron.alignment.fusion.votes import BARS, Features
 from yellowiron.model.geometry import Floats
 from yellowiron.model.template import Template
 
@@ -38,7 +39,8 @@ class Field:
     `ends[k]`; its `weights[k]` are what it counts for one body, and for bodies that a joint joins; it holds a joint
     nearly (`near[k]`), or exactly as a hinge and as a slide (`exact[k]`). `joint` (labels, labels): the joint between
     two labels, or the number of joints. `sliding` (joints + 1,): which joints are slides. `played` (labels,): what each
-    body counts that is there; `held` what a joint counts that is held nearly, and exactly."""
+    body counts that is there; `held` what a joint counts that is held nearly, and exactly. `astray` (pieces, pieces):
+    what two pieces count that are both of one half of a hydraulic cylinder, `halves` (labels,), but not in line."""
 
     bodies: tuple[str, ...]
     unary: Floats
@@ -50,6 +52,8 @@ class Field:
     sliding: Ints
     played: Floats
     held: tuple[float, float]
+    astray: Floats
+    halves: NDArray[np.bool_]
 
     @property
     def joints(self) -> int:
@@ -63,9 +67,14 @@ class Field:
 
 
 def field_of(
-    votes: Sequence[Mapping[str, Features]], bonds: Sequence[Bond], template: Template, weights: Features
+    votes: Sequence[Mapping[str, Features]],
+    bonds: Sequence[Bond],
+    template: Template,
+    weights: Features,
+    astray: NDArray[np.bool_] | None = None,
 ) -> Field:
-    """The score of a machine's pieces under a resolved template. `votes`: by piece, the bodies it can be."""
+    """The score of a machine's pieces under a resolved template. `votes`: by piece, the bodies it can be; `astray`:
+    (pieces, pieces) whether two are not in line (`bonds.out_of_line`)."""
     bodies = tuple(r.name for r in template.roles if r.rigid)
     at = {b: k for k, b in enumerate(bodies)}
     none = len(bodies)
@@ -100,6 +109,8 @@ def field_of(
         np.array([slide for slide, _, _ in joints] + [False], dtype=np.int64),
         played,
         (near, weights["exact"]),
+        np.asarray(weights["astray"] * (np.zeros((len(votes), len(votes))) if astray is None else astray), np.float64),
+        np.array([template.role(b).kind in BARS for b in bodies] + [False]),
     )
 
 
@@ -119,8 +130,10 @@ def score_of(field: Field, labels: Ints) -> float:
     near = np.bincount(held, weights=field.near, minlength=joints + 1)[:joints]
     exact = np.bincount(held, weights=field.exactly(held), minlength=joints + 1)[:joints]
     played = np.bincount(labels, minlength=none + 1)[:none]
+    one_half = field.halves[labels][:, None] & (labels[:, None] == labels)
     return float(
         total
+        + 0.5 * field.astray[one_half].sum()
         + field.held[0] * (near > 0).sum()
         + field.held[1] * (exact > 0).sum()
         + field.played[:none] @ (played > 0)
@@ -192,6 +205,7 @@ class Annealing:
         self._add(p, -1)
         scores = field.unary[p].copy()
         scores[:-1] += field.played[:-1] * (self.played[:-1] == 0)
+        scores += field.halves * np.bincount(self.labels, weights=field.astray[p], minlength=len(scores))
         if len(around.bonds):
             theirs, n = self.labels[around.others], len(scores)
             same = np.bincount(theirs, weights=around.same, minlength=n)

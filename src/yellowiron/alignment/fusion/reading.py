@@ -10,7 +10,7 @@ import numpy as np
 
 from yellowiron.alignment.assignment.answer import Answer, Judged
 from yellowiron.alignment.assignment.cp_sat import MISSING_WEIGHT, Solution
-from yellowiron.alignment.fusion.bonds import Bond, bonds_of
+from yellowiron.alignment.fusion.bonds import Bond, bonds_of, out_of_line
 from yellowiron.alignment.fusion.judge import Field, field_of, labelled, leads, weighed
 from yellowiron.alignment.fusion.pieces import Piece, leading, pieces_of
 from yellowiron.alignment.fusion.stance import Stance, stance_of
@@ -31,6 +31,8 @@ from yellowiron.model.template import Template, choose
 
 MISSING = 60.0
 """What a variant loses for every body of its own that nothing plays."""
+NEARLY = 2
+"""A machine is nearly whole if no more of its bodies are missing."""
 EXPLAINED = {0: 1.0, 1: 1.0, 2: 0.5}
 """How well names explain that two pieces are neighbours, by the joints between the bodies that they name."""
 BELIEVED = 0.45
@@ -61,8 +63,8 @@ class _Best:
 @dataclass(frozen=True, eq=False)
 class Evidence:
     """What a machine is judged by: its pieces, which of them can be what a body mainly is (`leading`), all bonds, how
-    far names are trusted, how the machine stands, what the names say of each solid, what the contacts gave, and
-    what a person said."""
+    far names are trusted, how the machine stands, what the names say of each solid, what the contacts gave, what a
+    person said, and which pieces are bars in bores: pins, if they are not halves of hydraulic cylinders."""
 
     pieces: tuple[Piece, ...]
     leading: tuple[int, ...]
@@ -72,6 +74,7 @@ class Evidence:
     scores: Sequence[Mapping[str, float]]
     answer: Answer
     edited: Mapping[int, str]
+    pins: frozenset[int]
 
     @property
     def between(self) -> list[Bond]:
@@ -81,7 +84,12 @@ class Evidence:
 
     def votes(self, template: Template) -> Votes:
         """What speaks for every piece and body of a template with its variants decided."""
-        return votes_of(self.pieces, template, self.scores, self.trust, self.answer, self.stance, self.edited)
+        votes = votes_of(self.pieces, template, self.scores, self.trust, self.answer, self.stance, self.edited)
+        halves = {r.name for r in template.roles if r.kind in BARS}
+        return [
+            {body: what for body, what in mine.items() if k not in self.pins or body in halves}
+            for k, mine in enumerate(votes)
+        ]
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,7 +115,11 @@ def evidence_of(
     bonds = tuple(bonds_of(observation, pieces, answer.structure, stance))
     trust = trust_in_names(pieces, bonds, scores, choose(template, {}))
     leads = tuple(leading(pieces, observation.size, clearly_named(pieces, scores) if trust > 0.0 else {}))
-    return Evidence(pieces, leads, bonds, trust, stance, scores, answer, edited)
+    bars = observation.evidence[-1].fasteners if observation.evidence else frozenset()
+    pins = frozenset(
+        k for k, p in enumerate(pieces) if not p.kind and p.members <= bars and not p.members & edited.keys()
+    )
+    return Evidence(pieces, leads, bonds, trust, stance, scores, answer, edited, pins)
 
 
 def fused(
@@ -128,7 +140,8 @@ def fused(
     def tried(chosen: dict[str, str], evidence: Evidence) -> _Best:
         resolved = choose(template, chosen)
         votes = evidence.votes(resolved)
-        field = field_of([votes[k] for k in evidence.leading], evidence.between, resolved, weights())
+        lined = out_of_line([evidence.pieces[k] for k in evidence.leading])
+        field = field_of([votes[k] for k in evidence.leading], evidence.between, resolved, weights(), lined)
         labels, score = labelled(field)
         played = {field.bodies[n] for n in labels if n < len(field.bodies)}
         score -= MISSING * len(_missing(resolved, played))
@@ -138,11 +151,35 @@ def fused(
     turned = replace(evidence, stance=evidence.stance.turned())
     evidence = max((evidence, turned), key=lambda e: tried(variants[0], e).score)
     best = max((tried(chosen, evidence) for chosen in variants), key=lambda b: b.score)
+    if more := _between_found(best, evidence):
+        wider = replace(evidence, leading=tuple(sorted({*evidence.leading, *more})))
+        found = tried(best.choices, wider)
+        evidence, best = (wider, found) if found.score > best.score else (evidence, best)
     pieces, trust = evidence.pieces, evidence.trust
     judged = _judged(best, evidence)
     judged = {i: what for i, what in judged.items() if not _is_pin(i, what, observation, best.template)}
     judged |= _by_name_alone(observation, pieces, scores, trust, judged)
     return Fused(_answer(observation, best, judged or _all_root(pieces, best.template), answer), evidence.stance, trust)
+
+
+def _between_found(best: _Best, evidence: Evidence) -> set[int]:
+    """The pieces too small to lead that lie between bodies which a body joins that nothing plays, where the machine is
+    whole but for a few of these: links are small."""
+    bodies, template = best.field.bodies, best.template
+    body_of = {k: bodies[n] for k, n in zip(evidence.leading, best.labels, strict=True) if n < len(bodies)}
+    missing, apart = _missing(template, set(body_of.values())), joints_apart(template)
+    beside: dict[int, set[str]] = {}
+    for bond in evidence.bonds if len(missing) <= NEARLY else ():
+        for own, other in ((bond.a, bond.b), (bond.b, bond.a)):
+            if bond.beside and own not in body_of and own not in evidence.pins and other in body_of:
+                beside.setdefault(own, set()).add(body_of[other])
+    # Three bodies on one pin are two joints: the outer ones are neighbours too.
+    return {
+        k
+        for k, near in beside.items()
+        for body in missing
+        if min(apart.get((body, b), 9) for b in near) == 1 and sum(apart.get((body, b), 9) <= 2 for b in near) > 1
+    }
 
 
 def _missing(template: Template, played: Collection[str]) -> list[str]:
@@ -200,7 +237,7 @@ def _judged(best: _Best, evidence: Evidence) -> dict[int, Judged]:
             votes.append({body: features for body, features in mine.items() if body in played})
         else:
             votes.append({kept: {**mine[kept], "said": 100.0}} if kept is not None else {})
-    field = field_of(votes, bonds, best.template, weights())
+    field = field_of(votes, bonds, best.template, weights(), out_of_line(pieces))
     field = replace(field, exact=np.zeros_like(field.exact), played=np.zeros_like(field.played))
     start = np.array([label_of.get(k, none) for k in range(len(pieces))], dtype=np.int64)
     labels, _ = labelled(field, start, sweeps=0)

@@ -37,6 +37,10 @@ _BY_EYE = "geometry: rod eye against gland"
 WALL = 0.82
 """Bore over outer diameter of a barrel that shows none: welded cylinders have walls of about a tenth of their bore."""
 
+_DEAD, _SHARE, _LEAST = 4.0, 0.62, 0.4
+"""A closed cylinder is longer than its stroke by so many bores, its stroke the second share of it where the bore is not
+known, and never less than the third: of the six of the two examples 3.2 to 4.9 bores, 0.48 to 0.69."""
+
 
 @dataclass(frozen=True)
 class FittedCylinder:
@@ -184,7 +188,7 @@ def _size(quantity: str, drawn: float | None, slide: str, work: _Work) -> Known:
 def _fit(one: _Sizes, group: list[_Sizes], work: _Work) -> FittedCylinder:
     entry = one.template
     drawn = pivot_distance(work.frames[entry.barrel_joint], work.frames[entry.rod_joint])
-    stroke = _stroke(one, work)
+    stroke = _stroke(one, drawn, work)
     closed = _closed_length(one, drawn, stroke.value, work)
     pressure = work.printed("pressure") or work.assumed("pressure") or Known(0.0, UNKNOWN)
     extend, retract = _speeds(one, group, stroke.value, work)
@@ -219,9 +223,9 @@ def _fit(one: _Sizes, group: list[_Sizes], work: _Work) -> FittedCylinder:
     return FittedCylinder(cylinder, lower, upper, evidence, retract.value, entry.sign)
 
 
-def _stroke(one: _Sizes, work: _Work) -> Known:
+def _stroke(one: _Sizes, drawn: float, work: _Work) -> Known:
     """The stroke: set by hand, else a document's limit of the slide, else the sheet's, else the template's limit, else
-    the piston's travel in the CAD model, else the template's default; 0 where nothing gives it."""
+    the piston's travel in the CAD model, else the template's default, else what a cylinder of its length has."""
     printed, travel, slide = work.printed("stroke"), one.geometry.travel, one.template.slide
     joint = work.frames[slide].joint
     limited = _limited(joint, work)
@@ -241,10 +245,26 @@ def _stroke(one: _Sizes, work: _Work) -> Known:
     elif (assumed := work.assumed("stroke")) is not None:
         found, words = assumed, f"it is the template's, {_mm(assumed.value)}"
     else:
-        found, words = Known(0.0, UNKNOWN), "the slide is not limited"
+        usual = _usual_stroke(one, drawn)
+        found = Known(usual, f"estimate: usual of cylinders of this length, {_mm(usual)}")
+        words = f"{_mm(usual)} is taken, as is usual of cylinders of this length"
     name = work.actuator.specifications.get("stroke", "the stroke")
     work.warn("MEC023", slide, f"No sheet gives '{name}': {words}.", work.setting("stroke"))
     return found
+
+
+def _usual_stroke(one: _Sizes, drawn: float) -> float:
+    """The stroke of a cylinder whose pivots are `drawn` metres apart: what its closed length leaves, which is where the
+    rod's eye meets the gland, else half a stroke less; at least as far as it is drawn out."""
+    out = one.geometry.to_eye
+    dead = _DEAD * one.bore.value
+    if out is not None and out < drawn:
+        closed = drawn - out
+    elif dead:
+        closed = (drawn + 0.5 * dead) / 1.5
+    else:
+        closed = drawn / (1.0 + 0.5 * _SHARE)
+    return max(closed - dead if dead else _SHARE * closed, _LEAST * closed, out or 0.0)
 
 
 def _limited(joint: JointTemplate, work: _Work) -> Known | None:

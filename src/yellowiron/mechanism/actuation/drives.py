@@ -14,9 +14,9 @@ from yellowiron.mechanism.actuation.cylinders import FittedCylinder
 from yellowiron.mechanism.joints.axes import Axis
 from yellowiron.mechanism.joints.frames import JointFrame
 from yellowiron.mechanism.placement import Placement
-from yellowiron.mechanism.values import DEFAULT, Known, default, known
+from yellowiron.mechanism.values import Known, default, known
 from yellowiron.model.finding import Finding
-from yellowiron.model.mechanism import PROVISIONAL, STATED, Actuator, ActuatorJoint, Drive
+from yellowiron.model.mechanism import DEFAULT, PROVISIONAL, STATED, Actuator, ActuatorJoint, Drive
 from yellowiron.model.specification import Specifications, fold
 from yellowiron.model.template import ActuatorTemplate, JointTemplate, Template
 

@@ -8,13 +8,14 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from yellowiron.kinematics import ClosedChain
+from yellowiron.kinematics.strength import GRAVITY
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Mechanism
 from yellowiron.simulation.commands import motions
 from yellowiron.simulation.driving.wheel import DrivenWheel
 from yellowiron.simulation.engine import Engine, poses, tell
 from yellowiron.simulation.ground import GROUND_FRICTION, UPRIGHT
-from yellowiron.simulation.loads import GRAVITY, SPARE, paces
+from yellowiron.simulation.loads import SPARE, paces
 
 DISTANCE, SPIN, SWING = 2.0, math.radians(45.0), math.radians(90.0)
 """What it does, at the speeds of its motors: metres forward and back, radians on the spot and of its slewing body."""

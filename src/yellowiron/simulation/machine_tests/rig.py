@@ -9,13 +9,13 @@ from pathlib import Path
 
 import numpy as np
 
-from yellowiron.kinematics import ClosedChain, State
+from yellowiron.kinematics import ClosedChain, State, weight
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Body, Drive, Joint, Mechanism, Site
 from yellowiron.simulation.commands import Motion, motions, travel
 from yellowiron.simulation.engine import Base, Setup, coordinates, poses, tell
 from yellowiron.simulation.ground import standing_bodies
-from yellowiron.simulation.loads import carried, paces, weight
+from yellowiron.simulation.loads import carried, paces
 from yellowiron.simulation.machine_tests.statics import motion
 from yellowiron.simulation.registry import load_engine
 

@@ -8,12 +8,12 @@ import math
 import numpy as np
 from scipy.optimize import linprog
 
-from yellowiron.kinematics import ClosedChain, State
+from yellowiron.kinematics import ClosedChain, State, beside
 from yellowiron.kinematics.measuring.quantities import Unmeasurable, wheels
+from yellowiron.kinematics.strength import GRAVITY
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Mechanism, Site
 from yellowiron.simulation.ground import TOUCHING, standing_bodies
-from yellowiron.simulation.loads import GRAVITY, beside
 
 
 def place(chain: ClosedChain, state: State, site: Site, offset: float = 0.0) -> Floats:

@@ -1,0 +1,75 @@
+"""What a drive has to hold: the weight it feels through the linkage, and drives made strong enough for it. SI."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from yellowiron.kinematics.solver.chain import ClosedChain, State
+from yellowiron.kinematics.solver.pose_grid import PoseGrid
+from yellowiron.model.finding import Finding
+from yellowiron.model.mechanism import DEFAULT, Joint
+from yellowiron.support.text import display
+
+GRAVITY = 9.81
+_STEP = 1e-4
+"""Metres or radians to either side of a coordinate: for slopes."""
+_SPARE = 1.5
+"""A cylinder of unknown pressure holds so many times the weight on it."""
+_USUAL = 0.9
+"""In this share of its poses: near a dead point the lever is nothing."""
+_MOST = 10.0
+"""Drawn near a dead point it is made no stronger than so many times, if it is not so for its other poses."""
+_POSES = 25
+
+
+def beside(chain: ClosedChain, state: State, joint: str) -> tuple[list[State], float]:
+    """The states a little below and above one along a joint's coordinate, and how far they are apart; 0 or less where
+    the linkage locks."""
+    place = chain.coordinate(state, joint)
+    ends = [chain.reach({joint: place + step}, start=state)[0] for step in (-_STEP, _STEP)]
+    return ends, chain.coordinate(ends[1], joint) - chain.coordinate(ends[0], joint)
+
+
+def weight(chain: ClosedChain, state: State, joint: str) -> float:
+    """Force (N) or torque (N·m) along a joint's coordinate that holds the machine's weight: the potential energy's
+    slope, the root upright."""
+    try:
+        return GRAVITY * chain.raised_mass(state, joint)
+    except np.linalg.LinAlgError:  # a dead point: no velocity of the coordinate moves anything
+        return 0.0
+
+
+def strong_enough(chain: ClosedChain, grids: list[PoseGrid], joints: dict[str, Joint]) -> tuple[Finding, ...]:
+    """Raises, in `joints`, the force of the drives of those cylinders whose pressure is the template's where it cannot
+    hold the machine's own weight; a finding for each."""
+    findings = []
+    guessed = {
+        c.slide
+        for c in chain.mechanism.cylinders
+        if c.sources.get("pressure", "").startswith(DEFAULT) or not c.push_force > 0.0
+    }
+    for component, grid in zip(chain.components(), grids, strict=True):
+        states = grid.states[:: max(1, len(grid.states) // _POSES)]
+        for name in component.drivers:
+            drive = joints[name].drive
+            if name not in guessed or drive is None or drive.kind != "position" or not len(states):
+                continue
+            held = float(np.quantile([abs(weight(chain, state, name)) for state in states], _USUAL))
+            known = math.isfinite(drive.max_force)
+            drawn = abs(weight(chain, chain.drawn, name))
+            drawn = min(drawn, _MOST * (drive.max_force / _SPARE if known else held))
+            force = _SPARE * max(held, drawn)
+            if not force > 0.0 or (known and force <= drive.max_force):
+                continue
+            has = f"with the template's pressure it has {display(drive.max_force, 'N')} and could not hold"
+            words = (
+                f"{has if known else 'nothing gives its force, which must hold'} the machine's own weight: it is given "
+                f"{display(force, 'N')}, {_SPARE:g} times what that takes"
+            )
+            findings.append(Finding("KIN015", "warning", name, words, "Give pressure and weight, or a sheet."))
+            source = f"{drive.source}; {_SPARE:g} times the machine's own weight on it"
+            joints[name] = replace(joints[name], drive=replace(drive, max_force=force, source=source))
+    return tuple(findings)
