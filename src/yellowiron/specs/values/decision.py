@@ -12,7 +12,7 @@ from yellowiron.specs.language.decimal_style import DecimalStyle
 from yellowiron.specs.language.numbers import read
 from yellowiron.specs.language.quantities import Quantity
 from yellowiron.specs.language.vocabulary import tokens
-from yellowiron.specs.values.claims import Claim, split_phrases, without_case
+from yellowiron.specs.values.claims import Claim, configured_by, split_phrases, without_case
 from yellowiron.specs.values.matching import Match
 from yellowiron.specs.values.requested import check_hint, hint_for, usual
 from yellowiron.specs.values.stated_configuration import Stated
@@ -196,11 +196,6 @@ def _as_stated(wanted: Wanted, matches: Sequence[Match], sheets: Sheets) -> tupl
             plain = [m for m in matches if not configured_by(m.claim)]
             return stated, [*kept, *(m for m in plain if len(_by_value(wanted, [first, m])) == 1)]
     return None, list(matches)
-
-
-def configured_by(claim: Claim) -> tuple[str, ...]:
-    """What names the configuration that a claim holds for."""
-    return claim.statement.variant or claim.statement.column
 
 
 def _says(words: set[str], name: str) -> bool:
