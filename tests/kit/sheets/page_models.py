@@ -70,7 +70,11 @@ class Question:
     text: str
 
     def left_of(self, cell: Shown) -> Shown | None:
-        row = [c for c in self.cells if abs(c.y - cell.y) < 8 and c.x1 <= cell.x0 + 1 and c.is_text]
+        row = [
+            c
+            for c in self.cells
+            if abs(c.y - cell.y) < 8 and c.x1 <= cell.x0 + 1 and c.is_text and not re.search(r"\d\s?m?m\b", c.text)
+        ]
         return max(row, key=lambda c: (c.x1, -abs(c.y - cell.y))) if row else None
 
     def above(self, cell: Shown, most: float = 1e9) -> list[Shown]:

@@ -22,7 +22,7 @@ from yellowiron.specs.llm.pointing import PageText, Place, RefusedError, place_o
 from yellowiron.specs.llm.prompts import PLACES, places_on
 from yellowiron.specs.values.claims import Claim, claims_of, phrases_in
 from yellowiron.specs.values.decision import settled
-from yellowiron.specs.values.matching import Match, match_one, phrases, weakly
+from yellowiron.specs.values.matching import Match, match, match_one, phrases, weakly
 from yellowiron.specs.values.requested import usual
 from yellowiron.specs.values.tolerances import LEAST
 
@@ -36,6 +36,7 @@ _SPOKEN = {
 }  # fmt: skip
 """The word that a unit says by itself: what is printed in degrees is an angle."""
 _RANGE = re.compile(r"\s*(?:[-–—~～…]|to|bis|à|a|至)\s*", re.IGNORECASE)
+_TO = re.compile(r"\s(?:to|bis|à|a)$")
 _LOW, _HIGH = frozenset({"minimum", "retracted", "low"}), frozenset({"maximum", "extended", "high"})
 
 
@@ -147,7 +148,7 @@ def _judged(
     """How a place's words speak of a wanted value; None where they do not, or say another one better."""
     spoken = _spoken(one, claim, claims)
     best: Match | None = None
-    for words in dict.fromkeys((claim.words, _without_other_dimensions(claim.statement.label, one) + spoken)):
+    for words in dict.fromkeys((claim.words, _without_other_dimensions(_TO.sub("", claim.words), one) + spoken)):
         worded = replace(claim, words=words)
         own = match_one(one, worded, every)
         if own is not None and (best is None or own.score > best.score):
@@ -168,7 +169,9 @@ def _judged(
     quantity, doubt = settled(one, claim)
     chosen = not place.in_columns or _named(place, config)
     ranged = claim.ranged and not _end_is_named(one, claim, claims)
-    sure = not (doubt or ranged) and chosen and usual(one, quantity.si_value) and says_in_full(best, every)
+    # Of two values that one label may mean ("angle", "greatest angle") only the page can say which it is.
+    shared = [m for found in match([best.claim], rivals).values() for m in found if m.score > best.score - 1e-9]
+    sure = not (doubt or ranged or shared) and chosen and usual(one, quantity.si_value) and says_in_full(best, every)
     return Pointed(replace(best, claim=replace(best.claim, ranged=ranged)), place, sure)
 
 
