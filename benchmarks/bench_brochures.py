@@ -14,7 +14,8 @@ processor time of reading, without text recognition's child.
 
 `--model right`: the rules with a language model that points to what the person read; `settled` counts what the rules
 alone had missed or for review (or in conflict) and is `ok` and right with it. `--model lying`: the same with each of
-the models that say something else, beside the rules and alone; only *wrong* counts. Neither needs a network or a model.
+the models that say something else, and with one that says yes to whatever the rules had doubted wrongly, beside the
+rules and alone; only *wrong* counts. Neither needs a network or a model.
 """
 
 from __future__ import annotations
@@ -154,7 +155,13 @@ def with_model(
             tally.brought += after.status == "review" and right and not near(printed, first(before))
         return tally
     tally = judge(where, truth, alone, config)
-    for name, liar in LIARS.items():
+    slips = {
+        one.name: f"{value!r} {one.unit}"
+        for one in alone
+        if one.status != "ok" and (value := first(one)) is not None and not near(known.get(one.name, "0 m"), value)
+    }
+    lies = {**LIARS, "yes to the rules": lambda _: truthful(slips)}
+    for name, liar in lies.items():
         for extractor in ("both", "llm"):
             with at_hand(liar(known)):
                 found = from_sheets(template, [sheet], config=config, extractor=extractor, model=options)  # type: ignore[arg-type]

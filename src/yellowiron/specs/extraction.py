@@ -140,11 +140,11 @@ def from_sheets(
         direct = [w for w in wanted if w.in_label_of is None]
         open_ = [w for w in direct if values[w.name].status != "ok"]
         pages = [(text, sheets[text.sheet].style) for text in pages_of([s.cells for s in sheets])]
-        ask = functools.partial(read_pages, open_, direct, pages, config=config, progress=progress)
+        ask = functools.partial(read_pages, open_, direct, pages, claims, config=config, progress=progress)
         reading, more = _by_model(ask, model, alone=extractor == "llm")
-        matches = match(claims, direct) if reading.found and extractor == "both" else {}
+        matches = match(claims, direct) if reading.found else {}
         for one in open_:
-            heard = Asked(one, direct, matches.get(one.name, []), known, config, model.model if model else "")
+            heard = Asked(one, matches.get(one.name, []), known, config, model.model if model else "")
             values[one.name] = agreed(heard, values[one.name], reading.found.get(one.name, []))
         findings += more
     return Specifications(_of_pictures(wanted, values, sheets), tuple(findings))

@@ -29,11 +29,10 @@ _EQUAL = 1e-6
 
 @dataclass(frozen=True)
 class Asked:
-    """What two readers are heard on: a wanted value among `every` one, how the rules' claims speak of it, the sheets
-    and the configuration that is meant, the model's name."""
+    """What two readers are heard on: a wanted value, how the rules' claims speak of it, the sheets and the
+    configuration that is meant, the model's name."""
 
     wanted: Wanted
-    every: Sequence[Wanted]
     matches: Sequence[Match]
     sheets: Sheets
     config: str
@@ -57,7 +56,8 @@ def agreed(asked: Asked, by_rules: Specification, pointed: Sequence[Pointed]) ->
 
 
 def _brought(asked: Asked, pointed: Sequence[Pointed]) -> Specification:
-    """What the model alone finds: `ok` where all it points to is one number that the page's words say in full."""
+    """What the model alone finds: `ok` where all it points to is one number that the page's words say in full, and
+    better than the rules' claims say another one."""
     wanted = asked.wanted
     first = max(pointed, key=lambda p: (p.sure, p.match.score))
     candidates: list[Candidate] = []
@@ -74,7 +74,8 @@ def _brought(asked: Asked, pointed: Sequence[Pointed]) -> Specification:
                     reason=doubt or f"{asked.model} points to it",
                 )
             )
-    sure = first.sure and len(candidates) == 1
+    others = [m for m in asked.matches if not _same(settled(wanted, m.claim)[0].si_value, candidates[0].value)]
+    sure = first.sure and len(candidates) == 1 and all(m.score < first.match.score for m in others)
     return replace(
         missing(wanted),
         value=candidates[0].value,
@@ -100,7 +101,7 @@ def _settles(asked: Asked, found: Match, value: float) -> bool:
         and (counted or not found.claim.doubt)
         and not found.claim.ranged
         and usual(asked.wanted, quantity.si_value)
-        and says_in_full(found, asked.every)
+        and says_in_full(found)
     )
 
 
@@ -119,7 +120,8 @@ def _out_of_conflict(asked: Asked, by_rules: Specification, pointed: Sequence[Po
                 return replace(chosen, reason=f"{_both(asked, one)}; {chosen.reason}")
         if one.sure and _is_told_apart(asked.wanted, one, others):
             chosen = _brought(asked, [one])
-            return replace(chosen, reason=_both(asked, one), candidates=(*own, *others))
+            said = _both(asked, one)
+            return replace(chosen, status="ok", confidence=SURE, reason=said, hint="", candidates=(*own, *others))
     return by_rules
 
 

@@ -15,6 +15,7 @@ from dataclasses import dataclass, field, replace
 from yellowiron.model.specification import fold
 from yellowiron.model.template import Wanted
 from yellowiron.specs.language.decimal_style import DecimalStyle
+from yellowiron.specs.language.quantities import same
 from yellowiron.specs.language.vocabulary import KNOWN, NEUTRAL, TELLING, tokens
 from yellowiron.specs.layout.page_cells import Cell
 from yellowiron.specs.llm.endpoint import Endpoint
@@ -22,7 +23,7 @@ from yellowiron.specs.llm.pointing import PageText, Place, RefusedError, place_o
 from yellowiron.specs.llm.prompts import PLACES, places_on
 from yellowiron.specs.values.claims import Claim, claims_of, phrases_in
 from yellowiron.specs.values.decision import settled
-from yellowiron.specs.values.matching import Match, match, match_one, phrases, weakly
+from yellowiron.specs.values.matching import Match, match, match_one, weakly
 from yellowiron.specs.values.requested import usual
 from yellowiron.specs.values.tolerances import LEAST
 
@@ -64,12 +65,14 @@ def read_pages(
     wanted: Sequence[Wanted],
     every: Sequence[Wanted],
     pages: Sequence[tuple[PageText, DecimalStyle]],
+    claims: Sequence[Claim],
     endpoint: Endpoint,
     *,
     config: str = "",
     progress: Callable[[str], None] = lambda words: None,
 ) -> Reading:
-    """Where the model finds wanted values on the pages, among `every` value that the template asks for.
+    """Where the model finds wanted values on the pages, among `every` value that the template asks for. `claims`: what
+    the rules read there; where they read the same number with other words, it is theirs that count.
 
     `EndpointError` where the endpoint cannot be used.
     """
@@ -89,6 +92,9 @@ def read_pages(
             one = names.get(fold(said["name"]))
             try:
                 pointed = _checked(one, said, text, row, style, every, config)
+                read_so = [c for c in claims if _is_there(c, pointed)]
+                if not all(_is_sure(c, claims, pointed, every, config) for c in read_so):
+                    pointed = replace(pointed, sure=False)
             except RefusedError as why:
                 reading.refused[str(why)] += 1
                 continue
@@ -136,6 +142,21 @@ def _checked(
     return max(judged, key=lambda p: (p.sure, p.match.score))
 
 
+def _is_there(claim: Claim, pointed: Pointed) -> bool:
+    """Whether the rules read a number at the place that is pointed to."""
+    cell, own = claim.statement, pointed.match.claim
+    if (cell.sheet, cell.page) != (own.statement.sheet, own.statement.page):
+        return False
+    a, b = cell.box, own.statement.box
+    return a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3] and same(claim.quantity, own.quantity)
+
+
+def _is_sure(claim: Claim, claims: Sequence[Claim], pointed: Pointed, every: Sequence[Wanted], config: str) -> bool:
+    beside = [c for c in claims if c.statement is claim.statement]
+    judged = _judged(pointed.match.wanted, claim, beside, pointed.place, every, config)
+    return judged is not None and judged.sure
+
+
 def _prints(claim: Claim, number: str) -> bool:
     """Whether a claim's quantity is the number that is pointed to, in one of its systems or within a product."""
     shown = [q.text for q in (claim.quantity, claim.partner) if q is not None]
@@ -171,25 +192,20 @@ def _judged(
     ranged = claim.ranged and not _end_is_named(one, claim, claims)
     # Of two values that one label may mean ("angle", "greatest angle") only the page can say which it is.
     shared = [m for found in match([best.claim], rivals).values() for m in found if m.score > best.score - 1e-9]
-    sure = not (doubt or ranged or shared) and chosen and usual(one, quantity.si_value) and says_in_full(best, every)
+    sure = not (doubt or ranged or shared) and chosen and usual(one, quantity.si_value) and says_in_full(best)
     return Pointed(replace(best, claim=replace(best.claim, ranged=ranged)), place, sure)
 
 
-def says_in_full(found: Match, every: Sequence[Wanted]) -> bool:
-    """Whether a label says a value and nothing that a second reader could not settle: no word is left over that tells
-    of a condition, of another body or of another wanted value; headings count where the label leaves something open."""
+def says_in_full(found: Match) -> bool:
+    """Whether a label says a value and nothing that a second reader could not settle: no word of it is left over, and
+    none of its headings that tells of a condition or of another body."""
     if any(t in TELLING for t in found.rest):
         return False
     label = {t for t in tokens(found.claim.words) if t not in NEUTRAL}
     left = label - set(tokens(found.phrase)) - set(tokens(found.wanted.name))
     if found.phrase and not left:
         return True
-    named = {
-        t for w in every if w.name != found.wanted.name and w.dimension == found.wanted.dimension
-        for p in phrases(w) for t in tokens(p)
-    }  # fmt: skip
-    own = {t for p in phrases(found.wanted) for t in tokens(p)}
-    return found.score >= LEAST and not any(t in named and t not in own for t in found.rest)
+    return found.score >= LEAST and not found.rest
 
 
 def _spoken(one: Wanted, claim: Claim, claims: Sequence[Claim]) -> str:
