@@ -1,8 +1,9 @@
 """Extraction from makers' own PDFs, against what a person read beside them (`benchmarks/brochures/*.json`).
 
 Run from the repository's root: `YELLOWIRON_BROCHURES=FOLDER python benchmarks/bench_brochures.py [--held] [--all]
-[--faults] [--only SLUG,…]`. The PDFs are not in the repository: each truth says where its own is from, and FOLDER
-holds it as `SLUG.pdf`. What is not there is skipped, by name. Without `--held` or `--all` only the open ones are read.
+[--faults] [--only SLUG,…] [--model right|lying]`.
+The PDFs are not in the repository: each truth says where its own is from, and FOLDER holds it as `SLUG.pdf`. What is
+not there is skipped, by name. Without `--held` or `--all` only the open ones are read.
 
 A reading is one `extract` of one PDF, with `--config` where the PDF has several models. Of the values that the page
 prints and the type asks for: `ok` and right; for review with the right value first; for review with another; missing
@@ -10,6 +11,11 @@ prints and the type asks for: `ok` and right; for review with the right value fi
 all. What the page itself leaves open (`one_of`: two weights beside one label) is in no share, but no other value may
 be `ok`. `--config`: values of readings with a model, whose first value is of that model's column. Seconds are
 processor time of reading, without text recognition's child.
+
+`--model right`: the rules with a language model that points to what the person read; `settled` counts what the rules
+alone had missed or for review (or in conflict) and is `ok` and right with it. `--model lying`: the same with each of
+the models that say something else, and with one that says yes to whatever the rules had doubted wrongly, beside the
+rules and alone; only *wrong* counts. Neither needs a network or a model.
 """
 
 from __future__ import annotations
@@ -24,12 +30,16 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-sys.path[:0] = [str(ROOT / "src")]
+sys.path[:0] = [str(ROOT / "src"), str(ROOT / "tests")]
 
+from kit.sheets.page_models import LIARS, at_hand, truthful  # noqa: E402
 from yellowiron.library import load_template  # noqa: E402
 from yellowiron.model.errors import SheetError  # noqa: E402
 from yellowiron.model.specification import Specification, Specifications  # noqa: E402
+from yellowiron.model.template import Template  # noqa: E402
+from yellowiron.specs import ModelOptions  # noqa: E402
 from yellowiron.specs.extraction import from_sheets, read  # noqa: E402
+from yellowiron.specs.reader import Sheet  # noqa: E402
 from yellowiron.support.units import parse_quantity  # noqa: E402
 
 TRUTHS = ROOT / "benchmarks" / "brochures"
@@ -51,11 +61,15 @@ class Tally:
     from_column: int = 0
     pages: int = 0
     seconds: float = 0.0
+    left: int = 0
+    settled: int = 0
+    brought: int = 0
     faults: list[str] = field(default_factory=list)
 
     def add(self, one: Tally) -> None:
         for name in (
             "printed", "ok", "first", "other", "missed", "wrong", "configured", "from_column", "pages", "seconds",
+            "left", "settled", "brought",
         ):  # fmt: skip
             setattr(self, name, getattr(self, name) + getattr(one, name))
         self.faults += one.faults
@@ -69,6 +83,11 @@ class Tally:
             f"{name:22} {self.printed:4} ok {share(self.ok)}  review right {share(self.first)}  "
             f"review other {share(self.other)}  missed {share(self.missed)}  wrong {self.wrong}  "
             f"config {config:>8}  {self.seconds / max(self.pages, 1):.2f} s a page"
+            + (
+                f"  left open {self.left}: settled {self.settled}, brought for review {self.brought}"
+                if self.left
+                else ""
+            )
         )
 
 
@@ -114,12 +133,51 @@ def judge(where: str, truth: dict[str, dict[str, object]], found: Specifications
     return tally
 
 
+def with_model(
+    kind: str, template: Template, sheet: Sheet, truth: dict[str, dict[str, object]], config: str, where: str
+) -> Tally:
+    """A reading with a played model: with the right one beside the rules what became of what they left open; with the
+    lying ones nothing but what is wrong."""
+    known = {name: str(one["value"]) for name, one in truth.items() if "value" in one}
+    options = ModelOptions("played", "http://localhost", most_calls=10**6)
+    alone = from_sheets(template, [sheet], config=config)
+    if kind == "right":
+        with at_hand(truthful(known)):
+            found = from_sheets(template, [sheet], config=config, extractor="both", model=options)
+        tally = judge(where, truth, found, config)
+        for name, printed in known.items():
+            before, after = alone.values.get(name), found.values.get(name)
+            if before is None or after is None or (before.status == "ok" and near(printed, before.value)):
+                continue
+            tally.left += 1
+            right = near(printed, first(after))
+            tally.settled += after.status == "ok" and right
+            tally.brought += after.status == "review" and right and not near(printed, first(before))
+        return tally
+    tally = judge(where, truth, alone, config)
+    slips = {
+        one.name: f"{value!r} {one.unit}"
+        for one in alone
+        if one.status != "ok" and (value := first(one)) is not None and not near(known.get(one.name, "0 m"), value)
+    }
+    lies = {**LIARS, "yes to the rules": lambda _: truthful(slips)}
+    for name, liar in lies.items():
+        for extractor in ("both", "llm"):
+            with at_hand(liar(known)):
+                found = from_sheets(template, [sheet], config=config, extractor=extractor, model=options)  # type: ignore[arg-type]
+            lied = judge(f"{where} [{name}, {extractor}]", truth, found, config)
+            tally.wrong += lied.wrong
+            tally.faults += [fault for fault in lied.faults if fault.startswith("WRONG")]
+    return tally
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--held", action="store_true", help="the held-back ones instead of the open ones")
     parser.add_argument("--all", action="store_true")
     parser.add_argument("--faults", action="store_true")
     parser.add_argument("--only", default="")
+    parser.add_argument("--model", choices=["right", "lying"])
     arguments = parser.parse_args()
     folder = Path(os.environ.get("YELLOWIRON_BROCHURES", ""))
     if not os.environ.get("YELLOWIRON_BROCHURES") or not folder.is_dir():
@@ -150,9 +208,14 @@ def main() -> None:
         for reading in truth["readings"]:
             config = reading["config"] or ""
             before = _seconds()
-            found = from_sheets(load(truth["type"]), [sheet], config=config)
+            where = f"{path.stem} {config}".strip()
+            template = load(truth["type"])
+            if arguments.model:
+                tally.add(with_model(arguments.model, template, sheet, reading["values"], config, where))
+                continue
+            found = from_sheets(template, [sheet], config=config)
             tally.seconds += (_seconds() - before) / len(truth["readings"])
-            tally.add(judge(f"{path.stem} {config}".strip(), reading["values"], found, config))
+            tally.add(judge(where, reading["values"], found, config))
         print(tally.line(path.stem + (" (picture)" if truth["picture"] else "")))
         totals[truth["picture"]].add(tally)
     for picture, tally in totals.items():

@@ -1,44 +1,31 @@
-"""A language model's endpoint on the loopback interface, and the models it plays: honest, inventing, yes-saying,
-pointing at the wrong property, chatting, and failing. Every request is kept."""
+"""A language model's endpoint on the loopback interface, and how it may answer: in other formats, with prose around,
+refusing, failing. Every request is kept. What the models say of a page is `kit.sheets.page_models`'."""
 
 from __future__ import annotations
 
 import json
-import re
 import threading
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from typing import Any
 
-import pytest
-from openai.types.chat import ChatCompletion
+from kit.sheets import page_models
+from kit.sheets.page_models import Question, completion, question_of
 
-from yellowiron.specs.llm.endpoint import Endpoint
-
-Facts = Mapping[str, tuple[str, str, str]]
-"""Wanted name → words of its row, number as printed, unit."""
 Reply = tuple[int, str]
 """HTTP status and the message's text."""
-Model = Callable[["Question"], Reply]
+Model = Callable[["Request"], Reply]
 SECRET = "sk-not-to-be-shown"
 
 
 @dataclass(frozen=True)
-class Question:
-    """What was asked: its kind (the answer's property), the sheet's text, the wanted names, the request's body."""
+class Request:
+    """What was asked, and the request's body."""
 
-    kind: str
-    sheet: str
-    names: tuple[str, ...]
-    text: str
+    question: Question
     body: Mapping[str, Any]
-
-    @property
-    def lines(self) -> dict[int, str]:
-        """Numbered lines of a list."""
-        return {int(m[1]): m[2] for m in re.finditer(r"^(\d+)\. (.*)$", self.sheet, re.MULTILINE)}
 
 
 @dataclass
@@ -46,7 +33,7 @@ class Server:
     """Where it listens, what was asked, and with which headers."""
 
     url: str
-    questions: list[Question] = field(default_factory=list)
+    requests: list[Request] = field(default_factory=list)
     headers: list[dict[str, str]] = field(default_factory=list)
 
 
@@ -57,11 +44,12 @@ def serving(model: Model) -> Iterator[Server]:
 
         def do_POST(self) -> None:
             body = json.loads(self.rfile.read(int(self.headers["Content-Length"])))
-            question = _question(body)
-            server.questions.append(question)
+            text = next(m["content"] for m in body["messages"] if m["role"] == "user")
+            request = Request(question_of(text), body)
+            server.requests.append(request)
             server.headers.append(dict(self.headers))
-            status, text = model(question)
-            data = json.dumps(_completion(text) if status == 200 else {"error": {"message": text}}).encode()
+            status, text = model(request)
+            data = json.dumps(completion(text) if status == 200 else {"error": {"message": text}}).encode()
             self.send_response(status)
             self.send_header("Content-Type", "application/json")
             self.send_header("Content-Length", str(len(data)))
@@ -84,121 +72,18 @@ def serving(model: Model) -> Iterator[Server]:
         http.server_close()
 
 
-@contextmanager
-def at_hand(model: Model) -> Iterator[list[Question]]:
-    """The model answers in this process, for thousands of questions, whose way there would be most of the work; what
-    was asked."""
-    asked: list[Question] = []
-
-    def completion(
-        self: Endpoint, messages: Sequence[Mapping[str, str]], schema: Mapping[str, Any], rung: str
-    ) -> ChatCompletion:
-        asked.append(_question({"messages": messages}))
-        status, text = model(asked[-1])
-        assert status == 200
-        return ChatCompletion.model_validate(_completion(text))
-
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(Endpoint, "_completion", completion)
-        yield asked
-
-
-def _completion(text: str) -> dict[str, Any]:
-    return {
-        "id": "1", "object": "chat.completion", "created": 0, "model": "m",
-        "choices": [{"index": 0, "finish_reason": "stop", "message": {"role": "assistant", "content": text}}],
-        "usage": {"prompt_tokens": 100, "completion_tokens": 10, "total_tokens": 110},
-    }  # fmt: skip
-
-
-def _question(body: Mapping[str, Any]) -> Question:
-    text = next(m["content"] for m in body["messages"] if m["role"] == "user")
-    sheet = text[text.index("<sheet>") + 7 : text.index("</sheet>")].strip()
-    asked = text[text.index("</sheet>") :]
-    if "Summarise the text" in asked:
-        kind = "rows"
-    elif "For each line" in asked:
-        kind = "lines"
-    else:
-        kind = "value" if "value of:" in asked else "unit" if "unit of" in asked else "answer"
-    single = re.search(r"value of: (.*?) \(|value \S.* of (.*?)\? Give|say that (.*?) is ", asked)
-    listed = tuple(m[1] for m in re.finditer(r"^- (.*?) \(", asked, re.MULTILINE))
-    names = listed or tuple(g for g in (single.groups() if single else ()) if g)
-    return Question(kind, sheet, names, asked, body)
-
-
-def answer(**properties: Any) -> Reply:
-    return 200, json.dumps(properties)
-
-
-def honest(facts: Facts) -> Model:
-    """Says what the sheet says."""
-
-    def reply(q: Question) -> Reply:
-        there = {n: f for n, f in facts.items() if n in q.names and f[0].casefold() in q.sheet.casefold()}
-        if q.kind == "lines":
-            named = [
-                {"line": number, "name": n}
-                for number, line in q.lines.items()
-                for n, f in there.items()
-                if f[0].casefold() in line.casefold()
-            ]
-            return answer(lines=named)
-        if q.kind == "rows":
-            return answer(rows=[{"name": n, "value": f[1], "unit": f[2]} for n, f in there.items()])
-        fact = there.get(q.names[0]) if q.names else None
-        if q.kind == "value":
-            return answer(value=fact[1] if fact else "none")
-        if q.kind == "unit":
-            return answer(unit=fact[2] if fact else "none")
-        return answer(answer="yes" if fact and f"{fact[1]} {fact[2]}" in q.text else "no")
-
-    return reply
-
-
-def numbers_in(line: str) -> list[tuple[str, str]]:
-    """Every number of a line with the word after it."""
-    return [(m[1], m[2] or "mm") for m in re.finditer(r"(\d[\d.,]*)\s*([^\W\d]+[/\d\w·]*)?", line)]
-
-
-def yes_saying(q: Question) -> Reply:
-    """Takes every line for every quantity, and every number of it for the value."""
-    found = numbers_in(q.sheet.rpartition("|")[2]) or [("1", "mm")]
-    if q.kind == "lines":
-        return answer(lines=[{"line": n, "name": name} for n in q.lines for name in q.names])
-    if q.kind == "rows":
-        return answer(rows=[{"name": n, "value": v, "unit": u} for n in q.names for v, u in found])
-    return answer(**{q.kind: {"value": found[0][0], "unit": found[0][1], "answer": "yes"}[q.kind]})
-
-
-def inventing(q: Question) -> Reply:
-    """Never says none; its numbers are its own."""
-    if q.kind == "lines":
-        return answer(lines=[{"line": n, "name": name} for n in q.lines for name in q.names])
-    if q.kind == "rows":
-        return answer(rows=[{"name": n, "value": "1234", "unit": "mm"} for n in q.names])
-    return answer(**{q.kind: {"value": "1234", "unit": "mm", "answer": "yes"}[q.kind]})
-
-
-def wrong_property(q: Question) -> Reply:
-    """Points each line at one quantity, whatever the line says, with the number that stands there."""
-    found = numbers_in(q.sheet.rpartition("|")[2]) or [("1", "mm")]
-    if q.kind == "lines":
-        return answer(lines=[{"line": n, "name": q.names[n % len(q.names)]} for n in q.lines])
-    if q.kind == "rows":
-        return answer(
-            rows=[{"name": n, "value": v, "unit": u} for n, (v, u) in zip(q.names, found[::-1], strict=False)]
-        )
-    return answer(**{q.kind: {"value": found[0][0], "unit": found[0][1], "answer": "yes"}[q.kind]})
+def playing(model: page_models.Model) -> Model:
+    """A played model behind an endpoint."""
+    return lambda request: (200, json.dumps({"values": model(request.question)}))
 
 
 def chatting(model: Model) -> Model:
-    """A model's answers in a fence with prose around; every third one is prose alone at first."""
+    """A model's answers in a fence with prose around; at first prose alone."""
 
-    def reply(q: Question) -> Reply:
-        if len(q.body["messages"]) == 2 and sum(map(ord, q.sheet)) % 3 == 0:
+    def reply(request: Request) -> Reply:
+        if len(request.body["messages"]) == 2:
             return 200, "Certainly! I would be glad to help with that."
-        status, text = model(q)
+        status, text = model(request)
         return status, f"Certainly! Here it is:\n```json\n{text}\n```\nLet me know."
 
     return reply
@@ -207,12 +92,12 @@ def chatting(model: Model) -> Model:
 def refusing(model: Model, *kinds: str) -> Model:
     """HTTP 400 for the answer formats named."""
 
-    def reply(q: Question) -> Reply:
-        form = q.body.get("response_format", {}).get("type", "prompt")
-        return (400, f"{form} is not supported") if form in kinds else model(q)
+    def reply(request: Request) -> Reply:
+        form = request.body.get("response_format", {}).get("type", "prompt")
+        return (400, f"{form} is not supported") if form in kinds else model(request)
 
     return reply
 
 
-def failing(q: Question) -> Reply:
+def failing(request: Request) -> Reply:
     return 400, f"no such model; your key was {SECRET}"

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 
 from kit.templates import template as library_template
@@ -169,3 +171,28 @@ def test_other_wordings(equipment_type: str, label: str, value: str, name: str |
     assert [s.name for s in found if s.status == "ok"] == ([name] if name else [])
     if not name:
         assert all(s.status == "missing" for s in found)
+
+
+@pytest.mark.parametrize(
+    ("rows", "foreign"),
+    [
+        ([("Einsatzgewicht", "20.500 kg"), ("Schaufelbreite, wahlweise", "2.750 mm")], "optional"),
+        ([("Poids en ordre de marche", "20 500 kg"), ("Largeur du godet, en option", "2 750 mm")], "optional"),
+        ([("Operating weight", "20,500 kg"), ("Bucket width, optional", "2,750 mm")], "Einsatzgewicht"),
+        ([("工作重量", "20500 kg"), ("铲斗宽度", "2750 mm")], "weight"),
+    ],
+)
+def test_a_reason_quotes_the_sheets_own_words(rows: list[tuple[str, str]], foreign: str) -> None:
+    """Not a synonym in whatever language it was found by, nor the English word that one was brought to."""
+    printed_rows = [
+        Statement(1, n, label, text, (10.0, 12.0 * n, 90.0, 12.0 * n + 9.0), f"{label} {text}")
+        for n, (label, text) in enumerate(rows)
+    ]
+    found = from_sheets(library_template("wheel_loader"), [Sheet("a.pdf", 1, tuple(printed_rows), (), "unknown")])
+    reasons = [s.reason for s in found if s.status in ("ok", "review")]
+    reasons += [c.reason for s in found for c in s.candidates]
+    assert reasons
+    page = " ".join(f"{label} {text}" for label, text in rows)
+    for reason in reasons:
+        assert all(words in page for words in re.findall(r"'([^']+)'", reason)), reason
+        assert foreign not in reason, reason

@@ -14,16 +14,16 @@ from yellowiron.model.finding import Finding
 from yellowiron.model.specification import Specification, Specifications
 from yellowiron.model.template import Template, Wanted
 from yellowiron.specs import ocr
-from yellowiron.specs.findings import ignored_phrases, model_cost, model_failure, unread_pages
+from yellowiron.specs.findings import ignored_phrases, model_cost, model_failure, unread_pages, unusable_answers
 from yellowiron.specs.language.decimal_style import DecimalStyle, decimal_style
 from yellowiron.specs.layout.nearest import Near
-from yellowiron.specs.llm.agreement import agreed
+from yellowiron.specs.llm.agreement import Asked, agreed
 from yellowiron.specs.llm.endpoint import Endpoint, EndpointError, ModelOptions
-from yellowiron.specs.llm.extractor import find
+from yellowiron.specs.llm.page_reader import Reading, pages_of, read_pages
 from yellowiron.specs.reader import MEMORY_MB, RESIDENT_MB, TIMEOUT_S, Sheet, check_file
 from yellowiron.specs.values.claims import Claim, claims_of, configured
 from yellowiron.specs.values.cross_check import second_reading, stands_in
-from yellowiron.specs.values.decision import Column, Sheets, decide, quantity_words, unreadable
+from yellowiron.specs.values.decision import Column, Sheets, decide, missing, quantity_words, unreadable
 from yellowiron.specs.values.matching import match
 from yellowiron.specs.values.requested import asked
 from yellowiron.specs.values.tolerances import PICTURED
@@ -47,7 +47,7 @@ def extract(
     `config` names the machine's configuration where a sheet has columns ("standard boom, stock-pile bucket").
     Where a sheet says itself which configuration its figures are for, that settles what `config` leaves open; values
     that still differ between columns or pages are a `conflict`. `extractor`: rules, the language `model` ("llm"), or
-    both, where agreement raises confidence and disagreement is a `conflict`; then an endpoint that fails is a finding.
+    both: then the model is asked for what the rules leave open, and an endpoint that fails is a finding.
     Each PDF is read in a guarded child process; pages without a text layer are read through the program tesseract
     where it is installed, and their values are `review` at most. `SheetError` for a file that is missing, empty, no
     PDF, truncated, damaged or encrypted; `EndpointError` for a model that is not configured or, where nothing else
@@ -135,10 +135,17 @@ def from_sheets(
     claims = [*claimed.printed, *claimed.recognised]
     findings = [*unread_pages(sheets), *ignored_phrases(config, claims, known, sheets)]
     if extractor != "rules":
-        ask = functools.partial(find, wanted, claims, known, config=config, style=style, progress=progress)
-        pointed, more = _by_model(ask, model, alone=extractor == "llm")
-        both = {w.name: agreed(w, values[w.name], pointed[w.name]) for w in wanted if w.name in pointed}
-        values |= pointed if extractor == "llm" else both
+        if extractor == "llm":
+            values |= {w.name: missing(w) for w in wanted if w.in_label_of is None}
+        direct = [w for w in wanted if w.in_label_of is None]
+        open_ = [w for w in direct if values[w.name].status != "ok"]
+        pages = [(text, sheets[text.sheet].style) for text in pages_of([s.cells for s in sheets])]
+        ask = functools.partial(read_pages, open_, direct, pages, claims, config=config, progress=progress)
+        reading, more = _by_model(ask, model, alone=extractor == "llm")
+        matches = match(claims, direct) if reading.found else {}
+        for one in open_:
+            heard = Asked(one, matches.get(one.name, []), known, config, model.model if model else "")
+            values[one.name] = agreed(heard, values[one.name], reading.found.get(one.name, []))
         findings += more
     return Specifications(_of_pictures(wanted, values, sheets), tuple(findings))
 
@@ -194,16 +201,17 @@ def _known(sheets: Sequence[Sheet]) -> Sheets:
 
 
 def _by_model(
-    ask: Callable[[Endpoint], dict[str, Specification]], model: ModelOptions | None, *, alone: bool
-) -> tuple[dict[str, Specification], list[Finding]]:
+    ask: Callable[[Endpoint], Reading], model: ModelOptions | None, *, alone: bool
+) -> tuple[Reading, list[Finding]]:
     """What the language model points to, and findings of what it cost; `alone`: an endpoint that fails is an error."""
     with Endpoint(model or ModelOptions("")) as endpoint:
         try:
-            return ask(endpoint), [model_cost(endpoint)]
+            reading = ask(endpoint)
         except EndpointError as error:
             if alone:
                 raise
-            return {}, [model_failure(error), model_cost(endpoint)]
+            return Reading(), [model_failure(error), model_cost(endpoint)]
+        return reading, [model_cost(endpoint, reading.refused), *unusable_answers(endpoint, reading.unusable)]
 
 
 def _of_pictures(

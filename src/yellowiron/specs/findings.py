@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from yellowiron.model.finding import Finding
 from yellowiron.specs import ocr
@@ -35,15 +35,34 @@ def ignored_phrases(config: str, claims: Sequence[Claim], known: Sheets, sheets:
     ]
 
 
-def model_cost(endpoint: Endpoint) -> Finding:
-    """What asking the language model took."""
+def model_cost(endpoint: Endpoint, refused: Mapping[str, int] | None = None) -> Finding:
+    """What asking the language model took, and what it pointed to in vain (`refused`: how often, by why)."""
     options = endpoint.options
+    turned = "; ".join(f"{why}: {count}" for why, count in sorted((refused or {}).items()))
     return Finding(
         code="SPC004",
         severity="info",
         where=options.url or str(options.replay),
-        message=f"The language model {options.model} was asked: {endpoint.usage}",
+        message=f"The language model {options.model} was asked: {endpoint.usage}"
+        + (f"; places turned away: {turned}" if turned else ""),
     )
+
+
+def unusable_answers(endpoint: Endpoint, count: int) -> list[Finding]:
+    """A finding if a language model gave no answer of the shape that it was asked for to `count` questions."""
+    if not count:
+        return []
+    options = endpoint.options
+    return [
+        Finding(
+            code="SPC006",
+            severity="warning",
+            where=options.url or str(options.replay),
+            message=f"The language model {options.model} gave no usable answer to {count} of "
+            f"{endpoint.usage.questions} questions: what these pages say is what the rules read there",
+            hint="Try a larger model, or one whose server knows JSON schemas.",
+        )
+    ]
 
 
 def model_failure(error: EndpointError) -> Finding:

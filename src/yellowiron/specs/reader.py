@@ -11,6 +11,7 @@ from pathlib import Path
 from yellowiron.model.errors import SheetError
 from yellowiron.specs.language.decimal_style import DecimalStyle, decimal_style
 from yellowiron.specs.layout.nearest import Near, nearest_of
+from yellowiron.specs.layout.page_cells import Cell, cells_of
 from yellowiron.specs.layout.router import statements_of
 from yellowiron.specs.layout.rows.lines import TextLine, lines_of
 from yellowiron.specs.layout.statement import Statement
@@ -35,7 +36,7 @@ class Sheet:
     """A read PDF. `silent` pages have pictures or marks but no readable text; `style`: how it writes decimals;
     `stated`: sentences that may say which configuration its figures are for. `recognised`: pages whose words are a
     program's guess from their picture; `unrecognised` says why that program failed. `near`: its values again, each with
-    the words around it."""
+    the words around it; `cells`: the text of its pages, piece by piece."""
 
     file: str
     pages: int
@@ -46,6 +47,7 @@ class Sheet:
     recognised: tuple[int, ...] = ()
     unrecognised: str = ""
     near: tuple[Near, ...] = ()
+    cells: tuple[Cell, ...] = ()
 
 
 def read_sheet(path: Path) -> Sheet:
@@ -70,6 +72,7 @@ def read_sheet(path: Path) -> Sheet:
         texts: list[str] = []
         stated: list[Stated] = []
         near: list[Near] = []
+        cells: list[Cell] = []
         begin = time.monotonic()
         for number in range(1, len(document) + 1):
             beat(f"Reading page {number} of {len(document)} of {path.name}")
@@ -97,6 +100,7 @@ def read_sheet(path: Path) -> Sheet:
                 texts.append(" ".join(w.text for w in page.words))
                 stated.extend(stated_in(texts[-1], number))
                 near.extend(nearest_of(page))
+                cells.extend(cells_of(page))
             elif page.images or page.characters or page.rules:
                 silent.append(number)
         return Sheet(
@@ -107,6 +111,7 @@ def read_sheet(path: Path) -> Sheet:
             style=decimal_style(texts),
             stated=tuple(stated),
             near=tuple(near),
+            cells=tuple(cells),
         )
     finally:
         document.close()

@@ -1,5 +1,6 @@
-"""The values as a language model finds them, where the user names one: `Claim`s and `Wanted` values in,
-`Specification`s out (`extractor.find`), and one word with the rules (`agreement.agreed`).
+"""A language model as a second reader of the pages, where the user names one: pages and `Wanted` values in,
+`Specification`s out, in one word with the rules (`agreement.agreed`).
 
-`endpoint` (questions out, checked answers back) ← `prompts` ← `extractor`; `agreement` stands alone.
+`pointing` (a place against its page) ← `prompts`; `endpoint` (questions out, checked answers back) and these ←
+`page_reader` ← `agreement`.
 """

@@ -17,6 +17,9 @@ from yellowiron.specs.values.enumerations import COUNTED_PARTS, alternatives, en
 
 _TIMES = re.compile(r"(?<![\d.,])([2-9])\s*[x×](?![\w])|[x×]\s*([2-9])(?![\d.,])", re.IGNORECASE)
 
+COUNTED_TOGETHER = "this is what they give together"
+"""How the doubt ends about a flow that is printed for one of several pumps."""
+
 
 @dataclass(frozen=True)
 class Claim:
@@ -280,7 +283,7 @@ def _claims_of_reading(statement: Statement, label: str, reading: Reading) -> It
             ranged = False  # "0 - 5 km/h" says how much it is at most
             continue
         other = reading.partner[index] if index < len(reading.partner) else partner
-        doubt = f"the sheet counts {several} of them: this is what they give together" if several > 1 else ""
+        doubt = f"the sheet counts {several} of them: {COUNTED_TOGETHER}" if several > 1 else ""
         if several > 1:
             quantity, other = _times(quantity, several), other and _times(other, several)
         yield _checked(Claim(statement, words, head, quantity, other, ranged=ranged, doubt=doubt))
@@ -320,6 +323,11 @@ def _factors(statement: Statement, label: str, reading: Reading) -> Iterator[Cla
         yield _checked(Claim(statement, label, " ".join(statement.column), first, partner))
     elif len(reading.numbers) == 2 and re.search(r"[Øø⌀φΦ]\s*$", statement.text.partition(first.text)[0]):
         yield _checked(Claim(statement, f"{label} diameter", " ".join(statement.column), first, partner))
+
+
+def configured_by(claim: Claim) -> tuple[str, ...]:
+    """What names the configuration that a claim holds for."""
+    return claim.statement.variant or claim.statement.column
 
 
 def _without_conditions(label: str) -> str:

@@ -18,7 +18,7 @@ from yellowiron.specs.layout.nearest import Near, Side
 from yellowiron.specs.layout.statement import Statement
 from yellowiron.specs.pages.strokes import Box
 from yellowiron.specs.values.claims import BARE_UNITS, Claim, claims_of, phrases_in
-from yellowiron.specs.values.decision import Sheets, evidence_of, printed, settled
+from yellowiron.specs.values.decision import Sheets, evidence_of, name_printed, printed, settled
 from yellowiron.specs.values.matching import Match, match
 from yellowiron.specs.values.requested import check_hint, usual
 from yellowiron.specs.values.tolerances import DOUBTFUL, SURE
@@ -159,7 +159,7 @@ def _to_review(wanted: Wanted, one: Match, quantity: Quantity, sheets: Sheets) -
         evidence=evidence_of(one, sheets),
         text=printed(quantity),
         confidence=_NEARBY,
-        reason=f"the layout was not understood there; the words nearest to it match '{one.phrase}'",
+        reason=f"the layout was not understood there; the words nearest to it are '{name_printed(one)}'",
         hint=check_hint(wanted.name),
         candidates=(_candidate(wanted, one, quantity, sheets),),
     )
@@ -170,7 +170,7 @@ def _doubted(value: Specification, one: Match, quantity: Quantity, sheets: Sheet
         value,
         status="review",
         confidence=min(value.confidence, DOUBTFUL),
-        reason=f"the words of '{one.phrase}' stand beside '{quantity.text}', too; {value.reason}",
+        reason=f"'{name_printed(one)}' stands beside '{quantity.text}', too; {value.reason}",
         hint=check_hint(value.name),
         candidates=(*value.candidates, _candidate(one.wanted, one, quantity, sheets)),
     )
@@ -183,5 +183,5 @@ def _candidate(wanted: Wanted, one: Match, quantity: Quantity, sheets: Sheets) -
         evidence=evidence_of(one, sheets),
         configuration="",
         confidence=_NEARBY,
-        reason=f"the words nearest to it match '{one.phrase}'",
+        reason=f"the words nearest to it are '{name_printed(one)}'",
     )

@@ -12,7 +12,7 @@ from yellowiron.specs.language.decimal_style import DecimalStyle
 from yellowiron.specs.language.numbers import read
 from yellowiron.specs.language.quantities import Quantity
 from yellowiron.specs.language.vocabulary import tokens
-from yellowiron.specs.values.claims import Claim, split_phrases, without_case
+from yellowiron.specs.values.claims import Claim, configured_by, split_phrases, without_case
 from yellowiron.specs.values.matching import Match
 from yellowiron.specs.values.requested import check_hint, hint_for, usual
 from yellowiron.specs.values.stated_configuration import Stated
@@ -56,7 +56,7 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
     top = max(group, key=_preference)
     quantity, doubt = settled(wanted, top.claim)
     if top.rest:
-        doubt = doubt or f"the label also says {', '.join(repr(word) for word in top.rest)}"
+        doubt = doubt or f"the label also says {', '.join(map(repr, words_left_over(top)))}"
     elif top.score < SURE:
         doubt = doubt or f"only part of the label says {wanted.name}"
     if not top.claim.statement.proven:
@@ -84,6 +84,23 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
 def _is_broken_off(label: str) -> bool:
     """Whether a label ends in the middle: behind a comma, or in brackets that are not closed."""
     return re.search(r"[,，、]$|\w[-/]$", label.rstrip()) is not None or label.count("(") > label.count(")")
+
+
+def name_printed(found: Match) -> str:
+    """The sheet's own words for a value: its label, or the heads or headings that stand for one."""
+    statement = found.claim.statement
+    heads = statement.column if found.by_head or not statement.label else ()
+    above = () if found.by_label or found.by_head else (*statement.context, statement.section)
+    return " / ".join(dict.fromkeys(text for text in (statement.label, *heads, *above) if text))
+
+
+def words_left_over(found: Match) -> list[str]:
+    """The words of a label that a value's phrases do not explain, as the sheet prints them."""
+    statement = found.claim.statement
+    places = (found.claim.words, *statement.column, *statement.context, statement.section)
+    printed_words = [word.strip(".,;:()") for place in places for word in place.split()]
+    said = [word for word in printed_words if set(tokens(word)) & set(found.rest)]
+    return list(dict.fromkeys(said)) or list(found.rest)
 
 
 def missing(wanted: Wanted) -> Specification:
@@ -137,7 +154,7 @@ def _preference(found: Match) -> tuple[float, bool, bool, bool, bool, float]:
 
 def configuration(found: Match) -> str:
     """The column or variant that a match holds for, as the sheet words it."""
-    return ", ".join([*configured_by(found.claim), *found.rest])
+    return ", ".join([*configured_by(found.claim), *words_left_over(found)])
 
 
 def _configured(matches: Sequence[Match], sheets: Sheets, config: str) -> list[Match]:
@@ -196,11 +213,6 @@ def _as_stated(wanted: Wanted, matches: Sequence[Match], sheets: Sheets) -> tupl
             plain = [m for m in matches if not configured_by(m.claim)]
             return stated, [*kept, *(m for m in plain if len(_by_value(wanted, [first, m])) == 1)]
     return None, list(matches)
-
-
-def configured_by(claim: Claim) -> tuple[str, ...]:
-    """What names the configuration that a claim holds for."""
-    return claim.statement.variant or claim.statement.column
 
 
 def _says(words: set[str], name: str) -> bool:
@@ -313,7 +325,7 @@ def _candidate(found: Match, sheets: Sheets, value: float) -> Candidate:
         evidence=evidence_of(found, sheets),
         configuration=configuration(found),
         confidence=round(found.score, 3),
-        reason=found.claim.doubt or f"matches '{found.phrase}'",
+        reason=found.claim.doubt or f"named by '{name_printed(found)}'",
     )
 
 
@@ -344,7 +356,7 @@ def _conflict(wanted: Wanted, groups: Sequence[Sequence[Match]], sheets: Sheets,
 
 
 def _reason(top: Match, group: Sequence[Match]) -> str:
-    parts = [f"matches '{top.phrase}'"]
+    parts = [f"named by '{name_printed(top)}'"]
     if top.claim.partner is not None:
         parts.append(f"'{top.claim.partner.text}' agrees")
     if len(group) > 1:
