@@ -4,6 +4,7 @@ VENV := .venv
 STAMP := $(VENV)/.installed
 ENGINES := $(VENV)/.engines
 EXAMPLE := examples/wheel_loader
+PIP := $(VENV)/bin/python -m pip install --quiet --disable-pip-version-check
 
 .PHONY: demo test test-fast lint bench clean
 .DELETE_ON_ERROR:
@@ -30,18 +31,20 @@ lint: $(STAMP)
 bench: $(ENGINES)
 	for script in benchmarks/bench_*.py; do $(VENV)/bin/python $$script || exit 1; done
 
-$(STAMP): pyproject.toml
+$(VENV)/bin/python:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
 	  { echo "yellowiron needs Python 3.11 or newer; name one with: make PYTHON=python3.12 $(MAKECMDGOALS)"; exit 1; }
 	@$(PYTHON) -m venv $(VENV) || { echo "On Debian: apt-get install python3-venv"; exit 1; }
-	$(VENV)/bin/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]'
+
+$(STAMP): pyproject.toml | $(VENV)/bin/python
+	$(PIP) --editable '.[dev]'
 	touch $(STAMP)
 
 # The other engines are extras: where a machine has no wheels for them, their tests say that they were skipped.
-$(ENGINES): $(STAMP)
-	$(VENV)/bin/python -m pip install --quiet --disable-pip-version-check --editable '.[dev,physx,newton]' || \
-	  echo "PhysX and Newton could not be installed: their tests will be skipped"
-	touch $(ENGINES)
+$(ENGINES): pyproject.toml | $(VENV)/bin/python
+	$(PIP) --editable '.[dev,physx,newton]' || { $(PIP) --editable '.[dev]' && \
+	  echo "PhysX and Newton could not be installed: their tests will be skipped"; }
+	touch $(STAMP) $(ENGINES)
 
 clean:
 	rm -rf $(VENV) out

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from kit.machines.crawler import crawler
+from kit.machines.crawler import crawler, of_steel
 from kit.machines.tracked_template import write_tracked_template
 from yellowiron.kinematics import complete
 from yellowiron.library import load_template
@@ -75,10 +75,7 @@ def test_a_crawler_drives_and_turns_on_the_spot(tmp_path: Path) -> None:
     template = load_template(write_tracked_template(tmp_path / "template"))
     aligned = drawn.aligned(shoes=False)
     chosen = expand(choose(template, {"tracks": "belt"}), aligned.counts)
-    mechanism = build_mechanism(drawn.assembly(), chosen, aligned, Specifications(), name="crawler")
-    # Without a weight it is given a usual one of its size; its steel, drawn solid, is some ten times as much.
-    bodies = tuple(dataclasses.replace(b, mass=10.0 * b.mass, inertia=10.0 * b.inertia) for b in mechanism.bodies)
-    mechanism = dataclasses.replace(mechanism, bodies=bodies)
+    mechanism = of_steel(build_mechanism(drawn.assembly(), chosen, aligned, Specifications(), name="crawler"))
     file, *_ = write_machine(complete(mechanism), drawn.assembly(), tmp_path / "out", name="crawler")
     result = drive(file, engine="mujoco")
     assert result.distance == 2.0

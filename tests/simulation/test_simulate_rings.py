@@ -8,7 +8,7 @@ import in_engines
 import numpy as np
 import pytest
 
-from kit.machines.crawler import crawler
+from kit.machines.crawler import crawler, of_steel
 from kit.machines.tracked_template import write_tracked_template
 from yellowiron.kinematics import complete
 from yellowiron.library import load_template
@@ -35,7 +35,7 @@ def file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     template = load_template(write_tracked_template(folder / "template"))
     aligned = drawn.aligned(shoes=True)
     chosen = expand(choose(template, {"tracks": "shoes"}), aligned.counts)
-    mechanism = build_mechanism(drawn.assembly(), chosen, aligned, Specifications(), name="crawler")
+    mechanism = of_steel(build_mechanism(drawn.assembly(), chosen, aligned, Specifications(), name="crawler"))
     return Path(write_machine(complete(mechanism), drawn.assembly(), folder / "out", name="crawler")[0])
 
 
