@@ -175,6 +175,12 @@ def test_a_person_s_edit_wins_and_survives(named: tuple[Path, dict[str, Any]], e
     document = json.loads((named[0] / "alignment.json").read_text(encoding="utf-8"))
     bolt = next(p for p in document["parts"] if p["role"] == "boom" and p["role"] == p["body"])
     bolt["role"] = "front_frame"
+    # And a joint that a person puts 3 mm further forward, though its pin is drawn.
+    name, back = "boom2bucket_joint", np.linalg.inv(np.array(named[1]["frame"]))
+    before = next(j for j in named[1]["joints"] if j["name"] == name)
+    place = np.add(before["anchor"], (0.003, 0.0, 0.0))
+    by_hand = {"anchor": [*(back @ [*place, 1.0])[:3]], "axis": [*(back[:3, :3] @ before["axis"])]}
+    document["joints"] = {name: by_hand}
     edited = tmp_path / "edited.json"
     edited.write_text(json.dumps(document), encoding="utf-8")
     out = tmp_path / "machine"
@@ -186,6 +192,11 @@ def test_a_person_s_edit_wins_and_survives(named: tuple[Path, dict[str, Any]], e
         parts = json.loads((out / "alignment.json").read_text(encoding="utf-8"))["parts"]
         kept = next(p for p in parts if p["part"] == bolt["part"])
         assert (kept["role"], kept["body"], kept["source"]) == ("front_frame", "front_frame", "edited")
+        joints = json.loads((out / "report.json").read_text(encoding="utf-8"))["joints"]
+        joint = next(j for j in joints if j["name"] == name)
+        assert joint["source"]["method"].startswith("set by a person")
+        off = np.array(joint["anchor"]) - before["anchor"]
+        assert np.hypot(off[0] - 0.003, off[2]) < 1e-6
 
 
 def test_the_filled_joint_template_is_taken_back(

@@ -55,3 +55,24 @@ def test_align_checks_the_scale_by_the_sheet(capsys: pytest.CaptureFixture[str],
     _, aligned = _asked(capsys, "align", "wheel_loader", cad, "--set", "Overall Length=23 m")
     assert [f["severity"] for f in aligned["findings"] if f["code"] == "ALN014"] == ["warning"]
     assert not aligned["missing"]
+
+
+@pytest.mark.slow
+def test_an_assembly_is_given_a_role_confirmed_and_forgotten(
+    capsys: pytest.CaptureFixture[str], example: Path, tmp_path: Path
+) -> None:
+    """As a script does it: the file keeps what was decided, by whom and why."""
+    file = tmp_path / "alignment.json"
+    asked = ("align", "wheel_loader", example / "wheel_loader.step", "--out", file, "--by", "Ann")
+    _asked(capsys, *asked, "--set-role", "CAB ASSY ROPS/GLASS=none", "--why", "not ours")
+    kept = json.loads(file.read_text(encoding="utf-8"))
+    rule = kept["rules"][0]
+    assert (rule["pattern"], rule["role"], rule["by"], rule["why"]) == ("CAB ASSY ROPS/GLASS", None, "Ann", "not ours")
+    _asked(capsys, *asked, "--confirm", "ROPS FRAME")
+    kept = json.loads(file.read_text(encoding="utf-8"))
+    confirmed = [p for p in kept["parts"] if p["source"] == "confirmed"]
+    assert confirmed and all(p["body"] == "rear_frame" and p["by"] == "Ann" for p in confirmed)
+    _asked(capsys, *asked, "--forget", "ROPS FRAME", "--forget", "CAB ASSY ROPS/GLASS")
+    kept = json.loads(file.read_text(encoding="utf-8"))
+    assert "rules" not in kept
+    assert not {p["source"] for p in kept["parts"]} & {"edited", "confirmed", "rule"}

@@ -95,14 +95,27 @@ def align(
     settings: Sequence[str] = (),
     config: str = "",
     out: Path | str | None = None,
+    roles: Sequence[str] = (),
+    confirmed: Sequence[str] = (),
+    forgotten: Sequence[str] = (),
+    by: str = "",
+    date: str = "",
+    why: str = "",
     progress: Progress = lambda words: None,
 ) -> Roles:
     """The part that plays each role of a type. With `sheets` and `settings` the model's scale is checked against them.
-    The alignment is written to the file `out`; what a person edited in it before holds."""
+
+    The alignment is written to the file `out`; what a person decided in it before holds. Decisions for whole parts of
+    the CAD tree: `roles` are texts such as `ADT30/HITCH/*=hitch` (none: not part of the machine); what fits a pattern
+    of `confirmed` keeps the role that `out` has for it; of what fits one of `forgotten` every decision is dropped. They
+    are signed with `by`, an ISO `date` and `why`."""
     from yellowiron import cad
-    from yellowiron.alignment import write_alignment
+    from yellowiron.alignment import parse_rules, write_alignment
+    from yellowiron.model.alignment import Decisions, Signature
     from yellowiron.pipeline import compare_with_declared, find_roles
 
+    signature = Signature(by, date, why)
+    decisions = Decisions(parse_rules(roles, signature), tuple(confirmed), tuple(forgotten), signature)
     template = library.load_template(equipment_type)
     progress("Reading the CAD model")
     assembly = cad.read_cad(Path(cad_file))
@@ -111,7 +124,9 @@ def align(
     specifications = specs.merge(read, specs.parse_settings(values, template))
     progress("Finding the part that plays each role")
     earlier = Path(out) if out is not None and Path(out).exists() else None
-    assembly, alignment = find_roles(assembly, template, specifications, earlier=earlier, choices=choices)
+    assembly, alignment = find_roles(
+        assembly, template, specifications, earlier=earlier, choices=choices, decisions=decisions
+    )
     if out is not None:
         with output_file(Path(out)) as temporary:
             write_alignment(alignment, assembly, temporary)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import datetime
 import functools
 import inspect
 import signal
@@ -202,6 +203,18 @@ def align_parts(
         Path | None, typer.Option("--out", help="The alignment file to write (edits in it are kept).")
     ] = None,
     explain: Annotated[str | None, typer.Option("--explain", help="Say why for one role or part.")] = None,
+    roles: Annotated[
+        list[str] | None,
+        typer.Option("--set-role", metavar="PATTERN=ROLE", help="Give parts of the CAD tree a role (none: left out)."),
+    ] = None,
+    confirmed: Annotated[
+        list[str] | None, typer.Option("--confirm", metavar="PATTERN", help="Say that roles in --out are right.")
+    ] = None,
+    forgotten: Annotated[
+        list[str] | None, typer.Option("--forget", metavar="PATTERN", help="Take decisions back.")
+    ] = None,
+    why: Annotated[str, typer.Option("--why", help="The reason, kept with the decision.")] = "",
+    by: Annotated[str, typer.Option("--by", help="Who decides.", envvar="YELLOWIRON_USER")] = "",
     sheets: Sheets = None,
     settings: Settings = None,
     config: Config = "",
@@ -213,8 +226,10 @@ def align_parts(
 
     with _progress(as_json) as progress:
         alignment = yellowiron.align(
-            equipment_type, cad, sheets=sheets or (), settings=settings or (), config=config, out=out, progress=progress
-        ).alignment
+            equipment_type, cad, sheets=sheets or (), settings=settings or (), config=config, out=out,
+            roles=roles or (), confirmed=confirmed or (), forgotten=forgotten or (),
+            by=by, date=datetime.date.today().isoformat(), why=why, progress=progress,
+        ).alignment  # fmt: skip
     if explain is not None:
         words = explained(alignment, explain)
         _show({"explain": explain, "reason": words}, Text(words), as_json)

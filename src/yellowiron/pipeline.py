@@ -13,9 +13,9 @@ from typing import Any
 import numpy as np
 
 from yellowiron import cad, checks, kinematics, library, report, specs, usd
-from yellowiron.alignment import align, declared_roles, read_alignment, to_scale, write_alignment
+from yellowiron.alignment import align, decide, declared_roles, read_alignment, read_joints, to_scale, write_alignment
 from yellowiron.mechanism import build_mechanism, compare_declared, declared_findings, declared_values
-from yellowiron.model.alignment import Alignment
+from yellowiron.model.alignment import UNDECIDED, Alignment, Decisions
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import MechanismError
 from yellowiron.model.finding import Finding
@@ -123,7 +123,9 @@ def build(
             assembly = cad.read_cad(cad_file)
 
         # Weakest first: template, sheet, documents, settings.
-        data = library.load_documents([Path(d) for d in documents], template, assembly)
+        earlier = _earlier(alignment_file, out / "alignment.json")
+        by_hand = (earlier, read_joints(earlier)) if earlier is not None else None
+        data = library.load_documents([Path(d) for d in documents], template, assembly, joints=by_hand)
         template = library.apply_sensors(library.apply_joints(template, data), data)
         with clock.stage("extract", "Reading the specification sheets"):
             read = specs.extract(
@@ -132,10 +134,8 @@ def build(
             specifications = specs.merge(read, specs.parse_settings(values, template))
 
         with clock.stage("align", "Finding the part that plays each role"):
-            earlier = Path(alignment_file or out / "alignment.json")
-            edited = earlier if alignment_file or earlier.exists() else None
             assembly, alignment = find_roles(
-                assembly, template, specifications, earlier=edited, data=data, choices=choices
+                assembly, template, specifications, earlier=earlier, data=data, choices=choices
             )
             chosen = choose(template, {**alignment.choices, **choices})
             template = expand(chosen, alignment.counts)
@@ -207,6 +207,11 @@ def build(
     )
 
 
+def _earlier(alignment_file: Path | str | None, left: Path) -> Path | None:
+    """The alignment file that was asked for, else the one that an earlier run `left`, if it did."""
+    return Path(alignment_file) if alignment_file else left if left.exists() else None
+
+
 def find_roles(
     assembly: Assembly,
     template: Template,
@@ -215,13 +220,15 @@ def find_roles(
     earlier: Path | None = None,
     data: library.Documents | None = None,
     choices: Mapping[str, str] | None = None,
+    decisions: Decisions = UNDECIDED,
 ) -> tuple[Assembly, Alignment]:
     """Roles for the parts of a CAD model, and the model whose parts they are: scaled where the sheet's overall length
     asks for it; where roles are missing, its merged meshes taken apart, if that finds most of them. `earlier` is an
-    alignment file whose edits hold."""
+    alignment file whose edits hold; `decisions` go before them."""
 
     def found(model: Assembly) -> Alignment:
         edits = read_alignment(earlier, model, template) if earlier is not None else None
+        edits = decide(edits, decisions, model, template)
         edits = edits if data is None else library.with_relations(edits, data)
         alignment = align(model, template, specifications, edits=edits, choices=choices)
         # A robot description whose bodies are the template's: what it says goes before what was found.
@@ -229,7 +236,7 @@ def find_roles(
         if declared:
             edits = replace(edits or alignment, parts=(*(edits.parts if edits else ()), *declared))
             alignment = align(model, template, specifications, edits=edits, choices=choices)
-        return alignment
+        return alignment if data is None else library.with_axes(alignment, data)
 
     assembly = to_scale(assembly, template, specifications)
     alignment = found(assembly)

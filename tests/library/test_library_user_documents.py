@@ -7,11 +7,16 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from yellowiron import library
-from yellowiron.model.alignment import Alignment, PartAssignment
+from yellowiron.library.notation.validated_json import Document
+from yellowiron.library.parsing.axes import read_axis
+from yellowiron.model.alignment import Alignment, PartAssignment, Vector
 from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.errors import TemplateError
+from yellowiron.model.finding import Finding
 from yellowiron.model.specification import Evidence, Specification, Specifications
 from yellowiron.model.template import Template, choose
 
@@ -270,3 +275,66 @@ def test_a_filled_template_is_a_template_of_its_own(loader: Template, tmp_path: 
     pins = [r.name for r in alone.roles if r.kind == "pin"]
     assert {p: alone.body_of(p) for p in pins} == {p: loader.body_of(p) for p in pins}
     assert library.lint(alone).sound
+
+
+# ---- where a joint is -----------------------------------------------------------------------------------------
+def _axes(entry: dict[str, object], loader: Template, folder: Path) -> tuple[np.ndarray, np.ndarray]:
+    (folder / "j.json").write_text(json.dumps({"boom2bucket_joint": entry}))
+    found = library.load_documents([folder / "j.json"], loader)
+    point, direction = found.axes["boom2bucket_joint"]
+    return np.array(point), np.array(direction)
+
+
+def test_a_joint_is_where_a_document_says(loader: Template, tmp_path: Path) -> None:
+    point, direction = _axes({"anchor": [1, 2, 3], "axis": [0, 5, 0]}, loader, tmp_path)
+    assert point.tolist() == [1, 2, 3] and direction.tolist() == [0, 1, 0]
+    point, direction = _axes({"through": [[0, 0, 1], [0, 2, 1]]}, loader, tmp_path)
+    assert point.tolist() == [0, 1, 1] and direction.tolist() == [0, 1, 0]
+
+
+@settings(max_examples=50, deadline=None)
+@given(
+    middle=st.tuples(*[st.floats(-20, 20)] * 3),
+    radius=st.floats(0.01, 2.0),
+    turns=st.tuples(st.floats(0.0, 0.5), st.floats(1.0, 2.5), st.floats(3.0, 5.5)),
+    lean=st.floats(0.0, 3.1),
+)
+def test_three_points_of_a_circle_give_its_axis(
+    middle: tuple[float, float, float], radius: float, turns: tuple[float, float, float], lean: float
+) -> None:
+    loader, u = library.load_template("wheel_loader"), np.array([np.cos(lean), 0.0, np.sin(lean)])
+    v = np.array([0.0, 1.0, 0.0])
+    points = [(np.array(middle) + radius * (np.cos(t) * u + np.sin(t) * v)).tolist() for t in turns]
+    document = Document(Path("j.json"), {})
+    found = read_axis(document, loader.joints[0].name, {"through": points}, "revolute")
+    assert found is not None
+    assert np.linalg.norm(np.array(found[0]) - middle) < 1e-7 * (1 + radius)
+    assert abs(np.array(found[1]) @ np.cross(u, v)) == pytest.approx(1.0, abs=1e-9)
+
+
+@pytest.mark.parametrize(("entry", "words"), [
+    ({"anchor": [0, 0, 0]}, "an anchor and no axis"),
+    ({"axis": [0, 1, 0]}, "an axis and no anchor"),
+    ({"anchor": [0, 0, 0], "axis": [0, 0, 0]}, "no length"),
+    ({"through": [[0, 0, 0], [0, 1, 0], [0, 2, 0]]}, "one line"),
+    ({"through": [[0, 0, 0], [0, 0, 0]]}, "no length"),
+    ({"through": [[0, 0, 0], [0, 1, 0]], "axis": [0, 1, 0]}, "beside through"),
+])  # fmt: skip
+def test_half_an_axis_is_refused(entry: dict[str, object], words: str, loader: Template, tmp_path: Path) -> None:
+    with pytest.raises(TemplateError, match=words):
+        _axes(entry, loader, tmp_path)
+
+
+def test_a_given_axis_is_no_estimate(loader: Template) -> None:
+    joint, other = "boom2bucket_joint", loader.joints[0].name
+    guessed: dict[str, tuple[Vector, Vector]] = dict.fromkeys((joint, other), ((0.0, 0.0, 0.0), (0.0, 1.0, 0.0)))
+    found = Alignment(
+        "wheel_loader", np.eye(4), (), axes=guessed, across={joint: 0.01, other: 0.02},
+        findings=tuple(Finding("ALN016", "warning", j, "estimated", "") for j in (joint, other)),
+    )  # fmt: skip
+    given_ = library.Documents(axes={joint: ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0))})
+    after = library.with_axes(found, given_)
+    assert after.axes == {**guessed, **given_.axes}
+    assert after.across == {other: 0.02}
+    assert [f.where for f in after.findings] == [other]
+    assert after.by_hand == {joint}

@@ -319,3 +319,16 @@ def test_twice_the_same_inputs_give_the_same_mechanism() -> None:
         )
 
     assert flat(build()) == flat(build())
+
+
+def test_a_joint_is_where_a_person_says_whatever_is_drawn() -> None:
+    """A hinge's given axis goes before its drawn pin, and needs none."""
+    assembly, alignment = machine()
+    by_hand = replace(
+        alignment, axes={"base2arm": ((0.02, 0.0, 1.01), (0.0, -1.0, 0.0))}, by_hand=frozenset({"base2arm"})
+    )
+    for given_ in (by_hand, without(by_hand, "pin A")):
+        joint = build((assembly, given_)).joint("base2arm")
+        assert np.allclose(joint.anchor, (0.02, 0.0, 1.01), atol=1e-12)
+        assert np.allclose(joint.axis, (0.0, 1.0, 0.0), atol=1e-12)
+        assert "set by a person" in str(joint.source["method"])

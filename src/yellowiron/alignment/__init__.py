@@ -11,24 +11,29 @@ Findings: `ALN001` no part plays a required role · `ALN002` a joint is found bu
 under another choice of a variant · `ALN006` a hydraulic cylinder is not drawn as the sheet has it ·
 `ALN007` no body is left for parts that could move · `ALN008` a cylinder is to one side · `ALN009` parts stand apart and
 are left out · `ALN010` there seems to be more than one machine · `ALN011` the wheels have no tyres · `ALN016` a joint's
-axis is estimated.
+axis is estimated · `ALN026` to `ALN028`: see `files.decisions`.
 """
 
 from yellowiron.alignment.assignment.unit_scale import to_scale
 from yellowiron.alignment.discovery.discover import discover
 from yellowiron.alignment.discovery.robot import declared_roles, discover_declared
-from yellowiron.alignment.files.alignment_json import explain, read_alignment, write_alignment
+from yellowiron.alignment.files.alignment_json import read_alignment, read_joints, write_alignment
+from yellowiron.alignment.files.decisions import decide, parse_rules
+from yellowiron.alignment.files.explanation import explain
 from yellowiron.alignment.labelling.confidence import REVIEW
 from yellowiron.alignment.pipeline import align
 
 __all__ = [
     "REVIEW",
     "align",
+    "decide",
     "declared_roles",
     "discover",
     "discover_declared",
     "explain",
+    "parse_rules",
     "read_alignment",
+    "read_joints",
     "to_scale",
     "write_alignment",
 ]

@@ -40,6 +40,7 @@ from yellowiron.alignment.features.separate_parts import separate_parts
 from yellowiron.alignment.features.solids import solids_of
 from yellowiron.alignment.features.telescopes import Nest
 from yellowiron.alignment.features.tracks import Track, tracks_of
+from yellowiron.alignment.files.decisions import decided
 from yellowiron.alignment.fusion.reading import fused
 from yellowiron.alignment.labelling.coupler import with_couplers
 from yellowiron.alignment.labelling.fittings import fittings_of, sitting
@@ -74,16 +75,17 @@ def align(
     """Roles for the parts of a CAD model.
 
     `template` may carry variants: those `decided_by` geometry are tried and the best is taken, unless `choices` fixes
-    them. `edits` is an earlier alignment, as a person left it (`read_alignment`): its parts with source `edited` keep
-    their role, and so do those with source `data`, which a document of the user's placed. `AlignmentError` for an
-    assembly without parts, for an unknown choice, and for edits that name parts or roles that do not exist. The
-    result does not depend on the order, names (beyond their weight) or frame of the parts.
+    them. `edits` is an earlier alignment, as a person left it (`read_alignment`): its rules and the parts that were
+    `DECIDED` keep their role. `AlignmentError` for an assembly without parts, for an unknown choice, and for edits that
+    name parts or roles that do not exist. The result does not depend on the order, names (beyond their weight) or frame
+    of the parts.
     """
     if not assembly.parts:
         raise AlignmentError(
             "The CAD model has no parts", where=assembly.name, hint="Check that the file holds solids."
         )
-    edited = _edited(assembly, template, edits)
+    decisions, told = decided(assembly, template, edits)
+    edited = {part: decision.role or "" for part, decision in decisions.items()}
     bumpers = collision_parts(assembly.parts) - edited.keys()
     drawn = _without(assembly, bumpers)
     copies = {copy: first for copy, first in copies_of(drawn).items() if copy not in edited}
@@ -133,15 +135,15 @@ def align(
         by_id |= sitting(by_id, fittings, solids, Touch(solids, answer.contact * observation.size))
     by_id |= {copy: by_id[first] for copy, first in copies.items() if first in by_id}
     apart |= {copy: apart[first] for copy, first in copies.items() if first in apart}
-    documents = {item.part: item.reason for item in edits.parts if item.source == "data"} if edits is not None else {}
     found = to_alignment(
         assembly,
         whole,
         answer,
-        Labels(by_id, apart, bumpers, edited, documents),
+        Labels(by_id, apart, bumpers, decisions),
         frame or MachineFrame(np.eye(4)),
         axes=_axes(answer, observation),
         remarks=[
+            *told,
             # What reading the file found; the rest was of an earlier model.
             *(f for f in (edits.findings if edits is not None else ()) if f.code in ("ALN012", "ALN013")),
             *name_findings(agreement, BELIEVED, template.equipment_type),
@@ -157,6 +159,8 @@ def align(
             ),
         ],
     )
+    if edits is not None:
+        found = replace(found, rules=edits.rules, joints=edits.joints)
     drawn_axles = without_absent_axles(whole, {p.body for p in found.parts if p.body is not None})
     return _with_all_axes(found, _without(assembly, fittings), drawn_axles, answer, observation, frame)
 
@@ -208,7 +212,9 @@ def _declared(found: Alignment, assembly: Assembly, template: Template) -> set[s
 def _unplayed_axes(found: Alignment, template: Template, answer: Answer) -> dict[str, tuple[Vector, Vector]]:
     """Joint → the axis that the search has for it, for those on a pin that has another role than theirs, or none."""
     roles, structure = {p.role for p in found.parts}, answer.structure
-    axes = {j: structure.axes[structure.hinges[h].axis] for j, h in sorted(answer.solution.hinge_of.items())}
+    wanted = {j.name for j in template.joints}
+    hinges = {j: h for j, h in sorted(answer.solution.hinge_of.items()) if j in wanted}
+    axes = {j: structure.axes[structure.hinges[h].axis] for j, h in hinges.items()}
     pinned = {j for j in axes if structure.hinges[answer.solution.hinge_of[j]].pins}
     return {
         j: (triple(axis.origin), triple(axis.direction))
@@ -320,28 +326,3 @@ def _tracked(assembly: Assembly, template: Template) -> tuple[dict[int, str], li
     tracks = tracks_of(solids)
     inside = {i for t in tracks for group in (*t.shoes, *(w.members for w in t.wheels)) for i in group}
     return {i: solids[i].part.id for i in sorted(inside)}, tracks
-
-
-def _edited(assembly: Assembly, template: Template, edits: Alignment | None) -> dict[str, str]:
-    """Part id → role, for the parts a person set, in the alignment or in a document of theirs."""
-    if edits is None:
-        return {}
-    parts = {p.id for p in assembly.parts}
-    found = {}
-    for item in edits.parts:
-        if item.source not in ("edited", "data"):
-            continue
-        if item.part not in parts:
-            raise AlignmentError(
-                f"The alignment names a part that is not in the CAD model: '{item.part}'",
-                where=item.part,
-                hint="Remove that entry, or align the CAD model it was made for.",
-            )
-        if item.role is not None and not template.knows(item.role):
-            raise AlignmentError(
-                f"'{item.role}' is no role of the template {template.equipment_type}",
-                where=item.part,
-                hint="`yellowiron templates show TYPE` lists the roles.",
-            )
-        found[item.part] = item.role or ""
-    return found

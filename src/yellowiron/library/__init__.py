@@ -19,7 +19,14 @@ from yellowiron.library.proposal.likeness import Likeness, likeness
 from yellowiron.library.proposal.propose import propose
 from yellowiron.library.show import tree
 from yellowiron.library.type_folders import is_sheet_only, list_templates
-from yellowiron.library.user_documents import Documents, apply_joints, apply_sensors, load_documents, with_relations
+from yellowiron.library.user_documents import (
+    Documents,
+    apply_joints,
+    apply_sensors,
+    load_documents,
+    with_axes,
+    with_relations,
+)
 
 __all__ = [
     "Documents",
@@ -38,5 +45,6 @@ __all__ = [
     "propose",
     "template_schema",
     "tree",
+    "with_axes",
     "with_relations",
 ]

@@ -18,11 +18,12 @@ import numpy as np
 
 from yellowiron.library.notation.role_keys import EVERYTHING, matches
 from yellowiron.library.notation.validated_json import Document, check_document, near, read_json, template_schema, where
+from yellowiron.library.parsing.axes import read_axis
 from yellowiron.library.parsing.joints import check_bodies, read_joint
 from yellowiron.library.parsing.materials import read_material
 from yellowiron.library.parsing.sensors import read_sensor
 from yellowiron.library.parsing.variants import check_choices
-from yellowiron.model.alignment import Alignment, PartAssignment
+from yellowiron.model.alignment import DECIDED, Alignment, PartAssignment, Vector
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import TemplateError
 from yellowiron.model.finding import Finding
@@ -42,6 +43,8 @@ _NEW_BODY = (
 )
 _ENTRIES = (("materials", "material"), ("joint_overrides", "joint"), ("sensors", "sensor"))
 """Documents of objects, and their schema's word for one."""
+_ESTIMATED = ("ALN016",)
+"""Findings on axes that were guessed."""
 _AFTER = {"joint_overrides": 1, "sensors": 2}
 """Relations are read before joints, which name what follows, and joints before the sensors on them."""
 
@@ -62,7 +65,7 @@ class Documents:
     """What the user's documents say. `materials` and `collision` by role or CAD part name as spelled in the template or
     the CAD model (or `*`); `relations` body → followers (CAD part names or roles); `joints` by name, merged with the
     template's; `folders` those of the documents, in which textures are looked for; `sensors` by name,
-    merged likewise."""
+    merged likewise; `axes`, joint → a point (metres) and a unit vector, CAD frame, of those that say where they are."""
 
     materials: Mapping[str, Material] = field(default_factory=dict)
     collision: Mapping[str, str] = field(default_factory=dict)
@@ -72,17 +75,26 @@ class Documents:
     folders: tuple[str, ...] = ()
     findings: tuple[Finding, ...] = ()
     sensors: Mapping[str, SensorTemplate] = field(default_factory=dict)
+    axes: Mapping[str, tuple[Vector, Vector]] = field(default_factory=dict)
 
 
-def load_documents(paths: Sequence[str | Path], template: Template, assembly: Assembly | None = None) -> Documents:
-    """The documents of `--data`, later ones winning. Without an assembly only roles can be named.
+def load_documents(
+    paths: Sequence[str | Path],
+    template: Template,
+    assembly: Assembly | None = None,
+    *,
+    joints: tuple[Path, Mapping[str, object]] | None = None,
+) -> Documents:
+    """The documents of `--data`, later ones winning, and last the `joints` of an alignment file. Without an assembly
+    only roles can be named.
 
     `TemplateError` for a file that is none of the documents, or that fails its schema.
     """
     reader = _Reader(template, assembly)
     documents = []
-    for path in map(Path, paths):
-        content = read_json(path)
+    contents = [(path, read_json(path)) for path in map(Path, paths)]
+    contents += [(joints[0], dict(joints[1]))] if joints is not None and joints[1] else []
+    for path, content in contents:
         kind = kind_of(content, path)
         if kind is None:
             reader.find("DOC003", path, (), "The document says nothing.", "Remove it, or fill it.")
@@ -99,6 +111,7 @@ def load_documents(paths: Sequence[str | Path], template: Template, assembly: As
         folders=tuple(dict.fromkeys(str(Path(p).parent) for p in paths)),
         findings=tuple(dict.fromkeys(reader.findings)),
         sensors=reader.sensors,
+        axes=reader.axes,
     )
 
 
@@ -146,13 +159,27 @@ def with_relations(edits: Alignment | None, documents: Documents) -> Alignment |
     if not documents.followers:
         return edits
     edits = edits or Alignment(equipment_type="", frame=np.eye(4), parts=())
-    settled = {a.part for a in edits.parts if a.source == "edited"}
+    settled = {a.part for a in edits.parts if a.source in DECIDED - {"data", "rule"}}
     said = {
         f.part: PartAssignment(f.part, f.role, f.body, 1.0, f.source, source="data")
         for f in documents.followers
         if f.part not in settled
     }
     return replace(edits, parts=(*(a for a in edits.parts if a.part not in said), *said.values()))
+
+
+def with_axes(alignment: Alignment, documents: Documents) -> Alignment:
+    """The alignment with the axes that documents give: they are not estimated any more, nor moved to suit the sheet."""
+    given = documents.axes
+    if not given:
+        return alignment
+    return replace(
+        alignment,
+        axes={**alignment.axes, **given},
+        across={joint: by for joint, by in alignment.across.items() if joint not in given},
+        findings=tuple(f for f in alignment.findings if f.code not in _ESTIMATED or f.where not in given),
+        by_hand=alignment.by_hand | given.keys(),
+    )
 
 
 def _signed(joint: JointTemplate, known: JointTemplate | None, document: str) -> JointTemplate:
@@ -178,6 +205,7 @@ class _Reader:
         self.relations: dict[str, list[str]] = {}
         self.joints: dict[str, JointTemplate] = {}
         self.sensors: dict[str, SensorTemplate] = {}
+        self.axes: dict[str, tuple[Vector, Vector]] = {}
         self.followers: dict[str, Follower] = {}
         self.findings: list[Finding] = []
 
@@ -295,7 +323,12 @@ class _Reader:
                 return
             joint = replace(joint, parts=(parts[0], parts[1]))
             check_bodies(joint, self.template.bodies_of(joint), document.at(name, "Body"))
-        self.joints[joint.name] = _signed(joint, known, document.path.name)
+        axis = read_axis(document, name, entry, joint.type)
+        if axis is not None:
+            self.axes[joint.name] = axis
+        joint = _signed(joint, known, document.path.name)
+        said = {"axis": document.path.name} if axis is not None else {}
+        self.joints[joint.name] = replace(joint, documents={**joint.documents, **said})
 
     def role_of(self, part: str) -> str | None:
         """The role that a joint's part stands for: its own name, or the body it follows."""

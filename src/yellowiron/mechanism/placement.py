@@ -71,8 +71,8 @@ class Placement:
     there.
 
     `bodies` and `roles` give each part's body and role; `axes`, of joints without a pin, the alignment's axis (a point
-    and a unit vector); `declared` are the joints that the CAD file declares; what is computed from a part is kept for
-    the next caller.
+    and a unit vector), `by_hand` those that a person gave, whatever is drawn; `declared` are the joints that the CAD
+    file declares; what is computed from a part is kept for the next caller.
     """
 
     parts: tuple[Part, ...]
@@ -81,6 +81,7 @@ class Placement:
     bodies: tuple[str, ...]
     roles: tuple[str | None, ...]
     axes: Mapping[str, tuple[Floats, Floats]] = field(default_factory=dict)
+    by_hand: frozenset[str] = frozenset()
     declared: tuple[DeclaredAxis, ...] = ()
     _features: dict[int, Features] = field(default_factory=dict)
     _points: dict[int, Floats] = field(default_factory=dict)
@@ -156,6 +157,7 @@ def place(assembly: Assembly, template: Template, alignment: Alignment) -> tuple
         bodies=tuple(str(assigned[p.id].body) for p in kept),
         roles=tuple(assigned[p.id].role for p in kept),
         axes={name: _axis(alignment.frame, *axis) for name, axis in alignment.axes.items()},
+        by_hand=alignment.by_hand,
         declared=declared_axes(assembly, alignment),
     )
     return placement, findings

@@ -10,7 +10,49 @@ from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
 
 Vector = tuple[float, float, float]
-AssignmentSource = Literal["solved", "name", "edited", "data"]
+AssignmentSource = Literal["solved", "name", "edited", "confirmed", "rule", "data"]
+DECIDED: frozenset[AssignmentSource] = frozenset(("edited", "confirmed", "rule", "data"))
+"""Sources that no solver overrules: a person's role, a person's yes to a role that was found, a pattern of a person's,
+and a document of the user's."""
+
+
+@dataclass(frozen=True)
+class Signature:
+    """Who decided something, when (an ISO date) and why; each may be empty."""
+
+    by: str = ""
+    date: str = ""
+    why: str = ""
+
+    def __bool__(self) -> bool:
+        return bool(self.by or self.date or self.why)
+
+
+UNSIGNED = Signature()
+
+
+@dataclass(frozen=True)
+class RoleRule:
+    """A person's word for all parts that fit a pattern over the CAD tree (`alignment.files.decisions.fits`); no role:
+    not part of the machine."""
+
+    pattern: str
+    role: str | None
+    signature: Signature = UNSIGNED
+
+
+@dataclass(frozen=True)
+class Decisions:
+    """What a person decides beside what an alignment file says: `rules`, and patterns of parts whose role is
+    `confirmed`, or of which every earlier decision is `forgotten`."""
+
+    rules: tuple[RoleRule, ...] = ()
+    confirmed: tuple[str, ...] = ()
+    forgotten: tuple[str, ...] = ()
+    signature: Signature = UNSIGNED
+
+
+UNDECIDED = Decisions()
 
 
 @dataclass(frozen=True)
@@ -19,8 +61,8 @@ class PartAssignment:
 
     `role` is the template's most specific name for the part (a pin's role; else the role of its body), `body` the
     rigid role it moves with (None: left out of the machine). `confidence` in [0, 1] is the probability that it is
-    right, which rests on the figures in `evidence` (see `align.confidence.grounds`); `reason` in words; `edited` parts
-    were set by a person and win over every solver.
+    right, which rests on the figures in `evidence` (see `align.confidence.grounds`); `reason` in words; what is
+    `DECIDED` wins over every solver, signed by who decided it.
     """
 
     part: str
@@ -31,6 +73,7 @@ class PartAssignment:
     source: AssignmentSource = "solved"
     runner_up: str | None = None
     evidence: Mapping[str, float] = field(default_factory=dict, compare=False)
+    signature: Signature = UNSIGNED
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,7 +85,9 @@ class Alignment:
     row of the template → how many parts it has (`rows.expand` makes them concrete). `axes`: joints that turn about no
     pin of their own → the axis found for them, a point (metres) and a unit vector in the CAD file's frame. `across`:
     those of them that are known roughly → how well across the axis, metres (one sigma). `calibrated`: those that the
-    sheet's dimensions placed → by which, in words.
+    sheet's dimensions placed → by which, in words. `rules`: a person's, the last word of several. `joints`: name →
+    what a person says of a joint, as an entry of a `--data` document of joints. `by_hand`: joints whose axis is a
+    person's.
     """
 
     equipment_type: str
@@ -56,3 +101,6 @@ class Alignment:
     axes: Mapping[str, tuple[Vector, Vector]] = field(default_factory=dict)
     across: Mapping[str, float] = field(default_factory=dict)
     calibrated: Mapping[str, str] = field(default_factory=dict)
+    rules: tuple[RoleRule, ...] = ()
+    joints: Mapping[str, Mapping[str, object]] = field(default_factory=dict)
+    by_hand: frozenset[str] = frozenset()

@@ -5,14 +5,14 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterator, Mapping
-from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from yellowiron.alignment.files.explanation import near
 from yellowiron.alignment.files.revisions import Print, match_parts, prints_of
-from yellowiron.model.alignment import Alignment, PartAssignment
+from yellowiron.model.alignment import UNSIGNED, Alignment, AssignmentSource, PartAssignment, RoleRule, Signature
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import AlignmentError, OutputError
 from yellowiron.model.finding import Finding
@@ -25,6 +25,7 @@ _LARGEST = 64 * MEGABYTE
 """Bytes of a file: that of a model of a hundred thousand parts."""
 _RIGID, _FARTHEST = 1e-5, 1e6
 """How far a frame's axes may be from unit vectors at right angles, and its origin (m) from the CAD model's."""
+_SIGNED = ("by", "date", "why")
 _NUMBERS = re.compile(r"\[\n\s*([-+\d.e,\s]+?)\s*\]")
 
 
@@ -32,8 +33,9 @@ def write_alignment(alignment: Alignment, assembly: Assembly, path: str | Path) 
     """Writes alignment.json: the doubtful parts first, most doubtful on top, then the rest by body, role and id; the
     order of the parts in the CAD model does not matter.
 
-    A person changes `role` and nothing else; `solved` keeps what the program had found; `shape` and `place` are what a
-    part is known by in a later revision of the CAD model (`revisions.Print`). `OutputError` if it cannot be written.
+    A person changes `role`, or `source` to `confirmed`; `solved` keeps what the program had found; `shape` and `place`
+    are what a part is known by in a later revision of the CAD model (`revisions.Print`). `rules` and `joints` are a
+    person's. `OutputError` if it cannot be written.
     """
     doubtful = set(alignment.to_review)
 
@@ -50,6 +52,8 @@ def write_alignment(alignment: Alignment, assembly: Assembly, path: str | Path) 
         **({"counts": dict(sorted(alignment.counts.items()))} if alignment.counts else {}),
         "to_review": list(alignment.to_review),
         "missing": list(alignment.missing),
+        **({"rules": [_rule_entry(r) for r in alignment.rules]} if alignment.rules else {}),
+        **({"joints": dict(alignment.joints)} if alignment.joints else {}),
         "parts": [_entry(p, prints.get(p.part)) for p in sorted(alignment.parts, key=rank)],
     }
     text = json.dumps(document, ensure_ascii=False, indent=1) + "\n"
@@ -74,19 +78,32 @@ def _entry(p: PartAssignment, known_by: Print | None) -> dict[str, Any]:
         "reason": p.reason,
         "runner_up": p.runner_up,
         "source": p.source,
+        **_signed(p.signature),
         **({"shape": list(known_by.shape), "place": list(known_by.place)} if known_by is not None else {}),
     }
+
+
+def _rule_entry(rule: RoleRule) -> dict[str, Any]:
+    return {"pattern": rule.pattern, "role": rule.role, **_signed(rule.signature)}
+
+
+def _signed(signature: Signature) -> dict[str, str]:
+    return {key: said for key in _SIGNED if (said := getattr(signature, key))}
+
+
+def _signature(entry: Mapping[str, Any]) -> Signature:
+    return Signature(*(str(entry.get(key) or "") for key in _SIGNED))
 
 
 def read_alignment(path: str | Path, assembly: Assembly, template: Template) -> Alignment:
     """An alignment file, as `align` takes it for `edits`; its parts in CAD order.
 
-    A role that differs from `solved` is a person's, and so is one whose source is `edited`, or that has neither (an
-    entry written by hand). Parts are known by shape and place where the entry has them (`revisions`), so that an edit
-    survives a revision of the CAD model; where a person's part is gone or has another id, `findings` says so. Other
-    entries of parts that are gone say nothing that is not found again, and are passed over. `AlignmentError` for a file
-    that is not one or is another equipment type's, for a person's role that is not in the template, and for that of a
-    part without shape and place that is not in the CAD model.
+    A role that differs from `solved` is a person's, and so is one whose source is `edited` or `confirmed`, or that has
+    neither (an entry written by hand). Parts are known by shape and place where the entry has them (`revisions`), so
+    that an edit survives a revision of the CAD model; where a person's part is gone or has another id, `findings` says
+    so. Other entries of parts that are gone say nothing that is not found again, and are passed over. `AlignmentError`
+    for a file that is not one or is another equipment type's, for a person's role that is not in the template, and for
+    that of a part without shape and place that is not in the CAD model.
     """
     source = Path(path)
     document = _load(source)
@@ -106,13 +123,13 @@ def read_alignment(path: str | Path, assembly: Assembly, template: Template) -> 
         if now is None and edited and _print(entry) is None:
             raise AlignmentError(
                 f"The alignment names a part that is not in the CAD model: '{part}'", where=where,
-                hint=f"{_near(part, set(parts))} Delete that entry if the part is gone, or the file to start anew."
+                hint=f"{near(part, set(parts))} Delete that entry if the part is gone, or the file to start anew."
                 .strip(),
             )  # fmt: skip
         if edited and now != part:
             findings.append(_moved(part, role, now))
         if now is not None:
-            read.append(_assignment({**entry, "part": now}, role, template, edited=edited))
+            read.append(_assignment({**entry, "part": now}, role, template))
     choices = document.get("choices", {})
     return Alignment(
         equipment_type=str(document.get("equipment_type", template.equipment_type)),
@@ -123,7 +140,37 @@ def read_alignment(path: str | Path, assembly: Assembly, template: Template) -> 
         to_review=_names(document.get("to_review")),
         findings=tuple(findings),
         counts=count_members((p.role for p in read), template),
+        rules=tuple(_rules(document, source)),
+        joints=_joints(document, source),
     )
+
+
+def read_joints(path: str | Path) -> dict[str, Mapping[str, object]]:
+    """The joints that a person wrote into an alignment file: name → entry, as a `--data` document of joints has it.
+    `AlignmentError` for a file that is no alignment."""
+    source = Path(path)
+    return _joints(_load(source), source)
+
+
+def _joints(document: Mapping[str, Any], source: Path) -> dict[str, Mapping[str, object]]:
+    joints = document.get("joints", {})
+    if not isinstance(joints, Mapping) or not all(isinstance(entry, Mapping) for entry in joints.values()):
+        raise AlignmentError(
+            "`joints` is no object of joints", where=str(source), hint='Write {"joint": {"anchor": …, "axis": …}, …}.'
+        )
+    return {str(name): entry for name, entry in joints.items()}
+
+
+def _rules(document: Mapping[str, Any], source: Path) -> Iterator[RoleRule]:
+    rules = document.get("rules", [])
+    for number, entry in enumerate(rules if isinstance(rules, list) else [rules]):
+        role = entry.get("role", "") if isinstance(entry, Mapping) else ""
+        if not isinstance(entry, Mapping) or not isinstance(entry.get("pattern"), str) or role == "":
+            raise AlignmentError(
+                "A rule has no pattern or no role", where=f"{source}: rules[{number}]",
+                hint='Write {"pattern": "HITCH/*", "role": "hitch"}; role null leaves the parts out.',
+            )  # fmt: skip
+        yield RoleRule(entry["pattern"], None if role is None else str(role), _signature(entry))
 
 
 def _known_entries(entries: list[Any], source: Path, template: Template) -> Iterator[tuple[str, Mapping[str, Any]]]:
@@ -140,7 +187,7 @@ def _known_entries(entries: list[Any], source: Path, template: Template) -> Iter
                 continue
             raise AlignmentError(
                 f"'{role}' is no role of the template {template.equipment_type}", where=where,
-                hint=_near(str(role), {r.name for r in template.roles})
+                hint=near(str(role), {r.name for r in template.roles})
                 or "`yellowiron templates show TYPE` lists the roles.",
             )  # fmt: skip
         if part in taken:
@@ -178,31 +225,35 @@ def _alone(read: list[PartAssignment]) -> list[PartAssignment]:
     """One assignment a part; a person's wins (two entries may lead to one part: one known by its id alone)."""
     found: dict[str, PartAssignment] = {}
     for p in read:
-        if p.part not in found or p.source == "edited":
+        if p.part not in found or p.source in ("edited", "confirmed"):
             found[p.part] = p
     return list(found.values())
 
 
 def _is_edit(entry: Mapping[str, Any]) -> bool:
-    """True for an entry that a person wrote or changed."""
-    if entry.get("source") == "edited":
+    """True for an entry that a person wrote, changed or confirmed."""
+    if entry.get("source") in ("edited", "confirmed"):
         return True
     if "solved" in entry:
         return bool(entry.get("role") != entry["solved"])
     return "role" in entry and "source" not in entry
 
 
-def _assignment(entry: Mapping[str, Any], role: str | None, template: Template, *, edited: bool) -> PartAssignment:
-    confidence = entry.get("confidence")
-    runner_up = entry.get("solved") if edited else entry.get("runner_up")
+def _assignment(entry: Mapping[str, Any], role: str | None, template: Template) -> PartAssignment:
+    confidence, edited, said = entry.get("confidence"), _is_edit(entry), entry.get("source")
+    # A role that was confirmed and then changed is an edit.
+    confirmed = said == "confirmed" and entry.get("solved", role) == role
+    kept: AssignmentSource = "name" if said == "name" else "rule" if said == "rule" else "solved"
+    runner_up = entry.get("solved") if edited and not confirmed else entry.get("runner_up")
     return PartAssignment(
         part=entry["part"],
         role=role,
         body=template.body_of(role) if role is not None else None,
         confidence=1.0 if edited else float(confidence) if isinstance(confidence, int | float) else 0.0,
         reason="set by a person" if edited else str(entry.get("reason", "")),
-        source="edited" if edited else "name" if entry.get("source") == "name" else "solved",
+        source="confirmed" if confirmed else "edited" if edited else kept,
         runner_up=runner_up if isinstance(runner_up, str) else None,
+        signature=_signature(entry) if edited else UNSIGNED,
     )
 
 
@@ -248,76 +299,3 @@ def _frame(value: object, source: Path) -> np.ndarray[tuple[int, int], np.dtype[
 
 def _names(value: object) -> tuple[str, ...]:
     return tuple(str(v) for v in value) if isinstance(value, list) else ()
-
-
-def _near(name: str, known: set[str]) -> str:
-    close = get_close_matches(name, sorted(known), n=1)
-    return f"Did you mean '{close[0]}'?" if close else ""
-
-
-def explain(alignment: Alignment, role_or_part: str) -> str:
-    """Why a role has its parts, the doubtful ones first, or a part its role, in sentences: how probable it is, what it
-    was found by, what else it could be; for a single part also the figures that its probability rests on.
-
-    A part is named by its id, or by the end of it (its name, say) where that leaves no doubt. `AlignmentError` for a
-    name that is neither, or that several parts end with.
-    """
-    chosen = [p for p in alignment.parts if role_or_part in (p.part, p.role)]
-    if not chosen:
-        chosen = [p for p in alignment.parts if p.body == role_or_part]
-    if not chosen and role_or_part not in alignment.missing:
-        chosen = _ending(alignment, role_or_part)
-    if not chosen:
-        if role_or_part in alignment.missing:
-            return f"{role_or_part}: no part plays it."
-        known = {p.part for p in alignment.parts} | {p.part.rpartition("/")[2] for p in alignment.parts}
-        known |= {r for p in alignment.parts for r in (p.role, p.body) if r}
-        raise AlignmentError(
-            f"'{role_or_part}' is neither a role nor a part of this alignment", where=role_or_part,
-            hint=_near(role_or_part, known) or "Name a role of the template or a part id.",
-        )  # fmt: skip
-    chosen = sorted(chosen, key=lambda p: p.confidence)
-    if len(chosen) == 1:
-        return "\n".join([_sentence(chosen[0]), *_figures(chosen[0])])
-    sure = f"{chosen[0].confidence:.0%} to {chosen[-1].confidence:.0%} sure"
-    review = [p.part for p in chosen if p.part in alignment.to_review]
-    doubt = f", {len(review)} to review" if review else ""
-    return "\n".join([f"{role_or_part}: {len(chosen)} parts, {sure}{doubt}.", *(_sentence(p) for p in chosen)])
-
-
-def _ending(alignment: Alignment, name: str) -> list[PartAssignment]:
-    """The one part whose id ends with these names; as they are written, else without regard to case."""
-    for fold in (str, str.casefold):
-        found = [p for p in alignment.parts if f"/{fold(p.part)}".endswith(f"/{fold(name.strip('/'))}")]
-        if len(found) > 1:
-            some = ", ".join(f"'{p.part}'" for p in found[:4]) + (", …" if len(found) > 4 else "")
-            raise AlignmentError(
-                f"{len(found)} parts are named '{name}'", where=name, hint=f"Say more of the path: {some}."
-            )
-        if found:
-            return found
-    return []
-
-
-_FIGURES = {
-    "whole": "the whole machine was found: {0:g} (1: every body and joint)",
-    "rung": "contact tolerance widened {0:g} times",
-    "names for": "its names speak for it by {0:g}",
-    "names against": "its names speak for another body by {0:g}",
-    "lead": "joints ahead of the runner-up's: {0:.0%}",
-}
-
-
-def _figures(p: PartAssignment) -> list[str]:
-    """What a probability rests on, a line each; what plays no part is left out."""
-    by = [f"  found by: {name.removeprefix('by ')}" for name in p.evidence if name.startswith("by ")]
-    odds = p.evidence.get("strength")
-    by += [f"  strength of that: {1 / (1 + float(np.exp(-odds))):.2f}"] if odds is not None else []
-    return by + [f"  {_FIGURES[n].format(v)}" for n, v in p.evidence.items() if n in _FIGURES and (v or n == "whole")]
-
-
-def _sentence(p: PartAssignment) -> str:
-    text = f"{p.part}: {p.role or 'no role'} ({p.confidence:.0%}, {p.source}): {p.reason}."
-    moves = f" Moves with {p.body}." if p.body not in (None, p.role) else ""
-    rival = f" Otherwise: {p.runner_up}." if p.runner_up else ""
-    return text + moves + rival

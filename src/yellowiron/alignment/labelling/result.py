@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from yellowiron.alignment.assignment.answer import Answer, is_whole
 from yellowiron.alignment.assignment.cp_sat import Solution
 from yellowiron.alignment.assignment.machine_frame import MachineFrame
+from yellowiron.alignment.files.decisions import Decision, doubts
 from yellowiron.alignment.labelling.confidence import REVIEW, grounds, probability
 from yellowiron.alignment.labelling.place import Place, pin_role
 from yellowiron.alignment.tolerances import CONTACT
@@ -19,19 +20,19 @@ from yellowiron.model.template import Template
 
 APART = 0.6
 """Confidence that a part which stands apart is no part of the machine: one remark speaks for all of them."""
+CLEARLY = 0.95
+"""From this probability on it is told that a person decided otherwise."""
 
 
 @dataclass(frozen=True, eq=False)
 class Labels:
     """What is known of the parts, by part id: their `places`; metres from the rest of those that stand `apart` and are
-    left out; those that are only collision meshes (`bumpers`); the roles that a person gave (`edited`, "": none), which
-    win; and for those of them that a document placed, why (`documents`)."""
+    left out; those that are only collision meshes (`bumpers`); and what was `decided`, which wins."""
 
     places: Mapping[str, Place]
     apart: Mapping[str, float]
     bumpers: Collection[str]
-    edited: Mapping[str, str]
-    documents: Mapping[str, str]
+    decided: Mapping[str, Decision]
 
 
 def to_alignment(
@@ -52,7 +53,8 @@ def to_alignment(
     played = {p.role for p in parts} | {p.body for p in parts}
     missing = tuple(r.name for r in template.roles if _required(r.name, template) and r.name not in played)
     doubtful = tuple(p.part for p in sorted(parts, key=lambda p: p.confidence) if p.part in doubted)
-    findings = (*_findings(template, answer.solution, missing, frame, labels.edited), *remarks)
+    against = doubts(labels.decided, _against(labels, whole=whole, rung=rung))
+    findings = (*_findings(template, answer.solution, missing, frame, labels.decided), *against, *remarks)
     return Alignment(
         template.equipment_type,
         frame.matrix,
@@ -70,13 +72,14 @@ def _assignment(part: str, template: Template, labels: Labels, *, whole: bool, r
     """The role of a part: a person's, none for one that stands apart, else that of its place. `whole`, `rung`: see
     `confidence.grounds`."""
     place = labels.places.get(part)
-    if part in labels.edited:
-        said = labels.edited[part] or None
+    if part in labels.decided:
+        decision = labels.decided[part]
+        said = decision.role
         body = template.body_of(said) if said is not None and template.knows(said) else None
         before = place.role if place is not None and place.role != said else None
-        if part in labels.documents:
-            return PartAssignment(part, said, body, 1.0, labels.documents[part], "data", before)
-        return PartAssignment(part, said, body, 1.0, "set by a person", "edited", before)
+        return PartAssignment(
+            part, said, body, 1.0, decision.reason, decision.source, before, signature=decision.signature
+        )
     if part in labels.apart:
         metres = labels.apart[part]
         words = f"stands {metres:.3g} m from every part of the machine" if metres else "lies under the whole machine"
@@ -92,9 +95,22 @@ def _assignment(part: str, template: Template, labels: Labels, *, whole: bool, r
     )  # fmt: skip
 
 
+def _against(labels: Labels, *, whole: bool, rung: int) -> list[PartAssignment]:
+    """What the parts would be that were decided against what clearly speaks for another body."""
+    found = []
+    for part, decision in labels.decided.items():
+        place = labels.places.get(part)
+        if place is None or place.body is None or place.role == decision.role:
+            continue
+        sure = probability(grounds(place, whole=whole, rung=rung))
+        if sure >= CLEARLY and decision.source != "data":
+            found.append(PartAssignment(part, place.role, place.body, sure, place.reason))
+    return found
+
+
 def _is_doubted(part: str, labels: Labels) -> bool:
     """True for what a person should look at: a part without a place, or with a weak one."""
-    if part in labels.edited or part in labels.apart or part in labels.bumpers:
+    if part in labels.decided or part in labels.apart or part in labels.bumpers:
         return False
     place = labels.places.get(part)
     return place is None or place.confidence < REVIEW
@@ -112,7 +128,7 @@ def _findings(
     solution: Solution,
     missing: tuple[str, ...],
     frame: MachineFrame,
-    edited: Mapping[str, str],
+    decided: Mapping[str, Decision],
 ) -> tuple[Finding, ...]:
     pins = {pin_role(j, template): j.name for j in template.joints}
     findings = []
@@ -131,8 +147,8 @@ def _findings(
     if not solution.proven and solution.body_of:
         text = "The search for the best assignment was cut short"
         findings.append(Finding("ALN004", "warning", where, text, "Review the roles."))
-    for part, role in sorted(edited.items()):
-        if role and not template.knows(role):
+    for part, role in sorted((part, decision.role) for part, decision in decided.items()):
+        if role is not None and not template.knows(role):
             text = f"The role {role}, set by a person, exists only under another choice of the template's variants"
             findings.append(Finding("ALN005", "warning", part, text, "Fix the choice, or change the role."))
     return tuple(findings)

@@ -22,6 +22,7 @@ from yellowiron.mechanism.placement import Features, Placement, join
 from yellowiron.mechanism.tolerances import SAME_ANGLE, SAME_OFFSET
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
+from yellowiron.model.template import JointTemplate
 
 _OUT_OF_LINE = {True: (math.radians(0.05), 1e-4), False: (math.radians(0.2), 3e-4)}
 """Angle (rad) and offset (m) from which features are out of line; exact ones, and fitted ones."""
@@ -167,6 +168,12 @@ def declared_bearing(placement: Placement, bodies: tuple[str, str], kind: str) -
     words = "Nothing that is drawn shows its axis: it is where the CAD file declares it."
     method = f"declared by the CAD file: joint '{found.name}'"
     return Bearing(Axis(found.point, found.axis), placement.features(()), method, ("MEC016", words))
+
+
+def given_bearing(placement: Placement, joint: JointTemplate) -> Bearing:
+    """The axis that a person gave a joint, in the alignment or in a document of theirs."""
+    line = Axis(*placement.axes[joint.name])
+    return Bearing(line, placement.features(()), f"set by a person: {joint.documents.get('axis', 'alignment.json')}")
 
 
 def agree(one: Axis, other: Axis) -> bool:

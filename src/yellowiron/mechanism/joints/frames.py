@@ -17,6 +17,7 @@ from yellowiron.mechanism.joints.bearings import (
     Bearing,
     agree,
     declared_bearing,
+    given_bearing,
     lone_bearing,
     lone_slide,
     outline_bearing,
@@ -69,6 +70,10 @@ def joint_frames(
             slides.append((joint, bodies))
         elif joint.type == "fixed":
             pivots[joint.name] = weld(joint, bodies, placement, method="weld")
+        elif joint.name in placement.by_hand:
+            line = Axis(*placement.axes[joint.name])
+            bearing = given_bearing(placement, joint)
+            pivots[joint.name] = _frame(joint, bodies, placement, bearing, line.point, machine_sense(line.direction))
         elif (frame := _pivot(joint, bodies, placement, template, findings)) is not None:
             pivots[joint.name] = frame
     found = dict(pivots)
@@ -164,7 +169,9 @@ def _slide(
     hinge = ends[0].axis if ends[0] is not None and ends[0].joint.type == "revolute" else None
     bearing = slide_bearing(placement, bodies, (tips[0], tips[1]), hinge)
     sense = None
-    if joint.name in placement.axes:
+    if joint.name in placement.by_hand:
+        bearing, sense = given_bearing(placement, joint), placement.axes[joint.name][1]
+    elif joint.name in placement.axes:
         found = Axis(*placement.axes[joint.name])
         sense = found.direction
         if bearing is None or not agree(bearing.line, found):
