@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from kit.machines import small_machine
 from yellowiron.model.geometry import Mesh
 from yellowiron.support import convex
-from yellowiron.support.cache import VARIABLE, cache_folder
+from yellowiron.support.caching.disk import VARIABLE, cache_folder
 from yellowiron.support.convex import MOST, convex_pieces, hull
 
 

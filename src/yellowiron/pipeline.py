@@ -14,7 +14,13 @@ import numpy as np
 
 from yellowiron import cad, checks, kinematics, library, report, specs, usd
 from yellowiron.alignment import align, decide, declared_roles, read_alignment, read_joints, to_scale, write_alignment
-from yellowiron.mechanism import build_mechanism, compare_declared, declared_findings, declared_values
+from yellowiron.mechanism import (
+    ComparedJoint,
+    build_mechanism,
+    compare_declared,
+    declared_findings,
+    declared_values,
+)
 from yellowiron.model.alignment import UNDECIDED, Alignment, Decisions
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import MechanismError
@@ -137,23 +143,11 @@ def build(
             assembly, alignment = find_roles(
                 assembly, template, specifications, earlier=earlier, data=data, choices=choices
             )
-            chosen = choose(template, {**alignment.choices, **choices})
-            template = expand(chosen, alignment.counts)
 
         with clock.stage("mechanism", "Building the mechanism"):
-            alignment, tape = on_sheet(assembly, template, alignment, specifications, data)
-            mechanism = _complete(assembly, template, alignment, specifications, data)
-            compared = compare_declared(mechanism, assembly, alignment)
-            lent = declared_values(mechanism, template, assembly, alignment, compared, specifications)
-            if lent.values:
-                specifications = specs.merge(lent, specifications)
-                mechanism = _complete(assembly, template, alignment, specifications, data)
-            start = kinematics.legal_start(mechanism)
-            if start is not None:
-                assembly, template, alignment = kinematics.started(assembly, template, alignment, start)
-                mechanism = _complete(assembly, template, alignment, specifications, data)
-                mechanism = replace(mechanism, findings=(*mechanism.findings, *start.findings))
-            mechanism = replace(mechanism, findings=(*mechanism.findings, *tape))
+            solved = solve(template, assembly, alignment, specifications, data, choices)
+            chosen, template, assembly, alignment = solved.chosen, solved.template, solved.assembly, solved.alignment
+            mechanism, specifications, compared = solved.mechanism, solved.specifications, solved.compared
 
         with clock.stage("measure", "Measuring the machine against its sheet"):
             measurements = kinematics.measure(mechanism)
@@ -205,6 +199,48 @@ def build(
         folder=out,
         fell_short=tuple(report.fell_short(document)),
     )
+
+
+@dataclass(frozen=True, eq=False)
+class Solved:
+    """A machine before it is measured and written: `chosen`, the template with its variants decided, `template`, that
+    with its rows counted; the CAD model, as started; what the file's declared joints were `compared` to."""
+
+    chosen: Template
+    template: Template
+    assembly: Assembly
+    alignment: Alignment
+    mechanism: Mechanism
+    specifications: Specifications
+    compared: tuple[ComparedJoint, ...]
+
+
+def solve(
+    template: Template,
+    assembly: Assembly,
+    alignment: Alignment,
+    specifications: Specifications,
+    data: library.Documents,
+    choices: Mapping[str, str],
+) -> Solved:
+    """The mechanism of an aligned CAD model: axes put where the sheet has them, values that the CAD file declares lent,
+    the machine brought to a pose within its limits."""
+    chosen = choose(template, {**alignment.choices, **choices})
+    template = expand(chosen, alignment.counts)
+    alignment, tape = on_sheet(assembly, template, alignment, specifications, data)
+    mechanism = _complete(assembly, template, alignment, specifications, data)
+    compared = compare_declared(mechanism, assembly, alignment)
+    lent = declared_values(mechanism, template, assembly, alignment, compared, specifications)
+    if lent.values:
+        specifications = specs.merge(lent, specifications)
+        mechanism = _complete(assembly, template, alignment, specifications, data)
+    start = kinematics.legal_start(mechanism)
+    if start is not None:
+        assembly, template, alignment = kinematics.started(assembly, template, alignment, start)
+        mechanism = _complete(assembly, template, alignment, specifications, data)
+        mechanism = replace(mechanism, findings=(*mechanism.findings, *start.findings))
+    mechanism = replace(mechanism, findings=(*mechanism.findings, *tape))
+    return Solved(chosen, template, assembly, alignment, mechanism, specifications, compared)
 
 
 def _earlier(alignment_file: Path | str | None, left: Path) -> Path | None:

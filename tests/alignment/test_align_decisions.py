@@ -164,3 +164,15 @@ def test_half_a_rule_is_refused(text: str) -> None:
 def test_a_role_that_is_none_is_refused(assembly: Assembly, template: Template) -> None:
     with pytest.raises(AlignmentError, match="no role of the template"):
         decide(None, Decisions(parse_rules(["cab=kitchen"])), assembly, template)
+
+
+def test_a_few_parts_do_not_take_their_body_along(assembly: Assembly, template: Template) -> None:
+    """All the small parts of the rear frame that are told to be of the front one are; nothing else changes."""
+    before = solved(assembly, template)
+    areas = {p.id: assembly.shape_of(p).area for p in assembly.parts}
+    rear = sorted((p for p in before.parts if p.role == "rear_frame"), key=lambda p: areas[p.part])
+    some = {p.part for p in rear[: len(rear) // 2]}
+    assert len(some) >= 3
+    after = solved(assembly, template, Decisions(parse_rules([f"{part}=front_frame" for part in sorted(some)])))
+    for old, new in zip(before.parts, after.parts, strict=True):
+        assert new.role == ("front_frame" if new.part in some else old.role), new.part

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from yellowiron.support.cache import cache_folder, remember
+from yellowiron.support.caching.disk import cache_folder, remember
 
 
 class Trap:

@@ -58,6 +58,7 @@ from yellowiron.model.errors import AlignmentError
 from yellowiron.model.geometry import Floats
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import Template, choose, without_absent_axles
+from yellowiron.support.caching.remembered import remembered
 from yellowiron.support.vectors import triple
 
 HELD = 0.7
@@ -90,7 +91,9 @@ def align(
     drawn = _without(assembly, bumpers)
     copies = {copy: first for copy, first in copies_of(drawn).items() if copy not in edited}
     single = _without(drawn, copies)
-    apart = separate_parts(single, [part for part, role in edited.items() if role])
+    apart = separate_parts(single)
+    wanted = frozenset(part for part, role in edited.items() if role and part in apart)
+    apart = dict(separate_parts(single, wanted) if wanted else apart)
     tracking = _without(single, apart)
     tracked, tracks = _tracked(tracking, template)
     machine = _without(tracking, set(tracked.values()))
@@ -243,7 +246,12 @@ def _standing(found: Alignment, answer: Answer, observation: Observation) -> set
 
 
 def _without(assembly: Assembly, parts: Collection[str]) -> Assembly:
-    """The assembly without the parts of these ids."""
+    """The assembly without the parts of these ids; the same object for the same ids."""
+    return _left(assembly, frozenset(parts))
+
+
+@remembered
+def _left(assembly: Assembly, parts: frozenset[str]) -> Assembly:
     return replace(assembly, parts=tuple(p for p in assembly.parts if p.id not in parts))
 
 
@@ -320,8 +328,11 @@ def _upright(tracks: list[Track]) -> Floats | None:
 
 def _tracked(assembly: Assembly, template: Template) -> tuple[dict[int, str], list[Track]]:
     """The parts of tracks, solid → id, and the tracks, where the template has any."""
-    if not any(r.kind == "shoe" for r in template.roles):
-        return {}, []
+    return _tracks(assembly) if any(r.kind == "shoe" for r in template.roles) else ({}, [])
+
+
+@remembered
+def _tracks(assembly: Assembly) -> tuple[dict[int, str], list[Track]]:
     solids = solids_of(assembly)
     tracks = tracks_of(solids)
     inside = {i for t in tracks for group in (*t.shoes, *(w.members for w in t.wheels)) for i in group}

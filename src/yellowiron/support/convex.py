@@ -5,7 +5,7 @@ Most parts of a machine are plates, flat or rolled: a profile drawn along a dire
 given half the wall's thickness inwards, so that nothing outside the material is filled; where that gives too many
 pieces, facets that are nearly flat together count as one.
 
-Pieces are kept on disk by the mesh's content (`yellowiron.support.cache`).
+Pieces are kept on disk by the mesh's content (`yellowiron.support.caching.disk`).
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from pathlib import Path
 import numpy as np
 
 from yellowiron.model.geometry import Floats, Mesh
-from yellowiron.support.cache import Arrays, remember
+from yellowiron.support.caching.disk import Arrays, remember
 
 EXCESS = 0.03
 """Two pieces of a profile become one if their hull is larger than they are by this share at most."""

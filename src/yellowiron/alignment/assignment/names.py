@@ -20,6 +20,7 @@ from rapidfuzz.distance import DamerauLevenshtein
 from yellowiron.model.assembly import Part
 from yellowiron.model.specification import fold
 from yellowiron.model.template import Role, Template
+from yellowiron.support.caching.remembered import remembered
 
 ABOVE = 0.55
 """What the assembly right above a part counts against the part's own name; each further one again."""
@@ -74,6 +75,7 @@ def _common() -> Words:
     return {key: {lang: tuple(words) for lang, words in entry.items()} for key, entry in json.loads(text).items()}
 
 
+@remembered
 def vocabulary(template: Template) -> Vocabulary:
     """The words of a template: its own first, then those in its role names, then those of any machine."""
     phrases: dict[tuple[str, ...], frozenset[str]] = {}

@@ -18,7 +18,13 @@ from yellowiron.alignment.assignment.cp_sat import JOINT_WEIGHT, MISSING_WEIGHT,
 from yellowiron.alignment.assignment.names import name_scores
 from yellowiron.alignment.assignment.one_sided import one_sided
 from yellowiron.alignment.assignment.sheet_weights import sheet_weights
-from yellowiron.alignment.assignment.weights import name_agreement, name_weights, size_weights
+from yellowiron.alignment.assignment.weights import (
+    MOSTLY,
+    decided_shares,
+    name_agreement,
+    name_weights,
+    size_weights,
+)
 from yellowiron.alignment.structure.clusters import Structure, loose_ends, structure_of
 from yellowiron.alignment.structure.observation import Observation, slewing_joints
 from yellowiron.alignment.tolerances import CONTACT, UPRIGHT
@@ -80,9 +86,18 @@ class Search:
                         self._try(contact, structure, chosen)
                         if self._effort.spent:
                             return self._result()
-                    if self.best is not None and is_whole(self.best) and not self.edited:
+                    if self.best is not None and is_whole(self.best) and self._obeyed(self.best):
                         return self._result()
         return self._result()
+
+    def _obeyed(self, answer: Answer) -> bool:
+        """Whether no cluster is found to be another body than what a person said of most of it."""
+        solids, body_of = self._looked[answer.contact][0].solids, answer.solution.body_of
+        for c, found in sorted(body_of.items()):
+            said = decided_shares(solids, answer.structure.clusters[c].members, answer.template, self.edited)
+            if any(share > MOSTLY and found != body for body, share in said.items()):
+                return False
+        return True
 
     def _result(self) -> tuple[Answer, Observation, list[dict[str, float]]]:
         assert self.best is not None

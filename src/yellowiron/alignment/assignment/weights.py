@@ -6,7 +6,7 @@ A found joint counts `solve.JOINT_WEIGHT`; everything here counts less, save a p
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 
 import numpy as np
 
@@ -21,6 +21,8 @@ Weights = dict[tuple[int, str], int]
 NAME_WEIGHT = 40
 EXACT_WEIGHT = 70
 EDIT_WEIGHT = 250
+MOSTLY = 0.5
+"""More than this share of a cluster's surface speaks for all of it, where a person speaks."""
 SIDE_WEIGHT = 80
 SIZE_WEIGHT = 12
 AS_GOOD = 0.1
@@ -40,7 +42,6 @@ def name_weights(
     """Weights from what the parts are called (`scores`, by solid) and from what a person said (part id → role)."""
     unary: Weights = {}
     bodies = {r.name for r in template.roles if r.rigid}
-    known = {r.name for r in template.roles}
     for c, cluster in enumerate(structure.clusters):
         members = sorted(cluster.members)
         telling = [i for i in members if scores[i]]
@@ -52,12 +53,25 @@ def name_weights(
             if body in bodies:
                 exact = votes[body] > 1
                 unary[c, body] = round(EXACT_WEIGHT if exact else NAME_WEIGHT * votes[body])
-        for i in members:
-            role = edited.get(solids[i].part.id)
-            body_said = template.body_of(role) if role in known and role is not None else None
-            if body_said is not None:
-                unary[c, body_said] = unary.get((c, body_said), 0) + EDIT_WEIGHT
+        for body, share in decided_shares(solids, members, template, edited).items():
+            unary[c, body] = unary.get((c, body), 0) + round(EDIT_WEIGHT * (1.0 if share > MOSTLY else share))
     return unary
+
+
+def decided_shares(
+    solids: tuple[Solid, ...], members: Collection[int], template: Template, edited: Mapping[str, str]
+) -> dict[str, float]:
+    """Body → the share of a cluster's surface that a person said is of it. A part that is put elsewhere takes the rest
+    of its cluster along only if it is most of it."""
+    known = {r.name for r in template.roles}
+    total = sum(solids[i].surface for i in sorted(members)) or 1.0
+    found: dict[str, float] = {}
+    for i in sorted(members):
+        role = edited.get(solids[i].part.id)
+        body = template.body_of(role) if role in known and role is not None else None
+        if body is not None:
+            found[body] = found.get(body, 0.0) + solids[i].surface / total
+    return found
 
 
 def name_agreement(structure: Structure, solution: Solution, scores: list[dict[str, float]]) -> float:

@@ -7,6 +7,7 @@ from scipy.spatial import cKDTree
 
 from yellowiron.alignment.tolerances import CONTACT
 from yellowiron.model.assembly import Assembly
+from yellowiron.support.caching.remembered import remembered
 
 CLOSE = 0.01
 """The boxes of copies differ by no more than this share of the part's size …"""
@@ -14,6 +15,7 @@ ALIKE = 0.02
 """… and their surfaces by no more than this share."""
 
 
+@remembered
 def copies_of(assembly: Assembly) -> dict[str, str]:
     """Part id → the id of the part that it is a copy of, in the same place; of several the first id counts, whatever
     their order. Parts without a mesh are copies of none."""

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -11,9 +9,13 @@ from yellowiron.alignment.features.ground import grounds_of
 from yellowiron.alignment.tolerances import FAR
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.geometry import Floats
+from yellowiron.support.caching.remembered import remembered
 
 
-def separate_parts(assembly: Assembly, wanted: Collection[str] = (), *, grounds: bool = True) -> dict[str, float]:
+@remembered
+def separate_parts(
+    assembly: Assembly, wanted: frozenset[str] = frozenset(), *, grounds: bool = True
+) -> dict[str, float]:
     """Part id → metres (between boxes) to the machine, for the parts that stand apart from it.
 
     The machine is the group of most parts (then of most volume) of which each is near another; groups that hold one of

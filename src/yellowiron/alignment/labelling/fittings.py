@@ -17,6 +17,7 @@ from yellowiron.alignment.features.distance import Touch
 from yellowiron.alignment.features.solids import Solid
 from yellowiron.alignment.labelling.place import DOUBTFUL, Place
 from yellowiron.model.assembly import Assembly
+from yellowiron.support.caching.remembered import remembered
 
 SMALL = 0.01
 """The diagonal of a fitting, as a share of the machine's: 10 cm on 10 m. The smallest pins have 1.7 %."""
@@ -28,6 +29,7 @@ SITTING = 0.92
 """Confidence of what sits on parts of one body, as a share of theirs."""
 
 
+@remembered
 def fittings_of(assembly: Assembly) -> set[str]:
     """The ids of an assembly's fittings; none where they are not many."""
     parts = [p for p in assembly.parts if len(assembly.shape_of(p).mesh.points)]

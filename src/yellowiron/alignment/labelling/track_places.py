@@ -18,6 +18,7 @@ from yellowiron.alignment.labelling.place import DOUBTFUL, Place
 from yellowiron.model.geometry import Floats
 from yellowiron.model.rows import member, split_index
 from yellowiron.model.template import Role, Template
+from yellowiron.support.caching.remembered import remembered
 
 PLAIN = 0.02
 """The rims of two wheels differ if one reaches this share of its radius further out than the other's."""
@@ -29,6 +30,7 @@ KINDS = ("shoe", "sprocket", "idler", "roller", "carrier")
 """Kinds of roles of a track's parts."""
 
 
+@remembered
 def without_tracks(template: Template) -> Template:
     """The template without the parts of tracks, which are found by themselves, and without hidden bodies."""
     gone = {r.name for r in template.roles if r.many or r.kind in KINDS}

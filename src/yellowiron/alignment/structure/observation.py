@@ -24,6 +24,7 @@ from yellowiron.alignment.structure.contact_evidence import ContactEvidence, Con
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.geometry import Floats
 from yellowiron.model.template import Template
+from yellowiron.support.caching.remembered import remembered
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,6 +46,7 @@ class Observation:
     nests: tuple[Nest, ...] = ()
 
 
+@remembered
 def observe(assembly: Assembly, template: Template, contact: float) -> Observation:
     """Looks at a model with a contact tolerance (share of its diagonal); `template` says what to look for: hydraulic
     cylinders, how many wheels, a slewing bearing."""

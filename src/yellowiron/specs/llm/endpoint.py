@@ -20,7 +20,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from yellowiron.model.errors import YellowironError
-from yellowiron.support.cache import cache_folder
+from yellowiron.support.caching.disk import cache_folder
 from yellowiron.support.output import output_file
 
 if TYPE_CHECKING:
