@@ -15,8 +15,9 @@ from kit.scene import scene
 from yellowiron.alignment import align
 from yellowiron.alignment.features.solids import size_of, solids_of
 from yellowiron.alignment.fusion.bonds import Bond, out_of_line
-from yellowiron.alignment.fusion.judge import Annealing, field_of, labelled, leads, score_of
+from yellowiron.alignment.fusion.judge import Annealing, against, field_of, labelled, leads, score_of
 from yellowiron.alignment.fusion.pieces import Piece, leading
+from yellowiron.alignment.fusion.reading import CONTRARY
 from yellowiron.alignment.fusion.stance import stance_of
 from yellowiron.alignment.fusion.votes import LENT, borrowed
 from yellowiron.alignment.fusion.weights import weights
@@ -164,3 +165,33 @@ def test_a_pipe_along_a_bar_is_in_line_and_a_pedal_beside_it_is_not() -> None:
     bar = piece((0, 0, 0), (1.5, 0.1, 0.1))
     pipe, pedal = piece((0.2, 0.12, 0), (1.0, 0.02, 0.02)), piece((0.2, 0.5, 0), (0.2, 0.06, 0.06))
     assert out_of_line([bar, pipe, pedal]).tolist() == [[False, False, True], [False, False, True], [True, True, False]]
+
+
+def test_names_against_everything_else_are_doubted(excavator: Template) -> None:
+    """Three pieces in a row, of which the outer ones are boom and bucket: what is called a boom between them is told
+    apart from what is called an arm there."""
+    for name, doubted in (("arm", False), ("boom", True)):
+        votes: list[dict[str, dict[str, float]]] = [
+            {"boom": {"said": 1.0}}, {"arm": {}, "boom": {}}, {"bucket": {"said": 1.0}}
+        ]  # fmt: skip
+        votes[1][name] = {"name": 1.0}
+        field = field_of(votes, [_bond(0, 1, hinge=True), _bond(1, 2, hinge=True)], excavator, weights())
+        labels, _ = labelled(field)
+        assert field.bodies[labels[1]] == name
+        told = np.array([[weights()["name"] * v.get(b, {}).get("name", 0.0) for b in field.bodies] for v in votes])
+        assert bool(against(field, labels, told)[1] > CONTRARY) is doubted
+
+
+@pytest.mark.parametrize("kind", ["loader", "excavator"])
+def test_names_of_tools_and_random_ones_are_as_good_as_none(kind: str) -> None:
+    """No cylinders: contacts alone do not find the machine, so that names would lead."""
+    given = scene(kind, 4, "no cylinders", names="without")
+    template = load_template(given.type)
+    found = []
+    for names in (["part"], ["Cube", "Cylinder", "Plane", "Circle"]):
+        parts = tuple(
+            replace(p, name=f"{names[k % len(names)]}.{k:03d}", path=()) for k, p in enumerate(given.assembly.parts)
+        )
+        alignment = align(replace(given.assembly, parts=parts), template, Specifications())
+        found.append([(p.role, p.body) for p in alignment.parts])
+    assert found[0] == found[1]

@@ -15,6 +15,7 @@ from yellowiron.alignment.assignment.names import (
     role_concepts,
     spoken,
     tokens,
+    unnamed,
     vocabulary,
 )
 from yellowiron.library import load_template
@@ -162,3 +163,23 @@ def test_collision_meshes() -> None:
     assert found == {"UCX_Boom_01", "Col_Bucket_Floor_mesh", "Cab-convcolonly"}
     assert collision_parts([part("Boom", "Colliders"), part("Arm")]) == {"Boom"}
     assert not collision_parts([part(f"Col_{k}") for k in range(9)])
+
+
+def test_names_of_modelling_tools_say_nothing(digger: Template) -> None:
+    """A cylinder beside cubes and planes is a primitive, a cylinder beside booms is a hydraulic one."""
+    tools = ["Cube.002", "Cylinder.003", "pCylinder12", "polySurface7", "Mesh_0_lambert1", "Box (3)"]
+    assert unnamed([*tools, "Boom", "hydraulic cylinder", "Cylinder boom"]) == set(tools)
+    assert unnamed(["Cylinder 1", "Boom", "Body2"]) == set()
+    assert name_scores((part("Cube.001"), part("Cylinder.004")), digger) == [{}, {}]
+    assert "boom_cylinder_barrel" in name_scores((part("Boom"), part("Cylinder.004")), digger)[1]
+
+
+@pytest.mark.parametrize(("name", "bodies"), [
+    ("BottomPart", {"undercarriage"}),
+    ("Base1", {"undercarriage", "upperstructure"}),
+    ("Boom cylinder bottom", {"boom_cylinder_barrel", "boom_piston_rod"}),
+    ("Track base left", {"track_shoe_l"}),
+])  # fmt: skip
+def test_vague_words_speak_where_nothing_else_does(digger: Template, name: str, bodies: set[str]) -> None:
+    said = name_scores((part(name), part("x")), digger)[0]
+    assert {b for b, score in said.items() if score == max(said.values())} == bodies

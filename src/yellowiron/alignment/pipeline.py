@@ -63,6 +63,8 @@ from yellowiron.support.vectors import triple
 
 HELD = 0.7
 """Contacts that find this share of the type's joints have found the machine; below, every reading is asked."""
+HEARD = 0.9
+"""Names trusted so far go before contacts that they contradict and that did not find the whole machine."""
 
 
 def align(
@@ -109,12 +111,17 @@ def align(
     search = Search(look, plain, specifications, choices or {}, edited)
     answer, observation, scores = search.run()
     agreement = search.agreement
-    if held_share(answer) >= HELD:
-        answer, frame = _framed(answer, observation, tracks)
+    held, contradicted = held_share(answer) >= HELD, agreement < BELIEVED and not is_whole(answer)
+    fused_reading = None
+    if not held or contradicted:
+        wide = look(CONTACT[-1])
+        named = name_scores(tuple(s.part for s in wide.solids), plain, template)
+        fused_reading = _fused(answer, wide, named, plain, choices or {}, edited, tracks)
+    # Names against contacts that found most of a machine: they are heard where they explain who is beside whom.
+    if fused_reading is not None and (not held or fused_reading[2] >= HEARD):
+        (answer, frame, agreement), observation, scores = fused_reading, wide, named
     else:
-        observation = look(CONTACT[-1])
-        scores = name_scores(tuple(s.part for s in observation.solids), plain, template)
-        answer, frame, agreement = _fused(answer, observation, scores, plain, choices or {}, edited, tracks)
+        answer, frame = _framed(answer, observation, tracks)
     propagation = Propagation(
         observation,
         answer,

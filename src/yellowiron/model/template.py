@@ -16,6 +16,10 @@ Choices = Mapping[str, tuple[str, ...]]
 """Variant name → the choices under which an entry exists; empty: always."""
 
 
+VAGUE = "?"
+"""What those of a template's words begin with that speak only where nothing else in a name does."""
+
+
 @dataclass(frozen=True)
 class Role:
     """A part name of the hierarchy.

@@ -19,7 +19,7 @@ from rapidfuzz.distance import DamerauLevenshtein
 
 from yellowiron.model.assembly import Part
 from yellowiron.model.specification import fold
-from yellowiron.model.template import Role, Template
+from yellowiron.model.template import VAGUE, Role, Template
 from yellowiron.support.caching.remembered import remembered
 
 ABOVE = 0.55
@@ -62,10 +62,12 @@ Words = Mapping[str, Mapping[str, tuple[str, ...]]]
 @dataclass(frozen=True, eq=False)
 class Vocabulary:
     """What words mean: `phrases` of tokens, and words of `scripts` without spaces, to concepts (words of role names).
+    `vague` ones speak only where nothing else in a name does: a bottom may be an undercarriage, or the end of a rod.
     `known` remembers what was asked before."""
 
     phrases: dict[tuple[str, ...], frozenset[str]]
     scripts: dict[str, frozenset[str]]
+    vague: dict[tuple[str, ...], frozenset[str]] = field(default_factory=dict)
     known: dict[object, frozenset[str]] = field(default_factory=dict)
 
 
@@ -80,6 +82,7 @@ def vocabulary(template: Template) -> Vocabulary:
     """The words of a template: its own first, then those in its role names, then those of any machine."""
     phrases: dict[tuple[str, ...], frozenset[str]] = {}
     scripts: dict[str, frozenset[str]] = {}
+    vague: dict[tuple[str, ...], frozenset[str]] = {}
     own = {t: {"en": (t,)} for r in template.roles for t in r.name.split("_") if t not in _SIDES and t != "piston"}
     for table in (template.words, own, _common()):
         for key, entry in table.items():
@@ -88,8 +91,9 @@ def vocabulary(template: Template) -> Vocabulary:
                     scripts.setdefault(unicodedata.normalize("NFKC", word), frozenset(key.split()))
                     continue
                 for spelled in (word, _spelled_out(word)):
-                    phrases.setdefault(tuple(tokens(spelled)), frozenset(key.split()))
-    return Vocabulary(phrases, scripts)
+                    meant = vague if key.startswith(VAGUE) else phrases
+                    meant.setdefault(tuple(tokens(spelled)), frozenset(key.removeprefix(VAGUE).split()))
+    return Vocabulary(phrases, scripts, {words: said for words, said in vague.items() if words not in phrases})
 
 
 def _spelled_out(word: str) -> str:
@@ -129,7 +133,10 @@ def _concepts(text: str, words: Vocabulary) -> frozenset[str]:
             if meant:
                 found |= meant
                 used[start : start + size] = [True] * size
-    return frozenset(found)
+    if found - _PLACES:
+        return frozenset(found)
+    runs = (tuple(said[a:b]) for a in range(len(said)) for b in range(len(said), a, -1))
+    return frozenset(found).union(next((words.vague[run] for run in runs if run in words.vague), ()))
 
 
 def mended(text: str, words: Vocabulary) -> str:
@@ -255,6 +262,28 @@ def _telling(names: Sequence[str], words: Vocabulary) -> dict[str, float]:
     return {concept: max(0.0, (IDLE - share) / (IDLE - COMMON)) for concept, share in shares.items()}
 
 
+def unnamed(names: Iterable[str]) -> frozenset[str]:
+    """Those of a model's names that its modelling tool gave, which say nothing: `Cube.002`, `pCylinder12`, `Solid 3`,
+    `polySurface7`, `Mesh_0_lambert1`. What could be a part of a machine as well (a cylinder, a body) is one only beside
+    others that could not."""
+    found: dict[bool, set[str]] = {True: set(), False: set()}
+    known = _defaults()
+    for name in names:
+        said = [t for t in tokens(name) if len(t) > 1]
+        if said and all(t in known for t in said):
+            found[all(known[t] for t in said)].add(name)
+    sure, doubtful = found[False], found[True]
+    return frozenset(sure | doubtful) if sure else frozenset()
+
+
+@functools.cache
+def _defaults() -> Mapping[str, bool]:
+    """Word that modelling tools give → whether a machine may have a part of that name."""
+    text = resources.files("yellowiron.alignment").joinpath("data/defaults.json").read_text(encoding="utf-8")
+    document = json.loads(text)
+    return dict.fromkeys(document["tools"], False) | dict.fromkeys(document["doubtful"], True)
+
+
 def name_scores(parts: tuple[Part, ...], template: Template, whole: Template | None = None) -> list[dict[str, float]]:
     """For every part: body → how well its names speak of it (`EXACT` where it bears the exact name of one of its
     roles). Names of assemblies that hold all parts say nothing, nor does a word that most parts' own names have; one
@@ -265,13 +294,15 @@ def name_scores(parts: tuple[Part, ...], template: Template, whole: Template | N
     shared = 0
     while len({p.path[: shared + 1] for p in parts}) == 1 and all(len(p.path) > shared for p in parts):
         shared += 1
+    silent = unnamed(n for p in parts for n in (p.name, *p.path))
     telling = _telling([p.name for p in parts], words)
     bodies: dict[str, list[frozenset[str]]] = {}
     for wanted_body, wanted in _wanted(template, whole or template):
         bodies.setdefault(wanted_body, []).append(wanted)
     scores = []
     for part in parts:
-        said = spoken((part.name, *reversed(part.path[shared:])), words)
+        names = ("" if name in silent else name for name in (part.name, *reversed(part.path[shared:])))
+        said = spoken(names, words)
         # What an assembly is called counts as it stands: all that is in it may well be most of the machine.
         said = {c: w * telling.get(c, 1.0) if w == 1.0 else w for c, w in said.items()}
         said = {c: w for c, w in said.items() if w > 0.0}

@@ -100,9 +100,10 @@ def field_of(
         bodies,
         unary,
         np.array([(b.a, b.b) for b in bonds], dtype=np.int64).reshape(-1, 2),
-        np.array([(weighed(b.same, weights), weights["joined"] * b.beside) for b in bonds], dtype=np.float64).reshape(
-            -1, 2
-        ),
+        np.array(
+            [(weighed(b.same, weights), weights["joined"] * b.beside + weights["branched"] * b.branch) for b in bonds],
+            dtype=np.float64,
+        ).reshape(-1, 2),
         np.array([b.beside for b in bonds], dtype=np.int64),
         np.array([(b.hinge, b.slide) for b in bonds], dtype=np.int64).reshape(-1, 2),
         joint,
@@ -277,3 +278,18 @@ def leads(field: Field, labels: Ints) -> tuple[Floats, Ints]:
         lead[p] = own - scores[second[p]]
         state.put(p, int(labels[p]))
     return lead, second
+
+
+def against(field: Field, labels: Ints, told: Floats) -> Floats:
+    """(pieces,) by how much another label would be better than a piece's own, all others as they are, if what it was
+    `told` (pieces, labels) did not count; below 0, everything else agrees."""
+    state = Annealing(field, labels)
+    found = np.zeros(len(labels))
+    for p in range(len(labels)):
+        scores = state.conditional(p)
+        scores[:-1] -= told[p]
+        own = scores[labels[p]]
+        scores[labels[p]] = -np.inf
+        found[p] = scores.max() - own
+        state.put(p, int(labels[p]))
+    return found

@@ -11,7 +11,7 @@ import numpy as np
 from yellowiron.alignment.assignment.answer import Answer, Judged
 from yellowiron.alignment.assignment.cp_sat import MISSING_WEIGHT, Solution
 from yellowiron.alignment.fusion.bonds import Bond, bonds_of, out_of_line
-from yellowiron.alignment.fusion.judge import Field, field_of, labelled, leads, weighed
+from yellowiron.alignment.fusion.judge import Field, against, field_of, labelled, leads, weighed
 from yellowiron.alignment.fusion.pieces import Piece, leading, pieces_of
 from yellowiron.alignment.fusion.stance import Stance, stance_of
 from yellowiron.alignment.fusion.votes import (
@@ -27,6 +27,7 @@ from yellowiron.alignment.fusion.votes import (
 from yellowiron.alignment.fusion.weights import weights
 from yellowiron.alignment.structure.clusters import Structure, labelled_structure
 from yellowiron.alignment.structure.observation import Observation
+from yellowiron.model.geometry import Floats
 from yellowiron.model.template import Template, choose
 
 MISSING = 60.0
@@ -43,6 +44,8 @@ TELLING = ("name", "said")
 GROUND = 30.0
 """By so much names (or a person) speak more for a body than for any other where they tell which it is. Contacts that
 did not find the machine tell nothing for certain."""
+CONTRARY = 25.0
+"""Where all but the names speak so much more for another body, names are not enough to go unasked."""
 CLEAR_LEAD = 12.0
 """A small piece whose body is better than any other by less than this goes with what it touches."""
 
@@ -243,6 +246,7 @@ def _judged(best: _Best, evidence: Evidence) -> dict[int, Judged]:
     labels, _ = labelled(field, start, sweeps=0)
     lead, second = leads(best.field, best.labels)
     lead_all, second_all = leads(field, labels)
+    contrary = against(best.field, best.labels, _told([best.votes[k] for k in chief], bodies))
     found: dict[int, Judged] = {}
     for k, piece in enumerate(pieces):
         if labels[k] == none:
@@ -251,16 +255,28 @@ def _judged(best: _Best, evidence: Evidence) -> dict[int, Judged]:
         if k in label_of:
             n = list(chief).index(k)
             margin, other = float(lead[n]), int(second[n])
+            doubted = contrary[n] > CONTRARY
+            import sys
+
+            sys.stderr.write(
+                f"CON {body} {contrary[n]:.0f} {sorted(piece.members)[:1]} {best.votes[k][body].get('name', 0):.2f}\n"
+            )
         else:
+            doubted = False
             margin, other = float(lead_all[k]), int(second_all[k])
             if margin < CLEAR_LEAD:
                 continue
         vote = best.votes[k][body]
         words = _words(body, margin, bodies[other] if other < none else None, vote)
-        grounded = _grounded(body, best.votes[k], named(piece, evidence.scores), evidence.trust)
+        grounded = not doubted and _grounded(body, best.votes[k], named(piece, evidence.scores), evidence.trust)
         for i in piece.members:
             found[i] = Judged(body, margin, bodies[other] if other < none else None, words, grounded)
     return found
+
+
+def _told(votes: Sequence[Mapping[str, Features]], bodies: Sequence[str]) -> Floats:
+    """(pieces, bodies) what names say."""
+    return np.array([[weights()["name"] * mine.get(b, {}).get("name", 0.0) for b in bodies] for mine in votes])
 
 
 def _grounded(body: str, votes: Mapping[str, Features], said: Mapping[str, float], trust: float) -> bool:

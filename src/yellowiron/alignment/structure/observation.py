@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from yellowiron.alignment.features.branches import branches_of
 from yellowiron.alignment.features.contacts import (
     Flat,
     bare_fits_of,
@@ -30,7 +31,8 @@ from yellowiron.support.caching.remembered import remembered
 @dataclass(frozen=True, eq=False)
 class Observation:
     """What geometry shows, before any role: the solids, flat contacts and `near` pairs of them, hydraulic cylinders,
-    wheels, sections in each other (`nests`), what the contacts can mean (`evidence`: the usual reading first, then, if
+    wheels, sections in each other (`nests`), pairs of solids of which one is the other's child in
+    the scene's tree (`branches`), what the contacts can mean (`evidence`: the usual reading first, then, if
     it differs, the one with slewing bearings), what asks for distances (`touch`), the machine's size in metres, and the
     upright where it is known. CAD frame."""
 
@@ -44,6 +46,7 @@ class Observation:
     size: float
     up: Floats | None = None
     nests: tuple[Nest, ...] = ()
+    branches: tuple[tuple[int, int], ...] = ()
 
 
 @remembered
@@ -85,7 +88,10 @@ def observe(assembly: Assembly, template: Template, contact: float) -> Observati
     if slewing_joints(template):
         other = evidence_of(replace(contacts, fits=[*fits, *tables_of(solids, flats)]), slewing=True)
         evidence += [other] if len(other.races) > len(evidence[0].races) else []
-    return Observation(solids, flats, near, tuple(cylinders), wheels, tuple(evidence), touch, size, nests=nests)
+    branches = branches_of(assembly, solids)
+    return Observation(
+        solids, flats, near, tuple(cylinders), wheels, tuple(evidence), touch, size, nests=nests, branches=branches
+    )
 
 
 def _sections(template: Template) -> bool:

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from yellowiron.library.notation.validated_json import Document, near
 from yellowiron.model.errors import TemplateError
 from yellowiron.model.specification import fold
-from yellowiron.model.template import Role
+from yellowiron.model.template import VAGUE, Role
 
 
 def read_words(document: Document, roles: tuple[Role, ...]) -> Mapping[str, Mapping[str, tuple[str, ...]]]:
@@ -16,7 +16,8 @@ def read_words(document: Document, roles: tuple[Role, ...]) -> Mapping[str, Mapp
     known = {word for role in roles for word in role.name.split("_")}
     found = {}
     for key, entry in document.data.items():
-        words = key.replace("_", " ").casefold().split()
+        vague = VAGUE if key.startswith(VAGUE) else ""
+        words = key.removeprefix(VAGUE).replace("_", " ").casefold().split()
         for word in words:
             if word not in known:
                 raise TemplateError(
@@ -24,5 +25,5 @@ def read_words(document: Document, roles: tuple[Role, ...]) -> Mapping[str, Mapp
                     where=document.at(key),
                     hint=near(fold(word), known) or "Write words of the role names, as in `rear frame`.",
                 )
-        found[" ".join(words)] = {language: tuple(names) for language, names in entry.items()}
+        found[vague + " ".join(words)] = {language: tuple(names) for language, names in entry.items()}
     return found
