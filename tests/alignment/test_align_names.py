@@ -158,9 +158,19 @@ def test_a_word_that_many_names_have_says_less(digger: Template) -> None:
 
 
 def test_collision_meshes() -> None:
-    names = ["Boom", "UCX_Boom_01", "Bucket", "Col_Bucket_Floor_mesh", "Column", "Cab-convcolonly", "Collar"]
+    names = [
+        "Boom",
+        "UCX_Boom_01",
+        "Bucket",
+        "Col_Bucket_Floor_mesh",
+        "Column",
+        "Cab-convcolonly",
+        "Collar",
+        "Vol_Cavity",
+        "VolvoCab",
+    ]
     found = collision_parts([part(n) for n in names])
-    assert found == {"UCX_Boom_01", "Col_Bucket_Floor_mesh", "Cab-convcolonly"}
+    assert found == {"UCX_Boom_01", "Col_Bucket_Floor_mesh", "Cab-convcolonly", "Vol_Cavity"}
     assert collision_parts([part("Boom", "Colliders"), part("Arm")]) == {"Boom"}
     assert not collision_parts([part(f"Col_{k}") for k in range(9)])
 

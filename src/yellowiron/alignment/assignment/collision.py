@@ -1,7 +1,7 @@
 """Collision meshes: what game engines let a machine bump with, drawn over its parts and none of them itself.
 
 The words are those by which engines' importers know them: Unreal's UCX, UBX, USP and UCP before a mesh's name, Godot's
-`-col`, `-colonly`, `-convcol` and `-convcolonly` behind it; and the words themselves.
+`-col`, `-colonly`, `-convcol` and `-convcolonly` behind it; the words themselves; and volumes that trigger something.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from yellowiron.model.assembly import Part
 
 WORDS = frozenset(
     ("ucx", "ubx", "usp", "ucp", "col", "colonly", "convcol", "convcolonly", "collider", "colliders", "collision",
-     "collisions", "hitbox", "hitboxes")
+     "collisions", "hitbox", "hitboxes", "trigger", "triggers", "vol", "volume", "bbox", "occluder")
 )  # fmt: skip
 """A name that begins or ends with one of these is a collision mesh's."""
 _IDLE = frozenset(("mesh", "node", "geometry", "object"))

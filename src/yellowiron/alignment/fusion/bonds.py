@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from yellowiron.alignment.assignment.names import unnamed
 from yellowiron.alignment.fusion.pieces import Piece
 from yellowiron.alignment.fusion.stance import Stance
 from yellowiron.alignment.structure.clusters import Structure
@@ -87,10 +88,13 @@ def bonds_of(observation: Observation, pieces: Sequence[Piece], structure: Struc
 
 
 def _stems(observation: Observation, pieces: Sequence[Piece]) -> set[tuple[int, int]]:
-    """Pairs of pieces whose names differ in their numbers alone, where few pieces have that name."""
+    """Pairs of pieces whose names differ in their numbers alone, where few pieces have that name; those that a
+    modelling tool gave say nothing."""
     groups: dict[str, set[int]] = {}
+    silent = unnamed(s.part.name for s in observation.solids)
     for k, piece in enumerate(pieces):
-        names = {re.sub(r"[\W\d_]+", "", observation.solids[i].part.name.casefold()) for i in piece.members}
+        own = {observation.solids[i].part.name for i in piece.members} - silent
+        names = {re.sub(r"[\W\d_]+", "", name.casefold()) for name in own}
         for name in names - {""}:
             groups.setdefault(name, set()).add(k)
     small = [g for g in groups.values() if 1 < len(g) <= max(2, FEW * len(pieces))]
