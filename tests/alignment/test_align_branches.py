@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from yellowiron.alignment.features.branches import branches_of
 from yellowiron.alignment.features.solids import solids_of
+from yellowiron.alignment.structure.branches import branches_of
 from yellowiron.model.assembly import Assembly, Node, Part
 from yellowiron.model.geometry import Mesh, Shape
 

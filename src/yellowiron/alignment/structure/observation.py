@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from yellowiron.alignment.features.branches import branches_of
 from yellowiron.alignment.features.contacts import (
     Flat,
     bare_fits_of,
@@ -21,6 +20,7 @@ from yellowiron.alignment.features.telescopes import Nest, nests_of
 from yellowiron.alignment.features.undrilled import interrupted_fits_of, pierced_fits_of, rimmed_fits_of
 from yellowiron.alignment.features.undrilled_cylinders import apart_cylinders_of, solid_cylinders_of
 from yellowiron.alignment.features.wheels import Wheel, wheels_of
+from yellowiron.alignment.structure.branches import branches_of
 from yellowiron.alignment.structure.contact_evidence import ContactEvidence, Contacts, evidence_of, tables_of
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.geometry import Floats
