@@ -159,3 +159,30 @@ def test_a_pdf_without_text_leaves_the_machine_built(example: Path, tmp_path: Pa
     assert statuses["Lift Cylinder Stroke"] == "unreadable"
     assert "Lift Cylinder Stroke" in report["missing"]
     assert (tmp_path / "out" / "wheel_loader.usda").exists()
+
+
+@pytest.mark.parametrize(
+    ("option", "value", "word"),
+    [
+        ("--specs", "nope.pdf", "nope.pdf cannot be read"),
+        ("--specs", "no.txt", "is not a PDF"),
+        ("--data", "nope.json", "cannot be read"),
+        ("--data", "no.txt", "not JSON"),
+        ("--alignment", "nope.json", "The alignment cannot be read"),
+        ("--cad", "nope.step", "no such CAD file"),
+        ("--out", "no.txt", "is a file"),
+        ("--set", "X=3", "called 'X'"),
+        ("TYPE", "no_type", "no equipment type"),
+    ],
+)
+def test_inputs_are_looked_at_before_anything_is_loaded(
+    option: str, value: str, word: str, example: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Every one of them, before the pipeline's libraries are imported: that alone takes more than a second."""
+    (tmp_path / "no.txt").write_text("nothing", encoding="utf-8")
+    monkeypatch.setitem(sys.modules, "yellowiron.pipeline", None)
+    given = {"TYPE": "wheel_loader", "--cad": str(example / "wheel_loader.step"), "--out": "out", option: value}
+    kind = given.pop("TYPE")
+    outcome = console("build", kind, *[w for pair in given.items() for w in pair], cwd=tmp_path)
+    assert outcome.returncode == 2 and word in outcome.stderr, outcome.stderr
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["no.txt"]

@@ -3,6 +3,11 @@
 from __future__ import annotations
 
 import json
+import os
+import signal
+import subprocess
+import sys
+import time
 from pathlib import Path
 from typing import Any
 
@@ -31,6 +36,33 @@ def test_templates_list_and_show(capsys: pytest.CaptureFixture[str]) -> None:
 def test_a_copy_says_where_it_is(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     code, copied = _asked(capsys, "templates", "copy", "wheel_loader", tmp_path / "mine")
     assert code == 0 and (Path(copied["folder"]) / "joints.json").is_file()
+
+
+def test_a_copy_that_has_no_joints_is_not_promised_to_build(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    assert not app(["templates", "copy", "backhoe_loader", str(tmp_path / "mine")], standalone_mode=False)
+    said = capsys.readouterr().out
+    assert "build with it" not in said and "yellowiron extract" in said
+    code, copied = _asked(capsys, "templates", "copy", "backhoe_loader", tmp_path / "other")
+    assert code == 0 and copied["sheet_only"] is True
+
+
+@pytest.mark.parametrize("sent", [signal.SIGHUP, signal.SIGTERM])
+def test_a_closed_terminal_leaves_nothing_behind(example: Path, tmp_path: Path, sent: signal.Signals) -> None:
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(p for p in sys.path if p)}
+    command = [sys.executable, "-m", "yellowiron", "build", "wheel_loader", "--cad", example / "wheel_loader.step"]
+    ours = subprocess.Popen([*command, "--out", tmp_path / "out" / "loader"], env=environment,
+                            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)  # fmt: skip
+    try:
+        end = time.monotonic() + 60.0
+        while not list(tmp_path.glob("out/.*/new")):
+            assert time.monotonic() < end and ours.poll() is None
+            time.sleep(0.02)
+        ours.send_signal(sent)
+        assert ours.wait(60.0) == 128 + sent
+        assert list(tmp_path.iterdir()) == []
+    finally:
+        ours.kill()
+        ours.wait()
 
 
 @pytest.mark.slow

@@ -4,9 +4,12 @@ The truth's own limits are in the data's README: hinges fit the bores within 1 m
 
 from __future__ import annotations
 
+import base64
 import contextlib
+import gzip
 import json
 import math
+import re
 import struct
 from pathlib import Path
 from typing import Any
@@ -193,3 +196,14 @@ def test_zx200_is_drawn_outside_its_limits(shared_data: Path, tmp_path: Path) ->
     for name in document:
         assert joints[name]["lower"] <= 0.0 <= joints[name]["upper"]
     assert not {f["code"] for f in report["findings"]} & {"CHK067", "CHK075"}
+
+
+def test_zx120_shows_no_sliders_of_what_is_hidden(zx120: tuple[Path, dict[str, Any]]) -> None:
+    page = (zx120[0] / "report.html").read_text(encoding="utf-8")
+    data = re.search(r'id="viewer-data">([^<]*)<', page)
+    assert data is not None
+    packed = gzip.decompress(base64.b64decode(data.group(1)))
+    header = json.loads(packed[4 : 4 + int.from_bytes(packed[:4], "little")])
+    sliders = [slider["name"] for slider in header["sliders"]]
+    assert {"boom", "arm", "bucket"} <= set(sliders)
+    assert not [name for name in sliders if "track_support" in name]

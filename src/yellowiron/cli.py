@@ -121,8 +121,12 @@ def build(
         from yellowiron.simulation import installed_engines
 
         engines = installed_engines()
+    from yellowiron.inputs import checked_inputs
     from yellowiron.report import build_summary
 
+    # Before the libraries of a build are loaded, which takes more than a second.
+    checked_inputs(equipment_type, cad, out, sheets=specs or (), alignment_file=alignment, documents=data or (),
+                   settings=settings or ())  # fmt: skip
     with _progress(as_json) as progress:
         machine = yellowiron.build(
             equipment_type, cad, out, sheets=specs or (), alignment_file=alignment, documents=data or (),
@@ -355,7 +359,13 @@ def copy_template(
     from yellowiron import library
 
     library.copy_template(equipment_type, folder)
-    _show({"folder": str(folder)}, Text(f"{folder}: yours to change; build with it by naming the folder."), as_json)
+    sheet_only = library.is_sheet_only(equipment_type)
+    use = (
+        "it says what to ask a sheet for, and has no joints to build from; name the folder to `yellowiron extract`"
+        if sheet_only
+        else "build with it by naming the folder"
+    )
+    _show({"folder": str(folder), "sheet_only": sheet_only}, Text(f"{folder}: yours to change; {use}."), as_json)
 
 
 @templates.command("new")
@@ -393,14 +403,35 @@ def options(
     """From a construction machine's CAD model and specification sheet to a simulation-ready USD machine."""
 
 
+def stoppable() -> list[int]:
+    """Has signals that end a run raise `SystemExit`; the list has the one that did."""
+    stopped: list[int] = []
+
+    def stop(number: int, frame: object) -> None:
+        stopped.append(number)
+        sys.exit(128 + number)
+
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        if signal.getsignal(number) != signal.SIG_IGN:
+            signal.signal(number, stop)
+    return stopped
+
+
 def main() -> None:
     """The console script: whatever is unusable is one sentence on stderr and exit code 2, never a traceback."""
     terminal.prepare()
     try:
         require_supported_platform()
-        # A terminated run leaves as an interrupted one does: its child ends, its temporary folders go.
-        signal.signal(signal.SIGTERM, lambda number, frame: sys.exit(128 + number))
-        code = terminal.called(app)
+        # A terminated run, or one whose terminal was closed, leaves as an interrupted one does: its child ends, its
+        # temporary folders go. What nohup has told to stay stays.
+        stopped = stoppable()
+        try:
+            code = terminal.called(app)
+        except BaseException:
+            # A library that was interrupted while it loads may make of it what it likes.
+            if stopped:
+                raise SystemExit(128 + stopped[0]) from None
+            raise
         terminal.flush()
     except YellowironError as error:
         terminal.complain(error)

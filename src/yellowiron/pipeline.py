@@ -14,6 +14,7 @@ import numpy as np
 
 from yellowiron import cad, checks, kinematics, library, report, specs, usd
 from yellowiron.alignment import align, decide, declared_roles, read_alignment, read_joints, to_scale, write_alignment
+from yellowiron.inputs import checked_inputs
 from yellowiron.mechanism import (
     ComparedJoint,
     build_mechanism,
@@ -31,7 +32,7 @@ from yellowiron.model.rows import expand
 from yellowiron.model.specification import Specifications
 from yellowiron.model.sweep import Sweep
 from yellowiron.model.template import Template, choose
-from yellowiron.support.output import keep_apart, output_folder
+from yellowiron.support.output import output_folder
 from yellowiron.support.vectors import triple
 
 _LIBRARIES = (
@@ -114,30 +115,32 @@ def build(
     """
     clock = _Clock(progress)
     cad_file, out = Path(cad_file), Path(out)
-    keep_apart(out, [cad_file, *map(Path, sheets)])
+    # Whatever can be said against an input is said before anything slow.
+    inputs = checked_inputs(
+        equipment_type, cad_file, out, sheets=[Path(s) for s in sheets],
+        alignment_file=Path(alignment_file) if alignment_file else None,
+        documents=[Path(d) for d in documents], settings=settings,
+    )  # fmt: skip
+    template, given, choices = inputs.template, inputs.given, inputs.choices
+    earlier = _earlier(alignment_file, out / "alignment.json")
+    by_hand = (earlier, read_joints(earlier)) if earlier is not None else None
     with output_folder(out) as folder:
         # Libraries load in a stage of their own: their second or two is no stage's work.
         with clock.stage("load", "Loading libraries"):
             for name in _LIBRARIES:
                 importlib.import_module(name)
 
-        # What is known of the type, and what was asked for by hand.
-        template = library.load_template(equipment_type)
-        values, choices = specs.split_settings(settings, template)
-
         with clock.stage("convert", "Reading the CAD model"):
             assembly = cad.read_cad(cad_file)
 
         # Weakest first: template, sheet, documents, settings.
-        earlier = _earlier(alignment_file, out / "alignment.json")
-        by_hand = (earlier, read_joints(earlier)) if earlier is not None else None
         data = library.load_documents([Path(d) for d in documents], template, assembly, joints=by_hand)
         template = library.apply_sensors(library.apply_joints(template, data), data)
         with clock.stage("extract", "Reading the specification sheets"):
             read = specs.extract(
                 template, [Path(s) for s in sheets], config=config, extractor=extractor, model=model, progress=progress
             )
-            specifications = specs.merge(read, specs.parse_settings(values, template))
+            specifications = specs.merge(read, given)
 
         with clock.stage("align", "Finding the part that plays each role"):
             assembly, alignment = find_roles(

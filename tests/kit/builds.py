@@ -70,7 +70,7 @@ def console(*words: str | Path, cwd: Path) -> subprocess.CompletedProcess[str]:
 
     command = ["yellowiron", *map(str, words)]
     stdout, stderr, code = io.StringIO(), io.StringIO(), 0
-    terminated = signal.getsignal(signal.SIGTERM)
+    handlers = {number: signal.getsignal(number) for number in (signal.SIGTERM, signal.SIGHUP)}
     with contextlib.chdir(cwd), contextlib.redirect_stdout(stdout), contextlib.redirect_stderr(stderr):
         try:
             with pytest.MonkeyPatch.context() as patch:
@@ -79,5 +79,6 @@ def console(*words: str | Path, cwd: Path) -> subprocess.CompletedProcess[str]:
         except SystemExit as ended:
             code = int(ended.code or 0)
         finally:
-            signal.signal(signal.SIGTERM, terminated)
+            for number, handler in handlers.items():
+                signal.signal(number, handler)
     return subprocess.CompletedProcess(command, code, stdout.getvalue(), stderr.getvalue())

@@ -116,6 +116,18 @@ def test_a_driven_joint_without_actuator_is_found(loader: Template) -> None:
     assert (finding.code, finding.where) == ("TPL007", "bucket_piston_rod2bucket_cylinder_barrel_joint")
 
 
+def test_exchanged_pivots_of_a_cylinder_are_found(loader: Template) -> None:
+    crossed = tuple(
+        replace(a, cylinders=tuple(replace(c, barrel_joint=c.rod_joint, rod_joint=c.barrel_joint) for c in a.cylinders))
+        if a.name == "bucket"
+        else a
+        for a in loader.actuators
+    )
+    found = library.lint(replace(loader, actuators=crossed)).findings
+    assert {(f.code, f.severity, f.where) for f in found} == {("TPL006", "error", "bucket")}
+    assert "Exchange barrel_joint and rod_joint." in {f.hint for f in found}
+
+
 def test_drives_that_hold_each_other_are_found(loader: Template) -> None:
     """Both lift cylinders driven and the tilt cylinder not: the count is right, and the bucket hangs loose."""
     template = choose(loader, {"lift_cylinders": "twin"})

@@ -97,6 +97,29 @@ def test_a_machine_loads_and_is_sound(tmp_path: Path) -> None:
     assert "| `arm` |" in proposal.words
 
 
+def test_a_hoist_whose_rod_stands_on_the_chassis(tmp_path: Path) -> None:
+    """The rod is nearer to the root than the barrel: the pivots are named by what they carry, not by the order."""
+    bodies = tuple(body(kind, name) for kind, name in
+                   (("frame", "Chassis"), ("arm", "Bed"), ("rod", "Hoist rod"), ("barrel", "Hoist tube")))  # fmt: skip
+    joints = (hinge(0, 1, pins=("PIN",)), hinge(0, 2), slide(2, 3, (0.0, 0.0, -1.0)), hinge(1, 3))
+    proposal = library.propose(FoundMachine("tipper", bodies, 0, joints), name="tipper")
+    for kind, document in proposal.documents.items():
+        (tmp_path / f"{kind}.json").write_text(to_json(document), encoding="utf-8")
+    template = library.load_template(tmp_path)
+    (cylinder,) = next(a for a in template.actuators if a.kind == "cylinder").cylinders
+    assert "hoist_tube" in template.bodies_of(template.joint(cylinder.barrel_joint))
+    assert "hoist_rod" in template.bodies_of(template.joint(cylinder.rod_joint))
+    assert library.lint(template).sound
+
+
+def test_no_part_is_left_out_of_the_words() -> None:
+    found = machine(("Foot",))
+    bodies = (body("frame", "Foot", parts=40), *found.bodies[1:])
+    words = library.propose(FoundMachine("m", bodies, 0, found.joints), name="digger").words
+    assert all(f"- Foot#{k}\n" in words for k in range(40))
+    assert "and 35 more" in words
+
+
 @pytest.mark.parametrize("tracks", [0, 2])
 def test_tracks_have_their_rows(tmp_path: Path, tracks: int) -> None:
     found = machine(("Foot",))

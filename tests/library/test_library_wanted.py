@@ -94,7 +94,7 @@ def _forbids(wanted: Wanted, label: str) -> bool:
 
 
 def test_a_type_known_by_its_sheet_only_says_so_when_a_machine_is_asked_of_it() -> None:
-    with pytest.raises(TemplateError, match=r"^Of a backhoe loader only the sheet can be read so far") as caught:
+    with pytest.raises(TemplateError, match=r"^The type backhoe_loader is sheet-only so far") as caught:
         library.load_template("backhoe_loader")
     assert "yellowiron extract" in caught.value.hint
     template = library.load_template("Backhoe Loader", sheet_only=True)

@@ -190,6 +190,50 @@ def test_joints_are_drawn_where_they_are(page: Any, machine: Any) -> None:
     assert page.locator(".v-joint").count() == 0
 
 
+def test_marks_of_joints_take_the_focus(page: Any, machine: Any) -> None:
+    """By Tab alone: each is told, and keeps the focus while the machine moves under it."""
+    page.get_by_role("button", name="Joints").click()
+    first = page.locator(".v-joint").first
+    first.focus()
+    joint = machine.mechanism.joints[0]
+    assert joint.name in first.get_attribute("aria-label")
+    assert page.locator(".v-tip").inner_text().startswith(f"1 {joint.name}")
+    page.evaluate("(yellowiron.set(yellowiron.sliders[0].name, 0.05), yellowiron.draw(1))")
+    assert page.evaluate("document.activeElement === document.querySelector('.v-joint')")
+    page.keyboard.press("Tab")
+    assert machine.mechanism.joints[1].name in page.locator(".v-tip").inner_text()
+    page.get_by_role("button", name="Joints").click()
+
+
+def test_a_finger_scrolls_past_the_view(browser: Any, machine: Any) -> None:
+    """Upwards the finger moves the page; sideways it turns the machine."""
+    context = browser.new_context(viewport={"width": 390, "height": 700}, has_touch=True, is_mobile=True)
+    page = context.new_page()
+    page.set_default_timeout(60_000)
+    page.goto((machine.folder / "report.html").as_uri())
+    page.wait_for_selector("#viewer.v-ready")
+    page.evaluate("document.querySelector('#viewer').scrollIntoView({block: 'start'})")
+    session = context.new_cdp_session(page)
+
+    def swipe(dx: int, dy: int) -> tuple[float, float]:
+        before = page.evaluate("[scrollY, yellowiron.camera.azimuth]")
+        at = [200, 300]
+        session.send("Input.dispatchTouchEvent", {"type": "touchStart", "touchPoints": [{"x": at[0], "y": at[1]}]})
+        for k in range(1, 11):
+            point = {"x": at[0] + dx * k / 10, "y": at[1] + dy * k / 10}
+            session.send("Input.dispatchTouchEvent", {"type": "touchMove", "touchPoints": [point]})
+        session.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+        page.wait_for_timeout(500)
+        after = page.evaluate("[scrollY, yellowiron.camera.azimuth]")
+        return after[0] - before[0], after[1] - before[1]
+
+    scrolled, turned = swipe(100, 0)
+    assert scrolled == 0 and abs(turned) > 0.1
+    scrolled, turned = swipe(0, -200)
+    assert scrolled > 100 and abs(turned) < 0.05
+    context.close()
+
+
 def test_the_camera_answers_mouse_and_keys(page: Any) -> None:
     before = page.evaluate("({...yellowiron.camera})")
     box = page.locator("#viewer canvas").bounding_box()

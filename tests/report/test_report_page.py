@@ -17,7 +17,7 @@ from yellowiron.report.html.plots import Chart, Curve, plot
 from yellowiron.report.html.sensors import field_of_view, sensor_marks, sensor_rows, views
 from yellowiron.report.html.simulation import in_a_sentence, simulation_tables
 from yellowiron.report.rows import in_rows
-from yellowiron.report.words import breakable, counted, sentence, shown, signed
+from yellowiron.report.words import breakable, counted, sentence, shown, signed, titled
 
 
 def joint(name: str, **other: Any) -> dict[str, Any]:
@@ -59,6 +59,9 @@ def test_words() -> None:
     assert signed(-1.25, 1, " %") == "−1.2 %"
     assert (counted(1, "part"), counted(2, "part"), counted(2, "body", "bodies")) == ("1 part", "2 parts", "2 bodies")
     assert sentence("rear_frame") == "Rear frame"
+    assert titled("steer_cyl_tube_2") == "Steer cyl tube 2"
+    assert titled("rear_frame2boom_joint") == "Rear frame to boom"
+    assert titled("link_1_2_arm_joint") == "Link 1 to arm"
 
 
 @settings(deadline=None)

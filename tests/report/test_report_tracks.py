@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -127,4 +128,10 @@ def test_only_what_a_person_would_set_has_a_slider(crawler: tuple[Mechanism, Ass
     names = tuple(joint.name for joint in mechanism.joints)
     tables = PoseTables(names, (), dict.fromkeys(names, 0.0))
     assert [slider["name"] for slider in _sliders(mechanism, tables)] == ["swing", "upperstructure2boom_joint"]
+    # A body that nobody sees, and that carries nothing, is nothing to turn by hand.
+    at = (0.0, 0.0, 0.3)
+    support = Body("track_support_l_1", at, 1.0, at, np.eye(3), (), np.zeros((0, 3)))
+    axle = Joint("undercarriage2track_support_l_joint_1", "revolute", "undercarriage", support.name, at, (0, 1, 0))
+    hidden = replace(mechanism, bodies=(*mechanism.bodies, support), joints=(*mechanism.joints, axle))
+    assert len(_sliders(hidden, replace(tables, independent=(*names, axle.name)))) == 2
     assert _readouts(mechanism, tables) == ["swing_joint", "upperstructure2boom_joint"]

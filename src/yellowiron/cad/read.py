@@ -38,6 +38,13 @@ _BESIDE_MB = 896
 _FOLDER = "yellowiron.cad.readers.folder:read_folder"
 
 
+def check_file(path: str | Path) -> None:
+    """What can be said against a CAD file without reading it: `CadError` as of `read_cad` for one that is missing,
+    empty, or of no or of an unreadable CAD format."""
+    if not Path(path).is_dir():
+        format_of(Path(path))
+
+
 def read_cad(path: str | Path, *, timeout_s: float = 600.0, memory_mb: int = 8192) -> Assembly:
     """The assembly in a CAD file, or in all those of a folder, in metres, in the file's own frame.
 

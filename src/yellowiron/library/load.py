@@ -45,8 +45,8 @@ def load_template(type_or_folder: str | Path, *, sheet_only: bool = False) -> Te
             wanted = read_wanted(read_document(paths["wanted"], "wanted"), ())
             return Template(folder.resolve().name, str(folder), "", (), (), wanted=wanted)
         raise TemplateError(
-            f"Of a {folder.resolve().name.replace('_', ' ')} only the sheet can be read so far: "
-            "its template has no bodies and joints to build from",
+            f"The type {folder.resolve().name} is sheet-only so far: its template says what to ask a sheet for and has "
+            "no bodies and joints to build from",
             where=str(folder),
             hint="Use `yellowiron extract`, or begin a template with `yellowiron templates new --from CAD --out DIR`.",
         )

@@ -9,7 +9,7 @@ nothing; DOC004, what a relation leads from is no body.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -92,14 +92,11 @@ def load_documents(
     """
     reader = _Reader(template, assembly)
     documents = []
-    contents = [(path, read_json(path)) for path in map(Path, paths)]
-    contents += [(joints[0], dict(joints[1]))] if joints is not None and joints[1] else []
-    for path, content in contents:
-        kind = kind_of(content, path)
-        if kind is None:
+    for path, kind, document in _checked(paths, joints):
+        if document is None:
             reader.find("DOC003", path, (), "The document says nothing.", "Remove it, or fill it.")
         else:
-            documents.append((kind, check_document(path, content, kind)))
+            documents.append((kind, document))
     for kind, document in sorted(documents, key=lambda d: _AFTER.get(d[0], 0)):
         reader.read(kind, document)
     return Documents(
@@ -113,6 +110,22 @@ def load_documents(
         sensors=reader.sensors,
         axes=reader.axes,
     )
+
+
+def check_documents(paths: Sequence[str | Path]) -> None:
+    """What `load_documents` says against documents before any name in them is looked up: `TemplateError`."""
+    list(_checked(paths, None))
+
+
+def _checked(
+    paths: Sequence[str | Path], joints: tuple[Path, Mapping[str, object]] | None
+) -> Iterator[tuple[Path, str, Document | None]]:
+    """Every document as its schema has it, with its path and kind; None where it is empty."""
+    contents = [(path, read_json(path)) for path in map(Path, paths)]
+    contents += [(joints[0], dict(joints[1]))] if joints is not None and joints[1] else []
+    for path, content in contents:
+        kind = kind_of(content, path)
+        yield path, kind or "", None if kind is None else check_document(path, content, kind)
 
 
 def kind_of(content: Any, path: Path) -> str | None:

@@ -8,6 +8,8 @@ from typing import Any
 from yellowiron.support.text import display
 
 MINUS = "\N{MINUS SIGN}"
+_BETWEEN = re.compile(r"(?<=[a-z])2(?=[a-z])|(?<=\d)_2_(?=[a-z])")
+"""What stands between the names of a joint's two bodies."""
 _SET = {"-": MINUS, " °": "°", "*": "\N{DOT OPERATOR}", "^2": "²", "^3": "³"}
 
 
@@ -36,6 +38,12 @@ def sentence(name: str) -> str:
     """`rear_frame` → `Rear frame`."""
     words = spoken(name)
     return words[:1].upper() + words[1:]
+
+
+def titled(name: str) -> str:
+    """What a joint or actuator is called: `steer_cyl_tube_2` → `Steer cyl tube 2`, and of a joint between two bodies
+    `rear_frame2boom_joint` → `Rear frame to boom`, `link_1_2_arm_joint` → `Link 1 to arm`."""
+    return sentence(_BETWEEN.sub(" to ", name.removesuffix("_joint")))
 
 
 def breakable(name: str) -> Any:

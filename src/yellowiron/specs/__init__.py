@@ -16,6 +16,7 @@ from yellowiron.specs.columns import columns_of
 from yellowiron.specs.evidence_images import draw_evidence
 from yellowiron.specs.extraction import Extractor, extract, read
 from yellowiron.specs.llm.endpoint import EndpointError, ModelOptions
+from yellowiron.specs.reader import check_file
 from yellowiron.specs.values.overrides import accept, merge, parse_settings, split_settings
 from yellowiron.specs.values.requested import missing_values
 
@@ -24,6 +25,7 @@ __all__ = [
     "Extractor",
     "ModelOptions",
     "accept",
+    "check_file",
     "columns_of",
     "draw_evidence",
     "extract",

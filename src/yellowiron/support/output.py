@@ -36,11 +36,7 @@ def output_folder(target: Path) -> Iterator[Path]:
     that is there may be a mount point or a link to another disk. `OutputError` where `target` is a file, a link that
     leads nowhere, or cannot be written, and where the disk does not take what is written.
     """
-    place = _real(target)
-    if place.exists() and not place.is_dir():
-        raise OutputError("The output folder is a file", where=str(target), hint=_HINT)
-    if place.is_dir() and not os.access(place, os.W_OK | os.X_OK):
-        raise OutputError("The output folder cannot be written", where=str(target), hint=_HINT)
+    place = _folder(target)
     there = place.is_dir()
     with _staging(place if there else place.parent, target) as holder:
         yield holder / "new"
@@ -50,6 +46,13 @@ def output_folder(target: Path) -> Iterator[Path]:
                 staging.install(holder, place)
             else:
                 (holder / "new").rename(place)
+
+
+def check_folder(target: Path) -> None:
+    """`OutputError` where `output_folder` could not begin; nothing is left behind."""
+    place = _folder(target)
+    with _staging(place if place.is_dir() else place.parent, target):
+        pass
 
 
 @contextmanager
@@ -86,6 +89,16 @@ def keep_apart(target: Path, inputs: Iterable[Path]) -> None:
                 where=str(target),
                 hint=f"Name a folder of its own, {place / 'out'} for one: files would be mixed into yours.",
             )
+
+
+def _folder(target: Path) -> Path:
+    """The path behind all links of a folder that is there, or may be made."""
+    place = _real(target)
+    if place.exists() and not place.is_dir():
+        raise OutputError("The output folder is a file", where=str(target), hint=_HINT)
+    if place.is_dir() and not os.access(place, os.W_OK | os.X_OK):
+        raise OutputError("The output folder cannot be written", where=str(target), hint=_HINT)
+    return place
 
 
 def _real(target: Path) -> Path:

@@ -75,6 +75,15 @@ def _cylinder(
             "TPL006", "error", actuator, f"Its slide '{slide}' has no drive.", 'Give it "Drive": ["Linear Drive"].'
         )
     ends = set(template.bodies_of(joints[slide]))
+    if _crossed(template, joints, cylinder):
+        yield Finding(
+            "TPL006",
+            "error",
+            actuator,
+            f"'{cylinder.barrel_joint}' is at the rod of the cylinder '{slide}', and '{cylinder.rod_joint}' at its "
+            "barrel: bore, force and stroke would be measured on the wrong halves.",
+            "Exchange barrel_joint and rod_joint.",
+        )
     for pivot in (cylinder.barrel_joint, cylinder.rod_joint):
         there = pivot in joints and not _missing_parts(template, joints[pivot])
         if there and not ends & set(template.bodies_of(joints[pivot])):
@@ -85,6 +94,16 @@ def _cylinder(
                 f"'{pivot}' is at neither end of the cylinder '{slide}'.",
                 "Name the pivots of its barrel and rod.",
             )
+
+
+def _crossed(template: Template, joints: Mapping[str, JointTemplate], cylinder: CylinderTemplate) -> bool:
+    """Whether a cylinder's pivots are each at the other half, by the kinds of the bodies that they carry."""
+    kinds = {r.name: r.kind for r in template.roles}
+    halves = {kinds.get(b or "", ""): b for b in template.bodies_of(joints[cylinder.slide])}
+    if halves.keys() != {"barrel", "rod"} or not {cylinder.barrel_joint, cylinder.rod_joint} <= joints.keys():
+        return False
+    carried, pushed = (set(template.bodies_of(joints[n])) for n in (cylinder.barrel_joint, cylinder.rod_joint))
+    return halves["rod"] in carried and halves["barrel"] in pushed
 
 
 def _drives(chosen: Template) -> Iterator[Finding]:

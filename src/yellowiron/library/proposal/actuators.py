@@ -60,9 +60,11 @@ def _groups(draft: Draft) -> dict[tuple[int, int], list[tuple[int, int, int]]]:
     groups: dict[tuple[int, int], list[tuple[int, int, int]]] = {}
     for k, slide in enumerate(draft.machine.joints):
         halves = {draft.machine.bodies[slide.a].kind, draft.machine.bodies[slide.b].kind}
-        ends = _pivots(draft.machine, k) if slide.type == "prismatic" and halves == {"barrel", "rod"} else None
+        # Nearer to the root may be the one or the other: a hoist's rod often stands on the chassis.
+        pair = (slide.a, slide.b) if draft.machine.bodies[slide.a].kind == "barrel" else (slide.b, slide.a)
+        ends = _pivots(draft.machine, pair) if slide.type == "prismatic" and halves == {"barrel", "rod"} else None
         if ends is not None:
-            hosts = [other_body(draft.machine.joints[e], c) for e, c in zip(ends, (slide.a, slide.b), strict=True)]
+            hosts = [other_body(draft.machine.joints[e], c) for e, c in zip(ends, pair, strict=True)]
             groups.setdefault((hosts[0], hosts[1]), []).append((k, *ends))
     return groups
 
@@ -88,15 +90,14 @@ def _said(draft: Draft, slides: list[int]) -> str:
     return "_".join(dict.fromkeys(w for w in words[0] if w and w not in _HALVES and all(w in o for o in words)))
 
 
-def _pivots(machine: FoundMachine, slide: int) -> tuple[int, int] | None:
-    """The hinges at the two ends of a cylinder, barrel's (or first body's) and rod's; None without both."""
-    joint = machine.joints[slide]
+def _pivots(machine: FoundMachine, pair: tuple[int, int]) -> tuple[int, int] | None:
+    """The hinges at the two ends of a cylinder, a pair of bodies (barrel, rod); None without both."""
     found = []
-    for end in (joint.a, joint.b):
+    for end in pair:
         at = [
             k
             for k, j in enumerate(machine.joints)
-            if j.type == "revolute" and end in (j.a, j.b) and other_body(j, end) not in (joint.a, joint.b)
+            if j.type == "revolute" and end in (j.a, j.b) and other_body(j, end) not in pair
         ]
         found.append(at[0] if at else None)
     barrel, rod = found

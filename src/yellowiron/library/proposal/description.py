@@ -6,6 +6,9 @@ import re
 
 from yellowiron.library.proposal.draft import Draft
 
+_SHOWN = 5
+"""Parts of a body that its row in the table names; a longer list stands below, whole."""
+
 
 def described(draft: Draft, name: str) -> str:
     """The draft as Markdown; `name` is the equipment type's."""
@@ -19,9 +22,9 @@ def described(draft: Draft, name: str) -> str:
         "|---|---|---|---|---|",
     ]
     for k, body in enumerate(machine.bodies):
-        parts = "<br>".join(_cell(p) for p in body.parts[:5]) + (
-            f"<br>… {len(body.parts)} in all" if len(body.parts) > 5 else ""
-        )
+        parts = "<br>".join(_cell(p) for p in body.parts[:_SHOWN])
+        if len(body.parts) > _SHOWN:
+            parts += f"<br>and {len(body.parts) - _SHOWN} more, listed under [Parts](#parts)"
         lines.append(
             f"| `{draft.names[k]}` | {body.kind} | {parts} | {_cell(body.reason)} | {_cell(draft.reasons[k])} |"
         )
@@ -33,6 +36,10 @@ def described(draft: Draft, name: str) -> str:
     if machine.findings:
         lines += ["", "## To look at", ""]
         lines += [f"- {f.code} ({_cell(f.where)}): {f.message} {f.hint}" for f in machine.findings]
+    long = [k for k, body in enumerate(machine.bodies) if len(body.parts) > _SHOWN]
+    lines += ["", "## Parts"] if long else []
+    for k in long:
+        lines += ["", f"### `{draft.names[k]}`", "", *(f"- {_cell(p)}" for p in machine.bodies[k].parts)]
     return "\n".join(lines) + "\n"
 
 

@@ -28,8 +28,12 @@ function element(tag, attributes = {}, ...children) {
 
 function svg(tag, attributes = {}) {
   const made = document.createElementNS("http://www.w3.org/2000/svg", tag);
-  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
+  change(made, attributes);
   return made;
+}
+
+function change(made, attributes) {
+  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
 }
 
 const words = (name) => name.replaceAll("_", " ");
@@ -79,7 +83,8 @@ class Viewer {
       role: "img",
       "aria-label": "The machine in three dimensions. Arrow keys turn it, plus and minus zoom, 0 shows all of it.",
     });
-    this.overlay = svg("svg", { "aria-hidden": "true" });
+    this.overlay = svg("svg", { role: "group", "aria-label": "Marks on the machine" });
+    this.marks = new Map();
     this.tip = element("div", { class: "v-tip", hidden: true });
     this.card = element("div", { class: "v-card", role: "status", hidden: true });
     const toggle = (label, change) =>
@@ -102,7 +107,7 @@ class Viewer {
       element("button", { type: "button", onclick: () => this.#fullscreen() }, "Full screen"),
     );
     this.hint = element("div", { class: "v-hint" }, matchMedia("(hover: none)").matches
-      ? "Drag to turn, pinch to zoom" : "Drag to turn, right-drag to move, click and scroll to zoom");
+      ? "Drag sideways to turn, two fingers to move and zoom" : "Drag to turn, right-drag to move, click and scroll to zoom");
     const layers = [this.canvas, this.overlay, tools, this.hint, this.card, this.tip];
     this.stage = element("div", { class: "v-stage" }, ...layers);
     this.panel = element("div", { class: "v-panel" });
@@ -201,7 +206,7 @@ class Viewer {
       input.setAttribute("aria-valuetext", output.textContent);
       input.style.setProperty("--share", `${(100 * input.value) / STEPS}%`);
     };
-    const label = element("label", { for: id }, sentence(slider.name.replace(/_joint$/, "").replace("2", " to ")));
+    const label = element("label", { for: id }, slider.title);
     return { ...slider, show, row: element("div", { class: "v-slider" }, label, output, input) };
   }
 
@@ -545,35 +550,57 @@ class Viewer {
     this.#drawMarks();
   }
 
+  /** Marks over the picture. They are kept from frame to frame, so that one that has the focus keeps it. */
   #drawMarks() {
-    this.overlay.replaceChildren();
+    const old = this.marks;
+    this.marks = new Map();
+    this.kept = old;
     if (this.showSensors) this.#drawSensors();
     if (this.showJoints) this.#drawJoints();
+    for (const [key, mark] of old) if (!this.marks.has(key)) mark.group.remove();
+  }
+
+  /** A group that tells what it is under the pointer, when clicked, and when it has the focus: `at` says where, and
+   * `told` what; `shapes` are its children, by name. */
+  #mark(key, kind, shapes, at, told) {
+    const mark = this.kept.get(key) ?? { shapes: shapes(), group: svg("g", { class: kind, tabindex: 0, role: "img" }) };
+    if (!mark.group.parentNode) {
+      const tell = () => this.#tell(mark.told(), ...mark.at);
+      const hush = () => (this.tip.hidden = true);
+      for (const event of ["pointerenter", "click", "focus"]) mark.group.addEventListener(event, tell);
+      for (const event of ["pointerleave", "blur"]) mark.group.addEventListener(event, hush);
+      mark.group.addEventListener("keydown", (event) => {
+        if (event.key === "Enter" || event.key === " ") (event.preventDefault(), tell());
+        else if (event.key === "Escape") hush();
+      });
+      mark.group.append(...Object.values(mark.shapes));
+      this.overlay.append(mark.group);
+    }
+    Object.assign(mark, { at, told });
+    mark.group.setAttribute("aria-label", told());
+    if (mark.group === document.activeElement && !this.tip.hidden) this.#tell(told(), ...at);
+    this.marks.set(key, mark);
+    return mark.shapes;
   }
 
   /** Sensors over the picture, with what they see; they move with their bodies. */
   #drawSensors() {
-    for (const sensor of this.model.sensors) {
+    for (const [index, sensor] of this.model.sensors.entries()) {
       const pose = this.pose[sensor.body];
-      if (!pose) continue;
-      const group = svg("g", { class: `v-sensor${sensor.views.length ? " v-looks" : ""}` });
-      for (const [kind, outline] of sensor.views) {
+      const spot = pose && this.project(moved(pose, sensor.at));
+      if (!spot) continue;
+      const shapes = this.#mark(`sensor ${index}`, `v-sensor${sensor.views.length ? " v-looks" : ""}`, () => ({
+        ...sensor.views.map(([kind]) => svg("polygon", { class: `view ${kind}` })),
+        spot: svg("circle", { r: 5 }),
+      }), spot, () => `${words(sensor.name)} · ${words(sensor.type)}`);
+      for (const [number, [, outline]] of sensor.views.entries()) {
         const points = [];
         for (let i = 0; i < outline.length; i += 3) points.push(this.project(moved(pose, outline.slice(i, i + 3))));
         // An outline that reaches behind the camera has no place in the picture.
-        if (points.some((point) => !point)) continue;
-        group.append(svg("polygon", { class: `view ${kind}`, points: points.map((p) => p.map(tenth).join(",")).join(" ") }));
+        const whole = points.every((point) => point);
+        change(shapes[number], { points: whole ? points.map((p) => p.map(tenth).join(",")).join(" ") : "" });
       }
-      const spot = this.project(moved(pose, sensor.at));
-      if (!spot) continue;
-      const [x, y] = spot;
-      const mark = svg("circle", { cx: x, cy: y, r: 5 });
-      const tell = () => this.#tell(`${words(sensor.name)} · ${words(sensor.type)}`, x, y);
-      mark.addEventListener("pointerenter", tell);
-      mark.addEventListener("click", tell);
-      mark.addEventListener("pointerleave", () => (this.tip.hidden = true));
-      group.append(mark);
-      this.overlay.append(group);
+      change(shapes.spot, { cx: spot[0], cy: spot[1] });
     }
   }
 
@@ -587,23 +614,18 @@ class Viewer {
       const axis = scaled(turned(pose, joint.axis), reach);
       const [a, b, m] = [add(middle, axis), add(middle, scaled(axis, -1)), middle].map((point) => this.project(point));
       if (!a || !b || !m) continue;
-      const group = svg("g", { class: `v-joint v-${joint.type}${joint.cut ? " v-cut" : ""}` });
-      group.append(svg("line", { x1: a[0], y1: a[1], x2: b[0], y2: b[1] }));
-      group.append(
-        joint.type === "prismatic"
-          ? svg("rect", { x: m[0] - 4.5, y: m[1] - 4.5, width: 9, height: 9 })
-          : svg("circle", { cx: m[0], cy: m[1], r: 5 }),
-      );
-      const tell = () => {
+      const told = () => {
         const value = coordinateOf(joint, this.pose);
         const shown = joint.type === "prismatic" ? `${signed(1e3 * value, 0)} mm` : degrees(value);
         const now = value == null ? "" : `, ${shown}`;
-        this.#tell(`${index + 1} ${joint.name} · ${joint.type}${joint.cut ? ", cut" : ""}${now}`, ...m);
+        return `${index + 1} ${joint.name} · ${joint.type}${joint.cut ? ", cut" : ""}${now}`;
       };
-      group.addEventListener("pointerenter", tell);
-      group.addEventListener("click", tell);
-      group.addEventListener("pointerleave", () => (this.tip.hidden = true));
-      this.overlay.append(group);
+      const slides = joint.type === "prismatic";
+      const { line, spot } = this.#mark(`joint ${index}`, `v-joint v-${joint.type}${joint.cut ? " v-cut" : ""}`, () => ({
+        line: svg("line"), spot: slides ? svg("rect", { width: 9, height: 9 }) : svg("circle", { r: 5 }),
+      }), m, told);
+      change(line, { x1: a[0], y1: a[1], x2: b[0], y2: b[1] });
+      change(spot, slides ? { x: m[0] - 4.5, y: m[1] - 4.5 } : { cx: m[0], cy: m[1] });
     }
   }
 }

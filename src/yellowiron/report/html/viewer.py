@@ -12,6 +12,7 @@ import gzip
 import json
 import math
 import struct
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from importlib import resources
@@ -28,6 +29,7 @@ from yellowiron.model.poses import PoseTables
 from yellowiron.report.html.pictures import YELLOW, body_colors
 from yellowiron.report.html.sensors import views
 from yellowiron.report.rows import in_rows
+from yellowiron.report.words import titled
 
 MOST_TRIANGLES = 700_000
 """Distinct triangles that keep a page under 8 MB; the smallest shapes beyond are not drawn, and the view says so."""
@@ -249,7 +251,12 @@ def _free_sliders(mechanism: Mechanism, tables: PoseTables) -> Iterator[dict[str
     taken = {entry.joint for actuator in mechanism.actuators for entry in actuator.joints}
     # A roller or shoe of a counted row is nothing to set by hand.
     rows = {mechanism.joints[p].name for places in in_rows(list(joints)).values() if len(places) > 1 for p in places}
+    hung = Counter(body for joint in mechanism.joints for body in (joint.body0, joint.body1))
+    # What cannot be seen and carries nothing, such as a hidden wheel of a track, is nothing to turn.
+    unseen = {body.name for body in mechanism.bodies if not body.parts and hung[body.name] < 2}
     for name in tables.independent:
+        if unseen & {joints[name].body0, joints[name].body1}:
+            continue
         if name not in taken and name not in rows and joints[name].type in ("revolute", "prismatic"):
             yield {**_slider(name, joints[name], 1), "joints": [[name, 1]], "extension": None, "stroke": None}
 
@@ -261,7 +268,13 @@ def _together(actuator: Actuator, moved: Sequence[Any]) -> Sequence[Any]:
 
 def _slider(name: str, joint: Joint, sign: int) -> dict[str, Any]:
     lower, upper = (-np.pi, np.pi) if joint.lower is None or joint.upper is None else (joint.lower, joint.upper)
-    return {"name": name, "unit": "m" if joint.type == "prismatic" else "rad", "range": [lower, upper], "sign": sign}
+    return {
+        "name": name,
+        "title": titled(name),
+        "unit": "m" if joint.type == "prismatic" else "rad",
+        "range": [lower, upper],
+        "sign": sign,
+    }
 
 
 def _sensors(mechanism: Mechanism) -> list[dict[str, Any]]:
