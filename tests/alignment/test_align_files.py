@@ -11,6 +11,8 @@ import pytest
 
 from kit.machines.synthetic import loader
 from yellowiron.alignment import align, explain, read_alignment, write_alignment
+from yellowiron.alignment.labelling.place import Place
+from yellowiron.alignment.labelling.propagation import Propagation
 from yellowiron.library import load_template
 from yellowiron.model.alignment import Alignment
 from yellowiron.model.assembly import Assembly
@@ -235,3 +237,21 @@ def test_doubtful_parts_come_first(tmp_path: Path, solved: Alignment, assembly: 
     write_alignment(doubtful, assembly, tmp_path / "a.json")
     document = json.loads((tmp_path / "a.json").read_text(encoding="utf-8"))
     assert [e["part"] for e in document["parts"][:3]] == [p.part for p in low] == document["to_review"]
+
+
+@pytest.mark.parametrize(
+    ("bodies", "all_doubted"), [(("rear_frame", "front_frame", "boom", "bucket"), True), (("bucket",), False)]
+)
+def test_what_hangs_on_doubtful_bodies_is_doubtful(
+    assembly: Assembly, template: Template, bodies: tuple[str, ...], all_doubted: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Where the contacts leave most of a machine in doubt, all of it is listed for review."""
+    usual = Propagation.run
+
+    def unsure(self: Propagation) -> dict[int, Place]:
+        return {i: replace(p, confidence=0.1) if p.body in bodies else p for i, p in usual(self).items()}
+
+    monkeypatch.setattr(Propagation, "run", unsure)
+    found = align(assembly, template, NOTHING)
+    assert set(found.to_review) >= {p.part for p in found.parts if p.body in bodies}
+    assert ({p.part for p in found.parts} <= set(found.to_review)) is all_doubted

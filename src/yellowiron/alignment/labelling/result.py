@@ -20,6 +20,8 @@ from yellowiron.model.template import Template
 
 APART = 0.6
 """Confidence that a part which stands apart is no part of the machine: one remark speaks for all of them."""
+MOSTLY = 0.5
+"""Where contacts leave more than this share of the surface in doubt, they are not sure of the rest either."""
 CLEARLY = 0.95
 """From this probability on it is told that a person decided otherwise."""
 
@@ -50,6 +52,9 @@ def to_alignment(
     whole, rung = is_whole(answer), CONTACT.index(answer.contact)
     parts = [_assignment(part.id, template, labels, whole=whole, rung=rung) for part in assembly.parts]
     doubted = {p.id for p in assembly.parts if _is_doubted(p.id, labels)}
+    if answer.judged is None and _share(doubted, assembly) > MOSTLY:
+        # What hangs on bodies that are in doubt is in doubt itself.
+        doubted |= {p.id for p in assembly.parts if p.id in labels.places and p.id not in labels.decided}
     played = {p.role for p in parts} | {p.body for p in parts}
     missing = tuple(r.name for r in template.roles if _required(r.name, template) and r.name not in played)
     doubtful = tuple(p.part for p in sorted(parts, key=lambda p: p.confidence) if p.part in doubted)
@@ -93,6 +98,12 @@ def _assignment(part: str, template: Template, labels: Labels, *, whole: bool, r
         part, place.role, place.body, round(probability(evidence), 3), place.reason,
         "name" if place.by_name else "solved", place.runner_up, evidence,
     )  # fmt: skip
+
+
+def _share(parts: Collection[str], assembly: Assembly) -> float:
+    """The share of a model's surface that some of its parts have."""
+    areas = {p.id: assembly.shape_of(p).area for p in assembly.parts}
+    return sum(areas[p] for p in sorted(parts)) / (sum(areas.values()) or 1.0)
 
 
 def _against(labels: Labels, *, whole: bool, rung: int) -> list[PartAssignment]:
