@@ -20,6 +20,7 @@ from yellowiron.alignment.axes.directions import (
     wheels_beside,
 )
 from yellowiron.alignment.axes.hinges import AT_PIVOT, Clues, bars_between, eye_of, hinge_candidates
+from yellowiron.alignment.axes.levers import with_levers
 from yellowiron.alignment.axes.turning import slewing_candidate, wheel_candidate
 from yellowiron.alignment.axes.values import AxisEstimate, Candidate, Frame, Line
 from yellowiron.alignment.features.solids import Solid, size_of
@@ -78,6 +79,7 @@ def estimate_axes(
         }
         if not is_upright(linkage, template):
             hinges = _with_twins(hinges)
+        hinges = with_levers(hinges, template, linkage, size)
         found |= {name: _estimate(name, candidates) for name, candidates in hinges.items()}
     for name, line in lines.items():
         found[name] = _slide(name, line, template, found)
