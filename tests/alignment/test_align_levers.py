@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -63,8 +64,12 @@ def test_the_hinge_gives_way_to_the_cylinder_s_foot_that_more_speaks_for() -> No
 def test_the_foot_gives_way_where_it_has_elsewhere_to_be() -> None:
     found = levered(
         template_of(MONO),
-        **{HINGE: [line(1, 1, 0.9), line(0, 2, 0.2)], FOOT: [line(1.02, 1, 0.5), line(3, 1, 0.4)], TIP: [line(2, 3, 1)]},
-    )  # fmt: skip
+        **{
+            HINGE: [line(1, 1, 0.9), line(0, 2, 0.2)],
+            FOOT: [line(1.02, 1, 0.5), line(3, 1, 0.4)],
+            TIP: [line(2, 3, 1)],
+        },
+    )
     assert found == {HINGE: (1.0, 1.0), FOOT: (3.0, 1.0), TIP: (2.0, 3.0)}
 
 
@@ -113,3 +118,25 @@ def test_a_boom_with_a_cylinder_s_foot_drawn_in_it_is_not_hinged_there(seed: int
     across = np.linalg.norm(delta - (delta @ true.line.direction) * true.line.direction)
     height = max(float(s.high[2]) for s in solids) - min(float(s.low[2]) for s in solids)
     assert across < 0.01 * height
+
+
+def test_of_twin_cylinders_one_that_is_blocks_has_the_other_s_line() -> None:
+    """The right boom cylinder's round faces are not drawn, and a block of the boom's was taken for its barrel's."""
+    seed = next(s for s in range(20) if any_features(s).choices().get("boom_cylinders") == "twin")
+    machine = drawn("excavator", seed)
+    solids, labels, block = [], dict[str, list[int]](), 0
+    for solid in solids_of(machine.assembly()):
+        role, body = machine.truth[solid.part.id]
+        if body in ("boom_cylinder_barrel_r", "boom_piston_rod_r"):
+            solid = replace(solid, cylinders=(), shaft=None, axis=None)
+        solids.append(solid)
+        if body == "boom" and not block and role == "boom":
+            block = len(labels.setdefault("boom_cylinder_barrel_r", [])) + 1
+            labels["boom_cylinder_barrel_r"].append(solid.index)
+        elif body:
+            labels.setdefault(body.partition("|")[0], []).append(solid.index)
+    template = template_of(any_features(seed).choices())
+    found = estimate_axes(solids, labels, template, frame=Frame(*np.eye(3)))
+    slides = [found[f"boom_cylinder_barrel_{s}2boom_piston_rod_{s}_joint"] for s in "lr"]
+    assert abs(float(slides[0].direction @ slides[1].direction)) > np.cos(np.radians(0.5))
+    assert slides[1].how.startswith("its twin's")
