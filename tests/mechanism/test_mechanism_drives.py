@@ -14,7 +14,7 @@ from yellowiron.mechanism import build_mechanism
 from yellowiron.model.alignment import PartAssignment
 from yellowiron.model.assembly import Part
 from yellowiron.model.mechanism import Mechanism
-from yellowiron.model.template import ActuatorTemplate, JointTemplate, Role, Template, Wanted
+from yellowiron.model.template import ActuatorTemplate, JointTemplate, Material, Role, Template, Wanted
 
 
 def codes(built: Mechanism) -> set[str]:
@@ -101,12 +101,12 @@ def test_the_hint_on_an_assumed_value_says_what_can_be_given() -> None:
     }
 
 
-@pytest.mark.parametrize(("given", "torque"), [({}, 5e3), ({"Rimpull": 8e3}, 8e3 * math.hypot(2.0, 0.05))])
+@pytest.mark.parametrize(("given", "torque"), [({}, 2e3), ({"Rimpull": 8e3}, 8e3 * math.hypot(2.0, 0.05))])
 def test_a_pull_at_the_ground_becomes_a_torque(given: dict[str, float], torque: float) -> None:
     """The arm's box ends 2 m from its pivot, ± 0.05 m: that is its rim. The default is a torque already."""
     plan = template()
     motor = ActuatorTemplate("swing", "motor", joints=("base2arm",), specifications={"torque": "Rimpull"},
-                             defaults={"torque": 5e3})  # fmt: skip
+                             defaults={"torque": 2e3})  # fmt: skip
     plan = replace(plan, actuators=(*plan.actuators, motor), wanted=(*plan.wanted, Wanted("Rimpull", "force")))
     drive = build(plan, **given).joint("base2arm").drive
     assert drive is not None and drive.max_force == pytest.approx(torque)
@@ -139,3 +139,49 @@ def test_a_drive_without_limits_or_stiffness_holds_a_speed() -> None:
     spun = tuple(replace(j, lower=None, upper=None) if j.drive else j for j in plan.joints)
     for joint in build(replace(plan, actuators=(), joints=spun)).joints:
         assert joint.drive is None or joint.drive.kind == "velocity"
+
+
+def test_defaults_of_a_usual_machine_are_limited_on_a_light_one() -> None:
+    """0.05 of weight times diagonal for motors, 20 times the weight for cylinders; what a sheet gives stays."""
+    plan = template()
+    motor = ActuatorTemplate("swing", "motor", joints=("base2arm",), specifications={"torque": "Swing Torque"},
+                             defaults={"torque": 70e3, "speed": 1.0})  # fmt: skip
+    plan = replace(plan, actuators=(*plan.actuators, motor), wanted=(*plan.wanted, Wanted("Swing Torque", "torque")))
+    built = build(plan)
+    mass = sum(body.mass for body in built.bodies)
+    drive = built.joint("base2arm").drive
+    assert drive is not None and drive.max_force < 70e3
+    assert drive.max_force / (mass * 9.81) == pytest.approx(0.05 * built_diagonal())
+    assert "limited to what suits" in drive.source
+    assert [f.where for f in built.findings if f.code == "MEC036"] == ["swing"]
+    given = build(plan, **{"Swing Torque": 70e3})
+    stated = given.joint("base2arm").drive
+    assert stated is not None and stated.max_force == 70e3 and "MEC036" not in codes(given)
+
+
+def test_a_cylinder_under_default_pressure_is_no_stronger_than_twenty_machines() -> None:
+    plan = template()
+    whole = build(plan)
+    heavy = sum(body.mass for body in whole.bodies)
+    light = replace(plan, materials={"*": Material("foam", density=1.0)})
+    built = build(light)
+    mass = sum(body.mass for body in built.bodies)
+    assert mass < 1e-2 * heavy
+    drive = built.joint("slide").drive
+    assert drive is not None and drive.max_force == pytest.approx(20.0 * mass * 9.81)
+    assert "MEC036" in codes(built) and "gains provisional" in drive.source
+
+
+def test_default_flow_takes_a_stroke_at_least_a_second() -> None:
+    plan = template()
+    fast = replace(plan.actuators[0], defaults={**plan.actuators[0].defaults, "flow": 1.0}, specifications={})
+    built = build(replace(plan, actuators=(fast,)))
+    (cylinder,) = built.cylinders
+    assert cylinder.speed == pytest.approx(cylinder.stroke / 1.0)
+
+
+def built_diagonal() -> float:
+    """The diagonal of the machine's box, metres."""
+    assembly, _ = machine()
+    points = np.concatenate([assembly.points_of(p) for p in assembly.parts])
+    return float(np.linalg.norm(np.ptp(points, axis=0)))

@@ -33,6 +33,7 @@ from yellowiron.alignment.assignment.root_fallback import with_root
 from yellowiron.alignment.assignment.search import BELIEVED, Search, variants_of
 from yellowiron.alignment.assignment.sheet_weights import sheet_findings
 from yellowiron.alignment.assignment.weights import side_weights
+from yellowiron.alignment.axes.levers import without_lever
 from yellowiron.alignment.axes.unfound import axis_findings, lines_of, rough_axes, unfound_axes
 from yellowiron.alignment.features.copies import copies_of
 from yellowiron.alignment.features.distance import Touch
@@ -52,7 +53,7 @@ from yellowiron.alignment.labelling.suspects import suspect_bodies
 from yellowiron.alignment.labelling.track_places import on_tracks, track_places, without_tracks
 from yellowiron.alignment.structure.observation import Observation, observe
 from yellowiron.alignment.tolerances import CONTACT
-from yellowiron.model.alignment import Alignment, Vector
+from yellowiron.model.alignment import DECIDED, Alignment, Vector
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import AlignmentError
 from yellowiron.model.geometry import Floats
@@ -191,15 +192,21 @@ def _with_all_axes(
     # Where contacts did not find the machine, what they take for a hinge without a pin may be none.
     turning = {j.name for j in template.joints if j.type == "revolute"} if answer.judged is not None else set()
     rough = {j: found.axes[j] for j in (known - declared) & turning if j in found.axes}
+    searched = _searched_axes(answer)
+    pinned = {j: searched[j] for j in (known - declared) & turning if j in searched and j not in {*lent, *rough}}
     estimates = unfound_axes(
         solids_of(assembly),
         found.parts,
         template,
-        found=known - lent.keys() - rough.keys(),
+        found=known - lent.keys() - rough.keys() - pinned.keys(),
         size=observation.size,
         frame=sure,
         assembly=assembly,
     )
+    # A pin that would leave a cylinder without a lever is another hinge's.
+    idle = without_lever(pinned, estimates, template, observation.size)
+    found = _unpinned(found, idle, template)
+    estimates = {j: e for j, e in estimates.items() if j in idle or j not in pinned}
     # Of two that say the same the search's is the more exact.
     same = {j for j, e in estimates.items() if j in lent and j in known and e.holds(*lent[j])}
     same |= {j for j, e in estimates.items() if j in rough and not e.beats(*rough[j])}
@@ -219,17 +226,40 @@ def _declared(found: Alignment, assembly: Assembly, template: Template) -> set[s
     return {j.name for j in template.joints if frozenset(template.bodies_of(j)) in pairs}
 
 
+def _searched_axes(answer: Answer) -> dict[str, tuple[Vector, Vector]]:
+    """Joint → the axis that the search has for it, for every hinge that it found."""
+    structure = answer.structure
+    axes = {j: structure.axes[structure.hinges[h].axis] for j, h in sorted(answer.solution.hinge_of.items())}
+    return {j: (triple(axis.origin), triple(axis.direction)) for j, axis in axes.items()}
+
+
+def _unpinned(found: Alignment, joints: Collection[str], template: Template) -> Alignment:
+    """The alignment in which the pins of these joints are no pins of theirs: they move with their bodies, and are
+    listed for review."""
+    roles = {pin_role(template.joint(j), template) for j in joints} - {None}
+    pins = {p.part for p in found.parts if p.role in roles and p.source not in DECIDED}
+    if not pins:
+        return found
+    words = "its joint would leave a cylinder without a lever: it is no pin of that"
+    parts = tuple(
+        replace(p, role=p.body, confidence=min(p.confidence, 0.5), reason=f"{p.reason}; but {words}")
+        if p.part in pins
+        else p
+        for p in found.parts
+    )
+    return replace(found, parts=parts, to_review=tuple(dict.fromkeys((*found.to_review, *sorted(pins)))))
+
+
 def _unplayed_axes(found: Alignment, template: Template, answer: Answer) -> dict[str, tuple[Vector, Vector]]:
     """Joint → the axis that the search has for it, for those on a pin that has another role than theirs, or none."""
-    roles, structure = {p.role for p in found.parts}, answer.structure
+    roles, hinges = {p.role for p in found.parts}, answer.structure.hinges
     wanted = {j.name for j in template.joints}
-    hinges = {j: h for j, h in sorted(answer.solution.hinge_of.items()) if j in wanted}
-    axes = {j: structure.axes[structure.hinges[h].axis] for j, h in hinges.items()}
-    pinned = {j for j in axes if structure.hinges[answer.solution.hinge_of[j]].pins}
     return {
-        j: (triple(axis.origin), triple(axis.direction))
-        for j, axis in axes.items()
-        if j in pinned and pin_role(template.joint(j), template) not in roles
+        j: line
+        for j, line in _searched_axes(answer).items()
+        if j in wanted
+        and hinges[answer.solution.hinge_of[j]].pins
+        and pin_role(template.joint(j), template) not in roles
     }
 
 

@@ -13,6 +13,7 @@ from yellowiron.mechanism import sensors, sites, values
 from yellowiron.mechanism.actuation import cylinders, drives
 from yellowiron.mechanism.actuation.cylinders import FittedCylinder
 from yellowiron.mechanism.actuation.direct_drives import direct_drives, with_direct_hinges
+from yellowiron.mechanism.actuation.proportion import proportion_of
 from yellowiron.mechanism.bodies import body, mass
 from yellowiron.mechanism.bodies.choice import Choice
 from yellowiron.mechanism.bodies.hidden_wheels import hidden_wheels, with_wheels
@@ -81,13 +82,21 @@ def build_mechanism(
     frames, remarks = follow_first(frames, sorted(direct, key=lambda name: tree.bodies.index(tree.sides[name][1])))
     findings += remarks
 
+    # What everything weighs.
+    by_document = documents.materials if documents is not None else {}
+    weighed: list[Finding] = []
+    masses = mass.weigh(placement, template, specifications, by_document, tree.bodies, weighed)
+    proportion = proportion_of(placement, masses, tree.bodies)
+
     # What moves them, how far and how hard.
     fitted, remarks = cylinders.fit_cylinders(placement, template, frames, specifications)
     findings += remarks
-    powered = drives.slide_drives(template, fitted, findings)
+    powered = drives.slide_drives(template, fitted, proportion, findings)
     radii = chains.pitch_radii(placement, template, frames) | {name: wheel.radius for name, wheel in wheels.items()}
     motors = replace(template, actuators=tuple(a for a in template.actuators if not direct & {*a.joints}))
-    powered |= drives.motor_drives(motors, frames, tree.sides, placement, specifications, findings, radii)
+    powered |= drives.motor_drives(
+        motors, frames, tree.sides, placement, specifications, findings, proportion=proportion, radii=radii
+    )
     powered |= direct_drives(direct, frames)
     stated = drives.stated_drives(template, frames, findings)
     powered |= stated
@@ -97,9 +106,8 @@ def build_mechanism(
         _joint(_sourced(frame, alignment), tree, slides, powered, specifications, findings) for frame in frames.values()
     )
 
-    # What everything weighs.
-    by_document = documents.materials if documents is not None else {}
-    masses = mass.weigh(placement, template, specifications, by_document, tree.bodies, findings)
+    # The bodies.
+    findings += weighed
     drawn = [b for b in tree.bodies if b not in wheels]
     origins = _origins(tree, frames) | {b: clean_triple(_middle(placement, b)) for b in floating}
     tokens = Choice(template, documents.collision if documents is not None else {}, template.collision)

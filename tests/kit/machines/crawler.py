@@ -17,7 +17,7 @@ from kit.machines.solids import Array, around, bolt, box, lathe, place, plate, t
 from yellowiron.model.alignment import Alignment, PartAssignment
 from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.geometry import Mesh, PlaneFeature, Shape
-from yellowiron.model.mechanism import Mechanism
+from yellowiron.model.mechanism import Joint, Mechanism
 
 TEETH = 12
 PITCH = 0.19
@@ -197,6 +197,13 @@ def crawler(shoes: int = 36, rollers: int = 5, carriers: int = 2, *, bolts: int 
 
 def of_steel(mechanism: Mechanism) -> Mechanism:
     """A crawler as heavy as its steel, about: without a published weight it was built with a usual one of its size, a
-    tenth of what its solid blocks weigh."""
+    tenth of what its solid blocks weigh. Drives that were limited for that are as much stronger."""
     bodies = tuple(replace(b, mass=10.0 * b.mass, inertia=10.0 * b.inertia) for b in mechanism.bodies)
-    return replace(mechanism, bodies=bodies)
+    return replace(mechanism, bodies=bodies, joints=tuple(_stronger(j) for j in mechanism.joints))
+
+
+def _stronger(joint: Joint) -> Joint:
+    drive = joint.drive
+    if drive is None or "limited to what suits" not in drive.source:
+        return joint
+    return replace(joint, drive=replace(drive, max_force=10.0 * drive.max_force, damping=10.0 * drive.damping))

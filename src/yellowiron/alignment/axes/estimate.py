@@ -20,6 +20,7 @@ from yellowiron.alignment.axes.directions import (
     wheels_beside,
 )
 from yellowiron.alignment.axes.hinges import AT_PIVOT, Clues, bars_between, eye_of, hinge_candidates
+from yellowiron.alignment.axes.levers import with_levers
 from yellowiron.alignment.axes.turning import slewing_candidate, wheel_candidate
 from yellowiron.alignment.axes.values import AxisEstimate, Candidate, Frame, Line
 from yellowiron.alignment.features.solids import Solid, size_of
@@ -29,6 +30,8 @@ from yellowiron.support.vectors import angle_between_lines, distance_from_line, 
 
 WHEELS = ("wheel", "sprocket", "idler", "roller", "carrier")
 """Kinds of roles that turn about their own axis of symmetry."""
+TWIN_BETTER = 3.0
+"""So many times as well known, a cylinder's line is its twin's too."""
 PIVOT_TAKEN = 0.4
 """Quality from which a hinge that is drawn at a pivot of the scene's tree has it to itself."""
 
@@ -68,6 +71,7 @@ def estimate_axes(
                 found[joint.name] = _single(joint, template, bodies, frame, pivots or {}, loose)
             continue
         way = direction_of(linkage, template, bodies, lines, frame)
+        lines |= _lines_with_twins({j.name: lines[j.name] for j in linkage if j.name in lines}, way.vector)
         turning = [j for j in linkage if j.type == "revolute"]
         hinges = {j.name: _hinge(j, template, bodies, way, linkage, lines, None, loose) for j in turning}
         left = _left_pivots(turning, hinges, pivots or {}, template, size)
@@ -78,6 +82,7 @@ def estimate_axes(
         }
         if not is_upright(linkage, template):
             hinges = _with_twins(hinges)
+        hinges = with_levers(hinges, template, linkage, size)
         found |= {name: _estimate(name, candidates) for name, candidates in hinges.items()}
     for name, line in lines.items():
         found[name] = _slide(name, line, template, found)
@@ -204,6 +209,23 @@ def _with_twins(hinges: Mapping[str, list[Candidate]]) -> dict[str, list[Candida
             quality, how = 0.8 * other.quality, f"its twin's: {other.how}"
             twins = replace(moved, across=1.5 * other.across, quality=quality, how=how)
             found[name] = [twins, *own]
+    return found
+
+
+def _lines_with_twins(lines: Mapping[str, Line], way: Floats) -> dict[str, Line]:
+    """The lines of a linkage's cylinders; of left and right twins, which move side by side, that of which little is
+    drawn along it is parallel to the other's, and beside it along `way`."""
+    found = dict(lines)
+    for name, own in lines.items():
+        twin = lines.get(_other_side(name) or "")
+        if twin is None or own.angle < TWIN_BETTER * twin.angle:
+            continue
+        origin = twin.origin + float((own.origin - twin.origin) @ way) * way
+        ahead = twin.direction if float(twin.direction @ own.direction) > 0.0 else -twin.direction
+        across = math.hypot(own.across, twin.across)
+        found[name] = replace(
+            own, origin=origin, direction=ahead, across=across, angle=1.5 * twin.angle, how=f"its twin's: {twin.how}"
+        )
     return found
 
 

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from yellowiron.mechanism.actuation.cylinder_geometry import CylinderGeometry, measure_cylinder
+from yellowiron.mechanism.actuation.proportion import FASTEST
 from yellowiron.mechanism.joints.axes import Axis
 from yellowiron.mechanism.joints.frames import JointFrame
 from yellowiron.mechanism.placement import Placement
@@ -324,7 +325,11 @@ def _speeds(one: _Sizes, group: list[_Sizes], stroke: float, work: _Work) -> tup
         if (assumed := work.assumed("speed")) is not None:
             return assumed, assumed
         flow = work.assumed("flow") or Known(0.0, UNKNOWN)
-        return Known(flow.value / out_area, flow.source), Known(flow.value / in_area, flow.source)
+        most = stroke / FASTEST if stroke > 0.0 else math.inf
+        return (
+            Known(min(flow.value / out_area, most), flow.source),
+            Known(min(flow.value / in_area, most), flow.source),
+        )
     # One way known: the same flow fills the other side.
     if extend is None and retract is not None:
         extend = Known(retract.value * in_area / out_area, f"{retract.source}, by the ratio of areas")

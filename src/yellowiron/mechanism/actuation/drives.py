@@ -11,6 +11,7 @@ from collections.abc import Mapping, Sequence
 from typing import Literal
 
 from yellowiron.mechanism.actuation.cylinders import FittedCylinder
+from yellowiron.mechanism.actuation.proportion import Proportion
 from yellowiron.mechanism.joints.axes import Axis
 from yellowiron.mechanism.joints.frames import JointFrame
 from yellowiron.mechanism.placement import Placement
@@ -29,9 +30,13 @@ _SLIP = 0.05
 
 
 def slide_drives(
-    template: Template, fitted: Mapping[str, Sequence[FittedCylinder]], findings: list[Finding]
+    template: Template,
+    fitted: Mapping[str, Sequence[FittedCylinder]],
+    proportion: Proportion,
+    findings: list[Finding],
 ) -> dict[str, Drive]:
-    """The drive of every driven cylinder's slide, by joint name. It carries its passive twins' share."""
+    """The drive of every driven cylinder's slide, by joint name. It carries its passive twins' share; under the
+    template's pressure it is no stronger than suits the machine."""
     drives = {}
     for actuator in template.actuators:
         cylinders = fitted.get(actuator.name, ())
@@ -40,7 +45,8 @@ def slide_drives(
         for one in driven:
             joint = template.joint(one.cylinder.slide)
             if joint.drive is not None:
-                drives[joint.name] = _cylinder_drive(joint, one, twins if one is driven[0] else [], actuator, findings)
+                carried = twins if one is driven[0] else []
+                drives[joint.name] = _cylinder_drive(joint, one, carried, actuator, proportion, findings)
     return drives
 
 
@@ -49,6 +55,7 @@ def _cylinder_drive(
     one: FittedCylinder,
     twins: Sequence[FittedCylinder],
     actuator: ActuatorTemplate,
+    proportion: Proportion,
     findings: list[Finding],
 ) -> Drive:
     out = one.cylinder.push_force + sum(
@@ -58,8 +65,12 @@ def _cylinder_drive(
         t.cylinder.pull_force if t.sign == one.sign else t.cylinder.push_force for t in twins
     )
     share = f" with {len(twins)} passive twin(s)" if twins else ""
-    source = f"pressure times area{share}: {out / 1e3:.1f} kN extending, {back / 1e3:.1f} kN retracting; {PROVISIONAL}"
+    source = f"pressure times area{share}: {out / 1e3:.1f} kN extending, {back / 1e3:.1f} kN retracting"
     force = max(out, back)
+    if one.cylinder.sources.get("pressure", "").startswith(DEFAULT):
+        force, limited = proportion.force(force, actuator.name, findings)
+        source += limited
+    source += f"; {PROVISIONAL}"
     if force <= 0.0:
         _no_limit(actuator, "bore or pressure", findings)
         force = math.inf
@@ -78,10 +89,12 @@ def motor_drives(
     placement: Placement,
     specifications: Specifications,
     findings: list[Finding],
+    *,
+    proportion: Proportion,
     radii: Mapping[str, float] | None = None,
 ) -> dict[str, Drive]:
     """The velocity drive of every motor joint, by joint name. `sides` gives each joint's (body0, body1); `radii` are
-    those of bodies whose parts do not show it, metres."""
+    those of bodies whose parts do not show it, metres. A default torque is no more than suits the machine."""
     drives = {}
     pulling = _pulling(template, frames)
     for actuator in template.actuators:
@@ -97,6 +110,8 @@ def motor_drives(
             if turning is not None and turning.source == DEFAULT and template.role(moved).hidden:
                 # The default is the one motor's whose place they take together.
                 turning = Known(turning.value / len(joints), DEFAULT)
+            if turning is not None and turning.source == DEFAULT:
+                turning = proportion.torque(turning, actuator.name, findings)
             drives[frame.joint.name] = _motor_drive(frame.joint, turning, speed, actuator, findings)
     return drives
 

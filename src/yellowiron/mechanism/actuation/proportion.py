@@ -1,0 +1,64 @@
+"""What the template's defaults may ask of a machine that is far smaller or lighter than those they were taken from."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from yellowiron.mechanism.bodies.mass import Masses
+from yellowiron.mechanism.placement import Placement
+from yellowiron.mechanism.values import Known
+from yellowiron.model.finding import Finding
+from yellowiron.model.mechanism import DEFAULT
+from yellowiron.support.text import display
+
+GRAVITY = 9.81
+TORQUE = 0.05
+"""A motor's default torque is at most this share of the machine's weight times the diagonal of its box. Swing motors
+have 0.03 of it (21 t, 70 kN·m) to 0.05 (2 t, 4 kN·m), travel and wheel motors half of that."""
+FORCE = 20.0
+"""Cylinders of one actuator under default pressure push with at most so many times the machine's weight: those of
+excavators and loaders of 1 to 20 t with 2 to 11."""
+FASTEST = 1.0
+"""Under default flow a stroke takes no fewer seconds: those of excavators and loaders take 1.5 to 6."""
+
+
+@dataclass(frozen=True)
+class Proportion:
+    """A machine's `weight` (N) and the `length` (m) of its box's diagonal."""
+
+    weight: float
+    length: float
+
+    def torque(self, default: Known, where: str, findings: list[Finding]) -> Known:
+        """A default torque (N·m), no more than suits the machine; MEC036 where that is less."""
+        most = TORQUE * self.weight * self.length
+        if not 0.0 < most < default.value:
+            return default
+        return Known(most, self._told(where, default.value, most, "N·m", findings))
+
+    def force(self, default: float, where: str, findings: list[Finding]) -> tuple[float, str]:
+        """(N, source): a force of default pressure, no more than suits the machine; MEC036 where that is less."""
+        most = FORCE * self.weight
+        if not 0.0 < most < default:
+            return default, ""
+        return most, "; " + self._told(where, default, most, "N", findings)
+
+    def _told(self, where: str, default: float, most: float, unit: str, findings: list[Finding]) -> str:
+        mass = display(self.weight / GRAVITY, "kg")
+        words = (
+            f"The template's default would drive it with {display(default, unit)}, far more than suits a machine of "
+            f"{mass}: it is given {display(most, unit)}."
+        )
+        findings.append(Finding("MEC036", "warning", where, words, "Give its weight and its drives, or a sheet."))
+        return f"{DEFAULT}, limited to what suits a machine of {mass}"
+
+
+def proportion_of(placement: Placement, masses: Masses, bodies: Sequence[str]) -> Proportion:
+    """Weight and size of a machine of those bodies."""
+    rows = {body: placement.rows_of_body(body) for body in bodies}
+    kg = sum(masses.factors[body].value * masses.moments[row].mass for body, own in rows.items() for row in own)
+    points = placement.points_of([row for own in rows.values() for row in own])
+    return Proportion(GRAVITY * kg, float(np.linalg.norm(np.ptp(points, axis=0))) if len(points) else 0.0)
