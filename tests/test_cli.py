@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -13,7 +14,9 @@ from typing import Any
 
 import pytest
 
+from kit.builds import console
 from yellowiron.cli import app
+from yellowiron.cli.telling import progress_shown, telling
 
 pytestmark = pytest.mark.usefixtures("cad_read_once")
 
@@ -63,6 +66,63 @@ def test_a_closed_terminal_leaves_nothing_behind(example: Path, tmp_path: Path, 
     finally:
         ours.kill()
         ours.wait()
+
+
+def _shell(*words: str, **more: str) -> subprocess.CompletedProcess[str]:
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(p for p in sys.path if p), **more}
+    return subprocess.run([sys.executable, "-m", "yellowiron", *words], env=environment, capture_output=True, text=True)
+
+
+@pytest.mark.parametrize("group", [(), ("build",), ("templates",), ("templates", "new"), ("align",)])
+def test_help_is_a_letter_away(group: tuple[str, ...], tmp_path: Path) -> None:
+    short, long = (console(*group, option, cwd=tmp_path) for option in ("-h", "--help"))
+    assert short.returncode == 0 and "Usage: yellowiron" in short.stdout
+    assert short.stdout == long.stdout
+
+
+def test_a_shell_completes_commands_and_types() -> None:
+    for typed, found in (("yellowiron ex", {"extract", "export"}), ("yellowiron build excav", {"excavator"})):
+        more = {"_YELLOWIRON_COMPLETE": "complete_bash", "COMP_WORDS": typed, "COMP_CWORD": str(typed.count(" "))}
+        assert set(_shell(**more).stdout.split()) == found
+
+
+@pytest.mark.parametrize(
+    ("words", "where"),
+    [(("templates", "show", "nope"), "nope"), (("build",), "yellowiron build"), (("measure", "no.usd"), "no.usd")],
+)
+def test_an_error_is_one_document_where_json_is_asked_for(words: tuple[str, ...], where: str, tmp_path: Path) -> None:
+    told = console(*words, "--json", cwd=tmp_path)
+    assert told.returncode == 2 and told.stderr == ""
+    error = json.loads(told.stdout)["error"]
+    assert set(error) == {"message", "where", "hint"} and all(error.values())
+    assert error["where"] == where
+    plain = console(*words, cwd=tmp_path)
+    assert plain.stdout == "" and error["message"] in plain.stderr
+
+
+def test_steps_are_plain_lines_in_a_pipe(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    def check(file: Path) -> tuple[()]:
+        return ()
+
+    monkeypatch.setattr("yellowiron.api.check", check)
+    told = console("check", "a.usd", cwd=tmp_path)
+    assert re.fullmatch(r"Checking the file +\d+\.\d s\n", told.stderr)
+    silent = console("check", "a.usd", "-q", cwd=tmp_path)
+    assert (silent.returncode, silent.stdout, silent.stderr) == (0, "", "")
+    both = console("check", "a.usd", "--json", "--verbose", cwd=tmp_path)
+    assert json.loads(both.stdout) == {"findings": []} and "Checking the file" in both.stderr
+
+
+@pytest.mark.parametrize(("verbose", "lines"), [(False, 2), (True, 4)])
+def test_steps_that_differ_in_a_number_are_one(capsys: pytest.CaptureFixture[str], verbose: bool, lines: int) -> None:
+    telling(as_json=False, quiet=False, verbose=verbose)
+    with progress_shown() as progress:
+        for page in (1, 2, 3):
+            progress(f"Reading page {page} of 3 of sheet.pdf")
+        progress("Writing USD")
+    telling(as_json=False, quiet=False, verbose=False)
+    told = capsys.readouterr()
+    assert told.out == "" and len(told.err.splitlines()) == lines and "\x1b" not in told.err
 
 
 @pytest.mark.slow

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 import trimesh
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
+from PIL import Image
 
 from yellowiron.report.html.pictures import DrawnTriangles, encode, look_at, render
 
@@ -61,3 +63,13 @@ def test_every_point_is_in_the_frame(
     camera = look_at(cloud, azimuth=azimuth, elevation=elevation, width=400, height=300)
     pixels = camera.project(cloud)
     assert (pixels >= -1.0).all() and (pixels <= [401.0, 301.0]).all()
+
+
+def test_what_is_drawn_finer_at_edges_alone_is_as_fine_as_a_picture_twice_the_size(two_boxes: DrawnTriangles) -> None:
+    corners = two_boxes.corners.reshape(-1, 3).astype(np.float64)
+    camera = look_at(corners, width=320, height=200)
+    twice = replace(camera, width=640, height=400, scale=2.0 * camera.scale)
+    ours = np.asarray(render(two_boxes, camera), dtype=int)
+    whole = render(two_boxes, twice, supersample=1).resize((320, 200), Image.Resampling.BOX)
+    apart = np.abs(ours - np.asarray(whole, dtype=int)).max(axis=2)
+    assert apart.mean() < 0.3 and (apart > 24).mean() < 2e-3

@@ -16,6 +16,7 @@ from rich.text import Text
 from yellowiron.model.errors import OutputError, YellowironError
 from yellowiron.support.text import to_json
 
+STANDARD_OUTPUT = "standard output"
 _PIPE = 128 + 13
 """The exit code of a program whose reader has gone (SIGPIPE)."""
 _PIPE_WIDTH = 160
@@ -79,6 +80,21 @@ def complain(error: YellowironError) -> None:
         _silence(sys.stderr)
 
 
+def print_step(words: str) -> None:
+    """A line on standard error, as it is; nothing where that takes no more."""
+    try:
+        if sys.stderr is not None:
+            Console(stderr=True).print(Text(words, "dim"), soft_wrap=True)
+    except OSError:
+        _silence(sys.stderr)
+
+
+def error_terminal() -> Console | None:
+    """Standard error, where it is a terminal."""
+    stderr = Console(stderr=True)
+    return stderr if stderr.is_terminal else None
+
+
 def printable(text: str) -> str:
     """A text on one line, without what steers a terminal; the middle of one of over 2000 letters is left out."""
     text = "".join(c if c.isprintable() else repr(c)[1:-1] for c in text)
@@ -138,7 +154,7 @@ def _unprintable(error: OSError) -> OutputError:
         sys.exit(_PIPE)
     return OutputError(
         f"The answer cannot be printed: {error.strerror or error}",
-        where="standard output",
+        where=STANDARD_OUTPUT,
         hint="Let it lead to a terminal, or to a file on a disk with room.",
     )
 

@@ -31,7 +31,18 @@ _SUN = (np.array([0.35, -0.70, 1.0]) / math.sqrt(0.35**2 + 0.70**2 + 1.0)).astyp
 _SKY = np.array([0.85, 0.89, 0.93], dtype=np.float32)
 _GROUND = np.array([0.78, 0.77, 0.74], dtype=np.float32)
 _UP = np.array([0.0, 0.0, 1.0], dtype=np.float32)
-_BAND = 48
+_BAND = 96
+"""Rows that are done at once, and further down rays."""
+_AT_ONCE = 100_000
+_CREASE = 0.82
+"""Cosine: faces at more than about 35° have a line between them."""
+_SHADE = 0.05
+"""Linear light: pixels side by side that differ by more are at an edge of a shadow."""
+_THIRDS = np.full(3, 1.0 / 3.0, dtype=np.float32)
+_BESIDE = (
+    ((slice(None, -1), slice(None)), (slice(1, None), slice(None))),
+    ((slice(None), slice(None, -1)), (slice(None), slice(1, None))),
+)
 YELLOW = (0.87, 0.47, 0.01)
 # Linear to sRGB (IEC 61966-2-1, as a power of 2.2), by 16 bits of light.
 _DISPLAY = (255.0 * np.linspace(0.0, 1.0, 65536) ** (1.0 / 2.2) + 0.5).astype(np.uint8)
@@ -209,34 +220,105 @@ def render(
     drawn: DrawnTriangles, camera: Camera, *, colors: Singles | None = None, supersample: int = 2
 ) -> Image.Image:
     """The picture: sun with shadow, sky light, a ground plane, and lines where parts or creases meet. `colors` (m, 3)
-    take the place of their own."""
+    take the place of their own.
+
+    One ray a pixel; `supersample` × `supersample` where it differs from one beside it, which is where they show.
+    """
     own = drawn.colors if colors is None else colors
-    width, height = camera.width * supersample, camera.height * supersample
-    image = np.empty((height, width, 3), dtype=np.float32)
-    normals = np.empty_like(image)
-    face = np.empty((height, width), dtype=np.int32)
+    width, height = camera.width, camera.height
     # Band by band, so that a band's numbers stay in the processor's cache.
-    for top in range(0, height, _BAND):
-        band = slice(top, top + _BAND)
-        directions = _rays(camera, supersample, np.arange(height, dtype=np.float32)[band] + np.float32(0.5))
-        colored, facing, met = _shade(drawn, own, camera.eye.astype(np.float32), directions)
-        image[band], normals[band] = colored.reshape(-1, width, 3), facing.reshape(-1, width, 3)
-        face[band] = met.reshape(-1, width)
-    seen = face >= 0
-    label = np.where(seen, drawn.parts[np.maximum(face, 0)] if len(drawn.parts) else -1, -1)
-    image[_edges(label, normals, seen)] *= 0.2
-    pixels = _DISPLAY[(65535.0 * np.clip(image, 0.0, 1.0)).astype(np.uint16)]
-    return Image.fromarray(pixels).resize((camera.width, camera.height), Image.Resampling.BOX)
+    rows = [np.arange(top, min(top + _BAND, height)) for top in range(0, height, _BAND)]
+    across = np.arange(width, dtype=np.float32) + np.float32(0.5)
+    bands = [
+        _seen(drawn, own, camera, np.tile(across, len(r)), np.repeat(r.astype(np.float32) + 0.5, width)) for r in rows
+    ]
+    whole = _Samples(*(np.concatenate(one) for one in zip(*((s.color, s.normal, s.label) for s in bands), strict=True)))
+    rough = np.flatnonzero(_rough(whole, width, height))
+    pixels = _displayed(whole.color)
+    if len(rough):
+        pixels[rough] = _fine(drawn, own, camera, whole, rough, max(supersample, 1))
+    return Image.fromarray(pixels.reshape(height, width, 3))
 
 
-def _rays(camera: Camera, supersample: int, rows: Singles) -> Singles:
-    """Unit directions (n, 3) through the pixels of some rows, row by row."""
-    width, height = np.float32(camera.width * supersample), np.float32(camera.height * supersample)
-    scale = np.float32(camera.scale * supersample)
-    across = (np.arange(width, dtype=np.float32) + np.float32(0.5) - width / 2) / scale
-    down = (rows - height / 2) / scale
-    sides = across[None, :, None] * camera.right.astype(np.float32) - down[:, None, None] * camera.up.astype(np.float32)
-    directions = (camera.forward.astype(np.float32) + sides).reshape(-1, 3)
+@dataclass(frozen=True, eq=False)
+class _Samples:
+    """What some rays meet: linear colours (n, 3), normals (n, 3), zero where it is the sky, and the numbers (n,) of the
+    parts, -1 where it is none."""
+
+    color: Singles
+    normal: Singles
+    label: NDArray[np.int32]
+
+
+def _seen(drawn: DrawnTriangles, own: Singles, camera: Camera, x: Singles, y: Singles) -> _Samples:
+    """What is seen at places (n,) of a picture, in pixels."""
+    color, normal, face = _shade(drawn, own, camera.eye.astype(np.float32), _rays(camera, x, y))
+    label = np.where(face >= 0, drawn.parts[np.maximum(face, 0)] if len(drawn.parts) else -1, -1)
+    return _Samples(color, normal, label.astype(np.int32))
+
+
+def _displayed(color: Singles) -> NDArray[np.uint8]:
+    return np.asarray(_DISPLAY[(65535.0 * np.clip(color, 0.0, 1.0)).astype(np.uint16)])
+
+
+def _rough(samples: _Samples, width: int, height: int) -> NDArray[np.bool_]:
+    """Pixels (height × width,) that differ from one beside them: in part, in direction, or, at a shadow, in light."""
+    label = samples.label.reshape(height, width)
+    normal, light = samples.normal.reshape(height, width, 3), (samples.color @ _THIRDS).reshape(height, width)
+    rough = np.zeros((height, width), dtype=bool)
+    for here, there in _BESIDE:
+        apart = label[here] != label[there]
+        apart |= np.einsum("ijk,ijk->ij", normal[here], normal[there]) < _CREASE
+        apart &= (label[here] >= 0) | (label[there] >= 0)
+        apart |= np.abs(light[here] - light[there]) > _SHADE
+        rough[here] |= apart
+        rough[there] |= apart
+    return rough.reshape(-1)
+
+
+def _fine(
+    drawn: DrawnTriangles, own: Singles, camera: Camera, whole: _Samples, rough: NDArray[np.intp], times: int
+) -> NDArray[np.uint8]:
+    """The `rough` pixels (n,) of a picture anew, as display values (n, 3): each the middle of `times` × `times`, with
+    the lines between them."""
+    inside = (np.arange(times, dtype=np.float32) + np.float32(0.5)) / np.float32(times)
+    down, across = (axis.reshape(-1) for axis in np.meshgrid(inside, inside, indexing="ij"))
+    count = times * times
+    chunks = []
+    for some in np.array_split(rough, math.ceil(len(rough) * count / _AT_ONCE)):
+        row, column = np.divmod(some, camera.width)
+        x, y = (
+            (column[:, None].astype(np.float32) + across).reshape(-1),
+            (row[:, None].astype(np.float32) + down).reshape(-1),
+        )
+        chunks.append(_seen(drawn, own, camera, x, y))
+    fine = _Samples(*(np.concatenate(one) for one in zip(*((s.color, s.normal, s.label) for s in chunks), strict=True)))
+    # Where a sample's right and lower neighbours are: among the fine ones, else the pixel's only one behind them.
+    first = np.full(camera.width * camera.height, -1)
+    first[rough] = np.arange(len(rough)) * count
+    row, column = (np.repeat(one, count) for one in np.divmod(rough, camera.width))
+    inner_row, inner_column = (np.tile(one.reshape(-1), len(rough)) for one in np.indices((times, times)))
+    label, normal = np.concatenate([fine.label, whole.label]), np.concatenate([fine.normal, whole.normal])
+    line = np.zeros(len(fine.label), dtype=bool)
+    for step_row, step_column in ((1, 0), (0, 1)):
+        r, c = row * times + inner_row + step_row, column * times + inner_column + step_column
+        there = (r < camera.height * times) & (c < camera.width * times)
+        pixel = np.where(there, r // times * camera.width + c // times, 0)
+        at = np.where(first[pixel] >= 0, first[pixel] + r % times * times + c % times, len(fine.label) + pixel)
+        crease = (np.einsum("ij,ij->i", fine.normal, normal[at]) < _CREASE) & (fine.label >= 0) & (label[at] >= 0)
+        line |= there & ((fine.label != label[at]) | crease)
+    color = fine.color
+    color[line] *= 0.2
+    shown = _displayed(color).reshape(len(rough), count, 3).astype(np.uint32)
+    return np.asarray((shown.sum(axis=1) + count // 2) // count).astype(np.uint8)
+
+
+def _rays(camera: Camera, x: Singles, y: Singles) -> Singles:
+    """Unit directions (n, 3) through places (n,) of a picture, in pixels."""
+    scale = np.float32(camera.scale)
+    across, up = (x - np.float32(camera.width / 2)) / scale, (np.float32(camera.height / 2) - y) / scale
+    along, right, above = (v.astype(np.float32) for v in (camera.forward, camera.right, camera.up))
+    directions = along + across[:, None] * right + up[:, None] * above
     return np.asarray(directions / np.sqrt(np.einsum("ij,ij->i", directions, directions))[:, None])
 
 
@@ -322,14 +404,3 @@ def _extent(drawn: DrawnTriangles) -> tuple[Singles, np.float32]:
         return np.zeros(2, dtype=np.float32), np.float32(1.0)
     low, high = drawn.box
     return (0.5 * (low + high))[:2], np.float32(1.4 * np.linalg.norm(high - low))
-
-
-def _edges(label: NDArray[np.int32], normals: Singles, seen: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Pixels where two parts, or two faces at more than about 35°, meet."""
-    edges = np.zeros(label.shape, dtype=bool)
-    for axis in (0, 1):
-        here = (slice(None, -1), slice(None)) if axis == 0 else (slice(None), slice(None, -1))
-        there = (slice(1, None), slice(None)) if axis == 0 else (slice(None), slice(1, None))
-        crease = np.einsum("ijk,ijk->ij", normals[here], normals[there]) < 0.82
-        edges[here] |= (label[here] != label[there]) | (crease & seen[here] & seen[there])
-    return edges

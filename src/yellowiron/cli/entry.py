@@ -1,0 +1,62 @@
+"""The console script."""
+
+from __future__ import annotations
+
+import signal
+import sys
+
+from yellowiron.cli import building, library, machines  # noqa: F401 - each adds its commands
+from yellowiron.cli.application import app
+from yellowiron.model.errors import OutputError, YellowironError
+from yellowiron.report import terminal
+from yellowiron.support.limits import require_supported_platform
+
+
+def main() -> None:
+    """Whatever is unusable is one sentence on stderr and exit code 2, with `--json` one document on stdout; never a
+    traceback."""
+    terminal.prepare()
+    try:
+        require_supported_platform()
+        stopped = _stoppable()
+        try:
+            code = terminal.called(app)
+        except BaseException:
+            # A library that was interrupted while it loads may make of it what it likes.
+            if stopped:
+                raise SystemExit(128 + stopped[0]) from None
+            raise
+        terminal.flush()
+    except YellowironError as error:
+        _tell(error)
+        code = 2
+    sys.exit(code)
+
+
+def _tell(error: YellowironError) -> None:
+    words = sys.argv[1:]
+    asked = "--json" in words[: words.index("--") if "--" in words else None]
+    # An answer that cannot be printed is no place to say so.
+    if asked and not (isinstance(error, OutputError) and error.where == terminal.STANDARD_OUTPUT):
+        try:
+            terminal.print_json({"error": {"message": error.message, "where": error.where, "hint": error.hint}})
+            terminal.flush()
+            return
+        except OutputError:
+            pass
+    terminal.complain(error)
+
+
+def _stoppable() -> list[int]:
+    """A terminated run, or one whose terminal was closed, leaves as an interrupted one does: its child ends, its
+    temporary folders go. What nohup has told to stay stays. The list has the signal that came."""
+    stopped: list[int] = []
+
+    def stop(number: int, frame: object) -> None:
+        stopped.append(number)
+        sys.exit(128 + number)
+
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        if signal.getsignal(number) != signal.SIG_IGN:
+            signal.signal(number, stop)
+    return stopped

@@ -1,0 +1,83 @@
+"""Of machines that were built: `measure`, `check`, `simulate`, `export`."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from pathlib import Path
+from typing import Annotated, Literal
+
+import typer
+from rich.text import Text
+
+import yellowiron
+from yellowiron.cli.application import app
+from yellowiron.cli.options import command
+from yellowiron.cli.telling import answer, progress_shown
+
+
+@command(app)
+def measure(
+    machine: Annotated[Path, typer.Argument(metavar="FILE.usd", help="A machine that build wrote.")],
+) -> None:
+    """Measure a machine against its sheet."""
+    from yellowiron.report import measurement_table, within_tolerance
+
+    found = yellowiron.measure(machine)
+    entries = [asdict(m) for m in found]
+    answer({"measurements": entries}, measurement_table(entries))
+    raise typer.Exit(1 if any(m.role == "checked" and within_tolerance(m) is False for m in found) else 0)
+
+
+@command(app)
+def check(file: Annotated[Path, typer.Argument(metavar="FILE.usd", help="Any UsdPhysics file.")]) -> None:
+    """Check any UsdPhysics file, ours or not."""
+    from yellowiron.report import finding_table
+
+    with progress_shown() as progress:
+        progress("Checking the file")
+        entries = [asdict(f) for f in yellowiron.check(file)]
+    sound = Text("Sound.", "bold green")
+    answer({"findings": entries}, finding_table(entries) if entries else sound)
+    raise typer.Exit(1 if any(e["severity"] == "error" for e in entries) else 0)
+
+
+@command(app)
+def simulate(
+    machine: Annotated[Path, typer.Argument(metavar="FILE.usd", help="A machine that build wrote.")],
+    engine: Annotated[str, typer.Option("--engine", help="mujoco, physx or newton.")],
+    base: Annotated[
+        Literal["fixed", "floating"], typer.Option("--base", help="In the air, or on the ground.")
+    ] = "fixed",
+    payload: Annotated[str, typer.Option("--payload", help="Load in the bucket: kg, or 'rated'.")] = "0",
+    test: Annotated[
+        Literal["strokes", "drive", "hydraulics", "all"],
+        typer.Option("--test", help="Every actuator's stroke; driving; the template's tests; or all."),
+    ] = "strokes",
+    dt: Annotated[float | None, typer.Option("--dt", help="Time step in seconds (default: the engine's).")] = None,
+) -> None:
+    """Drive every actuator in an engine, compare every step with the kinematics; drive about; test the hydraulics."""
+    from yellowiron.report import simulation_table
+
+    with progress_shown() as progress:
+        document = yellowiron.simulate(
+            machine, engine=engine, test=test, base=base, payload=payload, dt=dt, progress=progress
+        )
+    answer(document, simulation_table(document))
+    raise typer.Exit(1 if document["findings"] else 0)
+
+
+@command(app)
+def export(
+    machine: Annotated[Path, typer.Argument(metavar="FILE.usd", help="A machine that build wrote.")],
+    to: Annotated[str, typer.Option("--to", help="mjcf.")],
+    out: Annotated[Path, typer.Option("--out", help="The folder to write to.")],
+) -> None:
+    """Write the same machine for another simulator."""
+    from yellowiron.exporters import find_exporter
+
+    with progress_shown() as progress:
+        written = yellowiron.export(machine, out, to=to, progress=progress)
+    scene = find_exporter(to).scene
+    files = {"machine": str(written), **({"scene": str(out / scene)} if scene else {})}
+    said = f"{written}; {scene} beside it is the machine on the ground" if scene else str(written)
+    answer(files, Text(said))
