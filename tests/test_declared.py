@@ -47,6 +47,7 @@ def described(closing: str = "spherical") -> Assembly:
 @pytest.fixture
 def drawn(monkeypatch: pytest.MonkeyPatch) -> Callable[[Assembly], None]:
     """Stands in for the CAD file."""
+    monkeypatch.setattr(cad, "check_file", lambda file: None)
     return lambda assembly: monkeypatch.setattr(cad, "read_cad", lambda file: assembly)
 
 

@@ -28,6 +28,7 @@ Drawn = Callable[[Assembly], None]
 @pytest.fixture
 def drawn(monkeypatch: pytest.MonkeyPatch) -> Drawn:
     """Stands in for the CAD file."""
+    monkeypatch.setattr(cad, "check_file", lambda file: None)
     return lambda assembly: monkeypatch.setattr(cad, "read_cad", lambda file: assembly)
 
 

@@ -7,6 +7,7 @@ import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
+from html import escape
 from pathlib import Path
 from typing import Any
 
@@ -40,6 +41,8 @@ _LIBRARIES = (
     "yellowiron.kinematics.completion", "yellowiron.kinematics.measuring.measurement", "yellowiron.usd.write",
 )  # fmt: skip
 Progress = Callable[[str], None]
+_SHOWN = 8
+"""Causes of what is open that a notebook shows."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,8 +74,15 @@ class Machine:
         return self.folder / "report.html"
 
     def __repr__(self) -> str:
-        state = "; ".join(self.fell_short) or "ready"
+        state = f"not ready ({report.tally(self.document)})" if self.fell_short else "ready"
         return f"<Machine {self.mechanism.name}: {len(self.mechanism.bodies)} bodies in {self.folder}: {state}>"
+
+    def _repr_html_(self) -> str:
+        """What a notebook shows: the verdict, what is open, and where to look."""
+        said = [f"<b>{escape(repr(self)[1:-1])}</b>", escape(self.document["verdict"])]
+        said += [f"{cause.severity}: {escape(cause.words)}" for cause in report.causes(self.document)[:_SHOWN]]
+        said += [f'<a href="{escape(self.report.resolve().as_uri())}">report.html</a> says why.']
+        return "<br>".join(said)
 
 
 @dataclass

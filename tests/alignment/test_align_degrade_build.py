@@ -75,6 +75,7 @@ def built(
     machine = loader(1, hoses=hoses) if kind == "wheel_loader" else excavator(1)
     spoil(machine)
     assembly, truth, _ = disguise(machine, 1)
+    monkeypatch.setattr(pipeline.cad, "check_file", lambda file: None)
     monkeypatch.setattr(pipeline.cad, "read_cad", lambda file: assembly)
     monkeypatch.setattr(pipeline.report, "page", lambda *a, **more: "")
     result = pipeline.build(kind, Path("machine.step"), out)

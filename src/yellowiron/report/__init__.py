@@ -1,7 +1,8 @@
 """The report: what a build's stages gave (`BuildFacts`) → `report.json`, `report.html` and the command line's tables.
 
 In the order in which they build on each other: `words` and `rows` (how values, names and counted rows are worded),
-`document` (the report as one document; what fell short), `console` (tables for a terminal), `html` (the page).
+`document` (the report as one document; what fell short), `open_points` (that again, one line a
+cause), `console` (tables for a terminal), `html` (the page).
 """
 
 from typing import TYPE_CHECKING
@@ -30,12 +31,15 @@ if TYPE_CHECKING:
         write_document,
     )
     from yellowiron.report.html.page import page
+    from yellowiron.report.open_points import Cause, causes, tally
 
 __all__ = [
     "BuildFacts",
+    "Cause",
     "alignment_entry",
     "alignment_table",
     "build_summary",
+    "causes",
     "fell_short",
     "finding_table",
     "lint_table",
@@ -47,6 +51,7 @@ __all__ = [
     "simulation_table",
     "specification_entry",
     "specification_table",
+    "tally",
     "within_tolerance",
     "write_document",
 ]
@@ -55,9 +60,11 @@ __getattr__, __dir__ = lazy_names(
     __name__,
     {
         "BuildFacts": "document",
+        "Cause": "open_points",
         "alignment_entry": "document",
         "alignment_table": "console",
         "build_summary": "console",
+        "causes": "open_points",
         "fell_short": "document",
         "finding_table": "console",
         "lint_table": "console",
@@ -69,6 +76,7 @@ __getattr__, __dir__ = lazy_names(
         "simulation_table": "console",
         "specification_entry": "document",
         "specification_table": "console",
+        "tally": "open_points",
         "within_tolerance": "document",
         "write_document": "document",
     },

@@ -14,6 +14,7 @@ from rich.text import Text
 from yellowiron.model.alignment import Alignment, PartAssignment
 from yellowiron.model.mechanism import Measurement
 from yellowiron.report.document import within_tolerance
+from yellowiron.report.open_points import causes, tally
 from yellowiron.report.words import shown
 from yellowiron.support.text import display
 
@@ -274,7 +275,8 @@ def proposal_table(document: Mapping[str, Any]) -> RenderableType:
 
 
 def build_summary(document: Mapping[str, Any], reasons: Sequence[str], folder: str) -> RenderableType:
-    """What a build ends with: the machine in a line, the measurements, what is left to a person."""
+    """What a build ends with: the machine in a line, the measurements, what is left to a person, one line a
+    cause."""
     counts, mobility, alignment = document["counts"], document["mobility"], document["alignment"]
     line = Text.assemble(
         (document["machine"], "bold"),
@@ -286,11 +288,11 @@ def build_summary(document: Mapping[str, Any], reasons: Sequence[str], folder: s
     )
     blocks: list[RenderableType] = [line, Text(document["verdict"]), "", measurement_table(document["measurements"])]
     if reasons:
-        blocks += [
-            "",
-            Text("Left to you:", "bold yellow"),
-            *(Text(f"  • {reason}", overflow="fold") for reason in reasons),
-        ]
+        blocks += ["", Text(f"Built, and not ready: {tally(document)}.", "bold yellow")]
+        for cause in causes(document):
+            blocks.append(Text.assemble("  • ", (cause.severity, _SEVERITY[cause.severity]), f"  {cause.words}"))
+            if cause.settings:
+                blocks.append(Text.assemble("    paste: ", (cause.block, "cyan")))
     else:
         blocks += ["", Text("Ready: nothing left to do by hand.", "bold green")]
     blocks.append(Text(f"{folder}/scene.usda is the machine on the ground; {folder}/report.html says why.", "dim"))

@@ -14,7 +14,7 @@ from yellowiron.model.assembly import Assembly
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Measurement, Mechanism
 from yellowiron.model.poses import PoseTables
-from yellowiron.report.document import fell_short, within_tolerance
+from yellowiron.report.document import within_tolerance
 from yellowiron.report.html.joints import joint_marks, joint_rows
 from yellowiron.report.html.marks import overlay
 from yellowiron.report.html.pictures import DrawnTriangles, data_uri, look_at, machine_triangles, outline, posed, render
@@ -22,6 +22,7 @@ from yellowiron.report.html.sensors import sensor_marks, sensor_rows, view_svg, 
 from yellowiron.report.html.simulation import engine_name, in_a_sentence, simulation_tables
 from yellowiron.report.html.sweeps import Sweeps, sweep_entries
 from yellowiron.report.html.viewer import viewer
+from yellowiron.report.open_points import causes, named, tally
 from yellowiron.report.rows import in_rows
 from yellowiron.report.words import breakable, counted, sentence, shown, signed
 
@@ -29,9 +30,6 @@ Poses = Mapping[str, Mapping[str, Floats]]
 """Caption → body → (4, 4) displacement from the drawn pose, machine frame."""
 SIZE = (1120, 600)
 """Pixels of a picture of the whole machine."""
-_KINDS = ("missing: ", "no part plays ", "to review: ", "review: ", "conflict: ", "unreadable: ", "off the sheet: ")
-ALIKE = 6
-"""Reasons of one kind that are one line."""
 REASONS = 8
 """What is left to a person that stands open; the rest unfolds."""
 
@@ -56,19 +54,20 @@ def page(
         "breakable": breakable,
         "counted": counted,
         "engine_name": engine_name,
+        "named": named,
     }
     folder = resources.files("yellowiron.report").joinpath("data")
     source, style = (folder.joinpath(name).read_text(encoding="utf-8") for name in ("page.html.j2", "page.css"))
     frame = np.asarray(alignment.frame, dtype=np.float64)
     drawn = machine_triangles(mechanism, assembly, frame)
-    reasons = _in_short(fell_short(document))
+    reasons = causes(document)
     joints = joint_rows(document)
     return environment.from_string(source).render(
         d=document,
         style=style,
         reasons=reasons[:REASONS],
         more_reasons=reasons[REASONS:],
-        left=len(fell_short(document)),
+        tally=tally(document),
         ready=_ready(document),
         driven=in_a_sentence(document["simulation"]),
         figures=_figures(document),
@@ -119,24 +118,6 @@ def _sensor_svg(document: Mapping[str, Any], mechanism: Mechanism, drawn: DrawnT
     picture = data_uri(render(drawn, camera))
     under = view_svg(outlines, camera)
     return overlay(camera, picture, sensor_marks(document), alt="Sensors on the machine", under=under)
-
-
-def _in_short(reasons: Sequence[str]) -> list[str]:
-    """Reasons of one kind as one line, where there are many: what is left is seen at a glance."""
-    kinds: dict[str, list[str]] = {}
-    for reason in reasons:
-        kind = next((words for words in _KINDS if reason.startswith(words)), "")
-        kinds.setdefault(kind or reason, []).append(reason.removeprefix(kind))
-    lines = []
-    for kind, items in kinds.items():
-        if kind not in _KINDS:
-            lines.append(kind)
-        elif len(items) < ALIKE:
-            lines += [f"{kind}{item}" for item in items]
-        else:
-            more = f" and {len(items) - ALIKE} more" if len(items) > ALIKE else ""
-            lines.append(f"{kind}{', '.join(items[:ALIKE])}{more}")
-    return [line[:1].upper() + line[1:] for line in lines]
 
 
 def _ready(document: Mapping[str, Any]) -> str:

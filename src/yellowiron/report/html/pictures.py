@@ -160,7 +160,7 @@ def machine_triangles(
         spans[body.name] = (first, count)
     if not corners:
         nothing = np.zeros((0, 3, 3), dtype=np.float32)
-        return DrawnTriangles(nothing, nothing, nothing[:, 0], np.zeros(0, dtype=np.int32))
+        return DrawnTriangles(nothing, nothing, nothing[:, 0], np.zeros(0, dtype=np.int32), spans)
     return DrawnTriangles(
         np.concatenate(corners), np.concatenate(normals), np.concatenate(colors), np.concatenate(numbers), spans
     )
