@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from yellowiron.specs.recognition.mending import mended
 from yellowiron.specs.pages.picture_rules import rules_of_picture
+from yellowiron.specs.recognition.mending import mended
 
 
 def test_rules_and_fills_of_a_picture() -> None:

@@ -268,10 +268,11 @@ def _at_most_review(value: Specification, pictures: Mapping[tuple[str, int], str
     seen = value.evidence
     if value.status != "ok" or seen is None or (seen.file, seen.page) not in pictures:
         return value
+    program = pictures[seen.file, seen.page]
     return replace(
         value,
         status="review",
         confidence=min(value.confidence, PICTURED),
-        reason=f"page {seen.page} is a picture: its text is what {pictures[seen.file, seen.page]} makes of it; {value.reason}",
+        reason=f"page {seen.page} is a picture: its text is what {program} makes of it; {value.reason}",
         hint=f'Compare it with the page; settle it with --set "{value.name}=VALUE UNIT".',
     )

@@ -5,8 +5,9 @@ What it reads is a guess: a digit may be another. Values from such pages are nev
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -34,6 +35,10 @@ _SHORTEST = 15.0
 """Points; shorter strokes are parts of letters that are drawn, or of a machine."""
 _FEWEST = 4
 """Rules and fills; a file with fewer has its tables in its pictures."""
+
+
+_SQUARE = re.compile(r"(?<=\d )m[AÂ]?[²2](?!\w)|(?<=\d)m[AÂ]?²")
+"""A square metre, or what a cubic one looks like."""
 
 
 @dataclass(frozen=True)
@@ -71,13 +76,20 @@ def recognise(path: Path, numbers: Sequence[int], program: str) -> list[Recognis
                 continue
             if page.readable:
                 text = " ".join(w.text for w in page.words)
-                statements, near = tuple(statements_of(page)), nearest_of(page)
+                statements, near = tuple(with_cubes(statements_of(page))), nearest_of(page)
                 found.append(Recognised(number, statements, text, tuple(stated_in(text, number)), near))
     finally:
         document.close()
     if failure is not None and not found:
         raise failure
     return found
+
+
+def with_cubes(statements: Sequence[Statement]) -> list[Statement]:
+    """The statements, and each with a raised 2 again with a 3: the two are hardly told apart, and no name asks for
+    an area where another asks for a volume."""
+    again = [replace(s, text=_SQUARE.sub("m³", s.text)) for s in statements if _SQUARE.search(s.text)]
+    return [*statements, *again]
 
 
 def _page(page: object, number: int, program: str) -> Page:

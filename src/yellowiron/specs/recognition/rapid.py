@@ -15,12 +15,14 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from yellowiron.specs.pages.words import Word
-from yellowiron.specs.recognition.mending import mended
+from yellowiron.specs.recognition.mending import mended, without_leaders
 
 _LONGEST_PX = 4000
 """Of a picture's longer side; the program would shrink it to 2000 by itself."""
 _LEAST = 0.6
 """Confidence (of 1) below which a line without a digit is dirt."""
+_SPACE_BEFORE_CAPITAL = 0.15
+"""The same between a small letter and a capital."""
 _INK = 0.35
 """Share of a line's contrast from which on a point is ink."""
 _SPACE = 0.26
@@ -50,7 +52,7 @@ def words_on(picture: Image.Image, scale: float) -> list[Word]:
         box = (min(xs), min(ys), max(xs), max(ys))
         centres = [float(np.mean([x for x, _ in letter])) for letter in boxes]
         words += words_of_line(grey, box, list(zip(letters, centres, strict=False)), scale)
-    return words
+    return without_leaders(words)
 
 
 def words_of_line(
@@ -81,7 +83,10 @@ def words_of_line(
             continue
         if before is not None:
             wide = max((g for g in gaps if before[1] < (g[0] + g[1]) / 2 < at), key=lambda g: g[1] - g[0], default=None)
-            apart = wide is not None and wide[1] - wide[0] >= _SPACE * capital
+            least = (
+                _SPACE_BEFORE_CAPITAL if len(runs[-1][0]) > 1 and before[0].islower() and letter.isupper() else _SPACE
+            )
+            apart = wide is not None and wide[1] - wide[0] >= least * capital
             if spaced or (apart and not (before[0] in _IN_NUMBERS and letter in _IN_NUMBERS)):
                 end, start = wide or ((before[1] + at) / 2, (before[1] + at) / 2)
                 text, x0, x1 = runs[-1]
@@ -107,7 +112,8 @@ def _ink(part: NDArray[np.float64]) -> NDArray[np.bool_]:
 
 def _letter_rows(ink: NDArray[np.bool_], letters: Sequence[tuple[str, float]]) -> tuple[int, int]:
     """The rows of the top and the foot of the letters that hang under no baseline; of all, if none is such."""
-    half = max(2, ink.shape[1] // (3 * len(letters)))
+    steps = np.diff([at for _, at in letters]) if len(letters) > 1 else np.array([ink.shape[1]])
+    half = max(1, int(0.45 * float(np.median(steps))))
     standing = np.zeros(ink.shape[1], bool)
     for letter, at in letters:
         if letter not in _LOW and letter.isalnum():
