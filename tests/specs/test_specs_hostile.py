@@ -22,7 +22,7 @@ ROWS = [("Wheelbase", "3450 mm"), ("Operating weight", "25 510 kg")]
 
 @pytest.fixture(autouse=True)
 def _no_text_recognition(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("yellowiron.specs.ocr.program", lambda: None)
+    monkeypatch.setattr("yellowiron.specs.ocr.programs", lambda: ())
 
 
 def pdf(path: Path, *objects: bytes) -> Path:

@@ -63,6 +63,12 @@ def words(rows: list[tuple[str, str]], scale: float) -> list[str]:
     return lines
 
 
+@pytest.fixture(autouse=True)
+def no_package(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As where rapidocr is not installed."""
+    monkeypatch.setattr("yellowiron.specs.recognition.rapid.installed", lambda: False)
+
+
 @pytest.fixture
 def stand_in(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[[list[str], int], None]:
     """Puts a `tesseract` on PATH that prints these lines of TSV and ends with this code."""

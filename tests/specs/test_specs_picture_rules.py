@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from yellowiron.specs.ocr import _mended
 from yellowiron.specs.pages.picture_rules import rules_of_picture
+from yellowiron.specs.recognition.mending import mended
 
 
 def test_rules_and_fills_of_a_picture() -> None:
@@ -36,4 +36,4 @@ def test_a_photograph_has_no_rules() -> None:
     ("seen", "meant"), [(".265", "265"), ("kgf/cm?", "kgf/cm2"), ("power...", "power"), ("2.5", "2.5")]
 )
 def test_words_as_they_are_misread(seen: str, meant: str) -> None:
-    assert _mended(seen) == meant
+    assert mended(seen) == meant

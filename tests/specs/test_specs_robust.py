@@ -23,7 +23,7 @@ ROWS = [("Wheelbase", "3450 mm"), ("Operating weight", "25 510 kg")]
 @pytest.fixture(autouse=True)
 def _no_text_recognition(monkeypatch: pytest.MonkeyPatch) -> None:
     """As on a machine without tesseract; with it: `test_specs_ocr.py`."""
-    monkeypatch.setattr("yellowiron.specs.ocr.program", lambda: None)
+    monkeypatch.setattr("yellowiron.specs.ocr.programs", lambda: ())
 
 
 def good(path: Path) -> Path:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable, Mapping, Sequence
-from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
@@ -48,8 +47,8 @@ def extract(
     Where a sheet says itself which configuration its figures are for, that settles what `config` leaves open; values
     that still differ between columns or pages are a `conflict`. `extractor`: rules, the language `model` ("llm"), or
     both: then the model is asked for what the rules leave open, and an endpoint that fails is a finding.
-    Each PDF is read in a guarded child process; pages without a text layer are read through the program tesseract
-    where it is installed, and their values are `review` at most. `SheetError` for a file that is missing, empty, no
+    Each PDF is read in a guarded child process; pages without a text layer are read through the programs of `ocr`
+    that are installed, and their values are `review` at most. `SheetError` for a file that is missing, empty, no
     PDF, truncated, damaged or encrypted; `EndpointError` for a model that is not configured or, where nothing else
     reads, fails.
     """
@@ -78,22 +77,25 @@ def read(path: Path, *, progress: Callable[[str], None] = lambda words: None) ->
         progress=progress,
     )
     assert isinstance(sheet, Sheet)
-    return _recognised(sheet, path, progress) if sheet.silent and ocr.program() else sheet
+    readings = [_recognised(sheet, path, program, progress) for program in (ocr.programs() if sheet.silent else ())]
+    first, *others = [one for one in readings if one.recognised] or readings[-1:] or [sheet]
+    return replace(first, again=others[0] if others else None)
 
 
-def _recognised(sheet: Sheet, path: Path, progress: Callable[[str], None]) -> Sheet:
-    """The sheet with what text recognition makes of its silent pages, in a child of its own: a picture that breaks it
-    costs no page that has text."""
+def _recognised(sheet: Sheet, path: Path, program: str, progress: Callable[[str], None]) -> Sheet:
+    """The sheet with what a recognition program makes of its silent pages, in a child of its own: a picture that breaks
+    it costs no page that has text."""
     try:
         pages: list[ocr.Recognised] = run_guarded(
             "yellowiron.specs.ocr:recognise",
             path.resolve(),
             sheet.silent,
+            program,
             where=str(path),
             error=SheetError,
-            timeout_s=2.0 * ocr.PAGE_TIMEOUT_S,
+            timeout_s=2.0 * TIMEOUT_S,
             memory_mb=MEMORY_MB,
-            resident_mb=RESIDENT_MB,
+            resident_mb=ocr.RESIDENT_MB,
             wording=Wording("Text recognition"),
             progress=progress,
         )
@@ -107,6 +109,7 @@ def _recognised(sheet: Sheet, path: Path, progress: Callable[[str], None]) -> Sh
         style=sheet.style if sheet.statements else decimal_style([page.text for page in pages]),
         stated=(*sheet.stated, *(one for page in pages for one in page.stated)),
         recognised=tuple(sorted(known)),
+        recogniser=program,
         near=(*sheet.near, *(near for page in pages for near in page.near)),
     )
 
@@ -127,11 +130,13 @@ def from_sheets(
     style = sheets[0].style if sheets else "point"
     values = _by_rules(wanted, claimed.printed, known, config, style)
     values = second_reading(wanted, values, claimed.near, known, config)
-    # Words read from a picture have a say only where no text has.
-    open_ = [w for w in wanted if values[w.name].status == "missing"]
-    if claimed.recognised:
-        values |= _by_rules(open_, claimed.recognised, known, config, style)
-    values |= second_reading(open_, {w.name: values[w.name] for w in open_}, claimed.near_recognised, known, config)
+    # Words read from a picture have a say only where no text has, another program's only where those have none.
+    values |= _of_words_recognised(wanted, values, claimed, known, config, style)
+    values = _of_pictures(wanted, values, sheets)
+    if any(sheet.again for sheet in sheets):
+        again = [sheet.again or sheet for sheet in sheets]
+        values |= _of_words_recognised(wanted, values, _claimed(again, config), _known(again), config, again[0].style)
+        values = _of_pictures(wanted, values, again)
     claims = [*claimed.printed, *claimed.recognised]
     findings = [*unread_pages(sheets), *ignored_phrases(config, claims, known, sheets)]
     if extractor != "rules":
@@ -150,12 +155,27 @@ def from_sheets(
     return Specifications(_of_pictures(wanted, values, sheets), tuple(findings))
 
 
+def _of_words_recognised(
+    wanted: Sequence[Wanted],
+    values: Mapping[str, Specification],
+    claimed: _Claimed,
+    known: Sheets,
+    config: str,
+    style: DecimalStyle,
+) -> dict[str, Specification]:
+    """What pictures of pages say of the values that are missing."""
+    open_ = [w for w in wanted if values[w.name].status in ("missing", "unreadable")]
+    found = _by_rules(open_, claimed.recognised, known, config, style)
+    return second_reading(open_, found, claimed.near_recognised, known, config)
+
+
 def _numbered(sheet: Sheet, number: int) -> Sheet:
     """The sheet with its number among those read together in its statements."""
     return replace(
         sheet,
         statements=tuple(replace(s, sheet=number) for s in sheet.statements),
         near=tuple(replace(n, statement=replace(n.statement, sheet=number)) for n in sheet.near),
+        again=_numbered(sheet.again, number) if sheet.again else None,
     )
 
 
@@ -219,7 +239,7 @@ def _of_pictures(
 ) -> dict[str, Specification]:
     """The values with those from pictures of pages to review at most, and those that may stand on pages without text
     `unreadable`."""
-    pictures = {(s.file, number) for s in sheets for number in s.recognised}
+    pictures = {(s.file, number): s.recogniser for s in sheets for number in s.recognised}
     silent = [s.file for s in sheets if s.silent and all(one.page in s.recognised for one in s.statements)]
     found = dict(values)
     for one in wanted:
@@ -243,15 +263,16 @@ def _by_rules(
     return values
 
 
-def _at_most_review(value: Specification, pictures: AbstractSet[tuple[str, int]]) -> Specification:
+def _at_most_review(value: Specification, pictures: Mapping[tuple[str, int], str]) -> Specification:
     """A value that was read from one of the pictures (file, page) is to be looked at."""
     seen = value.evidence
     if value.status != "ok" or seen is None or (seen.file, seen.page) not in pictures:
         return value
+    program = pictures[seen.file, seen.page]
     return replace(
         value,
         status="review",
         confidence=min(value.confidence, PICTURED),
-        reason=f"page {seen.page} is a picture: its text is what tesseract makes of it; {value.reason}",
+        reason=f"page {seen.page} is a picture: its text is what {program} makes of it; {value.reason}",
         hint=f'Compare it with the page; settle it with --set "{value.name}=VALUE UNIT".',
     )

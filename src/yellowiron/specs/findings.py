@@ -11,7 +11,7 @@ from yellowiron.specs.reader import Sheet
 from yellowiron.specs.values.claims import Claim
 from yellowiron.specs.values.decision import Sheets, unmatched
 
-_INSTALL = "Install the program tesseract (tesseract-ocr) to have it read"
+_INSTALL = 'Install "yellowiron[ocr]" or the program tesseract (tesseract-ocr) to have it read'
 _MOST_COLUMNS = 20
 """Columns that a hint names."""
 
@@ -77,7 +77,7 @@ def model_failure(error: EndpointError) -> Finding:
 
 
 def unread_pages(sheets: Sequence[Sheet]) -> list[Finding]:
-    """Findings of pages without a text layer: read through tesseract, or not at all."""
+    """Findings of pages without a text layer: read through text recognition, or not at all."""
     findings = []
     for sheet in sheets:
         if sheet.recognised:
@@ -87,7 +87,8 @@ def unread_pages(sheets: Sequence[Sheet]) -> list[Finding]:
                     code="SPC005",
                     severity="info",
                     where=f"{sheet.file}, {pages}",
-                    message=f"{sheet.file} has no text layer on {pages}: read there through tesseract",
+                    message=f"{sheet.file} has no text layer on {pages}: read there through {sheet.recogniser}"
+                    + (f", then {sheet.again.recogniser}" if sheet.again else ""),
                     hint="Compare the values to review with the pages.",
                 )
             )
@@ -97,7 +98,7 @@ def unread_pages(sheets: Sequence[Sheet]) -> list[Finding]:
         whole = all(one.page in sheet.recognised for one in sheet.statements)
         message = f"{sheet.file} has no text layer on {pages}: nothing could be read there"
         message += f"; {sheet.unrecognised}" if sheet.unrecognised else ""
-        installed = "Run it through text recognition (OCR) first" if ocr.program() else _INSTALL
+        installed = "Run it through text recognition (OCR) first" if ocr.programs() else _INSTALL
         findings.append(
             Finding(
                 code="SPC001",

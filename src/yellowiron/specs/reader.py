@@ -35,7 +35,8 @@ _MOST_BYTES = 512 * 1024 * 1024
 class Sheet:
     """A read PDF. `silent` pages have pictures or marks but no readable text; `style`: how it writes decimals;
     `stated`: sentences that may say which configuration its figures are for. `recognised`: pages whose words are a
-    program's guess from their picture; `unrecognised` says why that program failed. `near`: its values again, each with
+    program's guess from their picture (`recogniser`: whose); `unrecognised` says why that program failed; `again`: the
+    same sheet through another program. `near`: its values again, each with
     the words around it; `cells`: the text of its pages, piece by piece."""
 
     file: str
@@ -45,9 +46,11 @@ class Sheet:
     style: DecimalStyle
     stated: tuple[Stated, ...] = ()
     recognised: tuple[int, ...] = ()
+    recogniser: str = ""
     unrecognised: str = ""
     near: tuple[Near, ...] = ()
     cells: tuple[Cell, ...] = ()
+    again: Sheet | None = None
 
 
 def read_sheet(path: Path) -> Sheet:

@@ -268,7 +268,7 @@ def looks_like_value(text: str) -> bool:
     if not readings:
         return False
     first = readings[0].numbers[0]
-    if not first.unit and re.match(r"[.):]?\s+(?!(?:to|bis|up)\b)[^\W\d_]{2,}", text[first.end :]):
+    if not first.unit and re.match(r"[.):]?\s+(?!(?:to|bis|up|each|per|pro|par|por)\b)[^\W\d_]{2,}", text[first.end :]):
         return False  # "10 Wheelbase", "4.2 No. of shoes": a drawing's key or an outline's number, and a label
     if re.match(r"[\u3040-\u30ff\u3400-\u9fff]{4}", text[first.end :]):
         return False  # "45°卸料时斗刃高度": a label that begins with its circumstance

@@ -21,8 +21,10 @@ def edges_of_fills(bars: Sequence[Box], walls: Sequence[DrawnRule]) -> list[Draw
     found: list[DrawnRule] = []
     while beside:
         table = set(beside[0])
-        while more := [c for c in cells if c not in table and any(_belongs(c, member) for member in table)]:
+        newest = list(table)
+        while more := [c for c in cells if c not in table and any(_belongs(c, member) for member in newest)]:
             table.update(more)
+            newest = more
         pairs = [pair for pair in beside if pair[0] in table]
         beside = [pair for pair in beside if pair[0] not in table]
         if len(pairs) >= _FEWEST and not _are_walled(table, walls):

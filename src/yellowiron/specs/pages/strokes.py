@@ -73,12 +73,13 @@ def _polylines(item: Any) -> list[list[tuple[float, float]]]:
     while container is not None:
         matrix = matrix.multiply(container.get_matrix())
         container = getattr(container, "container", None)
+    a, b, c, d, e, f = matrix.get()
     lines: list[list[tuple[float, float]]] = []
     x, y = ctypes.c_float(), ctypes.c_float()
     for index in range(min(pdfium.FPDFPath_CountSegments(item.raw), 20000)):
         segment = pdfium.FPDFPath_GetPathSegment(item.raw, index)
         pdfium.FPDFPathSegment_GetPoint(segment, x, y)
-        point = matrix.on_point(x.value, y.value)
+        point = (a * x.value + c * y.value + e, b * x.value + d * y.value + f)
         kind = pdfium.FPDFPathSegment_GetType(segment)
         if kind == pdfium.FPDF_SEGMENT_MOVETO or not lines:
             lines.append([point])

@@ -52,6 +52,8 @@ class TextLine:
 
 def lines_of(words: Sequence[Word], walls: Sequence[DrawnRule] = ()) -> list[TextLine]:
     """Words by baseline, parted where a wide gap or a vertical rule is between them; from top to bottom."""
+    upright = sorted((w for w in walls if not w.horizontal), key=lambda w: w.x0)
+    at = [w.x0 for w in upright]
     rows: list[list[Word]] = []
     for word in sorted(words, key=lambda w: (w.baseline, w.x0)):
         if rows and abs(rows[-1][0].baseline - word.baseline) <= 0.25 * min(rows[-1][0].size, word.size):
@@ -64,7 +66,7 @@ def lines_of(words: Sequence[Word], walls: Sequence[DrawnRule] = ()) -> list[Tex
         pieces: list[list[Word]] = []
         for word in row:
             last = pieces[-1][-1] if pieces else None
-            if last is None or word.x0 - last.x1 > _GAP * max(word.size, last.size) or _walled(last, word, walls):
+            if last is None or word.x0 - last.x1 > _GAP * max(word.size, last.size) or _walled(last, word, upright, at):
                 pieces.append([word])
             else:
                 pieces[-1].append(word)
@@ -74,14 +76,10 @@ def lines_of(words: Sequence[Word], walls: Sequence[DrawnRule] = ()) -> list[Tex
     return lines
 
 
-def _walled(a: Word, b: Word, walls: Sequence[DrawnRule]) -> bool:
-    return any(
-        not w.horizontal
-        and a.x1 - 1 <= w.x0 <= b.x0 + 1
-        and w.top < a.baseline
-        and w.bottom > a.baseline - 0.5 * a.size
-        for w in walls
-    )
+def _walled(a: Word, b: Word, walls: Sequence[DrawnRule], at: Sequence[float]) -> bool:
+    """Whether one of the upright rules (sorted by their x, which is `at`) stands between two words of a line."""
+    between = walls[bisect_left(at, a.x1 - 1) : bisect_right(at, b.x0 + 1)]
+    return any(w.top < a.baseline and w.bottom > a.baseline - 0.5 * a.size for w in between)
 
 
 @dataclass(frozen=True)

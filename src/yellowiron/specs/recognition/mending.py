@@ -1,0 +1,30 @@
+"""What recognition is known to misread, put right."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import replace
+
+from yellowiron.specs.pages.words import Word
+
+
+def mended(text: str) -> str:
+    """A word without what is left of a leader's dots, its raised exponent of a unit put right: ".265" → "265",
+    "kgf/cm?" → "kgf/cm2"."""
+    text = re.sub(r"(?<=/cm)[?*°’'\"]$", "2", text)
+    text = re.sub(r"(?<=[A-Za-z])[.…]{2,}$|^[.…]+(?=\d{3}|\d+[x×])|^[.…]{2,}(?=\d)", "", text)
+    return text or "."
+
+
+_DOTTED = 3
+"""Values that begin with a dot, from which on a page has leaders: a decimal seldom lacks its zero."""
+
+
+def without_leaders(words: Sequence[Word]) -> list[Word]:
+    """The words of a page, those that begin a number with a dot without it, if that is what is left of leaders:
+    ".12.8" and ".1" → "12.8" and "1" beside others of their kind."""
+    dotted = [w for w in words if re.match(r"\.\d", w.text)]
+    if len(dotted) < _DOTTED:
+        return list(words)
+    return [replace(w, text=w.text[1:]) if re.match(r"\.\d", w.text) else w for w in words]

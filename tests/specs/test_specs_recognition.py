@@ -1,0 +1,104 @@
+"""What is made of the lines that a recognition program finds on a picture, and of two programs on one page."""
+
+from __future__ import annotations
+
+import itertools
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image, ImageDraw, ImageFont
+from specs_layouts import template, wanted
+from test_specs_ocr import ROWS, pictured
+
+from yellowiron.specs import extraction, ocr
+from yellowiron.specs.layout.statement import Statement, looks_like_value
+from yellowiron.specs.ocr import Recognised, with_cubes
+from yellowiron.specs.pages.words import Word
+from yellowiron.specs.recognition.mending import without_leaders
+from yellowiron.specs.recognition.rapid import words_of_line
+from yellowiron.specs.recognition.straighten import straightened
+
+FONT = ImageFont.load_default(30)
+
+
+def drawn(text: str, *, paper: int = 255, ink: int = 0) -> tuple[np.ndarray, list[tuple[str, float]]]:
+    """A line as a grey picture, and its letters (without the spaces) with their middles."""
+    picture = Image.new("L", (700, 60), paper)
+    pen = ImageDraw.Draw(picture)
+    pen.text((20, 12), text, fill=ink, font=FONT)
+    ends = [20 + pen.textlength(text[:n], font=FONT) for n in range(len(text) + 1)]
+    middles = [(a + b) / 2 for a, b in itertools.pairwise(ends)]
+    return np.asarray(picture), [(c, x) for c, x in zip(text, middles, strict=True) if c != " "]
+
+
+@pytest.mark.parametrize("colours", [(255, 0), (40, 250), (230, 120)])
+@pytest.mark.parametrize("text", ["Max reach", "No. of bottom rollers", "Track Shoe Width", "11.1 kN", "13,800 kg"])
+def test_words_end_where_the_ink_has_a_gap(text: str, colours: tuple[int, int]) -> None:
+    picture, letters = drawn(text, paper=colours[0], ink=colours[1])
+    words = words_of_line(picture, (14, 8, 690, 52), letters, 2.0)
+    assert " ".join(w.text for w in words) == text
+    assert all(a.x1 < b.x0 for a, b in itertools.pairwise(words))
+    assert len({(w.baseline, w.size) for w in words}) == 1
+    assert words[0].x0 == pytest.approx(10.0, abs=2.0) and words[0].size == pytest.approx(15.0, rel=0.15)
+
+
+def test_a_page_askew_is_turned_and_a_level_one_is_left() -> None:
+    level = Image.new("L", (1200, 1600), 255)
+    for y in range(200, 1400, 60):
+        ImageDraw.Draw(level).text((150, y), "Maximum digging depth  5,068 mm", fill=0, font=FONT)
+    assert straightened(level) is level
+    turned = np.asarray(straightened(level.rotate(0.8, Image.Resampling.BICUBIC, fillcolor=255)), float)
+    rows = np.asarray(level, float).mean(axis=1)
+    assert np.corrcoef(turned.mean(axis=1), rows)[0, 1] > 0.95
+
+
+def word(text: str) -> Word:
+    return Word(text, 0.0, 10.0, 10.0, 8.0)
+
+
+def test_what_is_left_of_leaders_is_no_decimal_point() -> None:
+    dotted = [word(t) for t in (".12.8", ".1", ".23", "0.5")]
+    assert [w.text for w in without_leaders(dotted)] == ["12.8", "1", "23", "0.5"]
+    assert [w.text for w in without_leaders([word(".5")])] == [".5"]
+
+
+def test_a_raised_two_may_be_a_three() -> None:
+    one = Statement(1, 1, "General purpose", "0.73 m²", (0, 0, 1, 1), "General purpose 0.73 m²")
+    assert [s.text for s in with_cubes([one])] == ["0.73 m²", "0.73 m³"]
+    assert len(with_cubes([Statement(1, 1, "Length", "4 m", (0, 0, 1, 1), "Length 4 m")])) == 1
+
+
+@pytest.mark.parametrize("text", ["45 each side", "7 per side"])
+def test_a_count_says_of_what(text: str) -> None:
+    assert looks_like_value(text) and not looks_like_value("10 Wheelbase")
+
+
+def test_another_program_says_only_what_the_first_leaves_open(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    said = {
+        "rapidocr": [("Wheelbase", "3450 mm")],
+        "tesseract": [("Wheelbase", "3950 mm"), ("Operating weight", "25 510 kg")],
+    }
+
+    def recognise(path: Path, numbers: tuple[int, ...], program: str) -> list[Recognised]:
+        rows = [
+            Statement(1, n, label, text, (300.0, 130.0, 350.0, 140.0), f"{label} {text}")
+            for n, (label, text) in enumerate(said[program])
+        ]
+        return [Recognised(1, tuple(rows), "", ())]
+
+    guarded = extraction.run_guarded
+
+    def run(target: str, *given: object, **options: object) -> object:
+        if target.endswith("ocr:recognise"):
+            return recognise(*given)  # type: ignore[arg-type]
+        return guarded(target, *given, **options)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(extraction, "run_guarded", run)
+    monkeypatch.setattr(ocr, "programs", lambda: ("rapidocr", "tesseract"))
+    asked = template(wanted("Wheelbase", "length"), wanted("Operating Weight", "mass"), wanted("Tread", "length"))
+    found = extraction.extract(asked, [pictured(tmp_path / "scan.pdf", ROWS)])
+    assert [(s.status, s.value) for s in found] == [("review", 3.45), ("review", 25510.0), ("missing", None)]
+    assert "rapidocr" in found.values["Wheelbase"].reason and "tesseract" in found.values["Operating Weight"].reason
+    (finding,) = found.findings
+    assert finding.code == "SPC005" and "rapidocr, then tesseract" in finding.message
