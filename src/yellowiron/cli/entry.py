@@ -22,10 +22,11 @@ def main() -> None:
         try:
             code = terminal.called(app)
         except BaseException:
-            # A library that was interrupted while it loads may make of it what it likes.
-            if stopped:
-                raise SystemExit(128 + stopped[0]) from None
-            raise
+            if not stopped:
+                raise
+        # A library that was interrupted while it loads may make of it what it likes.
+        if stopped:
+            sys.exit(128 + stopped[0])
         terminal.flush()
     except YellowironError as error:
         _tell(error)
