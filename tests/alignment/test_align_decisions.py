@@ -104,6 +104,7 @@ def test_a_part_left_out_by_a_pattern(assembly: Assembly, template: Template) ->
     assert (the(found, assembly, "step").role, the(found, assembly, "step").body) == (None, None)
 
 
+@pytest.mark.slow
 def test_a_yes_holds_whatever_else_changes(assembly: Assembly, template: Template, tmp_path: Path) -> None:
     file = tmp_path / "alignment.json"
     found = solved(assembly, template)
@@ -166,6 +167,7 @@ def test_a_role_that_is_none_is_refused(assembly: Assembly, template: Template) 
         decide(None, Decisions(parse_rules(["cab=kitchen"])), assembly, template)
 
 
+@pytest.mark.slow
 def test_a_few_parts_do_not_take_their_body_along(assembly: Assembly, template: Template) -> None:
     """All the small parts of the rear frame that are told to be of the front one are; nothing else changes."""
     before = solved(assembly, template)
