@@ -78,6 +78,7 @@ def test_a_full_disk_is_not_the_file_s_fault() -> None:
     assert "TMPDIR" in caught.value.hint
 
 
+@pytest.mark.slow
 def test_the_child_ends_with_its_parent(tmp_path: Path) -> None:
     script = "from yellowiron.support.guard import run_guarded; run_guarded('time:sleep', 60, where='x')"
     parent = subprocess.Popen([sys.executable, "-c", script])

@@ -46,6 +46,7 @@ def test_no_wheels(template: Template) -> None:
     assert right(found, truth) > 0.95
 
 
+@pytest.mark.slow
 def test_no_steering_cylinders(template: Template) -> None:
     gone = [f"steering_{p}_{s}" for p in ("cylinder_barrel", "piston_rod") for s in "lr"]
     assembly, truth, _ = disguise(without(loader(1), *gone), 1)

@@ -43,6 +43,7 @@ def codes(found: Alignment) -> set[str]:
         pytest.param(LIFT[:1], id="barrel", marks=pytest.mark.slow),
     ],
 )
+@pytest.mark.slow
 def test_half_a_pair_is_no_single(template: Template, gone: tuple[str, ...]) -> None:
     assembly, truth, _ = disguise(without(loader(3, twin=True), *gone), 3)
     found = align(assembly, template, NOTHING)
@@ -54,6 +55,7 @@ def test_half_a_pair_is_no_single(template: Template, gone: tuple[str, ...]) -> 
     assert ("ALN007" in codes(found)) is bool(rest)
 
 
+@pytest.mark.slow
 def test_a_pair_taken_for_a_single(template: Template) -> None:
     assembly, truth, _ = disguise(loader(3, twin=True), 3)
     found = align(assembly, template, NOTHING, choices={"lift_cylinders": "single"})

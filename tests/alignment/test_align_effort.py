@@ -22,6 +22,7 @@ def test_what_has_no_effort_left_finds_nothing() -> None:
     assert solve(Structure(), template, at_least=1, effort=effort) is None
 
 
+@pytest.mark.slow
 def test_a_search_without_a_whole_machine_ends(monkeypatch: pytest.MonkeyPatch) -> None:
     spent: list[tuple[int, float]] = []
 

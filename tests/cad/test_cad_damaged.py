@@ -98,6 +98,7 @@ def test_an_iges_with_a_damaged_entity(tmp_path: Path) -> None:
         (",7.874015748,", ",7.8740e308,", "no coordinate"),
     ],
 )
+@pytest.mark.slow
 def test_an_iges_that_open_cascade_would_not_survive(mark: str, damage: str, says: str, tmp_path: Path) -> None:
     path = sound("IGES", tmp_path)
     text = path.read_text()
@@ -307,6 +308,7 @@ def test_a_ply_that_has_other_lines_than_it_says(tmp_path: Path) -> None:
         pytest.param("FreeCAD", "freecad:read_freecad", marks=pytest.mark.slow),
     ],
 )
+@pytest.mark.slow
 def test_what_is_worked_on_for_ever_is_ended(name: str, target: str, tmp_path: Path) -> None:
     """By processor time, long before the guard's own limit: one sentence with a hint."""
     path = sound(name, tmp_path)
@@ -405,6 +407,7 @@ def test_a_blender_file_that_is_damaged(tmp_path: Path) -> None:
     ("body", "says", "limit"),
     [("with must_end(1.0):\n        work()", "no end", 120.0), ("work()", "more than 2 s", 2.0)],
 )
+@pytest.mark.slow
 def test_a_reader_that_goes_on_for_ever_is_one_sentence(
     body: str,
     says: str,

@@ -93,6 +93,7 @@ def test_a_container_that_is_broken_is_no_crash(tmp_path: Path) -> None:
     assert "OLE container" in fail(path).message
 
 
+@pytest.mark.slow
 def test_dwg_goes_through_what_is_on_the_path(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = tmp_path / "machine.dwg"
     path.write_bytes(b"AC1032\x00\x00\x00")

@@ -54,6 +54,7 @@ def test_the_trap_works(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("editable", [pytest.param(True, id="editable"), pytest.param(False, id="wheel", marks=SLOW)])
+@pytest.mark.slow
 def test_no_command_runs_what_lies_about(editable: bool, tmp_path: Path) -> None:
     command = installation(tmp_path / "venv", editable=editable)
     marker = plant(write_small(tmp_path / "downloads"))
@@ -91,6 +92,7 @@ def test_python_m_runs_nothing_after_python_s_own_start(tmp_path: Path) -> None:
     assert done.returncode == 0 and ran(marker) == ""
 
 
+@pytest.mark.slow
 def test_children_import_every_reader_and_engine_from_the_installation(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

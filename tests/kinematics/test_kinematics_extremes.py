@@ -141,6 +141,7 @@ def test_an_extent_has_kinks_and_its_extreme_is_found(arm: Arm) -> None:
     assert found <= best + 1e-9
 
 
+@pytest.mark.slow
 def test_no_valley_is_missed_and_the_same_comes_out_again(arm: Arm) -> None:
     """Against every pose of a fine grid, for arms of several proportions."""
     for k in range(3):

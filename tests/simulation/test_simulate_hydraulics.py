@@ -21,6 +21,7 @@ def test_the_file_alone_carries_the_tests(mechanism: Mechanism) -> None:
     assert mechanism.tests[2].steps == ({"set": {"boom": "min"}},)
 
 
+@pytest.mark.slow
 def test_the_small_machine_is_put_to_its_tests(usd_file: Path) -> None:
     tipping, force, time, best, lift = run_tests(usd_file, engine="mujoco")
     for figure in (tipping, force, best):
@@ -39,6 +40,7 @@ def test_a_test_that_is_not_there_is_said(usd_file: Path) -> None:
         run_tests(usd_file, engine="mujoco", names=["Flight"])
 
 
+@pytest.mark.slow
 def test_the_document_has_what_ran_and_nothing_else(usd_file: Path) -> None:
     document, sweeps = examine(usd_file, engine="mujoco", test="drive")
     assert document["driving"]["forward_m"] == pytest.approx(5.0, rel=0.03)

@@ -23,6 +23,7 @@ def kinematic(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     )  # fmt: skip
 
 
+@pytest.mark.slow
 def test_another_packages_engine_drives_the_machine(kinematic: None, usd_file: Path) -> None:
     document, _ = examine(usd_file, engine="kinematic", test="strokes")
     assert document["version"] == "1.0" and document["completed"] and document["branches_kept"]

@@ -186,6 +186,7 @@ def test_bad_orders_are_refused(usd_file: Path, more: dict[str, object], words: 
 
 
 @pytest.mark.parametrize("base", ["fixed", "floating"])
+@pytest.mark.slow
 def test_mujoco_keeps_the_small_machine_together(usd_file: Path, mechanism: Mechanism, base: Base) -> None:
     payload = rated_payload(mechanism)
     assert payload.mass == pytest.approx(90.0)

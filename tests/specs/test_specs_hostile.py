@@ -97,6 +97,7 @@ def test_forms_in_forms_and_arrays_in_arrays_end(tmp_path: Path, depth: int) -> 
 
 
 @pytest.mark.parametrize("kind", ["laughs", "bomb"])
+@pytest.mark.slow
 def test_what_never_ends_is_stopped(tmp_path: Path, kind: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Forms that draw the next one twice, forty deep; a stream of megabytes that unfolds to gigabytes."""
     monkeypatch.setattr(sys.modules["yellowiron.specs.extraction"], "TIMEOUT_S", 3.0)

@@ -12,6 +12,7 @@ from kit.sheets.worded import lines
 
 
 @pytest.mark.parametrize("split", list(WORDED))
+@pytest.mark.slow
 def test_each_printed_number_stands_on_a_page(split: str, tmp_path: Path) -> None:
     own = cases(split)
     assert len({case.kind for case in own}) == 10 and len({case.layout for case in own}) >= 6 and len(own) >= 40
