@@ -11,7 +11,7 @@ import pytest
 
 from kit.machines.synthetic import loader
 from yellowiron.alignment import align, decide, parse_rules, read_alignment, write_alignment
-from yellowiron.alignment.files.decisions import fits
+from yellowiron.alignment.files.decisions import Decision, doubts, fits
 from yellowiron.library import load_template
 from yellowiron.model.alignment import UNDECIDED, Alignment, Decisions, PartAssignment, Signature
 from yellowiron.model.assembly import Assembly, Part
@@ -178,3 +178,17 @@ def test_a_few_parts_do_not_take_their_body_along(assembly: Assembly, template: 
     after = solved(assembly, template, Decisions(parse_rules([f"{part}=front_frame" for part in sorted(some)])))
     for old, new in zip(before.parts, after.parts, strict=True):
         assert new.role == ("front_frame" if new.part in some else old.role), new.part
+
+
+@pytest.mark.parametrize("what", ["confirmed", "forgotten"])
+def test_a_pattern_that_fits_nothing_is_refused(what: str, assembly: Assembly, template: Template) -> None:
+    earlier = Alignment("wheel_loader", np.eye(4), ())
+    with pytest.raises(AlignmentError, match="'CABIN' fits no part"):
+        decide(earlier, Decisions(**{what: ("CABIN",)}), assembly, template)
+
+
+def test_doubts_of_different_roles_are_told_apart() -> None:
+    """Two parts edited by hand, for the same reason but to other roles, are two remarks."""
+    decisions = {p: Decision(role, "edited", "set by a person") for p, role in (("a", "boom"), ("b", None))}
+    found = [PartAssignment(p, "bucket", "bucket", 0.99, "") for p in decisions]
+    assert [f.message.split(", role ")[1].split(";")[0] for f in doubts(decisions, found)] == ["boom", "none"]

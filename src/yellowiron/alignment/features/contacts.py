@@ -29,8 +29,8 @@ THROUGH = (1.0, 2.2)
 """The same for what is drawn right through an empty bore that is too narrow for it: nothing else is there on its very
 axis over all its length."""
 
-WHOLLY = 0.95
-"""… of which it covers this share at least."""
+PARTLY, WHOLLY = 0.25, 0.95
+"""Shares of an empty bore's length that a shaft of the one and of the other kind covers at least."""
 
 ROUNDING = 1e-7
 """Metres by which a sample may be off a triangle's box and still be in it."""
@@ -116,28 +116,19 @@ def fits_of(solids: tuple[Solid, ...], tolerance: float) -> list[Fit]:
             outer, bore = bores[j]
             if outer != inner and (fit := _fit(inner, shaft, outer, bore, tolerance)) is not None:
                 fits.append(fit)
-    filled = {id(f.bore) for f in fits}
-    for k, (inner, shaft) in enumerate(shafts):
-        if shaft is not solids[inner].shaft:
-            continue
-        for j in sorted(set(tree.query_ball_point(ahead[k], near)) | set(tree.query_ball_point(behind[k], near))):
-            outer, bore = bores[j]
-            if outer == inner or id(bore) in filled or not bore.full:
+    # A bar of its own may be thicker than its bore; what else is too thick must be drawn right through it.
+    for alone, slack, share in ((True, SLACK, PARTLY), (False, THROUGH, WHOLLY)):
+        filled = {id(f.bore) for f in fits}
+        for k, (inner, shaft) in enumerate(shafts):
+            if (shaft is solids[inner].shaft) is not alone:
                 continue
-            fit = _fit(inner, shaft, outer, bore, tolerance, SLACK)
-            if fit is not None and fit.overlap > 0.5 * bore.half:
-                fits.append(fit)
-    filled |= {id(f.bore) for f in fits}
-    for k, (inner, shaft) in enumerate(shafts):
-        if shaft is solids[inner].shaft:  # a bar of its own that is too thick is the pin of something else
-            continue
-        for j in sorted(set(tree.query_ball_point(ahead[k], near)) | set(tree.query_ball_point(behind[k], near))):
-            outer, bore = bores[j]
-            if outer == inner or id(bore) in filled or not bore.full:
-                continue
-            fit = _fit(inner, shaft, outer, bore, tolerance, THROUGH)
-            if fit is not None and fit.overlap > WHOLLY * 2 * bore.half:
-                fits.append(fit)
+            for j in sorted(set(tree.query_ball_point(ahead[k], near)) | set(tree.query_ball_point(behind[k], near))):
+                outer, bore = bores[j]
+                if outer == inner or id(bore) in filled or not bore.full:
+                    continue
+                fit = _fit(inner, shaft, outer, bore, tolerance, slack)
+                if fit is not None and fit.overlap > share * 2 * bore.half:
+                    fits.append(fit)
     return _strongest(fits)
 
 

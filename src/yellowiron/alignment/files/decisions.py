@@ -63,7 +63,8 @@ def fits(pattern: str) -> Callable[[Part], bool]:
 
 def decide(earlier: Alignment | None, decisions: Decisions, assembly: Assembly, template: Template) -> Alignment | None:
     """An earlier alignment with further decisions, which go before those it has. `AlignmentError` for a role that the
-    template does not have, and for a yes to what no earlier alignment says."""
+    template does not have, for a yes to what no earlier alignment says, and for a pattern to confirm or forget that
+    fits nothing."""
     if decisions == UNDECIDED:
         return earlier
     for rule in decisions.rules:
@@ -73,6 +74,13 @@ def decide(earlier: Alignment | None, decisions: Decisions, assembly: Assembly, 
             "There is no earlier alignment whose roles could be confirmed", where=decisions.confirmed[0],
             hint="Run `yellowiron align … --out alignment.json` first, and confirm with the same --out.",
         )  # fmt: skip
+    given = {rule.pattern for rule in earlier.rules} if earlier is not None else set()
+    for pattern in (*decisions.confirmed, *(p for p in decisions.forgotten if p not in given)):
+        if not any(map(fits(pattern), assembly.parts)):
+            raise AlignmentError(
+                f"The pattern '{pattern}' fits no part of the CAD model", where=pattern,
+                hint="Give as much of a part's path in the CAD tree as you like; `*` stands for any text.",
+            )  # fmt: skip
     edits = earlier or Alignment(template.equipment_type, np.eye(4), ())
     parts = {p.id: p for p in assembly.parts}
 
@@ -130,12 +138,12 @@ def decided(
 def doubts(decisions: Mapping[str, Decision], found: Sequence[PartAssignment]) -> tuple[Finding, ...]:
     """What was decided against a clear finding. `found`: what the solver would have given the parts that were decided
     otherwise, where it was sure of it."""
-    by_reason: dict[str, list[PartAssignment]] = {}
+    alike: dict[tuple[str, str], list[PartAssignment]] = {}
     for part in found:
-        by_reason.setdefault(decisions[part.part].reason, []).append(part)
+        decision = decisions[part.part]
+        alike.setdefault((decision.reason, decision.role or "none"), []).append(part)
     told = []
-    for reason, parts in by_reason.items():
-        role = decisions[parts[0].part].role or "none"
+    for (reason, role), parts in alike.items():
         rivals = sorted({str(p.body) for p in parts})
         text = (
             f"{_some([p.part for p in parts])}: {reason}, role {role}; geometry and names speak clearly for "
