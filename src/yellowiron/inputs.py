@@ -7,10 +7,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from yellowiron import cad, library, specs
+from yellowiron.model.alignment import LARGEST_FILE
 from yellowiron.model.errors import AlignmentError
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import Template
-from yellowiron.support.files.inputs import MEGABYTE, require_file
+from yellowiron.support.files.inputs import require_file
 from yellowiron.support.output import check_folder, keep_apart
 
 
@@ -42,7 +43,7 @@ def checked_inputs(
     for sheet in sheets:
         specs.check_file(sheet)
     if alignment_file is not None:
-        require_file(alignment_file, what="The alignment", most=256 * MEGABYTE, error=AlignmentError)
+        require_file(alignment_file, what="The alignment", most=LARGEST_FILE, error=AlignmentError)
     library.check_documents(documents)
     check_folder(out)
     template = library.load_template(equipment_type)

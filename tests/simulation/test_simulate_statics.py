@@ -11,8 +11,7 @@ import pytest
 
 from yellowiron.kinematics import ClosedChain, weight
 from yellowiron.kinematics.measuring.quantities import Unmeasurable
-from yellowiron.kinematics.strength import GRAVITY
-from yellowiron.model.mechanism import Drive, Mechanism
+from yellowiron.model.mechanism import GRAVITY, Drive, Mechanism
 from yellowiron.simulation.machine_tests.rig import locked
 from yellowiron.simulation.machine_tests.statics import (
     actuator_area,

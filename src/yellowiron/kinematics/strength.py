@@ -10,10 +10,9 @@ import numpy as np
 from yellowiron.kinematics.solver.chain import ClosedChain, State
 from yellowiron.kinematics.solver.pose_grid import PoseGrid
 from yellowiron.model.finding import Finding
-from yellowiron.model.mechanism import DEFAULT, Joint
+from yellowiron.model.mechanism import DEFAULT, GRAVITY, Joint
 from yellowiron.support.text import display
 
-GRAVITY = 9.81
 _STEP = 1e-4
 """Metres or radians to either side of a coordinate: for slopes."""
 _SPARE = 1.5

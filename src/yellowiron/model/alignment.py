@@ -15,6 +15,9 @@ DECIDED: frozenset[AssignmentSource] = frozenset(("edited", "confirmed", "rule",
 """Sources that no solver overrules: a person's role, a person's yes to a role that was found, a pattern of a person's,
 and a document of the user's."""
 
+LARGEST_FILE = 64 * 1024 * 1024
+"""Bytes of an alignment.json: that of a model of a hundred thousand parts."""
+
 
 @dataclass(frozen=True)
 class Signature:

@@ -18,6 +18,8 @@ Vector = tuple[float, float, float]
 DRAWN_OUTSIDE = 1e-6
 """Metres or radians by which a joint may be drawn outside its limits: a micrometre is no more than round-off."""
 
+GRAVITY = 9.81
+"""m/s²."""
 DEFAULT = "template's default"
 """How an entry of `Cylinder.sources` begins that no sheet gives."""
 UNKNOWN = "unknown"

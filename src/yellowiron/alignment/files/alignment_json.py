@@ -12,17 +12,23 @@ import numpy as np
 
 from yellowiron.alignment.files.explanation import near
 from yellowiron.alignment.files.revisions import Print, match_parts, prints_of
-from yellowiron.model.alignment import UNSIGNED, Alignment, AssignmentSource, PartAssignment, RoleRule, Signature
+from yellowiron.model.alignment import (
+    LARGEST_FILE,
+    UNSIGNED,
+    Alignment,
+    AssignmentSource,
+    PartAssignment,
+    RoleRule,
+    Signature,
+)
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import AlignmentError, OutputError
 from yellowiron.model.finding import Finding
 from yellowiron.model.rows import count_members
 from yellowiron.model.template import Template
-from yellowiron.support.files.inputs import MEGABYTE, read_input
+from yellowiron.support.files.inputs import read_input
 
 FORMAT = 1
-_LARGEST = 64 * MEGABYTE
-"""Bytes of a file: that of a model of a hundred thousand parts."""
 _RIGID, _FARTHEST = 1e-5, 1e6
 """How far a frame's axes may be from unit vectors at right angles, and its origin (m) from the CAD model's."""
 _SIGNED = ("by", "date", "why")
@@ -259,7 +265,7 @@ def _assignment(entry: Mapping[str, Any], role: str | None, template: Template) 
 
 def _load(source: Path) -> dict[str, Any]:
     hint = "Hand in the alignment.json that an earlier run wrote."
-    data = read_input(source, what="The alignment", most=_LARGEST, error=AlignmentError)
+    data = read_input(source, what="The alignment", most=LARGEST_FILE, error=AlignmentError)
     try:
         document = json.loads(data.decode("utf-8-sig"))
     except RecursionError as error:

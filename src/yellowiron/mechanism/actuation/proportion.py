@@ -11,10 +11,9 @@ from yellowiron.mechanism.bodies.mass import Masses
 from yellowiron.mechanism.placement import Placement
 from yellowiron.mechanism.values import Known
 from yellowiron.model.finding import Finding
-from yellowiron.model.mechanism import DEFAULT
+from yellowiron.model.mechanism import DEFAULT, GRAVITY
 from yellowiron.support.text import display
 
-GRAVITY = 9.81
 TORQUE = 0.05
 """A motor's default torque is at most this share of the machine's weight times the diagonal of its box. Swing motors
 have 0.03 of it (21 t, 70 kN·m) to 0.05 (2 t, 4 kN·m), travel and wheel motors half of that."""

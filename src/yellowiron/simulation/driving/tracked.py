@@ -8,9 +8,8 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from yellowiron.kinematics import ClosedChain
-from yellowiron.kinematics.strength import GRAVITY
 from yellowiron.model.geometry import Floats
-from yellowiron.model.mechanism import Mechanism
+from yellowiron.model.mechanism import GRAVITY, Mechanism
 from yellowiron.simulation.commands import motions
 from yellowiron.simulation.driving.wheel import DrivenWheel
 from yellowiron.simulation.engine import Engine, poses, tell

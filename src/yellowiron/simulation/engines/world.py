@@ -15,8 +15,7 @@ import numpy as np
 from pxr import Gf, Sdf, Usd, UsdPhysics, Vt
 from scipy.spatial import ConvexHull
 
-from yellowiron.kinematics.strength import GRAVITY
-from yellowiron.model.mechanism import Joint
+from yellowiron.model.mechanism import GRAVITY, Joint
 from yellowiron.simulation.engine import Setup
 from yellowiron.simulation.ground import GROUND_FRICTION, Block
 from yellowiron.support.record import RECORD

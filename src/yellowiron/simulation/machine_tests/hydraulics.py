@@ -14,11 +14,10 @@ from yellowiron.kinematics import State, attached, weight
 from yellowiron.kinematics.measuring.bench import Bench
 from yellowiron.kinematics.measuring.quantities import Unmeasurable
 from yellowiron.kinematics.measuring.sheet import specified
-from yellowiron.kinematics.strength import GRAVITY
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.geometry import Floats
 from yellowiron.model.machine_tests import MachineTest
-from yellowiron.model.mechanism import Drive, Mechanism, Site
+from yellowiron.model.mechanism import GRAVITY, Drive, Mechanism, Site
 from yellowiron.simulation.commands import SHARE, travel
 from yellowiron.simulation.loads import carried, paces
 from yellowiron.simulation.machine_tests.figures import Figure, beside_sheet

@@ -10,9 +10,8 @@ from scipy.optimize import linprog
 
 from yellowiron.kinematics import ClosedChain, State, beside
 from yellowiron.kinematics.measuring.quantities import Unmeasurable, wheels
-from yellowiron.kinematics.strength import GRAVITY
 from yellowiron.model.geometry import Floats
-from yellowiron.model.mechanism import Mechanism, Site
+from yellowiron.model.mechanism import GRAVITY, Mechanism, Site
 from yellowiron.simulation.ground import TOUCHING, standing_bodies
 
 
