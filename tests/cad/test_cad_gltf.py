@@ -263,3 +263,137 @@ def test_a_mesh_that_lost_its_triangles_is_told(write: Callable[..., Path]) -> N
     assembly = read_cad(write(content, blob))
     assert len(assembly.parts) == 3
     assert "declares 4" in next(f.message for f in assembly.findings if f.code == "CAD001")
+
+
+def appended(content: dict[str, Any], blob: bytes, values: Any, component: int, kind: str) -> tuple[int, bytes]:
+    """The number of a new accessor, and the buffer with its numbers."""
+    data = values.tobytes()
+    view = {"buffer": 0, "byteOffset": len(blob), "byteLength": len(data)}
+    content["bufferViews"].append(view)
+    entry = {
+        "componentType": component,
+        "type": kind,
+        "count": len(values),
+        "bufferView": len(content["bufferViews"]) - 1,
+    }
+    content["accessors"].append(entry)
+    blob += data + b"\0" * (-len(data) % 4)
+    content["buffers"][0]["byteLength"] = len(blob)
+    return len(content["accessors"]) - 1, blob
+
+
+def skinned() -> tuple[dict[str, Any], bytes]:
+    """Two boxes in one mesh, a bone to each: the arm's is drawn at the origin, bound 1 m along X, and stands turned by
+    90 degrees about Z at (3, 0, 0); the frame's stands where it is drawn."""
+    content, blob = document()
+    content["nodes"] = [
+        {"name": "Armature", "children": [1, 3], "translation": [0.0, 0.0, 0.0]},
+        {"name": "FRAME", "children": [2]},
+        {"name": "ARM", "translation": [3.0, 0.0, 0.0], "rotation": [0.0, 0.0, 0.70710678, 0.70710678]},
+        # The place of a skinned mesh's own node says nothing.
+        {"name": "Object_7", "mesh": 0, "skin": 0, "translation": [50.0, 60.0, 70.0], "scale": [9.0, 9.0, 9.0]},
+    ]
+    points = np.concatenate([BOX, BOX + np.array([1.0, 0.0, 0.0], dtype="<f4")])
+    faces = np.concatenate([FACES, FACES + 8]).astype("<u2")
+    bones = np.zeros((16, 4), dtype="<u1")
+    bones[8:, 0] = 1
+    bones[:8, 1] = 1
+    weights = np.tile(np.array([255, 0, 0, 0], dtype="<u1"), (16, 1))
+    inverse = np.tile(np.eye(4, dtype="<f4"), (2, 1, 1))
+    inverse[1, 0, 3] = -1.0
+    position, blob = appended(content, blob, points, 5126, "VEC3")
+    indices, blob = appended(content, blob, faces.reshape(-1), 5123, "SCALAR")
+    joints, blob = appended(content, blob, bones, 5121, "VEC4")
+    shares, blob = appended(content, blob, weights, 5121, "VEC4")
+    content["accessors"][shares]["normalized"] = True
+    binds, blob = appended(content, blob, inverse.transpose(0, 2, 1).copy(), 5126, "MAT4")
+    attributes = {"POSITION": position, "JOINTS_0": joints, "WEIGHTS_0": shares}
+    content["meshes"] = [{"primitives": [{"attributes": attributes, "indices": indices, "material": 0}]}]
+    content["skins"] = [{"joints": [1, 2], "inverseBindMatrices": binds}]
+    return content, blob
+
+
+def extents(assembly: Any, name: str) -> tuple[Any, Any]:
+    part = next(p for p in assembly.parts if p.name == name)
+    points = assembly.shapes[part.shape].mesh.points @ part.transform[:3, :3].T + part.transform[:3, 3]
+    return points.min(axis=0), points.max(axis=0)
+
+
+def test_a_skinned_mesh_is_a_part_for_each_bone(write: Callable[..., Path]) -> None:
+    assembly = read_cad(write(*skinned()))
+    assert [(p.name, p.path) for p in assembly.parts] == [
+        ("FRAME", ("Armature", "FRAME")),
+        ("ARM", ("Armature", "FRAME", "ARM")),
+    ]
+    assert not [f for f in assembly.findings if f.severity == "error"]
+    np.testing.assert_allclose(extents(assembly, "FRAME"), [[0.0, 0.0, 0.0], [0.4, 0.3, 0.2]], atol=1e-6)
+    # (x, y, z) of the box, turned by 90 degrees about Z: (3 - y, x, z).
+    np.testing.assert_allclose(extents(assembly, "ARM"), [[2.7, 0.0, 0.0], [3.0, 0.4, 0.2]], atol=1e-6)
+    nodes = [assembly.nodes[p.node].name for p in assembly.parts if p.node is not None]
+    assert nodes == ["FRAME", "ARM"]
+
+
+def test_a_mesh_of_one_bone_keeps_its_name(write: Callable[..., Path]) -> None:
+    content, blob = skinned()
+    content["nodes"][3]["name"] = "Boom plate"
+    content["skins"][0]["joints"] = [2, 2]
+    assembly = read_cad(write(content, blob))
+    assert [(p.name, p.path[-1]) for p in assembly.parts] == [("Boom plate", "ARM")]
+
+
+@pytest.mark.parametrize("damage", ["no bones", "a bone that is not there", "weights below zero", "short binds"])
+def test_a_broken_skin_leaves_the_mesh_at_its_node(write: Callable[..., Path], damage: str) -> None:
+    content, blob = skinned()
+    attributes = content["meshes"][0]["primitives"][0]["attributes"]
+    if damage == "no bones":
+        del attributes["JOINTS_0"]
+    elif damage == "a bone that is not there":
+        content["skins"][0]["joints"] = [1, 77]
+    elif damage == "weights below zero":
+        attributes["WEIGHTS_0"], blob = appended(content, blob, -np.ones((16, 4), dtype="<f4"), 5126, "VEC4")
+    else:
+        content["accessors"][content["skins"][0]["inverseBindMatrices"]]["count"] = 1
+    assembly = read_cad(write(content, blob))
+    assert len(assembly.parts) == 1
+    assert any(f.code == "CAD003" and "skin" in f.message for f in assembly.findings)
+
+
+def test_sparse_numbers(write: Callable[..., Path]) -> None:
+    """A box whose upper corners are written as changes, and one that is nothing but changes."""
+    content, blob = document()
+    low = BOX.copy()
+    low[:, 2] = 0.0
+    rows = np.flatnonzero(BOX[:, 2] > 0.0).astype("<u2")
+    whole, blob = appended(content, blob, low, 5126, "VEC3")
+    places, blob = appended(content, blob, rows, 5123, "SCALAR")
+    values, blob = appended(content, blob, BOX[rows], 5126, "VEC3")
+    every, blob = appended(content, blob, np.arange(8, dtype="<u1"), 5121, "SCALAR")
+    views = [content["accessors"][n]["bufferView"] for n in (places, values, every)]
+    sparse = {
+        "count": 4,
+        "indices": {"bufferView": views[0], "componentType": 5123},
+        "values": {"bufferView": views[1]},
+    }
+    content["accessors"][whole]["sparse"] = sparse
+    content["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = whole
+    only = {"count": 8, "indices": {"bufferView": views[2], "componentType": 5121}, "values": {"bufferView": 1}}
+    content["accessors"][1] = {"componentType": 5126, "type": "VEC3", "count": 8, "sparse": only}
+    assembly = read_cad(write(content, blob))
+    assert not [f for f in assembly.findings if f.severity == "error"]
+    np.testing.assert_allclose(extents(assembly, "Rahmen"), [[1.0, 0.0, 0.0], [1.4, 0.3, 0.2]], atol=1e-6)
+    np.testing.assert_allclose(extents(assembly, "PIN"), [[1.0, 0.0, 0.0], [1.04, 0.03, 0.4]], atol=1e-6)
+
+
+@pytest.mark.parametrize("mode", [5, 6])
+def test_strips_and_fans(write: Callable[..., Path], mode: int) -> None:
+    """The four corners of a box's floor, as a strip and as a fan: two triangles that look the same way."""
+    content, blob = document()
+    corners = np.array([0, 2, 4, 6] if mode == 5 else [0, 2, 6, 4], dtype="<u2")
+    number, blob = appended(content, blob, corners, 5123, "SCALAR")
+    plate = {"attributes": {"POSITION": 0}, "indices": number, "mode": mode}
+    content["meshes"][0]["primitives"].append(plate)
+    assembly = read_cad(write(content, blob))
+    mesh = next(assembly.shapes[p.shape].mesh for p in assembly.parts if p.name == "Rahmen")
+    assert len(mesh.triangles) == 14
+    a, b, c = (mesh.points[mesh.triangles[12:, k]] for k in range(3))
+    np.testing.assert_allclose(np.cross(b - a, c - a), [[0.0, 0.0, -0.12]] * 2, atol=1e-6)

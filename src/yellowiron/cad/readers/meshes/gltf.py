@@ -1,7 +1,7 @@
 """A GLB or glTF 2.0 file to an `Assembly`: a part for every node with a mesh. Runs in the guard's child process.
 
-The container, the tree and what refers to what are read and checked here; the numbers of the meshes are decoded by
-trimesh from a copy of the file that holds them and nothing else, so that it opens no other file.
+The container, the tree and what refers to what are read and checked here. A mesh that is skinned becomes a part for
+every bone that it follows, in the pose that the tree has.
 """
 
 from __future__ import annotations
@@ -15,22 +15,23 @@ import struct
 import urllib.parse
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from io import BytesIO
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from yellowiron.cad.appearance.looks import Dressed, Look, joined
+from yellowiron.cad.appearance.looks import joined
 from yellowiron.cad.mesh import assembly
 from yellowiron.cad.mesh.assembly import Occurrence
 from yellowiron.cad.naming import decode_name, decode_text, is_generic
 from yellowiron.cad.readers.meshes.gltf_compressed import DRACO, MESHOPT, is_fallback, plain
-from yellowiron.cad.readers.meshes.gltf_materials import STEPS, Materials
+from yellowiron.cad.readers.meshes.gltf_materials import Materials
+from yellowiron.cad.readers.meshes.gltf_meshes import has_triangles, pieces_of
+from yellowiron.cad.readers.meshes.gltf_skins import bind, bones_of
 from yellowiron.model.assembly import Assembly, Node
 from yellowiron.model.errors import CadError
 from yellowiron.model.finding import Finding
-from yellowiron.model.geometry import Floats, Mesh
+from yellowiron.model.geometry import Floats
 
 _MAGIC, _JSON, _BIN = b"glTF", 0x4E4F534A, 0x004E4942
 _AGAIN = "Export it again as GLB, without compression."
@@ -38,11 +39,6 @@ _DAMAGED = "Copy or export it again; the file is damaged."
 _READABLE = {"KHR_mesh_quantization", "EXT_mesh_gpu_instancing", DRACO, *MESHOPT}
 _NEEDLESS = re.compile(r"[A-Z0-9]+_(?:materials?|textures?|lights?|image|animation|audio|lod|xmp)(?:_\w+)?")
 """Extensions that a file may require: of geometry, what is decoded here; of looks, what geometry can do without."""
-_SIZES = {5120: 1, 5121: 1, 5122: 2, 5123: 2, 5125: 4, 5126: 4}
-_WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
-_TRIANGLES = (4, 5, 6)
-"""Modes of triangles: lists, strips, fans."""
-_FAN = 6
 _NAMES = re.compile(rb'"name"\s*:\s*"([^"]*)"')
 _DEEPEST = 200
 _KNOWN = {
@@ -54,13 +50,14 @@ _KNOWN = {
 
 @dataclass(frozen=True, eq=False)
 class _Node:
-    """An occurrence of a mesh: names from the root, (4, 4) transform, its number in the tree."""
+    """An occurrence of a mesh: names from the root, (4, 4) transform, its number in the tree, its skin if any."""
 
     path: tuple[str, ...]
     name: str
     mesh: int
     transform: Floats
     number: int
+    skin: int | None
 
 
 def read_gltf(path: str) -> Assembly:
@@ -72,16 +69,28 @@ def read_gltf(path: str) -> Assembly:
     document, blob = _container(path)
     _require(document, path)
     document, buffers, faults = plain(document, _buffers(document, blob, path), path)
-    tree, nodes = _nodes(document, path)
+    tree, nodes, numbers = _nodes(document, path)
     findings = [Finding("CAD003", "error", path, f"Compressed geometry is broken: {w}", _AGAIN) for w in faults[:5]]
     materials = Materials(document, buffers, path)
-    found = _meshes(document, buffers, {n.mesh for n in nodes}, materials, findings)
-    broken = {n.mesh for n in nodes if n.mesh not in found and _has_triangles(document, n.mesh)}
-    occurrences = [
-        Occurrence(n.name, n.path, one.mesh, n.transform, one.color, one.finishes, n.number)
-        for n in nodes
-        if (one := found.get(n.mesh)) is not None
-    ]
+    found = {n: pieces_of(document, buffers, n, materials, findings) for n in sorted({n.mesh for n in nodes})}
+    dressed = {n: joined([p.drawn for p in pieces]) for n, pieces in found.items() if pieces}
+    broken = {n for n, pieces in found.items() if not pieces and has_triangles(document, n)}
+    bones = bones_of(document, buffers, numbers, tree)
+    occurrences: list[Occurrence] = []
+    for node in nodes:
+        bound = bind(found[node.mesh], bones.get(node.skin)) if node.skin is not None else {}
+        for bone, one in bound.items():
+            above = _names(tree, bone)
+            name = node.name if len(bound) == 1 else tree[bone].name
+            occurrences.append(Occurrence(name, above, one.mesh, np.eye(4), one.color, one.finishes, bone))
+        if not bound and node.mesh in dressed:
+            if node.skin is not None:
+                words = "Its skin is broken: it is left where its node stands, which may be a wrong place"
+                findings.append(Finding("CAD003", "warning", node.name, words, _AGAIN))
+            one = dressed[node.mesh]
+            occurrences.append(
+                Occurrence(node.name, node.path, one.mesh, node.transform, one.color, one.finishes, node.number)
+            )
     findings += materials.findings()
     loose = sum("mesh" in entry for entry in _list(document, "nodes")) - len(nodes)
     if loose:
@@ -98,7 +107,7 @@ def read_gltf(path: str) -> Assembly:
         unit=1.0,
         path=path,
         findings=findings,
-        declared=sum(1 for n in nodes if n.mesh in found or n.mesh in broken),
+        declared=len(occurrences) + sum(n.mesh in broken for n in nodes),
         nodes=tree,
     )
 
@@ -206,8 +215,9 @@ def _fetch(uri: str, path: str) -> bytes:
 
 
 # ---- the tree ----
-def _nodes(document: dict[str, Any], path: str) -> tuple[list[Node], list[_Node]]:
-    """The scene's tree, and every occurrence of a mesh in it, in tree order."""
+def _nodes(document: dict[str, Any], path: str) -> tuple[list[Node], list[_Node], dict[int, int]]:
+    """The scene's tree, every occurrence of a mesh in it, in tree order, and where in the tree each of the document's
+    nodes is."""
     entries, meshes = _list(document, "nodes"), _list(document, "meshes")
     scenes, chosen = _list(document, "scenes"), document.get("scene", 0)
     children = {c for entry in entries for c in _plain_list(entry, "children")}
@@ -219,7 +229,7 @@ def _nodes(document: dict[str, Any], path: str) -> tuple[list[Node], list[_Node]
     }
     tree: list[Node] = []
     found: list[_Node] = []
-    seen: set[int] = set()
+    seen: dict[int, int] = {}
     stack: list[tuple[Any, tuple[str, ...], int | None]] = [(root, (), None) for root in reversed(roots)]
     while stack:
         index, above, parent = stack.pop()
@@ -227,7 +237,7 @@ def _nodes(document: dict[str, Any], path: str) -> tuple[list[Node], list[_Node]
             raise CadError(f"The glTF tree names a node that is not there: {index}", where=path, hint=_DAMAGED)
         if index in seen or len(above) > _DEEPEST:
             raise CadError("The glTF tree is broken: a node hangs in it twice", where=path, hint=_DAMAGED)
-        seen.add(index)
+        seen[index] = len(tree)
         entry = entries[index]
         matrix = _matrix(entry, index, path)
         with np.errstate(all="ignore"):
@@ -240,10 +250,21 @@ def _nodes(document: dict[str, Any], path: str) -> tuple[list[Node], list[_Node]
             if not isinstance(mesh, int) or not 0 <= mesh < len(meshes):
                 raise CadError(f"The glTF tree names a mesh that is not there: {mesh}", where=path, hint=_DAMAGED)
             own = decode_name(str(meshes[mesh].get("name") or ""), "utf-8")
-            found.append(_Node(above, (own if is_generic(name) and own else name) or "Part", mesh, matrix, number))
+            called = (own if is_generic(name) and own else name) or "Part"
+            skin = entry.get("skin")
+            found.append(_Node(above, called, mesh, matrix, number, skin if isinstance(skin, int) else None))
         below = (*above, name or "Assembly")
         stack += [(child, below, number) for child in reversed(_plain_list(entry, "children"))]
-    return tree, found
+    return tree, found, seen
+
+
+def _names(tree: Sequence[Node], number: int | None) -> tuple[str, ...]:
+    """The names from the root down to a node of the tree, its own among them."""
+    names: list[str] = []
+    while number is not None:
+        names.append(tree[number].name)
+        number = tree[number].parent
+    return tuple(reversed(names))
 
 
 def _matrix(entry: Mapping[str, Any], index: int, path: str) -> Floats:
@@ -268,141 +289,3 @@ def _matrix(entry: Mapping[str, Any], index: int, path: str) -> Floats:
     except (TypeError, ValueError, ZeroDivisionError) as error:
         raise CadError(f"The placement of node {index} is broken", where=path, hint=_DAMAGED) from error
     return np.asarray(matrix, dtype=np.float64)
-
-
-# ---- the meshes ----
-def _meshes(
-    document: dict[str, Any],
-    buffers: Sequence[bytes],
-    wanted: set[int],
-    materials: Materials,
-    findings: list[Finding],
-) -> dict[int, Dressed]:
-    """The triangles of the wanted meshes, by index; those that have none or are broken are absent, with a finding."""
-    entries = _list(document, "meshes")
-    chosen: list[tuple[int, dict[str, Any]]] = []
-    for index in sorted(wanted):
-        name = str(entries[index].get("name") or f"mesh {index}")
-        for primitive in _list(entries[index], "primitives"):
-            if primitive.get("mode", 4) not in _TRIANGLES:
-                continue
-            words = _fault(document, buffers, primitive)
-            if words:
-                findings.append(Finding("CAD003", "error", name, f"Left out: {words}", _AGAIN))
-            else:
-                chosen.append((index, primitive))
-    decoded = _decoded(document, buffers, [p for _, p in chosen])
-    pieces: dict[int, list[tuple[Mesh, Look, Floats | None, Floats | None]]] = {}
-    for (index, primitive), mesh in zip(chosen, decoded, strict=True):
-        pieces.setdefault(index, []).append((mesh, *materials.of(primitive, mesh)))
-    return {index: joined(found) for index, found in pieces.items()}
-
-
-def _has_triangles(document: dict[str, Any], mesh: int) -> bool:
-    """Whether a mesh should have triangles: it says so, or has lost what it has to have."""
-    primitives = _list(_list(document, "meshes")[mesh], "primitives")
-    return not primitives or any(p.get("mode", 4) in _TRIANGLES for p in primitives)
-
-
-def _fault(document: dict[str, Any], buffers: Sequence[bytes], primitive: Mapping[str, Any]) -> str:
-    """What keeps a primitive's triangles from being read; '' if nothing does."""
-    attributes = primitive.get("attributes")
-    if not isinstance(attributes, dict) or "POSITION" not in attributes:
-        return "it has no points"
-    if "extensions" in primitive and {DRACO} & set(primitive["extensions"]):
-        return "its compressed triangles are broken"
-    if primitive.get("mode", 4) == _FAN:
-        return "its triangles are fans"
-    wanted = [attributes["POSITION"], *([primitive["indices"]] if "indices" in primitive else [])]
-    counts: list[int] = []
-    for number in wanted:
-        accessors, views = _list(document, "accessors"), _list(document, "bufferViews")
-        if not isinstance(number, int) or not 0 <= number < len(accessors):
-            return "it refers to numbers that are not there"
-        entry = accessors[number]
-        view_number, count = entry.get("bufferView"), entry.get("count", -1)
-        if "sparse" in entry or not isinstance(view_number, int) or not 0 <= view_number < len(views):
-            return "its numbers are stored in a way that is not readable here"
-        size, width = _SIZES.get(entry.get("componentType", 0), 0), _WIDTHS.get(str(entry.get("type")), 0)
-        view = views[view_number]
-        row, start = size * width, view.get("byteOffset", 0)
-        step, offset, length = view.get("byteStride", row), entry.get("byteOffset", 0), view.get("byteLength", 0)
-        whole = all(isinstance(v, int) and v >= 0 for v in (count, start, step, offset, length))
-        if not whole or row == 0 or view.get("buffer") not in range(len(buffers)) or (step < row and count > 1):
-            return "the layout of its numbers is broken"
-        end = offset + (count - 1) * step + row if count else 0
-        if end > length or start + length > len(buffers[view["buffer"]]):
-            return f"it declares {count} numbers and the file has fewer"
-        counts.append(count)
-    if _list(document, "accessors")[wanted[0]].get("type") != "VEC3":
-        return "its points are not in space"
-    if primitive.get("mode", 4) == 4 and counts[-1] % 3:
-        return "its corners do not make whole triangles"
-    return ""
-
-
-def _decoded(document: dict[str, Any], buffers: Sequence[bytes], primitives: Sequence[dict[str, Any]]) -> list[Mesh]:
-    """The primitives' triangles, by trimesh, from a copy of the file with a mesh for each and nothing else."""
-    from trimesh.exchange.gltf import load_glb
-
-    if not primitives:
-        return []
-    used = sorted({n for p in primitives for n in _accessors_of(p)})
-    place = {number: k for k, number in enumerate(used)}
-    accessors, views = _list(document, "accessors"), _list(document, "bufferViews")
-    offsets = np.concatenate([[0], np.cumsum([len(b) + (-len(b)) % 4 for b in buffers])]).tolist()
-    meshes = []
-    for number, primitive in enumerate(primitives):
-        attributes = {k: place[v] for k, v in primitive["attributes"].items() if k in ("POSITION",)}
-        entry: dict[str, Any] = {"attributes": attributes, "mode": primitive.get("mode", 4)}
-        if "indices" in primitive:
-            entry["indices"] = place[primitive["indices"]]
-        meshes.append({"name": str(number), "primitives": [entry]})
-    blob = b"".join(b + b"\0" * (-len(b) % 4) for b in buffers)
-    copy = {
-        "asset": {"version": "2.0"},
-        "buffers": [{"byteLength": len(blob)}],
-        "bufferViews": [
-            {
-                **{k: v[k] for k in ("byteLength", "byteStride") if k in v},
-                "buffer": 0,
-                "byteOffset": offsets[v["buffer"]] + v.get("byteOffset", 0),
-            }
-            for v in (views[accessors[n]["bufferView"]] for n in used)
-        ],
-        "accessors": [{**_bare(accessors[n]), "bufferView": k} for k, n in enumerate(used)],
-        "meshes": meshes,
-        "nodes": [{"mesh": k} for k in range(len(meshes))],
-        "scenes": [{"nodes": list(range(len(meshes)))}],
-        "scene": 0,
-    }
-    geometry = load_glb(BytesIO(_packed(copy, blob)), skip_materials=True)["geometry"]
-    result = []
-    for number, primitive in enumerate(primitives):
-        found = geometry[str(number)]
-        points = np.asarray(found["vertices"], dtype=np.float64)
-        entry = accessors[primitive["attributes"]["POSITION"]]
-        if entry.get("normalized") and entry["componentType"] in STEPS:
-            points = np.maximum(points / STEPS[entry["componentType"]], -1.0)
-        triangles = np.asarray(found["faces"], dtype=np.int64)
-        inside = np.asarray(((triangles >= 0) & (triangles < len(points))).all(axis=1))
-        # A corner that is not there is a point that is not a number: the check behind finds and names it.
-        points = np.concatenate([points, np.full((1, 3), np.nan)]) if not inside.all() else points
-        triangles = np.where(inside[:, None], triangles, len(points) - 1)
-        result.append(Mesh(points, triangles.astype(np.int32)))
-    return result
-
-
-def _accessors_of(primitive: Mapping[str, Any]) -> list[int]:
-    return [primitive["attributes"]["POSITION"], *([primitive["indices"]] if "indices" in primitive else [])]
-
-
-def _bare(accessor: Mapping[str, Any]) -> dict[str, Any]:
-    return {k: accessor[k] for k in ("componentType", "type", "count", "byteOffset") if k in accessor}
-
-
-def _packed(document: Mapping[str, Any], blob: bytes) -> bytes:
-    text = json.dumps(document).encode()
-    text += b" " * (-len(text) % 4)
-    head = struct.pack("<4sIIII", _MAGIC, 2, 28 + len(text) + len(blob), len(text), _JSON)
-    return head + text + struct.pack("<II", len(blob), _BIN) + blob

@@ -13,13 +13,10 @@ import numpy as np
 
 from yellowiron.cad.appearance.looks import Look
 from yellowiron.cad.appearance.textures import Picture, Pictures, finish
+from yellowiron.cad.readers.meshes.gltf_accessors import accessor, item, part, view
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Color, Floats, Mesh
 
-_TYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
-STEPS = {5120: 127.0, 5121: 255.0, 5122: 32767.0, 5123: 65535.0}
-"""What a normalised integer is divided by."""
-_WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 _OLD = "KHR_materials_pbrSpecularGlossiness"
 _MOVED = "KHR_texture_transform"
 
@@ -40,29 +37,29 @@ class Materials:
     def of(self, primitive: Mapping[str, Any], mesh: Mesh) -> tuple[Look, Floats | None, Floats | None]:
         """A primitive's look, the (m, 3, 2) texture coordinates and the (m, 3) paint of its triangles."""
         number = primitive.get("material")
-        entries = self._list("materials")
         look, texture = Look(), None
-        if isinstance(number, int) and 0 <= number < len(entries):
+        entries = self._document.get("materials")
+        if isinstance(number, int) and isinstance(entries, list) and 0 <= number < len(entries):
             if number not in self._known:
-                self._known[number] = self._read(entries[number])
+                self._known[number] = self._read(item(self._document, "materials", number))
             look, texture = self._known[number]
         paint = self._accessor(primitive, "COLOR_0", mesh)
         return look, self._uvs(primitive, texture, mesh), None if paint is None else paint[:, :, :3].mean(axis=1)
 
     def _read(self, material: Mapping[str, Any]) -> tuple[Look, Mapping[str, Any] | None]:
-        pbr = _object(material, "pbrMetallicRoughness")
-        old = _object(_object(material, "extensions"), _OLD)
+        pbr = part(material, "pbrMetallicRoughness")
+        old = part(part(material, "extensions"), _OLD)
         color = _color(old.get("diffuseFactor") if old else pbr.get("baseColorFactor"))
         metallic, roughness = _number(pbr.get("metallicFactor")), _number(pbr.get("roughnessFactor"))
         if old:
             glossy = _number(old.get("glossinessFactor"))
             metallic, roughness = 0.0, None if glossy is None else 1.0 - glossy
-        mixed = self._picture(_object(pbr, "metallicRoughnessTexture"))
+        mixed = self._picture(part(pbr, "metallicRoughnessTexture"))
         if mixed is not None:
             # Green is roughness, blue is metalness; the mean stands for both.
             metallic = (1.0 if metallic is None else metallic) * mixed.raw[2]
             roughness = (1.0 if roughness is None else roughness) * mixed.raw[1]
-        entry = _object(old, "diffuseTexture") if old else _object(pbr, "baseColorTexture")
+        entry = part(old, "diffuseTexture") if old else part(pbr, "baseColorTexture")
         picture = self._picture(entry)
         if picture is None:
             plain = (color or (1.0, 1.0, 1.0)) == (1.0, 1.0, 1.0)
@@ -74,11 +71,10 @@ class Materials:
         """The picture of a texture that a material names."""
         if not entry:
             return None
-        textures, images = self._list("textures"), self._list("images")
-        texture = _at(textures, entry.get("index"))
+        texture = item(self._document, "textures", entry.get("index"))
         source = texture.get("source")
-        webp = _object(_object(texture, "extensions"), "EXT_texture_webp").get("source")
-        image = _at(images, webp if source is None else source)
+        webp = part(part(texture, "extensions"), "EXT_texture_webp").get("source")
+        image = item(self._document, "images", webp if source is None else source)
         name = str(image.get("name") or image.get("uri") or "texture")
         name = "texture" if name.startswith("data:") else name
         if isinstance(image.get("bufferView"), int):
@@ -97,12 +93,12 @@ class Materials:
         return self._pictures.inside(data, name)
 
     def _view(self, number: int) -> bytes:
-        return _view(self._document, self._buffers, number)
+        return view(self._document, self._buffers, number)
 
     def _uvs(self, primitive: Mapping[str, Any], entry: Mapping[str, Any] | None, mesh: Mesh) -> Floats | None:
         if entry is None:
             return None
-        moved = _object(_object(entry, "extensions"), _MOVED)
+        moved = part(part(entry, "extensions"), _MOVED)
         uvs = self._accessor(primitive, f"TEXCOORD_{moved.get('texCoord', entry.get('texCoord', 0))}", mesh)
         if uvs is None or uvs.shape[2] != 2:
             return None
@@ -117,59 +113,11 @@ class Materials:
 
     def _accessor(self, primitive: Mapping[str, Any], name: str, mesh: Mesh) -> Floats | None:
         """(m, 3, k) an attribute's numbers at the triangles' corners; None where it is absent or broken."""
-        number = _object(primitive, "attributes").get(name)
+        number = part(primitive, "attributes").get(name)
         values = accessor(self._document, self._buffers, number, normalized=name.startswith("COLOR"))
         if values is None or values.shape[1] < 2 or (len(mesh.triangles) and mesh.triangles.max() >= len(values)):
             return None
         return np.asarray(values[mesh.triangles])
-
-    def _list(self, key: str) -> list[Mapping[str, Any]]:
-        return _list(self._document, key)
-
-
-def accessor(
-    document: Mapping[str, Any], buffers: Sequence[bytes], number: Any, *, normalized: bool = False
-) -> Floats | None:
-    """(n, k) the numbers of an accessor, integers divided by their range where it, or `normalized`, says so; None where
-    it is absent or broken."""
-    entry = _at(_list(document, "accessors"), number)
-    kind, width = _TYPES.get(entry.get("componentType", 0)), _WIDTHS.get(str(entry.get("type")))
-    view = _at(_list(document, "bufferViews"), entry.get("bufferView"))
-    count, start = entry.get("count"), entry.get("byteOffset", 0)
-    if kind is None or width is None or not isinstance(count, int) or not isinstance(start, int) or start < 0:
-        return None
-    size = np.dtype(kind).itemsize * width
-    stride = view.get("byteStride") or size
-    data = _view(document, buffers, entry["bufferView"]) if view else b""
-    if not 0 < count <= 1 << 28 or not isinstance(stride, int) or not size <= stride <= 252:
-        return None
-    if start + (count - 1) * stride + size > len(data):
-        return None
-    raw = np.ndarray((count, width), dtype=kind, buffer=data, offset=start, strides=(stride, size // width))
-    values = raw.astype(np.float64)
-    return values / STEPS.get(entry["componentType"], 1.0) if entry.get("normalized") or normalized else values
-
-
-def _view(document: Mapping[str, Any], buffers: Sequence[bytes], number: int) -> bytes:
-    view = _at(_list(document, "bufferViews"), number)
-    buffer, start, length = (view.get(k, 0) for k in ("buffer", "byteOffset", "byteLength"))
-    if not all(isinstance(v, int) and v >= 0 for v in (buffer, start, length)) or buffer >= len(buffers):
-        return b""
-    return buffers[buffer][start : start + length]
-
-
-def _list(document: Mapping[str, Any], key: str) -> list[Mapping[str, Any]]:
-    found = document.get(key, [])
-    return [item if isinstance(item, dict) else {} for item in found] if isinstance(found, list) else []
-
-
-def _object(entry: Mapping[str, Any], key: str) -> Mapping[str, Any]:
-    found = entry.get(key)
-    return found if isinstance(found, dict) else {}
-
-
-def _at(entries: Sequence[Mapping[str, Any]], number: Any) -> Mapping[str, Any]:
-    return entries[number] if isinstance(number, int) and 0 <= number < len(entries) else {}
 
 
 def _number(value: Any) -> float | None:
