@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import importlib
 import importlib.util
+import re
 import statistics
 import subprocess
 import sys
@@ -66,6 +67,13 @@ def test_no_module_is_over_500_lines(root: Path) -> None:
         if (lines := len(path.read_text(encoding="utf-8").splitlines())) > 500
     }
     assert not long
+
+
+def test_only_the_terminal_writes_to_the_terminal(root: Path) -> None:
+    """What a stage has to say is a finding; the guard's child answers its parent by its own streams."""
+    source = root / "src/yellowiron"
+    writes = {p.relative_to(source).as_posix() for p in source.rglob("*.py") if re.search(r"\bsys\.std", p.read_text())}
+    assert writes <= {"report/terminal.py", "support/guard.py", "support/isolated.py"}
 
 
 def test_imports_go_one_way(root: Path) -> None:

@@ -256,11 +256,6 @@ def _judged(best: _Best, evidence: Evidence) -> dict[int, Judged]:
             n = list(chief).index(k)
             margin, other = float(lead[n]), int(second[n])
             doubted = contrary[n] > CONTRARY
-            import sys
-
-            sys.stderr.write(
-                f"CON {body} {contrary[n]:.0f} {sorted(piece.members)[:1]} {best.votes[k][body].get('name', 0):.2f}\n"
-            )
         else:
             doubted = False
             margin, other = float(lead_all[k]), int(second_all[k])
