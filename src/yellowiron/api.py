@@ -112,7 +112,7 @@ def align(
     from yellowiron import cad
     from yellowiron.alignment import parse_rules, write_alignment
     from yellowiron.model.alignment import Decisions, Signature
-    from yellowiron.pipeline import compare_with_declared, find_roles
+    from yellowiron.pipeline import compare_with_declared, find_roles, values_by_hand
 
     signature = Signature(by, date, why)
     decisions = Decisions(parse_rules(roles, signature), tuple(confirmed), tuple(forgotten), signature)
@@ -121,9 +121,9 @@ def align(
     assembly = cad.read_cad(Path(cad_file))
     values, choices = specs.split_settings(settings, template)
     read = specs.extract(template, [Path(sheet) for sheet in sheets], config=config, progress=progress)
-    specifications = specs.merge(read, specs.parse_settings(values, template))
-    progress("Finding the part that plays each role")
     earlier = Path(out) if out is not None and Path(out).exists() else None
+    specifications = specs.merge(read, values_by_hand(earlier, template), specs.parse_settings(values, template))
+    progress("Finding the part that plays each role")
     assembly, alignment = find_roles(
         assembly, template, specifications, earlier=earlier, choices=choices, decisions=decisions
     )

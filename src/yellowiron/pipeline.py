@@ -14,7 +14,16 @@ from typing import Any
 import numpy as np
 
 from yellowiron import cad, checks, kinematics, library, report, specs, usd
-from yellowiron.alignment import align, decide, declared_roles, read_alignment, read_joints, to_scale, write_alignment
+from yellowiron.alignment import (
+    align,
+    decide,
+    declared_roles,
+    read_alignment,
+    read_joints,
+    read_values,
+    to_scale,
+    write_alignment,
+)
 from yellowiron.inputs import checked_inputs
 from yellowiron.mechanism import (
     ComparedJoint,
@@ -150,7 +159,7 @@ def build(
             read = specs.extract(
                 template, [Path(s) for s in sheets], config=config, extractor=extractor, model=model, progress=progress
             )
-            specifications = specs.merge(read, given)
+            specifications = specs.merge(read, values_by_hand(earlier, template), given)
 
         with clock.stage("align", "Finding the part that plays each role"):
             assembly, alignment = find_roles(
@@ -202,6 +211,11 @@ def build(
                 poses=kinematics.key_poses(mechanism), tables=kinematics.pose_tables(mechanism), sweeps=sweeps,
             )  # fmt: skip
             (folder / "report.html").write_text(page, encoding="utf-8")
+            report.write_document({
+                "equipment_type": _place(equipment_type) if Path(equipment_type).is_dir() else str(equipment_type),
+                "cad": _place(cad_file), "specs": [_place(s) for s in sheets], "data": [_place(d) for d in documents],
+                "set": list(settings), "config": config,
+            }, folder / "inputs.json")  # fmt: skip
         report.write_document({**clock.seconds, "total": sum(clock.seconds.values())}, folder / "timings.json")
     return Machine(
         mechanism=mechanism,
@@ -256,6 +270,11 @@ def solve(
     return Solved(chosen, template, assembly, alignment, mechanism, specifications, compared)
 
 
+def _place(path: Path | str) -> str:
+    """Where an input is, for whoever builds this machine again."""
+    return str(Path(path).absolute())
+
+
 def _earlier(alignment_file: Path | str | None, left: Path) -> Path | None:
     """The alignment file that was asked for, else the one that an earlier run `left`, if it did."""
     return Path(alignment_file) if alignment_file else left if left.exists() else None
@@ -278,14 +297,7 @@ def find_roles(
     def found(model: Assembly) -> Alignment:
         edits = read_alignment(earlier, model, template) if earlier is not None else None
         edits = decide(edits, decisions, model, template)
-        edits = edits if data is None else library.with_relations(edits, data)
-        alignment = align(model, template, specifications, edits=edits, choices=choices)
-        # A robot description whose bodies are the template's: what it says goes before what was found.
-        declared = declared_roles(model, template, alignment)
-        if declared:
-            edits = replace(edits or alignment, parts=(*(edits.parts if edits else ()), *declared))
-            alignment = align(model, template, specifications, edits=edits, choices=choices)
-        return alignment if data is None else library.with_axes(alignment, data)
+        return roles_of(model, template, specifications, edits=edits, data=data, choices=choices)
 
     assembly = to_scale(assembly, template, specifications)
     alignment = found(assembly)
@@ -296,6 +308,32 @@ def find_roles(
         if len(other.missing) < 0.5 * len(alignment.missing):
             return apart, other
     return assembly, alignment
+
+
+def roles_of(
+    assembly: Assembly,
+    template: Template,
+    specifications: Specifications,
+    *,
+    edits: Alignment | None = None,
+    data: library.Documents | None = None,
+    choices: Mapping[str, str] | None = None,
+) -> Alignment:
+    """Roles for the parts of a CAD model as it is; `edits` is an earlier alignment whose decisions hold."""
+    edits = edits if data is None else library.with_relations(edits, data)
+    alignment = align(assembly, template, specifications, edits=edits, choices=choices)
+    # A robot description whose bodies are the template's: what it says goes before what was found.
+    declared = declared_roles(assembly, template, alignment)
+    if declared:
+        edits = replace(edits or alignment, parts=(*(edits.parts if edits else ()), *declared))
+        alignment = align(assembly, template, specifications, edits=edits, choices=choices)
+    return alignment if data is None else library.with_axes(alignment, data)
+
+
+def values_by_hand(earlier: Path | None, template: Template) -> Specifications:
+    """The values that a person wrote into an earlier alignment; none without one."""
+    values = read_values(earlier) if earlier is not None else {}
+    return specs.parse_settings([f"{name}={value.text}" for name, value in values.items()], template)
 
 
 def on_sheet(

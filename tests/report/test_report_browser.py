@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import base64
 import io
-import shutil
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -18,11 +17,6 @@ from yellowiron.pipeline import build
 
 pytestmark = pytest.mark.slow
 
-FLAGS = (
-    "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
-    "--ignore-gpu-blocklist", "--disable-quic", "--no-first-run", "--disable-background-networking",
-    "--disable-component-update", "--disable-sync",
-)  # fmt: skip
 BETWEEN = 2e-3
 """Metres between the solver's pose and the page's, anywhere on a body."""
 MOST_BYTES = 3_000_000
@@ -35,19 +29,6 @@ def machine(cad_read_once: None, example: Path, tmp_path_factory: pytest.TempPat
         "wheel_loader", example / "wheel_loader.step", tmp_path_factory.mktemp("page") / "machine",
         sheets=[example / "specifications.pdf"], engines=("mujoco",),
     )  # fmt: skip
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    """Debian's Chromium, drawing in software: no display and no graphics card are needed."""
-    sync_api = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
-    chromium = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
-    if chromium is None:
-        pytest.skip("no Chromium on this machine")
-    with sync_api.sync_playwright() as playwright:
-        started = playwright.chromium.launch(executable_path=chromium, args=list(FLAGS))
-        yield started
-        started.close()
 
 
 @pytest.fixture(scope="module")

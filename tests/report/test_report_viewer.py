@@ -20,6 +20,7 @@ from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.geometry import Mesh, Shape
 from yellowiron.model.mechanism import Actuator, ActuatorJoint, Body, BodyPart, Cylinder, Joint, Mechanism
 from yellowiron.model.poses import PoseTable, PoseTables
+from yellowiron.report.html import packing
 from yellowiron.report.html import viewer as module
 from yellowiron.report.html.viewer import viewer
 
@@ -149,7 +150,7 @@ def test_the_script_closes_no_tag_and_asks_for_nothing(press: Any) -> None:
 @given(st.lists(st.tuples(*[st.floats(-1, 1)] * 3).filter(lambda v: np.linalg.norm(v) > 1e-3), min_size=1, max_size=20))
 def test_normals_keep_their_direction(vectors: list[tuple[float, float, float]]) -> None:
     normals = np.array(vectors) / np.linalg.norm(vectors, axis=1, keepdims=True)
-    e = module._octahedral(normals) / 127.0
+    e = packing._octahedral(normals) / 127.0
     z = 1.0 - np.abs(e).sum(axis=1)
     sign = np.where(e >= 0, 1.0, -1.0)
     xy = np.where(z[:, None] < 0, (1.0 - np.abs(e[:, [1, 0]])) * sign, e)

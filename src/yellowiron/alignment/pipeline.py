@@ -171,7 +171,7 @@ def align(
         ],
     )
     if edits is not None:
-        found = replace(found, rules=edits.rules, joints=edits.joints)
+        found = replace(found, rules=edits.rules, joints=edits.joints, values=edits.values)
     drawn_axles = without_absent_axles(whole, {p.body for p in found.parts if p.body is not None})
     return _with_all_axes(found, _without(assembly, fittings), drawn_axles, answer, observation, frame)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import signal
 import sys
 
-from yellowiron.cli import building, library, machines  # noqa: F401 - each adds its commands
+from yellowiron.cli import building, library, machines, studio  # noqa: F401 - each adds its commands
 from yellowiron.cli.application import app
 from yellowiron.model.errors import OutputError, YellowironError
 from yellowiron.report import terminal

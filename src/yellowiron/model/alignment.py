@@ -45,14 +45,33 @@ class RoleRule:
 
 
 @dataclass(frozen=True)
+class PartDecision:
+    """A person's word for one part: `edited` (no role: not part of the machine), `confirmed`, or `solved`, which takes
+    back what was said of it before."""
+
+    role: str | None
+    source: AssignmentSource
+    signature: Signature = UNSIGNED
+
+
+@dataclass(frozen=True)
+class GivenValue:
+    """A value that a person gives beside the sheet, as `--set` takes it: `1400 mm`."""
+
+    text: str
+    signature: Signature = UNSIGNED
+
+
+@dataclass(frozen=True)
 class Decisions:
-    """What a person decides beside what an alignment file says: `rules`, and patterns of parts whose role is
-    `confirmed`, or of which every earlier decision is `forgotten`."""
+    """What a person decides beside what an alignment file says: `rules`, patterns of parts whose role is `confirmed`,
+    or of which every earlier decision is `forgotten`, and single `parts` by their ids, which go before all of these."""
 
     rules: tuple[RoleRule, ...] = ()
     confirmed: tuple[str, ...] = ()
     forgotten: tuple[str, ...] = ()
     signature: Signature = UNSIGNED
+    parts: Mapping[str, PartDecision] = field(default_factory=dict)
 
 
 UNDECIDED = Decisions()
@@ -89,8 +108,8 @@ class Alignment:
     pin of their own → the axis found for them, a point (metres) and a unit vector in the CAD file's frame. `across`:
     those of them that are known roughly → how well across the axis, metres (one sigma). `calibrated`: those that the
     sheet's dimensions placed → by which, in words. `rules`: a person's, the last word of several. `joints`: name →
-    what a person says of a joint, as an entry of a `--data` document of joints. `by_hand`: joints whose axis is a
-    person's.
+    what a person says of a joint, as an entry of a `--data` document of joints. `values`: name → what a person gives
+    beside the sheet. `by_hand`: joints whose axis is a person's.
     """
 
     equipment_type: str
@@ -106,4 +125,5 @@ class Alignment:
     calibrated: Mapping[str, str] = field(default_factory=dict)
     rules: tuple[RoleRule, ...] = ()
     joints: Mapping[str, Mapping[str, object]] = field(default_factory=dict)
+    values: Mapping[str, GivenValue] = field(default_factory=dict)
     by_hand: frozenset[str] = frozenset()

@@ -17,6 +17,7 @@ from yellowiron.model.alignment import (
     UNSIGNED,
     Alignment,
     AssignmentSource,
+    GivenValue,
     PartAssignment,
     RoleRule,
     Signature,
@@ -40,8 +41,8 @@ def write_alignment(alignment: Alignment, assembly: Assembly, path: str | Path) 
     order of the parts in the CAD model does not matter.
 
     A person changes `role`, or `source` to `confirmed`; `solved` keeps what the program had found; `shape` and `place`
-    are what a part is known by in a later revision of the CAD model (`revisions.Print`). `rules` and `joints` are a
-    person's. `OutputError` if it cannot be written.
+    are what a part is known by in a later revision of the CAD model (`revisions.Print`). `rules`, `joints` and `values`
+    are a person's. `OutputError` if it cannot be written.
     """
     doubtful = set(alignment.to_review)
 
@@ -60,6 +61,7 @@ def write_alignment(alignment: Alignment, assembly: Assembly, path: str | Path) 
         "missing": list(alignment.missing),
         **({"rules": [_rule_entry(r) for r in alignment.rules]} if alignment.rules else {}),
         **({"joints": dict(alignment.joints)} if alignment.joints else {}),
+        **({"values": {n: _value_entry(v) for n, v in sorted(alignment.values.items())}} if alignment.values else {}),
         "parts": [_entry(p, prints.get(p.part)) for p in sorted(alignment.parts, key=rank)],
     }
     text = json.dumps(document, ensure_ascii=False, indent=1) + "\n"
@@ -91,6 +93,10 @@ def _entry(p: PartAssignment, known_by: Print | None) -> dict[str, Any]:
 
 def _rule_entry(rule: RoleRule) -> dict[str, Any]:
     return {"pattern": rule.pattern, "role": rule.role, **_signed(rule.signature)}
+
+
+def _value_entry(value: GivenValue) -> dict[str, str]:
+    return {"value": value.text, **_signed(value.signature)}
 
 
 def _signed(signature: Signature) -> dict[str, str]:
@@ -148,6 +154,7 @@ def read_alignment(path: str | Path, assembly: Assembly, template: Template) -> 
         counts=count_members((p.role for p in read), template),
         rules=tuple(_rules(document, source)),
         joints=_joints(document, source),
+        values=_values(document, source),
     )
 
 
@@ -165,6 +172,26 @@ def _joints(document: Mapping[str, Any], source: Path) -> dict[str, Mapping[str,
             "`joints` is no object of joints", where=str(source), hint='Write {"joint": {"anchor": …, "axis": …}, …}.'
         )
     return {str(name): entry for name, entry in joints.items()}
+
+
+def read_values(path: str | Path) -> dict[str, GivenValue]:
+    """The values that a person wrote into an alignment file, by name. `AlignmentError` for a file that is none."""
+    source = Path(path)
+    return _values(_load(source), source)
+
+
+def _values(document: Mapping[str, Any], source: Path) -> dict[str, GivenValue]:
+    values = document.get("values", {})
+    said = {
+        n: v if isinstance(v, Mapping) else {"value": v}
+        for n, v in (values if isinstance(values, Mapping) else {}).items()
+    }
+    if not isinstance(values, Mapping) or not all(isinstance(v.get("value"), str) for v in said.values()):
+        raise AlignmentError(
+            "`values` is no object of values", where=str(source),
+            hint='Write {"Boom Cylinder Stroke": {"value": "1400 mm"}, …}.',
+        )  # fmt: skip
+    return {str(name): GivenValue(entry["value"], _signature(entry)) for name, entry in said.items()}
 
 
 def _rules(document: Mapping[str, Any], source: Path) -> Iterator[RoleRule]:

@@ -23,6 +23,7 @@ from yellowiron.model.alignment import (
     AssignmentSource,
     Decisions,
     PartAssignment,
+    PartDecision,
     RoleRule,
     Signature,
 )
@@ -100,7 +101,9 @@ def decide(earlier: Alignment | None, decisions: Decisions, assembly: Assembly, 
                 assignment, source="edited" if assignment.source == "edited" else "confirmed",
                 signature=decisions.signature,
             )  # fmt: skip
-        kept.append(assignment)
+        if assignment.part not in decisions.parts:
+            kept.append(assignment)
+    kept += [_single(part, one, template) for part, one in decisions.parts.items() if part in parts]
     # What is said again as it was keeps who said it first, and when.
     said = {(rule.pattern, rule.role): rule for rule in edits.rules}
     new = [rule if rule.signature.why else said.get((rule.pattern, rule.role), rule) for rule in decisions.rules]
@@ -171,6 +174,14 @@ def _own(assembly: Assembly, template: Template, edits: Alignment) -> dict[str, 
         words = _words(said, item.signature) if said is not None else item.reason
         found[item.part] = Decision(item.role, item.source, words, item.signature)
     return found
+
+
+def _single(part: str, decision: PartDecision, template: Template) -> PartAssignment:
+    """A decision on one part as an alignment file has it."""
+    role = decision.role
+    _known(role, template, part)
+    body = template.body_of(role) if role is not None else None
+    return PartAssignment(part, role, body, 1.0, "", source=decision.source, signature=decision.signature)
 
 
 def _contradicted(words: str, others: Mapping[str, Decision]) -> Finding:

@@ -1,8 +1,7 @@
 // The 3D view of the report: its controls, what they do, and what is known of the part that was clicked.
 
-/** The packing of viewer.py: gzip of [length, JSON header, binary], in base64. */
-async function unpack(text) {
-  const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+/** The packing of packing.py: gzip of [length, JSON header, binary]. */
+async function unpack(bytes) {
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
   const buffer = await new Response(stream).arrayBuffer();
   const length = new DataView(buffer).getUint32(0, true);
@@ -43,6 +42,7 @@ const degrees = (radians) => `${signed((radians * 180) / Math.PI, 1)}°`;
 const tenth = (value) => value.toFixed(1);
 const STEPS = 400; // of a slider
 const SLOW = 150; // milliseconds for a frame
+const PALE = [172, 174, 176]; // four fifths of what parts that are not asked for turn to
 
 function boxOf(points) {
   const [low, high] = [Math.min, Math.max].map((best) =>
@@ -52,9 +52,13 @@ function boxOf(points) {
 }
 
 class Viewer {
-  constructor(root, model) {
+  /** `pages` are more tabs of the panel, `[name, element]`; `onchoose(number, event)` takes the place of the card. */
+  constructor(root, model, { pages = [], onchoose = null } = {}) {
     this.root = root;
     this.model = model;
+    this.pages = pages;
+    this.onchoose = onchoose;
+    this.lit = null;
     this.given = {};
     this.byBody = false;
     this.chosen = 0;
@@ -119,8 +123,32 @@ class Viewer {
   }
 
   #recolor() {
-    for (const part of this.model.parts) part.color = this.byBody ? this.model.bodies[part.body].color : part.drawn;
+    for (const part of this.model.parts) {
+      const color = this.byBody ? this.model.bodies[part.body].color : part.drawn;
+      part.color = !this.lit || this.lit.has(part.number) ? color : color.map((value, k) => 0.2 * value + PALE[k]);
+    }
     this.request();
+  }
+
+  /** Parts (a set of numbers) that are shown through all others, which turn pale; null: none. */
+  light(numbers) {
+    this.lit = numbers?.size ? numbers : null;
+    this.#recolor();
+  }
+
+  /** Another state of the same machine: the shapes, what is hidden and the camera stay. */
+  update(model) {
+    const before = this.model;
+    model.parts.forEach((part, index) =>
+      Object.assign(part, { number: index + 1, hidden: before.parts[index]?.hidden ?? false, drawn: part.color }),
+    );
+    this.model = Object.assign(model, { shapes: before.shapes, leftOut: before.leftOut });
+    this.#measure();
+    this.#fillMove();
+    this.#fill();
+    this.#recolor();
+    const joints = new Set(model.sliders.flatMap((slider) => slider.joints.map(([joint]) => joint)));
+    this.move(Object.fromEntries(Object.entries(this.given).filter(([joint]) => joints.has(joint))));
   }
 
   /** Each part's drawn placement and the corners of its box; the machine's box. */
@@ -139,6 +167,12 @@ class Viewer {
 
   // ---- controls ----------------------------------------------------------------------------------------------------
   #controls() {
+    this.movePage = element("div", {});
+    this.#fillMove();
+    this.#tabs([["Move", this.movePage], ["Parts", this.#partList()], ...this.pages]);
+  }
+
+  #fillMove() {
     const { sliders, poses } = this.model;
     this.sliders = sliders.map((slider) => this.#slider(slider));
     this.angles = element("dl", { class: "v-angles" });
@@ -151,11 +185,11 @@ class Viewer {
     );
     const section = (title, ...content) => element("section", {}, element("h3", {}, title), ...content);
     const rows = this.sliders.map((slider) => slider.row);
-    const move = element("div", {});
+    const move = this.movePage;
+    move.replaceChildren();
     if (rows.length) move.append(section("Actuators", ...rows), section("Poses", buttons));
     const note = element("p", { class: "dim" }, "Heights above the ground; angles of pivots from the drawn pose.");
     if (this.model.readouts.length + this.model.sites.length) move.append(section("How it stands", this.angles, note));
-    this.#tabs([["Move", move], ["Parts", this.#partList()]]);
   }
 
   /** Tabs of the panel; arrow keys go from one to the next. */
@@ -252,8 +286,9 @@ class Viewer {
 
   #row(part) {
     const name = element("button", {
-      type: "button", class: "v-name", title: part.path, "aria-current": part.number === this.chosen,
-      onclick: () => this.choose(part.number),
+      type: "button", class: "v-name", title: part.path,
+      "aria-current": this.lit ? this.lit.has(part.number) : part.number === this.chosen,
+      onclick: (event) => this.choose(part.number, event),
     }, part.name);
     return element("div", { class: "v-row" }, name, this.#eye(part.name, [part]));
   }
@@ -279,7 +314,8 @@ class Viewer {
   }
 
   /** Chooses a part by its number (0: none) and says what is known of it. */
-  choose(number) {
+  choose(number, event = null) {
+    if (this.onchoose) return this.onchoose(number, event);
     this.chosen = number;
     const part = this.model.parts[number - 1];
     this.card.hidden = !part;
@@ -380,6 +416,19 @@ class Viewer {
     this.request();
   }
 
+  /** Looks at these parts (a set of numbers) from where the camera is. */
+  focus(numbers) {
+    const parts = this.model.parts.filter((part) => numbers.has(part.number));
+    if (!parts.length) return;
+    const corners = parts.flatMap((part) =>
+      part.corners.map((corner) => moved(this.pose[this.model.bodies[part.body].name] ?? IDENTITY, corner)),
+    );
+    const { low, high, middle } = boxOf(corners);
+    const across = Math.hypot(...high.map((value, k) => value - low[k]));
+    this.camera = { ...this.camera, target: middle, distance: Math.max(across, 0.12 * this.scene.radius) * 4.5 };
+    this.request();
+  }
+
   /** Target and distance from which all shown parts in a pose are seen at the camera's angles. */
   #fitted(pose) {
     const parts = this.model.parts.filter((part) => !part.hidden);
@@ -464,7 +513,7 @@ class Viewer {
     const up = (event) => {
       const was = down.delete(event.pointerId);
       const click = was && event.type === "pointerup" && travelled < 5 && event.button === 0;
-      if (click) this.choose(this.pick(...at(event)));
+      if (click) this.choose(this.pick(...at(event)), event);
     };
     canvas.addEventListener("pointerup", up);
     canvas.addEventListener("pointercancel", up);
@@ -539,7 +588,8 @@ class Viewer {
     const [width, height] = [clientWidth, clientHeight].map((size) => Math.max(1, Math.round(size * ratio)));
     if (this.canvas.width !== width || this.canvas.height !== height) Object.assign(this.canvas, { width, height });
     const camera = cameraOf(this.camera, this.#aspect, this.scene);
-    this.renderer.draw(this.model.parts, camera, this.scene, { fine, chosen: this.chosen, moved: this.shadowsOld });
+    const chosen = this.lit ?? new Set([this.chosen]);
+    this.renderer.draw(this.model.parts, camera, this.scene, { fine, chosen, moved: this.shadowsOld });
     this.shadowsOld = false;
     if (fine === 1 && this.trials < 3) {
       // Reading a pixel waits for the frame: where coarse ones are slow (no graphics card), fine ones are left out.
@@ -628,15 +678,4 @@ class Viewer {
       change(spot, slides ? { x: m[0] - 4.5, y: m[1] - 4.5 } : { cx: m[0], cy: m[1] });
     }
   }
-}
-
-const place = document.getElementById("viewer");
-try {
-  if (!("DecompressionStream" in window)) throw new Error("no DecompressionStream");
-  const viewer = new Viewer(place, await unpack(document.getElementById("viewer-data").textContent.trim()));
-  document.getElementById("viewer-caption").textContent = "The machine as built: move it, turn it, click a part.";
-  window.yellowiron = Object.assign(viewer, { moved });
-} catch (error) {
-  document.getElementById("viewer-caption").textContent =
-    `As drawn in the CAD model. The 3D view needs a browser with WebGL2 (${error.message}).`;
 }

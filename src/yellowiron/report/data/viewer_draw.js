@@ -225,7 +225,7 @@ class Renderer {
 
   /**
    * Draws parts `{shape, place, color, number, hidden}` (colour in display bytes, number from 1) with a camera of
-   * `cameraOf`; `fine` pixels in a row make one on the screen; `chosen` is a part's number; `moved`: cast shadows anew.
+   * `cameraOf`; `fine` pixels in a row make one on the screen; `chosen` is a set of parts' numbers; `moved`: cast shadows anew.
    */
   draw(parts, camera, scene, { fine, chosen, moved: changed }) {
     const gl = this.gl;
@@ -281,10 +281,10 @@ class Renderer {
     gl.drawArrays(gl.TRIANGLES, 0, 3);
     gl.enable(gl.DEPTH_TEST);
     this.fine = fine;
-    this.#mark(visible.filter((each) => each.number === chosen), camera);
+    this.#mark(visible.filter((each) => chosen.has(each.number)), camera);
   }
 
-  /** Tints a part through all that is in front of it: its own depth first, then its colour once. */
+  /** Tints parts through all that is in front of them: their own depth first, then their colour once. */
   #mark(parts, camera) {
     const gl = this.gl;
     const { program, at } = this.programs.chosen;

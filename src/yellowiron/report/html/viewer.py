@@ -1,17 +1,9 @@
-"""The machine packed for the page's 3D view: meshes, joints, pose tables and what is known of every part.
-
-The packing is read by `data/viewer.js`: gzip of a little-endian uint32 (the length of what follows), a JSON header
-padded to a multiple of 8, and one block of binary in which the header's `[kind, offset, count]` entries point. The
-same machine gives the same bytes.
-"""
+"""The machine for the page's 3D view: meshes, joints, pose tables and what is known of every part."""
 
 from __future__ import annotations
 
 import base64
-import gzip
-import json
 import math
-import struct
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
@@ -19,13 +11,13 @@ from importlib import resources
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from yellowiron.model.alignment import Alignment
-from yellowiron.model.assembly import Assembly
-from yellowiron.model.geometry import Floats, Mesh, Shape
+from yellowiron.model.alignment import Alignment, PartAssignment
+from yellowiron.model.assembly import Assembly, Part
+from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Actuator, Joint, Mechanism
 from yellowiron.model.poses import PoseTables
+from yellowiron.report.html.packing import Binary, largest, mesh_entry, packed, rgb
 from yellowiron.report.html.pictures import YELLOW, body_colors
 from yellowiron.report.html.sensors import views
 from yellowiron.report.rows import in_rows
@@ -33,7 +25,7 @@ from yellowiron.report.words import titled
 
 MOST_TRIANGLES = 700_000
 """Distinct triangles that keep a page under 8 MB; the smallest shapes beyond are not drawn, and the view says so."""
-_SCRIPTS = ("viewer_pose.js", "viewer_draw.js", "viewer.js")
+_SCRIPTS = ("viewer_pose.js", "viewer_draw.js", "viewer.js", "viewer_page.js")
 _STYLES = ("viewer.css",)
 
 
@@ -56,18 +48,54 @@ def viewer(
 ) -> Viewer | None:
     """The 3D view of a machine, None where it has nothing to see. `poses` (caption → body → (4, 4) displacement) become
     buttons that set the sliders."""
-    binary = _Binary()
-    colors = body_colors(mechanism)
-    parts, shapes, left_out = _parts(mechanism, assembly, alignment, binary)
+    binary = Binary()
+    frame = np.asarray(alignment.frame, dtype=np.float64)
+    assigned = {a.part: a for a in alignment.parts}
+    review = set(alignment.to_review)
+    by_id = {p.id: p for p in assembly.parts}
+    wanted = [(index, bp, by_id[bp.part]) for index, body in enumerate(mechanism.bodies) for bp in body.parts]
+    numbers = largest(assembly, list(dict.fromkeys(part.shape for _, _, part in wanted)), most=MOST_TRIANGLES)
+    parts = [
+        {
+            **drawn_part(part, assembly, frame, numbers[part.shape]),
+            "body": body,
+            **assignment_entry(assigned.get(part.id), role=body_part.role, review=part.id in review),
+        }
+        for body, body_part, part in wanted
+        if part.shape in numbers
+    ]
     if not parts:
         return None
-    tilting = {m.quantity.get("site") for m in mechanism.measurements if m.quantity.get("kind") == "angle"}
+    shapes = [mesh_entry(assembly.shapes[key].mesh, binary) for key in numbers]
     header = {
-        "root": mechanism.root,
-        "bodies": [{"name": b.name, "color": _rgb(colors[b.name])} for b in mechanism.bodies],
+        **machine_entry(mechanism, tables, binary, poses=poses),
         "parts": parts,
         "shapes": shapes,
-        "leftOut": left_out,
+        "leftOut": len(wanted) - len(parts),
+    }
+    data = base64.b64encode(packed(header, binary)).decode("ascii")
+    return Viewer(data, asset(*_SCRIPTS), asset(*_STYLES))
+
+
+def asset(*names: str) -> str:
+    """Files of `report/data`, one after the other."""
+    folder = resources.files("yellowiron.report").joinpath("data")
+    return "".join(folder.joinpath(name).read_text(encoding="utf-8") for name in names)
+
+
+def machine_entry(
+    mechanism: Mechanism,
+    tables: PoseTables,
+    binary: Binary,
+    *,
+    poses: Mapping[str, Mapping[str, Floats]] | None = None,
+) -> dict[str, Any]:
+    """A machine as the view takes it, but for its parts: bodies, joints, how they move, and what there is to set."""
+    colors = body_colors(mechanism)
+    tilting = {m.quantity.get("site") for m in mechanism.measurements if m.quantity.get("kind") == "angle"}
+    return {
+        "root": mechanism.root,
+        "bodies": [{"name": b.name, "color": rgb(colors[b.name])} for b in mechanism.bodies],
         "joints": [_joint(joint, tables) for joint in mechanism.joints],
         "tables": [
             {
@@ -90,123 +118,28 @@ def viewer(
             for caption, displacement in (poses or {}).items()
         ],
     }
-    text = json.dumps(header, separators=(",", ":"), sort_keys=True, ensure_ascii=False).encode("utf-8")
-    text += b" " * (-(4 + len(text)) % 8)
-    packed = gzip.compress(struct.pack("<I", len(text)) + text + binary.bytes(), compresslevel=9, mtime=0)
-    folder = resources.files("yellowiron.report").joinpath("data")
-    script, style = (
-        "".join(folder.joinpath(name).read_text(encoding="utf-8") for name in names) for names in (_SCRIPTS, _STYLES)
-    )
-    return Viewer(base64.b64encode(packed).decode("ascii"), script, style)
 
 
-class _Binary:
-    """Arrays one after the other, each aligned to 8 bytes."""
-
-    def __init__(self) -> None:
-        self._pieces: list[bytes] = []
-        self._length = 0
-
-    def add(self, array: NDArray[Any]) -> list[Any]:
-        """Appends an array; returns its kind, offset in bytes and number of elements."""
-        entry = [array.dtype.kind + str(8 * array.dtype.itemsize), self._length, int(array.size)]
-        piece = np.ascontiguousarray(array).tobytes()
-        piece += b"\0" * (-len(piece) % 8)
-        self._pieces.append(piece)
-        self._length += len(piece)
-        return entry
-
-    def bytes(self) -> bytes:
-        return b"".join(self._pieces)
-
-
-def _parts(
-    mechanism: Mechanism, assembly: Assembly, alignment: Alignment, binary: _Binary
-) -> tuple[list[dict[str, Any]], list[dict[str, Any]], int]:
-    """Every drawn part, the shapes that they share, and how many parts are left out for their size."""
-    frame = np.asarray(alignment.frame, dtype=np.float64)
-    assigned = {a.part: a for a in alignment.parts}
-    review = set(alignment.to_review)
-    by_id = {p.id: p for p in assembly.parts}
-    wanted = [(index, bp, by_id[bp.part]) for index, body in enumerate(mechanism.bodies) for bp in body.parts]
-    numbers = _largest(assembly, list(dict.fromkeys(part.shape for _, _, part in wanted)))
-    parts = []
-    for body, body_part, part in wanted:
-        if part.shape not in numbers:
-            continue
-        shape = assembly.shape_of(part)
-        entry = assigned.get(part.id)
-        place = frame @ part.transform
-        parts.append(
-            {
-                "name": part.id.rsplit("/", 1)[-1],
-                "path": part.id,
-                "body": body,
-                "shape": numbers[part.shape],
-                "place": [float(f"{x:.7g}") for x in place[:3].T.reshape(-1)],
-                "color": _rgb(part.color or shape.color or YELLOW),
-                "role": (entry.role if entry else body_part.role) or "",
-                "confidence": round(entry.confidence, 2) if entry else None,
-                "reason": entry.reason if entry else "",
-                "review": part.id in review,
-            }
-        )
-    shapes = [_mesh(assembly.shapes[key].mesh, binary) for key in numbers]
-    return parts, shapes, len(wanted) - len(parts)
-
-
-def _largest(assembly: Assembly, keys: Sequence[str]) -> dict[str, int]:
-    """Shape → its number, in the given order, without the smallest ones beyond the budget of triangles."""
-
-    def size(shape: Shape) -> float:
-        return float(np.linalg.norm(np.ptp(shape.mesh.points, axis=0))) if len(shape.mesh.points) else 0.0
-
-    budget = MOST_TRIANGLES
-    kept: set[str] = set()
-    for key in sorted(keys, key=lambda each: -size(assembly.shapes[each])):
-        budget -= len(assembly.shapes[key].mesh.triangles)
-        if budget < 0 and kept:
-            break
-        if len(assembly.shapes[key].mesh.triangles):
-            kept.add(key)
-    return {key: number for number, key in enumerate(key for key in keys if key in kept)}
-
-
-def _mesh(mesh: Mesh, binary: _Binary) -> dict[str, Any]:
-    """A mesh quantised to its own box: positions to 16 bits (planes of differences, which pack well), normals to two
-    bytes (octahedral), indices as differences."""
-    points = np.asarray(mesh.points, dtype=np.float64)
-    low = points.min(axis=0)
-    size = np.maximum(points.max(axis=0) - low, 1e-9)
-    grid = np.rint((points - low) / size * 65535.0).astype(np.int64)
-    steps = np.diff(grid, axis=0, prepend=np.zeros((1, 3), dtype=np.int64))
-    indices = np.asarray(mesh.triangles, dtype=np.int64).reshape(-1)
-    jumps = np.diff(indices, prepend=0)
-    narrow = len(points) <= 65536
+def drawn_part(part: Part, assembly: Assembly, frame: Floats, shape: int) -> dict[str, Any]:
+    """Where a part is, in the machine frame, and how it looks; `shape` is the number of its mesh."""
+    place = frame @ part.transform
     return {
-        "low": [float(f"{x:.7g}") for x in low],
-        "size": [float(f"{x:.7g}") for x in size],
-        "points": binary.add((steps.T % 65536).astype("<u2")),
-        "indices": binary.add((jumps % 65536).astype("<u2") if narrow else jumps.astype("<i4")),
-        "normals": None if mesh.normals is None else binary.add(_octahedral(mesh.normals).T.astype("i1")),
+        "name": part.id.rsplit("/", 1)[-1],
+        "path": part.id,
+        "shape": shape,
+        "place": [float(f"{x:.7g}") for x in place[:3].T.reshape(-1)],
+        "color": rgb(part.color or assembly.shape_of(part).color or YELLOW),
     }
 
 
-def _octahedral(normals: Floats) -> NDArray[np.int64]:
-    """Unit vectors (n, 3) as two signed bytes (n, 2): the octahedron unfolded (Cigolle et al., JCGT 2014)."""
-    n = np.asarray(normals, dtype=np.float64)
-    n = n / np.maximum(np.abs(n).sum(axis=1, keepdims=True), 1e-12)
-    folded = (1.0 - np.abs(n[:, [1, 0]])) * np.where(n[:, :2] >= 0.0, 1.0, -1.0)
-    return np.rint(127.0 * np.where(n[:, 2:] >= 0.0, n[:, :2], folded)).astype(np.int64)
-
-
-def _srgb(linear: Floats | Sequence[float]) -> NDArray[np.int64]:
-    """Linear RGB as display bytes, as in the pictures."""
-    return np.rint(255.0 * np.clip(np.asarray(linear, dtype=np.float64), 0.0, 1.0) ** (1.0 / 2.2)).astype(np.int64)
-
-
-def _rgb(linear: Sequence[float]) -> list[int]:
-    return [int(value) for value in _srgb(linear)]
+def assignment_entry(entry: PartAssignment | None, *, role: str | None = None, review: bool = False) -> dict[str, Any]:
+    """What is known of a part; `role` is that of one of which the alignment says nothing."""
+    return {
+        "role": (entry.role if entry else role) or "",
+        "confidence": round(entry.confidence, 2) if entry else None,
+        "reason": entry.reason if entry else "",
+        "review": review,
+    }
 
 
 def _joint(joint: Joint, tables: PoseTables) -> dict[str, Any]:

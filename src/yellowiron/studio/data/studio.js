@@ -1,0 +1,448 @@
+// The studio: one question at a time, the machine beside it, every answer kept by the server before it shows here.
+
+const token = new URLSearchParams(location.search).get("token") ?? "";
+const by = (id) => document.getElementById(id);
+const KEYS = [
+  ["⏎", "Yes"], ["1 – 9", "Instead: the numbered answer"], ["X", "No part of the machine"], ["/", "Find any role"],
+  ["J, K", "Next question, the one before"], ["U, ⇧U", "Undo, redo"], ["A", "Take in the assembly around what is selected"],
+  ["M", "The same on the other side"], ["I", "Only these parts, and all again"], ["F", "Look at these parts"],
+  ["W", "Move what the question is about"], ["Esc", "Select nothing"], ["B", "Build"], ["?", "These keys"],
+];
+
+async function ask(path, body) {
+  const options = { headers: { "X-Yellowiron-Token": token } };
+  if (body !== undefined) Object.assign(options, { method: "POST", body: JSON.stringify(body) });
+  const answer = await fetch(path, options);
+  if (!answer.ok) {
+    const text = await answer.text();
+    let said = text;
+    try { said = JSON.parse(text).message ?? text; } catch { /* plain text */ }
+    throw new Error(said);
+  }
+  return answer;
+}
+
+const packing = async (path) => unpack(new Uint8Array(await (await ask(path)).arrayBuffer()));
+const button = (label, onclick, attributes = {}) => element("button", { type: "button", onclick, ...attributes }, label);
+
+class Studio {
+  constructor(viewer, drawn) {
+    this.viewer = viewer;
+    this.drawn = drawn; // version of the machine on the screen
+    this.selection = new Set();
+    this.at = 0;
+    this.mirror = false;
+    this.waiting = 0; // messages that are not answered yet
+    this.sent = Promise.resolve();
+    this.answered = new Map(); // key of a question → how much was said when it was answered
+    by("undo").onclick = () => this.say("undo", {});
+    by("redo").onclick = () => this.say("redo", {});
+    by("build").onclick = () => this.build();
+    by("help").onclick = () => this.keys();
+    document.addEventListener("keydown", (event) => this.#key(event));
+    by("find").addEventListener("input", () => this.#list());
+    by("find").addEventListener("keydown", (event) => this.#findKey(event));
+    const events = new EventSource(`events?token=${encodeURIComponent(token)}`);
+    events.onmessage = (event) => this.#heard(JSON.parse(event.data));
+    events.onerror = () => this.tell("The studio does not answer. Is it still running? What was decided is kept.", true);
+    events.onopen = () => (by("told").hidden = true);
+  }
+
+  /** Another window decided something, or a build goes on. */
+  async #heard({ version, changes }) {
+    const newer = version > (this.state?.version ?? 0) || changes !== this.changes;
+    this.changes = changes;
+    if (newer) await this.load();
+  }
+
+  async load() {
+    await this.take(await (await ask("state")).json());
+  }
+
+  /** A state of the server's: shown at once, the machine as soon as it is there. */
+  async take(state) {
+    if (this.state && (state.version < this.state.version || state.said < this.state.said)) return;
+    const key = this.question?.key;
+    // What was answered and is not solved yet is not asked again.
+    for (const [answered, said] of this.answered) if (said <= state.solved) this.answered.delete(answered);
+    this.state = state;
+    this.#open(key);
+    this.show();
+    if (state.version !== this.drawn) {
+      const model = await packing("machine");
+      this.drawn = model.version;
+      this.viewer.update(model);
+      this.numbers = new Map(model.parts.map((part) => [part.path, part.number]));
+    }
+    this.show();
+  }
+
+  /** The questions that are open, the one of that key before the reader, or the one that took its place. */
+  #open(key) {
+    this.questions = this.state.questions.filter((question) => !this.answered.has(question.key));
+    const same = this.questions.findIndex((question) => question.key === key);
+    this.at = same >= 0 ? same : Math.min(this.at, Math.max(this.questions.length - 1, 0));
+  }
+
+  /** Goes to the next question before the answer to the last is solved. */
+  #ask() {
+    this.#open(this.question?.key);
+    this.show();
+    if (this.shown.size) this.viewer.focus(this.shown);
+  }
+
+  get question() {
+    return this.questions?.[this.at];
+  }
+
+  /** Numbers of the parts that are shown: what is selected, else what the question is about. */
+  get shown() {
+    if (this.selection.size) return this.selection;
+    return new Set((this.question?.parts ?? []).map((path) => this.numbers.get(path)).filter(Boolean));
+  }
+
+  /** Numbers of the parts that an answer gives a role to. */
+  get meant() {
+    return this.selection.size || this.question?.kind === "parts" ? this.shown : new Set();
+  }
+
+  // ---- saying ------------------------------------------------------------------------------------------------------
+  /** Sends what was said, in the order it was said; the next question is asked at once. */
+  say(path, body) {
+    const about = path === "do" && !this.selection.size ? this.question?.key : null;
+    this.mirror = false;
+    if (about) this.answered.set(about, Infinity);
+    if (path === "do") this.selection.clear();
+    this.waiting++;
+    this.sent = this.sent.then(() => this.#send(path, body, about));
+    if (about) this.#ask();
+    return this.sent;
+  }
+
+  async #send(path, body, about) {
+    try {
+      const state = await (await ask(path, body)).json();
+      if (about) this.answered.set(about, state.said);
+      await this.take(state);
+    } catch (error) {
+      if (about) this.answered.delete(about);
+      this.tell(error.message);
+      await this.load().catch(() => null);
+    } finally {
+      this.waiting--;
+    }
+  }
+
+  /** Gives the meant parts a role; `null`: no part of the machine. */
+  assign(role) {
+    const parts = [...this.meant].map((number) => this.viewer.model.parts[number - 1].path);
+    if (!parts.length) return this.tell("Click a part first, or several with Shift.");
+    return this.say("do", { kind: "role", parts: Object.fromEntries(parts.map((path) => [path, role])), mirror: this.mirror });
+  }
+
+  yes() {
+    const { question } = this;
+    if (!this.selection.size && question?.kind === "value") return this.answer(0);
+    if (this.selection.size && question?.kind === "role") return this.assign(question.key.slice("role:".length));
+    const parts = [...this.meant].map((number) => this.viewer.model.parts[number - 1]);
+    if (!parts.length) return this.tell("Click the part that it is.");
+    return this.say("do", {
+      kind: "confirm", mirror: this.mirror,
+      parts: Object.fromEntries(parts.map((part) => [part.path, part.role || null])),
+    });
+  }
+
+  /** The numbered answer to the question. */
+  answer(index) {
+    const { question } = this;
+    const candidate = question?.candidates[index];
+    if (!candidate) return;
+    if (question.kind === "value") return this.give(question.title.replace(/\?$/, ""), candidate.answer);
+    if (question.kind === "parts") return this.assign(candidate.answer);
+    const role = question.key.slice("role:".length);
+    return this.say("do", { kind: "role", parts: { [candidate.answer]: role }, mirror: this.mirror });
+  }
+
+  give(name, text) {
+    return this.say("do", { kind: "value", name, text });
+  }
+
+  async build() {
+    await this.say("build", {});
+    if (!by("building").open) by("building").showModal();
+  }
+
+  tell(text, stays = false) {
+    const told = by("told");
+    told.textContent = text;
+    told.hidden = false;
+    clearTimeout(this.silence);
+    if (!stays) this.silence = setTimeout(() => (told.hidden = true), 5000);
+  }
+
+  // ---- showing -----------------------------------------------------------------------------------------------------
+  show() {
+    const { state, questions } = this;
+    document.title = `${state.machine} – yellowiron studio`;
+    by("machine").textContent = state.machine;
+    by("file").textContent = state.file;
+    by("saved").textContent = state.solved < state.said ? "Kept, solving …" : state.said ? "Kept" : "";
+    by("verdict").replaceChildren(element("b", {}, state.verdict), ` ${state.tally}`);
+    const done = state.history.filter((entry) => entry.holds).length;
+    by("undo").disabled = done === 0;
+    by("redo").disabled = done === state.history.length;
+    by("count").textContent = `${questions.length} ${questions.length === 1 ? "question" : "questions"}`;
+    by("place").textContent = questions.length ? `${this.at + 1} of ${questions.length}` : "";
+    by("queue").replaceChildren(...questions.map((question, index) => element("li", {}, element("button", {
+      type: "button", "aria-current": index === this.at, onclick: () => this.go(index),
+    }, element("span", {}, question.title.replace(/\?$/, "")), element("span", {}, this.#amount(question))))));
+    by("queue").querySelector("[aria-current=true]")?.scrollIntoView({ block: "nearest" });
+    this.#card();
+    this.#history();
+    this.#values();
+    this.#built();
+    this.viewer.light(this.shown);
+  }
+
+  #amount(question) {
+    return { parts: `${question.parts.length} ${question.parts.length === 1 ? "part" : "parts"}`, role: "missing", value: "value" }[question.kind];
+  }
+
+  go(index) {
+    const count = this.questions.length;
+    if (!count) return;
+    this.at = (index + count) % count;
+    this.selection.clear();
+    this.show();
+    if (this.shown.size) this.viewer.focus(this.shown);
+    this.wiggle();
+  }
+
+  /** Chooses a part that was clicked; with Shift it joins the others. */
+  choose(number, event) {
+    const several = event?.shiftKey;
+    if (!number) this.selection.clear();
+    else if (several && this.selection.has(number)) this.selection.delete(number);
+    else this.selection = new Set(several ? [...this.selection, number] : [number]);
+    this.show();
+  }
+
+  /** Takes in the assembly around what is selected, one level at a time. */
+  assembly() {
+    const { parts } = this.viewer.model;
+    const paths = [...this.meant].map((number) => parts[number - 1].path.split("/"));
+    if (!paths.length) return this.tell("Click a part first.");
+    let depth = Math.min(...paths.map((path) => path.length - 1));
+    while (depth && paths.some((path) => path.slice(0, depth).join("/") !== paths[0].slice(0, depth).join("/"))) depth--;
+    for (; depth > 0; depth--) {
+      const above = `${paths[0].slice(0, depth).join("/")}/`;
+      const inside = parts.filter((part) => part.path.startsWith(above)).map((part) => part.number);
+      if (inside.length > this.meant.size) {
+        this.selection = new Set(inside);
+        return this.show();
+      }
+    }
+    return this.tell("No assembly is around these parts.");
+  }
+
+  #card() {
+    const { question, state } = this;
+    const card = by("card");
+    const picked = [...this.selection].map((number) => this.viewer.model.parts[number - 1]);
+    card.className = picked.length ? "picked" : question ? "" : "done";
+    const answers = element("ol", { class: "answers" });
+    const add = (key, text, act, yes = false) =>
+      answers.append(element("li", {}, element("button", { type: "button", class: yes ? "yes" : false, onclick: act }, element("kbd", {}, key), element("span", {}, text))));
+    const rest = element("div", { class: "more" },
+      button("X  none", () => this.assign(null)), button("/  find a role", () => this.find()),
+      button("A  assembly", () => this.assembly()),
+      button("M  other side too", () => { this.mirror = !this.mirror; this.show(); }, { "aria-pressed": this.mirror }),
+      button("I  isolate", () => this.isolate()), button("F  look", () => this.viewer.focus(this.shown)));
+    const asked = !picked.length && question;
+    if (picked.length) {
+      const roles = [...new Set(picked.map((part) => words(part.role) || "no part of the machine"))];
+      card.replaceChildren(
+        element("p", { class: "eyebrow" }, picked.length > 1 ? `${picked.length} parts selected` : `Selected: ${picked[0].name}`),
+        element("h2", {}, sentence(roles.slice(0, 3).join(", ")) + (roles.length > 3 ? " …" : "")),
+        element("p", { class: "why" }, picked.length > 1 ? "" : `${picked[0].reason}${picked[0].confidence == null ? "" : ` (${Math.round(100 * picked[0].confidence)} %)`}`),
+      );
+      if (question?.kind === "role") add("⏎", `It is the ${words(question.key.slice("role:".length))}`, () => this.yes(), true);
+      else add("⏎", "Right as it is", () => this.yes(), true);
+      card.append(answers, rest);
+    } else if (asked) {
+      card.replaceChildren(
+        element("p", { class: "eyebrow" }, { parts: "Is that right?", role: "Missing", value: "Value" }[question.kind]),
+        element("h2", {}, question.title),
+        element("p", { class: "why" }, question.reason),
+      );
+      for (const known of question.known) card.append(element("p", { class: "known" }, known));
+      if (question.parts.length > 1) card.append(element("p", { class: "names" }, question.parts.map((path) => path.split("/").pop()).join(", ")));
+      if (question.kind === "parts") add("⏎", "Yes", () => this.yes(), true);
+      question.candidates.forEach((candidate, index) =>
+        add(question.kind === "value" && !index ? "⏎" : index + 1, candidate.words, () => this.answer(index), question.kind === "value" && !index));
+      card.append(answers);
+      if (question.kind === "value") card.append(this.#form(question));
+      else card.append(rest);
+      if (question.page != null) card.append(element("div", { class: "more" }, button(`Page ${question.page} of the sheet`, () => this.sheet(question.page))));
+    } else {
+      card.replaceChildren(
+        element("p", { class: "eyebrow" }, "Nothing left to ask"), element("h2", {}, "Build the machine"),
+        element("p", { class: "why" }, state.causes.map((cause) => cause.words).join(" ") || "Every part, joint and value is settled."),
+        element("div", { class: "more" }, button("B  build", () => this.build())),
+      );
+    }
+  }
+
+  #form(question) {
+    const input = element("input", { type: "text", placeholder: "1400 mm", "aria-label": question.title, autocomplete: "off" });
+    const form = element("form", {}, input, element("button", { type: "submit" }, "Set"));
+    form.addEventListener("submit", (event) => {
+      event.preventDefault();
+      if (input.value.trim()) this.give(question.title.replace(/\?$/, ""), input.value.trim());
+    });
+    return form;
+  }
+
+  #history() {
+    const rows = this.state.history.map((entry) => element("li", { class: entry.holds ? false : "gone" }, entry.words,
+      element("small", {}, [entry.by, entry.date].filter(Boolean).join(", "))));
+    by("history").replaceChildren(rows.length ? element("ol", {}, ...rows.reverse()) : element("p", { class: "dim" }, "Nothing decided yet."));
+  }
+
+  #values() {
+    const rows = this.state.values.filter((value) => value.value != null || value.status !== "missing").map((value) =>
+      element("li", { class: "t-value" }, element("b", {}, value.name),
+        value.page == null ? element("span") : button(`p. ${value.page}`, () => this.sheet(value.page)),
+        element("span", {}, value.value == null ? "–" : `${Number(value.value.toPrecision(6))} ${value.unit}`),
+        element("span", { class: `tag ${value.status}` }, value.source === "set" ? "given" : value.status)));
+    by("values").replaceChildren(rows.length ? element("ol", {}, ...rows) : element("p", { class: "dim" }, "No sheet was read."));
+  }
+
+  #built() {
+    const { build } = this.state;
+    const said = { none: "", running: "Building …", ready: "Built: ready to simulate.", short: "Built, with points left open: the report says which.", failed: "The build failed." };
+    by("build").disabled = build.state === "running";
+    by("building").replaceChildren(
+      element("b", {}, said[build.state]), element("pre", {}, build.lines.join("\n")),
+      element("span", { class: "dim" }, "The same from the command line:"), element("code", {}, build.command),
+      element("div", { class: "more" }, button("Close", () => by("building").close())),
+    );
+  }
+
+  sheet(number) {
+    const source = `sheet/${number}?token=${encodeURIComponent(token)}`;
+    by("sheet").replaceChildren(element("img", { src: source, alt: `Page ${number} of the sheet, values boxed` }),
+      element("div", { class: "more" }, button("Close", () => by("sheet").close())));
+    by("sheet").showModal();
+  }
+
+  keys() {
+    by("keys").replaceChildren(element("b", {}, "Keys"), element("dl", {}, ...KEYS.flatMap(([key, text]) => [element("dt", {}, element("kbd", {}, key)), element("dd", {}, text)])),
+      element("div", { class: "more" }, button("Close", () => by("keys").close())));
+    by("keys").showModal();
+  }
+
+  isolate() {
+    const { shown } = this;
+    const hidden = this.viewer.model.parts.some((part) => part.hidden);
+    this.viewer.show((part) => hidden || !shown.size || shown.has(part.number));
+  }
+
+  /** Moves the actuator that moves what is meant, a little and back. */
+  wiggle() {
+    if (matchMedia("(prefers-reduced-motion: reduce)").matches) return;
+    const { viewer } = this;
+    const bodies = new Set([...this.shown].map((number) => viewer.model.bodies[viewer.model.parts[number - 1].body].name));
+    const there = (pose) => [...bodies].some((body) => pose[body]?.some((value, k) => Math.abs(value - IDENTITY[k]) > 1e-4));
+    const count = (pose) => Object.values(pose).filter((m) => m.some((value, k) => Math.abs(value - IDENTITY[k]) > 1e-4)).length;
+    const ways = viewer.model.sliders.map((slider) => {
+      const [low, high] = slider.range;
+      const far = (high > -low ? high : low) * 0.35;
+      const given = Object.fromEntries(slider.joints.map(([joint, sign]) => [joint, sign * far]));
+      return { given, pose: poseOf(viewer.model, given) };
+    });
+    const moving = ways.filter(({ pose }) => there(pose)).sort((a, b) => count(a.pose) - count(b.pose))[0];
+    if (!moving) return;
+    const begin = performance.now();
+    const step = (now) => {
+      if (this.wiggling !== step) return;
+      const t = Math.min((now - begin) / 1600, 1);
+      const share = Math.sin(Math.PI * t) ** 2;
+      viewer.move(Object.fromEntries(Object.entries(moving.given).map(([joint, value]) => [joint, share * value])));
+      if (t < 1) requestAnimationFrame(step);
+      else this.wiggling = null;
+    };
+    this.wiggling = step;
+    requestAnimationFrame(step);
+  }
+
+  // ---- finding a role ----------------------------------------------------------------------------------------------
+  find() {
+    if (!this.meant.size) return this.tell("Click a part first, or several with Shift.");
+    by("find").value = "";
+    this.#list();
+    by("finder").showModal();
+    by("find").focus();
+  }
+
+  #list() {
+    const wanted = by("find").value.trim().toLowerCase().split(/\s+/).filter(Boolean);
+    this.roles = this.state.roles.filter((role) => wanted.every((word) => `${role.name} ${role.words}`.toLowerCase().includes(word)));
+    this.row = 0;
+    this.#rows();
+  }
+
+  #rows() {
+    by("found").replaceChildren(...this.roles.map((role, index) => element("li", {}, button(role.words, () => this.#pick(index), { "aria-selected": index === this.row }))));
+    by("found").querySelector("[aria-selected=true]")?.scrollIntoView({ block: "nearest" });
+  }
+
+  #pick(index) {
+    const role = this.roles[index];
+    by("finder").close();
+    if (role) this.assign(role.name);
+  }
+
+  #findKey(event) {
+    if (event.key === "Enter") (event.preventDefault(), this.#pick(this.row));
+    const way = { ArrowDown: 1, ArrowUp: -1 }[event.key];
+    if (!way || !this.roles.length) return;
+    event.preventDefault();
+    this.row = (this.row + way + this.roles.length) % this.roles.length;
+    this.#rows();
+  }
+
+  #key(event) {
+    if (event.ctrlKey || event.metaKey || event.altKey || document.querySelector("dialog[open]")) return;
+    if (event.target.closest("input, textarea, select")) return event.key === "Escape" && event.target.blur();
+    const acts = {
+      j: () => this.go(this.at + 1), k: () => this.go(this.at - 1), x: () => this.assign(null), "/": () => this.find(),
+      a: () => this.assembly(), m: () => { this.mirror = !this.mirror; this.show(); }, i: () => this.isolate(),
+      f: () => this.viewer.focus(this.shown), w: () => this.wiggle(), b: () => this.build(), "?": () => this.keys(),
+      u: () => this.say(event.shiftKey ? "redo" : "undo", {}), escape: () => { this.selection.clear(); this.show(); },
+      enter: () => this.yes(),
+    };
+    // A button that has the focus is pressed by Enter itself.
+    if (event.key === "Enter" && event.target.closest("button, summary")) return;
+    const act = acts[event.key.toLowerCase()] ?? (/^[1-9]$/.test(event.key) ? () => this.answer(Number(event.key) - 1) : null);
+    if (!act) return;
+    event.preventDefault();
+    act();
+  }
+}
+
+try {
+  const page = (id) => element("div", { class: "t-list", id });
+  const [shapes, model] = await Promise.all([packing("shapes"), packing("machine")]);
+  let studio = null;
+  const viewer = new Viewer(by("viewer"), Object.assign(model, { shapes: shapes.shapes, leftOut: shapes.leftOut }), {
+    pages: [["Values", page("values")], ["History", page("history")]],
+    onchoose: (number, event) => studio?.choose(number, event),
+  });
+  studio = new Studio(viewer, model.version);
+  studio.numbers = new Map(model.parts.map((part) => [part.path, part.number]));
+  await studio.load();
+  window.yellowiron = studio;
+} catch (error) {
+  by("viewer").replaceChildren(element("p", { class: "t-wait" }, `The studio cannot be shown here: ${error.message}.`));
+}

@@ -1,0 +1,95 @@
+"""What a person can decide in the studio, one operation at a time."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+from yellowiron.model.alignment import UNSIGNED, GivenValue, PartDecision, Signature
+from yellowiron.model.errors import YellowironError
+from yellowiron.model.template import Template
+
+Kind = Literal["role", "confirm", "forget", "value"]
+KINDS: tuple[Kind, ...] = ("role", "confirm", "forget", "value")
+_SOURCE = {"role": "edited", "confirm": "confirmed", "forget": "solved"}
+_LONGEST = 200
+"""Letters of a value, a name or a reason."""
+
+
+@dataclass(frozen=True)
+class Operation:
+    """One decision: `role` gives `parts` (id → role; None: not part of the machine) theirs, `confirm` says that they
+    are right, `forget` takes back what was said of them; `value` gives `name` the `text` (empty: takes it back)."""
+
+    kind: Kind
+    parts: Mapping[str, str | None] = field(default_factory=dict)
+    name: str = ""
+    text: str = ""
+    signature: Signature = UNSIGNED
+
+    def decisions(self) -> dict[str, PartDecision]:
+        """What it says of each part."""
+        if self.kind == "value":
+            return {}
+        source = _SOURCE[self.kind]
+        return {part: PartDecision(role, source, self.signature) for part, role in self.parts.items()}  # type: ignore[arg-type]
+
+    def value(self) -> GivenValue | None:
+        """The value that it gives; None where it takes one back, or is about parts."""
+        return GivenValue(self.text, self.signature) if self.kind == "value" and self.text else None
+
+
+def words(operation: Operation) -> str:
+    """An operation in a line of the history."""
+    if operation.kind == "value":
+        return f"{operation.name} = {operation.text}" if operation.text else f"{operation.name} as the sheet has it"
+    names = [part.rsplit("/", 1)[-1] for part in operation.parts]
+    some = ", ".join(names[:2]) + (f" and {len(names) - 2} more" if len(names) > 2 else "")
+    roles = sorted({(role or "no part of the machine").replace("_", " ") for role in operation.parts.values()})
+    listed = ", ".join(roles[:3]) + (", …" if len(roles) > 3 else "")
+    return {"role": f"{some} → {listed}", "confirm": f"{some}: {listed}, yes", "forget": f"{some}: taken back"}[
+        operation.kind
+    ]
+
+
+def to_entry(operation: Operation) -> dict[str, Any]:
+    """An operation as the journal has it."""
+    signed = {k: v for k in ("by", "date", "why") if (v := getattr(operation.signature, k))}
+    if operation.kind == "value":
+        return {"kind": "value", "name": operation.name, "text": operation.text, **signed}
+    return {"kind": operation.kind, "parts": dict(operation.parts), **signed}
+
+
+def from_entry(entry: object, parts: Collection[str], template: Template) -> Operation:
+    """An operation that the page sent, or the journal has. `YellowironError` for one that is none, and for parts and
+    roles that there are not."""
+    if not isinstance(entry, Mapping) or entry.get("kind") not in KINDS:
+        raise _broken("It is none of: role, confirm, forget, value")
+    signature = Signature(*(_text(entry, key) for key in ("by", "date", "why")))
+    kind: Kind = entry["kind"]
+    if kind == "value":
+        name = _text(entry, "name")
+        if not name or "=" in name:
+            raise _broken("A value has no name")
+        return Operation("value", name=name, text=_text(entry, "text").strip(), signature=signature)
+    said = entry.get("parts")
+    if not isinstance(said, Mapping) or not said:
+        raise _broken("It names no part")
+    for part, role in said.items():
+        if part not in parts:
+            raise _broken(f"It names a part that is not in the CAD model: '{str(part)[:_LONGEST]}'")
+        if role is not None and (not isinstance(role, str) or not template.knows(role)):
+            raise _broken(f"'{str(role)[:_LONGEST]}' is no role of the template {template.equipment_type}")
+    return Operation(kind, parts={str(p): r for p, r in said.items()}, signature=signature)
+
+
+def _text(entry: Mapping[str, Any], key: str) -> str:
+    value = entry.get(key, "")
+    if not isinstance(value, str) or len(value) > _LONGEST or not value.isprintable():
+        raise _broken(f"'{key}' is no short text")
+    return value
+
+
+def _broken(words: str) -> YellowironError:
+    return YellowironError(f"The decision cannot be taken. {words}", where="studio", hint="Reload the page.")

@@ -1,0 +1,202 @@
+"""What a person is asked: not part by part, the most consequential first, with what else it could be."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from yellowiron.model.alignment import PartAssignment
+from yellowiron.model.assembly import Assembly
+from yellowiron.model.geometry import Floats
+from yellowiron.model.specification import Specification, fold
+from yellowiron.report.words import titled
+from yellowiron.studio.session import State
+
+MOST_CANDIDATES = 9
+"""As many as there are digits to choose them by."""
+_PIN = 0.05
+"""What a missing pin weighs: its joint has an axis without it."""
+_UNITS = {"m": ("mm", 1e3), "rad": ("deg", 180.0 / np.pi), "kg": ("kg", 1.0), "Pa": ("MPa", 1e-6), "N": ("kN", 1e-3)}
+"""SI unit → the one that a person reads, and what it is multiplied by."""
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """An answer: `answer` (a role, a part or a value), and `words` for a person."""
+
+    answer: str
+    words: str
+
+
+@dataclass(frozen=True)
+class Question:
+    """One thing to settle. Of `parts`: whether they play the roles that they were given. Of a `role`: which part plays
+    it. Of a `value`: what it is, `parts` being those that it is about. `weight` says how much hangs on it, `known` what
+    is known beside the reason."""
+
+    kind: Literal["parts", "role", "value"]
+    key: str
+    title: str
+    weight: float
+    reason: str = ""
+    parts: tuple[str, ...] = ()
+    candidates: tuple[Candidate, ...] = ()
+    known: tuple[str, ...] = ()
+    page: int | None = None
+
+
+def questions(state: State, boxes: Mapping[str, Floats]) -> list[Question]:
+    """What is to ask of a state, the most consequential first. `boxes`: part → its (2, 3) box in the CAD file's frame,
+    metres, by which what is near is offered first."""
+    found = [*_of_parts(state, boxes), *_of_roles(state, boxes), *_of_values(state)]
+    return sorted(found, key=lambda q: (-q.weight, q.key))
+
+
+def boxes_of(assembly: Assembly) -> dict[str, Floats]:
+    """Part → its (2, 3) box in the CAD file's frame; parts without a mesh have none."""
+    own = {
+        key: np.array([shape.mesh.points.min(axis=0), shape.mesh.points.max(axis=0)])
+        for key, shape in assembly.shapes.items()
+        if len(shape.mesh.points)
+    }
+    corners = np.array([[(k >> axis) & 1 for axis in range(3)] for k in range(8)])
+    found = {}
+    for part in assembly.parts:
+        if part.shape in own:
+            points = np.take_along_axis(own[part.shape], corners, axis=0)
+            placed = points @ part.transform[:3, :3].T + part.transform[:3, 3]
+            found[part.id] = np.array([placed.min(axis=0), placed.max(axis=0)])
+    return found
+
+
+def _of_parts(state: State, boxes: Mapping[str, Floats]) -> list[Question]:
+    """Doubted parts together where they were given the same body and could be the same other one."""
+    doubted = set(state.alignment.to_review)
+    together: dict[tuple[str, str], list[PartAssignment]] = {}
+    for part in state.alignment.parts:
+        if part.part in doubted:
+            together.setdefault((part.body or "", part.runner_up or ""), []).append(part)
+    joints = Counter(body for joint in state.template.joints for body in state.template.bodies_of(joint))
+    whole = sum(_spread(box) for box in boxes.values()) or 1.0
+    found = []
+    for (body, other), parts in sorted(together.items()):
+        doubt = 1.0 - float(np.mean([p.confidence for p in parts]))
+        share = sum(_spread(boxes[p.part]) for p in parts if p.part in boxes) / whole
+        called = titled(body) if body else "No part of the machine"
+        count = f", {len(parts)} parts" if len(parts) > 1 else ""
+        least = min(parts, key=lambda p: (p.confidence, p.part))
+        near = _nearest([p.part for p in parts], state, boxes)
+        listed = list(dict.fromkeys([*([other] if other and state.template.knows(other) else []), *near]))
+        candidates = [Candidate(role, titled(role)) for role in listed if role != body][:MOST_CANDIDATES]
+        weight = doubt * (1.0 + joints[body]) + share
+        found.append(Question(
+            "parts", f"parts:{body}:{other}", f"{called}{count}?", weight, least.reason,
+            tuple(sorted(p.part for p in parts)), tuple(candidates),
+        ))  # fmt: skip
+    return found
+
+
+def _of_roles(state: State, boxes: Mapping[str, Floats]) -> list[Question]:
+    """A required role that no part plays: which one does, those that could be it first."""
+    joints = Counter(body for joint in state.template.joints for body in state.template.bodies_of(joint))
+    found = []
+    for role in state.alignment.missing:
+        could = [p.part for p in state.alignment.parts if p.runner_up == role]
+        loose = [p.part for p in state.alignment.parts if p.role is None and p.part in boxes]
+        loose = sorted(loose, key=lambda part: (-_spread(boxes[part]), part))
+        listed = list(dict.fromkeys([*could, *loose]))[:MOST_CANDIDATES]
+        weight = 2.0 + joints[role] if joints[role] else _PIN
+        found.append(Question(
+            "role", f"role:{role}", f"Which part is the {titled(role).lower()}?", weight,
+            "Nothing was found for it.", candidates=tuple(Candidate(p, p.rsplit("/", 1)[-1]) for p in listed),
+        ))  # fmt: skip
+    return found
+
+
+def _of_values(state: State) -> list[Question]:
+    """Values that a limit needs and nothing gives, and those of the sheet that are in doubt."""
+    missing = set(state.document.get("missing", ()))
+    found = []
+    for name in sorted(missing | {s.name for s in state.specifications if s.status in ("review", "conflict")}):
+        said = state.specifications.get(name)
+        offered = [] if said is None else _offered(said)
+        drawn, known, parts = _of_machine(name, state)
+        reason = (said.reason or said.hint) if said is not None else "It is on no sheet, and was not given."
+        page = said.evidence.page if said is not None and said.evidence is not None else None
+        found.append(Question(
+            "value", f"value:{name}", f"{name}?", 3.0 if name in missing else 0.5, reason, parts,
+            candidates=(*offered, *drawn)[:MOST_CANDIDATES], known=known, page=page,
+        ))  # fmt: skip
+    return found
+
+
+def _offered(said: Specification) -> list[Candidate]:
+    """What a sheet offers for a value in doubt."""
+    values = [(said.value, said.unit, said.evidence)] if said.value is not None else []
+    values += [(c.value, c.unit, c.evidence) for c in said.candidates]
+    found: dict[str, Candidate] = {}
+    for value, unit, evidence in values:
+        text = in_words(value, unit)
+        where = f"page {evidence.page}: {evidence.quote}" if evidence is not None else ""
+        found.setdefault(text, Candidate(text, f"{text}  {where}".strip()))
+    return list(found.values())[:MOST_CANDIDATES]
+
+
+def _of_machine(name: str, state: State) -> tuple[list[Candidate], tuple[str, ...], tuple[str, ...]]:
+    """What the machine itself says of a limit: the strokes that its cylinders have now, each with where that comes
+    from, how the cylinders are drawn, and their parts."""
+    if state.solved is None:
+        return [], (), ()
+    slides = {
+        joint.name
+        for joint in state.template.joints
+        for limit in (joint.lower, joint.upper)
+        if isinstance(limit, str) and fold(limit.lstrip("-− ")) == fold(name)
+    }
+    found: dict[str, Candidate] = {}
+    known, bodies = [], set()
+    for cylinder in state.solved.mechanism.cylinders:
+        if cylinder.slide not in slides:
+            continue
+        bodies |= {cylinder.barrel, cylinder.rod}
+        if np.isfinite(cylinder.stroke) and cylinder.stroke > 0.0:
+            text = in_words(cylinder.stroke, "m")
+            source = cylinder.sources.get("stroke", "").replace("geometry: ", "in the CAD model, ")
+            found.setdefault(text, Candidate(text, f"{text}: {source}" if source else text))
+        if np.isfinite(cylinder.drawn_length):
+            known.append(f"{titled(cylinder.name)}: pins {1e3 * cylinder.drawn_length:.0f} mm apart as drawn.")
+    parts = tuple(sorted(p.part for p in state.alignment.parts if p.body in bodies))
+    return list(found.values()), tuple(dict.fromkeys(known)), parts
+
+
+def in_words(value: float, unit: str) -> str:
+    """A value as a person writes it, and as `--set` takes it."""
+    shown, factor = _UNITS.get(unit, (unit, 1.0))
+    return f"{value * factor:.6g} {shown}" if shown != "1" else f"{value:.6g}"
+
+
+def _nearest(parts: Sequence[str], state: State, boxes: Mapping[str, Floats]) -> list[str]:
+    """Bodies by their distance from some parts, the nearest first."""
+    mine = [boxes[p] for p in parts if p in boxes]
+    if not mine:
+        return []
+    low, high = np.min([b[0] for b in mine], axis=0), np.max([b[1] for b in mine], axis=0)
+    own = set(parts)
+    gaps: dict[str, float] = {}
+    for part in state.alignment.parts:
+        if part.body is not None and part.part not in own and part.part in boxes:
+            box = boxes[part.part]
+            gap = float(np.linalg.norm(np.maximum(0.0, np.maximum(box[0] - high, low - box[1]))))
+            gap += 1e-3 * float(np.linalg.norm(box.mean(axis=0) - 0.5 * (low + high)))
+            gaps[part.body] = min(gap, gaps.get(part.body, np.inf))
+    return sorted(gaps, key=lambda body: (gaps[body], body))
+
+
+def _spread(box: Floats) -> float:
+    """The surface of a box, m²: how much of the machine a part is."""
+    a, b, c = box[1] - box[0]
+    return float(2.0 * (a * b + b * c + c * a))

@@ -1,0 +1,287 @@
+"""The state of a studio: decisions, the machine that they make, and what is left to ask."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+
+from yellowiron import cad, kinematics, library, report, specs
+from yellowiron.alignment import decide, read_alignment, read_joints, write_alignment
+from yellowiron.inputs import checked_inputs
+from yellowiron.model.alignment import (
+    Alignment,
+    Decisions,
+    GivenValue,
+    PartDecision,
+    Signature,
+)
+from yellowiron.model.assembly import Assembly
+from yellowiron.model.errors import MechanismError
+from yellowiron.model.specification import Specifications
+from yellowiron.model.template import Template, choose
+from yellowiron.pipeline import Solved, find_roles, roles_of, solve
+from yellowiron.studio.journal import FILE, Journal
+from yellowiron.studio.operations import Operation, from_entry
+from yellowiron.studio.setup import Setup
+from yellowiron.studio.twins import twins_of
+from yellowiron.support.output import output_file, output_folder
+
+_IDLE = 2.0
+"""Seconds without a word after which all variants are tried again."""
+_OWN = ("edited", "confirmed")
+"""Sources of a part's own decision; a pattern's and a document's are not the studio's to change."""
+
+
+@dataclass(frozen=True, eq=False)
+class State:
+    """What the decisions so far come to. `version` counts states, `said` the decisions that it knows of; `aligned` is
+    the alignment as it is kept, before the sheet moves an axis; `solved` is None where no mechanism can be made of it,
+    and `failed` says why; `document` is the report's, empty without a mechanism."""
+
+    version: int
+    said: int
+    template: Template
+    assembly: Assembly
+    alignment: Alignment
+    specifications: Specifications
+    aligned: Alignment
+    solved: Solved | None = None
+    failed: str = ""
+    document: Mapping[str, Any] = field(default_factory=dict)
+
+
+class Session:
+    """A machine under a person's hands. Every method may be called from any thread. A decision is on the disk when its
+    method returns; what comes of it, `state` and `alignment.json`, follows, for several decisions at once where they
+    come quickly. The variants that were found are kept while a person decides, which spares trying all others; when
+    nothing was said for a moment they are tried again."""
+
+    def __init__(self, setup: Setup, *, by: str = "", progress: Callable[[str], None] = lambda words: None) -> None:
+        """Reads the CAD model and the sheets, and takes up what was decided before. `YellowironError` for what a build
+        would not take either."""
+        self.setup = setup
+        self.by = by
+        self._heard = threading.Condition(threading.RLock())
+        self._version = self._said = 0
+        self._closed = False
+        self._fixed: Mapping[str, str] = {}
+        self._file = setup.out / "alignment.json"
+        earlier = self._file if self._file.exists() else None
+        inputs = checked_inputs(
+            setup.equipment_type, setup.cad, setup.out, sheets=setup.sheets, alignment_file=earlier,
+            documents=setup.documents, settings=setup.settings,
+        )  # fmt: skip
+        self._given, self._choices = inputs.given, inputs.choices
+        progress("Reading the CAD model")
+        read = cad.read_cad(setup.cad)
+        by_hand = (earlier, read_joints(earlier)) if earlier is not None else None
+        self._data = library.load_documents(setup.documents, inputs.template, read, joints=by_hand)
+        self._template = library.apply_sensors(library.apply_joints(inputs.template, self._data), self._data)
+        progress("Reading the specification sheets")
+        self._sheet = specs.extract(self._template, setup.sheets, config=setup.config, progress=progress)
+        progress("Finding the part that plays each role")
+        self.assembly, _ = find_roles(
+            read, self._template, specs.merge(self._sheet, self._given),
+            earlier=earlier, data=self._data, choices=self._choices,
+        )  # fmt: skip
+        self.parts = {part.id: number for number, part in enumerate(self.assembly.parts)}
+        self._edits = (
+            read_alignment(earlier, self.assembly, self._template)
+            if earlier is not None
+            else Alignment(self._template.equipment_type, np.eye(4), ())
+        )
+        with output_folder(setup.out):
+            pass
+        self._journal = Journal(setup.out / FILE, self.read)
+        if not self._continues():
+            self._journal.begin(_snapshot(_own(self._edits), self._edits.values))
+        self.state = self._solved({})
+        self._worker = threading.Thread(target=self._work, daemon=True)
+        self._worker.start()
+
+    # ---- what a person says ----
+    def read(self, entry: object) -> Operation:
+        """An operation of this machine's parts and roles."""
+        return from_entry(entry, self.parts, self._template)
+
+    def do(self, operation: Operation) -> int:
+        """Makes a decision; how many there are now. `YellowironError` for one that cannot be, which then was not
+        made."""
+        signed = replace(operation, signature=replace(operation.signature, by=operation.signature.by or self.by))
+        if signed.kind == "value" and signed.text:
+            specs.parse_settings([f"{signed.name}={signed.text}"], self._template)
+        with self._heard:
+            self._journal.do(signed)
+            return self._changed()
+
+    def undo(self) -> int:
+        """Takes the last decision back, if there is one."""
+        with self._heard:
+            return self._changed() if self._journal.undo() else self._said
+
+    def redo(self) -> int:
+        """Makes the decision that was taken back last again, if there is one."""
+        with self._heard:
+            return self._changed() if self._journal.redo() else self._said
+
+    @property
+    def said(self) -> int:
+        """How many times something was decided, or taken back."""
+        return self._said
+
+    def settled(self, timeout: float | None = None) -> State:
+        """The state that knows all that was said, when it is there, or after `timeout` seconds the last one."""
+        with self._heard:
+            self._heard.wait_for(lambda: self.state.said == self._said, timeout)
+            return self.state
+
+    def close(self) -> None:
+        """Ends the work in the background."""
+        with self._heard:
+            self._closed = True
+            self._heard.notify_all()
+
+    def mirrored(self, entry: Mapping[str, Any]) -> Mapping[str, Any]:
+        """An operation as the page sends it, where it says `mirror` with the same said of the parts' twins on the
+        machine's other side: roles that end in `_l` and `_r` change places."""
+        said = entry.get("parts")
+        if not entry.get("mirror") or not isinstance(said, Mapping):
+            return entry
+        twins = twins_of(self.assembly, self.state.aligned.frame)
+        known = {twins[part]: role for part, role in said.items() if part in twins and twins[part] not in said}
+        swapped = {part: _other_side(role, self._template) for part, role in known.items()}
+        return {**entry, "parts": {**said, **swapped}}
+
+    def keep(self) -> None:
+        """Writes the decisions where a build takes them from."""
+        state = self.settled()
+        with self._heard, output_file(self._file) as temporary:
+            write_alignment(state.aligned, self.assembly, temporary)
+
+    def history(self) -> tuple[list[Operation], int]:
+        """All operations, and how many of them hold."""
+        with self._heard:
+            return list(self._journal.operations), self._journal.cursor
+
+    # ---- what comes of it ----
+    def _changed(self) -> int:
+        self._said += 1
+        self._heard.notify_all()
+        return self._said
+
+    def _work(self) -> None:
+        """Solves what was said, as long as the session is open."""
+        free = True
+        while True:
+            with self._heard:
+                news = self._heard.wait_for(
+                    lambda: self._closed or self.state.said != self._said, None if free else _IDLE
+                )
+                if self._closed:
+                    return
+            free = not news
+            state = self._solved(self._fixed if news else {})
+            with self._heard:
+                known = (state.said, state.aligned.parts) == (self.state.said, self.state.aligned.parts)
+                if known or state.said != self._said:
+                    continue
+                self.state = state
+                self._heard.notify_all()
+            self.keep()
+
+    def _solved(self, fixed: Mapping[str, str]) -> State:
+        """What the decisions come to, the variants in `fixed` as they were but for those that a person's role needs."""
+        with self._heard:
+            said = self._said
+            parts, values = _after(self._journal.base or {}, self._journal.in_force)
+        played = choose(self._template, {**fixed, **self._choices}) if fixed else self._template
+        if any(d.role is not None and not played.knows(d.role) for d in parts.values()):
+            fixed = {}
+        choices = {**fixed, **self._choices}
+        forgotten = {p: PartDecision(None, "solved") for p in _own(self._edits) if p not in parts}
+        edits = decide(self._edits, Decisions(parts={**forgotten, **parts}), self.assembly, self._template)
+        edits = replace(edits or self._edits, values=values)
+        by_hand = specs.parse_settings([f"{n}={v.text}" for n, v in values.items()], self._template)
+        specifications = specs.merge(self._sheet, by_hand, self._given)
+        alignment = roles_of(
+            self.assembly, self._template, specifications, edits=edits, data=self._data, choices=choices
+        )
+        self._fixed = dict(alignment.choices)
+        chosen = choose(self._template, {**alignment.choices, **choices})
+        self._version += 1
+        bare = State(self._version, said, chosen, self.assembly, alignment, specifications, alignment)
+        try:
+            solved = solve(self._template, self.assembly, alignment, specifications, self._data, choices)
+        except MechanismError as error:
+            return replace(bare, failed=str(error))
+        document = report.report_document(report.BuildFacts(
+            solved.mechanism, solved.template, solved.alignment, solved.specifications,
+            kinematics.measure(solved.mechanism),
+            findings=(*self.assembly.findings, *self._data.findings), declared=solved.compared,
+        ))  # fmt: skip
+        return replace(
+            bare, template=solved.template, assembly=solved.assembly, alignment=solved.alignment,
+            specifications=solved.specifications, solved=solved, document=document,
+        )  # fmt: skip
+
+    def _continues(self) -> bool:
+        """Whether the journal's history led to the decisions in alignment.json: all of it, or all but its last line,
+        which a killed program may not have come to write there."""
+        base = self._journal.base
+        if base is None:
+            return False
+        now = _snapshot(_own(self._edits), self._edits.values)
+        operations, cursor = self._journal.operations, self._journal.cursor
+        near = {cursor, max(cursor - 1, 0), min(cursor + 1, len(operations))}
+        return any(_snapshot(*_after(base, operations[:count])) == now for count in near)
+
+
+def _other_side(role: object, template: Template) -> object:
+    """The role on the machine's other side; the role itself where there is none."""
+    if not isinstance(role, str) or role[-2:] not in ("_l", "_r"):
+        return role
+    other = role[:-1] + {"l": "r", "r": "l"}[role[-1]]
+    return other if template.knows(other) else role
+
+
+def _own(alignment: Alignment) -> dict[str, PartDecision]:
+    """The decisions of single parts."""
+    return {p.part: PartDecision(p.role, p.source, p.signature) for p in alignment.parts if p.source in _OWN}
+
+
+def _after(
+    base: Mapping[str, Any], operations: list[Operation]
+) -> tuple[dict[str, PartDecision], dict[str, GivenValue]]:
+    """The decisions of parts and values after some operations on top of a snapshot."""
+    parts = {
+        part: PartDecision(entry["role"], entry["source"], _signature(entry))
+        for part, entry in base.get("parts", {}).items()
+    }
+    values = {name: GivenValue(entry["value"], _signature(entry)) for name, entry in base.get("values", {}).items()}
+    for operation in operations:
+        parts |= operation.decisions()
+        if operation.kind == "value":
+            values.pop(operation.name, None)
+            given = operation.value()
+            values |= {operation.name: given} if given is not None else {}
+    return {part: one for part, one in parts.items() if one.source != "solved"}, values
+
+
+def _snapshot(parts: Mapping[str, PartDecision], values: Mapping[str, GivenValue]) -> dict[str, Any]:
+    """Decisions as the journal's first line has them."""
+    return {
+        "parts": {p: {"role": d.role, "source": d.source, **_said(d.signature)} for p, d in sorted(parts.items())},
+        "values": {n: {"value": v.text, **_said(v.signature)} for n, v in sorted(values.items())},
+    }
+
+
+def _said(signature: Signature) -> dict[str, str]:
+    return {key: said for key in ("by", "date", "why") if (said := getattr(signature, key))}
+
+
+def _signature(entry: Mapping[str, Any]) -> Signature:
+    return Signature(*(str(entry.get(key) or "") for key in ("by", "date", "why")))

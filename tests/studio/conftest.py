@@ -1,0 +1,26 @@
+"""A studio on the wheel loader example, without its sheet: three strokes are open, and every part may be decided."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+from yellowiron.studio import Session, Setup
+
+
+@pytest.fixture
+def open_studio(cad_read_once: None, example: Path, tmp_path: Path) -> Iterator[Callable[..., Session]]:
+    """Opens a session in one folder, again and again; those before are closed."""
+    opened: list[Session] = []
+
+    def opening() -> Session:
+        for one in opened:
+            one.close()
+        opened.append(Session(Setup("wheel_loader", example / "wheel_loader.step", tmp_path / "machine"), by="Ann"))
+        return opened[-1]
+
+    yield opening
+    for one in opened:
+        one.close()

@@ -1,0 +1,139 @@
+"""The page in a real browser (Chromium, drawing in software): a review by keys alone, and what it looks like."""
+
+from __future__ import annotations
+
+import json
+import os
+import threading
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from yellowiron.studio import Session, Setup
+
+pytest.importorskip("starlette", reason="the extra 'studio' is not installed")
+pytestmark = pytest.mark.slow
+
+
+@pytest.fixture(scope="module")
+def session(cad_read_once: None, example: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Session]:
+    out = tmp_path_factory.mktemp("studio") / "machine"
+    opened = Session(Setup("wheel_loader", example / "wheel_loader.step", out))
+    yield opened
+    opened.close()
+
+
+@pytest.fixture(scope="module")
+def page(browser: Any, session: Session) -> Iterator[tuple[Any, list[str]]]:
+    """The page, and what the console complained of."""
+    from yellowiron.studio.server import serve
+
+    told: list[str] = []
+    ready = threading.Event()
+
+    def heard(address: str) -> None:
+        told.append(address)
+        ready.set()
+
+    threading.Thread(target=serve, args=(session,), kwargs={"ready": heard}, daemon=True).start()
+    assert ready.wait(30)
+    opened = browser.new_page(viewport={"width": 1400, "height": 900}, reduced_motion="reduce")
+    opened.set_default_timeout(60_000)
+    errors: list[str] = []
+    opened.on("console", lambda message: errors.append(message.text) if message.type == "error" else None)
+    opened.on("pageerror", lambda error: errors.append(str(error)))
+    opened.goto(told[0])
+    opened.locator("#queue button").first.wait_for()
+    yield opened, errors
+    opened.close()
+
+
+def until(holds: Callable[[], bool], seconds: float = 60.0) -> None:
+    end = time.monotonic() + seconds
+    while not holds():
+        assert time.monotonic() < end
+        time.sleep(0.05)
+
+
+def test_the_whole_review_by_keys_alone(page: tuple[Any, list[str]], session: Session) -> None:
+    opened, errors = page
+    heading = opened.locator("#card h2")
+
+    def solved() -> None:
+        until(lambda: bool(opened.evaluate("yellowiron.state.solved === yellowiron.state.said && !yellowiron.waiting")))
+
+    # Three strokes are asked; what the cylinder's piston can travel is offered, and taken by Enter.
+    assert opened.locator("#count").inner_text() == "3 questions"
+    first = heading.inner_text()
+    opened.keyboard.press("j")
+    assert heading.inner_text() != first
+    opened.keyboard.press("k")
+    assert heading.inner_text() == first
+    opened.keyboard.press("Enter")
+    until(lambda: heading.inner_text() != first)
+    solved()
+    assert opened.locator("#count").inner_text() == "2 questions"
+    assert session.state.specifications.number(first.removesuffix("?")) is not None
+
+    # Back, and again.
+    opened.keyboard.press("u")
+    until(lambda: opened.locator("#count").inner_text() == "3 questions")
+    opened.keyboard.press("Shift+U")
+    solved()
+    assert opened.locator("#count").inner_text() == "2 questions"
+
+    # A part is selected from the list, taken with its assembly, and given a role that is found by its name.
+    part = next(p.part for p in session.state.aligned.parts if p.role == "front_frame")
+    number = opened.evaluate("path => yellowiron.numbers.get(path)", part)
+    opened.evaluate("number => yellowiron.choose(number, null)", number)
+    assert "Selected" in opened.locator("#card").inner_text()
+    opened.keyboard.press("/")
+    opened.keyboard.type("rear frame")
+    opened.keyboard.press("Enter")
+    until(lambda: session.settled(60).aligned.parts[0] is not None and len(session.history()[0]) == 2)
+    solved()
+    assert {p.part: p.role for p in session.state.aligned.parts}[part] == "rear_frame"
+    opened.evaluate("number => yellowiron.choose(number, null)", number)
+    opened.keyboard.press("a")
+    assert "parts selected" in opened.locator("#card").inner_text()
+    opened.keyboard.press("Escape")
+    opened.keyboard.press("u")
+    solved()
+    assert {p.part: p.role for p in session.state.aligned.parts}[part] == "front_frame"
+    kept = json.loads((session.setup.out / "alignment.json").read_text(encoding="utf-8"))
+    assert len(kept["values"]) == 1
+    assert not [e for e in kept["parts"] if e["source"] == "edited"]
+    opened.keyboard.press("?")
+    assert opened.locator("#keys").is_visible()
+    opened.keyboard.press("Escape")
+    assert not errors
+
+
+def test_the_machine_moves(page: tuple[Any, list[str]]) -> None:
+    opened, errors = page
+    sliders = opened.evaluate("yellowiron.viewer.sliders.map((slider) => slider.name)")
+    assert {"boom", "bucket"} <= set(sliders)
+    before = opened.evaluate("yellowiron.viewer.pose.bucket")
+    opened.evaluate("yellowiron.viewer.set('boom', yellowiron.viewer.sliders.find((s) => s.name === 'boom').range[1])")
+    after = opened.evaluate("yellowiron.viewer.pose.bucket")
+    assert abs(after[14] - before[14]) > 0.5
+    assert not errors
+
+
+@pytest.mark.parametrize(("width", "height"), [(1400, 900), (900, 800), (420, 800)])
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_nothing_runs_out_of_the_page(page: tuple[Any, list[str]], width: int, height: int, scheme: str) -> None:
+    opened, _ = page
+    opened.emulate_media(color_scheme=scheme)
+    opened.set_viewport_size({"width": width, "height": height})
+    opened.wait_for_timeout(300)
+    wide = opened.evaluate("document.documentElement.scrollWidth")
+    assert wide <= width
+    if width >= 900:
+        assert opened.evaluate("document.documentElement.scrollHeight") <= height
+    folder = os.environ.get("YELLOWIRON_SHOTS")
+    if folder:
+        opened.screenshot(path=str(Path(folder) / f"studio_{width}_{scheme}.png"))

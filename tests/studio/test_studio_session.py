@@ -1,0 +1,137 @@
+"""Decisions and what they come to: undone, redone, found again, and built as the command line builds them."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from yellowiron.model.errors import YellowironError
+from yellowiron.studio import Session, Setup, read_setup
+from yellowiron.studio.questions import boxes_of, in_words, questions
+from yellowiron.studio.scene import Scene
+from yellowiron.studio.twins import twins_of
+
+CAB = "WHEEL LOADER GA/REAR MACHINE/CAB ASSY"
+
+
+def roles(session: Session) -> dict[str, str | None]:
+    return {p.part: p.role for p in session.settled(60.0).aligned.parts}
+
+
+def kept(session: Session) -> dict[str, dict[str, object]]:
+    document = json.loads((session.setup.out / "alignment.json").read_text(encoding="utf-8"))
+    return {e["part"]: e for e in document["parts"] if e["source"] in ("edited", "confirmed")}
+
+
+@pytest.mark.slow
+def test_decided_undone_redone_and_found_again(open_studio: Callable[[], Session]) -> None:
+    session = open_studio()
+    before = roles(session)
+    part = next(p for p, role in before.items() if role == "boom")
+    other = next(p for p, role in before.items() if role == "rear_frame")
+    session.do(session.read({"kind": "role", "parts": {part: "front_frame"}, "why": "it is bolted there"}))
+    session.do(session.read({"kind": "confirm", "parts": {other: "rear_frame"}}))
+    assert roles(session)[part] == "front_frame"
+    session.keep()
+    assert kept(session)[part]["role"] == "front_frame"
+    assert (kept(session)[part]["by"], kept(session)[part]["why"]) == ("Ann", "it is bolted there")
+    assert kept(session)[other]["source"] == "confirmed"
+
+    # The program is killed: nothing is closed. Another goes on where it was.
+    again = open_studio()
+    operations, cursor = again.history()
+    assert (len(operations), cursor) == (2, 2)
+    again.undo()
+    again.undo()
+    assert roles(again) == before
+    again.keep()
+    assert kept(again) == {}
+    again.redo()
+    assert roles(again)[part] == "front_frame"
+    again.do(again.read({"kind": "forget", "parts": {part: None}}))
+    assert roles(again) == before
+
+    # A person edits the file by hand: the history was of other decisions, and begins anew from that.
+    file = again.setup.out / "alignment.json"
+    again.keep()
+    document = json.loads(file.read_text(encoding="utf-8"))
+    next(e for e in document["parts"] if e["part"] == other)["role"] = None
+    file.write_text(json.dumps(document), encoding="utf-8")
+    third = open_studio()
+    assert third.history() == ([], 0)
+    assert roles(third)[other] is None
+
+
+@pytest.mark.slow
+def test_values_are_asked_given_and_kept(open_studio: Callable[[], Session]) -> None:
+    session = open_studio()
+    asked = {q.key: q for q in questions(session.state, boxes_of(session.assembly))}
+    assert {"value:Lift Cylinder Stroke", "value:Tilt Cylinder Stroke"} <= asked.keys()
+    lift = asked["value:Lift Cylinder Stroke"]
+    assert [c.answer for c in lift.candidates] == ["764 mm"]
+    assert "piston travel" in lift.candidates[0].words
+    assert any("pins 1469 mm apart" in known for known in lift.known)
+    session.do(session.read({"kind": "value", "name": "Lift Cylinder Stroke", "text": "764 mm"}))
+    state = session.settled(60.0)
+    assert state.specifications.number("Lift Cylinder Stroke") == pytest.approx(0.764)
+    left = {q.key for q in questions(state, boxes_of(session.assembly))}
+    assert "value:Lift Cylinder Stroke" not in left and "value:Tilt Cylinder Stroke" in left
+    assert state.solved is not None
+    boom = next(c for c in state.solved.mechanism.cylinders if c.name == "boom_cylinder_l")
+    assert boom.stroke == pytest.approx(0.764)
+    assert "set" in boom.sources["stroke"] or "Lift Cylinder Stroke" in boom.sources["stroke"]
+    for text in ("764 bananas", "many", "-3 m"):
+        with pytest.raises(YellowironError):
+            session.do(session.read({"kind": "value", "name": "Lift Cylinder Stroke", "text": text}))
+    with pytest.raises(YellowironError):
+        session.do(session.read({"kind": "value", "name": "Wing Span", "text": "3 m"}))
+    assert len(session.history()[0]) == 1
+    again = open_studio()
+    assert again.state.specifications.number("Lift Cylinder Stroke") == pytest.approx(0.764)
+
+
+@pytest.mark.slow
+def test_the_other_side_too(open_studio: Callable[[], Session]) -> None:
+    session = open_studio()
+    twins = twins_of(session.assembly, session.state.aligned.frame)
+    found = roles(session)
+    left = next(p for p, role in found.items() if role == "front_wheel_l" and p in twins)
+    assert twins[twins[left]] == left
+    said = session.mirrored({"kind": "role", "parts": {left: "rear_wheel_l"}, "mirror": True})
+    assert said["parts"] == {left: "rear_wheel_l", twins[left]: "rear_wheel_r"}
+    assert session.mirrored({"kind": "role", "parts": {left: None}})["parts"] == {left: None}
+
+
+@pytest.mark.slow
+def test_parts_keep_their_numbers_on_the_screen(open_studio: Callable[[], Session]) -> None:
+    session = open_studio()
+    scene = Scene(session.assembly)
+    first = scene.machine(session.state)
+    assert scene.machine(session.state) == first
+    assert len(scene.shapes) > len(first)
+
+
+def test_a_folder_without_a_machine(tmp_path: Path) -> None:
+    for folder, says in ((tmp_path / "none", "no such folder"), (tmp_path, "No machine was built")):
+        with pytest.raises(YellowironError) as caught:
+            read_setup(folder)
+        assert says in caught.value.message
+    record = {"equipment_type": "excavator", "cad": str(tmp_path / "gone.step"), "specs": [], "data": [], "set": []}
+    (tmp_path / "inputs.json").write_text(json.dumps(record))
+    with pytest.raises(YellowironError, match="broken"):
+        read_setup(tmp_path)
+    (tmp_path / "inputs.json").write_text(json.dumps({**record, "config": ""}))
+    with pytest.raises(YellowironError, match=r"gone\.step"):
+        read_setup(tmp_path)
+    (tmp_path / "gone.step").touch()
+    assert read_setup(tmp_path) == Setup("excavator", tmp_path / "gone.step", tmp_path)
+
+
+def test_values_as_a_person_writes_them() -> None:
+    assert in_words(1.4, "m") == "1400 mm"
+    assert in_words(0.7853981633974483, "rad") == "45 deg"
+    assert in_words(3.5e7, "Pa") == "35 MPa"
+    assert in_words(0.5, "1") == "0.5"
