@@ -13,6 +13,7 @@ from planar_arm import Arm, arm_mechanism
 from scipy.optimize import brentq
 
 from yellowiron.kinematics import measure
+from yellowiron.kinematics.measuring import extremes
 from yellowiron.kinematics.measuring.bench import Bench
 from yellowiron.kinematics.measuring.extremes import Strokes
 from yellowiron.kinematics.measuring.quantities import Unmeasurable
@@ -112,6 +113,17 @@ def test_level_cut_takes_the_length_that_the_sheet_prints(arm: Arm) -> None:
 def test_a_cut_longer_than_the_reach_is_told(arm: Arm) -> None:
     with pytest.raises(Unmeasurable, match="no level cut of 15 m"):
         value(arm, HEIGHT, level(15.0))
+
+
+def test_a_cut_that_jumps_between_poses_is_told(arm: Arm, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of a linkage that was put together wrongly the cut at one height is another the next time it is asked for."""
+
+    def moved(*given: object, **named: object) -> float:
+        raise ValueError("f(a) and f(b) must have different signs")
+
+    monkeypatch.setattr(extremes, "brentq", moved)
+    with pytest.raises(Unmeasurable, match="jumps"):
+        value(arm, HEIGHT, level(2.44))
 
 
 def test_one_actuator_after_another(arm: Arm) -> None:

@@ -159,6 +159,28 @@ def score(
     )  # fmt: skip
 
 
+def true_bodies(
+    assembly: Assembly, alignment: Alignment, truth: Surface, template: Template
+) -> dict[str, tuple[str, ...]]:
+    """Part → the bodies that most of its surface may be of, the label's own first ('-': of none); of a part of which
+    nobody knows, nothing."""
+    areas, labels = _looked_up(assembly, truth, cKDTree(truth.points), _factor(assembly, truth))
+    good = _allowed_bodies(truth, template, areas, labels, {p.part: p for p in alignment.parts})
+    bodies = {r.name for r in template.roles if r.rigid}
+    found = {}
+    for part in assembly.parts:
+        numbers = np.unique(labels[part.id]).tolist()
+        share = {n: float(areas[part.id][labels[part.id] == n].sum()) for n in numbers}
+        most = max(numbers, key=lambda n: (share[n], -n), default=None)
+        if most is None or not truth.labels[most][1]:
+            continue
+        own = [b for b in truth.labels[most][1].split("|") if b in good[most]]
+        listed = [*own, *sorted(good[most] - set(own))]
+        extra = [b for b in listed if b.startswith(EXTRA)]
+        found[part.id] = ("-",) if extra else tuple(b for b in listed if b in bodies)
+    return {part: known for part, known in found.items() if known}
+
+
 def triangles_of(assembly: Assembly, part: Part) -> tuple[Array, Array]:
     """(m, 3) centres and (m,) areas of a part's triangles in the CAD frame."""
     return centres_of(Mesh(assembly.points_of(part), assembly.shape_of(part).mesh.triangles))

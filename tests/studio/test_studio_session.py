@@ -94,6 +94,27 @@ def test_values_are_asked_given_and_kept(open_studio: Callable[[], Session]) -> 
 
 
 @pytest.mark.slow
+def test_a_state_that_cannot_be_made_ends_nothing(
+    open_studio: Callable[[], Session], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from yellowiron import kinematics
+
+    session = open_studio()
+    part = next(p.part for p in session.state.aligned.parts if p.role == "boom")
+
+    def broken(mechanism: object) -> None:
+        raise ZeroDivisionError("nobody foresaw this")
+
+    with monkeypatch.context() as patched:
+        patched.setattr(kinematics, "measure", broken)
+        session.do(session.read({"kind": "confirm", "parts": {part: "boom"}}))
+        assert "nobody foresaw this" in session.settled(60.0).failed
+    session.do(session.read({"kind": "confirm", "parts": {part: "boom"}}))
+    assert session.settled(60.0).failed == ""
+    assert {p.part: p.source for p in session.state.aligned.parts}[part] == "confirmed"
+
+
+@pytest.mark.slow
 def test_the_other_side_too(open_studio: Callable[[], Session]) -> None:
     session = open_studio()
     twins = twins_of(session.assembly, session.state.aligned.frame)

@@ -256,7 +256,7 @@ class _Pages:
             "solved": state.said,
             "machine": titled(state.template.equipment_type),
             "file": self._session.setup.cad.name,
-            "verdict": document.get("verdict", "") or state.failed,
+            "verdict": state.failed or document.get("verdict", ""),
             "causes": [asdict(cause) for cause in report.causes(document)] if document else [],
             "tally": report.tally(document) if document else "no machine yet",
             "questions": [asdict(q) for q in questions(state, self._boxes)],

@@ -60,9 +60,16 @@ class Session:
     come quickly. The variants that were found are kept while a person decides, which spares trying all others; when
     nothing was said for a moment they are tried again."""
 
-    def __init__(self, setup: Setup, *, by: str = "", progress: Callable[[str], None] = lambda words: None) -> None:
-        """Reads the CAD model and the sheets, and takes up what was decided before. `YellowironError` for what a build
-        would not take either."""
+    def __init__(
+        self,
+        setup: Setup,
+        *,
+        by: str = "",
+        assembly: Assembly | None = None,
+        progress: Callable[[str], None] = lambda words: None,
+    ) -> None:
+        """Reads the CAD model (or takes it as it was read, `assembly`) and the sheets, and takes up what was decided
+        before. `by` signs what is decided. `YellowironError` for what a build would not take either."""
         self.setup = setup
         self.by = by
         self._heard = threading.Condition(threading.RLock())
@@ -77,7 +84,7 @@ class Session:
         )  # fmt: skip
         self._given, self._choices = inputs.given, inputs.choices
         progress("Reading the CAD model")
-        read = cad.read_cad(setup.cad)
+        read = cad.read_cad(setup.cad) if assembly is None else assembly
         by_hand = (earlier, read_joints(earlier)) if earlier is not None else None
         self._data = library.load_documents(setup.documents, inputs.template, read, joints=by_hand)
         self._template = library.apply_sensors(library.apply_joints(inputs.template, self._data), self._data)
@@ -102,6 +109,11 @@ class Session:
         self.state = self._solved({})
         self._worker = threading.Thread(target=self._work, daemon=True)
         self._worker.start()
+
+    @property
+    def template(self) -> Template:
+        """The equipment type's template, with all of its variants."""
+        return self._template
 
     # ---- what a person says ----
     def read(self, entry: object) -> Operation:
@@ -184,7 +196,7 @@ class Session:
                 if self._closed:
                     return
             free = not news
-            state = self._solved(self._fixed if news else {})
+            state = self._state(self._fixed if news else {})
             with self._heard:
                 known = (state.said, state.aligned.parts) == (self.state.said, self.state.aligned.parts)
                 if known or state.said != self._said:
@@ -192,6 +204,16 @@ class Session:
                 self.state = state
                 self._heard.notify_all()
             self.keep()
+
+    def _state(self, fixed: Mapping[str, str]) -> State:
+        """What was said, solved; where that fails as nobody foresaw, the machine stays as it was, and it is said."""
+        said = self._said
+        try:
+            return self._solved(fixed)
+        except Exception as error:  # noqa: BLE001 - one state that cannot be made must not end the studio
+            self._version += 1
+            failed = f"The machine of these decisions cannot be made ({type(error).__name__}: {error})"
+            return replace(self.state, version=self._version, said=said, failed=failed)
 
     def _solved(self, fixed: Mapping[str, str]) -> State:
         """What the decisions come to, the variants in `fixed` as they were but for those that a person's role needs."""

@@ -195,7 +195,11 @@ def level_cut(
         rise *= 2.0
         if rise > 8.0 * length:
             raise Unmeasurable(f"no level cut of {length:.3g} m can be made within the strokes")
-    z = float(brentq(spare, lowest, lowest + rise, xtol=1e-7))
+    try:
+        z = float(brentq(spare, lowest, lowest + rise, xtol=1e-7))
+    except ValueError as error:
+        # On a linkage that is put together wrongly the same height has another cut, depending on the way there.
+        raise Unmeasurable("the level cut jumps from one linkage pose to another") from error
     state, far = extreme(strokes, reach, greatest=True, subjects=[(height, z)])
     _walk(strokes, height, reach, z, strokes.shares(state), np.linspace(far, far - length, _STOPS + 2)[1:-1])
     return state, z

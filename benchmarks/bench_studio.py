@@ -1,0 +1,129 @@
+"""What a review in the studio costs a person: real models with labels, answered by one who knows the truth.
+
+    python benchmarks/bench_studio.py [--models DIR:…] [--only NAME,…] [--names with,without] [--most N]
+
+The one who answers takes the first question that is about parts. Where all of them are right he says yes; where all are
+wrong in the same way, the body that they are of; else he picks out those that are wrong, body by body, which costs a
+click a part and one for the body, and says yes to the rest. Four seconds a decision or click. What is printed: how much
+of the surface was right before and after, parts that were wrong before, questions that were asked, decisions and
+clicks, the minutes that they take, and the median of the seconds from a decision to the machine that follows from it.
+Values are not asked. The alternative is what the same person would do without the page: one entry of alignment.json for
+every wrong part, found by its name, a full run after each ten.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import statistics
+import sys
+import tempfile
+import time
+from collections import Counter
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path[:0] = [str(ROOT / "tests"), str(ROOT / "benchmarks")]
+
+import strangers_models as strangers  # noqa: E402
+from kit.scoring import score, true_bodies  # noqa: E402
+from yellowiron.studio import Session, Setup  # noqa: E402
+from yellowiron.studio.questions import Question, boxes_of, questions  # noqa: E402
+
+SECONDS = 4.0
+
+
+class Person:
+    """Who answers: counts decisions and clicks, and how long each waits for its machine."""
+
+    def __init__(self, session: Session, truth: dict[str, tuple[str, ...]]) -> None:
+        self.session, self.truth = session, truth
+        self.asked = self.decisions = self.clicks = 0
+        self.waited: list[float] = []
+
+    def answer(self, question: Question) -> None:
+        """One question about parts."""
+        self.asked += 1
+        bodies = {p.part: p.body or "-" for p in self.session.state.aligned.parts}
+        wrong = {p: self.truth[p][0] for p in question.parts if self.truth.get(p) and bodies[p] not in self.truth[p]}
+        right = [p for p in question.parts if p not in wrong]
+        whole = not right and len(set(wrong.values())) == 1
+        for body, count in sorted(Counter(wrong.values()).items()):
+            parts = [p for p, b in wrong.items() if b == body]
+            self.clicks += 0 if whole else count
+            self.say("role", dict.fromkeys(parts, None if body == "-" else body))
+        if right:
+            roles = {p.part: p.role for p in self.session.state.aligned.parts}
+            self.say("confirm", {p: roles[p] for p in right})
+
+    def say(self, kind: str, parts: dict[str, str | None]) -> None:
+        """One decision."""
+        self.decisions += 1
+        start = time.perf_counter()
+        self.session.do(self.session.read({"kind": kind, "parts": parts}))
+        self.session.settled(300.0)
+        self.waited.append(time.perf_counter() - start)
+
+
+def review(model: strangers.Model, names: str, most: int) -> str:
+    """One model's row."""
+    scene = strangers.scene_of(model, names=names)
+    with tempfile.TemporaryDirectory() as folder:
+        if model.cad is None:
+            return f"{model.name:26s} not on this machine"
+        session = Session(Setup(scene.type, model.cad, Path(folder) / "out"), assembly=scene.assembly)
+        try:
+            return _row(model, names, most, scene, session)
+        finally:
+            session.close()
+
+
+def _row(model, names, most, scene, session) -> str:  # type: ignore[no-untyped-def]
+    template = session.template
+    first = session.settled(300.0).aligned
+
+    def right() -> float:
+        found = score(session.assembly, session.state.aligned, None, scene.truth, (), scene.height, template)
+        return 100.0 * found.right / found.area
+
+    truth = true_bodies(session.assembly, first, scene.truth, template)
+    wrong = sum(bool(truth.get(p.part)) and (p.body or "-") not in truth[p.part] for p in first.parts)
+    before = right()
+    person = Person(session, truth)
+    boxes = boxes_of(session.assembly)
+    while person.asked < most:
+        open_ones = [q for q in questions(session.state, boxes) if q.kind == "parts"]
+        if not open_ones:
+            break
+        person.answer(open_ones[0])
+    minutes = SECONDS * (person.decisions + person.clicks) / 60.0
+    waited = statistics.median(person.waited) if person.waited else 0.0
+    return (
+        f"{model.name:26s} {names:8s} {before:6.1f} {right():6.1f} {wrong:6d} {person.asked:6d} "
+        f"{person.decisions:6d} {person.clicks:6d} {minutes:8.1f} {waited:8.2f}"
+    )
+
+
+def main() -> None:
+    """Prints a row a model and naming."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--models", default=os.environ.get("YELLOWIRON_STRANGERS", ""))
+    parser.add_argument("--only", default="")
+    parser.add_argument("--names", default="with,without")
+    parser.add_argument("--most", type=int, default=80, help="questions")
+    given = parser.parse_args()
+    folders = [Path(p) for p in given.models.split(":") if p]
+    only = {n for n in given.only.split(",") if n}
+    print(f"{'':35s} before  after  wrong  asked  decis clicks  minutes  s/decis")
+    for model in strangers.models(folders):
+        if model.held_back or (only and model.name not in only):
+            continue
+        if model.cad is None:
+            print(f"{model.name:26s} not on this machine")
+            continue
+        for names in given.names.split(","):
+            print(review(model, names, given.most), flush=True)
+
+
+if __name__ == "__main__":
+    main()
