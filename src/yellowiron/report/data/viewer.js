@@ -66,7 +66,7 @@ class Viewer {
     this.quickest = Infinity;
     model.parts.forEach((part, index) => Object.assign(part, { number: index + 1, hidden: false, drawn: part.color }));
     this.#layout();
-    this.renderer = new Renderer(this.canvas, model.shapes);
+    this.renderer = new Renderer(this.canvas, model.shapes, model.parts);
     this.#measure();
     this.#controls();
     this.#pointer();

@@ -3,6 +3,7 @@
 const SUN = unit([0.35, -0.7, 1.0]);
 const FIELD = (20 * Math.PI) / 180;
 const SHADOW = 2048;
+const TABLE = 2; // the texture unit of what is said of the parts
 
 const COMMON = `#version 300 es
 precision highp float; precision highp int; precision highp sampler2DShadow;
@@ -34,20 +35,34 @@ vec3 shaded(vec3 albedo, vec3 at, vec3 n) {
 }
 layout(location = 0) out vec4 color; layout(location = 1) out vec4 label;
 `;
-const PART_VERTEX = `${COMMON}
-layout(location = 0) in vec3 position; layout(location = 1) in vec2 normal;
-uniform mat4 view, place; uniform mat3 turn; uniform vec3 low, size;
-out vec3 at, facing;
+// All parts are one mesh: a vertex knows the number of its part, of which a row of texels says where it is (three rows of
+// a matrix), how its normals turn (three), its colour and whether it is round, its number, whether it is seen and chosen.
+const TEXELS = 8;
+const WIDTH = 1024;
+const PLACED = `${COMMON}
+layout(location = 0) in vec3 position; layout(location = 1) in vec2 normal; layout(location = 2) in uint part;
+uniform highp sampler2D table; uniform mat4 view;
+vec4 told(int k) { int n = int(part) * ${TEXELS} + k; return texelFetch(table, ivec2(n % ${WIDTH}, n / ${WIDTH}), 0); }
+vec3 placed() { vec4 p = vec4(position, 1.0); return vec3(dot(told(0), p), dot(told(1), p), dot(told(2), p)); }
+const vec4 NOWHERE = vec4(2.0, 2.0, 2.0, 1.0);
+`;
+const PART_VERTEX = `${PLACED}
+out vec3 at, facing; flat out vec4 paint; flat out vec2 id;
 void main() {
-  vec4 p = place * vec4(low + position * size, 1.0);
-  at = p.xyz; facing = turn * unfold(normal); gl_Position = view * p;
+  at = placed();
+  vec3 n = unfold(normal);
+  facing = vec3(dot(told(3).xyz, n), dot(told(4).xyz, n), dot(told(5).xyz, n));
+  paint = told(6);
+  vec4 mine = told(7);
+  id = mine.xy;
+  gl_Position = mine.z > 0.5 ? view * vec4(at, 1.0) : NOWHERE;
 }`;
 const PART_FRAGMENT = `${COMMON}${LIT}
-in vec3 at, facing; uniform vec3 albedo; uniform vec2 id; uniform bool rounded;
+in vec3 at, facing; flat in vec4 paint; flat in vec2 id;
 void main() {
-  vec3 n = rounded ? normalize(facing) : normalize(cross(dFdx(at), dFdy(at)));
+  vec3 n = paint.w > 0.5 ? normalize(facing) : normalize(cross(dFdx(at), dFdy(at)));
   if (dot(n, at - eye) > 0.0) n = -n;
-  color = vec4(display(shaded(albedo, at, n)), 1.0);
+  color = vec4(display(shaded(paint.rgb, at, n)), 1.0);
   label = vec4(id, fold(n) * 0.5 + 0.5);
 }`;
 const GROUND_VERTEX = `${COMMON}
@@ -69,9 +84,10 @@ void main() {
   float away = clamp(distance(at.xy, middle.xy) / reach, 0.0, 1.0);
   color = vec4(display(mix(ground, sky, away * away * (3.0 - 2.0 * away))), 1.0); label = vec4(0.0, 0.0, 0.5, 0.5);
 }`;
-const SHADOW_VERTEX = `${COMMON}
-layout(location = 0) in vec3 position; uniform mat4 view, place; uniform vec3 low, size;
-void main() { gl_Position = view * (place * vec4(low + position * size, 1.0)); }`;
+const SHADOW_VERTEX = `${PLACED}
+void main() { gl_Position = told(7).z > 0.5 ? view * vec4(placed(), 1.0) : NOWHERE; }`;
+const CHOSEN_VERTEX = `${PLACED}
+void main() { gl_Position = told(7).z > 0.5 && told(7).w > 0.5 ? view * vec4(placed(), 1.0) : NOWHERE; }`;
 const SHADOW_FRAGMENT = `${COMMON} void main() {}`;
 const CHOSEN_FRAGMENT = `${COMMON} out vec4 pixel; void main() { pixel = vec4(0.10, 0.45, 0.95, 0.5); }`;
 const SCREEN_VERTEX = `${COMMON}
@@ -116,15 +132,26 @@ function decodeMesh(shape) {
   return { points, indices, normals };
 }
 
-/** How normals turn (up to length) where points go by a matrix: its cofactors, so that mirrors and scales are right. */
-function normalMatrix(m) {
-  const [a, b, c] = [0, 4, 8].map((k) => m.slice(k, k + 3));
-  return [...cross(b, c), ...cross(c, a), ...cross(a, b)];
+/** Writes where a part is, and how its normals turn (up to length: by the matrix's cofactors, so that mirrors and scales
+ * are right), into a table of numbers: the part's place (16, column-major) after its shape's box. */
+function writePlace(table, k, place, { low, size }) {
+  for (let row = 0; row < 3; row++) {
+    let middle = place[12 + row];
+    for (let column = 0; column < 3; column++) {
+      const value = place[4 * column + row];
+      middle += value * low[column];
+      table[k + 4 * row + column] = value * size[column];
+      const [r1, r2, c1, c2] = [(row + 1) % 3, (row + 2) % 3, (column + 1) % 3, (column + 2) % 3];
+      table[k + 12 + 4 * row + column] =
+        place[4 * c1 + r1] * place[4 * c2 + r2] - place[4 * c1 + r2] * place[4 * c2 + r1];
+    }
+    table[k + 4 * row + 3] = middle;
+  }
 }
 
 class Renderer {
-  /** Throws where WebGL2 is missing. */
-  constructor(canvas, shapes) {
+  /** Of parts `{shape}`, which stay in their order. Throws where WebGL2 is missing. */
+  constructor(canvas, shapes, parts) {
     // A preserved picture survives printing, screenshots and tabs in the background without being drawn again.
     const gl = canvas.getContext("webgl2", { antialias: false, alpha: false, preserveDrawingBuffer: true });
     if (!gl) throw new Error("no WebGL2");
@@ -134,10 +161,11 @@ class Renderer {
       part: this.#program(PART_VERTEX, PART_FRAGMENT),
       ground: this.#program(GROUND_VERTEX, GROUND_FRAGMENT),
       shadow: this.#program(SHADOW_VERTEX, SHADOW_FRAGMENT),
-      chosen: this.#program(SHADOW_VERTEX, CHOSEN_FRAGMENT),
+      chosen: this.#program(CHOSEN_VERTEX, CHOSEN_FRAGMENT),
       screen: this.#program(SCREEN_VERTEX, SCREEN_FRAGMENT),
     };
-    this.shapes = shapes.map((shape) => this.#upload(shape));
+    this.shapes = shapes;
+    this.#upload(shapes, parts);
     this.empty = gl.createVertexArray();
     this.shadowMap = this.#texture(gl.DEPTH_COMPONENT24, SHADOW, SHADOW, gl.LINEAR);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_COMPARE_MODE, gl.COMPARE_REF_TO_TEXTURE);
@@ -168,25 +196,65 @@ class Renderer {
     return { program, at };
   }
 
-  #upload(shape) {
+  /** One mesh of all parts, and the table of what is said of each. */
+  #upload(shapes, parts) {
     const gl = this.gl;
-    const { points, indices, normals } = decodeMesh(shape);
-    const array = gl.createVertexArray();
-    gl.bindVertexArray(array);
+    const meshes = new Map([...new Set(parts.map((part) => part.shape))].map((n) => [n, decodeMesh(shapes[n])]));
+    const sum = (count) => parts.reduce((total, part) => total + count(meshes.get(part.shape)), 0);
+    const count = sum((mesh) => mesh.points.length / 3);
+    const [points, normals, owner] = [new Uint16Array(4 * count), new Int8Array(4 * count), new Uint16Array(2 * count)];
+    const indices = new Uint32Array(sum((mesh) => mesh.indices.length));
+    let [vertex, corner] = [0, 0];
+    parts.forEach((part, number) => {
+      const mesh = meshes.get(part.shape);
+      for (let i = 0; i < mesh.indices.length; i++) indices[corner++] = vertex + mesh.indices[i];
+      for (let i = 0; i < mesh.points.length / 3; i++, vertex++) {
+        // Rows of four, and of two, as graphics cards like them.
+        for (let k = 0; k < 3; k++) points[4 * vertex + k] = mesh.points[3 * i + k];
+        for (let k = 0; k < 2; k++) normals[4 * vertex + k] = mesh.normals[2 * i + k];
+        owner[2 * vertex] = number;
+      }
+    });
+    this.mesh = { array: gl.createVertexArray(), count: indices.length };
+    gl.bindVertexArray(this.mesh.array);
     const fill = (target, data) => {
       gl.bindBuffer(target, gl.createBuffer());
       gl.bufferData(target, data, gl.STATIC_DRAW);
     };
     fill(gl.ARRAY_BUFFER, points);
     gl.enableVertexAttribArray(0);
-    gl.vertexAttribPointer(0, 3, gl.UNSIGNED_SHORT, true, 0, 0);
+    gl.vertexAttribPointer(0, 3, gl.UNSIGNED_SHORT, true, 8, 0);
     fill(gl.ARRAY_BUFFER, normals);
     gl.enableVertexAttribArray(1);
-    gl.vertexAttribPointer(1, 2, gl.BYTE, true, 0, 0);
+    gl.vertexAttribPointer(1, 2, gl.BYTE, true, 4, 0);
+    fill(gl.ARRAY_BUFFER, owner);
+    gl.enableVertexAttribArray(2);
+    gl.vertexAttribIPointer(2, 1, gl.UNSIGNED_SHORT, 4, 0);
     fill(gl.ELEMENT_ARRAY_BUFFER, indices);
     gl.bindVertexArray(null);
-    const type = indices instanceof Uint32Array ? gl.UNSIGNED_INT : gl.UNSIGNED_SHORT;
-    return { array, type, count: indices.length, rounded: !!shape.normals, low: shape.low, size: shape.size };
+    const height = Math.max(1, Math.ceil((parts.length * TEXELS) / WIDTH));
+    this.table = { numbers: new Float32Array(4 * WIDTH * height), height };
+    this.table.texture = this.#texture(gl.RGBA32F, WIDTH, height, gl.NEAREST);
+  }
+
+  /** Says of every part where it is, how it looks, whether it is seen and chosen. */
+  #tell(parts, chosen) {
+    const gl = this.gl;
+    const { numbers, texture, height } = this.table;
+    parts.forEach((part, index) => {
+      const k = 4 * TEXELS * index;
+      const shape = this.shapes[part.shape];
+      writePlace(numbers, k, part.place, shape);
+      for (let c = 0; c < 3; c++) numbers[k + 24 + c] = (part.color[c] / 255) ** 2.2;
+      numbers[k + 27] = shape.normals ? 1 : 0;
+      numbers[k + 28] = (part.number & 255) / 255;
+      numbers[k + 29] = (part.number >> 8) / 255;
+      numbers[k + 30] = part.hidden ? 0 : 1;
+      numbers[k + 31] = chosen.has(part.number) ? 1 : 0;
+    });
+    gl.activeTexture(gl.TEXTURE0 + TABLE);
+    gl.bindTexture(gl.TEXTURE_2D, texture);
+    gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, WIDTH, height, gl.RGBA, gl.FLOAT, numbers);
   }
 
   #texture(format, width, height, filter) {
@@ -229,9 +297,9 @@ class Renderer {
    */
   draw(parts, camera, scene, { fine, chosen, moved: changed }) {
     const gl = this.gl;
-    const visible = parts.filter((part) => !part.hidden);
     const { width, height } = this.canvas;
-    if (changed || !this.sunView) this.#shadows(visible, scene);
+    this.#tell(parts, chosen);
+    if (changed || !this.sunView) this.#shadows(scene);
     const target = this.#target(width * fine, height * fine);
     const { part, ground, screen } = this.programs;
     gl.bindFramebuffer(gl.FRAMEBUFFER, target.buffer);
@@ -252,12 +320,7 @@ class Renderer {
       gl.uniform1i(at.shadow, 0);
     };
     light(part);
-    this.#each(visible, part.at, (each, shape) => {
-      gl.uniform3fv(part.at.albedo, each.color.map((value) => (value / 255) ** 2.2));
-      gl.uniform2f(part.at.id, (each.number & 255) / 255, (each.number >> 8) / 255);
-      gl.uniform1i(part.at.rounded, shape.rounded ? 1 : 0);
-      gl.uniformMatrix3fv(part.at.turn, false, normalMatrix(each.place));
-    });
+    this.#all(part.at);
     if (camera.eye[2] > 0) {
       light(ground);
       gl.uniform3fv(ground.at.middle, scene.middle);
@@ -281,39 +344,36 @@ class Renderer {
     gl.drawArrays(gl.TRIANGLES, 0, 3);
     gl.enable(gl.DEPTH_TEST);
     this.fine = fine;
-    this.#mark(visible.filter((each) => chosen.has(each.number)), camera);
+    if (chosen.size) this.#mark(camera);
   }
 
   /** Tints parts through all that is in front of them: their own depth first, then their colour once. */
-  #mark(parts, camera) {
+  #mark(camera) {
     const gl = this.gl;
     const { program, at } = this.programs.chosen;
     gl.clear(gl.DEPTH_BUFFER_BIT);
     gl.useProgram(program);
     gl.uniformMatrix4fv(at.view, false, camera.matrix);
     gl.colorMask(false, false, false, false);
-    this.#each(parts, at);
+    this.#all(at);
     gl.colorMask(true, true, true, true);
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
-    this.#each(parts, at);
+    this.#all(at);
     gl.disable(gl.BLEND);
   }
 
-  #each(parts, at, before) {
+  /** All parts, in one call. */
+  #all(at) {
     const gl = this.gl;
-    for (const each of parts) {
-      const shape = this.shapes[each.shape];
-      gl.uniformMatrix4fv(at.place, false, each.place);
-      gl.uniform3fv(at.low, shape.low);
-      gl.uniform3fv(at.size, shape.size);
-      before?.(each, shape);
-      gl.bindVertexArray(shape.array);
-      gl.drawElements(gl.TRIANGLES, shape.count, shape.type, 0);
-    }
+    gl.activeTexture(gl.TEXTURE0 + TABLE);
+    gl.bindTexture(gl.TEXTURE_2D, this.table.texture);
+    gl.uniform1i(at.table, TABLE);
+    gl.bindVertexArray(this.mesh.array);
+    gl.drawElements(gl.TRIANGLES, this.mesh.count, gl.UNSIGNED_INT, 0);
   }
 
-  #shadows(parts, scene) {
+  #shadows(scene) {
     const gl = this.gl;
     const { program, at } = this.programs.shadow;
     const right = unit(cross([0, 0, 1], SUN));
@@ -328,7 +388,7 @@ class Renderer {
     gl.clear(gl.DEPTH_BUFFER_BIT);
     gl.useProgram(program);
     gl.uniformMatrix4fv(at.view, false, this.sunView);
-    this.#each(parts, at);
+    this.#all(at);
   }
 
   /** Number of the part at a pixel of the canvas (from the top left), 0: none. */
