@@ -51,6 +51,7 @@ from yellowiron.alignment.labelling.result import Labels, to_alignment
 from yellowiron.alignment.labelling.review import name_findings, review_findings
 from yellowiron.alignment.labelling.suspects import suspect_bodies
 from yellowiron.alignment.labelling.track_places import on_tracks, track_places, without_tracks
+from yellowiron.alignment.labelling.undercut import too_low, undercut
 from yellowiron.alignment.structure.observation import Observation, observe
 from yellowiron.alignment.tolerances import CONTACT
 from yellowiron.model.alignment import DECIDED, Alignment, Vector
@@ -123,15 +124,20 @@ def align(
         (answer, frame, agreement), observation, scores = fused_reading, wide, named
     else:
         answer, frame = _framed(answer, observation, tracks)
+    low = undercut(observation, answer)
     propagation = Propagation(
         observation,
         answer,
         scores,
         frame.matrix[2, :3] if frame is not None else np.array([0.0, 0.0, 1.0]),
+        never=too_low(observation, answer),
         rivals={} if is_whole(answer) or answer.judged is not None else rivals_of(answer),
         suspects={}
         if answer.judged is not None
-        else suspect_bodies(answer.solution, answer.template, _surfaces(observation, answer)),
+        else {
+            **suspect_bodies(answer.solution, answer.template, _surfaces(observation, answer)),
+            **dict.fromkeys(low, "what is carried reaches as low as its carrier: parts of one are the other's"),
+        },
     )
     places = with_couplers(propagation.run(), observation.solids, answer)
     apart |= {observation.solids[i].part.id: metres for i, metres in propagation.apart.items()}

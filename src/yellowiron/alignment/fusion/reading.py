@@ -11,7 +11,7 @@ import numpy as np
 from yellowiron.alignment.assignment.answer import Answer, Judged
 from yellowiron.alignment.assignment.cp_sat import MISSING_WEIGHT, Solution
 from yellowiron.alignment.fusion.bonds import Bond, bonds_of, out_of_line
-from yellowiron.alignment.fusion.judge import Field, against, field_of, labelled, leads, weighed
+from yellowiron.alignment.fusion.judge import SWEEPS, Field, against, field_of, labelled, leads, weighed
 from yellowiron.alignment.fusion.pieces import Piece, leading, pieces_of
 from yellowiron.alignment.fusion.stance import Stance, stance_of
 from yellowiron.alignment.fusion.votes import (
@@ -30,6 +30,8 @@ from yellowiron.alignment.structure.observation import Observation
 from yellowiron.model.geometry import Floats
 from yellowiron.model.template import Template, choose
 
+GLANCE, LIKELY = SWEEPS // 2, 4
+"""So many sweeps tell which variants are the likeliest, and so many of these are judged with all."""
 MISSING = 60.0
 """What a variant loses for every body of its own that nothing plays."""
 NEARLY = 2
@@ -140,20 +142,27 @@ def fused(
     contacts show an exact axis of."""
     evidence = evidence_of(observation, scores, answer, edited, template)
 
-    def tried(chosen: dict[str, str], evidence: Evidence) -> _Best:
-        resolved = choose(template, chosen)
-        votes = evidence.votes(resolved)
-        lined = out_of_line([evidence.pieces[k] for k in evidence.leading])
-        field = field_of([votes[k] for k in evidence.leading], evidence.between, resolved, weights(), lined)
-        labels, score = labelled(field)
+    fields: dict[tuple[object, ...], tuple[Template, Votes, Field]] = {}
+
+    def tried(chosen: dict[str, str], evidence: Evidence, sweeps: int = SWEEPS) -> _Best:
+        key = (evidence, *sorted(chosen.items()))
+        if key not in fields:
+            resolved = choose(template, chosen)
+            votes = evidence.votes(resolved)
+            lined = out_of_line([evidence.pieces[k] for k in evidence.leading])
+            own = [votes[k] for k in evidence.leading]
+            fields[key] = (resolved, votes, field_of(own, evidence.between, resolved, weights(), lined))
+        resolved, votes, field = fields[key]
+        labels, score = labelled(field, sweeps=sweeps)
         played = {field.bodies[n] for n in labels if n < len(field.bodies)}
         score -= MISSING * len(_missing(resolved, played))
         return _Best(score, chosen, resolved, field, labels, votes)
 
     # Which end is the front is a guess so far.
     turned = replace(evidence, stance=evidence.stance.turned())
-    evidence = max((evidence, turned), key=lambda e: tried(variants[0], e).score)
-    best = max((tried(chosen, evidence) for chosen in variants), key=lambda b: b.score)
+    evidence = max((evidence, turned), key=lambda e: tried(variants[0], e, GLANCE).score)
+    glanced = sorted((tried(chosen, evidence, GLANCE) for chosen in variants), key=lambda b: -b.score)
+    best = max((tried(b.choices, evidence) for b in glanced[:LIKELY]), key=lambda b: b.score)
     if more := _between_found(best, evidence):
         wider = replace(evidence, leading=tuple(sorted({*evidence.leading, *more})))
         found = tried(best.choices, wider)

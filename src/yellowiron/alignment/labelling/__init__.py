@@ -3,6 +3,6 @@
 In: the search's `Answer`, its `Observation`, tracks, what a person said. Out: an `Alignment`.
 
 In this order: `place` (what is known of a part), `review` (what a person should know), `propagation` (from bodies to
-all their parts), `coupler` and `track_places` (parts with rules of their own), `suspects` (which bodies to mistrust),
-`confidence` (how probable a place is), `result` (the alignment as a value).
+all their parts), `coupler` and `track_places` (parts with rules of their own), `suspects`, `undercut` (which bodies to
+mistrust), `confidence` (how probable a place is), `result` (the alignment as a value).
 """

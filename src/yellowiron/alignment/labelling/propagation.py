@@ -39,7 +39,7 @@ class Propagation:
     for (`loose`), and those that stand `apart`, with the metres to the rest.
 
     `scores`: what the names say of each solid; `up`: the upright, CAD frame; `rivals`: cluster → the body it could as
-    well be; `suspects`: body → why it is doubtful."""
+    well be; `suspects`: body → why it is doubtful; `never`: solid → a body that it is not of, whatever it touches."""
 
     observation: Observation
     answer: Answer
@@ -47,6 +47,7 @@ class Propagation:
     up: Floats
     rivals: Mapping[int, str | None] = field(default_factory=dict)
     suspects: Mapping[str, str] = field(default_factory=dict)
+    never: Mapping[int, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self.solids, self.touch = self.observation.solids, self.observation.touch
@@ -56,6 +57,9 @@ class Propagation:
         self.loose = solids_without_a_body(self.solids, self.structure, self.solution)
         self.apart: dict[int, float] = {}
         self.cluster_of = {b: c for c, b in self.solution.body_of.items()}
+        self.assemblies: dict[tuple[str, ...], list[int]] = {}
+        for solid in self.solids:
+            self.assemblies.setdefault(solid.part.path, []).append(solid.index)
 
     def run(self) -> dict[int, Place]:
         """Every solid's place; solids that nothing speaks for are absent, and those far from all others (`apart`)."""
@@ -240,7 +244,7 @@ class Propagation:
         for flat in self.observation.flats:
             across.setdefault(flat.a, []).append((flat.b, flat.area))
             across.setdefault(flat.b, []).append((flat.a, flat.area))
-        self._rounds(lambda i: across.get(i, []), 0.97, "lies flat against {body}", "flat")
+        self._rounds(lambda i: self._akin(i, across.get(i, [])), 0.97, "lies flat against {body}", "flat")
 
     def _by_touch(self) -> None:
         """Meshes that touch or cut each other, parts counted, those that a part is sunk in for more."""
@@ -252,6 +256,7 @@ class Propagation:
         def neighbours(i: int) -> list[tuple[int, float]]:
             found = [j for j in beside.get(i, []) if j in self.places and j not in self.structure.slight]
             found = [j for j in found if self.touch.touching(i, j)]
+            found = [j for j, _ in self._akin(i, [(j, 1.0) for j in found])] or found
             if len({self.places[j].body for j in found}) < 2:
                 return [(j, 1.0) for j in found]
             # Between bodies it counts how deep a part is in each.
@@ -269,6 +274,8 @@ class Propagation:
                     for other, weight in neighbours(i):
                         place = self.places.get(other)
                         if place is None or (place.role != place.body and self._is_pin(other)):
+                            continue
+                        if any(self.never.get(member) == place.body for member in group):
                             continue
                         votes[place.body] = votes.get(place.body, 0.0) + weight
                         sure = min(sure, place.confidence)
@@ -298,11 +305,21 @@ class Propagation:
         if len(path) < 2:
             return {}
         counts: dict[str, int] = {}
-        for j, place in self.places.items():
-            if self.solids[j].part.path == path:
-                counts[place.body] = counts.get(place.body, 0) + 1
+        for j in self.assemblies[path]:
+            if j in self.places:
+                counts[self.places[j].body] = counts.get(self.places[j].body, 0) + 1
         total = sum(counts.values())
         return {b: n / total for b, n in counts.items() if n > 0.6 * total} if total >= 3 else {}
+
+    def _akin(self, i: int, neighbours: list[tuple[int, float]]) -> list[tuple[int, float]]:
+        """Of a part's neighbours those of bodies that its assembly has parts of. Where contacts did not find the
+        machine, lying against another assembly's part says less than that; who has no assembly is anybody's."""
+        path = self.solids[i].part.path
+        if self.answer.judged is None or len(path) < 2 or len(neighbours) == 0:
+            return neighbours
+        own = {self.places[j].body for j in self.assemblies[path] if j in self.places and j != i}
+        alike = [(j, weight) for j, weight in neighbours if j in self.places and self.places[j].body in own]
+        return alike if own else neighbours
 
     def _on_pins(self) -> None:
         """Rings, washers and keepers that only touch a pin go with the body that carries it."""
@@ -363,7 +380,7 @@ class Propagation:
             for k in np.flatnonzero(gap <= limit):
                 j = placed[int(k)]
                 body = self.places[j].body
-                if gap[k] < far.get(body, np.inf):
+                if self.never.get(i) != body and gap[k] < far.get(body, np.inf):
                     far[body] = min(far.get(body, np.inf), self.touch.distance(min(i, j), max(i, j)))
         if not far:
             return

@@ -1,0 +1,78 @@
+"""Bodies that slew on another and yet reach down as far: what carries a machine is at its bottom."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from yellowiron.alignment.assignment.answer import Answer
+from yellowiron.alignment.structure.observation import Observation, slewing_joints
+from yellowiron.model.geometry import Floats
+from yellowiron.model.template import Template
+
+BELOW = 0.3
+"""Of the carrier's height: what it carries begins higher up on it."""
+
+
+def undercut(observation: Observation, answer: Answer) -> tuple[str, ...]:
+    """The two bodies of every slewing joint that was found where the carried one, which is higher on the whole, reaches
+    about as low as its carrier: parts of the carrier were taken for it."""
+    found: list[str] = []
+    for carrier, carried, up in _slewing(observation, answer):
+        members = _members(answer)
+        if _heights(members[carried], observation, up)[1] < _limit(members[carrier], observation, up):
+            found += [carrier, carried]
+    return tuple(found)
+
+
+def too_low(observation: Observation, answer: Answer) -> dict[int, str]:
+    """Solid → the body that it is not of, whatever it touches: the carried one of a slewing joint, for what reaches
+    down to where nothing but its carrier is, as a track's belt does, whose upper run passes under the machine."""
+    found: dict[int, str] = {}
+    for carrier, carried, up in _slewing(observation, answer):
+        members = _members(answer)
+        limit = _limit(members[carrier], observation, up)
+        low = {s.index for s in observation.solids if float((s.points @ up).min()) < limit}
+        found |= dict.fromkeys(sorted(low - members[carried]), carried)
+    return found
+
+
+def _slewing(observation: Observation, answer: Answer) -> Iterator[tuple[str, str, Floats]]:
+    """Of every slewing joint that was found: its carrier, what that carries, and upwards."""
+    solution, structure, template, members = answer.solution, answer.structure, answer.template, _members(answer)
+    for name in slewing_joints(template):
+        bodies = {b for b in template.bodies_of(template.joint(name)) if b is not None}
+        if name not in solution.hinge_of or len(bodies) != 2 or not bodies <= members.keys():
+            continue
+        carrier, carried = sorted(bodies, key=lambda b: _depth(b, template))
+        up = structure.axes[structure.hinges[solution.hinge_of[name]].axis].direction
+        below, above = (_heights(members[b], observation, up)[0] for b in (carrier, carried))
+        yield carrier, carried, up if above > below else -up
+
+
+def _members(answer: Answer) -> dict[str, frozenset[int]]:
+    return {b: frozenset(answer.structure.clusters[c].members) for c, b in answer.solution.body_of.items()}
+
+
+def _limit(carrier: frozenset[int], observation: Observation, up: Floats) -> float:
+    """The height that what is carried does not reach down to."""
+    _, low, high = _heights(carrier, observation, up)
+    return low + BELOW * (high - low)
+
+
+def _depth(body: str, template: Template) -> int:
+    """How many roles are above a body's."""
+    depth, role = 0, template.role(body).parent
+    while role is not None:
+        depth, role = depth + 1, template.role(role).parent
+    return depth
+
+
+def _heights(members: frozenset[int], observation: Observation, up: Floats) -> tuple[float, float, float]:
+    """How high some solids are on the whole, by their surfaces, at their lowest and at their highest."""
+    solids = [observation.solids[i] for i in sorted(members)]
+    runs = [solid.points @ up for solid in solids]
+    weights = np.array([solid.surface for solid in solids]) + 1e-12
+    middle = float(np.average([run.mean() for run in runs], weights=weights))
+    return middle, min(float(run.min()) for run in runs), max(float(run.max()) for run in runs)
