@@ -123,6 +123,23 @@ def test_the_machine_moves(page: tuple[Any, list[str]]) -> None:
     assert not errors
 
 
+def test_parts_by_body_and_as_the_cad_model_has_them(page: tuple[Any, list[str]], session: Session) -> None:
+    opened, errors = page
+    opened.get_by_role("tab", name="Parts").click()
+    heads = opened.locator(".v-list > details > summary")
+    assert heads.count() > 10
+    opened.get_by_role("button", name="CAD tree").click()
+    roots = {part.split("/")[0] for part in session.parts}
+    assert heads.count() == len(roots)
+    heads.first.click()
+    inside = opened.locator(".v-list > details > details > summary")
+    inside.first.wait_for()
+    assert inside.count() == len({part.split("/")[1] for part in session.parts if part.count("/") > 1})
+    opened.get_by_role("button", name="CAD tree").click()
+    opened.get_by_role("tab", name="Move").click()
+    assert not errors
+
+
 @pytest.mark.parametrize(("width", "height"), [(1400, 900), (900, 800), (420, 800)])
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_nothing_runs_out_of_the_page(page: tuple[Any, list[str]], width: int, height: int, scheme: str) -> None:

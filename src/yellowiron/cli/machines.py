@@ -1,10 +1,11 @@
-"""Of machines that were built: `measure`, `check`, `simulate`, `export`."""
+"""Of machines that were built: `measure`, `compare`, `check`, `simulate`, `export`."""
 
 from __future__ import annotations
 
+import json
 from dataclasses import asdict
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import typer
 from rich.text import Text
@@ -13,6 +14,8 @@ import yellowiron
 from yellowiron.cli.application import app
 from yellowiron.cli.options import command
 from yellowiron.cli.telling import answer, progress_shown
+from yellowiron.model.errors import YellowironError
+from yellowiron.support.files.inputs import MEGABYTE, read_input
 
 
 @command(app)
@@ -26,6 +29,32 @@ def measure(
     entries = [asdict(m) for m in found]
     answer({"measurements": entries}, measurement_table(entries))
     raise typer.Exit(1 if any(m.role == "checked" and within_tolerance(m) is False for m in found) else 0)
+
+
+@command(app)
+def compare(
+    before: Annotated[Path, typer.Argument(metavar="FOLDER", help="A folder that build wrote to.")],
+    after: Annotated[Path, typer.Argument(metavar="FOLDER", help="Another.")],
+) -> None:
+    """Say what differs between two builds: values, measurements, cylinders, joints, masses, parts, findings."""
+    from yellowiron.report import difference_table, differences
+
+    found = differences(_report(before), _report(after))
+    answer({"differences": [asdict(one) for one in found]}, difference_table(found))
+    raise typer.Exit(1 if found else 0)
+
+
+def _report(folder: Path) -> dict[str, Any]:
+    """The `report.json` of a build."""
+    file = folder / "report.json" if folder.is_dir() else folder
+    hint = "Name the folder that a build wrote to."
+    try:
+        document = json.loads(read_input(file, what="The report", most=256 * MEGABYTE, error=YellowironError))
+    except ValueError as error:
+        raise YellowironError("This is no report of a build", where=str(file), hint=hint) from error
+    if not isinstance(document, dict) or not {"verdict", "alignment", "joints", "cylinders"} <= document.keys():
+        raise YellowironError("This is no report of a build", where=str(file), hint=hint)
+    return document
 
 
 @command(app)

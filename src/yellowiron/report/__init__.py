@@ -2,7 +2,7 @@
 
 In the order in which they build on each other: `words` and `rows` (how values, names and counted rows are worded),
 `document` (the report as one document; what fell short), `open_points` (that again, one line a
-cause), `console` (tables for a terminal), `html` (the page).
+cause), `comparison` (two builds), `console` (tables for a terminal), `html` (the page).
 """
 
 from typing import TYPE_CHECKING
@@ -10,9 +10,11 @@ from typing import TYPE_CHECKING
 from yellowiron.support.lazy import lazy_names
 
 if TYPE_CHECKING:
+    from yellowiron.report.comparison import Difference, differences
     from yellowiron.report.console import (
         alignment_table,
         build_summary,
+        difference_table,
         finding_table,
         lint_table,
         measurement_table,
@@ -36,10 +38,13 @@ if TYPE_CHECKING:
 __all__ = [
     "BuildFacts",
     "Cause",
+    "Difference",
     "alignment_entry",
     "alignment_table",
     "build_summary",
     "causes",
+    "difference_table",
+    "differences",
     "fell_short",
     "finding_table",
     "lint_table",
@@ -61,10 +66,13 @@ __getattr__, __dir__ = lazy_names(
     {
         "BuildFacts": "document",
         "Cause": "open_points",
+        "Difference": "comparison",
         "alignment_entry": "document",
         "alignment_table": "console",
         "build_summary": "console",
         "causes": "open_points",
+        "difference_table": "console",
+        "differences": "comparison",
         "fell_short": "document",
         "finding_table": "console",
         "lint_table": "console",

@@ -13,13 +13,27 @@ from rich.text import Text
 
 from yellowiron.model.alignment import Alignment, PartAssignment
 from yellowiron.model.mechanism import Measurement
+from yellowiron.report.comparison import Difference
 from yellowiron.report.document import within_tolerance
 from yellowiron.report.open_points import causes, tally
-from yellowiron.report.words import shown
+from yellowiron.report.words import counted, shown
 from yellowiron.support.text import display
 
 _STATUS = {"ok": "green", "review": "yellow", "conflict": "red", "missing": "dim", "unreadable": "red"}
 _SEVERITY = {"error": "red", "warning": "yellow", "info": "dim"}
+
+
+def difference_table(differences: Sequence[Difference]) -> RenderableType:
+    """What differs between two builds, or that nothing does."""
+    if not differences:
+        return Text("The builds are the same.", "bold green")
+    table = _table("What", "Name", "Before", "After", right=())
+    table.columns[0].no_wrap = True
+    for one in differences:
+        table.add_row(one.kind, one.name, Text(one.before or "–", "dim"), one.after or "–")
+    counts = Counter(one.kind for one in differences)
+    words = ", ".join(f"{counted(number, kind)}" for kind, number in counts.items())
+    return Group(table, "", Text(f"{words} differ.", "bold"))
 
 
 def specification_table(

@@ -252,12 +252,20 @@ class Viewer {
     this.list = element("div", { class: "v-list" });
     this.count = element("span", { class: "dim" });
     const all = element("button", { type: "button", onclick: () => this.show(() => true) }, "Show all");
+    const tree = element("button", {
+      type: "button", "aria-pressed": "false",
+      onclick: () => {
+        this.byTree = !this.byTree;
+        tree.setAttribute("aria-pressed", this.byTree);
+        this.#fill();
+      },
+    }, "CAD tree");
     this.#fill();
-    const head = element("div", { class: "v-head" }, this.count, all);
+    const head = element("div", { class: "v-head" }, this.count, element("span", {}, tree, " ", all));
     return element("section", { class: "v-parts" }, this.search, head, this.list);
   }
 
-  /** The parts that the search leaves, body by body. */
+  /** The parts that the search leaves, body by body or as the CAD model has them. */
   #fill() {
     const wanted = this.search.value.trim().toLowerCase().split(/\s+/).filter(Boolean);
     const found = this.model.parts.filter((part) => {
@@ -267,21 +275,38 @@ class Viewer {
     const hidden = this.model.parts.filter((part) => part.hidden).length;
     const left = this.model.leftOut ? `, ${this.model.leftOut} small ones not drawn` : "";
     this.count.textContent = `${found.length} parts${hidden ? `, ${hidden} hidden` : ""}${left}`;
-    const open = new Set([...this.list.querySelectorAll("details[open]")].map((each) => each.dataset.body));
-    this.list.replaceChildren(
-      ...this.model.bodies.map((body, index) => {
+    const open = new Set([...this.list.querySelectorAll("details[open]")].map((each) => each.dataset.key));
+    const wide = wanted.length > 0 && found.length <= 60;
+    const group = (key, label, swatch, parts, fill) => {
+      const made = element("details", { "data-key": key });
+      const filled = () => made.childElementCount < 2 && made.append(...fill());
+      const name = element("span", {}, label, element("span", { class: "dim" }, ` ${parts.length}`));
+      made.append(element("summary", {}, swatch, name, this.#eye(label, parts)));
+      made.addEventListener("toggle", () => made.open && filled());
+      if ((made.open = open.has(key) || wide)) filled();
+      return made;
+    };
+    const under = (parts, depth, above) => {
+      const assemblies = new Map();
+      const own = [];
+      for (const part of parts) {
+        const steps = part.path.split("/");
+        if (steps.length - 1 <= depth) own.push(part);
+        else assemblies.set(steps[depth], [...(assemblies.get(steps[depth]) ?? []), part]);
+      }
+      const groups = [...assemblies].map(([name, inside]) =>
+        group(`${above}/${name}`, name, null, inside, () => under(inside, depth + 1, `${above}/${name}`)),
+      );
+      return [...groups, ...own.map((part) => this.#row(part))];
+    };
+    const bodies = () =>
+      this.model.bodies.flatMap((body, index) => {
         const parts = found.filter((part) => part.body === index);
-        if (!parts.length) return "";
-        const group = element("details", { "data-body": body.name });
-        const rows = () => group.childElementCount < 2 && group.append(...parts.map((part) => this.#row(part)));
         const swatch = element("i", { style: `background:rgb(${body.color})` });
-        const name = element("span", {}, words(body.name), element("span", { class: "dim" }, ` ${parts.length}`));
-        group.append(element("summary", {}, swatch, name, this.#eye(words(body.name), parts)));
-        group.addEventListener("toggle", () => group.open && rows());
-        if ((group.open = open.has(body.name) || (wanted.length > 0 && found.length <= 60))) rows();
-        return group;
-      }),
-    );
+        const rows = () => parts.map((part) => this.#row(part));
+        return parts.length ? [group(body.name, words(body.name) || "no part of the machine", swatch, parts, rows)] : [];
+      });
+    this.list.replaceChildren(...(this.byTree ? under(found, 0, "") : bodies()));
   }
 
   #row(part) {

@@ -393,7 +393,8 @@ class Studio {
   }
 
   #rows() {
-    by("found").replaceChildren(...this.roles.map((role, index) => element("li", {}, button(role.words, () => this.#pick(index), { "aria-selected": index === this.row }))));
+    const none = element("li", { class: "dim" }, "No role of that name. A part without one of its own, such as a cab, has its body's.");
+    by("found").replaceChildren(...(this.roles.length ? [] : [none]), ...this.roles.map((role, index) => element("li", {}, button(role.words, () => this.#pick(index), { "aria-selected": index === this.row }))));
     by("found").querySelector("[aria-selected=true]")?.scrollIntoView({ block: "nearest" });
   }
 
