@@ -272,7 +272,7 @@ def solve(
 
 def _place(path: Path | str) -> str:
     """Where an input is, for whoever builds this machine again."""
-    return str(Path(path).absolute())
+    return str(Path(path).resolve())
 
 
 def _earlier(alignment_file: Path | str | None, left: Path) -> Path | None:
