@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
-import sys
 import threading
 from dataclasses import dataclass, field
 from typing import Literal
 
 from yellowiron.studio.setup import Setup
+from yellowiron.support import isolated
 
 _KEPT = 200
 """Lines of a build that are kept."""
@@ -41,10 +42,11 @@ class Build:
             self._process.terminate()
 
     def _run(self) -> None:
-        command = [sys.executable, "-m", "yellowiron", *self.setup.command(), "--verbose"]
+        # As the command does: no module that lies in the current folder is run.
+        command = [*isolated.interpreter(), "-m", "yellowiron", *self.setup.command(), "--verbose"]
         self._process = subprocess.Popen(
             command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
-            encoding="utf-8", errors="replace",
+            encoding="utf-8", errors="replace", env=isolated.shielded(os.environ),
         )  # fmt: skip
         assert self._process.stderr is not None
         for line in self._process.stderr:
