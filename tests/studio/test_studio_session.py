@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import os
+import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -63,6 +65,48 @@ def test_decided_undone_redone_and_found_again(open_studio: Callable[[], Session
     third = open_studio()
     assert third.history() == ([], 0)
     assert roles(third)[other] is None
+
+
+@pytest.mark.slow
+def test_killed_between_the_journal_and_the_file(open_studio: Callable[[], Session]) -> None:
+    """Three decisions were answered, and the program was killed before it had solved them: none is lost. But a file
+    that a person puts back by hand goes before the history."""
+    session = open_studio()
+    file = session.setup.out / "alignment.json"
+    parts = [p for p, role in roles(session).items() if role == "rear_frame"][:4]
+    session.do(session.read({"kind": "role", "parts": {parts[0]: "front_frame"}}))
+    session.settled(60.0)
+    session.keep()
+    early = file.read_bytes()
+    for part in parts[1:]:
+        session.do(session.read({"kind": "role", "parts": {part: "front_frame"}}))
+    session.undo()
+    session.settled(60.0)
+    session.keep()
+    session.close()
+    file.write_bytes(early)
+    os.utime(file, ns=(0, 0))
+    again = open_studio()
+    assert [len(again.history()[0]), again.history()[1]] == [4, 3]
+    assert [roles(again)[p] for p in parts] == ["front_frame"] * 3 + ["rear_frame"]
+    again.keep()
+    again.close()
+    file.write_bytes(early)
+    third = open_studio()
+    assert third.history() == ([], 0)
+    assert [roles(third)[p] for p in parts] == ["front_frame"] + ["rear_frame"] * 3
+
+
+@pytest.mark.slow
+def test_decisions_that_come_while_others_are_solved(open_studio: Callable[[], Session]) -> None:
+    session = open_studio()
+    parts = [p for p, role in roles(session).items() if role == "rear_frame"][:12]
+    for part in parts:
+        session.do(session.read({"kind": "role", "parts": {part: "front_frame"}}))
+        time.sleep(0.17)
+    state = session.settled(60.0)
+    assert state.said == session.said == 12
+    assert {p.part for p in state.aligned.parts if p.source == "edited"} == set(parts)
 
 
 @pytest.mark.slow

@@ -24,17 +24,19 @@ _MOST = 64 * MEGABYTE
 class Journal:
     """Operations in the order they were made, those before the cursor in force, on top of a `base` (None: of a new
     journal, which `begin` gives one). `read` takes an operation from its line; one that it does not take, of a part
-    that a revised CAD model does not have, is passed over."""
+    that a revised CAD model does not have, is passed over. `passed`: the operations in force after each line."""
 
     def __init__(self, file: Path, read: Callable[[object], Operation]) -> None:
         self._file = file
         self.operations: list[Operation] = []
         self.cursor = 0
+        self.passed: list[list[Operation]] = [[]]
         lines = self._lines()
         self.base: Mapping[str, Any] | None = lines[0].get("base") if lines else None
         for line in lines[1:]:
             with contextlib.suppress(YellowironError):
                 self._apply(line, read)
+                self.passed.append(self.in_force)
 
     def begin(self, base: Mapping[str, Any]) -> None:
         """A new history on top of these decisions; the old one is gone."""
@@ -61,6 +63,11 @@ class Journal:
         self._append({"redo": True})
         self.cursor += 1
         return True
+
+    @property
+    def written_ns(self) -> int:
+        """When it was last written, nanoseconds since 1970."""
+        return self._file.stat().st_mtime_ns
 
     @property
     def in_force(self) -> list[Operation]:

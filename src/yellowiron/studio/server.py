@@ -148,6 +148,7 @@ class _Pages:
         self._boxes = boxes_of(session.assembly)
         self._build = Build(session.setup)
         self._machine: tuple[int, bytes] = (0, b"")
+        self._questions: tuple[int, list[dict[str, Any]]] = (0, [])
         self._lock = threading.Lock()
         self._folder = tempfile.TemporaryDirectory(prefix="yellowiron-")
         self._drawn: dict[int, Path] | None = None
@@ -259,7 +260,7 @@ class _Pages:
             "verdict": state.failed or document.get("verdict", ""),
             "causes": [asdict(cause) for cause in report.causes(document)] if document else [],
             "tally": report.tally(document) if document else "no machine yet",
-            "questions": [asdict(q) for q in questions(state, self._boxes)],
+            "questions": self._asked(state),
             "history": [
                 {"words": words(o), "by": o.signature.by, "date": o.signature.date, "holds": k < cursor}
                 for k, o in enumerate(operations)
@@ -269,6 +270,14 @@ class _Pages:
             "build": {"state": self._build.state, "lines": self._build.lines[-12:],
                       "command": " ".join(["yellowiron", *self._session.setup.command()])},
         }  # fmt: skip
+
+    def _asked(self, state: State) -> list[dict[str, Any]]:
+        """The questions of a state, made once."""
+        version, asked = self._questions
+        if version != state.version:
+            asked = [asdict(question) for question in questions(state, self._boxes)]
+            self._questions = (state.version, asked)
+        return asked
 
     def _packed(self) -> bytes:
         with self._lock:

@@ -170,9 +170,7 @@ class Session:
 
     def keep(self) -> None:
         """Writes the decisions where a build takes them from."""
-        state = self.settled()
-        with self._heard, output_file(self._file) as temporary:
-            write_alignment(state.aligned, self.assembly, temporary)
+        self._write(self.settled())
 
     def history(self) -> tuple[list[Operation], int]:
         """All operations, and how many of them hold."""
@@ -180,6 +178,10 @@ class Session:
             return list(self._journal.operations), self._journal.cursor
 
     # ---- what comes of it ----
+    def _write(self, state: State) -> None:
+        with self._heard, output_file(self._file) as temporary:
+            write_alignment(state.aligned, self.assembly, temporary)
+
     def _changed(self) -> int:
         self._said += 1
         self._heard.notify_all()
@@ -203,7 +205,8 @@ class Session:
                     continue
                 self.state = state
                 self._heard.notify_all()
-            self.keep()
+            # Not what is settled: more may have been said, which is for the next round.
+            self._write(state)
 
     def _state(self, fixed: Mapping[str, str]) -> State:
         """What was said, solved; where that fails as nobody foresaw, the machine stays as it was, and it is said."""
@@ -251,15 +254,16 @@ class Session:
         )  # fmt: skip
 
     def _continues(self) -> bool:
-        """Whether the journal's history led to the decisions in alignment.json: all of it, or all but its last line,
-        which a killed program may not have come to write there."""
+        """Whether the decisions in alignment.json are those that the journal led to, or, in a file that is older than
+        the journal, ever did: a killed program may not have come to write the last there. Else a person has changed
+        the file."""
         base = self._journal.base
         if base is None:
             return False
         now = _snapshot(_own(self._edits), self._edits.values)
-        operations, cursor = self._journal.operations, self._journal.cursor
-        near = {cursor, max(cursor - 1, 0), min(cursor + 1, len(operations))}
-        return any(_snapshot(*_after(base, operations[:count])) == now for count in near)
+        behind = not self._file.exists() or self._file.stat().st_mtime_ns < self._journal.written_ns
+        known = self._journal.passed if behind else [self._journal.in_force]
+        return any(_snapshot(*_after(base, operations)) == now for operations in known)
 
 
 def _other_side(role: object, template: Template) -> object:
