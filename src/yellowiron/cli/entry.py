@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import signal
 import sys
 
 from yellowiron.cli import building, library, machines, studio  # noqa: F401 - each adds its commands
 from yellowiron.cli.application import app
 from yellowiron.model.errors import OutputError, YellowironError
 from yellowiron.report import terminal
+from yellowiron.support import stopping
 from yellowiron.support.limits import require_supported_platform
 
 
@@ -18,7 +18,7 @@ def main() -> None:
     terminal.prepare()
     try:
         require_supported_platform()
-        stopped = _stoppable()
+        stopped = stopping.listen()
         try:
             code = terminal.called(app)
         except BaseException:
@@ -46,18 +46,3 @@ def _tell(error: YellowironError) -> None:
         except OutputError:
             pass
     terminal.complain(error)
-
-
-def _stoppable() -> list[int]:
-    """A terminated run, or one whose terminal was closed, leaves as an interrupted one does: its child ends, its
-    temporary folders go. What nohup has told to stay stays. The list has the signal that came."""
-    stopped: list[int] = []
-
-    def stop(number: int, frame: object) -> None:
-        stopped.append(number)
-        sys.exit(128 + number)
-
-    for number in (signal.SIGTERM, signal.SIGHUP):
-        if signal.getsignal(number) != signal.SIG_IGN:
-            signal.signal(number, stop)
-    return stopped

@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from yellowiron.model.errors import OutputError, YellowironError
-from yellowiron.support import limits
+from yellowiron.support import limits, stopping
 from yellowiron.support.files import staging
 
 _HINT = "Name a folder that you may write to."
@@ -119,7 +119,7 @@ def _staging(base: Path, target: Path) -> Iterator[Path]:
     """A staging folder in `base`, which is made; gone again, as all that was made, if the block raises. `OutputError`
     for what cannot be written: on a disk that is full a library may say something else, or nothing of use."""
     missing = [one for one in (base, *base.parents) if not one.exists()]
-    with contextlib.ExitStack() as stack:
+    with stopping.shielded(), contextlib.ExitStack() as stack:
         stack.callback(_remove, missing)
         try:
             base.mkdir(parents=True, exist_ok=True)
@@ -127,7 +127,8 @@ def _staging(base: Path, target: Path) -> Iterator[Path]:
         except OSError as error:
             raise _said(error, target) from error
         try:
-            yield holder
+            with stopping.exposed():
+                yield holder
         except Exception as error:
             cause = _cause(error, holder)
             if cause is None:

@@ -17,7 +17,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from yellowiron.support import limits
+from yellowiron.support import limits, stopping
 
 _PREFIX = ".yellowiron-"
 _COMMIT, _UNDO = "commit", "undo"
@@ -29,16 +29,18 @@ _YOUNG, _OLD = 60.0, 86400.0
 def staging_folder(base: Path) -> Iterator[Path]:
     """A staging folder in `base`, with an empty folder `new` in it; gone when the block ends. `OSError`."""
     recover(base)
-    holder = Path(tempfile.mkdtemp(prefix=_PREFIX, dir=base))
-    try:
-        with (holder / "lock").open("w") as lock:
-            # Where there are no locks, its age has to do.
-            with contextlib.suppress(OSError):
-                limits.lock(lock)
-            (holder / "new").mkdir()
-            yield holder
-    finally:
-        shutil.rmtree(holder, ignore_errors=True)
+    with stopping.shielded():
+        holder = Path(tempfile.mkdtemp(prefix=_PREFIX, dir=base))
+        try:
+            with (holder / "lock").open("w") as lock:
+                # Where there are no locks, its age has to do.
+                with contextlib.suppress(OSError):
+                    limits.lock(lock)
+                (holder / "new").mkdir()
+                with stopping.exposed():
+                    yield holder
+        finally:
+            shutil.rmtree(holder, ignore_errors=True)
 
 
 def install(holder: Path, base: Path) -> None:

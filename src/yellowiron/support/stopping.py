@@ -1,0 +1,56 @@
+"""Ends a run that was asked to end: as an interrupted one does, and never while it takes away what it made."""
+
+from __future__ import annotations
+
+import signal
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+_asked: list[int] = []
+_raised: list[int] = []
+_depth = 0
+
+
+def listen() -> list[int]:
+    """From now on a termination, or a closed terminal, leaves by `SystemExit`: once, so that nothing that is taken away
+    on the way out is left half. What nohup has told to stay stays. The list has the signals that came."""
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        if signal.getsignal(number) != signal.SIG_IGN:
+            signal.signal(number, _ask)
+    return _asked
+
+
+@contextmanager
+def shielded() -> Iterator[None]:
+    """A signal that comes inside is heard at the end, or where `exposed` lets it in."""
+    global _depth
+    _depth += 1
+    try:
+        yield
+    finally:
+        _depth -= 1
+        _leave()
+
+
+@contextmanager
+def exposed() -> Iterator[None]:
+    """Takes back one `shielded` around it: what may be ended at any point."""
+    global _depth
+    _depth -= 1
+    try:
+        _leave()
+        yield
+    finally:
+        _depth += 1
+
+
+def _ask(number: int, frame: object) -> None:
+    _asked.append(number)
+    _leave()
+
+
+def _leave() -> None:
+    if _asked and not _raised and not _depth:
+        _raised.append(_asked[0])
+        sys.exit(128 + _asked[0])
