@@ -55,7 +55,7 @@ from yellowiron.model.mechanism import Mechanism  # noqa: E402
 from yellowiron.model.rows import expand  # noqa: E402
 from yellowiron.model.specification import Specifications  # noqa: E402
 from yellowiron.model.template import choose  # noqa: E402
-from yellowiron.pipeline import find_roles  # noqa: E402
+from yellowiron.stages import find_roles  # noqa: E402
 
 Case = tuple[str, ...]
 Result = dict[str, Any]

@@ -41,7 +41,7 @@ from yellowiron.library import load_template  # noqa: E402
 from yellowiron.model.errors import YellowironError  # noqa: E402
 from yellowiron.model.specification import Specifications  # noqa: E402
 from yellowiron.model.template import Template, choose  # noqa: E402
-from yellowiron.pipeline import find_roles  # noqa: E402
+from yellowiron.stages import find_roles  # noqa: E402
 
 DATA = ROOT / "src/yellowiron/alignment/data/fusion.json"
 MARGIN = 15.0

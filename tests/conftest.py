@@ -41,8 +41,10 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 @pytest.fixture(scope="session", autouse=True)
 def _own_cache(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
-    """Tests leave the user's cache alone; a run's workers share one."""
+    """Tests leave the user's cache alone; a run's workers share one. Stages are made anew: a test that changes one, or
+    builds twice, means it."""
     with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("YELLOWIRON_FRESH", "1")
         patch.setenv("YELLOWIRON_CACHE", str(_of_the_run(tmp_path_factory) / "cache"))
         yield
 

@@ -140,7 +140,7 @@ def never(*_: object) -> tuple[Mesh, ...]:
 def test_pieces_are_kept_by_content(cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     box = as_mesh(small_machine.open_box(0.9, 1.2, 0.4, 0.02))
     made = content(convex_pieces(box))
-    assert len(list(cache.rglob("*.npz"))) == 1
+    assert len(list(cache.rglob("*.kept"))) == 1
     monkeypatch.setattr(convex, "_cut", never)
     assert content(convex_pieces(Mesh(box.points.copy(), box.triangles.copy()))) == made
     with pytest.raises(AssertionError, match="cut again"):
@@ -150,7 +150,7 @@ def test_pieces_are_kept_by_content(cache: Path, monkeypatch: pytest.MonkeyPatch
 def test_a_damaged_entry_is_made_anew(cache: Path) -> None:
     box = as_mesh(small_machine.open_box(0.9, 1.2, 0.4, 0.02))
     made = content(convex_pieces(box))
-    (entry,) = cache.rglob("*.npz")
+    (entry,) = cache.rglob("*.kept")
     good = entry.read_bytes()
     flipped = bytearray(good)
     flipped[len(good) // 3] ^= 0xFF

@@ -128,7 +128,7 @@ def test_the_example_through_mjcf(loader_assembly: Assembly, made_once: MadeOnce
     from yellowiron.model.rows import expand
     from yellowiron.model.specification import Specifications
     from yellowiron.model.template import choose
-    from yellowiron.pipeline import find_roles
+    from yellowiron.stages import find_roles
 
     template = library.load_template("wheel_loader")
     assembly, alignment = find_roles(loader_assembly, template, Specifications())

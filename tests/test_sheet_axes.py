@@ -13,7 +13,7 @@ from yellowiron import kinematics, library, specs
 from yellowiron.mechanism import build_mechanism
 from yellowiron.model.rows import expand
 from yellowiron.model.template import choose
-from yellowiron.pipeline import find_roles, on_sheet
+from yellowiron.stages import find_roles, on_sheet
 from yellowiron.support.vectors import triple
 
 OFF = {"boom2arm_joint": (0.05, 0.0, 0.03), "arm2bucket_joint": (-0.03, 0.0, 0.06)}

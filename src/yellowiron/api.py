@@ -112,7 +112,7 @@ def align(
     from yellowiron import cad
     from yellowiron.alignment import parse_rules, write_alignment
     from yellowiron.model.alignment import Decisions, Signature
-    from yellowiron.pipeline import compare_with_declared, find_roles, values_by_hand
+    from yellowiron.stages import compare_with_declared, find_roles, values_by_hand
 
     signature = Signature(by, date, why)
     decisions = Decisions(parse_rules(roles, signature), tuple(confirmed), tuple(forgotten), signature)

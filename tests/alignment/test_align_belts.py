@@ -8,7 +8,7 @@ from kit.scene import scene
 from kit.scoring import score
 from yellowiron.library import load_template
 from yellowiron.model.specification import Specifications
-from yellowiron.pipeline import find_roles
+from yellowiron.stages import find_roles
 
 pytestmark = pytest.mark.slow
 

@@ -13,7 +13,7 @@ from yellowiron.model.alignment import Alignment, Decisions, PartDecision
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import Template
-from yellowiron.pipeline import find_roles
+from yellowiron.stages import find_roles
 
 
 @pytest.fixture(scope="module")

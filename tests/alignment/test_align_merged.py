@@ -14,7 +14,7 @@ from yellowiron.library import load_template
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.geometry import Mesh
 from yellowiron.model.specification import Specifications
-from yellowiron.pipeline import find_roles
+from yellowiron.stages import find_roles
 
 
 def meshed(assembly: Assembly, groups: list[list[str]]) -> Assembly:

@@ -17,7 +17,13 @@ axis is estimated · `ALN026` to `ALN028`: see `files.decisions`.
 from yellowiron.alignment.assignment.unit_scale import to_scale
 from yellowiron.alignment.discovery.discover import discover
 from yellowiron.alignment.discovery.robot import declared_roles, discover_declared
-from yellowiron.alignment.files.alignment_json import read_alignment, read_joints, read_values, write_alignment
+from yellowiron.alignment.files.alignment_json import (
+    read_alignment,
+    read_joints,
+    read_values,
+    said_in,
+    write_alignment,
+)
 from yellowiron.alignment.files.decisions import decide, parse_rules
 from yellowiron.alignment.files.explanation import explain
 from yellowiron.alignment.labelling.confidence import REVIEW
@@ -35,6 +41,7 @@ __all__ = [
     "read_alignment",
     "read_joints",
     "read_values",
+    "said_in",
     "to_scale",
     "write_alignment",
 ]

@@ -1,4 +1,5 @@
-"""CAD files to an `Assembly`: `read_cad`; `check_file` without reading; `taken_apart` for meshes of several parts.
+"""CAD files to an `Assembly`: `read_cad`; `check_file` without reading;
+`files_of`, what is read with it; `taken_apart` for meshes of several parts.
 
 In the order in which they build on each other: `naming` and `tolerances`; `appearance` and `mesh`; `brep`; then
 `formats` (the registry: one entry a format), `proprietary` (formats without an open reader) and `recognition` (which of
@@ -10,12 +11,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from yellowiron.cad.dependence import files_of
 from yellowiron.cad.read import check_file, read_cad
 
 if TYPE_CHECKING:
     from yellowiron.cad.mesh.split import taken_apart
 
-__all__ = ["check_file", "read_cad", "taken_apart"]
+__all__ = ["check_file", "files_of", "read_cad", "taken_apart"]
 
 
 def __getattr__(name: str) -> Any:

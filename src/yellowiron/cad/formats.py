@@ -57,6 +57,11 @@ class CadFormat:
     others: re.Pattern[str] | None = None
     """Is found in the name, in small letters, of a file that one of the format may refer to, and whose triangles are
     then read with it."""
+    beside: re.Pattern[str] | None = None
+    """Is found in the name, in small letters, of a file in the folder of one of the format that may be read with it:
+    geometry, materials, pictures. None: a file is all that there is."""
+    anywhere: bool = False
+    """Whether its files may refer to others that are not in their folder."""
     diagnosis: str = ""
     """`(data: bytes) -> str`: what is wrong with a file at which the reader crashed or hung; "" if it cannot tell. It
     runs in this process."""
@@ -91,6 +96,7 @@ def _starts(pattern: bytes) -> re.Pattern[bytes]:
 _MESH_FILES, _BUFFERS, _LAYERS = (
     re.compile(pattern) for pattern in (r"\.(?:stl|obj|dae|glb|gltf|bin)\Z", r"\.bin\Z", r"\.usd[acz]?\Z")
 )
+_BESIDE = re.compile(r"\.(?:bin|mtl|png|jpe?g|webp|tga|bmp|gif|tiff?|dds|ktx2?)\Z")
 _MESHES, _EXACT = "yellowiron.cad.readers.meshes", "yellowiron.cad.readers.exact"
 _ROBOTS = "yellowiron.cad.readers.robots"
 
@@ -112,17 +118,20 @@ FORMATS: tuple[CadFormat, ...] = (
         "FreeCAD", (".fcstd",), f"{_EXACT}.freecad:read_freecad", member=re.compile(r"\Adocument\.xml\Z"), memory=60,
     ),
     CadFormat("3MF", (".3mf",), f"{_MESHES}.threemf:read_3mf", member=re.compile(r"\.model\Z"), memory=60),
-    CadFormat("GLB", (".glb",), f"{_MESHES}.gltf:read_gltf", content=_starts(rb"glTF"), memory=150, others=_BUFFERS),
+    CadFormat(
+        "GLB", (".glb",), f"{_MESHES}.gltf:read_gltf", content=_starts(rb"glTF"),
+        memory=150, others=_BUFFERS, beside=_BESIDE,
+    ),
     CadFormat(
         "FBX", (".fbx",), f"{_MESHES}.assimp:read_fbx", content=_starts(rb"Kaydara FBX|\s*; FBX \d"),
-        memory=200,
+        memory=200, beside=_BESIDE,
     ),
     CadFormat(
         "USD", (".usd", ".usda", ".usdc", ".usdz"), "yellowiron.cad.readers.usd.stage:read_usd",
         content=_starts(rb"PXR-USDC|#usda"), member=re.compile(r"\.usd[ac]?\Z"),
-        memory=300, others=_LAYERS,
+        memory=300, others=_LAYERS, anywhere=True,
     ),
-    CadFormat("Blender", (".blend",), f"{_MESHES}.blend:read_blend", content=_starts(rb"BLENDER")),
+    CadFormat("Blender", (".blend",), f"{_MESHES}.blend:read_blend", content=_starts(rb"BLENDER"), anywhere=True),
     CadFormat(
         "PLY", (".ply",), f"{_MESHES}.ply:read_ply", content=_starts(rb"ply[ \t]*\r?\n"), plausible=_PLAIN,
         meshes=f"{_MESHES}.ply:meshes_of",
@@ -140,22 +149,22 @@ FORMATS: tuple[CadFormat, ...] = (
     ),
     CadFormat(
         "COLLADA", (".dae",), f"{_MESHES}.assimp:read_collada", content=_starts(_ROOT % b"COLLADA"), plausible=_PLAIN,
-        memory=100,
+        memory=100, beside=_BESIDE,
     ),
     CadFormat(
         "URDF", (".urdf",), f"{_ROBOTS}.urdf:read_urdf", content=_starts(_ROOT % b"robot"),
-        memory=150, others=_MESH_FILES,
+        memory=150, others=_MESH_FILES, anywhere=True,
     ),
     CadFormat(
         "MJCF", (".mjcf",), f"{_ROBOTS}.mjcf:read_mjcf", content=_starts(_ROOT % b"mujoco"),
-        memory=150, others=_MESH_FILES,
+        memory=150, others=_MESH_FILES, anywhere=True,
     ),
     CadFormat(
         "IGES", (".igs", ".iges"), f"{_EXACT}.iges:read_iges", content=_starts(rb".{72}S {6}1[ \r\n]"), memory=60,
     ),
     CadFormat(
         "glTF", (".gltf",), f"{_MESHES}.gltf:read_gltf", plausible=_starts(rb"[\xef\xbb\xbf \t\r\n]*\{"),
-        memory=150, others=_BUFFERS,
+        memory=150, others=_BUFFERS, beside=_BESIDE,
     ),
     CadFormat(
         "STL", (".stl",), f"{_MESHES}.stl:read_stl", meshes=f"{_MESHES}.stl:meshes_of",
@@ -165,7 +174,7 @@ FORMATS: tuple[CadFormat, ...] = (
     CadFormat(
         "OBJ", (".obj",), f"{_MESHES}.obj:read_obj", meshes=f"{_MESHES}.obj:meshes_of",
         plausible=re.compile(_TEXT + rb"(?s:.*?)^[ \t]*(?:v|vn|vt|f|o|g|mtllib|usemtl)[ \t]", re.MULTILINE),
-        memory=80,
+        memory=80, beside=_BESIDE,
     ),
 )  # fmt: skip
 """The formats of this package, in the order in which a file is tried for them."""

@@ -14,9 +14,10 @@ from __future__ import annotations
 
 from yellowiron.specs.columns import columns_of
 from yellowiron.specs.evidence_images import draw_evidence
-from yellowiron.specs.extraction import Extractor, extract, read
+from yellowiron.specs.extraction import Extractor, extract, from_sheets, read
 from yellowiron.specs.llm.endpoint import EndpointError, ModelOptions
-from yellowiron.specs.reader import check_file
+from yellowiron.specs.ocr import described as picture_programs
+from yellowiron.specs.reader import Sheet, check_file
 from yellowiron.specs.values.overrides import accept, merge, parse_settings, split_settings
 from yellowiron.specs.values.requested import missing_values
 
@@ -24,14 +25,17 @@ __all__ = [
     "EndpointError",
     "Extractor",
     "ModelOptions",
+    "Sheet",
     "accept",
     "check_file",
     "columns_of",
     "draw_evidence",
     "extract",
+    "from_sheets",
     "merge",
     "missing_values",
     "parse_settings",
+    "picture_programs",
     "read",
     "split_settings",
 ]

@@ -58,6 +58,12 @@ def programs() -> tuple[str, ...]:
     return tuple(name for name, installed in there.items() if installed)
 
 
+def described() -> tuple[str, ...]:
+    """The programs and what they know, of which it depends what is recognised."""
+    languages = sorted(tesseract.languages()) if tesseract.program() is not None else []
+    return (*programs(), tesseract.program() or "", *languages)
+
+
 def recognise(path: Path, numbers: Sequence[int], program: str) -> list[Recognised]:
     """The statements of pages (`numbers` count from 1) that have no text layer, through one of the `programs`; a page
     on which nothing is recognised is left out. Runs in a guarded child. `SheetError` where the program fails."""

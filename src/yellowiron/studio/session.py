@@ -23,7 +23,7 @@ from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import MechanismError
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import Template, choose
-from yellowiron.pipeline import Solved, find_roles, roles_of, solve
+from yellowiron.stages import Solved, find_roles, roles_of, solve
 from yellowiron.studio.journal import FILE, Journal
 from yellowiron.studio.operations import Operation, from_entry
 from yellowiron.studio.setup import Setup

@@ -16,11 +16,13 @@ import heapq
 import math
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from yellowiron.model.geometry import Floats, Mesh
-from yellowiron.support.caching.disk import Arrays, remember
+from yellowiron.support.caching.disk import remember
 
 EXCESS = 0.03
 """Two pieces of a profile become one if their hull is larger than they are by this share at most."""
@@ -91,7 +93,7 @@ def _method() -> bytes:
     return Path(__file__).read_bytes() + f"{np.__version__} {scipy.__version__}".encode()
 
 
-def _pack(pieces: Sequence[Mesh]) -> Arrays:
+def _pack(pieces: Sequence[Mesh]) -> tuple[NDArray[Any], ...]:
     """Points, triangles, and where each piece ends in both."""
     ends = np.cumsum([(len(piece.points), len(piece.triangles)) for piece in pieces], axis=0)
     return np.concatenate([p.points for p in pieces]), np.concatenate([p.triangles for p in pieces]), ends

@@ -158,6 +158,23 @@ def read_alignment(path: str | Path, assembly: Assembly, template: Template) -> 
     )
 
 
+def said_in(path: str | Path, template: Template) -> dict[str, Any]:
+    """What a person says in an alignment file, as plain data, without what was found: two files of which this is the
+    same lead to the same alignment. `AlignmentError` for a file that is none."""
+    source = Path(path)
+    document = _load(source)
+    entries = [entry for _, entry in _known_entries(document["parts"], source, template)]
+    edits = [
+        {"confirmed": entry.get("source") == "confirmed", **{
+            key: entry.get(key) for key in ("part", "role", "solved", "by", "date", "why")
+        }} for entry in entries if _is_edit(entry)
+    ]  # fmt: skip
+    # Parts are found again among all those that there were.
+    prints = [[entry["part"], entry.get("shape"), entry.get("place")] for entry in entries] if edits else []
+    kept = {key: document.get(key) for key in ("equipment_type", "rules", "joints", "values")}
+    return {**kept, "edits": edits, "prints": prints} if edits or any(list(kept.values())[1:]) else {}
+
+
 def read_joints(path: str | Path) -> dict[str, Mapping[str, object]]:
     """The joints that a person wrote into an alignment file: name → entry, as a `--data` document of joints has it.
     `AlignmentError` for a file that is no alignment."""

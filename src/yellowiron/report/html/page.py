@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from importlib import resources
 from typing import Any
 
@@ -15,12 +16,13 @@ from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Measurement, Mechanism
 from yellowiron.model.poses import PoseTables
 from yellowiron.report.document import within_tolerance
+from yellowiron.report.html.drawing import Picture, draw
 from yellowiron.report.html.joints import joint_marks, joint_rows
 from yellowiron.report.html.marks import overlay
-from yellowiron.report.html.pictures import DrawnTriangles, data_uri, look_at, machine_triangles, outline, posed, render
+from yellowiron.report.html.pictures import Camera, look_at, machine_triangles, outline
 from yellowiron.report.html.sensors import sensor_marks, sensor_rows, view_svg, views
 from yellowiron.report.html.simulation import engine_name, in_a_sentence, simulation_tables
-from yellowiron.report.html.sweeps import Sweeps, sweep_entries
+from yellowiron.report.html.sweeps import Sweeps, sweep_entries, sweep_pictures
 from yellowiron.report.html.viewer import viewer
 from yellowiron.report.open_points import causes, named, tally
 from yellowiron.report.rows import in_rows
@@ -62,6 +64,14 @@ def page(
     drawn = machine_triangles(mechanism, assembly, frame)
     reasons = causes(document)
     joints = joint_rows(document)
+    seen = _cameras(document, mechanism)
+    pictures = draw(drawn, {
+        "machine": Picture(seen.machine),
+        "joints": Picture(seen.joints, colors=drawn.by_body(mechanism)),
+        **({"sensors": Picture(seen.sensors)} if document["sensors"] else {}),
+        **{f"pose {caption}": _pose(mechanism, moved) for caption, moved in (poses or {}).items()},
+        **sweep_pictures(sweeps or {}, mechanism),
+    })  # fmt: skip
     return environment.from_string(source).render(
         d=document,
         style=style,
@@ -71,16 +81,16 @@ def page(
         ready=_ready(document),
         driven=in_a_sentence(document["simulation"]),
         figures=_figures(document),
-        machine=_machine(mechanism, drawn),
-        poses=[(caption, _pose(mechanism, drawn, moved)) for caption, moved in (poses or {}).items()],
+        machine=pictures["machine"],
+        poses=[(caption, pictures[f"pose {caption}"]) for caption in (poses or {})],
         viewer=viewer(mechanism, assembly, alignment, tables, poses=poses) if tables is not None else None,
         measurements=[_measurement(m) for m in document["measurements"]],
         simulation=simulation_tables(document["simulation"]),
-        sweeps=sweep_entries(sweeps or {}, document, mechanism, drawn),
+        sweeps=sweep_entries(sweeps or {}, document, pictures),
         sensors=sensor_rows(document),
-        sensor_svg=_sensor_svg(document, mechanism, drawn) if document["sensors"] else "",
+        sensor_svg=_sensor_svg(document, mechanism, seen.sensors, pictures["sensors"]) if document["sensors"] else "",
         joints=joints,
-        joint_svg=_joint_svg(joints, mechanism, drawn),
+        joint_svg=overlay(seen.joints, pictures["joints"], joint_marks(joints), alt="Joints on the machine"),
         cylinders=[_cylinder(c) for c in document["cylinders"]],
         specifications=[s for s in map(_specification, document["specifications"]) if s["status"] != "missing"],
         not_given=[s for s in map(_specification, document["specifications"]) if s["status"] == "missing"],
@@ -88,35 +98,38 @@ def page(
     )
 
 
-def _machine(mechanism: Mechanism, drawn: DrawnTriangles) -> str:
-    camera = look_at(outline(mechanism), azimuth=-0.75, elevation=0.3, width=SIZE[0], height=SIZE[1])
-    return data_uri(render(drawn, camera))
+@dataclass(frozen=True, eq=False)
+class _Cameras:
+    machine: Camera
+    joints: Camera
+    sensors: Camera
 
 
-def _pose(mechanism: Mechanism, drawn: DrawnTriangles, moved: Mapping[str, Floats]) -> str:
-    camera = look_at(outline(mechanism, moved), azimuth=-1.1, elevation=0.2, width=480, height=360)
-    return data_uri(render(posed(drawn, moved), camera))
+def _cameras(document: Mapping[str, Any], mechanism: Mechanism) -> _Cameras:
+    """Where a page's pictures of the whole machine are taken from."""
+    corners = outline(mechanism)
+    width, height = SIZE
+    looked_at = np.concatenate([corners, *(points for _, points in _views(document, mechanism))])
+    return _Cameras(
+        look_at(corners, azimuth=-0.75, elevation=0.3, width=width, height=height),
+        look_at(corners, azimuth=-math.pi / 2 + 0.12, elevation=0.18, width=width, height=height),
+        look_at(looked_at, azimuth=-0.95, elevation=0.42, width=width, height=height),
+    )
 
 
-def _joint_svg(rows: Sequence[Mapping[str, Any]], mechanism: Mechanism, drawn: DrawnTriangles) -> Any:
-    camera = look_at(outline(mechanism), azimuth=-math.pi / 2 + 0.12, elevation=0.18, width=SIZE[0], height=SIZE[1])
-    picture = data_uri(render(drawn, camera, colors=drawn.by_body(mechanism)))
-    return overlay(camera, picture, joint_marks(rows), alt="Joints on the machine")
+def _pose(mechanism: Mechanism, moved: Mapping[str, Floats]) -> Picture:
+    return Picture(look_at(outline(mechanism, moved), azimuth=-1.1, elevation=0.2, width=480, height=360), moved)
 
 
-def _sensor_svg(document: Mapping[str, Any], mechanism: Mechanism, drawn: DrawnTriangles) -> Any:
+def _views(document: Mapping[str, Any], mechanism: Mechanism) -> list[tuple[str, Floats]]:
+    """What the sensors see, as outlines."""
     corners = outline(mechanism)
     size = float(np.linalg.norm(np.ptp(corners, axis=0))) if len(corners) else 1.0
-    outlines = views(document["sensors"], size)
-    camera = look_at(
-        np.concatenate([corners, *(points for _, points in outlines)]),
-        azimuth=-0.95,
-        elevation=0.42,
-        width=SIZE[0],
-        height=SIZE[1],
-    )
-    picture = data_uri(render(drawn, camera))
-    under = view_svg(outlines, camera)
+    return views(document["sensors"], size)
+
+
+def _sensor_svg(document: Mapping[str, Any], mechanism: Mechanism, camera: Camera, picture: str) -> Any:
+    under = view_svg(_views(document, mechanism), camera)
     return overlay(camera, picture, sensor_marks(document), alt="Sensors on the machine", under=under)
 
 

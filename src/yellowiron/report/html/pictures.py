@@ -83,6 +83,15 @@ class DrawnTriangles:
         both = np.concatenate([corners, below])[:, :2]
         return np.array([both.min(axis=0), both.max(axis=0)])
 
+    def frame_in(self, camera: Camera) -> tuple[Floats, Floats]:
+        """The left upper and the right lower corner, in pixels, of what a camera sees the machine in."""
+        corners = np.array(list(itertools.product(*zip(*self.box, strict=True))), dtype=np.float64)
+        depth = (corners - camera.eye) @ camera.forward
+        if (depth <= 0.0).any():  # the camera is inside
+            return np.full(2, -np.inf), np.full(2, np.inf)
+        places = camera.project(corners)
+        return places.min(axis=0) - 1.0, places.max(axis=0) + 1.0
+
     def by_body(self, mechanism: Mechanism) -> Singles:
         """Colours (m, 3) that tell the bodies apart, a counted row of them alike."""
         colors = self.colors.copy()
@@ -252,7 +261,9 @@ class _Samples:
 
 def _seen(drawn: DrawnTriangles, own: Singles, camera: Camera, x: Singles, y: Singles) -> _Samples:
     """What is seen at places (n,) of a picture, in pixels."""
-    color, normal, face = _shade(drawn, own, camera.eye.astype(np.float32), _rays(camera, x, y))
+    (left, top), (right, bottom) = drawn.frame_in(camera)
+    inside = (x > left) & (x < right) & (y > top) & (y < bottom)
+    color, normal, face = _shade(drawn, own, camera.eye.astype(np.float32), _rays(camera, x, y), inside)
     label = np.where(face >= 0, drawn.parts[np.maximum(face, 0)] if len(drawn.parts) else -1, -1)
     return _Samples(color, normal, label.astype(np.int32))
 
@@ -323,12 +334,14 @@ def _rays(camera: Camera, x: Singles, y: Singles) -> Singles:
 
 
 def _shade(
-    drawn: DrawnTriangles, own: Singles, eye: Singles, directions: Singles
+    drawn: DrawnTriangles, own: Singles, eye: Singles, directions: Singles, inside: NDArray[np.bool_]
 ) -> tuple[Singles, Singles, NDArray[np.int32]]:
-    """What each ray (n, 3) meets: a part, else the ground, else the sky. Linear colours (n, 3), normals (n, 3) and
-    triangles (n,), -1 where it is none."""
-    hit = drawn.scene.run(np.broadcast_to(eye, directions.shape).copy(), directions, output=True)
-    face = hit["primID"]
+    """What each ray (n, 3) meets: a part, which only those `inside` (n,) may, else the ground, else the sky. Linear
+    colours (n, 3), normals (n, 3) and triangles (n,), -1 where it is none."""
+    face = np.full(len(directions), -1, dtype=np.int32)
+    asked = np.flatnonzero(inside)
+    hit = drawn.scene.run(np.broadcast_to(eye, (len(asked), 3)).copy(), directions[asked], output=True)
+    face[asked] = hit["primID"]
     color, normals = np.tile(_SKY, (len(directions), 1)), np.zeros_like(directions)
     limits = drawn.shadow
 
@@ -343,15 +356,16 @@ def _shade(
             sun[asked[drawn.scene.run(start, towards, query="OCCLUDED") >= 0]] = 0.0
         return np.asarray(0.34 + 0.12 * facing[:, 2] + 0.62 * sun)[:, None]
 
-    seen = np.flatnonzero(face >= 0)
+    met_by = np.flatnonzero(hit["primID"] >= 0)
+    seen = asked[met_by]
     if len(seen):
-        u, v, met, rays = hit["u"][seen, None], hit["v"][seen, None], face[seen], directions[seen]
+        u, v, met, rays = hit["u"][met_by, None], hit["v"][met_by, None], face[seen], directions[seen]
         corner = drawn.normals[met]
         normal = (1 - u - v) * corner[:, 0] + u * corner[:, 1] + v * corner[:, 2]
         normal /= np.maximum(np.sqrt(np.einsum("ij,ij->i", normal, normal)), 1e-12)[:, None]
         normal *= np.where(np.einsum("ij,ij->i", normal, rays) > 0, np.float32(-1.0), np.float32(1.0))[:, None]
         normals[seen] = normal
-        color[seen] = own[met] * light(eye + rays * hit["tfar"][seen, None], normal)
+        color[seen] = own[met] * light(eye + rays * hit["tfar"][met_by, None], normal)
     ground = np.flatnonzero((face < 0) & (directions[:, 2] < 0))
     if len(ground):
         normals[ground] = _UP

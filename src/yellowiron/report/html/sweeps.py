@@ -11,7 +11,8 @@ import numpy as np
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Mechanism
 from yellowiron.model.sweep import Snapshot, Sweep
-from yellowiron.report.html.pictures import DrawnTriangles, data_uri, look_at, outline, posed, render
+from yellowiron.report.html.drawing import Picture
+from yellowiron.report.html.pictures import look_at, outline
 from yellowiron.report.html.plots import Chart, Curve, plot
 from yellowiron.report.html.simulation import engine_name
 from yellowiron.report.words import sentence
@@ -24,9 +25,24 @@ SEEN = 0.01
 """Share of the machine's size by which a body's middle must move for pictures to show anything."""
 
 
-def sweep_entries(
-    sweeps: Sweeps, document: Mapping[str, Any], mechanism: Mechanism, drawn: DrawnTriangles
-) -> list[dict[str, Any]]:
+def sweep_pictures(sweeps: Sweeps, mechanism: Mechanism) -> dict[str, Picture]:
+    """The pictures of the strips, by the names under which `sweep_entries` looks for them: the first engine's, of what
+    moves."""
+    pictures: dict[str, Picture] = {}
+    for number, sweep in enumerate(next(iter(sweeps.values()), ())):
+        if _moves(sweep.snapshots, mechanism):
+            # One camera for all of a strip: what moves is the machine.
+            points = np.concatenate([outline(mechanism, snapshot.poses) for snapshot in sweep.snapshots])
+            camera = look_at(points, azimuth=-1.1, elevation=0.2, width=WIDTH, height=HEIGHT)
+            pictures |= {_name(number, k): Picture(camera, s.poses) for k, s in enumerate(sweep.snapshots)}
+    return pictures
+
+
+def _name(sweep: int, snapshot: int) -> str:
+    return f"sweep {sweep} {snapshot}"
+
+
+def sweep_entries(sweeps: Sweeps, document: Mapping[str, Any], pictures: Mapping[str, str]) -> list[dict[str, Any]]:
     """One entry a sweep: the pictures are the first engine's, the curves every engine's that made the same sweep."""
     if not sweeps:
         return []
@@ -36,27 +52,23 @@ def sweep_entries(
         {
             "name": sentence(sweep.name) if sweep.name != "together" else "All together",
             "engine": engine,
-            "frames": _frames(sweep, mechanism, drawn),
+            "frames": _frames(number, sweep, pictures),
             "position": _positions(sweep, document),
             "errors": _errors([(e, s) for e, each in sweeps.items() for s in each if s.name == sweep.name], runs),
         }
-        for sweep in first
+        for number, sweep in enumerate(first)
     ]
 
 
-def _frames(sweep: Sweep, mechanism: Mechanism, drawn: DrawnTriangles) -> list[dict[str, Any]]:
-    if not _moves(sweep.snapshots, mechanism):
-        return []
-    # One camera for all of a strip: what moves is the machine.
-    points = np.concatenate([outline(mechanism, snapshot.poses) for snapshot in sweep.snapshots])
-    camera = look_at(points, azimuth=-1.1, elevation=0.2, width=WIDTH, height=HEIGHT)
+def _frames(number: int, sweep: Sweep, pictures: Mapping[str, str]) -> list[dict[str, Any]]:
     return [
         {
-            "picture": data_uri(render(posed(drawn, snapshot.poses), camera)),
+            "picture": pictures[_name(number, k)],
             "share": "" if snapshot.share is None else f"{100.0 * snapshot.share:.0f} %",
             "time": f"{snapshot.time:.1f} s",
         }
-        for snapshot in sweep.snapshots
+        for k, snapshot in enumerate(sweep.snapshots)
+        if _name(number, k) in pictures
     ]
 
 

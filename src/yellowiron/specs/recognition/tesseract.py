@@ -48,9 +48,9 @@ def words_on(picture: Image.Image, scale: float) -> list[Word]:
     return words
 
 
-def _words(picture: bytes, languages: Sequence[str], scale: float) -> tuple[list[Word], float]:
+def _words(picture: bytes, wanted: Sequence[str], scale: float) -> tuple[list[Word], float]:
     """The words on a picture and their median confidence; none where the program lacks the languages."""
-    there = [code for code in languages if code in _languages()]
+    there = [code for code in wanted if code in languages()]
     if not there:
         return [], 0.0
     # Sparse text (11): columns of a table are not taken for columns of a book.
@@ -87,7 +87,7 @@ def _line(rows: Sequence[dict[str, str]], scale: float) -> list[Word]:
 
 
 @functools.cache
-def _languages() -> frozenset[str]:
+def languages() -> frozenset[str]:
     """The languages that the program has data of."""
     return frozenset(_run("--list-langs").split())
 

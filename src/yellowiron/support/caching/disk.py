@@ -1,32 +1,39 @@
-"""What is costly to compute and follows from its inputs alone, kept on disk between runs: arrays, by content.
+"""What is costly to compute and follows from its inputs alone, kept on disk between runs, by content.
 
 `$YELLOWIRON_CACHE` names the folder, or is `off`; else it is `$XDG_CACHE_HOME/yellowiron`, else `~/.cache/yellowiron`.
-It may be deleted at any time. A hit gives the same arrays as a miss; an entry that cannot be read is made anew, and a
-folder that cannot be written is done without. So is one that is another user's, or that others may write to: what it
-holds is numbers and texts, nothing that is run or unpickled, but a machine's shapes are not to be a stranger's.
+It may be deleted at any time, and holds 2 GB at most: what was not used for longest goes. A hit gives the same as a
+miss; an entry that cannot be read is made anew, and a folder that cannot be written is done without. So is one that is
+another user's, or that others may write to: what it holds is values, read as a guarded child's answers are, of which
+nothing is run, but a machine's shapes are not to be a stranger's.
 """
 
 from __future__ import annotations
 
 import contextlib
+import functools
 import hashlib
-import io
 import os
 import stat
+import sys
 import tempfile
-import zipfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import Any
+from typing import TypeVar
 
-import numpy as np
-from numpy.typing import NDArray
+from yellowiron.support.caching.content import content_of
+from yellowiron.support.files import answers
 
 VARIABLE = "YELLOWIRON_CACHE"
+FRESH = "YELLOWIRON_FRESH"
+"""Set: stages (`kept`) are made anew, and not kept."""
 OFF = ("off", "0", "none")
 _DIGEST = hashlib.sha256().digest_size
+_SUFFIX = ".kept"
+_MOST = 2 * 1024**3
+"""Bytes of all that is kept."""
+_CHUNK = 1024 * 1024
 
-Arrays = tuple[NDArray[Any], ...]
+Answer = TypeVar("Answer")
 
 
 def cache_folder() -> Path | None:
@@ -61,50 +68,96 @@ def _is_ours(path: Path) -> bool:
     return there.st_uid in (os.geteuid(), 0) and not there.st_mode & stat.S_IWOTH
 
 
-def remember(kind: str, key: str, make: Callable[[], Arrays]) -> Arrays:
-    """The arrays of `make`, from the cache where it has them. `key` must stand for everything they depend on, in
-    letters and digits (a digest); `kind` is the folder that entries of one sort lie in."""
+def remember(kind: str, key: str, make: Callable[[], Answer]) -> Answer:
+    """The answer of `make`, from the cache where it has one. `key` must stand for everything that it depends on, in
+    letters and digits (a digest); `kind` is the folder that entries of one sort lie in. An answer is plain data, arrays
+    of numbers, paths and frozen dataclasses of ours."""
     folder = cache_folder()
     if folder is None:
         return make()
-    path = folder / kind / f"{key}.npz"
-    found = _read(path)
-    if found is None:
-        found = make()
-        _write(path, found)
-    return found
+    path = folder / kind / f"{key}{_SUFFIX}"
+    found: list[Answer] = _read(path)
+    if not found:
+        found = [make()]
+        _write(path, answers.dumps(found))
+        _make_room(folder)
+    return found[0]
 
 
-def _read(path: Path) -> Arrays | None:
-    """None where there is no whole entry: its last bytes are the digest of the others."""
+def kept(kind: str, make: Callable[[], Answer], *given: object, files: Iterable[Path] = ()) -> Answer:
+    """The answer of `make`, from the cache where it was made before by this very program, of the same values (`given`)
+    and files of the same names and contents."""
+    if os.environ.get(FRESH) or cache_folder() is None:
+        return make()
+    digest = hashlib.sha256(content_of([_program(), *given]))
+    for file in files:
+        digest.update(f"{file.name}\0".encode("utf-8", "surrogateescape") + _of_file(file))
+    return remember(kind, digest.hexdigest(), make)
+
+
+def _of_file(file: Path) -> bytes:
+    digest = hashlib.sha256()
+    with file.open("rb") as opened:
+        while chunk := opened.read(_CHUNK):
+            digest.update(chunk)
+    return digest.digest()
+
+
+@functools.cache
+def _program() -> str:
+    """Stands for all that makes an answer: this package's files, what is installed beside it, Python."""
+    digest = hashlib.sha256(sys.version.encode())
+    home = Path(__file__).parents[2]
+    for file in sorted(home.rglob("*")):
+        if file.is_file() and file.suffix != ".pyc":
+            digest.update(f"{file.relative_to(home)}\0".encode() + _of_file(file))
+    for place in sys.path:
+        with contextlib.suppress(OSError):
+            digest.update("\n".join(sorted(p.name for p in Path(place or ".").glob("*.dist-info"))).encode())
+    return digest.hexdigest()
+
+
+def _read(path: Path) -> list[Answer]:
+    """Nothing where there is no whole entry: its last bytes are the digest of the others."""
     try:
         if not (_is_ours(path.parent) and _is_ours(path)):
-            return None
+            return []
         data = path.read_bytes()
+        if hashlib.sha256(memoryview(data)[:-_DIGEST]).digest() != data[-_DIGEST:]:
+            return []
+        os.utime(path)
     except OSError:
-        return None
-    if hashlib.sha256(data[:-_DIGEST]).digest() != data[-_DIGEST:]:
-        return None
+        return []
     try:
-        with np.load(io.BytesIO(data[:-_DIGEST]), allow_pickle=False) as entry:
-            return tuple(entry[f"arr_{number}"] for number in range(len(entry.files)))
-    except (ValueError, TypeError, KeyError, EOFError, zipfile.BadZipFile):  # whole, and no entry of ours
-        return None
+        found = answers.loads(data)
+    except Exception:  # noqa: BLE001 - whole, and no entry of ours: it may break on anything
+        return []
+    return found if isinstance(found, list) and len(found) == 1 else []
 
 
-def _write(path: Path, arrays: Arrays) -> None:
+def _write(path: Path, data: bytes) -> None:
     """Beside its place, then renamed into it: nobody reads half an entry."""
-    entry = io.BytesIO()
-    np.savez(entry, *arrays)
-    data = entry.getvalue()
     with contextlib.suppress(OSError):
         path.parent.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
         path.parent.mkdir(exist_ok=True, mode=0o700)
         handle, name = tempfile.mkstemp(prefix=".new-", dir=path.parent)
         try:
             with os.fdopen(handle, "wb") as file:
-                file.write(data + hashlib.sha256(data).digest())
+                file.write(data)
+                file.write(hashlib.sha256(data).digest())
             Path(name).replace(path)
         except OSError:
             Path(name).unlink()
             raise
+
+
+def _make_room(folder: Path) -> None:
+    """Removes what was not used for longest, where more is kept than may be."""
+    with contextlib.suppress(OSError):
+        there = [(file.stat(), file) for file in folder.glob(f"*/*{_SUFFIX}")]
+        total = sum(found.st_size for found, _ in there)
+        for found, file in sorted(there, key=lambda one: one[0].st_mtime):
+            if total <= _MOST:
+                return
+            file.unlink(missing_ok=True)
+            total -= found.st_size

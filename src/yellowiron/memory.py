@@ -1,0 +1,157 @@
+"""The stages of a build that are kept between runs: a stage that meets the same inputs again answers at once.
+
+What a stage depends on is its inputs' content (`support.caching.disk.kept`), so that a changed value of a sheet leaves
+the CAD model's parts in their roles, and a build of the same inputs is read from the disk.
+"""
+
+from __future__ import annotations
+
+import importlib
+import threading
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from yellowiron import cad, checks, kinematics, library, report, specs, stages, usd
+from yellowiron.alignment import said_in
+from yellowiron.model.alignment import Alignment
+from yellowiron.model.assembly import Assembly
+from yellowiron.model.finding import Finding
+from yellowiron.model.geometry import Floats
+from yellowiron.model.mechanism import Measurement, Mechanism
+from yellowiron.model.specification import Specifications
+from yellowiron.model.sweep import Sweep
+from yellowiron.model.template import Template
+from yellowiron.support.caching.disk import kept
+
+_LIBRARIES = (
+    "mujoco", "ortools.sat.python.cp_model", "pxr.Usd", "pxr.UsdPhysics", "scipy.optimize", "scipy.spatial",
+    "yellowiron.kinematics.completion", "yellowiron.kinematics.measuring.measurement", "yellowiron.usd.write",
+)  # fmt: skip
+
+
+def read_model(cad_file: Path) -> Assembly:
+    """The CAD model, as `cad.read_cad` has it."""
+
+    def make() -> Assembly:
+        # A child reads; what comes next needs libraries that take a second or two to load.
+        loading = threading.Thread(target=lambda: [importlib.import_module(name) for name in _LIBRARIES])
+        loading.start()
+        try:
+            return cad.read_cad(cad_file)
+        finally:
+            loading.join()
+
+    files = cad.files_of(cad_file)
+    return make() if files is None else kept("models", make, str(cad_file), files=files)
+
+
+def read_values(
+    template: Template,
+    sheets: Sequence[Path],
+    *,
+    config: str,
+    extractor: specs.Extractor,
+    model: specs.ModelOptions | None,
+    progress: Callable[[str], None],
+) -> Specifications:
+    """What the sheets say, as `specs.extract` has it. A language model's answers are its own to keep."""
+
+    def read(sheet: Path) -> specs.Sheet:
+        # Programs that read pictures are no part of this one.
+        programs = specs.picture_programs()
+        return kept("sheets", lambda: specs.read(sheet, progress=progress), str(sheet), programs, files=[sheet])
+
+    pages = [read(sheet) for sheet in sheets]
+
+    def make() -> Specifications:
+        return specs.from_sheets(
+            template, pages, config=config, extractor=extractor, model=model, progress=progress
+        )  # fmt: skip
+
+    return kept("values", make, template, pages, config) if extractor == "rules" else make()
+
+
+def find_roles(
+    assembly: Assembly,
+    template: Template,
+    specifications: Specifications,
+    *,
+    earlier: Path | None,
+    data: library.Documents,
+    choices: Mapping[str, str],
+) -> tuple[Assembly, Alignment]:
+    """`stages.find_roles`."""
+    heard = stages.heard_of(template, specifications)
+
+    def make() -> tuple[Assembly, Alignment]:
+        return stages.find_roles(assembly, template, heard, earlier=earlier, data=data, choices=choices)
+
+    said = said_in(earlier, template) if earlier is not None else {}
+    return kept("roles", make, assembly, template, heard, data, choices, said)
+
+
+def solve(
+    template: Template,
+    assembly: Assembly,
+    alignment: Alignment,
+    specifications: Specifications,
+    data: library.Documents,
+    choices: Mapping[str, str],
+) -> stages.Solved:
+    """`stages.solve`."""
+    given = (template, assembly, alignment, specifications, data, choices)
+    return kept("mechanisms", lambda: stages.solve(*given), *given)
+
+
+def measure(mechanism: Mechanism) -> tuple[Measurement, ...]:
+    """`kinematics.measure`."""
+    return kept("measurements", lambda: kinematics.measure(mechanism), mechanism)
+
+
+def write(
+    mechanism: Mechanism, assembly: Assembly, frame: Floats, folder: Path, *, textures: Sequence[str]
+) -> tuple[Finding, ...]:
+    """Writes the machine into an empty folder and checks it: what the rules found. `textures`: folders in which those
+    that materials name are looked for."""
+
+    def make() -> tuple[dict[str, bytes], tuple[Finding, ...]]:
+        usd.write_machine(
+            mechanism, assembly, folder, name=mechanism.name, frame=frame,
+            texture_folders=[Path(place) for place in textures],
+        )  # fmt: skip
+        files = {str(f.relative_to(folder)): f.read_bytes() for f in sorted(folder.rglob("*")) if f.is_file()}
+        return files, checks.check(folder / "scene.usda")
+
+    if any(material.texture for material in mechanism.materials.values()):
+        return make()[1]
+    files, findings = kept("machines", make, mechanism, assembly, frame)
+    for name, content in files.items():
+        place = folder / name
+        if not place.exists():
+            place.parent.mkdir(parents=True, exist_ok=True)
+            place.write_bytes(content)
+    return findings
+
+
+def levers(mechanism: Mechanism) -> dict[str, Any]:
+    """`kinematics.lever_table` of every actuator."""
+    return kept(
+        "levers", lambda: {a.name: kinematics.lever_table(mechanism, a.name) for a in mechanism.actuators}, mechanism
+    )
+
+
+def page(
+    document: Mapping[str, Any],
+    mechanism: Mechanism,
+    assembly: Assembly,
+    alignment: Alignment,
+    sweeps: Mapping[str, tuple[Sweep, ...]],
+) -> str:
+    """`report.page`, with its poses."""
+
+    def make() -> str:
+        poses, tables = kinematics.key_poses(mechanism), kinematics.pose_tables(mechanism)
+        return report.page(document, mechanism, assembly, alignment, poses=poses, tables=tables, sweeps=sweeps)
+
+    return kept("pages", make, document, mechanism, assembly, alignment, sweeps)

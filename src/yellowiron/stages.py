@@ -1,0 +1,190 @@
+"""What a build does between reading and writing, of what it read: roles, the sheet's say, the mechanism."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from yellowiron import cad, kinematics, library, specs
+from yellowiron.alignment import align, decide, declared_roles, read_alignment, read_values, to_scale
+from yellowiron.mechanism import (
+    ComparedJoint,
+    build_mechanism,
+    compare_declared,
+    declared_findings,
+    declared_values,
+)
+from yellowiron.model.alignment import UNDECIDED, Alignment, Decisions
+from yellowiron.model.assembly import Assembly
+from yellowiron.model.errors import MechanismError
+from yellowiron.model.finding import Finding
+from yellowiron.model.geometry import Floats
+from yellowiron.model.mechanism import Mechanism
+from yellowiron.model.rows import expand
+from yellowiron.model.specification import Specification, Specifications
+from yellowiron.model.template import Template, choose
+from yellowiron.support.vectors import triple
+
+
+@dataclass(frozen=True, eq=False)
+class Solved:
+    """A machine before it is measured and written: `chosen`, the template with its variants decided, `template`, that
+    with its rows counted; the CAD model, as started; what the file's declared joints were `compared` to."""
+
+    chosen: Template
+    template: Template
+    assembly: Assembly
+    alignment: Alignment
+    mechanism: Mechanism
+    specifications: Specifications
+    compared: tuple[ComparedJoint, ...]
+
+
+def solve(
+    template: Template,
+    assembly: Assembly,
+    alignment: Alignment,
+    specifications: Specifications,
+    data: library.Documents,
+    choices: Mapping[str, str],
+) -> Solved:
+    """The mechanism of an aligned CAD model: axes put where the sheet has them, values that the CAD file declares lent,
+    the machine brought to a pose within its limits."""
+    chosen = choose(template, {**alignment.choices, **choices})
+    template = expand(chosen, alignment.counts)
+    alignment, tape = on_sheet(assembly, template, alignment, specifications, data)
+    mechanism = _complete(assembly, template, alignment, specifications, data)
+    compared = compare_declared(mechanism, assembly, alignment)
+    lent = declared_values(mechanism, template, assembly, alignment, compared, specifications)
+    if lent.values:
+        specifications = specs.merge(lent, specifications)
+        mechanism = _complete(assembly, template, alignment, specifications, data)
+    start = kinematics.legal_start(mechanism)
+    if start is not None:
+        assembly, template, alignment = kinematics.started(assembly, template, alignment, start)
+        mechanism = _complete(assembly, template, alignment, specifications, data)
+        mechanism = replace(mechanism, findings=(*mechanism.findings, *start.findings))
+    mechanism = replace(mechanism, findings=(*mechanism.findings, *tape))
+    return Solved(chosen, template, assembly, alignment, mechanism, specifications, compared)
+
+
+def heard_of(template: Template, specifications: Specifications) -> Specifications:
+    """What `find_roles` hears of the sheet: lengths of the whole machine, and of its cylinders; no evidence."""
+    quantities = ("bore", "rod_diameter")
+    names = [w.name for w in template.wanted if w.length_of == "*"]
+    names += [name for a in template.actuators for q in quantities if (name := a.specifications.get(q)) is not None]
+    numbers = {name: number for name in names if (number := specifications.number(name)) is not None}
+    return Specifications({name: Specification(name, number, "m", "ok") for name, number in numbers.items()})
+
+
+def find_roles(
+    assembly: Assembly,
+    template: Template,
+    specifications: Specifications,
+    *,
+    earlier: Path | None = None,
+    data: library.Documents | None = None,
+    choices: Mapping[str, str] | None = None,
+    decisions: Decisions = UNDECIDED,
+) -> tuple[Assembly, Alignment]:
+    """Roles for the parts of a CAD model, and the model whose parts they are: scaled where the sheet's overall length
+    asks for it; where roles are missing, its merged meshes taken apart, if that finds most of them. `earlier` is an
+    alignment file whose edits hold; `decisions` go before them."""
+
+    def found(model: Assembly) -> Alignment:
+        edits = read_alignment(earlier, model, template) if earlier is not None else None
+        edits = decide(edits, decisions, model, template)
+        return roles_of(model, template, specifications, edits=edits, data=data, choices=choices)
+
+    assembly = to_scale(assembly, template, specifications)
+    alignment = found(assembly)
+    apart = cad.taken_apart(assembly) if alignment.missing else assembly
+    if apart is not assembly:
+        other = found(apart)
+        # A model without pins misses roles whatever is done to it; bodies in crumbs then answer to more roles, wrongly.
+        if len(other.missing) < 0.5 * len(alignment.missing):
+            return apart, other
+    return assembly, alignment
+
+
+def roles_of(
+    assembly: Assembly,
+    template: Template,
+    specifications: Specifications,
+    *,
+    edits: Alignment | None = None,
+    data: library.Documents | None = None,
+    choices: Mapping[str, str] | None = None,
+) -> Alignment:
+    """Roles for the parts of a CAD model as it is; `edits` is an earlier alignment whose decisions hold."""
+    edits = edits if data is None else library.with_relations(edits, data)
+    alignment = align(assembly, template, specifications, edits=edits, choices=choices)
+    # A robot description whose bodies are the template's: what it says goes before what was found.
+    declared = declared_roles(assembly, template, alignment)
+    if declared:
+        edits = replace(edits or alignment, parts=(*(edits.parts if edits else ()), *declared))
+        alignment = align(assembly, template, specifications, edits=edits, choices=choices)
+    return alignment if data is None else library.with_axes(alignment, data)
+
+
+def values_by_hand(earlier: Path | None, template: Template) -> Specifications:
+    """The values that a person wrote into an earlier alignment; none without one."""
+    values = read_values(earlier) if earlier is not None else {}
+    return specs.parse_settings([f"{name}={value.text}" for name, value in values.items()], template)
+
+
+def on_sheet(
+    assembly: Assembly,
+    template: Template,
+    alignment: Alignment,
+    specifications: Specifications,
+    data: library.Documents | None = None,
+) -> tuple[Alignment, tuple[Finding, ...]]:
+    """The alignment with those of its axes that are known roughly placed where the sheet's dimensions put them, and
+    what there is to say of it. `template` has its variants decided."""
+    rough = {j: s for j, s in alignment.across.items() if j in alignment.axes}
+    if not rough or not specifications.values:
+        return alignment, ()
+
+    def moved(shifts: Mapping[str, Floats]) -> Alignment:
+        axes = {j: (triple(np.array(alignment.axes[j][0]) + by), alignment.axes[j][1]) for j, by in shifts.items()}
+        return replace(alignment, axes={**alignment.axes, **axes})
+
+    def built(shifts: Mapping[str, Floats]) -> Mechanism:
+        name = template.equipment_type
+        mechanism = build_mechanism(assembly, template, moved(shifts), specifications, name=name, documents=data)
+        return kinematics.calibrate(mechanism)
+
+    axes = [kinematics.OpenAxis(j, np.array(alignment.axes[j][1]), across) for j, across in sorted(rough.items())]
+    placed = kinematics.place_axes(axes, built)
+    across = {**alignment.across, **placed.across}
+    return replace(moved(placed.shifts), across=across, calibrated=placed.sources), placed.findings
+
+
+def compare_with_declared(
+    assembly: Assembly, template: Template, alignment: Alignment, specifications: Specifications
+) -> tuple[Finding, ...]:
+    """How the joints that the CAD file declares agree with those that its geometry shows."""
+    chosen = expand(choose(template, alignment.choices), alignment.counts)
+    try:
+        mechanism = build_mechanism(assembly, chosen, alignment, specifications, name=assembly.name)
+    except MechanismError:
+        return ()
+    return declared_findings(compare_declared(mechanism, assembly, alignment), assembly.name)
+
+
+def _complete(
+    assembly: Assembly,
+    template: Template,
+    alignment: Alignment,
+    specifications: Specifications,
+    data: library.Documents,
+) -> Mechanism:
+    """The mechanism with its cylinders calibrated, limits, mobility and gains found."""
+    mechanism = build_mechanism(
+        assembly, template, alignment, specifications, name=template.equipment_type, documents=data
+    )
+    return kinematics.complete(kinematics.calibrate(mechanism))

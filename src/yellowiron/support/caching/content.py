@@ -1,0 +1,61 @@
+"""A digest of a value's content: equal values have the same, whatever they are made of and share."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterable, Mapping, Set
+from dataclasses import fields, is_dataclass
+from pathlib import PurePath
+from typing import Any
+
+import numpy as np
+
+Known = dict[int, tuple[bytes, Any]]
+
+
+def content_of(value: object) -> bytes:
+    """The digest (32 bytes) of plain data, arrays of numbers, paths, and dataclasses of these. A mapping has an order.
+    `TypeError` for anything else."""
+    return _digest(value, {})
+
+
+def _digest(value: Any, known: Known) -> bytes:
+    if value is None or isinstance(value, (str, int, float, bytes, bytearray, PurePath, np.generic)):
+        return _of(type(value).__name__, [_plain(value)])
+    if id(value) not in known:
+        # The value is kept beside its digest: its number could else be another's.
+        known[id(value)] = (_of_many(value, known), value)
+    return known[id(value)][0]
+
+
+def _of_many(value: Any, known: Known) -> bytes:
+    if isinstance(value, np.ndarray):
+        if value.dtype.kind not in "biuf":
+            raise TypeError(f"an array of {value.dtype} has no content")
+        return _of(f"array {value.dtype.str} {value.shape}", [np.ascontiguousarray(value).data])
+    if isinstance(value, (list, tuple)):
+        return _of("list", [_digest(one, known) for one in value])
+    if isinstance(value, Mapping):
+        return _of("mapping", [_digest(one, known) for pair in value.items() for one in pair])
+    if isinstance(value, Set):
+        return _of("set", sorted(_digest(one, known) for one in value))
+    if is_dataclass(value):
+        kind = type(value)
+        return _of(f"{kind.__module__}:{kind.__qualname__}", [
+            _digest(getattr(value, field.name), known) for field in fields(value)
+        ])  # fmt: skip
+    raise TypeError(f"{type(value).__module__}.{type(value).__qualname__} has no content")
+
+
+def _plain(value: Any) -> bytes:
+    if isinstance(value, (bytes, bytearray)):
+        return bytes(value)
+    return (repr(value) if not isinstance(value, (str, PurePath)) else str(value)).encode("utf-8", "surrogatepass")
+
+
+def _of(kind: str, pieces: Iterable[bytes | memoryview]) -> bytes:
+    """Of the digests of a value's pieces, or its bytes: the kind says how many."""
+    digest = hashlib.sha256(f"{kind}\0".encode())
+    for piece in pieces:
+        digest.update(piece)
+    return digest.digest()
