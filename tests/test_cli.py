@@ -171,3 +171,40 @@ def test_an_assembly_is_given_a_role_confirmed_and_forgotten(
     kept = json.loads(file.read_text(encoding="utf-8"))
     assert "rules" not in kept
     assert not {p["source"] for p in kept["parts"]} & {"edited", "confirmed", "rule"}
+
+
+@pytest.mark.slow
+def test_watch_builds_again_when_an_input_changes(example: Path, tmp_path: Path) -> None:
+    model, out = tmp_path / "loader.step", tmp_path / "out"
+    model.write_bytes((example / "wheel_loader.step").read_bytes())
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(p for p in sys.path if p)}
+    command = [sys.executable, "-m", "yellowiron", "build", "wheel_loader", "--cad", model, "--out", out, "--watch"]
+    said = tmp_path / "said"
+    with said.open("w") as stream:
+        ours = subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL, stderr=stream)
+
+    def wait_for(words: str, times: int) -> None:
+        end = time.monotonic() + 120.0
+        while said.read_text().count(words) < times:
+            assert time.monotonic() < end and ours.poll() is None, said.read_text()
+            time.sleep(0.1)
+
+    try:
+        wait_for("Watching", 1)
+        # What it writes itself is no change; a decision is, and so is a model that is broken for a while.
+        time.sleep(1.5)
+        document = json.loads((out / "alignment.json").read_text())
+        next(entry for entry in document["parts"] if entry["role"] == "boom")["role"] = "front_frame"
+        (out / "alignment.json").write_text(json.dumps(document))
+        wait_for("Watching", 2)
+        assert [e["source"] for e in json.loads((out / "alignment.json").read_text())["parts"]].count("edited") == 1
+        model.write_bytes(b"ISO-10303-21; nothing")
+        wait_for("error:", 1)
+        wait_for("Watching", 3)
+        assert said.read_text().count("Changed: alignment.json") == 1
+        assert said.read_text().count("Changed: loader.step") == 1
+        ours.send_signal(signal.SIGINT)
+        assert ours.wait(30.0) == 2
+    finally:
+        ours.kill()
+        ours.wait()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -32,7 +32,8 @@ from yellowiron.support.vectors import triple
 @dataclass(frozen=True, eq=False)
 class Solved:
     """A machine before it is measured and written: `chosen`, the template with its variants decided, `template`, that
-    with its rows counted; the CAD model, as started; what the file's declared joints were `compared` to."""
+    with its rows counted; the CAD model, as started; what the file's declared joints were `compared` to; `started`:
+    joint → metres or radians from the drawn pose to the one it starts in."""
 
     chosen: Template
     template: Template
@@ -41,6 +42,7 @@ class Solved:
     mechanism: Mechanism
     specifications: Specifications
     compared: tuple[ComparedJoint, ...]
+    started: Mapping[str, float] = field(default_factory=dict)
 
 
 def solve(
@@ -68,7 +70,8 @@ def solve(
         mechanism = _complete(assembly, template, alignment, specifications, data)
         mechanism = replace(mechanism, findings=(*mechanism.findings, *start.findings))
     mechanism = replace(mechanism, findings=(*mechanism.findings, *tape))
-    return Solved(chosen, template, assembly, alignment, mechanism, specifications, compared)
+    moved = start.coordinates if start is not None else {}
+    return Solved(chosen, template, assembly, alignment, mechanism, specifications, compared, moved)
 
 
 def heard_of(template: Template, specifications: Specifications) -> Specifications:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import threading
 import time
@@ -10,6 +11,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from yellowiron.studio import Session, Setup
@@ -120,6 +122,62 @@ def test_the_machine_moves(page: tuple[Any, list[str]]) -> None:
     opened.evaluate("yellowiron.viewer.set('boom', yellowiron.viewer.sliders.find((s) => s.name === 'boom').range[1])")
     after = opened.evaluate("yellowiron.viewer.pose.bucket")
     assert abs(after[14] - before[14]) > 0.5
+    assert not errors
+
+
+def test_a_joint_is_pointed_at(page: tuple[Any, list[str]], session: Session) -> None:
+    opened, errors = page
+    opened.evaluate("yellowiron.viewer.reset()")
+    opened.get_by_role("tab", name="Joints").click()
+    opened.locator("#joints").get_by_role("button", name="Front frame to boom", exact=True).click()
+    assert "Front frame to boom" in opened.locator("#card").inner_text()
+    assert opened.locator(".v-axis line").count() == 1
+    opened.evaluate("yellowiron.viewer.reset()")
+    # A pixel at which something round of the machine is seen, and what is round there.
+    found = opened.evaluate("""async () => {
+      const { viewer } = yellowiron;
+      for (let y = 150; y < 800; y += 12) for (let x = 60; x < 640; x += 12) {
+        const hit = viewer.surfaceAt(x, y);
+        if (!hit) continue;
+        const answer = await fetch("axis", { method: "POST", body: JSON.stringify({ picks: [hit] }),
+          headers: { "X-Yellowiron-Token": new URLSearchParams(location.search).get("token") } });
+        if (answer.ok) return { x, y, hit, ...(await answer.json()) };
+      }
+    }""")
+    part = session.assembly.part(found["part"])
+    features = session.assembly.shape_of(part).cylinders
+    offsets = [np.array(found["point"]) - np.array(f.point) for f in features]
+    away = [
+        np.linalg.norm(o - (o @ f.direction) * np.array(f.direction)) for o, f in zip(offsets, features, strict=True)
+    ]
+    assert min(away) < 1e-6
+    spot = np.array(found["hit"]["point"]) - np.array(found["point"])
+    off = np.linalg.norm(spot - (spot @ found["direction"]) * np.array(found["direction"]))
+    assert min(abs(off - f.radius) for f in features) < 0.12 * off + 2e-3
+
+    errors.clear()  # of places that are not round
+
+    opened.keyboard.press("p")
+    box = opened.locator("canvas").bounding_box()
+    opened.mouse.click(box["x"] + found["x"], box["y"] + found["y"])
+    opened.locator(".v-meant line").wait_for()
+    assert found["words"] in opened.locator("#card").inner_text()
+    opened.keyboard.press("Enter")
+    until(lambda: "Given by a person" in opened.locator("#card").inner_text())
+    until(lambda: "front_frame2boom_joint" in session.settled(60.0).aligned.by_hand)
+    opened.keyboard.press("u")
+    until(lambda: session.settled(60.0).aligned.joints == {})
+    opened.evaluate("yellowiron.viewer.move({})")
+    # Its upper stop is where it is now: where the machine starts, or, where that is beyond a stop, at the stop.
+    name = "front_frame2boom_joint"
+    began = math.degrees(session.state.solved.started.get(name, 0.0))  # type: ignore[union-attr]
+    opened.keyboard.press("]")
+    until(lambda: name in session.settled(60.0).aligned.joints)
+    assert session.state.aligned.joints[name]["Limit"][1] == pytest.approx(began, abs=0.5)  # type: ignore[index]
+    opened.keyboard.press("u")
+    until(lambda: session.settled(60.0).aligned.joints == {})
+    opened.keyboard.press("Escape")
+    opened.get_by_role("tab", name="Move").click()
     assert not errors
 
 

@@ -57,7 +57,7 @@ def test_strangers_get_nothing(client: Any, path: str, headers: dict[str, str]) 
     assert len(answer.text) < 100
 
 
-@pytest.mark.parametrize("path", ["/do", "/undo", "/redo", "/build"])
+@pytest.mark.parametrize("path", ["/do", "/undo", "/redo", "/build", "/axis"])
 def test_strangers_decide_nothing(client: Any, session: Session, path: str) -> None:
     before = session.said
     assert client.post(path, headers={"Origin": "http://evil.example"}, content=b"{}").status_code == 403
@@ -90,7 +90,10 @@ def test_the_page_asks_for_nothing_else(client: Any) -> None:
     "content", [b"", b"{", b"[]", b"null", b'"text"', b"\xff\xfe", b"[" * 100_000,
                 b'{"kind": "role", "parts": {"x": "y"}}',
                 b'{"kind": "role", "parts": {"x": {"y": 1}}}', b'{"kind": ["role"]}',
-                b'{"kind": "role", "mirror": 1, "parts": 3}'],
+                b'{"kind": "role", "mirror": 1, "parts": 3}',
+                b'{"kind": "joint", "name": "boom", "entry": 3}', b'{"kind": "joint", "name": "", "entry": {}}',
+                b'{"kind": "joint", "name": "boom", "entry": {"axis": [1e999, 0, 0], "anchor": [0, 0, 0]}}',
+                b'{"kind": "joint", "name": "boom", "entry": {"Body": ["boom", "nothing"]}}'],
 )  # fmt: skip
 def test_malformed_messages_change_nothing(client: Any, session: Session, content: bytes) -> None:
     before = session.history()

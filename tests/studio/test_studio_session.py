@@ -8,10 +8,14 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from yellowiron.model.errors import YellowironError
+from yellowiron.pipeline import build
 from yellowiron.studio import Session, Setup, read_setup
+from yellowiron.studio.joints import joints_of
+from yellowiron.studio.operations import words
 from yellowiron.studio.questions import boxes_of, in_words, questions
 from yellowiron.studio.scene import Scene
 from yellowiron.studio.twins import twins_of
@@ -135,6 +139,40 @@ def test_values_are_asked_given_and_kept(open_studio: Callable[[], Session]) -> 
     assert len(session.history()[0]) == 1
     again = open_studio()
     assert again.state.specifications.number("Lift Cylinder Stroke") == pytest.approx(0.764)
+
+
+@pytest.mark.slow
+def test_a_joint_by_hand_is_kept_taken_back_and_built(open_studio: Callable[[], Session]) -> None:
+    session = open_studio()
+    name = "front_frame2boom_joint"
+    before = session.state.solved.mechanism.joint(name)  # type: ignore[union-attr]
+    assert next(j for j in joints_of(session.state, 8.0) if j.name == name).known == "found"
+    there = np.linalg.inv(session.state.aligned.frame) @ (*before.anchor[:2], before.anchor[2] + 0.1, 1.0)
+    axis = np.linalg.inv(session.state.aligned.frame)[:3, :3] @ before.axis
+    said = {"anchor": there[:3].tolist(), "axis": axis.tolist(), "Limit": [-40, 40]}
+    session.do(session.read({"kind": "joint", "name": name, "entry": said, "date": "2026-11-23"}))
+    state = session.settled(60.0)
+    moved = state.solved.mechanism.joint(name)  # type: ignore[union-attr]
+    assert moved.anchor[2] == pytest.approx(before.anchor[2] + 0.1, abs=1e-6)
+    told = next(j for j in joints_of(state, 8.0) if j.name == name)
+    assert (told.known, told.entry["Limit"]) == ("given", [-40, 40])
+    session.keep()
+    written = json.loads((session.setup.out / "alignment.json").read_text(encoding="utf-8"))["joints"][name]
+    assert (written["by"], written["date"], written["Limit"]) == ("Ann", "2026-11-23", [-40, 40])
+
+    # Another goes on where it was; the command line builds what is on the screen.
+    again = open_studio()
+    assert again.state.solved.mechanism.joint(name).anchor == moved.anchor  # type: ignore[union-attr]
+    machine = build("wheel_loader", again.setup.cad, again.setup.out)
+    assert machine.mechanism.joint(name).anchor == moved.anchor
+    assert any(entry.startswith("front frame2boom joint: its axis") for entry in map(words, again.history()[0]))
+    again.do(again.read({"kind": "joint", "name": name, "entry": {}}))
+    assert again.settled(60.0).solved.mechanism.joint(name).anchor == before.anchor  # type: ignore[union-attr]
+    again.keep()
+    assert "joints" not in json.loads((again.setup.out / "alignment.json").read_text(encoding="utf-8"))
+    for broken in ({"anchor": [0, 0, 1]}, {"colour": 1}, {"axis": "up"}, {"through": [[0, 0, 0]] * 2}):
+        with pytest.raises(YellowironError):
+            again.do(again.read({"kind": "joint", "name": name, "entry": broken}))
 
 
 @pytest.mark.slow

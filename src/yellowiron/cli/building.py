@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import datetime
+from collections.abc import Callable, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -13,7 +15,7 @@ from rich.text import Text
 import yellowiron
 from yellowiron.cli.application import app
 from yellowiron.cli.options import Config, Settings, Sheets, Type, command, reads_sheets
-from yellowiron.cli.telling import answer, progress_shown
+from yellowiron.cli.telling import answer, progress_shown, tell
 
 
 @command(app)
@@ -33,6 +35,9 @@ def build(
         typer.Option("--tracks", help="How a crawler's tracks are modelled: hidden wheels, every shoe, or standing."),
     ] = None,
     simulate: Annotated[bool, typer.Option("--simulate", help="Drive it in every engine that is installed.")] = False,
+    watch: Annotated[
+        bool, typer.Option("--watch", help="Build again whenever an input changes, until Ctrl-C.")
+    ] = False,
     *,
     reading: dict[str, Any],
 ) -> None:
@@ -45,18 +50,52 @@ def build(
     from yellowiron.inputs import checked_inputs
     from yellowiron.report import build_summary
 
-    # Before the libraries of a build are loaded, which takes more than a second.
-    checked_inputs(equipment_type, cad, out, sheets=specs or (), alignment_file=alignment, documents=data or (),
-                   settings=settings or ())  # fmt: skip
-    with progress_shown() as progress:
-        machine = yellowiron.build(
-            equipment_type, cad, out, sheets=specs or (), alignment_file=alignment, documents=data or (),
-            settings=[*(settings or ()), *([f"--tracks={tracks}"] if tracks else [])],
-            engines=engines, progress=progress, **reading,
-        )  # fmt: skip
-    reasons = machine.fell_short
-    answer(machine.document, build_summary(machine.document, reasons, str(out)))
-    raise typer.Exit(1 if reasons else 0)
+    def once() -> int:
+        # Before the libraries of a build are loaded, which takes more than a second.
+        checked_inputs(equipment_type, cad, out, sheets=specs or (), alignment_file=alignment, documents=data or (),
+                       settings=settings or ())  # fmt: skip
+        with progress_shown() as progress:
+            machine = yellowiron.build(
+                equipment_type, cad, out, sheets=specs or (), alignment_file=alignment, documents=data or (),
+                settings=[*(settings or ()), *([f"--tracks={tracks}"] if tracks else [])],
+                engines=engines, progress=progress, **reading,
+            )  # fmt: skip
+        reasons = machine.fell_short
+        answer(machine.document, build_summary(machine.document, reasons, str(out)))
+        return 1 if reasons else 0
+
+    kept = alignment or out / "alignment.json"
+    inputs = [
+        cad,
+        *(specs or ()),
+        *(data or ()),
+        kept,
+        *([Path(equipment_type)] if Path(equipment_type).is_dir() else ()),
+    ]
+    raise typer.Exit(_watched(once, inputs, kept) if watch else once())
+
+
+def _watched(once: Callable[[], int], inputs: Sequence[Path], kept: Path) -> int:
+    """Does something once, and again whenever inputs change, until it is interrupted: the last exit code. `kept` is an
+    input that it writes itself."""
+    from yellowiron.cli.watching import stamps, wait_for_change
+    from yellowiron.model.errors import YellowironError
+    from yellowiron.report import terminal
+
+    code = 0
+    with contextlib.suppress(KeyboardInterrupt):
+        while True:
+            before = stamps(inputs)
+            try:
+                code = once()
+            except YellowironError as error:
+                terminal.complain(error)
+                code = 2
+            terminal.flush()
+            tell(f"Watching {len(inputs)} inputs; Ctrl-C ends.")
+            changed = wait_for_change(inputs, {**{p: s for p, s in before.items() if p != kept}, **stamps([kept])})
+            tell(f"Changed: {', '.join(path.name for path in changed[:3])}")
+    return code
 
 
 @command(app)

@@ -48,6 +48,13 @@ def answer(document: Any, renderable: RenderableType) -> None:
         terminal.print_text(renderable)
 
 
+def tell(words: str) -> None:
+    """A line on standard error, unless silence was asked for."""
+    told = _TELLING.get()
+    if not told.quiet:
+        terminal.print_step(words)
+
+
 @contextmanager
 def progress_shown() -> Iterator[Callable[[str], None]]:
     """A function that is called with a few words at every step. On standard error each is a line with its time when it

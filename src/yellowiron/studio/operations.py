@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal
@@ -10,27 +11,40 @@ from yellowiron.model.alignment import UNSIGNED, GivenValue, PartDecision, Signa
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.template import Template
 
-Kind = Literal["role", "confirm", "forget", "value"]
-KINDS: tuple[Kind, ...] = ("role", "confirm", "forget", "value")
+Kind = Literal["role", "confirm", "forget", "value", "joint"]
+KINDS: tuple[Kind, ...] = ("role", "confirm", "forget", "value", "joint")
+SIGNED = ("by", "date", "why")
 _SOURCE = {"role": "edited", "confirm": "confirmed", "forget": "solved"}
+_SAID = {
+    "anchor": "its axis",
+    "through": "its axis",
+    "Limit": "its stops",
+    "joint_type": "its type",
+    "Body": "its bodies",
+}
 _LONGEST = 200
 """Letters of a value, a name or a reason."""
+_LARGEST = 4000
+"""Letters of what is said of a joint."""
 
 
 @dataclass(frozen=True)
 class Operation:
     """One decision: `role` gives `parts` (id → role; None: not part of the machine) theirs, `confirm` says that they
-    are right, `forget` takes back what was said of them; `value` gives `name` the `text` (empty: takes it back)."""
+    are right, `forget` takes back what was said of them; `value` gives `name` the `text` (empty: takes it back);
+    `joint` says of the joint `name` what is in `entry`, as a `--data` document of joints has it (empty: takes all of it
+    back)."""
 
     kind: Kind
     parts: Mapping[str, str | None] = field(default_factory=dict)
     name: str = ""
     text: str = ""
+    entry: Mapping[str, Any] = field(default_factory=dict)
     signature: Signature = UNSIGNED
 
     def decisions(self) -> dict[str, PartDecision]:
         """What it says of each part."""
-        if self.kind == "value":
+        if self.kind in ("value", "joint"):
             return {}
         source = _SOURCE[self.kind]
         return {part: PartDecision(role, source, self.signature) for part, role in self.parts.items()}  # type: ignore[arg-type]
@@ -44,6 +58,9 @@ def words(operation: Operation) -> str:
     """An operation in a line of the history."""
     if operation.kind == "value":
         return f"{operation.name} = {operation.text}" if operation.text else f"{operation.name} as the sheet has it"
+    if operation.kind == "joint":
+        said = ", ".join(_SAID[key] for key in _SAID if key in operation.entry)
+        return f"{operation.name.replace('_', ' ')}: {said or 'taken back'}"
     names = [part.rsplit("/", 1)[-1] for part in operation.parts]
     some = ", ".join(names[:2]) + (f" and {len(names) - 2} more" if len(names) > 2 else "")
     roles = sorted({(role or "no part of the machine").replace("_", " ") for role in operation.parts.values()})
@@ -55,9 +72,11 @@ def words(operation: Operation) -> str:
 
 def to_entry(operation: Operation) -> dict[str, Any]:
     """An operation as the journal has it."""
-    signed = {k: v for k in ("by", "date", "why") if (v := getattr(operation.signature, k))}
+    signed = {k: v for k in SIGNED if (v := getattr(operation.signature, k))}
     if operation.kind == "value":
         return {"kind": "value", "name": operation.name, "text": operation.text, **signed}
+    if operation.kind == "joint":
+        return {"kind": "joint", "name": operation.name, "entry": dict(operation.entry), **signed}
     return {"kind": operation.kind, "parts": dict(operation.parts), **signed}
 
 
@@ -65,14 +84,19 @@ def from_entry(entry: object, parts: Collection[str], template: Template) -> Ope
     """An operation that the page sent, or the journal has. `YellowironError` for one that is none, and for parts and
     roles that there are not."""
     if not isinstance(entry, Mapping) or entry.get("kind") not in KINDS:
-        raise _broken("It is none of: role, confirm, forget, value")
-    signature = Signature(*(_text(entry, key) for key in ("by", "date", "why")))
+        raise _broken("It is none of: role, confirm, forget, value, joint")
+    signature = Signature(*(_text(entry, key) for key in SIGNED))
     kind: Kind = entry["kind"]
     if kind == "value":
         name = _text(entry, "name")
         if not name or "=" in name:
             raise _broken("A value has no name")
         return Operation("value", name=name, text=_text(entry, "text").strip(), signature=signature)
+    if kind == "joint":
+        name, told = _text(entry, "name"), entry.get("entry", {})
+        if not name or not isinstance(told, Mapping) or len(json.dumps(told)) > _LARGEST:
+            raise _broken("It says nothing of a joint")
+        return Operation("joint", name=name, entry=dict(told), signature=signature)
     said = entry.get("parts")
     if not isinstance(said, Mapping) or not said:
         raise _broken("It names no part")

@@ -14,12 +14,15 @@ from yellowiron.model.assembly import Assembly
 from yellowiron.model.geometry import Floats
 from yellowiron.model.specification import Specification, fold
 from yellowiron.report.words import titled
+from yellowiron.studio.joints import JointState
 from yellowiron.studio.session import State
 
 MOST_CANDIDATES = 9
 """As many as there are digits to choose them by."""
 _PIN = 0.05
 """What a missing pin weighs: its joint has an axis without it."""
+_AXIS = 50.0
+"""What an axis weighs that is as uncertain as the machine is large."""
 _UNITS = {"m": ("mm", 1e3), "rad": ("deg", 180.0 / np.pi), "kg": ("kg", 1.0), "Pa": ("MPa", 1e-6), "N": ("kN", 1e-3)}
 """SI unit → the one that a person reads, and what it is multiplied by."""
 
@@ -35,10 +38,10 @@ class Candidate:
 @dataclass(frozen=True)
 class Question:
     """One thing to settle. Of `parts`: whether they play the roles that they were given. Of a `role`: which part plays
-    it. Of a `value`: what it is, `parts` being those that it is about. `weight` says how much hangs on it, `known` what
-    is known beside the reason."""
+    it. Of a `value`: what it is, `parts` being those that it is about. Of a `joint`: where its axis is. `weight` says
+    how much hangs on it, `known` what is known beside the reason."""
 
-    kind: Literal["parts", "role", "value"]
+    kind: Literal["parts", "role", "value", "joint"]
     key: str
     title: str
     weight: float
@@ -49,10 +52,10 @@ class Question:
     page: int | None = None
 
 
-def questions(state: State, boxes: Mapping[str, Floats]) -> list[Question]:
-    """What is to ask of a state, the most consequential first. `boxes`: part → its (2, 3) box in the CAD file's frame,
-    metres, by which what is near is offered first."""
-    found = [*_of_parts(state, boxes), *_of_roles(state, boxes), *_of_values(state)]
+def questions(state: State, boxes: Mapping[str, Floats], joints: Sequence[JointState] = ()) -> list[Question]:
+    """What is to ask of a state and its joints, the most consequential first. `boxes`: part → its (2, 3) box in the CAD
+    file's frame, metres, by which what is near is offered first."""
+    found = [*_of_parts(state, boxes), *_of_roles(state, boxes), *_of_joints(joints, boxes), *_of_values(state)]
     return sorted(found, key=lambda q: (-q.weight, q.key))
 
 
@@ -115,6 +118,27 @@ def _of_roles(state: State, boxes: Mapping[str, Floats]) -> list[Question]:
             "Nothing was found for it.", candidates=tuple(Candidate(p, p.rsplit("/", 1)[-1]) for p in listed),
         ))  # fmt: skip
     return found
+
+
+def _of_joints(joints: Sequence[JointState], boxes: Mapping[str, Floats]) -> list[Question]:
+    """Joints whose axis is a rough guess: whether it is right, and which others there are."""
+    size = size_of(boxes)
+    return [
+        Question(
+            "joint", f"joint:{joint.name}", f"{joint.title}: is its axis there?",
+            1.0 + min(_AXIS * joint.doubt / size, 2.0), joint.reason,
+            candidates=tuple(Candidate(entry, words) for entry, words in joint.others),
+        )
+        for joint in joints if joint.doubt > 0.0
+    ]  # fmt: skip
+
+
+def size_of(boxes: Mapping[str, Floats]) -> float:
+    """Metres across all boxes."""
+    if not boxes:
+        return 1.0
+    corners = np.array(list(boxes.values())).reshape(-1, 3)
+    return float(np.linalg.norm(np.ptp(corners, axis=0))) or 1.0
 
 
 def _of_values(state: State) -> list[Question]:

@@ -14,7 +14,7 @@ import secrets
 import socket
 import tempfile
 import threading
-from collections.abc import AsyncIterator, Callable
+from collections.abc import AsyncIterator, Callable, Mapping
 from dataclasses import asdict
 from importlib import resources
 from pathlib import Path
@@ -24,9 +24,11 @@ from yellowiron import report, specs
 from yellowiron.model.errors import YellowironError
 from yellowiron.report.html.viewer import asset
 from yellowiron.report.words import titled
+from yellowiron.studio.axes import axis_of, read_picks
 from yellowiron.studio.building import Build
+from yellowiron.studio.joints import joints_of
 from yellowiron.studio.operations import words
-from yellowiron.studio.questions import boxes_of, questions
+from yellowiron.studio.questions import boxes_of, questions, size_of
 from yellowiron.studio.scene import Scene
 from yellowiron.studio.session import Session, State
 from yellowiron.support.text import to_json
@@ -93,6 +95,7 @@ def application(session: Session, *, token: str, port: int) -> ASGIApp:
         Route("/state", pages.state),
         Route("/sheet/{number:int}", pages.sheet),
         Route("/events", pages.events),
+        Route("/axis", pages.axis, methods=["POST"]),
         *(Route(f"/{name}", pages.said, methods=["POST"]) for name in ("do", "undo", "redo", "build")),
     ]
 
@@ -148,7 +151,7 @@ class _Pages:
         self._boxes = boxes_of(session.assembly)
         self._build = Build(session.setup)
         self._machine: tuple[int, bytes] = (0, b"")
-        self._questions: tuple[int, list[dict[str, Any]]] = (0, [])
+        self._questions: tuple[int, list[dict[str, Any]], list[dict[str, Any]]] = (0, [], [])
         self._lock = threading.Lock()
         self._folder = tempfile.TemporaryDirectory(prefix="yellowiron-")
         self._drawn: dict[int, Path] | None = None
@@ -208,6 +211,18 @@ class _Pages:
         }
         return await self._answer(act[request.url.path.strip("/")])
 
+    async def axis(self, request: Request) -> Response:
+        """The axis that some clicks mean; nothing is decided by it."""
+        body = await _body(request)
+        if body is None:
+            return PlainTextResponse("That is more than a few clicks can be.", 413, headers=_HEAD)
+
+        def meant() -> dict[str, Any]:
+            assembly = self._session.assembly
+            return asdict(axis_of(read_picks(_parsed(body), assembly), assembly))
+
+        return await _asked(meant)
+
     async def events(self, request: Request) -> Response:
         """Tells a page, as long as it listens, that another state is there or the build has gone on."""
 
@@ -223,10 +238,7 @@ class _Pages:
         return StreamingResponse(told(), media_type="text/event-stream", headers=_HEAD)
 
     def _done(self, body: bytes) -> None:
-        try:
-            entry = json.loads(body)
-        except (ValueError, RecursionError) as error:
-            raise YellowironError("The message is no JSON", where="studio", hint="Reload the page.") from error
+        entry = _parsed(body)
         today = datetime.date.today().isoformat()
         if isinstance(entry, dict):
             entry = {**self._session.mirrored(entry), "date": today}
@@ -237,15 +249,11 @@ class _Pages:
         self._build.start()
 
     async def _answer(self, act: Callable[[], object]) -> Response:
-        def answered() -> tuple[int, str]:
-            try:
-                act()
-                return 200, to_json(self._told(self._session.state))
-            except YellowironError as error:
-                return 400, to_json({"message": error.message, "where": error.where, "hint": error.hint})
+        def told() -> dict[str, Any]:
+            act()
+            return self._told(self._session.state)
 
-        status, text = await run_in_threadpool(answered)
-        return Response(text, status, media_type="application/json", headers=_HEAD)
+        return await _asked(told)
 
     def _told(self, state: State) -> dict[str, Any]:
         operations, cursor = self._session.history()
@@ -260,7 +268,8 @@ class _Pages:
             "verdict": state.failed or document.get("verdict", ""),
             "causes": [asdict(cause) for cause in report.causes(document)] if document else [],
             "tally": report.tally(document) if document else "no machine yet",
-            "questions": self._asked(state),
+            "questions": self._asked(state)[0],
+            "joints": self._asked(state)[1],
             "history": [
                 {"words": words(o), "by": o.signature.by, "date": o.signature.date, "holds": k < cursor}
                 for k, o in enumerate(operations)
@@ -271,13 +280,15 @@ class _Pages:
                       "command": " ".join(["yellowiron", *self._session.setup.command()])},
         }  # fmt: skip
 
-    def _asked(self, state: State) -> list[dict[str, Any]]:
-        """The questions of a state, made once."""
-        version, asked = self._questions
+    def _asked(self, state: State) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
+        """The questions and the joints of a state, made once."""
+        version, asked, joints = self._questions
         if version != state.version:
-            asked = [asdict(question) for question in questions(state, self._boxes)]
-            self._questions = (state.version, asked)
-        return asked
+            known = joints_of(state, size_of(self._boxes))
+            asked = [asdict(question) for question in questions(state, self._boxes, known)]
+            joints = [asdict(joint) for joint in known]
+            self._questions = (state.version, asked, joints)
+        return asked, joints
 
     def _packed(self) -> bytes:
         with self._lock:
@@ -299,6 +310,26 @@ def _number(file: Path) -> int:
     """The page that a picture of it is named by."""
     digits = "".join(letter if letter.isdigit() else " " for letter in file.stem).split()
     return int(digits[-1]) if digits else 0
+
+
+async def _asked(answer: Callable[[], Mapping[str, Any]]) -> Response:
+    """What an answer is, or why there is none."""
+
+    def answered() -> tuple[int, str]:
+        try:
+            return 200, to_json(answer())
+        except YellowironError as error:
+            return 400, to_json({"message": error.message, "where": error.where, "hint": error.hint})
+
+    status, text = await run_in_threadpool(answered)
+    return Response(text, status, media_type="application/json", headers=_HEAD)
+
+
+def _parsed(body: bytes) -> Any:
+    try:
+        return json.loads(body)
+    except (ValueError, RecursionError) as error:
+        raise YellowironError("The message is no JSON", where="studio", hint="Reload the page.") from error
 
 
 async def _body(request: Request) -> bytes | None:

@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from yellowiron import cad, kinematics, library, report, specs
-from yellowiron.alignment import decide, read_alignment, read_joints, write_alignment
+from yellowiron import kinematics, library, memory, report, specs
+from yellowiron.alignment import decide, read_alignment, write_alignment
 from yellowiron.inputs import checked_inputs
 from yellowiron.model.alignment import (
     Alignment,
@@ -23,9 +23,9 @@ from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import MechanismError
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import Template, choose
-from yellowiron.stages import Solved, find_roles, roles_of, solve
+from yellowiron.stages import Solved, roles_of, solve
 from yellowiron.studio.journal import FILE, Journal
-from yellowiron.studio.operations import Operation, from_entry
+from yellowiron.studio.operations import SIGNED, Operation, from_entry
 from yellowiron.studio.setup import Setup
 from yellowiron.studio.twins import twins_of
 from yellowiron.support.output import output_file, output_folder
@@ -39,8 +39,9 @@ _OWN = ("edited", "confirmed")
 @dataclass(frozen=True, eq=False)
 class State:
     """What the decisions so far come to. `version` counts states, `said` the decisions that it knows of; `aligned` is
-    the alignment as it is kept, before the sheet moves an axis; `solved` is None where no mechanism can be made of it,
-    and `failed` says why; `document` is the report's, empty without a mechanism."""
+    the alignment as it is kept, of `aligned_model`, before the sheet moves an axis or the machine is started; `solved`
+    is None where no mechanism can be made of it, and `failed` says why; `document` is the report's, empty without a
+    mechanism."""
 
     version: int
     said: int
@@ -49,6 +50,7 @@ class State:
     alignment: Alignment
     specifications: Specifications
     aligned: Alignment
+    aligned_model: Assembly
     solved: Solved | None = None
     failed: str = ""
     document: Mapping[str, Any] = field(default_factory=dict)
@@ -84,14 +86,18 @@ class Session:
         )  # fmt: skip
         self._given, self._choices = inputs.given, inputs.choices
         progress("Reading the CAD model")
-        read = cad.read_cad(setup.cad) if assembly is None else assembly
-        by_hand = (earlier, read_joints(earlier)) if earlier is not None else None
-        self._data = library.load_documents(setup.documents, inputs.template, read, joints=by_hand)
+        read = memory.read_model(setup.cad) if assembly is None else assembly
+        self._bare = inputs.template
+        self._read = read
+        # What the alignment file says of joints is the first of what is said here.
+        self._data = library.load_documents(setup.documents, inputs.template, read)
         self._template = library.apply_sensors(library.apply_joints(inputs.template, self._data), self._data)
         progress("Reading the specification sheets")
-        self._sheet = specs.extract(self._template, setup.sheets, config=setup.config, progress=progress)
+        self._sheet = memory.read_values(
+            self._template, setup.sheets, config=setup.config, extractor="rules", model=None, progress=progress
+        )
         progress("Finding the part that plays each role")
-        self.assembly, _ = find_roles(
+        self.assembly, _ = memory.find_roles(
             read, self._template, specs.merge(self._sheet, self._given),
             earlier=earlier, data=self._data, choices=self._choices,
         )  # fmt: skip
@@ -105,7 +111,7 @@ class Session:
             pass
         self._journal = Journal(setup.out / FILE, self.read)
         if not self._continues():
-            self._journal.begin(_snapshot(_own(self._edits), self._edits.values))
+            self._journal.begin(_snapshot(_own(self._edits), self._edits.values, self._edits.joints))
         self.state = self._solved({})
         self._worker = threading.Thread(target=self._work, daemon=True)
         self._worker.start()
@@ -126,6 +132,8 @@ class Session:
         signed = replace(operation, signature=replace(operation.signature, by=operation.signature.by or self.by))
         if signed.kind == "value" and signed.text:
             specs.parse_settings([f"{signed.name}={signed.text}"], self._template)
+        if signed.kind == "joint" and signed.entry:
+            self._documents({signed.name: signed.entry})
         with self._heard:
             self._journal.do(signed)
             return self._changed()
@@ -222,36 +230,44 @@ class Session:
         """What the decisions come to, the variants in `fixed` as they were but for those that a person's role needs."""
         with self._heard:
             said = self._said
-            parts, values = _after(self._journal.base or {}, self._journal.in_force)
-        played = choose(self._template, {**fixed, **self._choices}) if fixed else self._template
+            parts, values, joints = _after(self._journal.base or {}, self._journal.in_force)
+        data, template = self._documents(joints)
+        played = choose(template, {**fixed, **self._choices}) if fixed else template
         if any(d.role is not None and not played.knows(d.role) for d in parts.values()):
             fixed = {}
         choices = {**fixed, **self._choices}
         forgotten = {p: PartDecision(None, "solved") for p in _own(self._edits) if p not in parts}
-        edits = decide(self._edits, Decisions(parts={**forgotten, **parts}), self.assembly, self._template)
-        edits = replace(edits or self._edits, values=values)
-        by_hand = specs.parse_settings([f"{n}={v.text}" for n, v in values.items()], self._template)
+        edits = decide(self._edits, Decisions(parts={**forgotten, **parts}), self.assembly, template)
+        edits = replace(edits or self._edits, values=values, joints=joints)
+        by_hand = specs.parse_settings([f"{n}={v.text}" for n, v in values.items()], template)
         specifications = specs.merge(self._sheet, by_hand, self._given)
-        alignment = roles_of(
-            self.assembly, self._template, specifications, edits=edits, data=self._data, choices=choices
-        )
+        alignment = roles_of(self.assembly, template, specifications, edits=edits, data=data, choices=choices)
         self._fixed = dict(alignment.choices)
-        chosen = choose(self._template, {**alignment.choices, **choices})
+        chosen = choose(template, {**alignment.choices, **choices})
         self._version += 1
-        bare = State(self._version, said, chosen, self.assembly, alignment, specifications, alignment)
+        bare = State(self._version, said, chosen, self.assembly, alignment, specifications, alignment, self.assembly)
         try:
-            solved = solve(self._template, self.assembly, alignment, specifications, self._data, choices)
+            solved = solve(template, self.assembly, alignment, specifications, data, choices)
         except MechanismError as error:
             return replace(bare, failed=str(error))
         document = report.report_document(report.BuildFacts(
             solved.mechanism, solved.template, solved.alignment, solved.specifications,
             kinematics.measure(solved.mechanism),
-            findings=(*self.assembly.findings, *self._data.findings), declared=solved.compared,
+            findings=(*self.assembly.findings, *data.findings), declared=solved.compared,
         ))  # fmt: skip
         return replace(
             bare, template=solved.template, assembly=solved.assembly, alignment=solved.alignment,
             specifications=solved.specifications, solved=solved, document=document,
         )  # fmt: skip
+
+    def _documents(self, joints: Mapping[str, Mapping[str, object]]) -> tuple[library.Documents, Template]:
+        """The user's documents and what is said of joints here, with the template that they make. `YellowironError` for
+        what cannot be said of a joint."""
+        bare = {name: {k: v for k, v in entry.items() if k not in SIGNED} for name, entry in joints.items()}
+        if not bare:
+            return self._data, self._template
+        data = library.load_documents(self.setup.documents, self._bare, self._read, joints=(self._file, bare))
+        return data, library.apply_sensors(library.apply_joints(self._bare, data), data)
 
     def _continues(self) -> bool:
         """Whether the decisions in alignment.json are those that the journal led to, or, in a file that is older than
@@ -260,7 +276,7 @@ class Session:
         base = self._journal.base
         if base is None:
             return False
-        now = _snapshot(_own(self._edits), self._edits.values)
+        now = _snapshot(_own(self._edits), self._edits.values, self._edits.joints)
         behind = not self._file.exists() or self._file.stat().st_mtime_ns < self._journal.written_ns
         known = self._journal.passed if behind else [self._journal.in_force]
         return any(_snapshot(*_after(base, operations)) == now for operations in known)
@@ -281,33 +297,40 @@ def _own(alignment: Alignment) -> dict[str, PartDecision]:
 
 def _after(
     base: Mapping[str, Any], operations: list[Operation]
-) -> tuple[dict[str, PartDecision], dict[str, GivenValue]]:
-    """The decisions of parts and values after some operations on top of a snapshot."""
+) -> tuple[dict[str, PartDecision], dict[str, GivenValue], dict[str, Mapping[str, object]]]:
+    """The decisions of parts, values and joints after some operations on top of a snapshot."""
     parts = {
         part: PartDecision(entry["role"], entry["source"], _signature(entry))
         for part, entry in base.get("parts", {}).items()
     }
     values = {name: GivenValue(entry["value"], _signature(entry)) for name, entry in base.get("values", {}).items()}
+    joints = dict(base.get("joints", {}))
     for operation in operations:
         parts |= operation.decisions()
         if operation.kind == "value":
             values.pop(operation.name, None)
             given = operation.value()
             values |= {operation.name: given} if given is not None else {}
-    return {part: one for part, one in parts.items() if one.source != "solved"}, values
+        if operation.kind == "joint":
+            joints.pop(operation.name, None)
+            joints |= {operation.name: {**operation.entry, **_said(operation.signature)}} if operation.entry else {}
+    return {part: one for part, one in parts.items() if one.source != "solved"}, values, joints
 
 
-def _snapshot(parts: Mapping[str, PartDecision], values: Mapping[str, GivenValue]) -> dict[str, Any]:
+def _snapshot(
+    parts: Mapping[str, PartDecision], values: Mapping[str, GivenValue], joints: Mapping[str, Mapping[str, object]]
+) -> dict[str, Any]:
     """Decisions as the journal's first line has them."""
     return {
         "parts": {p: {"role": d.role, "source": d.source, **_said(d.signature)} for p, d in sorted(parts.items())},
         "values": {n: {"value": v.text, **_said(v.signature)} for n, v in sorted(values.items())},
+        "joints": {name: dict(entry) for name, entry in sorted(joints.items())},
     }
 
 
 def _said(signature: Signature) -> dict[str, str]:
-    return {key: said for key in ("by", "date", "why") if (said := getattr(signature, key))}
+    return {key: said for key in SIGNED if (said := getattr(signature, key))}
 
 
 def _signature(entry: Mapping[str, Any]) -> Signature:
-    return Signature(*(str(entry.get(key) or "") for key in ("by", "date", "why")))
+    return Signature(*(str(entry.get(key) or "") for key in SIGNED))

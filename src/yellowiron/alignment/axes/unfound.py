@@ -76,7 +76,8 @@ def axis_findings(estimates: Mapping[str, AxisEstimate], size: float) -> list[Fi
             f"{math.degrees(e.angle):.1f}° (one sigma), from {e.how}"
         )
         if e.candidates and e.across > SURE * size:
-            text += f"; {len(e.candidates)} other lines could be it"
+            count = len(e.candidates)
+            text += f"; {count} other {'line' if count == 1 else 'lines'} could be it"
         severity: Severity = "warning" if e.across > SURE * size else "info"
         hint = "Compare it with the machine; give its pin that role in alignment.json, or draw the pin."
         findings.append(Finding("ALN016", severity, e.joint, text, hint))

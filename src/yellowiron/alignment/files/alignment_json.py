@@ -177,9 +177,12 @@ def said_in(path: str | Path, template: Template) -> dict[str, Any]:
 
 def read_joints(path: str | Path) -> dict[str, Mapping[str, object]]:
     """The joints that a person wrote into an alignment file: name → entry, as a `--data` document of joints has it.
-    `AlignmentError` for a file that is no alignment."""
+    Who said it, when and why is left out. `AlignmentError` for a file that is no alignment."""
     source = Path(path)
-    return _joints(_load(source), source)
+    return {
+        name: {key: said for key, said in entry.items() if key not in _SIGNED}
+        for name, entry in _joints(_load(source), source).items()
+    }
 
 
 def _joints(document: Mapping[str, Any], source: Path) -> dict[str, Mapping[str, object]]:

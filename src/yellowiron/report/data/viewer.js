@@ -585,6 +585,41 @@ class Viewer {
     return this.renderer.partAt(Math.floor(x * ratio), Math.floor(y * ratio));
   }
 
+  /** What is seen at a pixel of the stage: the part's number and the point, in the part's own frame; null: nothing. */
+  surfaceAt(x, y) {
+    const part = this.model.parts[this.pick(x, y) - 1];
+    if (!part) return null;
+    const { eye, back, right, up, slope } = cameraOf(this.camera, this.#aspect, this.scene);
+    const across = ((2 * x) / this.stage.clientWidth - 1) * slope * this.#aspect;
+    const away = (1 - (2 * y) / this.stage.clientHeight) * slope;
+    const local = inverse(part.place);
+    const from = moved(local, eye);
+    const way = turned(local, add(add(scaled(right, across), scaled(up, away)), scaled(back, -1)));
+    const shape = this.model.shapes[part.shape];
+    const { points, indices } = decodeMesh(shape);
+    const corner = (i) => [0, 1, 2].map((k) => shape.low[k] + (points[3 * i + k] / 65535) * shape.size[k]);
+    let nearest = Infinity;
+    for (let i = 0; i < indices.length; i += 3) {
+      const [a, b, c] = [corner(indices[i]), corner(indices[i + 1]), corner(indices[i + 2])];
+      const [ab, ac, offset] = [b, c, from].map((p) => add(p, scaled(a, -1)));
+      const side = cross(way, ac);
+      const volume = dot(ab, side);
+      if (!volume) continue;
+      const u = dot(offset, side) / volume;
+      const turn = cross(offset, ab);
+      const v = dot(way, turn) / volume;
+      const t = dot(ac, turn) / volume;
+      if (u >= 0 && v >= 0 && u + v <= 1 && t > 0 && t < nearest) nearest = t;
+    }
+    return nearest < Infinity ? { number: part.number, part: part.path, point: add(from, scaled(way, nearest)) } : null;
+  }
+
+  /** Axes that are shown whatever else is: of a joint by its name, or `{number, point, direction}` of a part's frame. */
+  showAxes(axes) {
+    this.axes = axes;
+    this.#drawMarks();
+  }
+
   /** Pixel of the stage where a point of the machine frame is seen; null behind the camera. */
   project(point) {
     const m = cameraOf(this.camera, this.#aspect, this.scene).matrix;
@@ -632,6 +667,7 @@ class Viewer {
     this.kept = old;
     if (this.showSensors) this.#drawSensors();
     if (this.showJoints) this.#drawJoints();
+    for (const [index, axis] of (this.axes ?? []).entries()) this.#drawAxis(index, axis);
     for (const [key, mark] of old) if (!this.marks.has(key)) mark.group.remove();
   }
 
@@ -677,6 +713,24 @@ class Viewer {
       }
       change(shapes.spot, { cx: spot[0], cy: spot[1] });
     }
+  }
+
+  #drawAxis(index, axis) {
+    const joint = this.model.joints.find((each) => each.name === axis);
+    const place = joint ? this.pose[joint.parent] : this.model.parts[axis.number - 1]?.place;
+    if (!place) return;
+    const middle = moved(place, joint ? joint.anchor : axis.point);
+    const way = scaled(unit(turned(place, joint ? joint.axis : axis.direction)), 0.16 * this.scene.radius);
+    const [a, b, m] = [add(middle, way), add(middle, scaled(way, -1)), middle].map((point) => this.project(point));
+    if (!a || !b || !m) return;
+    const kind = `v-axis${joint ? "" : " v-meant"}`;
+    const told = () => (joint ? `${joint.name} · ${joint.type}` : "The axis that was pointed at");
+    const { line, spot, head } = this.#mark(`axis ${index} ${kind}`, kind, () => ({
+      line: svg("line"), spot: svg("circle", { r: 5 }), head: svg("circle", { r: 3 }),
+    }), m, told);
+    change(line, { x1: a[0], y1: a[1], x2: b[0], y2: b[1] });
+    change(spot, { cx: m[0], cy: m[1] });
+    change(head, { cx: a[0], cy: a[1] });
   }
 
   /** Joint axes over the picture: filled marks for joints of the tree, hollow ones where a loop is cut. */

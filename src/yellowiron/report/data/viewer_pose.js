@@ -18,6 +18,15 @@ function multiply(a, b) {
   return out;
 }
 
+/** The inverse of a placement, which may scale and mirror. */
+function inverse(m) {
+  const [a, b, c] = [0, 4, 8].map((k) => [m[k], m[k + 1], m[k + 2]]);
+  const volume = dot(a, cross(b, c));
+  const rows = [cross(b, c), cross(c, a), cross(a, b)].map((row) => scaled(row, 1 / volume));
+  const ends = rows.map((row) => -dot(row, [m[12], m[13], m[14]]));
+  return [0, 1, 2].flatMap((k) => [...rows.map((row) => row[k]), 0]).concat(ends, 1);
+}
+
 const moved = (m, p) => [0, 1, 2].map((row) => m[row] * p[0] + m[4 + row] * p[1] + m[8 + row] * p[2] + m[12 + row]);
 const turned = (m, v) => [0, 1, 2].map((row) => m[row] * v[0] + m[4 + row] * v[1] + m[8 + row] * v[2]);
 

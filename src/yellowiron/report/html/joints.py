@@ -53,7 +53,7 @@ def _row(number: int, name: str, joints: Sequence[Mapping[str, Any]], levers: Ma
         "anchors": [joint["anchor"] for joint in joints],
         "range": spans[0] if len(spans) == 1 else "each its own",
         "drive": f"{drive['kind']}, {shown(drive['max_force'], force_unit, digits=4)}" if drive else "",
-        "source": _source(first["source"], levers),
+        "source": joint_evidence(first["source"], levers),
     }
 
 
@@ -67,7 +67,7 @@ def _span(joint: Mapping[str, Any]) -> str:
     return f"{shown(lower, unit)} … {shown(upper, unit)}"
 
 
-def _source(source: Mapping[str, Any], levers: Mapping[str, str]) -> str:
+def joint_evidence(source: Mapping[str, Any], levers: Mapping[str, str]) -> str:
     """The evidence of a joint as sentences: where its axis, its cut and its limits come from."""
     words = []
     if source.get("method"):

@@ -5,7 +5,9 @@ const by = (id) => document.getElementById(id);
 const KEYS = [
   ["⏎", "Yes"], ["1 – 9", "Instead: the numbered answer"], ["X", "No part of the machine"], ["/", "Find any role"],
   ["J, K", "Next question, the one before"], ["U, ⇧U", "Undo, redo"], ["A", "Take in the assembly around what is selected"],
-  ["M", "The same on the other side"], ["I", "Only these parts, and all again"], ["F", "Look at these parts"],
+  ["M", "The same on the other side"], ["P", "Point at a joint's axis: a bore; two round things or points; three points of a circle; Alt: an edge"],
+  ["R", "A slide the other way round"], ["[, ]", "The joint's lower and upper stop where it is now"],
+  ["I", "Only these parts, and all again"], ["F", "Look at these parts"],
   ["W", "Move what the question is about"], ["Esc", "Select nothing"], ["B", "Build"], ["?", "These keys"],
 ];
 
@@ -30,6 +32,8 @@ class Studio {
     this.viewer = viewer;
     this.drawn = drawn; // version of the machine on the screen
     this.selection = new Set();
+    this.picked = null; // name of the joint that was chosen from the list
+    this.aim = null; // where an axis was pointed at: clicks, and what they mean
     this.at = 0;
     this.mirror = false;
     this.waiting = 0; // messages that are not answered yet
@@ -89,28 +93,40 @@ class Studio {
     this.#open(this.question?.key);
     this.show();
     if (this.shown.size) this.viewer.focus(this.shown);
+    this.wiggle();
   }
 
   get question() {
     return this.questions?.[this.at];
   }
 
+  /** The joint that is chosen from the list, else the one that is asked about. */
+  get joint() {
+    const asked = !this.selection.size && this.question?.kind === "joint" ? this.question.key.slice("joint:".length) : null;
+    const name = this.picked ?? asked;
+    return (name && this.state.joints.find((joint) => joint.name === name)) || null;
+  }
+
   /** Numbers of the parts that are shown: what is selected, else what the question is about. */
   get shown() {
     if (this.selection.size) return this.selection;
+    const { joint } = this;
+    const { parts, bodies } = this.viewer.model;
+    if (joint) return new Set(parts.filter((part) => joint.bodies.includes(bodies[part.body].name)).map((part) => part.number));
     return new Set((this.question?.parts ?? []).map((path) => this.numbers.get(path)).filter(Boolean));
   }
 
   /** Numbers of the parts that an answer gives a role to. */
   get meant() {
-    return this.selection.size || this.question?.kind === "parts" ? this.shown : new Set();
+    return this.selection.size || (this.question?.kind === "parts" && !this.picked) ? this.shown : new Set();
   }
 
   // ---- saying ------------------------------------------------------------------------------------------------------
   /** Sends what was said, in the order it was said; the next question is asked at once. */
   say(path, body) {
-    const about = path === "do" && !this.selection.size ? this.question?.key : null;
+    const about = path === "do" && !this.selection.size && !this.picked ? this.question?.key : null;
     this.mirror = false;
+    this.aim = null;
     if (about) this.answered.set(about, Infinity);
     if (path === "do") this.selection.clear();
     this.waiting++;
@@ -141,7 +157,8 @@ class Studio {
   }
 
   yes() {
-    const { question } = this;
+    const { question, joint } = this;
+    if (joint) return this.#axis(this.aim?.found?.entry ?? joint.axis);
     if (!this.selection.size && question?.kind === "value") return this.answer(0);
     if (this.selection.size && question?.kind === "role") return this.assign(question.key.slice("role:".length));
     const parts = [...this.meant].map((number) => this.viewer.model.parts[number - 1]);
@@ -154,13 +171,81 @@ class Studio {
 
   /** The numbered answer to the question. */
   answer(index) {
-    const { question } = this;
+    const { question, joint } = this;
+    if (joint) return joint.others[index] && this.#axis(JSON.parse(joint.others[index][0]));
     const candidate = question?.candidates[index];
     if (!candidate) return;
     if (question.kind === "value") return this.give(question.title.replace(/\?$/, ""), candidate.answer);
     if (question.kind === "parts") return this.assign(candidate.answer);
     const role = question.key.slice("role:".length);
     return this.say("do", { kind: "role", parts: { [candidate.answer]: role }, mirror: this.mirror });
+  }
+
+  // ---- joints ------------------------------------------------------------------------------------------------------
+  /** Says more of the joint; what was said of it before stays. */
+  #say(change) {
+    const { joint } = this;
+    if (!joint) return this.tell("Choose a joint first, in the list of joints.");
+    const entry = { ...joint.entry, ...change };
+    return this.say("do", { kind: "joint", name: joint.name, entry: Object.fromEntries(Object.entries(entry).filter(([, said]) => said !== undefined)) });
+  }
+
+  #axis(entry) {
+    if (!entry || !Object.keys(entry).length) return this.tell("Its axis is not known: point at it with P.");
+    return this.#say({ anchor: undefined, axis: undefined, through: undefined, ...entry });
+  }
+
+  /** Turns a slide round, and so the way that counts as out. */
+  reverse() {
+    const { joint } = this;
+    if (joint && joint.type !== "prismatic") return this.tell("Pivots all turn the same way round: to the left, up, or forward. A slide has a way of its own.");
+    const { through, anchor, axis } = Object.keys(joint?.entry ?? {}).some((key) => ["through", "axis"].includes(key)) ? joint.entry : (joint?.axis ?? {});
+    if (through) return this.#axis({ through: [through[1], through[0], ...through.slice(2)] });
+    return this.#axis(axis ? { anchor, axis: axis.map((value) => -value) } : null);
+  }
+
+  /** Where the joint is now becomes its lower (0) or upper (1) stop. */
+  stop(end) {
+    const { joint, viewer } = this;
+    const built = viewer.model.joints.find((each) => each.name === joint?.name);
+    if (!built || joint.type === "spherical") return this.tell("This joint cannot be moved yet.");
+    const unit = joint.type === "prismatic" ? 1 : 180 / Math.PI;
+    const known = joint.limits.map((limit) => (limit == null ? null : Number(((limit + joint.began) * unit).toFixed(5))));
+    const limits = [...(joint.entry.Limit ?? known)];
+    limits[end] = Number(((coordinateOf(built, viewer.pose) + joint.began) * unit).toFixed(5));
+    return this.#say({ Limit: limits });
+  }
+
+  /** Begins to point at the joint's axis, or ends it. */
+  point() {
+    if (!this.joint) return this.tell("Choose a joint first, in the list of joints.");
+    this.aim = this.aim ? null : { picks: [], found: null, said: "Click a bore or another round thing. With Alt: an edge." };
+    this.show();
+  }
+
+  /** A click while an axis is pointed at: what all clicks so far mean. */
+  async #aimed(event) {
+    const { aim, viewer } = this;
+    const box = viewer.canvas.getBoundingClientRect();
+    const hit = viewer.surfaceAt(event.clientX - box.left, event.clientY - box.top);
+    if (!hit) return;
+    if (aim.picks.length === 3 || event.altKey) aim.picks = [];
+    aim.picks.push({ part: hit.part, point: hit.point, edge: event.altKey });
+    try {
+      const found = await (await ask("axis", { picks: aim.picks })).json();
+      Object.assign(aim, { found, said: found.words });
+    } catch (error) {
+      Object.assign(aim, { found: null, said: error.message });
+    }
+    this.show();
+  }
+
+  choosesJoint(name) {
+    this.picked = name;
+    this.aim = null;
+    this.selection.clear();
+    this.show();
+    if (this.shown.size) this.viewer.focus(this.shown);
   }
 
   give(name, text) {
@@ -187,6 +272,7 @@ class Studio {
     by("machine").textContent = state.machine;
     by("file").textContent = state.file;
     by("saved").textContent = state.solved < state.said ? "Kept, solving …" : state.said ? "Kept" : "";
+    by("verdict").title = `${state.verdict} ${state.tally}`;
     by("verdict").replaceChildren(element("b", {}, state.verdict), ` ${state.tally}`);
     const done = state.history.filter((entry) => entry.holds).length;
     by("undo").disabled = done === 0;
@@ -200,12 +286,17 @@ class Studio {
     this.#card();
     this.#history();
     this.#values();
+    this.#joints();
     this.#built();
     this.viewer.light(this.shown);
+    const { joint, aim } = this;
+    const meant = aim?.found && { number: this.numbers.get(aim.found.part), point: aim.found.point, direction: aim.found.direction };
+    this.viewer.showAxes([...(joint ? [joint.name] : []), ...(meant ? [meant] : [])]);
+    this.viewer.canvas.style.cursor = aim ? "crosshair" : "";
   }
 
   #amount(question) {
-    return { parts: `${question.parts.length} ${question.parts.length === 1 ? "part" : "parts"}`, role: "missing", value: "value" }[question.kind];
+    return { parts: `${question.parts.length} ${question.parts.length === 1 ? "part" : "parts"}`, role: "missing", value: "value", joint: "joint" }[question.kind];
   }
 
   go(index) {
@@ -213,6 +304,7 @@ class Studio {
     if (!count) return;
     this.at = (index + count) % count;
     this.selection.clear();
+    this.picked = this.aim = null;
     this.show();
     if (this.shown.size) this.viewer.focus(this.shown);
     this.wiggle();
@@ -220,6 +312,8 @@ class Studio {
 
   /** Chooses a part that was clicked; with Shift it joins the others. */
   choose(number, event) {
+    if (this.aim && event) return this.#aimed(event);
+    this.picked = null;
     const several = event?.shiftKey;
     if (!number) this.selection.clear();
     else if (several && this.selection.has(number)) this.selection.delete(number);
@@ -258,7 +352,9 @@ class Studio {
       button("A  assembly", () => this.assembly()),
       button("M  other side too", () => { this.mirror = !this.mirror; this.show(); }, { "aria-pressed": this.mirror }),
       button("I  isolate", () => this.isolate()), button("F  look", () => this.viewer.focus(this.shown)));
+    const { joint } = this;
     const asked = !picked.length && question;
+    if (joint) return this.#jointCard(joint, card, answers, add);
     if (picked.length) {
       const roles = [...new Set(picked.map((part) => words(part.role) || "no part of the machine"))];
       card.replaceChildren(
@@ -291,6 +387,48 @@ class Studio {
         element("div", { class: "more" }, button("B  build", () => this.build())),
       );
     }
+  }
+
+  #jointCard(joint, card, answers, add) {
+    const { aim, state } = this;
+    const how = { found: "Found", guess: "A guess", given: "Given by a person", none: "Not found" }[joint.known];
+    const kinds = { Revolute: "turns", Prismatic: "slides", Spherical: "ball", Fixed: "fixed" };
+    const bodies = [...new Set(state.roles.map((role) => role.body))];
+    const choice = (label, options, chosen, act) => element("label", {}, label, element("select", { onchange: (event) => act(event.target.value) },
+      ...options.map(([value, text]) => element("option", { value, selected: value === chosen }, text))));
+    card.className = this.picked ? "picked" : "";
+    card.replaceChildren(
+      element("p", { class: "eyebrow" }, `Joint · ${how}`), element("h2", {}, joint.title),
+      element("p", { class: "why" }, aim ? "" : joint.reason),
+    );
+    if (aim) card.append(element("p", { class: "known" }, aim.said));
+    if (aim ? aim.found : Object.keys(joint.axis).length) add("⏎", aim ? "Its axis is there" : "Yes, its axis is right", () => this.yes(), true);
+    if (!aim) joint.others.forEach(([, text], index) => add(index + 1, text, () => this.answer(index)));
+    const input = element("input", { type: "text", placeholder: "x y z, direction x y z (m)", "aria-label": "Axis", autocomplete: "off" });
+    const form = element("form", {}, input, element("button", { type: "submit" }, "Set"));
+    form.addEventListener("submit", (event) => {
+      event.preventDefault();
+      const numbers = input.value.split(/[\s,;]+/).filter(Boolean).map(Number);
+      if (numbers.length !== 6 || numbers.some((value) => !Number.isFinite(value))) return this.tell("Six numbers: a point of the axis in metres, and its direction.");
+      this.#axis({ anchor: numbers.slice(0, 3), axis: numbers.slice(3) });
+    });
+    card.append(answers, element("div", { class: "more" },
+      button(aim ? "P  stop pointing" : "P  point at its axis", () => this.point(), { "aria-pressed": Boolean(aim) }),
+      joint.type === "prismatic" ? button("R  other way round", () => this.reverse()) : "", button("[  lower stop here", () => this.stop(0)), button("]  upper stop here", () => this.stop(1)),
+      button("W  move", () => this.wiggle()),
+      Object.keys(joint.entry).length ? button("Take back", () => this.say("do", { kind: "joint", name: joint.name, entry: {} })) : null),
+      element("details", {}, element("summary", {}, "Type, bodies, typed axis"), element("div", { class: "t-more" },
+        choice("It ", Object.entries(kinds), sentence(joint.type), (value) => this.#say({ joint_type: value })),
+        ...[0, 1].map((end) => choice(end ? "and " : "Between ", bodies.map((body) => [body, words(body)]), joint.bodies[end],
+          (value) => this.#say({ Body: end ? [joint.bodies[0], value] : [value, joint.bodies[1]] }))), form)));
+  }
+
+  #joints() {
+    const tags = { found: ["ok", "found"], guess: ["review", "guess"], given: ["ok", "given"], none: ["missing", "none"] };
+    const rows = this.state.joints.map((joint) => element("li", { class: "t-value" },
+      button(joint.title, () => this.choosesJoint(joint.name), { class: "v-name", "aria-current": joint === this.joint }),
+      element("span", { class: `tag ${tags[joint.known][0]}` }, tags[joint.known][1])));
+    by("joints").replaceChildren(rows.length ? element("ol", {}, ...rows) : element("p", { class: "dim" }, "No joints yet."));
   }
 
   #form(question) {
@@ -420,8 +558,8 @@ class Studio {
       j: () => this.go(this.at + 1), k: () => this.go(this.at - 1), x: () => this.assign(null), "/": () => this.find(),
       a: () => this.assembly(), m: () => { this.mirror = !this.mirror; this.show(); }, i: () => this.isolate(),
       f: () => this.viewer.focus(this.shown), w: () => this.wiggle(), b: () => this.build(), "?": () => this.keys(),
-      u: () => this.say(event.shiftKey ? "redo" : "undo", {}), escape: () => { this.selection.clear(); this.show(); },
-      enter: () => this.yes(),
+      u: () => this.say(event.shiftKey ? "redo" : "undo", {}), escape: () => { this.selection.clear(); this.picked = this.aim = null; this.show(); },
+      enter: () => this.yes(), p: () => this.point(), r: () => this.reverse(), "[": () => this.stop(0), "]": () => this.stop(1),
     };
     // A button that has the focus is pressed by Enter itself.
     if (event.key === "Enter" && event.target.closest("button, summary")) return;
@@ -437,7 +575,7 @@ try {
   const [shapes, model] = await Promise.all([packing("shapes"), packing("machine")]);
   let studio = null;
   const viewer = new Viewer(by("viewer"), Object.assign(model, { shapes: shapes.shapes, leftOut: shapes.leftOut }), {
-    pages: [["Values", page("values")], ["History", page("history")]],
+    pages: [["Joints", page("joints")], ["Values", page("values")], ["History", page("history")]],
     onchoose: (number, event) => studio?.choose(number, event),
   });
   studio = new Studio(viewer, model.version);
