@@ -50,7 +50,7 @@ def test_a_copy_that_has_no_joints_is_not_promised_to_build(capsys: pytest.Captu
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("sent", [signal.SIGHUP, signal.SIGTERM])
+@pytest.mark.parametrize("sent", [signal.SIGHUP, signal.SIGTERM, signal.SIGINT])
 def test_a_closed_terminal_leaves_nothing_behind(example: Path, tmp_path: Path, sent: signal.Signals) -> None:
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(p for p in sys.path if p)}
     command = [sys.executable, "-m", "yellowiron", "build", "wheel_loader", "--cad", example / "wheel_loader.step"]

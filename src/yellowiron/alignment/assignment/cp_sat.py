@@ -110,6 +110,8 @@ def solve(
     solver = cp_model.CpSolver()
     solver.parameters.num_workers = 1
     solver.parameters.random_seed = SEED
+    # Else it takes Ctrl-C from Python, and leaves it with nobody: the process then dies where it stands.
+    solver.parameters.catch_sigint_signal = False
     solver.parameters.max_deterministic_time = max(0.0, min(effort.left, effort.each))
     status = solver.solve(program.model)
     effort.left -= solver.response_proto.deterministic_time + WRITING * len(program.model.proto.variables)
