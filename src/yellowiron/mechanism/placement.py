@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +16,9 @@ from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats, Shape
 from yellowiron.model.template import Role, Template
+from yellowiron.support.caching.remembered import remembered
+
+Name = TypeVar("Name", str, str | None)
 
 _ROUND = 1e-6
 """Relative difference of two scales up to which a scaled cylinder is still one."""
@@ -85,14 +90,23 @@ class Placement:
     declared: tuple[DeclaredAxis, ...] = ()
     _features: dict[int, Features] = field(default_factory=dict)
     _points: dict[int, Floats] = field(default_factory=dict)
+    _planes: dict[int, tuple[Floats, Floats, Floats]] = field(default_factory=dict)
 
     def rows_of_body(self, body: str) -> tuple[int, ...]:
         """Rows of the parts that move with a body, in CAD order."""
-        return tuple(i for i, name in enumerate(self.bodies) if name == body)
+        return self._by_body.get(body, ())
 
     def rows_of_role(self, role: str) -> tuple[int, ...]:
         """Rows of the parts that play exactly this role, in CAD order."""
-        return tuple(i for i, name in enumerate(self.roles) if name == role)
+        return self._by_role.get(role, ())
+
+    @cached_property
+    def _by_body(self) -> dict[str, tuple[int, ...]]:
+        return _rows(self.bodies)
+
+    @cached_property
+    def _by_role(self) -> dict[str | None, tuple[int, ...]]:
+        return _rows(self.roles)
 
     def has_body(self, body: str) -> bool:
         """Whether any part moves with that body."""
@@ -108,6 +122,31 @@ class Placement:
             matrix = self.transforms[row]
             self._points[row] = self.shapes[row].mesh.points @ matrix[:3, :3].T + matrix[:3, 3]
         return self._points[row]
+
+    @cached_property
+    def boxes(self) -> tuple[Floats, Floats]:
+        """Least and greatest corners (n, 3) of the parts, machine frame; infinite of a part without points."""
+        corners = np.full((2, len(self.parts), 3), np.inf)
+        for row in range(len(self.parts)):
+            if len(points := self.points(row)):
+                corners[:, row] = points.min(axis=0), points.max(axis=0)
+        return corners[0], corners[1]
+
+    def planes(self, row: int) -> tuple[Floats, Floats, Floats]:
+        """Planar faces of one part, else its facets, machine frame: points (m, 3), unit normals (m, 3), areas (m,)."""
+        if row not in self._planes:
+            self._planes[row] = self._planes_of(row)
+        return self._planes[row]
+
+    def _planes_of(self, row: int) -> tuple[Floats, Floats, Floats]:
+        planes, matrix = self.shapes[row].planes, self.transforms[row]
+        if not planes:
+            return self.facets(row)
+        linear = matrix[:3, :3]
+        normal = np.array([p.normal for p in planes]) @ np.linalg.inv(linear)
+        stretch = np.linalg.norm(normal, axis=1)
+        area = np.array([p.area for p in planes]) * stretch * abs(np.linalg.det(linear))
+        return np.array([p.point for p in planes]) @ linear.T + matrix[:3, 3], normal / stretch[:, None], area
 
     def points_of(self, rows: Iterable[int]) -> Floats:
         """(n, 3) mesh points of several parts, machine frame."""
@@ -178,28 +217,44 @@ def ancestors(template: Template, role: str | None) -> tuple[Role, ...]:
     return tuple(chain)
 
 
+def _rows(names: Sequence[Name]) -> dict[Name, tuple[int, ...]]:
+    found: dict[Name, list[int]] = {}
+    for row, name in enumerate(names):
+        found.setdefault(name, []).append(row)
+    return {name: tuple(rows) for name, rows in found.items()}
+
+
 def _place(shape: Shape, matrix: Floats, row: int) -> Features:
     """A shape's features through its transform; those that a scale makes elliptic are dropped."""
     if not shape.cylinders:
         return _NO_FEATURES
     linear = matrix[:3, :3]
-    direction = np.array([c.direction for c in shape.cylinders]) @ linear.T
+    center, axes, radius, length, arc, inner, exact = _columns(shape)
+    direction = axes @ linear.T
     stretch = np.linalg.norm(direction, axis=1)
     unit = direction / stretch[:, None]
-    radius = np.array([c.radius for c in shape.cylinders])
-    scale, round_ = _cross_scale(np.array([c.direction for c in shape.cylinders]), linear, unit)
-    length = np.array([c.length for c in shape.cylinders])
-    arc = np.array([c.arc for c in shape.cylinders])
-    return Features(
-        center=np.array([c.center for c in shape.cylinders]) @ linear.T + matrix[:3, 3],
+    scale, round_ = _cross_scale(axes, linear, unit)
+    placed = Features(
+        center=center @ linear.T + matrix[:3, 3],
         direction=unit,
         radius=radius * scale,
         length=length * stretch,
         area=radius * scale * arc * length * stretch,
-        inner=np.array([c.inner for c in shape.cylinders]),
-        exact=np.array([c.exact for c in shape.cylinders]),
+        inner=inner,
+        exact=exact,
         part=np.full(len(radius), row, dtype=np.int64),
-    ).take(round_)
+    )
+    return placed if round_.all() else placed.take(round_)
+
+
+@remembered
+def _columns(shape: Shape) -> tuple[Floats, Floats, Floats, Floats, Floats, NDArray[np.bool_], NDArray[np.bool_]]:
+    """Centres and directions (n, 3), radii, lengths, arcs (n,), whether inner and exact, of a shape's cylinders."""
+    names = ("center", "direction", "radius", "length", "arc", "inner", "exact")
+    center, axes, radius, length, arc, inner, exact = (
+        np.array([getattr(c, n) for c in shape.cylinders]) for n in names
+    )
+    return center, axes, radius, length, arc, inner, exact
 
 
 def _cross_scale(axes: Floats, linear: Floats, placed: Floats) -> tuple[Floats, NDArray[np.bool_]]:

@@ -149,5 +149,6 @@ def _place(entry: SensorTemplate, rows: tuple[int, ...], placement: Placement) -
 
 def _boxes(rows: tuple[int, ...], placement: Placement) -> tuple[Floats, Floats]:
     """Least and greatest corners (n, 3) of the parts, machine frame."""
-    points = [placement.points(row) for row in rows]
-    return np.array([p.min(axis=0) for p in points]), np.array([p.max(axis=0) for p in points])
+    low, high = placement.boxes
+    there = [row for row in rows if np.isfinite(low[row]).all()]
+    return low[there], high[there]

@@ -257,17 +257,7 @@ def _plane_at(position: Floats, line: Axis, rows: Sequence[int], placement: Plac
 
 def _planes_through(position: Floats, line: Axis, row: int, placement: Placement) -> list[tuple[Floats, float]]:
     """(normal, area) of one part's planes through the edge: its planar faces, else its facets."""
-    shape, matrix = placement.shapes[row], placement.transforms[row]
-    if shape.planes:
-        linear = matrix[:3, :3]
-        inverse = np.linalg.inv(linear)
-        point = np.array([p.point for p in shape.planes]) @ linear.T + matrix[:3, 3]
-        normal = np.array([p.normal for p in shape.planes]) @ inverse
-        stretch = np.linalg.norm(normal, axis=1)
-        area = np.array([p.area for p in shape.planes]) * stretch * abs(np.linalg.det(linear))
-        normal = normal / stretch[:, None]
-    else:
-        point, normal, area = placement.facets(row)
+    point, normal, area = placement.planes(row)
     through = (np.abs(normal @ line.direction) < _ACROSS) & (
         np.abs(np.sum((position - point) * normal, axis=1)) < _ON_PLANE
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Literal
@@ -83,6 +84,7 @@ class Specifications:
         return len(self.values)
 
 
+@functools.lru_cache(maxsize=65536)
 def fold(name: str) -> str:
     """A name without case, underscores, hyphens and spaces: how template keys and values are compared."""
     return "".join(c for c in name.casefold() if c not in " _-\t\n")

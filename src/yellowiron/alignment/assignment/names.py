@@ -105,9 +105,14 @@ def _spelled_out(word: str) -> str:
 def tokens(text: str) -> list[str]:
     """Lower-case words of a name: split at case changes, digits and punctuation, without accents; numbers and small
     words (de, la, of) dropped."""
+    return list(_tokens(text))
+
+
+@functools.lru_cache(maxsize=65536)
+def _tokens(text: str) -> tuple[str, ...]:
     text = _ELIDED.sub("", text.replace("ß", "ss"))
     plain = "".join(c for c in unicodedata.normalize("NFKD", text) if not unicodedata.combining(c))
-    return [t for t in (t.casefold() for t in _SPLIT.findall(plain)) if not t.isdigit() and t not in _SMALL]
+    return tuple(t for t in (t.casefold() for t in _SPLIT.findall(plain)) if not t.isdigit() and t not in _SMALL)
 
 
 def concepts(text: str, words: Vocabulary) -> frozenset[str]:
