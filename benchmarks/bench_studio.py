@@ -1,20 +1,23 @@
 """What a review in the studio costs a person: real models with labels, answered by one who knows the truth.
 
     python benchmarks/bench_studio.py [--models DIR:…] [--only NAME,…] [--names with,without] [--most N]
+                                      [--undo N --seed S]
 
 The one who answers takes the first question that is about parts. Where all of them are right he says yes; where all are
 wrong in the same way, the body that they are of; else he picks out those that are wrong, body by body, which costs a
 click a part and one for the body, and says yes to the rest. Four seconds a decision or click. What is printed: how much
 of the surface was right before and after, parts that were wrong before, questions that were asked, decisions and
 clicks, the minutes that they take, and the median of the seconds from a decision to the machine that follows from it.
-Values are not asked. The alternative is what the same person would do without the page: one entry of alignment.json for
-every wrong part, found by its name, a full run after each ten.
+Values are not asked. With `--undo`, every part but N random ones was decided as the truth has it before; the review is
+of what the program makes of those. The alternative is what the same person would do without the page: one entry of
+alignment.json for every wrong part, found by its name, a full run after each ten.
 """
 
 from __future__ import annotations
 
 import argparse
 import os
+import random
 import statistics
 import sys
 import tempfile
@@ -65,7 +68,7 @@ class Person:
         self.waited.append(time.perf_counter() - start)
 
 
-def review(model: strangers.Model, names: str, most: int) -> str:
+def review(model: strangers.Model, names: str, most: int, undo: int, seed: int) -> str:
     """One model's row."""
     scene = strangers.scene_of(model, names=names)
     with tempfile.TemporaryDirectory() as folder:
@@ -73,12 +76,12 @@ def review(model: strangers.Model, names: str, most: int) -> str:
             return f"{model.name:26s} not on this machine"
         session = Session(Setup(scene.type, model.cad, Path(folder) / "out"), assembly=scene.assembly)
         try:
-            return _row(model, names, most, scene, session)
+            return _row(model, names, most, scene, session, undo, seed)
         finally:
             session.close()
 
 
-def _row(model, names, most, scene, session) -> str:  # type: ignore[no-untyped-def]
+def _row(model, names, most, scene, session, undo, seed) -> str:  # type: ignore[no-untyped-def]
     template = session.template
     first = session.settled(300.0).aligned
 
@@ -87,6 +90,11 @@ def _row(model, names, most, scene, session) -> str:  # type: ignore[no-untyped-
         return 100.0 * found.right / found.area
 
     truth = true_bodies(session.assembly, first, scene.truth, template)
+    if undo:
+        undone = set(random.Random(seed).sample(sorted(truth), min(undo, len(truth))))
+        known = {p: b[0] for p, b in truth.items() if b and p not in undone}
+        session.do(session.read({"kind": "role", "parts": {p: None if b == "-" else b for p, b in known.items()}}))
+        first = session.settled(300.0).aligned
     wrong = sum(bool(truth.get(p.part)) and (p.body or "-") not in truth[p.part] for p in first.parts)
     before = right()
     person = Person(session, truth)
@@ -111,6 +119,8 @@ def main() -> None:
     parser.add_argument("--only", default="")
     parser.add_argument("--names", default="with,without")
     parser.add_argument("--most", type=int, default=80, help="questions")
+    parser.add_argument("--undo", type=int, default=0, help="parts whose decision is undone")
+    parser.add_argument("--seed", type=int, default=1)
     given = parser.parse_args()
     folders = [Path(p) for p in given.models.split(":") if p]
     only = {n for n in given.only.split(",") if n}
@@ -122,7 +132,7 @@ def main() -> None:
             print(f"{model.name:26s} not on this machine")
             continue
         for names in given.names.split(","):
-            print(review(model, names, given.most), flush=True)
+            print(review(model, names, given.most, given.undo, given.seed), flush=True)
 
 
 if __name__ == "__main__":

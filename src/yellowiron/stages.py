@@ -26,6 +26,7 @@ from yellowiron.model.mechanism import Mechanism
 from yellowiron.model.rows import expand
 from yellowiron.model.specification import Specification, Specifications
 from yellowiron.model.template import Template, choose
+from yellowiron.support.caching.disk import kept
 from yellowiron.support.vectors import triple
 
 
@@ -104,13 +105,19 @@ def find_roles(
 
     assembly = to_scale(assembly, template, specifications)
     alignment = found(assembly)
-    apart = cad.taken_apart(assembly) if alignment.missing else assembly
-    if apart is not assembly:
+    apart = kept("apart", lambda: _apart(assembly), assembly) if alignment.missing else None
+    if apart is not None:
         other = found(apart)
         # A model without pins misses roles whatever is done to it; bodies in crumbs then answer to more roles, wrongly.
         if len(other.missing) < 0.5 * len(alignment.missing):
             return apart, other
     return assembly, alignment
+
+
+def _apart(assembly: Assembly) -> Assembly | None:
+    """The model with its merged meshes taken apart; None where there are none."""
+    apart = cad.taken_apart(assembly)
+    return None if apart is assembly else apart
 
 
 def roles_of(

@@ -7,6 +7,7 @@ import io
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
+from urllib.parse import quote
 
 import numpy as np
 import pytest
@@ -162,6 +163,36 @@ def test_parts_that_cannot_be_seen_are_found_by_name(page: Any, machine: Any) ->
     page.get_by_role("searchbox", name="Search parts").fill("")
     page.get_by_role("tab", name="Move").click()
     assert page.evaluate("yellowiron.model.parts.every((part) => !part.hidden)")
+
+
+def test_links_lead_to_parts_joints_and_values(page: Any, machine: Any) -> None:
+    def go(fragment: str) -> None:
+        page.evaluate("fragment => { location.hash = fragment; }", fragment)
+        page.wait_for_timeout(100)
+
+    part = next(p.part for p in machine.alignment.parts if p.role == "boom")
+    go(f"part={quote(part)}")
+    assert page.locator(".v-card b").inner_text() == part.rsplit("/", 1)[-1]
+    assert page.locator(".v-card a").get_attribute("href") == f"#part={quote(part, safe='')}"
+    go("joint=front_frame2boom_joint")
+    assert page.locator(".v-axis line").count() == 1
+    value = next(s.name for s in machine.specifications if s.status == "ok")
+    go(f"value={quote(value)}")
+    assert page.locator("tr.told").first.locator("td").first.inner_text() == value
+    # Lists of the page lead there by themselves; names that are nothing lead nowhere.
+    assert page.locator("[data-part] a").count() == len(machine.alignment.parts)
+    assert page.locator("[data-joint] a").count() > 10
+    go("part=nothing")
+    go("")
+    page.evaluate("yellowiron.showAxes([])")
+
+
+def test_a_picture_is_saved(page: Any) -> None:
+    with page.expect_download() as waiting:
+        page.get_by_role("button", name="Save picture").click()
+    with Image.open(waiting.value.path()) as saved:
+        assert saved.format == "PNG" and saved.width > 600
+        assert len(set(saved.convert("RGB").resize((40, 30)).getdata())) > 20
 
 
 def test_joints_are_drawn_where_they_are(page: Any, machine: Any) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -56,7 +57,14 @@ def load_template(type_or_folder: str | Path, *, sheet_only: bool = False) -> Te
             where=str(folder),
             hint="Begin with `yellowiron templates copy TYPE FOLDER`.",
         )
-    return _assemble({kind: read_document(path, kind) for kind, path in paths.items()}, folder)
+    seen = ((path, path.stat()) for path in paths.values())
+    return _read(folder, tuple(paths.items()), tuple((there.st_mtime_ns, there.st_size) for _, there in seen))
+
+
+@functools.lru_cache(maxsize=16)
+def _read(folder: Path, paths: tuple[tuple[str, Path], ...], seen: tuple[tuple[int, int], ...]) -> Template:
+    """The template of some documents, once for as long as they are as they were `seen`: when changed last, how large."""
+    return _assemble({kind: read_document(path, kind) for kind, path in paths}, folder)
 
 
 def _assemble(documents: Mapping[str, Document], folder: Path) -> Template:

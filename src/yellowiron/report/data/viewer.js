@@ -109,6 +109,7 @@ class Viewer {
       this.model.sensors.length ? toggle("Sensors", (on) => { this.showSensors = on; this.#drawMarks(); }) : null,
       element("button", { type: "button", onclick: () => this.reset() }, "Reset view"),
       element("button", { type: "button", onclick: () => this.#fullscreen() }, "Full screen"),
+      element("button", { type: "button", onclick: () => this.save() }, "Save picture"),
     );
     this.hint = element("div", { class: "v-hint" }, matchMedia("(hover: none)").matches
       ? "Drag sideways to turn, two fingers to move and zoom" : "Drag to turn, right-drag to move, click and scroll to zoom");
@@ -120,6 +121,17 @@ class Viewer {
   #fullscreen() {
     if (document.fullscreenElement) document.exitFullscreen();
     else this.root.requestFullscreen?.();
+  }
+
+  /** Hands what is seen over as a PNG file, at twice the screen's pixels. */
+  save() {
+    this.draw(2);
+    // Before the browser shows the frame: the picture is gone after that.
+    this.canvas.toBlob((blob) => {
+      const link = element("a", { href: URL.createObjectURL(blob), download: "machine.png" });
+      link.click();
+      URL.revokeObjectURL(link.href);
+    });
   }
 
   #recolor() {
@@ -358,6 +370,7 @@ class Viewer {
         action("Hide", () => this.show((each) => each !== part && !each.hidden)),
         action("Isolate", () => this.show((each) => each === part)),
         action("Isolate body", () => this.show((each) => each.body === part.body)),
+        element("a", { href: `#part=${encodeURIComponent(part.path)}` }, "Link"),
       );
       this.card.firstChild.setAttribute("aria-label", "Close");
     }

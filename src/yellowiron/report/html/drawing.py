@@ -10,6 +10,8 @@ from dataclasses import dataclass
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.geometry import Floats
 from yellowiron.report.html.pictures import Camera, DrawnTriangles, Singles, data_uri, posed, render
+from yellowiron.support.caching.content import content_of
+from yellowiron.support.caching.disk import kept_each
 from yellowiron.support.guard import run_guarded
 
 _MOST = 4
@@ -31,7 +33,14 @@ class Picture:
 
 
 def draw(drawn: DrawnTriangles, pictures: Mapping[str, Picture]) -> dict[str, str]:
-    """The pictures of some triangles by name, each as a data URI. The same, however many processes draw them."""
+    """The pictures of some triangles by name, each as a data URI. The same, however many processes draw them, and
+    whether they were drawn before."""
+    machine = content_of([drawn.corners, drawn.normals, drawn.colors, drawn.parts])
+    given = {name: [machine, drawn.spans if one.poses else None, one] for name, one in pictures.items()}
+    return kept_each("pictures", lambda names: _draw(drawn, {name: pictures[name] for name in names}), given)
+
+
+def _draw(drawn: DrawnTriangles, pictures: Mapping[str, Picture]) -> dict[str, str]:
     costs = {name: _cost(drawn, picture) for name, picture in pictures.items()}
     count = max(1, min(os.cpu_count() or 1, _MOST, len(pictures), int(sum(costs.values()) / _WORTH)))
     shares: list[dict[str, Picture]] = [{} for _ in range(count)]

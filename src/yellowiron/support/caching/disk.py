@@ -16,7 +16,7 @@ import os
 import stat
 import sys
 import tempfile
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import TypeVar
 
@@ -72,27 +72,51 @@ def remember(kind: str, key: str, make: Callable[[], Answer]) -> Answer:
     """The answer of `make`, from the cache where it has one. `key` must stand for everything that it depends on, in
     letters and digits (a digest); `kind` is the folder that entries of one sort lie in. An answer is plain data, arrays
     of numbers, paths and frozen dataclasses of ours."""
-    folder = cache_folder()
-    if folder is None:
-        return make()
-    path = folder / kind / f"{key}{_SUFFIX}"
-    found: list[Answer] = _read(path)
-    if not found:
-        found = [make()]
-        _write(path, answers.dumps(found))
-        _make_room(folder)
-    return found[0]
+    return _remember_each(kind, {"": key}, lambda names: {"": make()})[""]
 
 
 def kept(kind: str, make: Callable[[], Answer], *given: object, files: Iterable[Path] = ()) -> Answer:
     """The answer of `make`, from the cache where it was made before by this very program, of the same values (`given`)
     and files of the same names and contents."""
-    if os.environ.get(FRESH) or cache_folder() is None:
+    if not _stages_are_kept():
         return make()
     digest = hashlib.sha256(content_of([_program(), *given]))
     for file in files:
         digest.update(f"{file.name}\0".encode("utf-8", "surrogateescape") + _of_file(file))
     return remember(kind, digest.hexdigest(), make)
+
+
+def kept_each(
+    kind: str, make: Callable[[list[str]], Mapping[str, Answer]], given: Mapping[str, object]
+) -> dict[str, Answer]:
+    """`kept`, of several answers by name, each of what is `given` for it: `make` is asked for those that are not there
+    together."""
+    if not _stages_are_kept():
+        return dict(make(list(given)))
+    keys = {name: content_of([_program(), each]).hex() for name, each in given.items()}
+    return _remember_each(kind, keys, make)
+
+
+def _stages_are_kept() -> bool:
+    return not os.environ.get(FRESH) and cache_folder() is not None
+
+
+def _remember_each(
+    kind: str, keys: Mapping[str, str], make: Callable[[list[str]], Mapping[str, Answer]]
+) -> dict[str, Answer]:
+    folder = cache_folder()
+    if folder is None:
+        return dict(make(list(keys)))
+    places = {name: folder / kind / f"{key}{_SUFFIX}" for name, key in keys.items()}
+    found: dict[str, list[Answer]] = {name: _read(place) for name, place in places.items()}
+    missing = [name for name, answer in found.items() if not answer]
+    if missing:
+        made = make(missing)
+        for name in missing:
+            found[name] = [made[name]]
+            _write(places[name], answers.dumps(found[name]))
+        _make_room(folder)
+    return {name: answer[0] for name, answer in found.items()}
 
 
 def _of_file(file: Path) -> bytes:
