@@ -15,6 +15,7 @@ from yellowiron.alignment import read_joints, write_alignment
 from yellowiron.inputs import checked_inputs
 from yellowiron.mechanism import declared_findings
 from yellowiron.model.alignment import Alignment
+from yellowiron.model.assembly import Assembly
 from yellowiron.model.mechanism import Measurement, Mechanism
 from yellowiron.model.specification import Specifications
 from yellowiron.model.sweep import Sweep
@@ -28,8 +29,8 @@ _SHOWN = 8
 
 @dataclass(frozen=True, eq=False)
 class Machine:
-    """What a build returns: every stage's result, `document` (what `report.json` holds), the folder with its files, and
-    what `fell_short`, one phrase each."""
+    """What a build returns: every stage's result (`assembly`: the CAD model whose parts they are, as it starts),
+    `document` (what `report.json` holds), the folder with its files, and what `fell_short`, one phrase each."""
 
     mechanism: Mechanism
     alignment: Alignment
@@ -38,6 +39,7 @@ class Machine:
     document: Mapping[str, Any]
     folder: Path
     fell_short: tuple[str, ...]
+    assembly: Assembly
 
     @property
     def usd(self) -> Path:
@@ -184,6 +186,7 @@ def build(
         document=document,
         folder=out,
         fell_short=tuple(report.fell_short(document)),
+        assembly=assembly,
     )
 
 

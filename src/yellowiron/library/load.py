@@ -63,7 +63,7 @@ def load_template(type_or_folder: str | Path, *, sheet_only: bool = False) -> Te
 
 @functools.lru_cache(maxsize=16)
 def _read(folder: Path, paths: tuple[tuple[str, Path], ...], seen: tuple[tuple[int, int], ...]) -> Template:
-    """The template of some documents, once for as long as they are as they were `seen`: when changed last, how large."""
+    """The template of some documents, once while they are as they were `seen`: when changed last, how large."""
     return _assemble({kind: read_document(path, kind) for kind, path in paths}, folder)
 
 

@@ -13,7 +13,7 @@ pages in a guarded child process, `extraction` goes the whole way and `findings`
 from __future__ import annotations
 
 from yellowiron.specs.columns import columns_of
-from yellowiron.specs.evidence_images import draw_evidence
+from yellowiron.specs.evidence_images import PICTURE_MARGIN, PICTURE_SCALE, draw_evidence
 from yellowiron.specs.extraction import Extractor, extract, from_sheets, read
 from yellowiron.specs.llm.endpoint import EndpointError, ModelOptions
 from yellowiron.specs.ocr import described as picture_programs
@@ -22,6 +22,8 @@ from yellowiron.specs.values.overrides import accept, merge, parse_settings, spl
 from yellowiron.specs.values.requested import missing_values
 
 __all__ = [
+    "PICTURE_MARGIN",
+    "PICTURE_SCALE",
     "EndpointError",
     "Extractor",
     "ModelOptions",

@@ -11,10 +11,10 @@ from yellowiron.model.specification import Evidence, Specifications
 from yellowiron.specs.reader import MEMORY_MB, RESIDENT_MB, TIMEOUT_S, check_file
 from yellowiron.support.guard import beat, run_guarded
 
-_SCALE = 1.6
+PICTURE_SCALE = 1.6
 """Pixels a point, less on a page that would be more than this many pixels:"""
 _MOST_PIXELS = 12_000_000
-_MARGIN = 330
+PICTURE_MARGIN = 330
 _COLORS = {"ok": (24, 128, 56), "example": (32, 96, 190), "review": (214, 118, 0), "conflict": (200, 30, 30)}
 Mark = tuple[int, tuple[float, float, float, float], str, str]
 """Page, box in points, kind (a key of the colours), caption."""
@@ -80,11 +80,11 @@ def draw_pages(sheet: Path, marks: Sequence[Mark], folder: Path) -> list[str]:
             beat(f"Drawing page {number} of {sheet.name}")
             opened = document[number - 1]
             width, height = opened.get_size()
-            scale = min(_SCALE, (_MOST_PIXELS / max(width * height, 1.0)) ** 0.5)
+            scale = min(PICTURE_SCALE, (_MOST_PIXELS / max(width * height, 1.0)) ** 0.5)
             page = opened.render(scale=scale).to_pil().convert("RGB")
             opened.close()
-            image = Image.new("RGB", (page.width + 2 * _MARGIN, page.height), (250, 250, 250))
-            image.paste(page, (_MARGIN, 0))
+            image = Image.new("RGB", (page.width + 2 * PICTURE_MARGIN, page.height), (250, 250, 250))
+            image.paste(page, (PICTURE_MARGIN, 0))
             _draw(ImageDraw.Draw(image, "RGBA"), page.width, scale, [m for m in marks if m[0] == number])
             name = f"{sheet.stem}-page-{number}.png"
             image.save(folder / name)
@@ -108,11 +108,11 @@ def _draw(draw: Any, width: int, scale: float, marks: Sequence[Mark]) -> None:
         color = _COLORS[kind]
         x0, top, x1, bottom = (v * scale for v in box)
         left = x0 + x1 < width
-        x0, top, x1, bottom = x0 + _MARGIN - 3, top - 3, x1 + _MARGIN + 3, bottom + 3
+        x0, top, x1, bottom = x0 + PICTURE_MARGIN - 3, top - 3, x1 + PICTURE_MARGIN + 3, bottom + 3
         draw.rectangle((x0, top, x1, bottom), outline=(*color, 255), fill=(*color, 24), width=2)
         words = ", ".join(names)
         y = max((top + bottom) / 2 - 7, free[left])
-        turn, out, end = (_MARGIN, -16, x0) if left else (_MARGIN + width, 16, x1)
+        turn, out, end = (PICTURE_MARGIN, -16, x0) if left else (PICTURE_MARGIN + width, 16, x1)
         draw.line((end, bottom - 1, turn, bottom - 1, turn + out, y + 7), fill=(*color, 110), width=1)
         at = turn + out - 4 - draw.textlength(words, font=font) if left else turn + out + 4
         draw.text((at, y), words, fill=(*color, 255), font=font)
