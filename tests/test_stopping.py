@@ -4,9 +4,12 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 from pathlib import Path
 
 import pytest
+
+from yellowiron.support import stopping
 
 _RUN = """
 import signal, sys
@@ -50,3 +53,24 @@ def test_told_at_any_line(tmp_path: Path) -> None:
         assert ended.returncode == 128 + signal.SIGTERM, (wanted, ended.stderr)
         whole = (place / "file").is_file() and not list(place.parent.glob(".yellowiron-*"))
         assert whole or not (tmp_path / str(wanted)).exists(), wanted
+
+
+def test_another_thread_holds_no_signal_back(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A studio writes in the background: a closed terminal must not wait for that, nor end only the writer."""
+    monkeypatch.setattr(stopping, "_asked", [])
+    monkeypatch.setattr(stopping, "_raised", [])
+    inside, done = threading.Event(), threading.Event()
+
+    def write() -> None:
+        with stopping.shielded():
+            inside.set()
+            assert done.wait(30)
+
+    worker = threading.Thread(target=write)
+    worker.start()
+    assert inside.wait(30)
+    with pytest.raises(SystemExit):
+        stopping._ask(signal.SIGHUP, None)
+    done.set()
+    worker.join()
+    assert stopping._depth == 0

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import signal
 import sys
+import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 
@@ -23,8 +24,12 @@ def listen() -> list[int]:
 
 @contextmanager
 def shielded() -> Iterator[None]:
-    """A signal that comes inside is heard at the end, or where `exposed` lets it in."""
+    """A signal that comes inside is heard at the end, or where `exposed` lets it in. Of the main thread, which hears
+    signals: in others it does nothing."""
     global _depth
+    if not _hears():
+        yield
+        return
     _depth += 1
     try:
         yield
@@ -37,12 +42,19 @@ def shielded() -> Iterator[None]:
 def exposed() -> Iterator[None]:
     """Takes back one `shielded` around it: what may be ended at any point."""
     global _depth
+    if not _hears():
+        yield
+        return
     _depth -= 1
     try:
         _leave()
         yield
     finally:
         _depth += 1
+
+
+def _hears() -> bool:
+    return threading.current_thread() is threading.main_thread()
 
 
 def _ask(number: int, frame: object) -> None:

@@ -31,6 +31,8 @@ _DIGEST = hashlib.sha256().digest_size
 _SUFFIX = ".kept"
 _MOST = 2 * 1024**3
 """Bytes of all that is kept."""
+_LARGEST = _MOST // 4
+"""Bytes of an entry."""
 _CHUNK = 1024 * 1024
 
 Answer = TypeVar("Answer")
@@ -149,9 +151,10 @@ def _read(path: Path) -> list[Answer]:
         data = path.read_bytes()
         if hashlib.sha256(memoryview(data)[:-_DIGEST]).digest() != data[-_DIGEST:]:
             return []
-        os.utime(path)
     except OSError:
         return []
+    with contextlib.suppress(OSError):  # what may only be read is as good
+        os.utime(path)
     try:
         found = answers.loads(data)
     except Exception:  # noqa: BLE001 - whole, and no entry of ours: it may break on anything
@@ -160,7 +163,9 @@ def _read(path: Path) -> list[Answer]:
 
 
 def _write(path: Path, data: bytes) -> None:
-    """Beside its place, then renamed into it: nobody reads half an entry."""
+    """Beside its place, then renamed into it: nobody reads half an entry. What would fill the cache is not kept."""
+    if len(data) > _LARGEST:
+        return
     with contextlib.suppress(OSError):
         path.parent.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
         path.parent.mkdir(exist_ok=True, mode=0o700)
