@@ -170,7 +170,8 @@ def test_terminal_and_page_say_the_same_and_no_title_promises_what_is_not_so() -
 def test_a_machine_in_a_notebook_fits_a_screen() -> None:
     told = [finding(f"MEC{k:03}", f"joint_{k}", "Its axis is <off>.") for k in range(60)]
     one = opened(findings=told)
-    machine = Machine(MECHANISM, ALIGNMENT, Specifications({}), (), one, Path("out"), tuple(fell_short(one)))
+    model = Assembly("press", "STEP", 1.0, (), {})
+    machine = Machine(MECHANISM, ALIGNMENT, Specifications({}), (), one, Path("out"), tuple(fell_short(one)), model)
     assert repr(machine) == "<Machine press: 3 bodies in out: not ready (60 warnings)>"
     html = machine._repr_html_()
     assert html.count("<br>") <= 12 and "&lt;off&gt;" in html and "report.html" in html
