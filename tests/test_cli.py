@@ -181,7 +181,8 @@ def test_watch_builds_again_when_an_input_changes(example: Path, tmp_path: Path)
     command = [sys.executable, "-m", "yellowiron", "build", "wheel_loader", "--cad", model, "--out", out, "--watch"]
     said = tmp_path / "said"
     with said.open("w") as stream:
-        ours = subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL, stderr=stream)
+        ours = subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL, stderr=stream,
+                                preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))  # fmt: skip
 
     def wait_for(words: str, times: int) -> None:
         end = time.monotonic() + 120.0

@@ -22,7 +22,7 @@ from yellowiron.model.mechanism import Measurement, Mechanism
 from yellowiron.model.specification import Specifications
 from yellowiron.model.sweep import Sweep
 from yellowiron.model.template import Template
-from yellowiron.support.caching.disk import kept
+from yellowiron.support.caching.disk import kept, stages_are_kept
 
 _LIBRARIES = (
     "mujoco", "ortools.sat.python.cp_model", "pxr.Usd", "pxr.UsdPhysics", "scipy.optimize", "scipy.spatial",
@@ -42,7 +42,7 @@ def read_model(cad_file: Path) -> Assembly:
         finally:
             loading.join()
 
-    files = cad.files_of(cad_file)
+    files = cad.files_of(cad_file) if stages_are_kept() else None
     return make() if files is None else kept("models", make, str(cad_file), files=files)
 
 

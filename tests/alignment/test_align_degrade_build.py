@@ -13,7 +13,7 @@ import pytest
 from kit.machines.crawler import merged
 from kit.machines.excavators import excavator
 from kit.machines.synthetic import Machine, disguise, loader
-from yellowiron import pipeline
+from yellowiron import cad, pipeline
 from yellowiron.library import load_template
 from yellowiron.model.assembly import Part
 from yellowiron.report import fell_short
@@ -75,8 +75,8 @@ def built(
     machine = loader(1, hoses=hoses) if kind == "wheel_loader" else excavator(1)
     spoil(machine)
     assembly, truth, _ = disguise(machine, 1)
-    monkeypatch.setattr(pipeline.cad, "check_file", lambda file: None)
-    monkeypatch.setattr(pipeline.cad, "read_cad", lambda file: assembly)
+    monkeypatch.setattr(cad, "check_file", lambda file: None)
+    monkeypatch.setattr(cad, "read_cad", lambda file: assembly)
     monkeypatch.setattr(pipeline.report, "page", lambda *a, **more: "")
     result = pipeline.build(kind, Path("machine.step"), out)
     assert (out / "scene.usda").exists()

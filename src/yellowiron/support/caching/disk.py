@@ -80,7 +80,7 @@ def remember(kind: str, key: str, make: Callable[[], Answer]) -> Answer:
 def kept(kind: str, make: Callable[[], Answer], *given: object, files: Iterable[Path] = ()) -> Answer:
     """The answer of `make`, from the cache where it was made before by this very program, of the same values (`given`)
     and files of the same names and contents."""
-    if not _stages_are_kept():
+    if not stages_are_kept():
         return make()
     digest = hashlib.sha256(content_of([_program(), *given]))
     for file in files:
@@ -93,13 +93,14 @@ def kept_each(
 ) -> dict[str, Answer]:
     """`kept`, of several answers by name, each of what is `given` for it: `make` is asked for those that are not there
     together."""
-    if not _stages_are_kept():
+    if not stages_are_kept():
         return dict(make(list(given)))
     keys = {name: content_of([_program(), each]).hex() for name, each in given.items()}
     return _remember_each(kind, keys, make)
 
 
-def _stages_are_kept() -> bool:
+def stages_are_kept() -> bool:
+    """Whether `kept` keeps anything."""
     return not os.environ.get(FRESH) and cache_folder() is not None
 
 
