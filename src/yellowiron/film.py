@@ -40,6 +40,11 @@ SUFFIXES = (".webp", ".gif", ".mp4")
 RATE = 12
 """Frames a second."""
 SIZE = (800, 450)
+"""Pixels."""
+_BAND = 36
+"""Rows of pixels of the caption, at the bottom."""
+_PIECE = (330, 190)
+"""Pixels of the piece of a sheet that is shown."""
 _COMING, _LIGHTING, _READING, _STEP = 1.6, 1.4, 1.6, 1.4
 """Seconds in which parts come together, joints light up, a value goes to its cylinder; of one actuator's stroke."""
 _APART = 0.5
@@ -97,7 +102,7 @@ def _frames(machine: Machine, drawn: DrawnTriangles, sheets: Sequence[Path]) -> 
     mechanism, assembly = machine.mechanism, machine.assembly
     site, work = _shown(mechanism, list(_work(mechanism)))
     points = np.concatenate([outline(mechanism), *(outline(mechanism, poses) for _, poses in work[::4])])
-    still = look_at(points, azimuth=-0.9, elevation=0.24, width=SIZE[0], height=SIZE[1] - 36)
+    still = look_at(points, azimuth=-0.9, elevation=0.24, width=SIZE[0], height=SIZE[1] - _BAND)
     still = replace(still, height=SIZE[1])
     for k in range(count := round(_COMING * RATE)):
         share = _eased(k / (count - 1))
@@ -174,7 +179,7 @@ def _read(machine: Machine, camera: Camera, sheets: Sequence[Path]) -> Iterator[
     x0, top, x1, bottom = (specs.PICTURE_SCALE * v for v in evidence.box)
     x0, x1 = x0 + specs.PICTURE_MARGIN, x1 + specs.PICTURE_MARGIN
     # A piece of the page around the value, large enough to be read.
-    width, height = 330, 190
+    width, height = _PIECE
     left = int(np.clip((x0 + x1) / 2 - width / 2, 0, max(page.width - width, 0)))
     above = int(np.clip((top + bottom) / 2 - height / 2, 0, max(page.height - height, 0)))
     piece = page.crop((left, above, left + width, above + height))
@@ -237,7 +242,7 @@ def _finished(frame: Frame, picture: Floats) -> Image:
     if frame.over is not None:
         frame.over(draw, image)
     width, height = SIZE
-    draw.rectangle((0, height - 36, width, height), fill=(*_PAPER, 235))
+    draw.rectangle((0, height - _BAND, width, height), fill=(*_PAPER, 235))
     draw.text((16, height - 29), frame.caption, fill=_INK, font=ImageFont.load_default(size=18))
     return image
 

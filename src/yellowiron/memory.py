@@ -6,11 +6,12 @@ the CAD model's parts in their roles, and a build of the same inputs is read fro
 
 from __future__ import annotations
 
+import functools
 import importlib
 import threading
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, ParamSpec, TypeVar
 
 from yellowiron import cad, checks, kinematics, library, report, specs, stages, usd
 from yellowiron.alignment import said_in
@@ -18,7 +19,7 @@ from yellowiron.model.alignment import Alignment
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
-from yellowiron.model.mechanism import Measurement, Mechanism
+from yellowiron.model.mechanism import Mechanism
 from yellowiron.model.specification import Specifications
 from yellowiron.model.sweep import Sweep
 from yellowiron.model.template import Template
@@ -28,6 +29,19 @@ _LIBRARIES = (
     "mujoco", "ortools.sat.python.cp_model", "pxr.Usd", "pxr.UsdPhysics", "scipy.optimize", "scipy.spatial",
     "yellowiron.kinematics.completion", "yellowiron.kinematics.measuring.measurement", "yellowiron.usd.write",
 )  # fmt: skip
+
+Given = ParamSpec("Given")
+Found = TypeVar("Found")
+
+
+def _keeping(kind: str, stage: Callable[Given, Found]) -> Callable[Given, Found]:
+    """A stage that depends on its arguments alone, kept."""
+
+    @functools.wraps(stage)
+    def answered(*args: Given.args, **kwargs: Given.kwargs) -> Found:
+        return kept(kind, lambda: stage(*args, **kwargs), args, kwargs)
+
+    return answered
 
 
 def read_model(cad_file: Path) -> Assembly:
@@ -46,7 +60,7 @@ def read_model(cad_file: Path) -> Assembly:
     return make() if files is None else kept("models", make, str(cad_file), files=files)
 
 
-def read_values(
+def read_sheets(
     template: Template,
     sheets: Sequence[Path],
     *,
@@ -91,22 +105,8 @@ def find_roles(
     return kept("roles", make, assembly, template, heard, data, choices, said)
 
 
-def solve(
-    template: Template,
-    assembly: Assembly,
-    alignment: Alignment,
-    specifications: Specifications,
-    data: library.Documents,
-    choices: Mapping[str, str],
-) -> stages.Solved:
-    """`stages.solve`."""
-    given = (template, assembly, alignment, specifications, data, choices)
-    return kept("mechanisms", lambda: stages.solve(*given), *given)
-
-
-def measure(mechanism: Mechanism) -> tuple[Measurement, ...]:
-    """`kinematics.measure`."""
-    return kept("measurements", lambda: kinematics.measure(mechanism), mechanism)
+solve = _keeping("mechanisms", stages.solve)
+measure = _keeping("measurements", kinematics.measure)
 
 
 def write(

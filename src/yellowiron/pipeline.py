@@ -125,7 +125,7 @@ def build(
         data = library.load_documents([Path(d) for d in documents], template, assembly, joints=by_hand)
         template = library.apply_sensors(library.apply_joints(template, data), data)
         with clock.stage("extract", "Reading the specification sheets"):
-            read = memory.read_values(
+            read = memory.read_sheets(
                 template, [Path(s) for s in sheets], config=config, extractor=extractor, model=model, progress=progress
             )
             specifications = specs.merge(read, values_by_hand(earlier, template), given)

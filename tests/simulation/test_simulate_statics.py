@@ -103,10 +103,10 @@ def test_a_foot_of_many_corners_is_quick(mechanism: Mechanism) -> None:
     bodies = tuple(dataclasses.replace(b, hull=disk) if b.name == mechanism.root else b for b in mechanism.bodies)
     footed = dataclasses.replace(mechanism, bodies=bodies)
     chain = ClosedChain(footed)
-    start = time.process_time()
+    start = time.thread_time()  # not the process's: what works in the background is none of its work
     under = supports(footed, chain, chain.drawn)
     assert len([name for name, _ in under if name == mechanism.root]) == len(disk)
-    assert time.process_time() - start < 20.0
+    assert time.thread_time() - start < 1.0
 
 
 def test_a_locked_cylinder_keeps_its_damping() -> None:

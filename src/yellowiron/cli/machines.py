@@ -1,4 +1,4 @@
-"""Of machines that were built: `measure`, `compare`, `check`, `simulate`, `export`."""
+"""Of machines that were built: `measure`, `compare`, `check`, `simulate`, `export`, `film`."""
 
 from __future__ import annotations
 
@@ -110,3 +110,27 @@ def export(
     files = {"machine": str(written), **({"scene": str(out / scene)} if scene else {})}
     said = f"{written}; {scene} beside it is the machine on the ground" if scene else str(written)
     answer(files, Text(said))
+
+
+@command(app)
+def film(
+    machine: Annotated[Path, typer.Argument(metavar="FOLDER", help="The folder of a build.")],
+    out: Annotated[Path, typer.Option("--out", help="The .webp, .gif or .mp4 file to write.")],
+) -> None:
+    """A film of a few seconds: parts come together, joints light up, a value finds its cylinder, the machine works."""
+    import tempfile
+
+    from yellowiron import build
+    from yellowiron.film import film as made
+    from yellowiron.studio import read_setup
+
+    setup = read_setup(machine)
+    kept = setup.out / "alignment.json"
+    with progress_shown() as progress, tempfile.TemporaryDirectory(prefix="yellowiron-") as folder:
+        built = build(
+            setup.equipment_type, setup.cad, Path(folder, "machine"), sheets=setup.sheets, documents=setup.documents,
+            settings=setup.settings, config=setup.config, alignment_file=kept if kept.exists() else None,
+            progress=progress,
+        )  # fmt: skip
+        made(built, out, sheets=setup.sheets, progress=progress)
+    answer({"file": str(out)}, Text(str(out)))

@@ -11,7 +11,7 @@ from rich.text import Text
 
 from yellowiron.cli.application import app
 from yellowiron.cli.options import Config, Settings, Sheets, command
-from yellowiron.cli.telling import answer, progress_shown
+from yellowiron.cli.telling import progress_shown
 from yellowiron.model.errors import YellowironError
 from yellowiron.report import terminal
 
@@ -61,27 +61,3 @@ def studio(
             webbrowser.open(address)
 
     serve(session, port=port, ready=ready)
-
-
-@command(app)
-def film(
-    machine: Annotated[Path, typer.Argument(metavar="FOLDER", help="The folder of a build.")],
-    out: Annotated[Path, typer.Option("--out", help="The .webp, .gif or .mp4 file to write.")],
-) -> None:
-    """A film of a few seconds: parts come together, joints light up, a value finds its cylinder, the machine works."""
-    import tempfile
-
-    from yellowiron import build
-    from yellowiron.film import film as made
-    from yellowiron.studio import read_setup
-
-    setup = read_setup(machine)
-    kept = setup.out / "alignment.json"
-    with progress_shown() as progress, tempfile.TemporaryDirectory(prefix="yellowiron-") as folder:
-        built = build(
-            setup.equipment_type, setup.cad, Path(folder, "machine"), sheets=setup.sheets, documents=setup.documents,
-            settings=setup.settings, config=setup.config, alignment_file=kept if kept.exists() else None,
-            progress=progress,
-        )  # fmt: skip
-        made(built, out, sheets=setup.sheets, progress=progress)
-    answer({"file": str(out)}, Text(str(out)))

@@ -11,7 +11,7 @@ import numpy as np
 from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.geometry import CylinderFeature, Floats, Shape
-from yellowiron.support.vectors import triple
+from yellowiron.support.vectors import line_through, triple
 
 _OFF = 0.12
 """Of a round thing's radius: so far from its surface a click still means it, and no less than `_LEAST`."""
@@ -94,15 +94,15 @@ def axis_of(picks: Sequence[Pick], assembly: Assembly) -> FoundAxis:
         words = "Through the middles of two round things"
     else:
         words = "Through two points" if len(picks) == 2 else "Of the circle through three points"
-    through = np.array(points)
-    if len(through) == 2:
-        middle, direction = through.mean(axis=0), through[1] - through[0]
-    else:
-        middle, direction = _circle(through)
-    if np.linalg.norm(direction) < 1e-6:
+    line = line_through(np.array(points))
+    if line is None:
         raise _unclear("The points are one, or on one line")
-    entry = {"through": [[float(f"{v:.9g}") for v in point] for point in through]}
-    return _found(entry, words, part, middle, direction / np.linalg.norm(direction))
+    return _found({"through": [plain(point) for point in points]}, words, part, *line)
+
+
+def plain(vector: Iterable[float]) -> list[float]:
+    """Numbers as files have them: metres to a nanometre at a metre."""
+    return [float(f"{v:.9g}") for v in vector]
 
 
 def lines_near(
@@ -142,8 +142,7 @@ def _round(pick: Pick, part: Part, assembly: Assembly) -> FoundAxis:
     scale = float(np.cbrt(abs(np.linalg.det(part.transform[:3, :3]))))
     kind = "Bore" if feature.inner else "Round"
     words = f"{kind} of {2e3 * scale * feature.radius:.4g} mm in {part.name}"
-    entry = {"anchor": [float(f"{v:.9g}") for v in center], "axis": [float(f"{v:.9g}") for v in direction]}
-    return _found(entry, words, part, center, direction)
+    return _found({"anchor": plain(center), "axis": plain(direction)}, words, part, center, direction)
 
 
 def _round_at(pick: Pick, shape: Shape) -> CylinderFeature | None:
@@ -181,21 +180,11 @@ def _edge(pick: Pick, part: Part, assembly: Assembly) -> FoundAxis:
     squared = np.maximum(np.einsum("ij,ij->i", along, along), 1e-30)
     share = np.clip(np.einsum("ij,ij->i", pick.point - a, along) / squared, 0.0, 1.0)
     nearest = int(np.argmin(np.linalg.norm(a + share[:, None] * along - pick.point, axis=1)))
-    points = np.array([_world(part, a[nearest]), _world(part, b[nearest])])
-    direction = points[1] - points[0]
-    entry = {"through": [[float(f"{v:.9g}") for v in point] for point in points]}
-    return _found(
-        entry, f"Along an edge of {part.name}", part, points.mean(axis=0), direction / np.linalg.norm(direction)
-    )
-
-
-def _circle(points: Floats) -> tuple[Floats, Floats]:
-    """The middle (3,) of the circle through three points and a vector (3,) along its axis; no length: no circle."""
-    u, v = points[1] - points[0], points[2] - points[0]
-    normal = np.cross(u, v)
-    if np.linalg.norm(normal) <= 1e-6 * np.linalg.norm(u) * np.linalg.norm(v):
-        return points[0], np.zeros(3)
-    return points[0] + np.cross(u @ u * v - v @ v * u, normal) / (2.0 * normal @ normal), normal
+    edge = [_world(part, end[nearest]) for end in (a, b)]
+    line = line_through(np.array(edge))
+    if line is None:
+        raise _unclear("The edge there is too short")
+    return _found({"through": [plain(end) for end in edge]}, f"Along an edge of {part.name}", part, *line)
 
 
 def _found(entry: Mapping[str, Any], words: str, part: Part, point: Floats, direction: Floats) -> FoundAxis:

@@ -14,7 +14,7 @@ from yellowiron.model.template import JointTemplate
 from yellowiron.report.html.joints import joint_evidence
 from yellowiron.report.rows import in_rows
 from yellowiron.report.words import titled
-from yellowiron.studio.axes import RoundLine, lines_near
+from yellowiron.studio.axes import RoundLine, lines_near, plain
 from yellowiron.studio.operations import SIGNED
 from yellowiron.studio.session import State
 
@@ -88,7 +88,7 @@ def _joint(
 
 def _entry(axis: tuple[Any, Any]) -> dict[str, Any]:
     point, direction = axis
-    return {"anchor": [float(f"{v:.9g}") for v in point], "axis": [float(f"{v:.9g}") for v in direction]}
+    return {"anchor": plain(point), "axis": plain(direction)}
 
 
 def _others(state: State, joint: JointTemplate, size: float) -> tuple[tuple[str, str], ...]:

@@ -93,7 +93,7 @@ class Session:
         self._data = library.load_documents(setup.documents, inputs.template, read)
         self._template = library.apply_sensors(library.apply_joints(inputs.template, self._data), self._data)
         progress("Reading the specification sheets")
-        self._sheet = memory.read_values(
+        self._sheet = memory.read_sheets(
             self._template, setup.sheets, config=setup.config, extractor="rules", model=None, progress=progress
         )
         progress("Finding the part that plays each role")

@@ -12,6 +12,11 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 Triple = tuple[float, float, float]
 
+_SHORT = 1e-9
+"""Metres: points that are nearer are one."""
+_FLAT = 1e-3
+"""Three points of a circle are this far (share of their distance) from one line."""
+
 
 def triple(values: Any) -> Triple:
     """Three numbers, in an array or any other sequence, as a tuple of plain floats."""
@@ -44,3 +49,17 @@ def distance_from_line(point: Floats, origin: Floats, direction: Floats) -> floa
     """How far a point (3,) is from a line through `origin` along a unit `direction`; the points' unit."""
     delta = point - origin
     return float(np.linalg.norm(delta - (delta @ direction) * direction))
+
+
+def line_through(points: Floats) -> tuple[Floats, Floats] | None:
+    """The line through two points (2, 3), metres, or about the circle through three (3, 3): their middle (3,) and a
+    unit vector (3,). None where two are one, or three nearly on one line."""
+    u = points[1] - points[0]
+    if len(points) == 2:
+        return (points.mean(axis=0), unit(u)) if np.linalg.norm(u) >= _SHORT else None
+    v = points[2] - points[0]
+    normal = np.cross(u, v)
+    if np.linalg.norm(normal) <= _FLAT * np.linalg.norm(u) * np.linalg.norm(v):
+        return None
+    # The middle of the circle through three corners of a triangle.
+    return points[0] + np.cross(u @ u * v - v @ v * u, normal) / (2.0 * normal @ normal), unit(normal)

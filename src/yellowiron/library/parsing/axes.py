@@ -11,12 +11,10 @@ from yellowiron.library.notation.validated_json import Document
 from yellowiron.model.alignment import Vector
 from yellowiron.model.errors import TemplateError
 from yellowiron.model.geometry import Floats
-from yellowiron.support.vectors import triple
+from yellowiron.support.vectors import line_through, triple
 
 _SHORT = 1e-9
 """Metres, or a direction's length: less is nothing."""
-_FLAT = 1e-3
-"""Three points of a circle are this far (share of their distance) from one line."""
 _BALL: Vector = (0.0, 0.0, 1.0)
 
 
@@ -41,15 +39,15 @@ def read_axis(document: Document, name: str, entry: Mapping[str, Any], kind: str
 
 
 def _through(document: Document, name: str, points: Floats) -> tuple[Vector, Vector]:
-    if len(points) == 2:
-        return triple(points.mean(axis=0)), triple(_unit(document, name, points[1] - points[0]))
-    u, v = points[1] - points[0], points[2] - points[0]
-    normal = np.cross(u, v)
-    if np.linalg.norm(normal) <= _FLAT * np.linalg.norm(u) * np.linalg.norm(v):
-        raise _error(document, name, "goes through three points in one line, or twice the same", "Pick others.")
-    # The middle of the circle through three corners of a triangle.
-    toward = np.cross(u @ u * v - v @ v * u, np.cross(u, v)) / (2.0 * normal @ normal)
-    return triple(points[0] + toward), triple(_unit(document, name, normal))
+    line = line_through(points)
+    if line is None:
+        words = (
+            "has an axis of no length"
+            if len(points) == 2
+            else "goes through three points in one line, or twice the same"
+        )
+        raise _error(document, name, words, "Pick others.")
+    return triple(line[0]), triple(line[1])
 
 
 def _unit(document: Document, name: str, direction: Floats) -> Floats:

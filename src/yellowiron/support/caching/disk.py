@@ -79,12 +79,12 @@ def remember(kind: str, key: str, make: Callable[[], Answer]) -> Answer:
 
 def kept(kind: str, make: Callable[[], Answer], *given: object, files: Iterable[Path] = ()) -> Answer:
     """The answer of `make`, from the cache where it was made before by this very program, of the same values (`given`)
-    and files of the same names and contents."""
+    and files of the same paths and contents."""
     if not stages_are_kept():
         return make()
     digest = hashlib.sha256(content_of([_program(), *given]))
     for file in files:
-        digest.update(f"{file.name}\0".encode("utf-8", "surrogateescape") + _of_file(file))
+        digest.update(f"{file}\0".encode("utf-8", "surrogateescape") + _of_file(file))
     return remember(kind, digest.hexdigest(), make)
 
 
