@@ -5,8 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from reportlab.pdfbase.pdfmetrics import stringWidth
 from specs_layouts import canvas, put, template, wanted
 
+from yellowiron.library import load_template
 from yellowiron.specs.extraction import from_sheets
 from yellowiron.specs.language.numbers import read
 from yellowiron.specs.language.vocabulary import ends, is_one_place, tokens
@@ -196,6 +198,7 @@ def test_what_is_a_value_and_what_a_label(text: str, is_value: bool) -> None:
         ("起升速度（满载/空载）", ["起升速度（满载）", "起升速度（空载）"]),
         ("Fork s/e", ["Fork thickness", "Fork width"]),
         ("Overall length", []),
+        ("Travel speed, backwards laden/unladen", ["Travel speed, backwards laden", "Travel speed, backwards unladen"]),
     ],
 )
 def test_alternatives_of_a_label(label: str, expected: list[str]) -> None:
@@ -262,3 +265,65 @@ def test_a_model_over_a_column_reverses_nothing() -> None:
     for head, status in (("VS 135", "ok"), ("Option", "missing")):
         row = Statement(1, 0, "Wheelbase", "1.515 m", (0, 0, 9, 9), "Wheelbase 1.515 m", column=(head,))
         assert from_sheets(asked, [Sheet("a.pdf", 1, (row,), (), "point")]).values["Wheelbase"].status == status
+
+
+def test_the_symbols_of_a_type_sheet_are_no_words(tmp_path: Path) -> None:
+    """VDI 2198 as a maker sets it: filled rows, an outline's number, the label, its symbol with a lower index, the
+    unit, a column for each model. One symbol has two letters, one stands in two rows, and that of a product says what its
+    three values are."""
+    rows = [
+        ("1.9", "Wheelbase", ("y", ""), "mm", "1453"), ("4.2", "Mast height lowered", ("h", "1"), "mm", "2900"),
+        ("4.3", "Free lift", ("h", "2"), "mm", "1925"), ("4.4", "Lift", ("h", "3"), "mm", "6874"),
+        ("4.5", "Mast height extended", ("h", "4"), "mm", "7849"), ("4.8", "Seat height", ("h", "7"), "mm", "1140"),
+        ("4.19", "Overall length", ("l", "1"), "mm", "2686"), ("4.20", "Length to fork face", ("l", "2"), "mm", "1436"),
+        ("4.22", "Fork dimensions", ("s/e/l", ""), "mm", "40/100/1250"),
+        ("4.34.1", "Aisle width crossways", ("A", "st"), "mm", "3175"),
+        ("4.34.2", "Aisle width lengthways", ("A", "st"), "mm", "3075"),
+        ("4.35", "Turning radius", ("W", "a"), "mm", "1710"),
+    ]  # fmt: skip
+    c = canvas(tmp_path / "a.pdf")
+    for i, (number, label, (symbol, index), unit, value) in enumerate(rows):
+        y = _TOP - 14 * i
+        c.setFillGray(0.8 if i % 2 else 1.0)
+        for x0, x1 in ((40, 72), (74, 278), (280, 318), (320, 358), (360, 480)):
+            c.rect(x0, y - 4, x1 - x0, 14, stroke=0, fill=1)
+        c.setFillGray(0)
+        for x, text in ((44, number), (78, label), (284, symbol), (330, unit), (364, value)):
+            put(c, x, y, text)
+        put(c, 284.5 + stringWidth(symbol, "Helvetica", 8), y - 2, index, size=5)
+    c.save()
+    sheet = [read_sheet(tmp_path / "a.pdf")]
+    read_values = {s.name: (s.status, s.value) for s in from_sheets(load_template("forklift", sheet_only=True), sheet)}
+    said = {
+        "Wheelbase": 1.453, "Lowered Mast Height": 2.9, "Free Lift Height": 1.925, "Lift Height": 6.874,
+        "Extended Mast Height": 7.849, "Seat Height": 1.14, "Overall Length": 2.686, "Length to Fork Face": 1.436,
+        "Fork Thickness": 0.04, "Fork Width": 0.1, "Fork Length": 1.25, "Turning Radius": 1.71,
+    }  # fmt: skip
+    assert {name: read_values[name] for name in said} == {n: ("ok", pytest.approx(v)) for n, v in said.items()}
+
+
+def test_a_unit_printed_for_another_is_for_review_with_what_it_should_be(tmp_path: Path) -> None:
+    c = canvas(tmp_path / "a.pdf")
+    put(c, 40, _TOP, "Boom length (m): 2950")
+    put(c, 40, _TOP - 20, "Arm length (m): 29500")
+    c.save()
+    asked = template(
+        wanted("Boom Length", "length", minimum=1.5, maximum=9.0),
+        wanted("Arm Length", "length", minimum=0.5, maximum=6.0),
+    )
+    boom, arm = from_sheets(asked, [read_sheet(tmp_path / "a.pdf")])
+    assert (boom.status, boom.value) == ("review", pytest.approx(2.95))
+    assert boom.reason == "'2950 m' is outside what is usual for Boom Length; in mm it would be usual"
+    assert (arm.status, arm.value) == ("review", pytest.approx(29500.0))
+
+
+def test_words_of_a_heading_are_not_left_over_of_a_label(tmp_path: Path) -> None:
+    """The width of the undercarriage cannot be 450 mm; its name is in the heading, the label says the shoe's."""
+    c = canvas(tmp_path / "a.pdf")
+    put(c, 40, _TOP, "UNDERCARRIAGE", size=14)
+    put(c, 40, _TOP - 24, "Shoe width")
+    put(c, 200, _TOP - 24, "450 mm")
+    c.save()
+    sheet = [read_sheet(tmp_path / "a.pdf")]
+    read_values = {s.name: (s.status, s.value) for s in from_sheets(load_template("excavator"), sheet)}
+    assert read_values["Shoe Width"] == ("ok", pytest.approx(0.45))

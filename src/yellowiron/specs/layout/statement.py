@@ -141,11 +141,13 @@ _KEY = re.compile(
     r"[(\[]?(?:[a-zα-ω]\d{0,2}(?:/[a-zα-ω]\d{0,2})+|[α-ω]|"
     r"[A-Z]{1,2}\d{0,2}|[a-z]\d{0,2}|\d{1,2}(?:\.\d{1,2})*|[\u2460-\u24ff])[′'\"]?[)\].:]{0,2}"
 )
+_INDEX = re.compile(r"(?<![^\W\d_])([^\W\d_])\s(\d{1,2})(?:\s(?=/)|(?=/)|$)")
 
 
 def is_key(text: str) -> bool:
-    """Whether a text may be a drawing's key or an outline's number, and no word: "A", "(b)", "h1", "2.3", "④"."""
-    return _KEY.fullmatch(text) is not None
+    """Whether a text may be a drawing's key or an outline's number, and no word: "A", "(b)", "h1", "2.3", "④"; where
+    its indices are set lower, "b 1/b 2"."""
+    return _KEY.fullmatch(_INDEX.sub(r"\1\2", text)) is not None
 
 
 def ascending(keys: Sequence[str]) -> bool:

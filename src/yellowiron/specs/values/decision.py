@@ -304,8 +304,26 @@ def settled(wanted: Wanted, claim: Claim) -> tuple[Quantity, str]:
     elif claim.partner is not None and not doubt and _is_imperial(quantity):
         quantity = claim.partner
     if not usual(wanted, quantity.si_value):
-        doubt = doubt or f"'{quantity.text}' is outside what is usual for {wanted.name}"
+        told = f"'{printed(quantity)}' is outside what is usual for {wanted.name}"
+        slipped = _as_slip(wanted, quantity)
+        if slipped is not None:
+            quantity, told = slipped, f"{told}; in {slipped.unit} it would be usual"
+        doubt = doubt or told
     return quantity, doubt
+
+
+_SLIPS = {"m": "mm", "mm": "m", "t": "kg", "kg": "t"}
+"""Units that makers print for each other by mistake."""
+
+
+def _as_slip(wanted: Wanted, quantity: Quantity) -> Quantity | None:
+    """The quantity in the unit that its own was printed for by mistake ("2950" under "m"), where so much is usual: for
+    a person to look at, never more."""
+    unit = _SLIPS.get(quantity.unit)
+    if unit is None or wanted.minimum is None or wanted.maximum is None:
+        return None
+    slipped = replace(quantity, unit=unit)
+    return slipped if usual(wanted, slipped.si_value) else None
 
 
 def printed(quantity: Quantity) -> str:

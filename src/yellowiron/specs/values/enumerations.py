@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from yellowiron.specs.language.vocabulary import tokens
+from yellowiron.specs.language.vocabulary import OPPOSITES, tokens
 from yellowiron.specs.layout.statement import joined
 
 _CROSS = re.compile(r"\s+[x×✕*/]\s+|\s*[×✕]\s*|\s+(?:and|und|et|y)\s+(?=stroke|rod|Hub|course|carrera)", re.IGNORECASE)
@@ -63,9 +63,18 @@ def alternatives(label: str, count: int) -> list[str]:
             symbols = all(re.fullmatch(r"[α-ωa-z]\d{0,2}", part) for part in parts) and "".join(parts) not in _LETTERS
             if len(parts) != count or symbols or not all(re.search(r"[^\W\d]", part) for part in parts):
                 continue
-            names = _LETTERS.get("".join(parts), parts)
+            names = _LETTERS.get("".join(parts), _with_shared(parts))
             return [f"{label[: match.start(1)]}{name}{label[match.end(1) :]}" for name in names]
     return []
+
+
+def _with_shared(parts: list[str]) -> list[str]:
+    """Two alternatives, of which the second is one word: what stands before its opposite holds for both
+    ("backwards laden", "unladen")."""
+    before, _, last = parts[0].rpartition(" ")
+    other = frozenset(tokens(parts[-1]))
+    opposite = len(other) == 1 and any(OPPOSITES.get(word, frozenset()) & other for word in tokens(last))
+    return [parts[0], f"{before} {parts[-1]}"] if len(parts) == 2 and before and opposite else parts
 
 
 _WITH = ("with", "mit", "avec", "con", "有", "带")

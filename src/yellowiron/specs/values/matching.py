@@ -76,7 +76,7 @@ def match(claims: Sequence[Claim], wanted: Sequence[Wanted]) -> dict[str, list[M
             continue
         if any(m.by_label for m in matches):
             matches = [m for m in matches if m.by_label]
-        matches = _of_possible(matches)
+        matches = _of_possible(matches, said)
         best = max((m.score, _specific(m)) for m in matches)
         kept = [m for m in matches if m.score >= best[0] - 1e-9 and (m.score > 0.999 or _specific(m) >= best[1])]
         for one in kept:
@@ -87,9 +87,9 @@ def match(claims: Sequence[Claim], wanted: Sequence[Wanted]) -> dict[str, list[M
     return found
 
 
-def _of_possible(matches: Sequence[Match]) -> list[Match]:
-    """The matches of values that can be so much; where one that cannot says more of the label, its further words are
-    left over: the boom's length is no machine's, though it be too short for the boom."""
+def _of_possible(matches: Sequence[Match], said: _Said) -> list[Match]:
+    """The matches of values that can be so much; where one that cannot says more of the label, its further words there
+    are left over: the boom's length is no machine's, though it be too short for the boom."""
     possible = [m for m in matches if _possible(m)]
     impossible = [m for m in matches if not _possible(m)]
     if not possible or not impossible:
@@ -97,7 +97,7 @@ def _of_possible(matches: Sequence[Match]) -> list[Match]:
     closest = max(impossible, key=_specific)
     if _specific(closest) <= max(map(_specific, possible)):
         return possible
-    words = set(tokens(closest.phrase))
+    words = set(tokens(closest.phrase)) & (said.label | said.head | said.context)
     return [replace(m, rest=m.rest or tuple(sorted(words - set(tokens(m.phrase))))) for m in possible]
 
 
@@ -274,7 +274,9 @@ def _explanation(asked_for: _Asked, said: _Said, *, supported: bool) -> _Explana
     everything = label | head | context | section
     by_itself = any(words <= label for _, words in asked_for.phrases)
     optional = (_EXTREME if wanted.dimension in _RATED else set()) - everything
-    headed = bool(wanted.sections) and not section <= GENERAL and wanted.dimension != "time"
+    # What names the model of the column, too, is the page's title.
+    title = bool((section & head) - KNOWN - NEUTRAL)
+    headed = bool(wanted.sections) and not section <= GENERAL and not title and wanted.dimension != "time"
     vague = VAGUE if headed else frozenset[str]()
     # One word alone is little: beside it only what no other value's words have passes for a remark.
     remarks = HARMLESS - asked_for.others.keys()

@@ -139,19 +139,23 @@ def _headed(statement: Statement, above: Sequence[TextPiece]) -> Statement:
 
 def _without_keys(grid: TableGrid) -> TableGrid:
     """The grid with the columns of a drawing's keys emptied: letters, symbols or outline numbers, no two alike, beside
-    a column of words."""
+    a column of words. Among many letters some have two ("Wa"), or stand in two rows."""
     keys: set[Cell] = set()
     for column in range(grid.columns - 1):
         cells = [c for c in grid.cells if c.columns[0] == column and c.lines]
         own = [c for c in cells if is_key(c.text)]
         texts = [c.text for c in own]
         numbers = any(t[0].isdigit() for t in texts)
-        if len(own) < 3 or len(own) < len(cells) - 1 or len(set(texts)) < len(texts) or all(map(is_unit, texts)):
+        if not numbers and len(own) >= MANY:
+            own = [c for c in cells if c in own or _SYMBOL.fullmatch(c.text.replace(" ", ""))]
+        twice = len(texts) - len(set(texts))
+        few = len(own) // MANY
+        if len(own) < 3 or len(own) < len(cells) - 1 or twice > (0 if numbers else few) or all(map(is_unit, texts)):
             continue
         if numbers and not (ascending(texts) and all(_begins(grid, c) for c in own)
                             and all(_worded(grid, c) for c in own)):  # fmt: skip
             continue
-        keys.update(own)
+        keys.update(c for c in own if not _LISTED.fullmatch(c.text))  # "s/e/l" says what its three values are
     return grid.emptied(keys) if keys else grid
 
 
@@ -347,6 +351,8 @@ def _label_of(cells: Sequence[Cell]) -> tuple[str, str]:
     return " ".join(texts), ""
 
 
+MANY = 6
+"""So many letters in a column make it one of symbols."""
 _SYMBOL = re.compile(r"[A-Z][a-z]{1,2}\d?")
 _LISTED = re.compile(r"[^\W\d]\s?[/／×x]\s?[^\W\d]+\s?[/／×x]\s?[^\W\d]")
 
