@@ -3,13 +3,15 @@ whose truth is known.
 
     python benchmarks/fit_fusion.py collect FOLDER [--first SEED] [--count N] [--damages …] [--real] [--models DIR]
     python benchmarks/fit_fusion.py fit FOLDER [--rounds N]
+    python benchmarks/fit_fusion.py cross FOLDER [--rounds N] [--folds K]
     python benchmarks/fit_fusion.py show FOLDER
 
 From the repository's root. `collect` aligns damaged machines of ours, with and without names, and the real models with
 labels that are not held back, and keeps what the judge was given wherever it was asked. The score is linear in its
 weights, so they are learned by a structured perceptron with a margin (Collins 2002; Taskar 2003): where the best
 labelling is not the best right one, weights move from what speaks for the one to what speaks for the other. `show`
-prints the share of surface labelled right, as the leading pieces have it.
+prints the share of surface labelled right, as the leading pieces have it; `cross` that of machines that the weights
+were not learned of.
 """
 
 from __future__ import annotations
@@ -20,7 +22,7 @@ import pickle
 import sys
 import zlib
 from collections import Counter
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -75,17 +77,19 @@ def problems_of(name: str, given: Scene) -> list[Problem]:
 
     pipeline.fused = caught
     try:
-        find_roles(given.assembly, load_template(given.type), Specifications())
+        found, _ = find_roles(given.assembly, load_template(given.type), Specifications())
     finally:
         pipeline.fused = usual
+    parts = {part.id for part in found.parts}  # as they are, or taken apart
+    seen = [one for one in seen if all(solid.part.id in parts for solid in one[0].solids)]
     if not seen:
         return []
-    observation, template, variants, scores, answer = seen[0]
+    observation, template, variants, scores, answer = seen[-1]
     tree, truth = cKDTree(given.truth.points), given.truth
     evidence = reading.evidence_of(observation, scores, answer, {}, template)
     there = {b for _, body in truth.labels for b in body.split("|")}
-    gone = {r.name for r in template.roles}
-    bodies = [tuple(b if b in gone else template.root for b in body.split("|") if b) for _, body in truth.labels]
+    known = {r.name for r in template.roles if r.rigid}
+    bodies = [tuple(body.split("|")) for _, body in truth.labels]
     right = []
     for k in evidence.leading:
         centres = np.concatenate([
@@ -94,16 +98,26 @@ def problems_of(name: str, given: Scene) -> list[Problem]:
         ])  # fmt: skip
         near = truth.label[tree.query(centres)[1]]
         label, count = Counter(near.tolist()).most_common(1)[0]
-        right.append(frozenset(bodies[label]) if count > 0.9 * len(near) else frozenset())
+        told = count > 0.9 * len(near) and set(bodies[label]) <= known  # what the type lacks may be anywhere
+        right.append(frozenset(bodies[label]) if told else frozenset())
     best = max(variants, key=lambda c: _fitting(choose(template, c), there))
     resolved = choose(template, best)
-    votes = evidence.votes(resolved)
-    return [
-        Problem(
-            name, resolved, [dict(votes[k]) for k in evidence.leading], list(evidence.between),
-            [evidence.pieces[k].area for k in evidence.leading], right,
-        )
-    ]  # fmt: skip
+    posed = []
+    # Which end is the front is the judge's guess; what it is to learn from is the right one.
+    for one in (evidence, replace(evidence, stance=evidence.stance.turned())):
+        votes = one.votes(resolved)
+        posed.append(
+            Problem(
+                name, resolved, [dict(votes[k]) for k in one.leading], list(one.between),
+                [one.pieces[k].area for k in one.leading], right,
+            )
+        )  # fmt: skip
+    return [max(posed, key=_best_right)]
+
+
+def _best_right(problem: Problem) -> float:
+    labels, field = solved(problem, dict(weights()), right=True, margin=0.0)
+    return score_of(field, labels)
 
 
 def _fitting(template: Template, there: set[str]) -> int:
@@ -181,10 +195,10 @@ def share_right(problem: Problem, labels: np.ndarray, bodies: tuple[str, ...]) -
     return good / total if total else 1.0
 
 
-def fit(folder: Path, rounds: int) -> None:
-    problems = problems_in(folder)
+def learned(problems: list[Problem], rounds: int, *, fixed: tuple[str, ...] = FIXED) -> dict[str, float]:
+    """The weights that a structured perceptron learns of some problems, from those in use; the mean over all steps."""
     start = dict(weights())
-    names = [n for n in start if n not in FIXED]
+    names = [n for n in start if n not in fixed]
     scale = np.array([max(5.0, abs(start[n])) for n in names])
     now, mean, seen = dict(start), np.zeros(len(names)), np.zeros(len(names))
     rng = np.random.default_rng(0)
@@ -209,15 +223,41 @@ def fit(folder: Path, rounds: int) -> None:
             steps += 1
         sys.stdout.write(f"{number}: {100 * np.mean(shares):.2f} %  { ({n: round(now[n], 1) for n in names}) }\n")
         sys.stdout.flush()
-    averaged = {**{n: round(float(v), 2) for n, v in zip(names, mean / steps, strict=True)}}
-    known = {n: averaged.get(n, start[n]) for n in start}
-    drawn = ("loader", "excavator", "drawn")
+    averaged = {n: round(float(v), 2) for n, v in zip(names, mean / steps, strict=True)}
+    return {n: averaged.get(n, start[n]) for n in start}
+
+
+def fit(folder: Path, rounds: int) -> None:
+    problems = problems_in(folder)
+    known = learned(problems, rounds)
     source = (
         f"Structured perceptron on {len(problems)} machines that contacts alone do not tell, of them "
-        f"{sum(p.name.split('-')[0] not in drawn for p in problems)} of strangers: "
+        f"{sum(_machine(p) not in DRAWN for p in problems)} of strangers: "
         "benchmarks/fit_fusion.py."
     )
     DATA.write_text(json.dumps({"source": source, "weights": known}, indent=1) + "\n", encoding="utf-8")
+
+
+def crossed(folder: Path, rounds: int, folds: int) -> None:
+    """What weights make of machines that they were not learned of: all problems of a machine are in one fold."""
+    problems = problems_in(folder)
+    machines = sorted({_machine(p) for p in problems})
+    fold_of = {name: k % folds for k, name in enumerate(machines)}
+    for fold in range(folds):
+        known = learned([p for p in problems if fold_of[_machine(p)] != fold], rounds)
+        for problem in (p for p in problems if fold_of[_machine(p)] == fold):
+            shares = []
+            for used in (dict(weights()), known):
+                labels, field = solved(problem, used, right=False, margin=0.0)
+                shares.append(100 * share_right(problem, labels, field.bodies))
+            sys.stdout.write(f"CROSS {problem.name:50s} now {shares[0]:6.1f} %, learned of others {shares[1]:6.1f} %\n")
+
+
+DRAWN = ("loader", "excavator", "drawn")
+
+
+def _machine(problem: Problem) -> str:
+    return problem.name.split("-")[0]
 
 
 def show(folder: Path) -> None:
@@ -236,7 +276,7 @@ def main() -> None:
     import os
 
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("what", choices=("collect", "fit", "show"))
+    parser.add_argument("what", choices=("collect", "fit", "cross", "show"))
     parser.add_argument("folder", type=Path)
     parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--count", type=int, default=1)
@@ -244,11 +284,14 @@ def main() -> None:
     parser.add_argument("--real", action="store_true")
     parser.add_argument("--models", default=os.environ.get(FOLDERS, ""))
     parser.add_argument("--rounds", type=int, default=6)
+    parser.add_argument("--folds", type=int, default=4)
     given = parser.parse_args()
     if given.what == "collect":
         collect(given.folder, given)
     elif given.what == "fit":
         fit(given.folder, given.rounds)
+    elif given.what == "cross":
+        crossed(given.folder, given.rounds, given.folds)
     else:
         show(given.folder)
 

@@ -95,21 +95,27 @@ def find_roles(
     decisions: Decisions = UNDECIDED,
 ) -> tuple[Assembly, Alignment]:
     """Roles for the parts of a CAD model, and the model whose parts they are: scaled where the sheet's overall length
-    asks for it; where roles are missing, its merged meshes taken apart, if that finds most of them. `earlier` is an
-    alignment file whose edits hold; `decisions` go before them."""
+    asks for it; where bodies are missing, or every mesh may be a whole one, taken apart, if that finds most of what is
+    missing. `earlier` is an alignment file whose edits hold; `decisions` go before them."""
 
     def found(model: Assembly) -> Alignment:
         edits = read_alignment(earlier, model, template) if earlier is not None else None
         edits = decide(edits, decisions, model, template)
         return roles_of(model, template, specifications, edits=edits, data=data, choices=choices)
 
+    def hidden(alignment: Alignment) -> int:
+        # Neither pins nor the root count: many models have none, whatever is done to them.
+        bodies = [role.name for role in template.roles if role.rigid and role.name != template.root]
+        return sum(name in alignment.missing for name in bodies)
+
     assembly = to_scale(assembly, template, specifications)
     alignment = found(assembly)
-    apart = kept("apart", lambda: _apart(assembly), assembly) if alignment.missing else None
+    merged = alignment.missing and len(assembly.parts) < 2 * len({part.body for part in alignment.parts})
+    apart = kept("apart", lambda: _apart(assembly), assembly) if merged or hidden(alignment) else None
     if apart is not None:
         other = found(apart)
-        # A model without pins misses roles whatever is done to it; bodies in crumbs then answer to more roles, wrongly.
-        if len(other.missing) < 0.5 * len(alignment.missing):
+        # Bodies in crumbs answer to more roles, wrongly: it must find most of them.
+        if hidden(other) < 0.5 * hidden(alignment) or len(other.missing) < 0.5 * len(alignment.missing):
             return apart, other
     return assembly, alignment
 

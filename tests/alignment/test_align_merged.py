@@ -77,3 +77,23 @@ def test_bodies_without_pins_are_not_taken_apart() -> None:
     found, alignment = find_roles(merged, load_template("wheel_loader"), Specifications())
     assert alignment.missing
     assert found is merged
+
+
+@pytest.mark.slow
+def test_a_mesh_a_material_is_taken_apart_without_pins_too() -> None:
+    """Taking it apart finds its bodies; the roles of pins are missing all the same, and so is half of all roles."""
+    machine = excavator(1003)
+    pins = {role for role, _ in machine.truth.values() if role.endswith("_pin")}
+    machine.parts[:] = [p for p in machine.parts if machine.truth[p.id][0] not in pins]
+    assembly, truth, _ = disguise(machine, 1003)
+    groups: dict[int, list[str]] = {}
+    for number, part in enumerate(assembly.parts):
+        groups.setdefault(number % 6, []).append(part.id)
+    template = load_template("excavator")
+    found, alignment = find_roles(meshed(assembly, list(groups.values())), template, Specifications())
+    assert len(found.parts) > 10 * len(groups)
+    missing = {role.name for role in template.roles if role.rigid and role.name in alignment.missing}
+    assert missing <= {template.root}
+    owner = owners(assembly, found)
+    right = [p.body == truth[owner[p.part]][1] for p in alignment.parts if truth[owner[p.part]][1]]
+    assert sum(right) > 0.97 * len(right)

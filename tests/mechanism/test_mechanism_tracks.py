@@ -11,8 +11,10 @@ import pytest
 from kit.machines.crawler import PITCH_RADIUS, Crawler, crawler, merged
 from kit.machines.tracked_template import write_tracked_template
 from yellowiron import kinematics
+from yellowiron.cad.mesh.assembly import shape_of
 from yellowiron.library import load_template
 from yellowiron.mechanism import build_mechanism
+from yellowiron.model.geometry import Mesh
 from yellowiron.model.mechanism import Mechanism, chained
 from yellowiron.model.rows import expand
 from yellowiron.model.specification import Specification, Specifications
@@ -142,6 +144,29 @@ def test_a_track_that_is_not_there(drawn: Crawler, template: Template) -> None:
     assert sum("track_wheel" in b.name for b in found.bodies) == 3
 
 
+def _sided(template: Template) -> Template:
+    return replace(template, roles=tuple(replace(r, side=r.name[-1]) if r.hidden else r for r in template.roles))
+
+
+def test_a_flat_thing_is_no_track(drawn: Crawler, template: Template) -> None:
+    """What was found to be the undercarriage may be a disc, or a face of something else."""
+    moved = {p.part: p.body for p in drawn.aligned(shoes=False).parts}
+    assembly = drawn.assembly()
+    below = [p for p in assembly.parts if moved[p.id] == "undercarriage"]
+    one = Crawler(drawn.shoes, [p for p in assembly.parts if p not in below], {**assembly.shapes})
+    one.truth = {p.id: drawn.truth[p.id] for p in one.parts}
+    corners = np.array([[-2.0, -1.5, 0.0], [2.0, -1.5, 0.0], [2.0, 1.5, 0.0], [-2.0, 1.5, 0.0]])
+    one.add(
+        "disc",
+        "undercarriage",
+        shape_of(Mesh(corners, np.array([[0, 1, 2], [0, 2, 3]], dtype=np.int32)), "disc"),
+        np.eye(4),
+    )
+    found = build(one, _sided(template), "belt")
+    assert {f.where for f in found.findings if f.code == "MEC070"} == {"track_wheel_l", "track_wheel_r"}
+    assert not [b.name for b in found.bodies if "track_wheel" in b.name]
+
+
 def test_a_frame_drawn_in_one_with_its_tracks(drawn: Crawler, template: Template) -> None:
     """It collides between the tracks, and what is measured there is the frame's: no corner of the whole's hull is."""
     moved = {p.part: p.body for p in drawn.aligned(shoes=False).parts}
@@ -151,8 +176,7 @@ def test_a_frame_drawn_in_one_with_its_tracks(drawn: Crawler, template: Template
     one = Crawler(drawn.shoes, [p for p in assembly.parts if p not in below], {**assembly.shapes})
     one.truth = {p.id: drawn.truth[p.id] for p in one.parts}
     one.add("crawler", "undercarriage", shape, np.eye(4))
-    sided = [replace(r, side=r.name[-1]) if r.hidden else r for r in template.roles]
-    found = build(one, replace(template, roles=tuple(sided)), "belt")
+    found = build(one, _sided(template), "belt")
     assert {f.where for f in found.findings if f.code == "MEC072"} == {"track_wheel_l", "track_wheel_r"}
     frame = found.body("undercarriage")
     (box,) = frame.shapes

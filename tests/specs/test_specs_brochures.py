@@ -269,8 +269,8 @@ def test_a_model_over_a_column_reverses_nothing() -> None:
 
 def test_the_symbols_of_a_type_sheet_are_no_words(tmp_path: Path) -> None:
     """VDI 2198 as a maker sets it: filled rows, an outline's number, the label, its symbol with a lower index, the
-    unit, a column for each model. One symbol has two letters, one stands in two rows, and that of a product says what its
-    three values are."""
+    unit, a column for each model. One symbol has two letters, one stands in two rows, and that of a product says what
+    its three values are."""
     rows = [
         ("1.9", "Wheelbase", ("y", ""), "mm", "1453"), ("4.2", "Mast height lowered", ("h", "1"), "mm", "2900"),
         ("4.3", "Free lift", ("h", "2"), "mm", "1925"), ("4.4", "Lift", ("h", "3"), "mm", "6874"),

@@ -28,6 +28,8 @@ MIDDLE = 2.0 / 3.0
 """Share of the room between two tracks, drawn in one with their frame, that is surely the frame's."""
 ON_GROUND = 0.03
 """What is this near to the lowest point, as a share of the track's height, lies on the ground."""
+FLAT = 1e-6
+"""Metres: what is no higher is no track."""
 LEFT_OVER = 0.02
 """The least share of its mass that the body a track moves with keeps."""
 
@@ -72,6 +74,10 @@ def hidden_wheels(placement: Placement, template: Template, findings: list[Findi
                 continue
             words = f"No part is '{rule['row']}': the track is taken to be what stands on the ground on that side."
             findings.append(Finding("MEC072", "warning", row, words, "Check the undercarriage's parts."))
+        if float(np.ptp(points[:, 2])) < FLAT:
+            words = f"What stands for '{rule['row']}' is flat: there is nothing that '{row}' could stand for."
+            findings.append(Finding("MEC070", "error", row, words, "Check the undercarriage's parts."))
+            continue
         low, high, ground = _stretch(points)
         radius = 0.5 * rule["radius"] * float(high[2] - low[2])
         middle, length = 0.5 * (ground[0] + ground[1]), ground[1] - ground[0]
