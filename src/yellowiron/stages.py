@@ -110,12 +110,14 @@ def find_roles(
 
     assembly = to_scale(assembly, template, specifications)
     alignment = found(assembly)
-    merged = alignment.missing and len(assembly.parts) < 2 * len({part.body for part in alignment.parts})
+    moving = {part.body for part in alignment.parts}
+    merged = alignment.missing and len(assembly.parts) < 2 * len(moving)
     apart = kept("apart", lambda: _apart(assembly), assembly) if merged or hidden(alignment) else None
     if apart is not None:
         other = found(apart)
-        # Bodies in crumbs answer to more roles, wrongly: it must find most of them.
-        if hidden(other) < 0.5 * hidden(alignment) or len(other.missing) < 0.5 * len(alignment.missing):
+        # Bodies in crumbs answer to more roles, wrongly: where few bodies were missing, pins must be found as well.
+        most = hidden(alignment) > len(moving) and hidden(other) < 0.5 * hidden(alignment)
+        if most or len(other.missing) < 0.5 * len(alignment.missing):
             return apart, other
     return assembly, alignment
 

@@ -32,8 +32,8 @@ def excavator() -> Template:
 
 
 def _bond(a: int, b: int, **more: bool) -> Bond:
-    given = {"hinge": False, "slide": False, **more}
-    return Bond(a, b, {"beside": 1.0}, True, given["hinge"], given["slide"])
+    given = {"hinge": False, "slide": False, "alike": False, **more}
+    return Bond(a, b, {"beside": 1.0}, True, given["hinge"], given["slide"], alike=given["alike"])
 
 
 def test_the_names_decide_where_nothing_else_speaks(excavator: Template) -> None:
@@ -55,6 +55,21 @@ def test_neighbours_tell_what_names_leave_open(excavator: Template) -> None:
     assert field.bodies[labels[1]] == "arm"
 
 
+def test_mirror_images_are_one_body_or_twins() -> None:
+    """Two bars that mirror each other are the barrels of two hydraulic cylinders, not barrel and rod of one."""
+    twin = choose(load_template("excavator"), {"boom_cylinders": "twin"})
+    names = ["boom_cylinder_barrel_l", "boom_cylinder_barrel_r", "boom_piston_rod_l"]
+    field = field_of([{name: {} for name in names}] * 2, [_bond(0, 1, alike=True)], twin, weights())
+    left, right, rod = (field.bodies.index(name) for name in names)
+    alone = field_of([{name: {} for name in names}] * 2, [_bond(0, 1)], twin, weights())
+
+    def gain(*labels: int) -> float:
+        return score_of(field, np.array(labels)) - score_of(alone, np.array(labels))
+
+    assert gain(left, left) == gain(left, right) == gain(right, left) == pytest.approx(weights()["alike"])
+    assert gain(left, rod) == gain(len(field.bodies), len(field.bodies)) == 0.0
+
+
 @settings(max_examples=25, deadline=None)
 @given(st.integers(0, 10_000))
 def test_conditionals_are_differences_of_the_score(excavator: Template, seed: int) -> None:
@@ -63,7 +78,8 @@ def test_conditionals_are_differences_of_the_score(excavator: Template, seed: in
     bodies = [r.name for r in template.roles if r.rigid][:12]
     votes = [{b: {"name": float(rng.random())} for b in bodies} for _ in range(6)]
     pairs = [(a, b) for a in range(6) for b in range(a + 1, 6) if rng.random() < 0.6]
-    bonds = [_bond(a, b, hinge=bool(rng.random() < 0.5), slide=bool(rng.random() < 0.3)) for a, b in pairs]
+    kinds = {"hinge": 0.5, "slide": 0.3, "alike": 0.4}
+    bonds = [_bond(a, b, **{kind: bool(rng.random() < share) for kind, share in kinds.items()}) for a, b in pairs]
     field = field_of(votes, bonds, template, weights())
     labels = rng.choice(len(field.bodies), size=6)
     labels = np.array([n if field.bodies[n] in bodies else len(field.bodies) for n in labels], dtype=np.int64)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 LARGEST = 1e3
 """Metres. Nothing in a machine is larger: a wrong unit, or a coordinate that is damaged."""
+FINEST = 1e-3
+"""Metres: the smallest unit that models are drawn in."""
 SMALLEST = 1e-3
 """Metres: a whole model that is smaller was exported in a wrong unit."""
 PARALLEL = 0.999

@@ -18,12 +18,14 @@ from yellowiron.model.assembly import Assembly, DeclaredJoint
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import CylinderFeature, Floats, PlaneFeature, Shape
 from yellowiron.model.specification import Specifications
-from yellowiron.model.template import Template
+from yellowiron.model.template import Template, Wanted
 
 POSES = (0.55, 1.9)
 """The longest extent, which is a diagonal, as a share of the overall length: the sheet's machine has its arms folded,
 the drawn one may have them anywhere."""
 UNITS = {"millimetres": 1e-3, "centimetres": 1e-2, "inches": 0.0254, "feet": 0.3048, "metres": 1.0}
+TOY = 0.05
+"""Metres: no toy is drawn so small."""
 AGREE = 0.01
 """Two diameters agree within this share."""
 ENOUGH = 3
@@ -32,16 +34,16 @@ ENOUGH = 3
 
 def to_scale(assembly: Assembly, template: Template, specifications: Specifications) -> Assembly:
     """The model in metres, by the sheet's overall length (the template's value that is `length_of` the whole machine),
-    with a finding (ALN014) if that changed it.
+    with a finding (ALN014) if that changed it. Without that on a sheet, by how long machines of the type can be.
 
     A length that is off by more than a pose can explain means a wrong unit: that unit is taken with which the length
     comes out. If there is none, the diameters of the hydraulic cylinders give the scale; without these the length
     itself does, which is told as a guess.
     """
-    wanted = next((w.name for w in template.wanted if w.length_of == "*"), None)
-    length = specifications.number(wanted) if wanted is not None else None
+    wanted = next((w for w in template.wanted if w.length_of == "*"), None)
+    length = specifications.number(wanted.name) if wanted is not None else None
     if length is None or length <= 0.0:
-        return assembly
+        return assembly if wanted is None else _to_usual_size(assembly, wanted)
     drawn = _extent(assembly)
     if drawn <= 0.0 or POSES[0] <= drawn / length <= POSES[1]:
         return assembly
@@ -60,8 +62,29 @@ def to_scale(assembly: Assembly, template: Template, specifications: Specificati
     return _rescaled(assembly, factor, f"{read}, and no unit explains that: scaled by {factor:.4g}, which is a guess")
 
 
+def _to_usual_size(assembly: Assembly, wanted: Wanted) -> Assembly:
+    """The model in the unit with which it is about as long as machines of its type are, if it cannot be one as it is.
+    Small ones may be toys, unless nothing says what their unit is."""
+    if not wanted.minimum or not wanted.maximum:
+        return assembly
+    drawn = _extent(assembly)
+    least, most = POSES[0] * wanted.minimum, POSES[1] * wanted.maximum
+    unknown = any(f.code == "CAD009" and f.severity == "warning" for f in assembly.findings)
+    if drawn <= 0.0 or (drawn <= most and not (unknown and drawn < least) and drawn >= TOY):
+        return assembly
+    middle = math.sqrt(wanted.minimum * wanted.maximum)
+    lengths = {name: drawn * unit / assembly.unit for name, unit in UNITS.items()}
+    fitting = {name: length for name, length in lengths.items() if least <= length <= most}
+    if not fitting:
+        return assembly
+    name, *others = sorted(fitting, key=lambda name: abs(math.log(fitting[name] / middle)))
+    words = f"The CAD model is {drawn:.4g} m long, no machine of its type is: its numbers are taken for {name}"
+    words += "".join(f", in {other} it would be {fitting[other]:.3g} m long" for other in others)
+    return _rescaled(assembly, fitting[name] / drawn, words)
+
+
 def _rescaled(assembly: Assembly, factor: float, words: str) -> Assembly:
-    hint = "Check the unit that the model was exported in, and the sheet's overall length."
+    hint = "Check the unit that the model was exported in, or give a sheet with the overall length."
     finding = Finding("ALN014", "warning", assembly.name, words, hint)
     return replace(scaled(assembly, factor), findings=(*assembly.findings, finding))
 

@@ -33,12 +33,12 @@ class Bond:
     """Pieces `a` < `b`: `same`, what speaks for their being one body; `beside`, whether they are neighbours; `hinge`,
     whether an exact axis runs through both; `slide`, whether they are seen to be barrel and rod.
 
-    `branch`: whether one is the other's child in the scene's tree.
+    `branch`: whether one is the other's child in the scene's tree; `alike`: whether they are one shape, mirrored: of
+    one body, or of twins.
 
     `same` has `beside` (1: neighbours), `flat` (how much of the smaller one lies flat on the other, 0 to 1), `sunk`
     (the share of one inside of the other), `welded` (one cluster of what the contacts alone found), `kin` (one assembly
-    that is a small part of the machine), `branch`, `stem` (one name but for its number) and `alike` (one shape,
-    mirrored)."""
+    that is a small part of the machine), `branch` and `stem` (one name but for its number)."""
 
     a: int
     b: int
@@ -47,6 +47,7 @@ class Bond:
     hinge: bool
     slide: bool
     branch: bool = False
+    alike: bool = False
 
 
 def bonds_of(observation: Observation, pieces: Sequence[Piece], structure: Structure, stance: Stance) -> list[Bond]:
@@ -70,7 +71,7 @@ def bonds_of(observation: Observation, pieces: Sequence[Piece], structure: Struc
     found = []
     for a, b in sorted({*flat, *hinged, *slides, *kin, *stems, *twins, *gaps, *tree}):
         same = {"branch": float((a, b) in tree)}
-        same |= {"kin": float((a, b) in kin), "stem": float((a, b) in stems), "alike": float((a, b) in twins)}
+        same |= {"kin": float((a, b) in kin), "stem": float((a, b) in stems)}
         if (a, b) in gaps:
             least = min(pieces[a].area, pieces[b].area)
             i, j = min(pieces[a].members), min(pieces[b].members)
@@ -83,7 +84,9 @@ def bonds_of(observation: Observation, pieces: Sequence[Piece], structure: Struc
                 "sunk": max(observation.touch.sunk(i, j), observation.touch.sunk(j, i)) if sunk else 0.0,
             }
         same = {key: value for key, value in same.items() if value}
-        found.append(Bond(a, b, same, (a, b) in gaps, (a, b) in hinged, (a, b) in slides, (a, b) in tree))
+        found.append(
+            Bond(a, b, same, (a, b) in gaps, (a, b) in hinged, (a, b) in slides, (a, b) in tree, (a, b) in twins)
+        )
     return found
 
 

@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from yellowiron.alignment.assignment.weights import twin_role
 from yellowiron.alignment.fusion.bonds import Bond
 from yellowiron.alignment.fusion.votes import BARS, Features
 from yellowiron.model.geometry import Floats
@@ -36,7 +37,8 @@ SEED = 1
 @dataclass(frozen=True, eq=False)
 class Field:
     """The score as arrays. Labels are the `bodies`, and last: none. `unary` (pieces, labels). Bond k joins the pieces
-    `ends[k]`; its `weights[k]` are what it counts for one body, and for bodies that a joint joins; it holds a joint
+    `ends[k]`; its `weights[k]` are what it counts for one body, for bodies that a joint joins, and for one body or left
+    and right twins, which `twins` (labels, labels) are; it holds a joint
     nearly (`near[k]`), or exactly as a hinge and as a slide (`exact[k]`). `joint` (labels, labels): the joint between
     two labels, or the number of joints. `sliding` (joints + 1,): which joints are slides. `played` (labels,): what each
     body counts that is there; `held` what a joint counts that is held nearly, and exactly. `astray` (pieces, pieces):
@@ -49,6 +51,7 @@ class Field:
     near: Ints
     exact: Ints
     joint: Ints
+    twins: NDArray[np.bool_]
     sliding: Ints
     played: Floats
     held: tuple[float, float]
@@ -92,6 +95,11 @@ def field_of(
     joint = np.full((none + 1, none + 1), len(joints), dtype=np.int64)
     for k, (_, a, b) in enumerate(joints):
         joint[a, b] = joint[b, a] = k
+    twins = np.eye(none + 1, dtype=np.bool_)
+    twins[none, none] = False
+    for body, k in at.items():
+        if (other := at.get(twin_role(body) or "")) is not None:
+            twins[k, other] = True
     near = weights["near"]
     played = np.array([0.0 if template.role(b).optional else weights["required"] for b in bodies] + [0.0])
     for _, a, b in joints:
@@ -101,12 +109,20 @@ def field_of(
         unary,
         np.array([(b.a, b.b) for b in bonds], dtype=np.int64).reshape(-1, 2),
         np.array(
-            [(weighed(b.same, weights), weights["joined"] * b.beside + weights["branched"] * b.branch) for b in bonds],
+            [
+                (
+                    weighed(b.same, weights),
+                    weights["joined"] * b.beside + weights["branched"] * b.branch,
+                    weights["alike"] * b.alike,
+                )
+                for b in bonds
+            ],
             dtype=np.float64,
-        ).reshape(-1, 2),
+        ).reshape(-1, 3),
         np.array([b.beside for b in bonds], dtype=np.int64),
         np.array([(b.hinge, b.slide) for b in bonds], dtype=np.int64).reshape(-1, 2),
         joint,
+        twins,
         np.array([slide for slide, _, _ in joints] + [False], dtype=np.int64),
         played,
         (near, weights["exact"]),
@@ -127,7 +143,8 @@ def score_of(field: Field, labels: Ints) -> float:
     held = field.joint[a, b]
     same = (a == b) & (a != none)
     total = field.unary[np.arange(len(labels)), labels].sum()
-    total += field.weights[:, 0] @ same + field.weights[:, 1] @ (held < joints)
+    for weight, counted in zip(field.weights.T, (same, held < joints, field.twins[a, b]), strict=True):
+        total += weight @ counted
     near = np.bincount(held, weights=field.near, minlength=joints + 1)[:joints]
     exact = np.bincount(held, weights=field.exactly(held), minlength=joints + 1)[:joints]
     played = np.bincount(labels, minlength=none + 1)[:none]
@@ -143,13 +160,14 @@ def score_of(field: Field, labels: Ints) -> float:
 
 @dataclass(frozen=True, eq=False)
 class _Around:
-    """The bonds of one piece: their numbers, the pieces at their other ends, what they count for one body and for
-    bodies that a joint joins; whether each is `near`, and `exact` as a hinge and as a slide."""
+    """The bonds of one piece: their numbers, the pieces at their other ends, what they count for one body, for bodies
+    that a joint joins, and for twins; whether each is `near`, and `exact` as a hinge and as a slide."""
 
     bonds: Ints
     others: Ints
     same: Floats
     joined: Floats
+    alike: Floats
     near: Ints
     exact: tuple[Ints, Ints]
 
@@ -158,7 +176,8 @@ class _Around:
         bonds = np.flatnonzero((field.ends == p).any(axis=1))
         others = np.where(field.ends[bonds, 0] == p, field.ends[bonds, 1], field.ends[bonds, 0])
         weights, exact = field.weights[bonds], field.exact[bonds]
-        return cls(bonds, others, weights[:, 0], weights[:, 1], field.near[bonds], (exact[:, 0], exact[:, 1]))
+        same, joined, alike = weights.T
+        return cls(bonds, others, same, joined, alike, field.near[bonds], (exact[:, 0], exact[:, 1]))
 
 
 class Annealing:
@@ -212,6 +231,7 @@ class Annealing:
             same = np.bincount(theirs, weights=around.same, minlength=n)
             same[-1] = 0.0
             scores += same + self._joined @ np.bincount(theirs, weights=around.joined, minlength=n)
+            scores += field.twins @ np.bincount(theirs, weights=around.alike, minlength=n)
             near = np.minimum(np.bincount(theirs, weights=around.near, minlength=n), 1.0)
             scores += self._free(self.near, field.held[0])[field.joint] @ near
             for kind, exact in zip(self._kinds, around.exact, strict=True):
@@ -251,9 +271,17 @@ class Annealing:
         return score
 
 
-def labelled(field: Field, start: Ints | None = None, *, hot: float = HOT, sweeps: int = SWEEPS) -> tuple[Ints, float]:
-    """The best labelling found (pieces,), and its score. From a `start`, it is only warmed to `hot` first."""
-    rng = np.random.default_rng(SEED)
+def labelled(
+    field: Field, start: Ints | None = None, *, hot: float = HOT, sweeps: int = SWEEPS, tries: int = 1
+) -> tuple[Ints, float]:
+    """The best labelling found (pieces,) in so many tries, and its score. From a `start`, it is only warmed to `hot`
+    first."""
+    found = [_annealed(field, start, hot, sweeps, SEED + k) for k in range(tries)]
+    return max(found, key=lambda one: one[1])
+
+
+def _annealed(field: Field, start: Ints | None, hot: float, sweeps: int, seed: int) -> tuple[Ints, float]:
+    rng = np.random.default_rng(seed)
     state = Annealing(field, np.argmax(field.unary, axis=1) if start is None else start)
     best, score = state.labels.copy(), score_of(field, state.labels)
     for temperature in [*np.geomspace(hot, COLD, sweeps), *[0.0] * 6]:

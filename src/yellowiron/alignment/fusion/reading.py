@@ -32,6 +32,8 @@ from yellowiron.model.template import Template, choose
 
 GLANCE, LIKELY = SWEEPS // 2, 4
 """So many sweeps tell which variants are the likeliest, and so many of these are judged with all."""
+TRIES = 4
+"""One annealing in three ends beside the best labelling."""
 MISSING = 60.0
 """What a variant loses for every body of its own that nothing plays."""
 NEARLY = 2
@@ -144,7 +146,7 @@ def fused(
 
     fields: dict[tuple[object, ...], tuple[Template, Votes, Field]] = {}
 
-    def tried(chosen: dict[str, str], evidence: Evidence, sweeps: int = SWEEPS) -> _Best:
+    def tried(chosen: dict[str, str], evidence: Evidence, sweeps: int = SWEEPS, tries: int = 1) -> _Best:
         key = (evidence, *sorted(chosen.items()))
         if key not in fields:
             resolved = choose(template, chosen)
@@ -153,7 +155,7 @@ def fused(
             own = [votes[k] for k in evidence.leading]
             fields[key] = (resolved, votes, field_of(own, evidence.between, resolved, weights(), lined))
         resolved, votes, field = fields[key]
-        labels, score = labelled(field, sweeps=sweeps)
+        labels, score = labelled(field, sweeps=sweeps, tries=tries)
         played = {field.bodies[n] for n in labels if n < len(field.bodies)}
         score -= MISSING * len(_missing(resolved, played))
         return _Best(score, chosen, resolved, field, labels, votes)
@@ -163,9 +165,10 @@ def fused(
     evidence = max((evidence, turned), key=lambda e: tried(variants[0], e, GLANCE).score)
     glanced = sorted((tried(chosen, evidence, GLANCE) for chosen in variants), key=lambda b: -b.score)
     best = max((tried(b.choices, evidence) for b in glanced[:LIKELY]), key=lambda b: b.score)
+    best = tried(best.choices, evidence, tries=TRIES)
     if more := _between_found(best, evidence):
         wider = replace(evidence, leading=tuple(sorted({*evidence.leading, *more})))
-        found = tried(best.choices, wider)
+        found = tried(best.choices, wider, tries=TRIES)
         evidence, best = (wider, found) if found.score > best.score else (evidence, best)
     pieces, trust = evidence.pieces, evidence.trust
     judged = _judged(best, evidence)

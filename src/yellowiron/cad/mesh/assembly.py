@@ -11,7 +11,7 @@ import numpy as np
 from yellowiron.cad.mesh import copies, measures, mending, shells
 from yellowiron.cad.mesh.features import facets
 from yellowiron.cad.naming import listed, unique_ids
-from yellowiron.cad.tolerances import LARGEST, SMALLEST
+from yellowiron.cad.tolerances import FINEST, LARGEST, SMALLEST
 from yellowiron.model.assembly import Assembly, Node, Part
 from yellowiron.model.errors import CadError
 from yellowiron.model.finding import Finding
@@ -55,6 +55,7 @@ def assemble(
     shapes: dict[str, Shape] = {}
     known: dict[tuple[int, Color | None, tuple[Finish, ...]], Shape | None] = {}
     found: list[tuple[Occurrence, Shape]] = []
+    drawn: list[tuple[Occurrence, Shape]] = []
     empty: list[str] = []
     for item in occurrences:
         key = (id(item.mesh), item.color, item.finishes)
@@ -63,8 +64,12 @@ def assemble(
         shape = known[key]
         if shape is None:
             empty.append("/".join((*item.path, item.name)))
-            continue
-        fault = _misplaced(shape, item.transform)
+        else:
+            drawn.append((item, shape))
+    # One part far away is damaged; where most are, the unit is another one, which the machine will tell.
+    most = LARGEST if sum(_reach(s, i.transform) > LARGEST for i, s in drawn) <= 0.5 * len(drawn) else LARGEST / FINEST
+    for item, shape in drawn:
+        fault = _misplaced(shape, item.transform, most)
         if fault:
             remarks.append(Finding("CAD003", "error", item.name, f"Left out: {fault}", _AGAIN))
             continue
@@ -171,15 +176,19 @@ def _shape(item: Occurrence, remarks: list[Finding]) -> Shape | None:
     return shape_of(mesh, item.name, item.color, item.finishes) if len(mesh.triangles) else None
 
 
-def _misplaced(shape: Shape, transform: Floats) -> str:
-    """Why a shape cannot be where a transform puts it; '' if it can."""
+def _reach(shape: Shape, transform: Floats) -> float:
+    """How far from the origin a shape reaches along any axis, metres."""
+    return float(np.abs(shape.bounds @ transform[:3, :3].T + transform[:3, 3]).max())
+
+
+def _misplaced(shape: Shape, transform: Floats, most: float) -> str:
+    """Why a shape cannot be where a transform puts it; '' if it can, and reaches no farther than `most`."""
     if not np.isfinite(transform).all():
         return "its place is not a finite number"
     if abs(float(np.linalg.det(transform[:3, :3]))) < 1e-30:
         return "it is squeezed flat"
-    corners = shape.bounds @ transform[:3, :3].T + transform[:3, 3]
-    size = float(np.abs(corners).max())
-    return f"it would be {size:.3g} m large, or away" if size > LARGEST else ""
+    size = _reach(shape, transform)
+    return f"it would be {size:.3g} m large, or away" if size > most else ""
 
 
 def _painted(key: str, mesh: Mesh, color: Color | None, finishes: tuple[Finish, ...]) -> str:
