@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from kit.machines.damages import EXTRA, damaged
 from kit.machines.defects import drawn
 from kit.machines.solids import box
 from kit.machines.synthetic import Machine, disguise
@@ -59,3 +60,13 @@ def test_a_machine_on_a_slab_is_told_as_without() -> None:
     assert "ALN009" in {f.code for f in found.findings}
     assert slab in machine.truth
     assert all(p.body == truth[p.part][1] for p in found.parts if truth[p.part][1])
+
+
+@pytest.mark.parametrize(("kind", "seed"), [("excavator", 4), ("loader", 4), ("loader", 5)])
+def test_a_smaller_machine_and_a_trailer_beside_it_are_no_parts_of_it(kind: str, seed: int) -> None:
+    """The smaller machine may have more parts, and both stand nearer than what is far for all that is drawn."""
+    machine = damaged(kind, seed, "extras")
+    beside = {part for part, (role, _) in machine.truth.items() if role == EXTRA}
+    driver = {p.id for p in machine.parts if p.name.startswith("Driver")}
+    assert set(separate_parts(machine.assembly())) == beside - driver
+    assert separate_parts(damaged(kind, seed, "sound").assembly()) == {}

@@ -12,6 +12,7 @@ from yellowiron.alignment import align, to_scale
 from yellowiron.alignment.assignment.unit_scale import scaled
 from yellowiron.library import load_template
 from yellowiron.model.assembly import Assembly
+from yellowiron.model.finding import Finding
 from yellowiron.model.specification import Specification, Specifications
 from yellowiron.model.template import Template
 
@@ -92,3 +93,28 @@ def test_the_template_says_which_length(template: Template, drawn: Assembly) -> 
     long = sheet(Overall_Length=30 * size(drawn))
     assert to_scale(drawn, template, long) is not drawn
     assert to_scale(drawn, plain, long) is drawn
+
+
+@pytest.mark.parametrize(("unit", "name"), [(1e-3, "millimetres"), (0.01, "centimetres"), (0.0254, "inches")])
+def test_without_a_sheet_the_machine_tells_its_unit(
+    template: Template, drawn: Assembly, unit: float, name: str
+) -> None:
+    """No loader is 8 km long."""
+    model = to_scale(claimed(scaled(drawn, 1 / unit), 1.0), template, Specifications())
+    assert size(model) == pytest.approx(size(drawn), rel=1e-9)
+    (finding,) = model.findings
+    assert finding.code == "ALN014"
+    assert f"its numbers are taken for {name}" in finding.message
+
+
+def test_a_toy_stays_a_toy_unless_nothing_tells_its_unit(template: Template, drawn: Assembly) -> None:
+    toy = claimed(scaled(drawn, 0.05), 1e-3)
+    assert to_scale(toy, template, Specifications()) is toy
+    unknown = replace(toy, findings=(Finding("CAD009", "warning", "toy.stl", "The unit of length is not known"),))
+    assert 3.0 < size(to_scale(unknown, template, Specifications())) < 25.0
+    metres = claimed(scaled(drawn, 1e-3), 1e-3)  # of which each was written as a millimetre
+    assert size(to_scale(metres, template, Specifications())) == pytest.approx(size(drawn), rel=1e-9)
+
+
+def test_as_long_as_machines_are_is_left_alone(template: Template, drawn: Assembly) -> None:
+    assert to_scale(drawn, template, Specifications()) is drawn

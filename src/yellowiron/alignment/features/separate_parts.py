@@ -11,6 +11,11 @@ from yellowiron.model.assembly import Assembly
 from yellowiron.model.geometry import Floats
 from yellowiron.support.caching.remembered import remembered
 
+MACHINE = 0.25
+"""A group of so many of the parts may be another machine."""
+TRAILED = 1.5
+"""What is so many times as far away as is far for the machine alone is no part of it, however few parts it has."""
+
 
 @remembered
 def separate_parts(
@@ -18,9 +23,9 @@ def separate_parts(
 ) -> dict[str, float]:
     """Part id → metres (between boxes) to the machine, for the parts that stand apart from it.
 
-    The machine is the group of most parts (then of most volume) of which each is near another; groups that hold one of
-    the `wanted` parts belong to it too. Parts without a mesh are never apart. With `grounds`, what all of the machine
-    stands on is none of it, 0 m away.
+    The machine is the largest group of parts of which each is near another, among those of many parts; groups that
+    hold one of the `wanted` parts belong to it too. Parts without a mesh are never apart. With `grounds`, what all of
+    the machine stands on is none of it, 0 m away.
     """
     parts = [p for p in assembly.parts if len(assembly.shape_of(p).mesh.points)]
     if not parts:
@@ -32,21 +37,49 @@ def separate_parts(
     parts = [p for k, p in enumerate(parts) if k not in under]
     low = np.array([p.min(axis=0) for p in points])
     high = np.array([p.max(axis=0) for p in points])
-    volume = np.array([assembly.shape_of(p).volume for p in parts])
     main = np.ones(len(parts), dtype=bool)
     while True:
-        size = float(np.linalg.norm(high[main].max(axis=0) - low[main].min(axis=0)))
-        group = _groups(low, high, FAR * size)
-        ranked = [(int((group == g).sum()), round(float(volume[group == g].sum()), 6), -g) for g in set(group.tolist())]
-        mine = group == -max(ranked)[2]
+        group = _groups(low, high, FAR * _size(low[main], high[main]))
+        mine = _largest(group, low, high)
         if mine.sum() >= main.sum():
-            break
+            group, mine = _without_neighbours(group, main, low, high)
+            if mine.sum() >= main.sum():
+                break
         main = mine
     kept = {g for g, p in zip(group.tolist(), parts, strict=True) if p.id in wanted}
     main = main | np.isin(group, sorted(kept))
     return found | {
         parts[i].id: float(_gaps(low[i], high[i], low[main], high[main]).min()) for i in np.flatnonzero(~main)
     }
+
+
+def _without_neighbours(
+    group: NDArray[np.int64], main: NDArray[np.bool_], low: Floats, high: Floats
+) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
+    """The groups, and (n,) the machine among them, where another machine or a trailer is near it for their common size
+    but not for its own; else as they are."""
+    core = _largest(_groups(low, high, 0.5 * FAR * _size(low[main], high[main])), low, high)
+    own = FAR * _size(low[core], high[core])
+    for limit, least in ((TRAILED * own, 1.0), (own, MACHINE * main.sum())):
+        finer = _groups(low, high, limit)
+        mine = _largest(finer, low, high)
+        others = [int((finer == g).sum()) for g in set(finer[main & ~mine].tolist())]
+        if max(others, default=0) >= least:
+            return finer, mine
+    return group, main
+
+
+def _size(low: Floats, high: Floats) -> float:
+    """The diagonal of boxes, metres."""
+    return float(np.linalg.norm(high.max(axis=0) - low.min(axis=0)))
+
+
+def _largest(group: NDArray[np.int64], low: Floats, high: Floats) -> NDArray[np.bool_]:
+    """(n,) the largest of the groups that have at least half as many parts as any."""
+    counts = {g: int((group == g).sum()) for g in set(group.tolist())}
+    many = [g for g, count in counts.items() if 2 * count >= max(counts.values())]
+    best = max(many, key=lambda g: (round(_size(low[group == g], high[group == g]), 6), counts[g], -g))
+    return np.asarray(group == best)
 
 
 def _gaps(low: Floats, high: Floats, lows: Floats, highs: Floats) -> Floats:
