@@ -93,3 +93,19 @@ def test_one_exact_solid_is_cut_at_any_stroke_if_other_parts_are_its_eyes(out: f
     assert spans == [pytest.approx((0.0, 0.62), abs=1e-5), pytest.approx((0.62, end), abs=1e-5)]
     alone = replace(whole, parts=tuple(parts[:2]))
     assert taken_apart(alone) is alone
+
+
+@pytest.mark.parametrize(("factor", "left"), [(1.0, 3), (1000.0, 4)])
+def test_one_part_that_is_far_away_is_damaged_and_all_that_are_have_another_unit(factor: float, left: int) -> None:
+    """Four cubes of 2 m, in metres and in millimetres without a unit; one of them is 5 km away."""
+    cube = box("cube", *(2.0 * factor,) * 3).mesh
+    placed = []
+    for number, x in enumerate((0.0, 3.0, 6.0, 5000.0 if factor == 1.0 else 9.0)):
+        place = np.eye(4)
+        place[0, 3] = x * factor
+        placed.append(Occurrence(f"cube {number}", (), cube, place))
+    found = assemble(placed, name="x", format="STL", unit=1.0, path="x.stl")
+    assert len(found.parts) == left
+    assert [f.code for f in found.findings if f.code in ("CAD003", "CAD004")] == (
+        ["CAD003"] if left == 3 else ["CAD004"]
+    )

@@ -215,7 +215,7 @@ def _plausibility(parts: Sequence[Part], shapes: dict[str, Shape], path: str) ->
         words = f"Not closed, so they weigh as sheets: {listed(open_shells)}"
         findings.append(Finding("CAD005", "info", path, words))
     size = measures.extent((shapes[p.shape].bounds, p.transform) for p in parts)
-    if size < SMALLEST:
+    if not SMALLEST <= size <= LARGEST:
         words = f"The model is {size:.3g} m large: check the unit it was exported in"
         findings.append(Finding("CAD004", "warning", path, words))
     return findings
