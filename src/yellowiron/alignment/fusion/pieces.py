@@ -15,6 +15,8 @@ from yellowiron.model.geometry import Floats
 
 MOST = 90
 """So many pieces are labelled by the score, the largest and the named first; the rest follows by contact."""
+BAR = 16.0
+"""A long bar counts as so much larger: of a hydraulic cylinder, what is seen of the rod is small."""
 SLENDER = 2.5
 """A bar is this many times longer than wide."""
 SAMPLES = 40
@@ -31,7 +33,8 @@ LARGE, LONG = 0.004, 0.05
 class Piece:
     """Solids that are certainly one body. `kind`: `barrel`, `rod`, `wheel` where its shape told so, else ""; `number`
     of that cylinder or wheel; `area` m²; box `low`, `high`; `spread` (3,) its extents along its principal `axes` (rows,
-    the longest first), metres; `samples` (n, 3) points all over its surface."""
+    the longest first), metres; `samples` (n, 3) points all over its surface; `flat`: how much farther its surface is
+    from its line to one side than to the other, root mean square."""
 
     members: frozenset[int]
     kind: str
@@ -43,12 +46,13 @@ class Piece:
     spread: Floats
     axes: Floats
     samples: Floats
+    flat: float = np.inf
 
     @property
     def slender(self) -> bool:
-        """True for a bar: much longer than wide, and about as thick as wide."""
+        """True for a bar: much longer than wide, and about as thick as wide, if not everywhere (an eye at its end)."""
         long, wide, thick = self.spread
-        return bool(long > SLENDER * wide and wide < ROUND * max(thick, 1e-9))
+        return bool(long > SLENDER * wide and min(wide / max(thick, 1e-9), self.flat) < ROUND)
 
     @property
     def size(self) -> float:
@@ -57,7 +61,8 @@ class Piece:
 
 
 def pieces_of(observation: Observation, named: frozenset[int]) -> tuple[Piece, ...]:
-    """The machine's pieces, largest first, `MOST` at most; the solids of `named` before others of their size."""
+    """The machine's pieces, largest first, `MOST` at most; the solids of `named` before others of their size, and long
+    bars, which may be rods."""
     solids = observation.solids
     owner: dict[int, tuple[str, int]] = {}
     for k, cylinder in enumerate(observation.cylinders):
@@ -69,8 +74,12 @@ def pieces_of(observation: Observation, named: frozenset[int]) -> tuple[Piece, .
     for solid in solids:
         groups.setdefault(owner.get(solid.index, ("", solid.index)), []).append(solid.index)
     pieces = [_piece(solids, members, *label) for label, members in sorted(groups.items())]
-    weight = {id(p): p.area * (4.0 if p.members & named or p.kind else 1.0) for p in pieces}
-    return tuple(sorted(pieces, key=lambda p: (-round(weight[id(p)], 9), min(p.members)))[:MOST])
+
+    def weight(piece: Piece) -> float:
+        bar = BAR if piece.slender and piece.spread[0] > LONG * observation.size else 1.0
+        return piece.area * bar * (4.0 if piece.members & named or piece.kind else 1.0)
+
+    return tuple(sorted(pieces, key=lambda p: (-round(weight(p), 9), min(p.members)))[:MOST])
 
 
 def _piece(solids: tuple[Solid, ...], members: list[int], kind: str, number: int) -> Piece:
@@ -78,29 +87,31 @@ def _piece(solids: tuple[Solid, ...], members: list[int], kind: str, number: int
     low, high = np.min([s.low for s in own], axis=0), np.max([s.high for s in own], axis=0)
     points = np.concatenate([s.points for s in own])
     center = 0.5 * (low + high)
-    axes = _principal(own)
+    axes, flat = _principal(own)
     along = points @ axes.T
     spread = np.ptp(along, axis=0)
     order = np.argsort(-spread, kind="stable")
     center = axes.T @ (0.5 * (along.min(axis=0) + along.max(axis=0)))
     return Piece(
         frozenset(members), kind, number if kind else -1, sum(s.surface for s in own), low, high,
-        np.asarray(center), spread[order], axes[order], surface_points(own, SAMPLES),
+        np.asarray(center), spread[order], axes[order], surface_points(own, SAMPLES), flat,
     )  # fmt: skip
 
 
-def _principal(own: list[Solid]) -> Floats:
-    """(3, 3) principal axes of the surfaces, as rows: triangles count by their area, however fine."""
+def _principal(own: list[Solid]) -> tuple[Floats, float]:
+    """(3, 3) principal axes of the surfaces, as rows: triangles count by their area, however fine; and the ratio of the
+    two lesser root mean squares about them."""
     corners = np.concatenate([s.points[s.shape.mesh.triangles] for s in own])
     double = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
     if not double.sum() > 0:
-        return np.eye(3)
+        return np.eye(3), np.inf
     centres = corners.mean(axis=1)
     delta = centres - double @ centres / double.sum()
     corner = corners - (double @ centres / double.sum())
     moments = np.einsum("i,ij,ik->jk", double, delta, delta) * 9 + np.einsum("i,inj,ink->jk", double, corner, corner)
-    _, vectors = np.linalg.eigh(moments)
-    return np.asarray(vectors.T[::-1], dtype=np.float64)
+    values, vectors = np.linalg.eigh(moments)
+    flat = float(np.sqrt(max(values[1], 0.0) / max(values[0], 1e-300)))
+    return np.asarray(vectors.T[::-1], dtype=np.float64), flat
 
 
 def leading(pieces: tuple[Piece, ...], size: float, said: Mapping[int, str]) -> list[int]:
