@@ -9,12 +9,10 @@ from pathlib import Path
 import numpy as np
 
 from yellowiron import kinematics, usd
-from yellowiron.mechanism import build_mechanism
 from yellowiron.model.alignment import Alignment
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.geometry import Floats
-from yellowiron.model.mechanism import Mechanism
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import Template
 from yellowiron.simulation.commands import Motion, motions, travel
@@ -24,6 +22,7 @@ from yellowiron.simulation.registry import ENGINES, load_engine
 from yellowiron.simulation.strokes.comparison import Comparison
 from yellowiron.simulation.strokes.held import held_machine
 from yellowiron.simulation.strokes.run import play
+from yellowiron.stages import complete_mechanism
 
 PART = 0.25
 """The share of its stroke that an actuator is driven, to the side where there is more of it."""
@@ -61,17 +60,12 @@ class Driven:
 def driven(assembly: Assembly, template: Template, alignment: Alignment) -> Driven:
     """A machine driven, as it is built without a sheet; `template` with its variants decided and rows expanded."""
 
-    def built() -> Mechanism:
-        return kinematics.complete(
-            kinematics.calibrate(build_mechanism(assembly, template, alignment, Specifications(), name="machine"))
-        )
-
     try:
-        mechanism = built()
+        mechanism = complete_mechanism(assembly, template, alignment, Specifications())
         start = kinematics.legal_start(mechanism)
         if start is not None:
             assembly, template, alignment = kinematics.started(assembly, template, alignment, start)
-            mechanism = built()
+            mechanism = complete_mechanism(assembly, template, alignment, Specifications())
         size = float(max(np.ptp(assembly.points_of(p), axis=0).max() for p in assembly.parts))
         wanted = [a.name for a in template.actuators]
         with tempfile.TemporaryDirectory(prefix="yellowiron-") as folder:

@@ -59,16 +59,16 @@ def solve(
     chosen = choose(template, {**alignment.choices, **choices})
     template = expand(chosen, alignment.counts)
     alignment, tape = on_sheet(assembly, template, alignment, specifications, data)
-    mechanism = _complete(assembly, template, alignment, specifications, data)
+    mechanism = complete_mechanism(assembly, template, alignment, specifications, data)
     compared = compare_declared(mechanism, assembly, alignment)
     lent = declared_values(mechanism, template, assembly, alignment, compared, specifications)
     if lent.values:
         specifications = specs.merge(lent, specifications)
-        mechanism = _complete(assembly, template, alignment, specifications, data)
+        mechanism = complete_mechanism(assembly, template, alignment, specifications, data)
     start = kinematics.legal_start(mechanism)
     if start is not None:
         assembly, template, alignment = kinematics.started(assembly, template, alignment, start)
-        mechanism = _complete(assembly, template, alignment, specifications, data)
+        mechanism = complete_mechanism(assembly, template, alignment, specifications, data)
         mechanism = replace(mechanism, findings=(*mechanism.findings, *start.findings))
     mechanism = replace(mechanism, findings=(*mechanism.findings, *tape))
     moved = start.coordinates if start is not None else {}
@@ -194,15 +194,24 @@ def compare_with_declared(
     return declared_findings(compare_declared(mechanism, assembly, alignment), assembly.name)
 
 
-def _complete(
+def complete_mechanism(
     assembly: Assembly,
     template: Template,
     alignment: Alignment,
     specifications: Specifications,
-    data: library.Documents,
+    data: library.Documents | None = None,
 ) -> Mechanism:
-    """The mechanism with its cylinders calibrated, limits, mobility and gains found."""
-    mechanism = build_mechanism(
-        assembly, template, alignment, specifications, name=template.equipment_type, documents=data
-    )
-    return kinematics.complete(kinematics.calibrate(mechanism))
+    """The mechanism with its cylinders calibrated, limits, mobility and gains found. Cylinders whose linkage does not
+    work as it was found stand as drawn, and what they would move is driven at its hinge: a machine that moves, and
+    says what is wrong, is of more use than one that locks. `template` has its variants decided and its rows counted."""
+    standing: dict[str, str] = {}
+    while True:
+        mechanism = build_mechanism(
+            assembly, template, alignment, specifications,
+            name=template.equipment_type, documents=data, standing=standing,
+        )  # fmt: skip
+        mechanism = kinematics.complete(kinematics.calibrate(mechanism))
+        wrong = kinematics.unworkable(mechanism)
+        if not wrong:
+            return mechanism
+        standing |= wrong

@@ -2,8 +2,9 @@
 
 `Mechanism` in; out come the mechanism completed (`complete`), calibrated (`calibrate`) or in a legal start pose
 (`started`), `Measurement`s, `PoseTables` and lever tables. MuJoCo is imported with the first function that is asked
-for. In order: `tolerances`, `solver` (the loops solved), `completion` (mobility, limits, branch signs, gains), `start`,
-`measuring` (measurements and calibration), `poses` and `levers` (tables for those who have no solver).
+for. In order: `tolerances`, `solver` (the loops solved), `completion` (mobility, limits, branch signs, gains),
+`workable` (cylinders whose linkage does not work), `start`, `measuring` (measurements and calibration), `poses` and
+`levers` (tables for those who have no solver).
 
 Findings:
 
@@ -44,6 +45,7 @@ if TYPE_CHECKING:
     from yellowiron.kinematics.solver.floating import attached
     from yellowiron.kinematics.start import legal_start, started
     from yellowiron.kinematics.strength import beside, weight
+    from yellowiron.kinematics.workable import unworkable
 
 __all__ = [
     "ClosedChain",
@@ -64,6 +66,7 @@ __all__ = [
     "place_axes",
     "pose_tables",
     "started",
+    "unworkable",
     "weight",
 ]
 
@@ -88,6 +91,7 @@ __getattr__, __dir__ = lazy_names(
         "place_axes": "measuring.axis_placement",
         "pose_tables": "poses",
         "started": "start",
+        "unworkable": "workable",
         "weight": "strength",
     },
 )

@@ -31,6 +31,8 @@ MEC014  no rod in its bore shows the axis of a slide: it is along the line that 
 MEC015  no part is the root body; another body stands in for it
 MEC016  nothing that is drawn shows a joint's axis: it is where the CAD file declares it
 MEC017  an axle is not drawn; its wheels turn on the body that would carry it
+MEC018  a cylinder's linkage does not work as it was found; it stands as drawn, its hinge is driven directly
+MEC019  nothing moves or holds a body on its pivot or slide; it stands as drawn
 MEC020  a bore or rod diameter differs between sheet and CAD
 MEC021  the piston's travel in CAD is not the stroke
 MEC022  a cylinder's closed length is not known; mid-stroke was assumed

@@ -12,7 +12,7 @@ import numpy as np
 from yellowiron.mechanism import sensors, sites, values
 from yellowiron.mechanism.actuation import cylinders, drives
 from yellowiron.mechanism.actuation.cylinders import FittedCylinder
-from yellowiron.mechanism.actuation.direct_drives import direct_drives, with_direct_hinges
+from yellowiron.mechanism.actuation.direct_drives import direct_drives, with_direct_hinges, without_cylinders
 from yellowiron.mechanism.actuation.proportion import proportion_of
 from yellowiron.mechanism.bodies import body, mass
 from yellowiron.mechanism.bodies.choice import Choice
@@ -53,12 +53,14 @@ def build_mechanism(
     *,
     name: str,
     documents: Documents | None = None,
+    standing: Mapping[str, str] | None = None,
 ) -> Mechanism:
     """The machine in SI units and the machine frame, in the drawn pose.
 
     `template` has its variants decided (`choose`); `alignment` says which part moves with which body, and where the
-    machine frame is. `documents` win over the template's materials and collision. What could not be found is left
-    out or guessed, with a finding; raises `MechanismError` only where no part is any body's.
+    machine frame is. `documents` win over the template's materials and collision; `standing` names slides whose
+    cylinders are to stand as drawn, and why. What could not be found is left out or guessed, with a finding; raises
+    `MechanismError` only where no part is any body's.
 
     Pivot limits that follow from loops, gains, mobility and the branch signs of loops are the kinematics' part.
     """
@@ -69,8 +71,9 @@ def build_mechanism(
     wheels = hidden_wheels(placement, template, findings)
     frames, remarks = joint_frames(placement, template, wheels)
     findings += remarks
+    frames = without_cylinders(template, frames, standing or {})
     template = cylinders.with_leaders(template, frames, findings)
-    template, direct = with_direct_hinges(template, frames, findings)
+    template, direct = with_direct_hinges(template, frames, placement, standing or {}, findings)
 
     # Which joints make the tree, which close its loops; axes of a loop exactly parallel.
     floating = chains.heads(placement, template, frames)
@@ -105,6 +108,7 @@ def build_mechanism(
     joints = tuple(
         _joint(_sourced(frame, alignment), tree, slides, powered, specifications, findings) for frame in frames.values()
     )
+    joints = _with_idle_held(joints, tree, findings)
 
     # The bodies.
     findings += weighed
@@ -249,6 +253,20 @@ def _joint(
         drive=powered.get(entry.name),
         source=source,
     )
+
+
+def _with_idle_held(joints: Sequence[Joint], tree: Tree, findings: list[Finding]) -> tuple[Joint, ...]:
+    """The joints, as welds those that nothing moves or holds: the pivot of a barrel without its rod, a lone link."""
+    closed = {name for loop in tree.loops for name in loop.joints}
+    held = []
+    for joint in joints:
+        if joint.type in ("revolute", "prismatic") and joint.drive is None and not joint.free | (joint.name in closed):
+            words = f"Nothing moves or holds '{joint.body1}' on it: it stands as drawn."
+            hint = "Give what is missing of its linkage in CAD, or make the joint free in a joints document (--data)."
+            findings.append(Finding("MEC019", "warning", joint.name, words, hint))
+            joint = replace(joint, type="fixed", lower=None, upper=None)
+        held.append(joint)
+    return tuple(held)
 
 
 def _limits(

@@ -12,7 +12,10 @@ from yellowiron.report.words import spoken
 from yellowiron.support.graphs import blocks
 
 _GUESS = "ALN016"
-_BARE = "MEC013"
+_BARE = {
+    "MEC013": "driven at its hinge, its cylinder is missing",
+    "MEC018": "driven at its hinge, its cylinder does not work as it was found",
+}
 
 
 @dataclass(frozen=True)
@@ -43,7 +46,7 @@ def levers_of(mechanism: Mechanism, template: Template, alignment: Alignment) ->
             found.append(Lever(wanted.name, False, _why_not(wanted, joints, template, mechanism, alignment)))
             continue
         guessed = [j for j in joints if (_GUESS, j) in told]
-        words = ["driven at its hinge, its cylinder is missing"] if (_BARE, wanted.name) in told else []
+        words = [said for code, said in _BARE.items() if (code, wanted.name) in told]
         words += (
             [f"{len(guessed)} of its axes estimated" if len(guessed) > 1 else "an axis estimated"] if guessed else []
         )

@@ -1,4 +1,4 @@
-"""Hinges that are driven directly, where the CAD model has no cylinder to do it."""
+"""Hinges that are driven directly, where the CAD model has no cylinder that could."""
 
 from __future__ import annotations
 
@@ -6,42 +6,75 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
+import numpy as np
+
 from yellowiron.mechanism.joints.frames import JointFrame
+from yellowiron.mechanism.placement import Placement
 from yellowiron.model.finding import Finding
 from yellowiron.model.mechanism import PROVISIONAL, STATED, Drive
 from yellowiron.model.template import ActuatorTemplate, CylinderTemplate, JointTemplate, Template
 
+_PINS = "Check the pins of their linkage (in the studio, or by 'joints' in the alignment)."
 _LONGEST = 6
 """Joints from a barrel round to its rod, at most."""
 
 
+def without_cylinders(
+    template: Template, frames: Mapping[str, JointFrame], standing: Mapping[str, str]
+) -> dict[str, JointFrame]:
+    """Frames without the slides of `standing` cylinders and without all pins of their rods but one: what is left of
+    such a cylinder hangs on its pins and moves nothing."""
+    left = dict(frames)
+    for cylinder in (c for a in template.actuators for c in a.cylinders if c.slide in standing and c.slide in frames):
+        barrel = next((b for b in _ends(left, cylinder.barrel_joint) if b in left[cylinder.slide].bodies), None)
+        rods = {b for b in left.pop(cylinder.slide).bodies if b != barrel}
+        left = {n: f for n, f in left.items() if n == cylinder.rod_joint or not rods & {*f.bodies}}
+    return left
+
+
 def with_direct_hinges(
-    template: Template, frames: Mapping[str, JointFrame], findings: list[Finding]
+    template: Template,
+    frames: Mapping[str, JointFrame],
+    placement: Placement,
+    standing: Mapping[str, str],
+    findings: list[Finding],
 ) -> tuple[Template, frozenset[str]]:
     """The template with a hinge in the place of the cylinders of every actuator that has none in the CAD model, and the
-    names of those hinges.
+    names of those hinges. `standing` says of slides that were found why their cylinders cannot do it (MEC018).
 
-    The hinge is the first on the shortest way from the barrel round to the rod, over the template's joints, that the
-    CAD model has and no other actuator moves.
+    The hinge is the one between the largest two bodies on any way from the barrel round to the rod, over the template's
+    joints, that the CAD model has; one that another actuator's cylinders move is not taken.
     """
     claimed = {name for actuator in template.actuators for name in actuator.joints}
     actuators: list[ActuatorTemplate] = []
     direct: list[str] = []
     for actuator in template.actuators:
-        whole = any({c.slide, c.barrel_joint, c.rod_joint} <= frames.keys() for c in actuator.cylinders)
-        hinge = None if whole or not actuator.cylinders else _hinge(template, actuator, frames, claimed)
+        hinge = _hinge(template, actuator, frames, placement, claimed) if actuator.cylinders else None
         if hinge is not None:
-            words = f"The CAD model has none of its cylinders: '{hinge}' is driven directly, with unlimited force."
-            hint = "Give the hinge's Limit and max_force in a joints document (--data), or the cylinders in CAD."
-            findings.append(Finding("MEC013", "warning", actuator.name, words, hint))
             claimed.add(hinge)
+        wrong = {c.slide: standing[c.slide] for c in actuator.cylinders if c.slide in standing}
+        whole = any({c.slide, c.barrel_joint, c.rod_joint} <= frames.keys() for c in actuator.cylinders)
+        if hinge is not None and not whole:
+            findings.append(_told(actuator.name, hinge, next(iter(wrong.values()), None)))
             direct.append(hinge)
             actuator = replace(actuator, kind="motor", cylinders=(), joints=(hinge,))
+        elif whole:
+            words = "Its cylinder does not work as it was found ({}): it stands as drawn."
+            findings += [Finding("MEC018", "warning", slide, words.format(why), _PINS) for slide, why in wrong.items()]
         actuators.append(actuator)
     if not direct:
         return template, frozenset()
     joints = tuple(replace(j, drive="angular") if j.name in direct else j for j in template.joints)
     return replace(template, actuators=tuple(actuators), joints=joints), frozenset(direct)
+
+
+def _told(actuator: str, hinge: str, reason: str | None) -> Finding:
+    if reason is None:
+        words = f"The CAD model has none of its cylinders: '{hinge}' is driven directly, with unlimited force."
+        hint = "Give the hinge's Limit and max_force in a joints document (--data), or the cylinders in CAD."
+        return Finding("MEC013", "warning", actuator, words, hint)
+    words = f"Its cylinders do not work as they were found ({reason}): they stand as drawn, and '{hinge}' is driven "
+    return Finding("MEC018", "warning", actuator, words + "directly, with unlimited force.", _PINS)
 
 
 def direct_drives(direct: frozenset[str], frames: Mapping[str, JointFrame]) -> dict[str, Drive]:
@@ -60,16 +93,28 @@ def direct_drives(direct: frozenset[str], frames: Mapping[str, JointFrame]) -> d
 
 
 def _hinge(
-    template: Template, actuator: ActuatorTemplate, frames: Mapping[str, JointFrame], claimed: set[str]
+    template: Template,
+    actuator: ActuatorTemplate,
+    frames: Mapping[str, JointFrame],
+    placement: Placement,
+    claimed: set[str],
 ) -> str | None:
     # What a barrel or a rod hangs on moves nothing but that.
     own = {name for c in actuator.cylinders for name in (c.barrel_joint, c.rod_joint)}
-    for cylinder in actuator.cylinders:
-        for way in sorted(_ways(template, cylinder), key=len):
-            for joint in way:
-                if joint.type == "revolute" and joint.name in frames and joint.name not in claimed | own:
-                    return joint.name
-    return None
+    ways = sorted((way for c in actuator.cylinders for way in _ways(template, c)), key=len)
+    names = dict.fromkeys(j.name for way in ways for j in way if j.type == "revolute")
+    fit = [name for name in names if name in frames and name not in claimed | own]
+    return max(fit, key=lambda name: min(_size(b, placement) for b in frames[name].bodies), default=None)
+
+
+def _size(body: str, placement: Placement) -> float:
+    """The diagonal (m) of the box around a body."""
+    points = placement.points_of(placement.rows_of_body(body))
+    return float(np.linalg.norm(np.ptp(points, axis=0))) if len(points) else 0.0
+
+
+def _ends(frames: Mapping[str, JointFrame], joint: str) -> tuple[str, ...]:
+    return frames[joint].bodies if joint in frames else ()
 
 
 def _ways(template: Template, cylinder: CylinderTemplate) -> Iterator[list[JointTemplate]]:
@@ -82,8 +127,9 @@ def _ways(template: Template, cylinder: CylinderTemplate) -> Iterator[list[Joint
     barrel = next((b for b in ends if b in template.bodies_of(hung)), ends[0])
     rod = next((b for b in ends if b != barrel), None)
     beside: dict[str | None, list[tuple[JointTemplate, str | None]]] = {}
+    known = {role.name for role in template.roles}
     for joint in template.joints:
-        if joint.name != cylinder.slide:
+        if joint.name != cylinder.slide and known.issuperset(joint.parts):
             a, b = template.bodies_of(joint)
             beside.setdefault(a, []).append((joint, b))
             beside.setdefault(b, []).append((joint, a))
