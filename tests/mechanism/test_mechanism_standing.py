@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 from mechanism_machine import A, C, machine, specifications, template
 
-from yellowiron import kinematics
+from yellowiron import kinematics, usd
+from yellowiron.checks import check
 from yellowiron.mechanism import build_mechanism
 from yellowiron.model.alignment import Alignment
 from yellowiron.model.geometry import Floats
@@ -52,7 +54,7 @@ def test_a_cylinder_on_a_pin_along_its_linkage_stands_and_the_hinge_is_driven() 
     assert [j.joint for j in actuator.joints] == ["base2arm"]
     assert hinge.drive is not None and hinge.drive.kind == "position"
     # What is left of the cylinder stays where it is drawn: the barrel on the base, the rod on the arm.
-    assert {j.name for j in mechanism.joints if j.type == "fixed"} == {"base2barrel", "arm2rod"}
+    assert {j.name for j in mechanism.joints if j.held} == {"base2barrel", "arm2rod"}
     assert mechanism.mobility is not None
     assert mechanism.mobility.computed == mechanism.mobility.expected == 1
     assert kinematics.unworkable(mechanism) == {}
@@ -95,6 +97,17 @@ def test_a_barrel_without_its_rod_does_not_swing_freely() -> None:
     parts = tuple(replace(a, role=None, body=None) if a.part.split("/")[-1] == "ROD" else a for a in alignment.parts)
     mechanism = solved(replace(alignment, parts=parts))
     assert told(mechanism, "MEC019") == ["base2barrel"]
-    assert mechanism.joint("base2barrel").type == "fixed"
+    assert mechanism.joint("base2barrel").held
     assert mechanism.mobility is not None
     assert mechanism.mobility.computed == mechanism.mobility.expected
+
+
+def test_engines_get_welds_for_what_is_held(tmp_path: Path) -> None:
+    """Limits give way in engines: in the file the left-over cylinder is welded, and the whole checks out."""
+    assembly, _ = machine()
+    alignment = with_axis("base2barrel", C, (0.0, 0.0, 1.0))
+    mechanism = complete_mechanism(assembly, template(), alignment, specifications())
+    usd.write_machine(mechanism, assembly, tmp_path, name="crane", frame=alignment.frame)
+    read = usd.read_mechanism(tmp_path / "crane.usda")
+    assert {j.name for j in read.joints if j.type == "fixed"} == {"base2barrel", "arm2rod"}
+    assert {f.code for f in check(tmp_path / "crane.usda") if f.severity == "error"} == set()

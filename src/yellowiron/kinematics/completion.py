@@ -99,7 +99,8 @@ def _mobility(mechanism: Mechanism, work: _Work) -> Mobility:
     freedom = {"fixed": 0, "revolute": 1, "prismatic": 1, "spherical": 3, "distance": 0}
     tree = sum(freedom[joint.type] for joint in mechanism.joints if not joint.cut)
     grubler = tree - sum(_PER_FREEDOM[joint.type] for joint in mechanism.joints if joint.cut)
-    mobility = Mobility(work.chain.degrees_of_freedom, len(independent_joints(mechanism)), grubler)
+    held = [name for name in work.chain.idle if work.joints[name].held]
+    mobility = Mobility(work.chain.degrees_of_freedom - len(held), len(independent_joints(mechanism)), grubler)
     if mobility.computed != mobility.expected:
         more = mobility.computed > mobility.expected
         work.find(
@@ -108,7 +109,7 @@ def _mobility(mechanism: Mechanism, work: _Work) -> Mobility:
             mechanism.name,
             f"the machine has {mobility.computed} degrees of freedom where its drives and free joints make "
             f"{mobility.expected}",
-            f"Nothing holds: {', '.join(work.chain.idle) or 'a body'}."
+            f"Nothing holds: {', '.join(n for n in work.chain.idle if n not in held) or 'a body'}."
             if more
             else suspects(mechanism) or "A pivot is missing: a loop is locked.",
         )

@@ -27,7 +27,7 @@ from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import MechanismError
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
-from yellowiron.model.mechanism import Drive, Joint, Mechanism, Vector
+from yellowiron.model.mechanism import HELD, Drive, Joint, Mechanism, Vector
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import JointTemplate, Material, Template, without_absent_axles
 from yellowiron.support.vectors import clean_triple
@@ -256,7 +256,7 @@ def _joint(
 
 
 def _with_idle_held(joints: Sequence[Joint], tree: Tree, findings: list[Finding]) -> tuple[Joint, ...]:
-    """The joints, as welds those that nothing moves or holds: the pivot of a barrel without its rod, a lone link."""
+    """The joints, those kept as drawn that nothing moves or holds: a barrel without its rod, a lone link."""
     closed = {name for loop in tree.loops for name in loop.joints}
     held = []
     for joint in joints:
@@ -264,7 +264,7 @@ def _with_idle_held(joints: Sequence[Joint], tree: Tree, findings: list[Finding]
             words = f"Nothing moves or holds '{joint.body1}' on it: it stands as drawn."
             hint = "Give what is missing of its linkage in CAD, or make the joint free in a joints document (--data)."
             findings.append(Finding("MEC019", "warning", joint.name, words, hint))
-            joint = replace(joint, type="fixed", lower=None, upper=None)
+            joint = replace(joint, lower=-HELD, upper=HELD, source={**joint.source, "limits": "held as drawn"})
         held.append(joint)
     return tuple(held)
 

@@ -18,6 +18,8 @@ Vector = tuple[float, float, float]
 DRAWN_OUTSIDE = 1e-6
 """Metres or radians by which a joint may be drawn outside its limits: a micrometre is no more than round-off."""
 
+HELD = 1e-3
+"""Metres or radians to either side in which a joint is kept that nothing moves or holds; engines get a weld."""
 GRAVITY = 9.81
 """m/s²."""
 DEFAULT = "template's default"
@@ -106,6 +108,11 @@ class Joint:
     drive: Drive | None = None
     source: Mapping[str, Any] = field(default_factory=dict)
 
+    @property
+    def held(self) -> bool:
+        """Whether it is kept as drawn, for want of anything that moves or holds it."""
+        return (self.lower, self.upper) == (-HELD, HELD) and self.drive is None
+
 
 @dataclass(frozen=True)
 class Cylinder:
@@ -182,8 +189,8 @@ class Site:
 @dataclass(frozen=True)
 class Mobility:
     """Degrees of freedom relative to the root: `computed` is the rank of the constraint Jacobian taken from the joint
-    coordinates, `grubler` the spatial count (overconstrained loops make it lower), `expected` the actuated coordinates
-    plus the joints declared free."""
+    coordinates, less those that are held as drawn; `grubler` the spatial count (overconstrained loops make it lower),
+    `expected` the actuated coordinates plus the joints declared free."""
 
     computed: int
     expected: int

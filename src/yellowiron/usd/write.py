@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -45,6 +46,7 @@ def write_machine(
     do not fit, `OutputError` where a file cannot be written or a texture is not found.
     """
     _check_name(name)
+    mechanism = _welded(mechanism)
     folder = Path(folder)
     payloads = folder / PAYLOAD_FOLDER
     plan = make_plan(mechanism, assembly, np.eye(4) if frame is None else np.asarray(frame, dtype=np.float64), name)
@@ -80,6 +82,13 @@ def write_machine(
     if mechanism.sensors:
         layers[payloads / SENSOR_FILE] = sensors
     return (*(save_layer(layer, path) for path, layer in layers.items()), *texture_files)
+
+
+def _welded(mechanism: Mechanism) -> Mechanism:
+    """The mechanism with welds for joints that are held as drawn: an engine's limits give way."""
+    held = {j.name for j in mechanism.joints if j.held}
+    joints = (replace(j, type="fixed", lower=None, upper=None) if j.name in held else j for j in mechanism.joints)
+    return replace(mechanism, joints=tuple(joints)) if held else mechanism
 
 
 def _check_name(name: str) -> None:
