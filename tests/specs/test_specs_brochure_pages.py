@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -93,6 +94,27 @@ def test_the_ends_of_a_range_from_nothing_and_with_their_names(tmp_path: Path) -
         "Maximum Working Radius": ("ok", 7.51),
         "Maximum Travel Speed": ("ok", 1.1944),
     }
+
+
+def test_a_range_gives_both_ends_where_both_are_asked_for(tmp_path: Path) -> None:
+    angles = replace(wanted("Boom Angle Minimum", "angle"), low_end_of="Boom Angle Maximum", minimum=-0.3, maximum=0.6)
+    crane = template(wanted("Boom Angle Maximum", "angle", "boom raising speed", "boom angle"), angles)
+    c = canvas(tmp_path / "a.pdf")
+    lattice(c, 60, 700, (200, 160), [("Boom Raising Speed", "1°to 80°/25s"), ("Winch Drums", "2")], heads=0)
+    c.save()
+    found = said(extract(crane, [tmp_path / "a.pdf"]))
+    assert found["Boom Angle Maximum"] == ("ok", pytest.approx(1.396, abs=1e-3))
+    assert found["Boom Angle Minimum"] == ("ok", pytest.approx(0.01745, abs=1e-4))
+
+
+def test_a_range_whose_lower_end_cannot_be_is_not_told_apart(tmp_path: Path) -> None:
+    low = replace(wanted("Boom Length Retracted", "length"), low_end_of="Boom Length Extended", maximum=5.0)
+    crane = template(wanted("Boom Length Extended", "length", "main boom"), low)
+    c = canvas(tmp_path / "a.pdf")
+    lattice(c, 60, 700, (200, 160), [("Main Boom", "18 m - 140 m"), ("Winch Drums", "2")], heads=0)
+    c.save()
+    found = said(extract(crane, [tmp_path / "a.pdf"]))
+    assert found["Boom Length Extended"][0] != "ok" and "Boom Length Retracted" not in found
 
 
 def models(path: Path) -> Path:

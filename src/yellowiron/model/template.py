@@ -102,8 +102,8 @@ class Wanted:
     force, torque, power, speed, angular_speed, time, count. `synonyms` by language code (`en`, `de`, …); `forbidden`
     words rule a statement out; `concepts` are sets of English words that say it in any language; `sections` are
     headings that support it; `mass_of` names the body (or `*`, the whole machine) whose mass it is; `length_of` is `*`
-    for the whole machine's length; `in_label_of` another wanted value in whose label it is printed; `where` says in
-    which table makers print it."""
+    for the whole machine's length; `in_label_of` another wanted value in whose label it is printed; `low_end_of`
+    another one whose ranges it is the lower end of; `where` says in which table makers print it."""
 
     name: str
     dimension: str
@@ -116,6 +116,7 @@ class Wanted:
     mass_of: str | None = None
     length_of: str | None = None
     in_label_of: str | None = None
+    low_end_of: str | None = None
     minimum: float | None = None
     maximum: float | None = None
 

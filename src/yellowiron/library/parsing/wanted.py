@@ -57,7 +57,8 @@ def read_wanted(document: Document, roles: tuple[Role, ...]) -> tuple[Wanted, ..
                 where=entry.get("where", ""),
                 mass_of=mass_of,
                 length_of=entry.get("length_of"),
-                in_label_of=_other(entry.get("in_label_of"), document, name),
+                in_label_of=_other("in_label_of", entry, document, name),
+                low_end_of=_other("low_end_of", entry, document, name),
                 minimum=bounds[0],
                 maximum=bounds[1],
             )
@@ -115,12 +116,12 @@ def _known(name: str, entries: Mapping[str, Any], where: str) -> str:
     return names[fold(name)]
 
 
-def _other(wanted: str | None, document: Document, name: str) -> str | None:
-    """Another value of the same document, as it is spelled there."""
-    if wanted is None:
+def _other(key: str, entry: Mapping[str, Any], document: Document, name: str) -> str | None:
+    """Another value of the same document that an entry names, as it is spelled there."""
+    if (wanted := entry.get(key)) is None:
         return None
     names = {fold(each): " ".join(each.split()) for each in document.data}
     if fold(wanted) not in names:
-        place = document.at(name, "in_label_of")
+        place = document.at(name, key)
         raise TemplateError(f"'{wanted}' is no wanted value", where=place, hint=near(wanted, names.values()))
     return names[fold(wanted)]

@@ -25,7 +25,8 @@ COUNTED_TOGETHER = "this is what they give together"
 class Claim:
     """What a sheet says of one property. `words` name it (label and qualifier), `head` are its column's words.
 
-    `partner`: the same value in the other system; `doubt` says why a person should look.
+    `partner`: the same value in the other system; `ranged`: it is the `low` or the other end of a range; `doubt` says
+    why a person should look.
     """
 
     statement: Statement
@@ -34,6 +35,7 @@ class Claim:
     quantity: Quantity
     partner: Quantity | None = None
     ranged: bool = False
+    low: bool = False
     doubt: str = ""
 
 
@@ -286,7 +288,8 @@ def _claims_of_reading(statement: Statement, label: str, reading: Reading) -> It
         doubt = f"the sheet counts {several} of them: {COUNTED_TOGETHER}" if several > 1 else ""
         if several > 1:
             quantity, other = _times(quantity, several), other and _times(other, several)
-        yield _checked(Claim(statement, words, head, quantity, other, ranged=ranged, doubt=doubt))
+        low = ranged and index == 0
+        yield _checked(Claim(statement, words, head, quantity, other, ranged=ranged, low=low, doubt=doubt))
 
 
 def _times(quantity: Quantity, count: int) -> Quantity:

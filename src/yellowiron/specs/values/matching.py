@@ -84,6 +84,27 @@ def match(claims: Sequence[Claim], wanted: Sequence[Wanted]) -> dict[str, list[M
             # where no other label does.
             unsaid = len(kept) > 1 and (_EXTREME & set(tokens(one.wanted.name))) - said.label - said.head - said.context
             found[one.wanted.name].append(replace(one, score=one.score - _UNSAID) if unsaid else one)
+    return _ends_told_apart(found, wanted)
+
+
+def _ends_told_apart(found: dict[str, list[Match]], wanted: Sequence[Wanted]) -> dict[str, list[Match]]:
+    """The matches, where a range has both of its ends asked for, and both are possible: the lower one speaks of the one
+    value, the upper one of the other, and neither leaves open what is meant."""
+    for low in (w for w in wanted if w.low_end_of in found):
+        high = next(w for w in wanted if w.name == low.low_end_of)
+        matched = {id(m.claim): m for m in found[low.name] + found[high.name] if m.claim.ranged}.values()
+        told = {
+            (id(m.claim.statement), m.claim.low): replace(
+                m, wanted=low if m.claim.low else high, claim=replace(m.claim, ranged=False)
+            )
+            for m in matched
+        }
+        both = {at for at, _ in told if all((at, end) in told and _possible(told[at, end]) for end in (True, False))}
+        for name in (low.name, high.name):
+            found[name] = [m for m in found[name] if not (m.claim.ranged and id(m.claim.statement) in both)]
+        for (at, _), one in told.items():
+            if at in both:
+                found[one.wanted.name].append(one)
     return found
 
 
