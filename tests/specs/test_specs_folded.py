@@ -121,3 +121,16 @@ def test_a_factor_of_a_product_may_be_called_length_of_stroke() -> None:
         "Vérin de bras longueur de course",
     ]
     assert enumerated("Bore x stroke of lift cylinder", 2) == ["Bore of lift cylinder", "stroke of lift cylinder"]
+
+
+def test_a_line_that_ends_between_a_number_and_its_unit_is_read_on(tmp_path: Path) -> None:
+    c = canvas(tmp_path / "sheet.pdf")
+    long = "Gross weight: 41,300 kg / 91,050 lb Payload: 24 metric tons / 26 short tons Engine Power: 331"
+    width = put(c, 60, 780, long)
+    put(c, 60 + width / 2 - 21, 766, "kW / 444 hp")
+    c.save()
+    assert facts(tmp_path / "sheet.pdf") == {
+        ("", "Gross weight", "41,300 kg / 91,050 lb"),
+        ("", "Payload", "24 metric tons / 26 short tons"),
+        ("", "Engine Power", "331 kW / 444 hp"),
+    }

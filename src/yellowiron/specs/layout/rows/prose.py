@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
+from itertools import pairwise
 
 from yellowiron.specs.language.numbers import read
+from yellowiron.specs.language.units import printed_unit
 from yellowiron.specs.language.vocabulary import has_cjk
 from yellowiron.specs.layout.rows.lines import TextLine
 from yellowiron.specs.layout.statement import EXAMPLE, Statement, join_boxes
@@ -22,13 +24,15 @@ _PITCH = 1.9
 """Lines of a paragraph follow each other within this many type sizes."""
 _FULL = 0.72
 """Of a paragraph's width: shorter lines end it."""
+_NUMBER = re.compile(r"[<>≤≥~±]?\d+(?:[.,\s]\d+)*")
+_WORD = re.compile(r"[^\W\d_]{3,}")
 _LONGEST = 16
 """Words before a value; more are about something else."""
 
 
 def paragraphs_of(lines: Sequence[TextLine]) -> list[tuple[TextLine, ...]]:
-    """Running text: pieces set flush left under each other, each the last of its line and, from the second on, alone on
-    it, with the ends of two sentences (or of one inside the text)."""
+    """Running text: pieces set flush left or centred under each other, each the last of its line and, from the second on, alone on
+    it, with the ends of two sentences (or of one inside the text), or a line's end between a number and its unit."""
     groups: list[list[TextLine]] = []
     for line in lines:
         last = groups[-1][-1] if groups else None
@@ -44,7 +48,7 @@ def _follows(last: TextLine, line: TextLine) -> bool:
     size = max(a.size, b.size)
     return (
         abs(a.size - b.size) < 0.1 * size
-        and abs(a.x0 - b.x0) < size
+        and min(abs(a.x0 - b.x0), abs(a.x0 + a.x1 - b.x0 - b.x1) / 2) < size  # flush left, or centred
         and 0 < line.bottom - last.bottom < _PITCH * size
         and a.bold == b.bold
         and last.x1 - last.x0 > _FULL * (line.x1 - line.x0)
@@ -52,11 +56,25 @@ def _follows(last: TextLine, line: TextLine) -> bool:
 
 
 def _is_running(lines: Sequence[TextLine]) -> bool:
+    if any(_breaks_a_quantity(above, below) for above, below in pairwise(lines)):
+        return True
     text, _ = _text_of(lines)
     number = re.search(r"\d", text)
     ends = _ends(text)
     inside = [e for e in ends if number and number.start() < e < len(text.rstrip())]
     return bool(inside) or (len(lines) > 1 and len(text) > 60 and len(ends) >= 1)
+
+
+def _breaks_a_quantity(above: TextLine, below: TextLine) -> bool:
+    """Whether a line ends with a number behind words, and the next begins with its unit: "Engine Power: 563", "kW"."""
+    *before, number = above.pieces[0].words
+    unit = printed_unit(below.pieces[0].words[0].text)
+    return (
+        bool(_NUMBER.fullmatch(number.text))
+        and unit is not None
+        and any(_WORD.search(w.text) for w in before)
+        and len(below.pieces[0].words) > 1
+    )
 
 
 def _text_of(lines: Sequence[TextLine]) -> tuple[str, list[tuple[int, int, Word]]]:
