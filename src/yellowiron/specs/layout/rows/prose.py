@@ -31,8 +31,9 @@ _LONGEST = 16
 
 
 def paragraphs_of(lines: Sequence[TextLine]) -> list[tuple[TextLine, ...]]:
-    """Running text: pieces set flush left or centred under each other, each the last of its line and, from the second on, alone on
-    it, with the ends of two sentences (or of one inside the text), or a line's end between a number and its unit."""
+    """Running text: pieces set flush left or centred under each other, each the last of its line and, from the second
+    on, alone on it, with the ends of two sentences (or of one inside the text), or a line's end between a number and
+    its unit."""
     groups: list[list[TextLine]] = []
     for line in lines:
         last = groups[-1][-1] if groups else None
