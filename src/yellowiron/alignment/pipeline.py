@@ -24,7 +24,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from yellowiron.alignment.assignment.answer import Answer, held_share, is_whole, rivals_of
+from yellowiron.alignment.assignment.answer import Answer, drawn_share, held_share, is_whole, rivals_of
 from yellowiron.alignment.assignment.collision import collision_parts
 from yellowiron.alignment.assignment.cp_sat import solve
 from yellowiron.alignment.assignment.machine_frame import MachineFrame, machine_frame
@@ -59,12 +59,14 @@ from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import AlignmentError
 from yellowiron.model.geometry import Floats
 from yellowiron.model.specification import Specifications
-from yellowiron.model.template import Template, choose, without_absent_axles
+from yellowiron.model.template import Template, as_drawn, choose
 from yellowiron.support.caching.remembered import remembered
 from yellowiron.support.vectors import triple
 
 HELD = 0.7
 """Contacts that find this share of the type's joints have found the machine; below, every reading is asked."""
+EXPLAINED = 0.9
+"""… as have those that leave no more than this of what is drawn unexplained, whatever the type has besides."""
 HEARD = 0.9
 """Names trusted so far go before contacts that they contradict and that did not find the whole machine."""
 
@@ -113,7 +115,8 @@ def align(
     search = Search(look, plain, specifications, choices or {}, edited)
     answer, observation, scores = search.run()
     agreement = search.agreement
-    held, contradicted = held_share(answer) >= HELD, agreement < BELIEVED and not is_whole(answer)
+    held = held_share(answer) >= HELD or drawn_share(answer, observation.solids) >= EXPLAINED
+    contradicted = agreement < BELIEVED and not is_whole(answer)
     fused_reading = None
     if not held or contradicted:
         wide = look(CONTACT[-1])
@@ -142,7 +145,7 @@ def align(
     places = with_couplers(propagation.run(), observation.solids, answer)
     apart |= {observation.solids[i].part.id: metres for i, metres in propagation.apart.items()}
     by_id = {observation.solids[i].part.id: place for i, place in places.items()}
-    whole = choose(template, answer.choices)
+    whole = as_drawn(choose(template, answer.choices), set(answer.solution.body_of.values()))
     if tracks and frame is not None:
         rows = track_places(tracks, tracked, frame.matrix, whole)
         solids = solids_of(_without(tracking, fittings))
@@ -178,7 +181,7 @@ def align(
     )
     if edits is not None:
         found = replace(found, rules=edits.rules, joints=edits.joints, values=edits.values)
-    drawn_axles = without_absent_axles(whole, {p.body for p in found.parts if p.body is not None})
+    drawn_axles = as_drawn(whole, {p.body for p in found.parts if p.body is not None})
     return _with_all_axes(found, _without(assembly, fittings), drawn_axles, answer, observation, frame)
 
 

@@ -29,7 +29,7 @@ from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import HELD, Drive, Joint, Mechanism, Vector
 from yellowiron.model.specification import Specifications
-from yellowiron.model.template import JointTemplate, Material, Template, without_absent_axles
+from yellowiron.model.template import JointTemplate, Material, Template, as_drawn
 from yellowiron.support.vectors import clean_triple
 
 
@@ -166,7 +166,7 @@ def _standing(template: Template, placement: Placement, where: str, findings: li
 def _with_drawn_axles(template: Template, placement: Placement, findings: list[Finding]) -> Template:
     """The template without axles that are not drawn, with a finding for each."""
     names = [r.name for r in template.roles if r.rigid]
-    merged = without_absent_axles(template, [name for name in names if placement.has_body(name)])
+    merged = as_drawn(template, [name for name in names if placement.has_body(name)])
     for name in names:
         if not merged.role(name).rigid:
             words = f"No part of the CAD model is '{name}': its wheels turn on '{merged.body_of(name)}'."

@@ -237,6 +237,13 @@ class Template:
             raise KeyError(name)
         return replace(self.role(row), name=name, many=False, row=row)
 
+    def depth(self, name: str) -> int:
+        """How many roles are above that of a name."""
+        depth, above = 0, self.role(name).parent
+        while above is not None:
+            depth, above = depth + 1, self.role(above).parent
+        return depth
+
     def row_of(self, name: str) -> str | None:
         """The row that a name is a member of (`shoe_7`: `shoe`), also once it is expanded; None for any other name."""
         row, _, number = name.rpartition("_")
@@ -304,6 +311,33 @@ def choose(template: Template, choices: Mapping[str, str]) -> Template:
             actuators.append(replace(actuator, cylinders=cylinders, joints=motors))
     sensors = tuple(replace(s, when={}) for s in template.sensors if holds(s.when))
     return replace(template, roles=roles, joints=joints, actuators=tuple(actuators), variants=(), sensors=sensors)
+
+
+def as_drawn(template: Template, present: Collection[str]) -> Template:
+    """The template (its variants decided) for a machine of which these bodies are drawn: without absent axles
+    (`without_absent_axles`), and what would turn on one pin of an absent body turns on each other."""
+    return _across_absent(without_absent_axles(template, present), present)
+
+
+def _across_absent(template: Template, present: Collection[str]) -> Template:
+    """Links that share a pin with a body that is not drawn (a bucket's links, on the eye of its cylinder's rod) hinge
+    on each other, on the same pin."""
+    roles, joints = list(template.roles), list(template.joints)
+    for role in [r for r in template.roles if r.kind == "pin"]:
+        on_it = [j for j in joints if j.type == "revolute" and role.name in j.parts]
+        if len(on_it) != 2:
+            continue
+        first, second = (set(template.bodies_of(j)) for j in on_it)
+        ends = sorted(str(b) for b in first ^ second)
+        if len(first & second) != 1 or first & second & {*present} or not {*ends} <= {*present}:
+            continue
+        bearer, carried = sorted(ends, key=template.depth)
+        joint = JointTemplate(f"{bearer}2{carried}_joint", "revolute", (carried, role.name))
+        roles = [replace(r, parent=bearer) if r.name == role.name else r for r in roles]
+        joints = [joint if j is on_it[0] else j for j in joints if j is not on_it[1]]
+    if joints == list(template.joints):
+        return template
+    return replace(template, roles=tuple(roles), joints=tuple(joints))
 
 
 def without_absent_axles(template: Template, present: Collection[str]) -> Template:

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from yellowiron.alignment.assignment.cp_sat import MISSING_WEIGHT, Effort, Solution, solve
+import networkx as nx
+
+from yellowiron.alignment.assignment.cp_sat import JOINT_WEIGHT, MISSING_WEIGHT, Effort, Solution, solve
 from yellowiron.alignment.assignment.weights import Weights
+from yellowiron.alignment.features.solids import Solid
 from yellowiron.alignment.structure.clusters import Structure
 from yellowiron.model.template import Template
 
@@ -48,8 +51,10 @@ class Answer:
 
     @property
     def score(self) -> int:
-        """What variants and readings are compared by: a cylinder at the wrong place is worse than a missing one."""
-        return self.solution.score - SIDED_WEIGHT * len(self.sided)
+        """What variants and readings are compared by: a cylinder at the wrong place is worse than a missing one, and a
+        pin that is drawn and is no joint's as bad as a joint lost. Else bodies would be found where none is drawn."""
+        idle = len(drawn_pins(self.structure) - explained_pins(self))
+        return self.solution.score - SIDED_WEIGHT * len(self.sided) - JOINT_WEIGHT * idle
 
 
 def is_whole(answer: Answer) -> bool:
@@ -67,6 +72,44 @@ def held_share(answer: Answer) -> float:
     """The share of the hinges and slides of its template that an answer has found, 0 to 1."""
     joints = {j.name for j in answer.template.joints if j.type in ("revolute", "prismatic")}
     return len(joints & {*answer.solution.hinge_of, *answer.solution.slide_of}) / len(joints) if joints else 1.0
+
+
+def drawn_share(answer: Answer, solids: Sequence[Solid]) -> float:
+    """How much of what is drawn an answer explains, 0 to 1: the least of its shares of the joints between the bodies
+    that it has, of the drawn pins, of the slides, and of the surface. 0 where it has no closed linkage: a chain
+    alone does not tell one end from the other. Of a machine without cylinders this can be all, though half of the
+    type's joints are not found."""
+    structure, solution, template = answer.structure, answer.solution, answer.template
+    found = {*solution.hinge_of, *solution.slide_of}
+    played = set(solution.body_of.values())
+    moving = [j for j in template.joints if j.type in ("revolute", "prismatic")]
+    possible = {j.name for j in moving if set(template.bodies_of(j)) <= played}
+    graph = nx.Graph([pair for j in moving if j.name in found and None not in (pair := template.bodies_of(j))])
+    if not nx.cycle_basis(graph):
+        return 0.0
+    pins = drawn_pins(structure)
+    area = [sum(solids[i].surface for i in sorted(c.members)) for c in structure.clusters]
+    return min(
+        _share(len(found & possible), len(possible)),
+        _share(len(explained_pins(answer)), len(pins)),
+        _share(len(solution.slide_of), len(structure.slides)),
+        _share(sum(area[c] for c in solution.body_of), sum(area)),
+    )
+
+
+def drawn_pins(structure: Structure) -> set[int]:
+    """The solids on which clusters turn."""
+    return {pin for hinge in structure.hinges for pin in hinge.pins}
+
+
+def explained_pins(answer: Answer) -> set[int]:
+    """Those of them on which a joint was found."""
+    hinges = answer.structure.hinges
+    return {pin for number in answer.solution.hinge_of.values() for pin in hinges[number].pins}
+
+
+def _share(part: float, whole: float) -> float:
+    return part / whole if whole else 1.0
 
 
 def rivals_of(answer: Answer) -> dict[int, str | None]:

@@ -6,10 +6,12 @@ local-polytope form (the z that share an x sum to at most that x) the relaxation
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from yellowiron.alignment.assignment.directions import direction_classes, linkages_of, never_together
 from yellowiron.alignment.structure.clusters import Structure
 from yellowiron.model.template import JointTemplate, Template
 
@@ -99,6 +101,7 @@ def solve(
     for joint in template.joints:
         _add_joint(program, joint, structure, template, barred)
     _add_one_joint_each(program)
+    _add_directions(program, structure, template)
     _add_weights(program, unary, linked)
     if without in program.x:
         program.model.add(program.x[without] == 0)
@@ -183,6 +186,29 @@ def _add_one_joint_each(program: _Program) -> None:
             by_number.setdefault(number, []).extend(group)
         for group in by_number.values():
             program.model.add_at_most_one(group)
+
+
+def _add_directions(program: _Program, structure: Structure, template: Template) -> None:
+    """The hinges of a linkage have one direction, and those on which frames turn another than tools' linkages have."""
+    model = program.model
+    linkage_of, frames = linkages_of(template)
+    class_of, firsts = direction_classes(structure)
+    lies: dict[tuple[int, int], Any] = {}
+    for (joint, number), group in program.pivots.items():
+        if joint not in linkage_of:
+            continue
+        key = linkage_of[joint], class_of[number]
+        if key not in lies:
+            lies[key] = model.new_bool_var(f"lies_{key[0]}_{key[1]}")
+        for z in group:
+            model.add_implication(z, lies[key])
+    linkages = sorted({linkage for linkage, _ in lies})
+    for linkage in linkages:
+        model.add_at_most_one(v for (k, _), v in lies.items() if k == linkage)
+    for turned, tool in itertools.product(sorted(frames & set(linkages)), sorted(set(linkages) - frames)):
+        for a, b in never_together(firsts):
+            if (turned, a) in lies and (tool, b) in lies:
+                model.add_at_most_one([lies[turned, a], lies[tool, b]])
 
 
 def _add_weights(program: _Program, unary: Mapping[tuple[int, str], int], linked: Collection[int]) -> None:

@@ -194,7 +194,8 @@ def _joined_to_root(template: Template, swing: str | None) -> set[str]:
 
 
 def _forward_sense(scene: _Scene, forward: Floats) -> int:
-    """Whether the arms lie ahead of the root (+1) or behind it (−1); without arms, the names `front` and `rear`."""
+    """Whether the arms lie ahead of the root (+1) or behind it (−1); without the one or the other, the names `front`
+    and `rear`, or the last arms ahead of the first."""
     kinds, template = scene.kinds, scene.template
 
     def centre(bodies: list[str]) -> Floats | None:
@@ -205,7 +206,11 @@ def _forward_sense(scene: _Scene, forward: Floats) -> int:
     arms = centre([b for b in kinds if kinds[b] == "arm" and template.role(b).rigid])
     front = centre([b for b in kinds if "front" in b.split("_")])
     rear = centre([b for b in kinds if "rear" in b.split("_")])
-    for ahead, behind in ((arms, root), (front, rear)):
+    depths = {b: template.depth(b) for b in scene.cluster_of if kinds[b] == "arm"}
+    last, first = (
+        centre([b for b in depths if depths[b] == end(depths.values())]) if depths else None for end in (max, min)
+    )
+    for ahead, behind in ((arms, root), (front, rear), (last, first)):
         if ahead is not None and behind is not None and abs(float((ahead - behind) @ forward)) > 1e-6:
             return 1 if float((ahead - behind) @ forward) > 0 else -1
     return 0

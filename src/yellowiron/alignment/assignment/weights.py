@@ -93,7 +93,9 @@ def name_agreement(structure: Structure, solution: Solution, scores: list[dict[s
 
 
 def size_weights(solids: tuple[Solid, ...], structure: Structure, template: Template) -> Weights:
-    """Weights for the machine's frames, which are its largest things, and for the tool, which is larger than links."""
+    """Weights for the machine's frames, which are its largest things, and for the tool, which is larger than links.
+    Of what nothing hinges on, size alone says nothing."""
+    linked = {c for h in structure.hinges for c in (h.a, h.b)}
     sizes = [sum(float(solids[i].shape.area) for i in sorted(c.members)) for c in structure.clusters]
     ranked = sorted(sizes)
     frames = [r.name for r in template.roles if r.rigid and r.kind == "frame"]
@@ -102,7 +104,7 @@ def size_weights(solids: tuple[Solid, ...], structure: Structure, template: Temp
     others = ranked[-1 - len(frames)] if len(ranked) > len(frames) else 0.0
     found: Weights = {}
     for c, size in enumerate(sizes):
-        if structure.clusters[c].kind or largest <= 0.0:
+        if structure.clusters[c].kind or largest <= 0.0 or c not in linked:
             continue
         for name in frames:
             found[c, name] = round(SIZE_WEIGHT * size / largest)

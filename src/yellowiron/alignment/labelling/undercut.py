@@ -9,7 +9,6 @@ import numpy as np
 from yellowiron.alignment.assignment.answer import Answer
 from yellowiron.alignment.structure.observation import Observation, slewing_joints
 from yellowiron.model.geometry import Floats
-from yellowiron.model.template import Template
 
 BELOW = 0.3
 """Of the carrier's height: what it carries begins higher up on it."""
@@ -45,7 +44,7 @@ def _slewing(observation: Observation, answer: Answer) -> Iterator[tuple[str, st
         bodies = {b for b in template.bodies_of(template.joint(name)) if b is not None}
         if name not in solution.hinge_of or len(bodies) != 2 or not bodies <= members.keys():
             continue
-        carrier, carried = sorted(bodies, key=lambda b: _depth(b, template))
+        carrier, carried = sorted(bodies, key=template.depth)
         up = structure.axes[structure.hinges[solution.hinge_of[name]].axis].direction
         below, above = (_heights(members[b], observation, up)[0] for b in (carrier, carried))
         yield carrier, carried, up if above > below else -up
@@ -59,14 +58,6 @@ def _limit(carrier: frozenset[int], observation: Observation, up: Floats) -> flo
     """The height that what is carried does not reach down to."""
     _, low, high = _heights(carrier, observation, up)
     return low + BELOW * (high - low)
-
-
-def _depth(body: str, template: Template) -> int:
-    """How many roles are above a body's."""
-    depth, role = 0, template.role(body).parent
-    while role is not None:
-        depth, role = depth + 1, template.role(role).parent
-    return depth
 
 
 def _heights(members: frozenset[int], observation: Observation, up: Floats) -> tuple[float, float, float]:

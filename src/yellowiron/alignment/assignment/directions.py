@@ -1,0 +1,62 @@
+"""Which hinges of a type lie alike, and which across each other, whatever way the machine stands.
+
+The hinges of one closed linkage are parallel: it moves in a plane. A frame turns on a frame about the upright, or rolls
+about the long axis: across the hinges of every linkage that works a tool. So a bucket's linkage is not taken for two
+frames with their steering.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import networkx as nx
+import numpy as np
+
+from yellowiron.alignment.structure.clusters import Structure
+from yellowiron.model.geometry import Floats
+from yellowiron.model.template import Template
+
+ALIKE = 0.94
+"""Hinges drawn this far from parallel (20°), by its cosine, are not of one linkage."""
+NOT_ACROSS = 0.7
+"""… and this near to it (45°) are not across each other."""
+
+
+def linkages_of(template: Template) -> tuple[dict[str, int], frozenset[int]]:
+    """Hinge → the linkage of the type that it is in, for hinges in a closed one and between frames; and which of the
+    linkages turn frames on each other."""
+    kinds = {r.name: r.kind for r in template.roles}
+    moving = [j for j in template.joints if j.type in ("revolute", "prismatic") and None not in template.bodies_of(j)]
+    graph = nx.Graph([template.bodies_of(j) for j in moving])
+    blocks = [frozenset(frozenset(edge) for edge in edges) for edges in nx.biconnected_component_edges(graph)]
+    blocks.sort(key=lambda edges: sorted(sorted(str(b) for b in e) for e in edges))
+    found: dict[str, int] = {}
+    upright: set[int] = set()
+    for joint in moving:
+        pair = frozenset(template.bodies_of(joint))
+        number = next(k for k, edges in enumerate(blocks) if pair in edges)
+        frames = all(kinds[str(b)] == "frame" for b in pair)
+        if joint.type == "revolute" and (frames or len(blocks[number]) > 1):
+            found[joint.name] = number
+            upright |= {number} if frames else set()
+    return found, frozenset(upright)
+
+
+def direction_classes(structure: Structure) -> tuple[list[int], list[Floats]]:
+    """The hinges of a structure by their direction: the number of each one's class, and what each class is about
+    parallel to."""
+    firsts: list[Floats] = []
+    found = []
+    for hinge in structure.hinges:
+        direction = np.asarray(structure.axes[hinge.axis].direction)
+        known = next((k for k, first in enumerate(firsts) if abs(float(first @ direction)) > ALIKE), len(firsts))
+        if known == len(firsts):
+            firsts.append(direction)
+        found.append(known)
+    return found, firsts
+
+
+def never_together(firsts: Sequence[Floats]) -> list[tuple[int, int]]:
+    """The pairs of directions, both ways round, that are not across each other."""
+    every = range(len(firsts))
+    return [(a, b) for a in every for b in every if abs(float(firsts[a] @ firsts[b])) > NOT_ACROSS]
