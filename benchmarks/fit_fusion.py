@@ -42,7 +42,7 @@ from yellowiron.alignment.fusion.weights import weights  # noqa: E402
 from yellowiron.library import load_template  # noqa: E402
 from yellowiron.model.errors import YellowironError  # noqa: E402
 from yellowiron.model.specification import Specifications  # noqa: E402
-from yellowiron.model.template import Template, choose  # noqa: E402
+from yellowiron.model.template import Template, as_drawn, choose  # noqa: E402
 from yellowiron.stages import find_roles  # noqa: E402
 
 DATA = ROOT / "src/yellowiron/alignment/data/fusion.json"
@@ -101,7 +101,7 @@ def problems_of(name: str, given: Scene) -> list[Problem]:
         told = count > 0.9 * len(near) and set(bodies[label]) <= known  # what the type lacks may be anywhere
         right.append(frozenset(bodies[label]) if told else frozenset())
     best = max(variants, key=lambda c: _fitting(choose(template, c), there))
-    resolved = choose(template, best)
+    resolved = as_drawn(choose(template, best), there)
     posed = []
     # Which end is the front is the judge's guess; what it is to learn from is the right one.
     for one in (evidence, replace(evidence, stance=evidence.stance.turned())):

@@ -25,7 +25,7 @@ from dataclasses import replace
 import numpy as np
 
 from yellowiron.alignment.assignment.answer import Answer, drawn_share, held_share, is_whole, rivals_of
-from yellowiron.alignment.assignment.collision import collision_parts
+from yellowiron.alignment.assignment.collision import colliders
 from yellowiron.alignment.assignment.cp_sat import solve
 from yellowiron.alignment.assignment.machine_frame import MachineFrame, machine_frame
 from yellowiron.alignment.assignment.names import name_scores
@@ -93,7 +93,7 @@ def align(
         )
     decisions, told = decided(assembly, template, edits)
     edited = {part: decision.role or "" for part, decision in decisions.items()}
-    bumpers = collision_parts(assembly.parts) - edited.keys()
+    bumpers = colliders(assembly) - edited.keys()
     drawn = _without(assembly, bumpers)
     copies = {copy: first for copy, first in copies_of(drawn).items() if copy not in edited}
     single = _without(drawn, copies)

@@ -169,7 +169,8 @@ def _with_drawn_axles(template: Template, placement: Placement, findings: list[F
     merged = as_drawn(template, [name for name in names if placement.has_body(name)])
     for name in names:
         if not merged.role(name).rigid:
-            words = f"No part of the CAD model is '{name}': its wheels turn on '{merged.body_of(name)}'."
+            what = "it is one with" if template.role(name).kind == "frame" else "its wheels turn on"
+            words = f"No part of the CAD model is '{name}': {what} '{merged.body_of(name)}'."
             findings.append(Finding("MEC017", "warning", name, words, "Give its parts that role in the alignment."))
     return merged
 

@@ -315,11 +315,28 @@ def choose(template: Template, choices: Mapping[str, str]) -> Template:
 
 def as_drawn(template: Template, present: Collection[str]) -> Template:
     """The template (its variants decided) for a machine of which these bodies are drawn: without absent axles
-    (`without_absent_axles`), and what would turn on one pin of an absent body turns on each other."""
-    return _across_absent(without_absent_axles(template, present), present)
+    (`without_absent_axles`), an absent frame one with the frame that carries it, and what would turn on one pin of an
+    absent body turning on each other."""
+    return across_absent(_with_frames_in_one(without_absent_axles(template, present), present), present)
 
 
-def _across_absent(template: Template, present: Collection[str]) -> Template:
+def _with_frames_in_one(template: Template, present: Collection[str]) -> Template:
+    """Frames that are not drawn, on one that is, are one with it: an articulated machine drawn in one piece."""
+    absent = {
+        r.name
+        for r in template.roles
+        if r.rigid and r.kind == "frame" and r.name not in present and r.parent is not None
+        if (above := template.body_of(r.parent)) in present and template.role(str(above)).kind == "frame"
+    }
+    if not absent:
+        return template
+    merged = replace(template, roles=tuple(replace(r, rigid=r.rigid and r.name not in absent) for r in template.roles))
+    known = [j for j in template.joints if all(template.knows(part.partition("[")[0]) for part in j.parts)]
+    gone = {j.name for j in known if len(set(merged.bodies_of(j))) == 1}
+    return replace(merged, joints=tuple(j for j in template.joints if j.name not in gone))
+
+
+def across_absent(template: Template, present: Collection[str]) -> Template:
     """Links that share a pin with a body that is not drawn (a bucket's links, on the eye of its cylinder's rod) hinge
     on each other, on the same pin."""
     roles, joints = list(template.roles), list(template.joints)
@@ -332,9 +349,12 @@ def _across_absent(template: Template, present: Collection[str]) -> Template:
         if len(first & second) != 1 or first & second & {*present} or not {*ends} <= {*present}:
             continue
         bearer, carried = sorted(ends, key=template.depth)
-        joint = JointTemplate(f"{bearer}2{carried}_joint", "revolute", (carried, role.name))
+        (absent,) = (str(b) for b in first & second)
+        # The absent body keeps one of its joints: it may tell what its cylinder would have moved.
+        kept = next(j for j in on_it if bearer in template.bodies_of(j))
+        across = JointTemplate(f"{bearer}2{carried}_joint", "revolute", (carried, role.name))
         roles = [replace(r, parent=bearer) if r.name == role.name else r for r in roles]
-        joints = [joint if j is on_it[0] else j for j in joints if j is not on_it[1]]
+        joints = [replace(j, parts=(bearer, absent)) if j is kept else across if j in on_it else j for j in joints]
     if joints == list(template.joints):
         return template
     return replace(template, roles=tuple(roles), joints=tuple(joints))

@@ -8,8 +8,10 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
+
+import networkx as nx
 
 from yellowiron.alignment.assignment.directions import direction_classes, linkages_of, never_together
 from yellowiron.alignment.structure.clusters import Structure
@@ -123,6 +125,29 @@ def solve(
     if at_least is not None:
         return None
     return Solution({}, {}, {}, -MISSING_WEIGHT * sum(r.rigid for r in template.roles), 0, False)
+
+
+def without_islands(solution: Solution, template: Template) -> Solution:
+    """The solution without pairs of bodies that one hinge joins to each other and nothing to the rest: any two pieces
+    on a pin are as good. Wheels and halves of hydraulic cylinders are told by their shape, and stay."""
+    found = {*solution.hinge_of, *solution.slide_of}
+    kinds = {r.name: r.kind for r in template.roles}
+    ends = {j.name: template.bodies_of(j) for j in template.joints if j.name in found}
+    graph = nx.MultiGraph([(*pair, name) for name, pair in sorted(ends.items())])
+    pairs = [group for group in nx.connected_components(graph) if graph.subgraph(group).number_of_edges() == 1]
+    gone = {body for pair in pairs for body in pair if not any(kinds[b] in TYPED for b in pair)}
+    if not gone or len(gone) == len(graph):
+        return solution
+    joints = {name for name, pair in ends.items() if gone & {*pair}}
+    lost = JOINT_WEIGHT * len(joints)
+    missing = MISSING_WEIGHT * sum(not template.role(b).optional for b in gone)
+    return replace(
+        solution,
+        body_of={c: b for c, b in solution.body_of.items() if b not in gone},
+        hinge_of={j: h for j, h in solution.hinge_of.items() if j not in joints},
+        score=solution.score - lost - missing,
+        objective=solution.objective - lost,
+    )
 
 
 def _add_bodies(program: _Program, structure: Structure, template: Template, clusters: Collection[int]) -> None:

@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 
 from yellowiron.alignment.assignment.answer import Answer, is_whole
-from yellowiron.alignment.assignment.cp_sat import JOINT_WEIGHT, MISSING_WEIGHT, TYPED, Effort, solve
+from yellowiron.alignment.assignment.cp_sat import JOINT_WEIGHT, MISSING_WEIGHT, TYPED, Effort, solve, without_islands
 from yellowiron.alignment.assignment.names import name_scores
 from yellowiron.alignment.assignment.one_sided import one_sided
 from yellowiron.alignment.assignment.sheet_weights import sheet_weights
@@ -31,7 +31,7 @@ from yellowiron.alignment.tolerances import CONTACT, UPRIGHT
 from yellowiron.model.errors import AlignmentError
 from yellowiron.model.geometry import Floats
 from yellowiron.model.specification import Specifications
-from yellowiron.model.template import Template, as_drawn, choose
+from yellowiron.model.template import Template, across_absent, choose
 
 EFFORT = 4.0
 """CP-SAT's deterministic time for a search: of machines that are whole, or nearly, it took 0.01 to 1.8."""
@@ -135,11 +135,12 @@ class Search:
         solution = solve(structure, resolved, unary=unary, barred=barred, at_least=least, effort=self._effort)
         if solution is None:
             return
-        drawn = as_drawn(resolved, set(solution.body_of.values()))
+        drawn = across_absent(resolved, set(solution.body_of.values()))
         if drawn is not resolved:
             again = solve(structure, drawn, unary=unary, barred=barred, effort=self._effort)
             if again is not None and again.score > solution.score:
                 resolved, solution = drawn, again
+        solution = without_islands(solution, resolved)
         sided = one_sided(observation, structure, solution, self.template, resolved)
         answer = Answer(contact, structure, chosen, resolved, solution, unary, sided, barred)
         if self.best is None or (is_whole(answer), answer.score) > (is_whole(self.best), self.best.score):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -9,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from yellowiron.alignment.assignment.directions import ALIKE, NOT_ACROSS
 from yellowiron.alignment.assignment.names import unnamed
 from yellowiron.alignment.fusion.pieces import Piece
 from yellowiron.alignment.fusion.stance import Stance
@@ -31,7 +33,9 @@ SMALL = 0.34
 @dataclass(frozen=True)
 class Bond:
     """Pieces `a` < `b`: `same`, what speaks for their being one body; `beside`, whether they are neighbours; `hinge`,
-    whether an exact axis runs through both; `slide`, whether they are seen to be barrel and rod.
+    whether an exact axis runs through both, and, of linkages that work a tool, one that lies across the machine
+    (`level`), of frames on each other, one that does not (`turned`); `slide`, whether they are seen to be barrel and
+    rod.
 
     `branch`: whether one is the other's child in the scene's tree; `alike`: whether they are one shape, mirrored: of
     one body, or of twins.
@@ -48,6 +52,8 @@ class Bond:
     slide: bool
     branch: bool = False
     alike: bool = False
+    level: bool = False
+    turned: bool = False
 
 
 def bonds_of(observation: Observation, pieces: Sequence[Piece], structure: Structure, stance: Stance) -> list[Bond]:
@@ -59,7 +65,7 @@ def bonds_of(observation: Observation, pieces: Sequence[Piece], structure: Struc
         if f.a in piece_of and f.b in piece_of and piece_of[f.a] != piece_of[f.b]:
             key = _pair(piece_of[f.a], piece_of[f.b])
             flat[key] = flat.get(key, 0.0) + f.area
-    hinged = _hinged(observation, piece_of)
+    hinged = _hinged(observation, piece_of, stance)
     slides = _slides(pieces)
     kin = _kin(observation, pieces)
     gaps = _gaps(observation, pieces)
@@ -84,9 +90,13 @@ def bonds_of(observation: Observation, pieces: Sequence[Piece], structure: Struc
                 "sunk": max(observation.touch.sunk(i, j), observation.touch.sunk(j, i)) if sunk else 0.0,
             }
         same = {key: value for key, value in same.items() if value}
+        across = hinged.get((a, b), ())
         found.append(
-            Bond(a, b, same, (a, b) in gaps, (a, b) in hinged, (a, b) in slides, (a, b) in tree, (a, b) in twins)
-        )
+            Bond(
+                a, b, same, (a, b) in gaps, (a, b) in hinged, (a, b) in slides, (a, b) in tree, (a, b) in twins,
+                level=any(cosine > ALIKE for cosine in across), turned=any(cosine < NOT_ACROSS for cosine in across),
+            )
+        )  # fmt: skip
     return found
 
 
@@ -143,16 +153,24 @@ def _pair(a: int, b: int) -> tuple[int, int]:
     return (a, b) if a < b else (b, a)
 
 
-def _hinged(observation: Observation, piece_of: dict[int, int]) -> dict[tuple[int, int], int]:
-    """Pairs of pieces that an exact axis of the contacts runs through → the axis."""
+def _hinged(
+    observation: Observation, piece_of: dict[int, int], stance: Stance
+) -> dict[tuple[int, int], tuple[float, ...]]:
+    """Pairs of pieces that exact axes of the contacts run through → how far each lies across the machine (cosine)."""
     on: dict[int, set[int]] = {}
     if not observation.evidence:
         return {}
-    for i, axes in sorted(observation.evidence[-1].pinned.items()):
+    evidence = observation.evidence[-1]
+    for i, axes in sorted(evidence.pinned.items()):
         for k in axes:
             if i in piece_of:
                 on.setdefault(k, set()).add(piece_of[i])
-    return {(a, b): k for k, group in sorted(on.items()) for a in sorted(group) for b in sorted(group) if a < b}
+    found: dict[tuple[int, int], tuple[float, ...]] = {}
+    for k, group in sorted(on.items()):
+        cosine = abs(float(np.asarray(evidence.axes[k].direction) @ stance.left))
+        for pair in itertools.combinations(sorted(group), 2):
+            found[pair] = (*found.get(pair, ()), cosine)
+    return found
 
 
 def _slides(pieces: Sequence[Piece]) -> set[tuple[int, int]]:

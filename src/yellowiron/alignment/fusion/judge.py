@@ -11,20 +11,23 @@ pieces could not do one after the other. The random numbers are fixed: the same 
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from yellowiron.alignment.assignment.directions import linkages_of
 from yellowiron.alignment.assignment.weights import twin_role
 from yellowiron.alignment.fusion.bonds import Bond
 from yellowiron.alignment.fusion.votes import BARS, Features
 from yellowiron.model.geometry import Floats
-from yellowiron.model.template import Template
+from yellowiron.model.template import JointTemplate, Template
 
 Ints = np.ndarray[Any, np.dtype[np.int64]]
+KINDS = ("slide", "hinge", "level", "turned")
+"""What a joint is exactly held as: a slide; a hinge, one that lies across the machine, one that does not."""
 NEVER = -1e6
 HOT, COLD = 40.0, 2.0
 """Temperatures, in the score's units, that annealing begins and ends with."""
@@ -39,10 +42,11 @@ class Field:
     """The score as arrays. Labels are the `bodies`, and last: none. `unary` (pieces, labels). Bond k joins the pieces
     `ends[k]`; its `weights[k]` are what it counts for one body, for bodies that a joint joins, and for one body or left
     and right twins, which `twins` (labels, labels) are; it holds a joint
-    nearly (`near[k]`), or exactly as a hinge and as a slide (`exact[k]`). `joint` (labels, labels): the joint between
-    two labels, or the number of joints. `sliding` (joints + 1,): which joints are slides. `played` (labels,): what each
-    body counts that is there; `held` what a joint counts that is held nearly, and exactly. `astray` (pieces, pieces):
-    what two pieces count that are both of one half of a hydraulic cylinder, `halves` (labels,), but not in line."""
+    nearly (`near[k]`), or exactly as each kind of joint (`exact[k]`: `KINDS`). `joint` (labels, labels): the joint
+    between two labels, or the number of joints. `kind` (joints + 1,): which of `KINDS` a joint is. `played` (labels,):
+    what each body counts that is there; `held` what a joint counts that is held nearly, and exactly. `astray` (pieces,
+    pieces): what two pieces count that are both of one half of a hydraulic cylinder, `halves` (labels,), but not in
+    line."""
 
     bodies: tuple[str, ...]
     unary: Floats
@@ -52,7 +56,7 @@ class Field:
     exact: Ints
     joint: Ints
     twins: NDArray[np.bool_]
-    sliding: Ints
+    kind: Ints
     played: Floats
     held: tuple[float, float]
     astray: Floats
@@ -61,11 +65,11 @@ class Field:
     @property
     def joints(self) -> int:
         """How many joints there are."""
-        return len(self.sliding) - 1
+        return len(self.kind) - 1
 
     def exactly(self, held: Ints) -> Ints:
         """(bonds,) whether each bond holds exactly the joint that it would hold."""
-        exact = np.where(self.sliding[held], self.exact[:, 1], self.exact[:, 0])
+        exact = self.exact[np.arange(len(held)), self.kind[held]]
         return np.where(held < self.joints, exact, 0)
 
 
@@ -86,8 +90,9 @@ def field_of(
     for p, mine in enumerate(votes):
         for body, features in mine.items():
             unary[p, at[body]] = weighed(features, weights)
+    linkage_of, frames = linkages_of(template)
     joints = [
-        (j.type == "prismatic", at[str(a)], at[str(b)])
+        (_kind(j, linkage_of, frames), at[str(a)], at[str(b)])
         for j in template.joints
         for a, b in [template.bodies_of(j)]
         if j.type in ("revolute", "spherical", "prismatic") and a in at and b in at and a != b
@@ -120,15 +125,24 @@ def field_of(
             dtype=np.float64,
         ).reshape(-1, 3),
         np.array([b.beside for b in bonds], dtype=np.int64),
-        np.array([(b.hinge, b.slide) for b in bonds], dtype=np.int64).reshape(-1, 2),
+        np.array([(b.slide, b.hinge, b.level, b.turned) for b in bonds], dtype=np.int64).reshape(-1, len(KINDS)),
         joint,
         twins,
-        np.array([slide for slide, _, _ in joints] + [False], dtype=np.int64),
+        np.array([kind for kind, _, _ in joints] + [0], dtype=np.int64),
         played,
         (near, weights["exact"]),
         np.asarray(weights["astray"] * (np.zeros((len(votes), len(votes))) if astray is None else astray), np.float64),
         np.array([template.role(b).kind in BARS for b in bodies] + [False]),
     )
+
+
+def _kind(joint: JointTemplate, linkage_of: Mapping[str, int], frames: Collection[int]) -> int:
+    """Which of `KINDS` a joint is."""
+    if joint.type == "prismatic":
+        return KINDS.index("slide")
+    if joint.name not in linkage_of:
+        return KINDS.index("hinge")
+    return KINDS.index("turned" if linkage_of[joint.name] in frames else "level")
 
 
 def weighed(features: Features, weights: Features) -> float:
@@ -161,7 +175,7 @@ def score_of(field: Field, labels: Ints) -> float:
 @dataclass(frozen=True, eq=False)
 class _Around:
     """The bonds of one piece: their numbers, the pieces at their other ends, what they count for one body, for bodies
-    that a joint joins, and for twins; whether each is `near`, and `exact` as a hinge and as a slide."""
+    that a joint joins, and for twins; whether each is `near`, and `exact` as each of `KINDS`."""
 
     bonds: Ints
     others: Ints
@@ -169,7 +183,7 @@ class _Around:
     joined: Floats
     alike: Floats
     near: Ints
-    exact: tuple[Ints, Ints]
+    exact: Ints
 
     @classmethod
     def of(cls, field: Field, p: int) -> _Around:
@@ -177,7 +191,7 @@ class _Around:
         others = np.where(field.ends[bonds, 0] == p, field.ends[bonds, 1], field.ends[bonds, 0])
         weights, exact = field.weights[bonds], field.exact[bonds]
         same, joined, alike = weights.T
-        return cls(bonds, others, same, joined, alike, field.near[bonds], (exact[:, 0], exact[:, 1]))
+        return cls(bonds, others, same, joined, alike, field.near[bonds], exact)
 
 
 class Annealing:
@@ -191,8 +205,7 @@ class Annealing:
         joined = field.joint < self._joints
         self._joined = joined.astype(np.float64)
         # Of two labels there is one joint at most: what holds it can be summed up by the other end's label.
-        sliding = field.sliding[field.joint].astype(bool)
-        self._kinds = (joined & ~sliding, joined & sliding)
+        self._kinds = [joined & (field.kind[field.joint] == kind) for kind in range(len(KINDS))]
         self._count()
 
     def _count(self) -> None:
@@ -207,7 +220,7 @@ class Annealing:
         field, around = self.field, self.around[p]
         if len(around.bonds):
             held = field.joint[self.labels[p], self.labels[around.others]]
-            exact = np.where(field.sliding[held], around.exact[1], around.exact[0])
+            exact = around.exact[np.arange(len(held)), field.kind[held]]
             self.near += sign * np.bincount(held, weights=around.near, minlength=self._joints + 1)
             self.exact += sign * np.bincount(held, weights=exact, minlength=self._joints + 1)
         self.played[self.labels[p]] += sign
@@ -234,7 +247,7 @@ class Annealing:
             scores += field.twins @ np.bincount(theirs, weights=around.alike, minlength=n)
             near = np.minimum(np.bincount(theirs, weights=around.near, minlength=n), 1.0)
             scores += self._free(self.near, field.held[0])[field.joint] @ near
-            for kind, exact in zip(self._kinds, around.exact, strict=True):
+            for kind, exact in zip(self._kinds, around.exact.T, strict=True):
                 if exact.any():
                     there = np.minimum(np.bincount(theirs, weights=exact, minlength=n), 1.0)
                     scores += (self._free(self.exact, field.held[1])[field.joint] * kind) @ there

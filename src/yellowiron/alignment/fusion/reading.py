@@ -10,6 +10,7 @@ import numpy as np
 
 from yellowiron.alignment.assignment.answer import Answer, Judged
 from yellowiron.alignment.assignment.cp_sat import MISSING_WEIGHT, Solution
+from yellowiron.alignment.assignment.directions import ALIKE, NOT_ACROSS, linkages_of
 from yellowiron.alignment.fusion.bonds import Bond, bonds_of, out_of_line
 from yellowiron.alignment.fusion.judge import SWEEPS, Field, against, field_of, labelled, leads, weighed
 from yellowiron.alignment.fusion.pieces import Piece, leading, pieces_of
@@ -25,10 +26,10 @@ from yellowiron.alignment.fusion.votes import (
     votes_of,
 )
 from yellowiron.alignment.fusion.weights import weights
-from yellowiron.alignment.structure.clusters import Structure, labelled_structure
+from yellowiron.alignment.structure.clusters import Hinge, Structure, labelled_structure
 from yellowiron.alignment.structure.observation import Observation
 from yellowiron.model.geometry import Floats
-from yellowiron.model.template import Template, choose
+from yellowiron.model.template import JointTemplate, Template, as_drawn, choose
 
 GLANCE, LIKELY = SWEEPS // 2, 4
 """So many sweeps tell which variants are the likeliest, and so many of these are judged with all."""
@@ -37,7 +38,7 @@ TRIES = 4
 MISSING = 60.0
 """What a variant loses for every body of its own that nothing plays."""
 NEARLY = 2
-"""A machine is nearly whole if no more of its bodies are missing."""
+"""A machine is nearly whole if no more bodies are missing between those that are there."""
 EXPLAINED = {0: 1.0, 1: 1.0, 2: 0.5}
 """How well names explain that two pieces are neighbours, by the joints between the bodies that they name."""
 BELIEVED = 0.45
@@ -65,6 +66,11 @@ class _Best:
     field: Field
     labels: np.ndarray
     votes: Votes
+
+    @property
+    def played(self) -> set[str]:
+        """The bodies that a piece is of."""
+        return {self.field.bodies[n] for n in self.labels if n < len(self.field.bodies)}
 
 
 @dataclass(frozen=True, eq=False)
@@ -144,45 +150,57 @@ def fused(
     contacts show an exact axis of."""
     evidence = evidence_of(observation, scores, answer, edited, template)
 
-    fields: dict[tuple[object, ...], tuple[Template, Votes, Field]] = {}
+    found_so_far: dict[tuple[Evidence, int], _Best] = {}
 
-    def tried(chosen: dict[str, str], evidence: Evidence, sweeps: int = SWEEPS, tries: int = 1) -> _Best:
-        key = (evidence, *sorted(chosen.items()))
-        if key not in fields:
-            resolved = choose(template, chosen)
-            votes = evidence.votes(resolved)
-            lined = out_of_line([evidence.pieces[k] for k in evidence.leading])
-            own = [votes[k] for k in evidence.leading]
-            fields[key] = (resolved, votes, field_of(own, evidence.between, resolved, weights(), lined))
-        resolved, votes, field = fields[key]
+    def tried(
+        chosen: dict[str, str], resolved: Template, evidence: Evidence, sweeps: int = SWEEPS, tries: int = 1
+    ) -> _Best:
+        last = found_so_far.get((evidence, id(resolved)))
+        votes = last.votes if last is not None else evidence.votes(resolved)
+        field = last.field if last is not None else _field(evidence, votes, resolved)
         labels, score = labelled(field, sweeps=sweeps, tries=tries)
         played = {field.bodies[n] for n in labels if n < len(field.bodies)}
         score -= MISSING * len(_missing(resolved, played))
-        return _Best(score, chosen, resolved, field, labels, votes)
+        found = _Best(score, chosen, resolved, field, labels, votes)
+        # A longer annealing may end beside what a shorter one had found.
+        found_so_far[evidence, id(resolved)] = max(last or found, found, key=lambda b: b.score)
+        return found_so_far[evidence, id(resolved)]
 
+    machines = [(chosen, choose(template, chosen)) for chosen in variants]
     # Which end is the front is a guess so far.
     turned = replace(evidence, stance=evidence.stance.turned())
-    evidence = max((evidence, turned), key=lambda e: tried(variants[0], e, GLANCE).score)
-    glanced = sorted((tried(chosen, evidence, GLANCE) for chosen in variants), key=lambda b: -b.score)
-    best = max((tried(b.choices, evidence) for b in glanced[:LIKELY]), key=lambda b: b.score)
-    best = tried(best.choices, evidence, tries=TRIES)
+    evidence = max((evidence, turned), key=lambda e: tried(*machines[0], e, GLANCE).score)
+    glanced = sorted((tried(*machine, evidence, GLANCE) for machine in machines), key=lambda b: -b.score)
+    likely = [tried(b.choices, b.template, evidence) for b in glanced[:LIKELY]]
+    bare = [(b, as_drawn(b.template, b.played)) for b in likely]
+    likely += [tried(b.choices, drawn, evidence) for b, drawn in bare if drawn is not b.template]
+    best = max(likely, key=lambda b: b.score)
+    best = tried(best.choices, best.template, evidence, tries=TRIES)
     if more := _between_found(best, evidence):
         wider = replace(evidence, leading=tuple(sorted({*evidence.leading, *more})))
-        found = tried(best.choices, wider, tries=TRIES)
+        found = tried(best.choices, best.template, wider, tries=TRIES)
         evidence, best = (wider, found) if found.score > best.score else (evidence, best)
     pieces, trust = evidence.pieces, evidence.trust
     judged = _judged(best, evidence)
     judged = {i: what for i, what in judged.items() if not _is_pin(i, what, observation, best.template)}
     judged |= _by_name_alone(observation, pieces, scores, trust, judged)
-    return Fused(_answer(observation, best, judged or _all_root(pieces, best.template), answer), evidence.stance, trust)
+    judged = judged or _all_root(pieces, best.template)
+    return Fused(_answer(observation, best, judged, answer, evidence.stance), evidence.stance, trust)
+
+
+def _field(evidence: Evidence, votes: Votes, resolved: Template) -> Field:
+    """The score of the leading pieces."""
+    lined = out_of_line([evidence.pieces[k] for k in evidence.leading])
+    return field_of([votes[k] for k in evidence.leading], evidence.between, resolved, weights(), lined)
 
 
 def _between_found(best: _Best, evidence: Evidence) -> set[int]:
-    """The pieces too small to lead that lie between bodies which a body joins that nothing plays, where the machine is
-    whole but for a few of these: links are small."""
+    """The pieces too small to lead that lie between bodies which a body joins that nothing plays, where only a few of
+    such bodies are missing: links are small."""
     bodies, template = best.field.bodies, best.template
     body_of = {k: bodies[n] for k, n in zip(evidence.leading, best.labels, strict=True) if n < len(bodies)}
-    missing, apart = _missing(template, set(body_of.values())), joints_apart(template)
+    played, apart = set(body_of.values()), joints_apart(template)
+    missing = [m for m in _missing(template, played) if sum(apart.get((m, b), 9) == 1 for b in played) > 1]
     beside: dict[int, set[str]] = {}
     for bond in evidence.bonds if len(missing) <= NEARLY else ():
         for own, other in ((bond.a, bond.b), (bond.b, bond.a)):
@@ -323,21 +341,31 @@ def _by_name_alone(
     return found
 
 
-def _answer(observation: Observation, best: _Best, judged: Mapping[int, Judged], answer: Answer) -> Answer:
+def _answer(
+    observation: Observation, best: _Best, judged: Mapping[int, Judged], answer: Answer, stance: Stance
+) -> Answer:
     """The labelling as clusters, hinges and slides: one cluster a body."""
     kinds = {r.name: r.kind for r in best.template.roles if r.rigid}
     bodies: dict[str, list[int]] = {}
     for i, what in sorted(judged.items()):
         bodies.setdefault(what.body, []).append(i)
     structure, body_of = labelled_structure(observation.evidence[-1], bodies, kinds)
-    solution = _solution(structure, body_of, best)
+    solution = _solution(structure, body_of, best, stance)
     return Answer(
         answer.contact, structure, best.choices, best.template, solution, {}, (), frozenset(), dict(judged)
     )  # fmt: skip
 
 
-def _solution(structure: Structure, body_of: Mapping[int, str], best: _Best) -> Solution:
-    """The joints that exact axes are there for: of several between two bodies the one that most pins run through."""
+def _solution(structure: Structure, body_of: Mapping[int, str], best: _Best, stance: Stance) -> Solution:
+    """The joints that exact axes are there for, in a direction that they may have: of several between two bodies the
+    one that most pins run through."""
+    linkage_of, frames = linkages_of(best.template)
+
+    def may_be(joint: JointTemplate, hinge: Hinge) -> bool:
+        cosine = abs(float(structure.axes[hinge.axis].direction @ stance.left))
+        turned = linkage_of.get(joint.name) in frames
+        return joint.name not in linkage_of or (cosine < NOT_ACROSS if turned else cosine > ALIKE)
+
     hinge_of: dict[str, int] = {}
     slide_of: dict[str, int] = {}
     for joint in best.template.joints:
@@ -349,7 +377,7 @@ def _solution(structure: Structure, body_of: Mapping[int, str], best: _Best) -> 
             hinges = [
                 (-len(h.pins), k)
                 for k, h in enumerate(structure.hinges)
-                if {body_of.get(h.a), body_of.get(h.b)} == pair
+                if {body_of.get(h.a), body_of.get(h.b)} == pair and may_be(joint, h)
             ]
             hinge_of |= {joint.name: min(hinges)[1]} if hinges else {}
     missing = sum(1 for r in best.template.roles if r.rigid and not r.optional and r.name not in set(body_of.values()))

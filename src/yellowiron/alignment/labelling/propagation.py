@@ -428,8 +428,11 @@ class Propagation:
                 continue  # a pin, by the bores it runs through
             if named is not None and self.template.body_of(named) == place.body:
                 words = f"{place.reason}; bears the role's name"
-                # A name settles between bodies, not whether the part is a pin besides.
+                # A name settles between bodies, not whether the part is a pin besides, nor where all that was weighed
+                # with it speaks as much for another body.
                 torn = place.runner_up is not None and self.template.body_of(place.runner_up) == place.body
+                judged = (self.answer.judged or {}).get(i)
+                torn = torn or (judged is not None and not judged.grounded)
                 sure = place.confidence if torn else max(place.confidence, NAMED)
                 decided = place.confidence < sure
                 self.places[i] = replace(place, role=named, confidence=sure, reason=words, by_name=decided)
