@@ -1,0 +1,427 @@
+"""The open models and PDFs that the labels of `benchmarks/` are for, built from git snapshots of public repositories.
+
+    python benchmarks/strangers_build.py MIRROR_DIR OUT_DIR [--only NAME,…] [--blender PYTHON]
+
+From the repository's root, in the project's environment. MIRROR_DIR has a bare git directory
+`OWNER+NAME/repo` for each repository; nothing is fetched. OUT_DIR gets `brochures/NAME.pdf` for each
+`benchmarks/brochures/*.json` and `models/NAME…` for each model in `BUILDERS`, as `source` in its label says, and
+for the two public ones of `../shared/data`. `--blender`: a Python that has `bpy==5.0.1`, for three of them.
+
+Every source file must have its SHA-256 in the label. Then every model is read, and must have the label's parts, height
+(`frame.height`, to 0.1 %) and joints (each within the boxes of its bodies, seen along its axis). Models that are held
+back are not built and their labels not opened; PDFs that are held are copied unread.
+"""
+
+from __future__ import annotations
+
+import argparse
+import hashlib
+import json
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import xml.etree.ElementTree as ET
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import trimesh
+from scipy.linalg import null_space
+from scipy.spatial.transform import Rotation
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path[:0] = [str(ROOT / "src"), str(ROOT / "tests"), str(ROOT / "benchmarks")]
+
+from strangers_models import LABELS, SHARED  # noqa: E402
+from yellowiron.cad import read_cad  # noqa: E402
+
+BROCHURES = LABELS.parent / "brochures"
+PUBLIC = SHARED / "public"
+Y_UP = np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])
+"""From Z up to the Y up of glTF."""
+SAME_HEIGHT = 1e-3
+BESIDE = 0.05
+"""How far outside its bodies' boxes a joint may be, of the machine's height: not every pin is drawn in its body."""
+OPENED = """
+import sys, bpy
+bpy.ops.wm.open_mainfile(filepath=sys.argv[1])
+bpy.ops.export_scene.gltf(filepath=sys.argv[2], export_format="GLB", export_apply=sys.argv[3] == "full")
+"""
+"""In Blender: a file as it is."""
+MERGED = """
+import sys, bpy
+bpy.ops.wm.read_factory_settings(use_empty=True)
+bpy.ops.import_scene.fbx(filepath=sys.argv[1])
+flat = bpy.data.objects["Cylinder.003"]
+for gone in (*flat.children_recursive, flat):
+    bpy.data.objects.remove(gone)
+bpy.ops.import_scene.fbx(filepath=sys.argv[2])
+bpy.ops.export_scene.gltf(filepath=sys.argv[3], export_format="GLB")
+"""
+"""In Blender: the first file without its flattened arm, with that of the second, which is in its place."""
+
+
+class BuildError(Exception):
+    """A file or a model is not what its label says."""
+
+
+@dataclass(frozen=True)
+class Snapshot:
+    """A repository at a commit."""
+
+    git: Path
+    commit: str
+
+    def show(self, path: str, commit: str = "") -> bytes:
+        return self._git("show", f"{commit or self.commit}:{path}")
+
+    def file(self, path: str, sha256: str) -> bytes:
+        """A file with this hash at a path, or at that path below some folder."""
+        listed = self._git("ls-tree", "-r", "-z", "--name-only", self.commit).decode().split("\0")
+        for found in (p for p in listed if p == path or p.endswith(f"/{path}")):
+            content = self.show(found)
+            if hashlib.sha256(content).hexdigest() == sha256:
+                return content
+        raise BuildError(f"{path} is not in {self.git}, or is another file there")
+
+    def _git(self, *words: str) -> bytes:
+        done = subprocess.run(["git", "--git-dir", str(self.git), *words], capture_output=True, check=False)
+        if done.returncode:
+            raise BuildError(done.stderr.decode().strip())
+        return done.stdout
+
+
+@dataclass(frozen=True)
+class Job:
+    """A model to build: its source files in `folder`, and what it becomes."""
+
+    name: str
+    snapshot: Snapshot
+    folder: Path
+    files: tuple[Path, ...]
+    models: Path
+    blender: str | None
+
+    @property
+    def glb(self) -> Path:
+        return self.models / f"{self.name}.glb"
+
+    def file(self, name: str) -> Path:
+        """The one source file of this name or suffix."""
+        (found,) = (f for f in self.files if name in (f.name, f.suffix))
+        return found
+
+
+Placed = Iterator[tuple[str, trimesh.Trimesh, np.ndarray]]
+
+
+def one(job: Job) -> None:
+    """The file as it is, under the label's name."""
+    (file,) = job.files
+    shutil.copy(file, job.models / f"{job.name}{file.suffix.lower()}")
+
+
+def many(job: Job) -> None:
+    """All files in one folder."""
+    into = job.models / job.name
+    into.mkdir(exist_ok=True)
+    for file in job.files:
+        shutil.copy(file, into / file.name)
+
+
+def in_blender(code: str, *words: str) -> Callable[[Job], None]:
+    """A file that Blender makes of the source files."""
+
+    def build(job: Job) -> None:
+        if job.blender is None:
+            raise BuildError("needs --blender")
+        files = [str(f) for f in job.files]
+        command = [job.blender, "-c", code, *files, str(job.glb), *words]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        if done.returncode:
+            raise BuildError(done.stderr.strip() or done.stdout.strip())
+
+    return build
+
+
+def in_nodes(placed: Callable[[Job], Placed]) -> Callable[[Job], None]:
+    """A GLB of meshes in their own frames, each placed by its node; Z stays up."""
+
+    def build(job: Job) -> None:
+        scene = trimesh.Scene()
+        for name, mesh, place in placed(job):
+            scene.add_geometry(mesh, node_name=name, geom_name=name, transform=place)
+        scene.export(job.glb)
+
+    return build
+
+
+def turned(placed: Callable[[Job], Placed]) -> Callable[[Job], None]:
+    """A GLB of meshes in one frame, turned to Y up."""
+
+    def build(job: Job) -> None:
+        scene = trimesh.Scene()
+        for name, mesh, place in placed(job):
+            mesh.apply_transform(place)
+            mesh.apply_transform(Y_UP)
+            scene.add_geometry(mesh, node_name=name, geom_name=name)
+        scene.export(job.glb)
+
+    return build
+
+
+def mjcf(job: Job) -> Placed:
+    """Meshes by an MJCF's body tree as drawn."""
+    root = ET.parse(job.file("excavator.xml")).getroot()
+    files = {f.stem: f for f in job.files if f.suffix != ".xml"}
+    turns = {Path(m.get("file", "")).stem: _numbers(m.get("refquat"), "1 0 0 0") for m in root.iter("mesh")}
+
+    def walk(body: ET.Element, frame: np.ndarray) -> Placed:
+        for name in (g.get("mesh", "") for g in body.findall("geom")):
+            if name in files:
+                own = Rotation.from_quat(turns[name], scalar_first=True).inv()
+                yield name, _mesh(files[name]), frame @ _place(own, (0.0, 0.0, 0.0))
+        for child in body.findall("body"):
+            turn = Rotation.from_euler("XYZ", _numbers(child.get("euler"), "0 0 0"), degrees=True)
+            yield from walk(child, frame @ _place(turn, _numbers(child.get("pos"), "0 0 0")))
+
+    world = root.find("worldbody")
+    assert world is not None
+    return walk(world, np.eye(4))
+
+
+def urdf(job: Job, description: str = ".urdf") -> Placed:
+    """Meshes by a robot description with all joints at 0; a mesh that two links have is named by link, and last."""
+    root = ET.parse(job.file(description)).getroot()
+    joints = root.findall("joint")
+    frames = dict.fromkeys({j.find("parent").get("link") for j in joints}, np.eye(4))
+    waiting = {j.find("child").get("link"): j for j in joints}
+    while waiting:
+        for link, joint in list(waiting.items()):
+            parent = joint.find("parent").get("link")
+            if parent not in waiting:
+                frames[link] = frames[parent] @ _origin(joint.find("origin"))
+                del waiting[link]
+    visuals = [
+        (link.get("name"), _origin(visual.find("origin")), Path(mesh.get("filename")).name)
+        for link in root.findall("link")
+        for visual in link.findall("visual")
+        for mesh in visual.findall("geometry/mesh")
+    ]
+    uses = Counter(file for _, _, file in visuals)
+    for link, origin, file in sorted(visuals, key=lambda visual: uses[visual[2]]):
+        name = link if uses[file] > 1 else Path(file).stem.removesuffix("_co2")
+        yield name, _mesh(job.file(file)), frames[link] @ origin
+
+
+def xacro(job: Job) -> Placed:
+    """As `urdf`; the one here has no macros."""
+    return urdf(job, ".xacro")
+
+
+def summed(job: Job) -> Placed:
+    """Meshes by the joints' origins in a Python file that later commits no longer have."""
+    code = job.snapshot.show("src/exca_dance/rendering/urdf_kin.py", "58dd8e6^").decode()
+    origins = {"base_link": np.zeros(3)}
+    joint = r'URDFJoint\(\s*"\w+",\s*"(\w+)",\s*"(\w+)",\s*"\w+",\s*\(([^)]*)\)'
+    for parent, child, origin in re.findall(joint, code):
+        origins[child] = origins[parent] + _numbers(origin.replace(",", " "), "")
+    links = dict(re.findall(r'"(\w+)": "(\w+_link)"', code))
+    for file in sorted(job.files):
+        yield file.stem, _mesh(file), _place(Rotation.identity(), origins[links[file.stem]])
+
+
+def instances(job: Job) -> Placed:
+    """STEP files by the instances of a Simscape Multibody assembly."""
+    for instance in ET.parse(job.file(".xml")).getroot().iterfind(".//{*}Instance"):
+        name = instance.get("name", "").removesuffix(" <1>")
+        turn, shift = (_numbers(instance.findtext(f"{{*}}Transform/{{*}}{w}"), "") for w in ("Rotation", "Translation"))
+        assembly = read_cad(job.file(f"{name}.step"))
+        meshes = [
+            trimesh.Trimesh(assembly.points_of(p), assembly.shape_of(p).mesh.triangles, process=False)
+            for p in assembly.parts
+        ]
+        place = np.eye(4)
+        place[:3, :3], place[:3, 3] = turn.reshape(3, 3), shift
+        yield name, trimesh.util.concatenate(meshes), place
+
+
+def _numbers(text: str | None, default: str) -> np.ndarray:
+    return np.array([float(v) for v in (text or default).split()])
+
+
+def _place(turn: Rotation, shift: Sequence[float] | np.ndarray) -> np.ndarray:
+    place = np.eye(4)
+    place[:3, :3] = turn.as_matrix()
+    place[:3, 3] = shift
+    return place
+
+
+def _origin(element: ET.Element | None) -> np.ndarray:
+    if element is None:
+        return np.eye(4)
+    turn = Rotation.from_euler("xyz", _numbers(element.get("rpy"), "0 0 0"))
+    return _place(turn, _numbers(element.get("xyz"), "0 0 0"))
+
+
+def _mesh(file: Path) -> trimesh.Trimesh:
+    mesh = trimesh.load(file, process=False, force="mesh")
+    return trimesh.Trimesh(mesh.vertices, mesh.faces, process=False)
+
+
+BUILDERS: dict[str, Callable[[Job], None]] = {
+    "clem_excavator": one,
+    "ix35e_excavator": turned(summed),
+    "johnweez_v2_simple": one,
+    "jommsy_mini_excavator": turned(mjcf),
+    "kennyvilella_excavator": in_nodes(mjcf),
+    "l580_wheel_loader": turned(xacro),
+    "mini_excavator": many,
+    "natutech_excavator": in_blender(MERGED),
+    "newton_excavator": turned(urdf),
+    "okkwok_by_material": one,
+    "persimenreed_excavator": one,
+    "pudong_excavator": turned(urdf),
+    "simcity_excavator": one,
+    "simscape_backhoe_arm": in_nodes(instances),
+    "simscape_excavator": many,
+    "simscape_wheel_loader": many,
+    "valkoja_low_poly_full": in_blender(OPENED, "full"),
+    "valkoja_low_poly_half": in_blender(OPENED, "half"),
+}
+
+
+def snapshot_of(mirror: Path, repository: str, commit: str) -> Snapshot:
+    git = mirror / repository.replace("/", "+") / "repo"
+    return Snapshot(git / ".git" if (git / ".git").is_dir() else git, commit)
+
+
+def build_model(name: str, mirror: Path, models: Path, blender: str | None) -> dict[str, Any]:
+    """Builds a model of `benchmarks/strangers`; its label."""
+    label: dict[str, Any] = json.loads((LABELS / f"{name}.json").read_text(encoding="utf-8"))
+    if label["held_back"]:
+        raise BuildError("is held back")
+    source = label["source"]
+    snapshot = snapshot_of(mirror, source["repository"], source["commit"])
+    with tempfile.TemporaryDirectory() as temporary:
+        folder, files = Path(temporary), []
+        for path, sha256 in source["files"].items():
+            if sha256 is None:  # absent from the snapshot
+                continue
+            file = folder / path
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_bytes(snapshot.file(path, sha256))
+            files.append(file)
+        BUILDERS[name](Job(name, snapshot, folder, tuple(files), models, blender))
+    return label
+
+
+def build_apdecky(name: str, mirror: Path, models: Path, _: str | None) -> dict[str, Any]:
+    """By the script that is beside the label."""
+    label: dict[str, Any] = json.loads((PUBLIC / f"{name}.truth.json").read_text(encoding="utf-8"))
+    git = snapshot_of(mirror, label["source"]["repository"], "").git
+    out = models / f"{name}.glb"
+    subprocess.run(
+        [sys.executable, str(PUBLIC / "build_apdecky.py"), str(git), str(out)], capture_output=True, check=True
+    )
+    if hashlib.sha256(out.read_bytes()).hexdigest() != label["source"]["glb_sha256"]:
+        raise BuildError("is built otherwise than the label's")
+    return label
+
+
+def build_tele_dig(name: str, mirror: Path, models: Path, _: str | None) -> dict[str, Any]:
+    """The file that the label's `source` names in words."""
+    label: dict[str, Any] = json.loads((PUBLIC / f"{name}.truth.json").read_text(encoding="utf-8"))
+    repository, commit, path = re.search(r"(\S+/\S+) @ (\w+), (\S+)", label["source"]).groups()  # type: ignore[union-attr]
+    (models / f"{name}.glb").write_bytes(snapshot_of(mirror, repository, commit).show(path))
+    return label
+
+
+def checked(name: str, models: Path, label: dict[str, Any]) -> str:
+    """What the reader finds, or `BuildError` if it is not what the label says."""
+    (cad,) = (p for p in models.iterdir() if name in (p.name, p.stem))
+    assembly = read_cad(cad)
+    points = {p.id if p.id in label["parts"] else p.name: assembly.points_of(p) for p in assembly.parts}
+    if points.keys() != label["parts"].keys():
+        unlike = sorted(points.keys() ^ label["parts"].keys())
+        raise BuildError(f"parts differ from the label's: {', '.join(unlike)}")
+    frame = label.get("frame", {})
+    up = np.array(frame.get("up", (0.0, 1.0, 0.0)))
+    height = float(np.ptp(np.concatenate(list(points.values())) @ up))
+    if abs(height - frame.get("height", height)) > SAME_HEIGHT * height:
+        raise BuildError(f"is {height:.4f} high, by its label {frame['height']:.4f}")
+    boxes: dict[str, list[np.ndarray]] = {}
+    for part, entry in label["parts"].items():
+        bodies = {entry["body"], *entry.get("alternatives", ()), *(f["body"] for f in entry.get("fused", ()))}
+        for member in {_member(b) for b in bodies - {None}}:
+            boxes.setdefault(member, []).append(points[part])
+    joints = label["joints"] if isinstance(label["joints"], dict) else {j["name"]: j for j in label["joints"]}
+    beside = [
+        f"{joint} by {far:.3f}"
+        for joint, row in joints.items()
+        for end in ("parent", "child")
+        if (far := _outside(row, boxes.get(_member(row[end]), []))) > BESIDE * height
+    ]
+    if beside:
+        raise BuildError(f"joints outside their bodies: {', '.join(beside)}")
+    return f"{len(points)} parts, {height:.4f} high, {len(joints)} joints in their bodies' boxes"
+
+
+def _member(body: str) -> str:
+    """A body, of either side and of any place in its row."""
+    return re.sub(r"(_[lr])?(\[.*\])?$", "", body)
+
+
+def _outside(joint: dict[str, Any], bodies: Sequence[np.ndarray]) -> float:
+    """How far a joint's axis passes from a body's box, both seen along it."""
+    if not bodies:
+        return 0.0
+    across = null_space(np.array([joint["axis"]], dtype=np.float64))
+    points, anchor = np.concatenate(bodies) @ across, np.array(joint["anchor"]) @ across
+    return float(np.linalg.norm(np.maximum(0.0, np.maximum(points.min(axis=0) - anchor, anchor - points.max(axis=0)))))
+
+
+def _say(words: str) -> None:
+    sys.stdout.write(f"{words}\n")
+    sys.stdout.flush()
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("mirror", type=Path)
+    parser.add_argument("out", type=Path)
+    parser.add_argument("--only", default="", help="names of models or brochures")
+    parser.add_argument("--blender", help="a Python that has bpy 5.0.1")
+    given = parser.parse_args()
+    only = set(filter(None, given.only.split(",")))
+    pdfs, models = given.out / "brochures", given.out / "models"
+    for folder in (pdfs, models):
+        folder.mkdir(parents=True, exist_ok=True)
+    faults = 0
+    for file in sorted(BROCHURES.glob("*.json")):
+        if not only or file.stem in only:
+            source = json.loads(file.read_text(encoding="utf-8"))["source"]
+            pdf = snapshot_of(given.mirror, source["repository"], source["commit"]).show(source["path"])
+            if source.get("sha256") not in (None, hashlib.sha256(pdf).hexdigest()):
+                faults += 1
+                _say(f"{file.stem}: FAULT is another PDF than the label's")
+            (pdfs / f"{file.stem}.pdf").write_bytes(pdf)
+    build = dict.fromkeys(BUILDERS, build_model)
+    build |= {"apdecky_excavator_47": build_apdecky, "tele_dig_267": build_tele_dig}
+    for name in sorted(n for n in build if not only or n in only):
+        try:
+            label = build[name](name, given.mirror, models, given.blender)
+            _say(f"{name}: {checked(name, models, label)}")
+        except BuildError as error:
+            faults += 1
+            _say(f"{name}: FAULT {error}")
+    return int(faults > 0)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
