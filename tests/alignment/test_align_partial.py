@@ -3,6 +3,9 @@ be taken for the bodies that are not there."""
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+from typing import Any
+
 import numpy as np
 import pytest
 import trimesh
@@ -13,6 +16,7 @@ from yellowiron.alignment.assignment.collision import colliders
 from yellowiron.alignment.assignment.cp_sat import JOINT_WEIGHT, MISSING_WEIGHT, Solution, without_islands
 from yellowiron.alignment.assignment.directions import direction_classes, linkages_of, never_together
 from yellowiron.alignment.features.contacts import SharedAxis
+from yellowiron.alignment.fusion import reading
 from yellowiron.alignment.structure.clusters import Hinge, Structure
 from yellowiron.library import load_template
 from yellowiron.mechanism import build_mechanism
@@ -112,3 +116,13 @@ def test_a_part_called_a_collision_mesh_is_one_only_where_other_parts_are() -> N
              at("Arm", "big", 5.0), at("frame_shadow_volume", "big", 2.5)]  # fmt: skip
     assembly = Assembly("m", "glb", 1.0, tuple(parts), {"big": shape("big", 1.0), "small": shape("small", 0.2)})
     assert colliders(assembly) == {"UCX_Boom", "Col_Boom_end"}
+
+
+def test_a_body_of_a_pin_alone_is_not_drawn(excavator: Template) -> None:
+    """A boom of 0.4 kg between two frames of half a ton broke the engine."""
+    areas = [0.5, 0.4 * excavator.usual["arm"].area, 0.01 * excavator.usual["boom"].area]
+    evidence: Any = SimpleNamespace(
+        pieces=[SimpleNamespace(area=a) for a in (*areas, 1.0 - sum(areas))], leading=(0, 1, 2)
+    )
+    found = reading._drawn(evidence, ("undercarriage", "arm", "boom"), np.array([0, 1, 2]), excavator)
+    assert found == {"undercarriage", "arm"}

@@ -37,6 +37,8 @@ TRIES = 4
 """One annealing in three ends beside the best labelling."""
 MISSING = 60.0
 """What a variant loses for every body of its own that nothing plays."""
+SLIGHT = 0.03
+"""Of a body's usual share of the surface: with less it is not drawn, and what was taken for it is a pin or a lug."""
 NEARLY = 2
 """A machine is nearly whole if no more bodies are missing between those that are there."""
 EXPLAINED = {0: 1.0, 1: 1.0, 2: 0.5}
@@ -159,7 +161,7 @@ def fused(
         votes = last.votes if last is not None else evidence.votes(resolved)
         field = last.field if last is not None else _field(evidence, votes, resolved)
         labels, score = labelled(field, sweeps=sweeps, tries=tries)
-        played = {field.bodies[n] for n in labels if n < len(field.bodies)}
+        played = _drawn(evidence, field.bodies, labels, resolved)
         score -= MISSING * len(_missing(resolved, played))
         found = _Best(score, chosen, resolved, field, labels, votes)
         # A longer annealing may end beside what a shorter one had found.
@@ -192,6 +194,16 @@ def _field(evidence: Evidence, votes: Votes, resolved: Template) -> Field:
     """The score of the leading pieces."""
     lined = out_of_line([evidence.pieces[k] for k in evidence.leading])
     return field_of([votes[k] for k in evidence.leading], evidence.between, resolved, weights(), lined)
+
+
+def _drawn(evidence: Evidence, bodies: Sequence[str], labels: np.ndarray, template: Template) -> set[str]:
+    """The bodies that pieces are of, those left out whose pieces are pins and lugs beside what the body usually is."""
+    total = sum(p.area for p in evidence.pieces) or 1.0
+    area: dict[str, float] = {}
+    for k, n in zip(evidence.leading, labels.tolist(), strict=True):
+        if n < len(bodies):
+            area[bodies[n]] = area.get(bodies[n], 0.0) + evidence.pieces[k].area / total
+    return {b for b, share in area.items() if b not in template.usual or share >= SLIGHT * template.usual[b].area}
 
 
 def _between_found(best: _Best, evidence: Evidence) -> set[int]:
