@@ -94,6 +94,7 @@ def align(
     sheets: Sequence[Path | str] = (),
     settings: Sequence[str] = (),
     config: str = "",
+    mirror: bool = False,
     out: Path | str | None = None,
     roles: Sequence[str] = (),
     confirmed: Sequence[str] = (),
@@ -103,7 +104,8 @@ def align(
     why: str = "",
     progress: Progress = lambda words: None,
 ) -> Roles:
-    """The part that plays each role of a type. With `sheets` and `settings` the model's scale is checked against them.
+    """The part that plays each role of a type. With `sheets` and `settings` the model's scale is checked against them;
+    `mirror` completes a model of which one half is drawn by its mirror image.
 
     The alignment is written to the file `out`; what a person decided in it before holds. Decisions for whole parts of
     the CAD tree: `roles` are texts such as `ADT30/HITCH/*=hitch` (none: not part of the machine); what fits a pattern
@@ -119,6 +121,8 @@ def align(
     template = library.load_template(equipment_type)
     progress("Reading the CAD model")
     assembly = cad.read_cad(Path(cad_file))
+    if mirror:
+        assembly = cad.mirrored(assembly)
     values, choices = specs.split_settings(settings, template)
     read = specs.extract(template, [Path(sheet) for sheet in sheets], config=config, progress=progress)
     earlier = Path(out) if out is not None and Path(out).exists() else None

@@ -44,8 +44,8 @@ def _keeping(kind: str, stage: Callable[Given, Found]) -> Callable[Given, Found]
     return answered
 
 
-def read_model(cad_file: Path) -> Assembly:
-    """The CAD model, as `cad.read_cad` has it."""
+def read_model(cad_file: Path, *, mirror: bool = False) -> Assembly:
+    """The CAD model, as `cad.read_cad` has it, or `cad.mirrored`."""
 
     def make() -> Assembly:
         # A child reads; what comes next needs libraries that take a second or two to load.
@@ -57,7 +57,8 @@ def read_model(cad_file: Path) -> Assembly:
             loading.join()
 
     files = cad.files_of(cad_file) if stages_are_kept() else None
-    return make() if files is None else kept("models", make, str(cad_file), files=files)
+    model = make() if files is None else kept("models", make, str(cad_file), files=files)
+    return cad.mirrored(model) if mirror else model
 
 
 def read_sheets(

@@ -93,6 +93,7 @@ def build(
     documents: Sequence[Path | str] = (),
     settings: Sequence[str] = (),
     config: str = "",
+    mirror: bool = False,
     extractor: specs.Extractor = "rules",
     model: specs.ModelOptions | None = None,
     engines: Sequence[str] = (),
@@ -102,7 +103,8 @@ def build(
 
     `equipment_type` is a library type or a template folder; `alignment_file` an edited alignment (default: the one
     that an earlier run left in `out`); `documents` are JSON-1 … JSON-4 or a filled joint template; `settings` are
-    texts such as `Lift Cylinder Stroke=764 mm`; `config` picks a column of the sheet; `extractor` and `model` say who
+    texts such as `Lift Cylinder Stroke=764 mm`; `config` picks a column of the sheet; `mirror` completes a model of
+    which one half is drawn by its mirror image; `extractor` and `model` say who
     reads it; the machine is driven in each of `engines` with its rated payload. Raises `YellowironError` for unusable
     input, having written nothing.
     """
@@ -119,7 +121,7 @@ def build(
     by_hand = (earlier, read_joints(earlier)) if earlier is not None else None
     with output_folder(out) as folder:
         with clock.stage("convert", "Reading the CAD model"):
-            assembly = memory.read_model(cad_file)
+            assembly = memory.read_model(cad_file, mirror=mirror)
 
         # Weakest first: template, sheet, documents, settings.
         data = library.load_documents([Path(d) for d in documents], template, assembly, joints=by_hand)
@@ -175,7 +177,7 @@ def build(
             report.write_document({
                 "equipment_type": _place(equipment_type) if Path(equipment_type).is_dir() else str(equipment_type),
                 "cad": _place(cad_file), "specs": [_place(s) for s in sheets], "data": [_place(d) for d in documents],
-                "set": list(settings), "config": config,
+                "set": list(settings), "config": config, **({"mirror": True} if mirror else {}),
             }, folder / "inputs.json")  # fmt: skip
         report.write_document({**clock.seconds, "total": sum(clock.seconds.values())}, folder / "timings.json")
     return Machine(

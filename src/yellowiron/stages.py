@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from yellowiron import cad, kinematics, library, specs
-from yellowiron.alignment import align, decide, declared_roles, read_alignment, read_values, to_scale
+from yellowiron.alignment import align, decide, declared_roles, of_drawn, read_alignment, read_values, to_scale
 from yellowiron.mechanism import (
     ComparedJoint,
     build_mechanism,
@@ -101,7 +101,7 @@ def find_roles(
     def found(model: Assembly) -> Alignment:
         edits = read_alignment(earlier, model, template) if earlier is not None else None
         edits = decide(edits, decisions, model, template)
-        return roles_of(model, template, specifications, edits=edits, data=data, choices=choices)
+        return _roles_of_whole(model, template, specifications, edits=edits, data=data, choices=choices)
 
     def hidden(alignment: Alignment) -> int:
         # Neither pins nor the root count: many models have none, whatever is done to them.
@@ -118,8 +118,8 @@ def find_roles(
         # Bodies in crumbs answer to more roles, wrongly: where few bodies were missing, pins must be found as well.
         most = hidden(alignment) > len(moving) and hidden(other) < 0.5 * hidden(alignment)
         if most or len(other.missing) < 0.5 * len(alignment.missing):
-            return apart, other
-    return assembly, alignment
+            return apart, _of_drawn(other, apart, template)
+    return assembly, _of_drawn(alignment, assembly, template)
 
 
 def _apart(assembly: Assembly) -> Assembly | None:
@@ -138,6 +138,23 @@ def roles_of(
     choices: Mapping[str, str] | None = None,
 ) -> Alignment:
     """Roles for the parts of a CAD model as it is; `edits` is an earlier alignment whose decisions hold."""
+    found = _roles_of_whole(assembly, template, specifications, edits=edits, data=data, choices=choices)
+    return _of_drawn(found, assembly, template)
+
+
+def _roles_of_whole(
+    drawn: Assembly,
+    template: Template,
+    specifications: Specifications,
+    *,
+    edits: Alignment | None,
+    data: library.Documents | None,
+    choices: Mapping[str, str] | None,
+) -> Alignment:
+    """Roles for what is drawn and, where that is one half of a machine, for its mirror image: a half looks like no
+    machine."""
+    half = cad.half_of(drawn)
+    assembly = drawn if half is None else cad.completed(drawn, half)
     edits = edits if data is None else library.with_relations(edits, data)
     alignment = align(assembly, template, specifications, edits=edits, choices=choices)
     # A robot description whose bodies are the template's: what it says goes before what was found.
@@ -146,6 +163,12 @@ def roles_of(
         edits = replace(edits or alignment, parts=(*(edits.parts if edits else ()), *declared))
         alignment = align(assembly, template, specifications, edits=edits, choices=choices)
     return alignment if data is None else library.with_axes(alignment, data)
+
+
+def _of_drawn(found: Alignment, assembly: Assembly, template: Template) -> Alignment:
+    """The alignment of the parts of `assembly`, without those of its mirror image."""
+    drawn = {part.id for part in assembly.parts}
+    return found if len(found.parts) == len(drawn) else of_drawn(found, drawn, template)
 
 
 def values_by_hand(earlier: Path | None, template: Template) -> Specifications:

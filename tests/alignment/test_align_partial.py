@@ -3,6 +3,7 @@ be taken for the bodies that are not there."""
 
 from __future__ import annotations
 
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
@@ -12,6 +13,7 @@ import trimesh
 
 from kit.scene import scene
 from kit.scoring import score
+from yellowiron import align
 from yellowiron.alignment.assignment.collision import colliders
 from yellowiron.alignment.assignment.cp_sat import JOINT_WEIGHT, MISSING_WEIGHT, Solution, without_islands
 from yellowiron.alignment.assignment.directions import direction_classes, linkages_of, never_together
@@ -126,3 +128,41 @@ def test_a_body_of_a_pin_alone_is_not_drawn(excavator: Template) -> None:
     )
     found = reading._drawn(evidence, ("undercarriage", "arm", "boom"), np.array([0, 1, 2]), excavator)
     assert found == {"undercarriage", "arm"}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", ["loader", "excavator"])
+def test_half_a_machine_is_found_by_its_whole(kind: str) -> None:
+    given = scene(kind, 6, "half")
+    template = load_template(given.type)
+    assembly, found = find_roles(given.assembly, template, Specifications())
+    assert {p.part for p in found.parts} == {p.id for p in assembly.parts} == {p.id for p in given.assembly.parts}
+    (said,) = (f for f in found.findings if f.code == "ALN029")
+    assert "one half" in said.message
+    chosen = expand(choose(template, found.choices), found.counts)
+    mechanism = build_mechanism(assembly, chosen, found, Specifications(), name="half")
+    result = score(assembly, found, mechanism, given.truth, given.joints, given.height, template)
+    assert result.right > 0.97 * result.area
+    assert result.silent <= 0.002 * result.area
+    assert result.joints_right == result.joints
+
+
+@pytest.mark.slow
+def test_a_half_is_built_whole_where_it_is_asked_for(tmp_path: Path) -> None:
+    given = scene("loader", 6, "half")
+    file = tmp_path / "half.glb"
+    shapes = trimesh.Scene()
+    for part in given.assembly.parts:
+        mesh = trimesh.Trimesh(given.assembly.points_of(part), given.assembly.shape_of(part).mesh.triangles)
+        shapes.add_geometry(mesh, node_name=part.name, geom_name=part.name)
+    shapes.export(file)
+    half = align("wheel_loader", file)
+    whole = align("wheel_loader", file, mirror=True)
+    sides = [{p.role for p in found.alignment.parts} for found in (half, whole)]
+    missing = {"rear_wheel_l", "rear_wheel_r"} - sides[0]
+    assert len(missing) == 1
+    assert missing <= set(half.alignment.missing)
+    assert missing <= sides[1]
+    assert not whole.alignment.missing
+    said = [f.code for f in (*half.alignment.findings, *whole.alignment.findings)]
+    assert [code for code in said if code in ("ALN029", "CAD015")] == ["ALN029", "CAD015"]

@@ -11,7 +11,7 @@ Findings: `ALN001` no part plays a required role · `ALN002` a joint is found bu
 under another choice of a variant · `ALN006` a hydraulic cylinder is not drawn as the sheet has it ·
 `ALN007` no body is left for parts that could move · `ALN008` a cylinder is to one side · `ALN009` parts stand apart and
 are left out · `ALN010` there seems to be more than one machine · `ALN011` the wheels have no tyres · `ALN016` a joint's
-axis is estimated · `ALN026` to `ALN028`: see `files.decisions`.
+axis is estimated · `ALN026` to `ALN028`: see `files.decisions` · `ALN029` one half is drawn.
 """
 
 from yellowiron.alignment.assignment.unit_scale import to_scale
@@ -27,6 +27,7 @@ from yellowiron.alignment.files.alignment_json import (
 from yellowiron.alignment.files.decisions import decide, parse_rules
 from yellowiron.alignment.files.explanation import explain
 from yellowiron.alignment.labelling.confidence import REVIEW
+from yellowiron.alignment.labelling.halves import of_drawn
 from yellowiron.alignment.pipeline import align
 
 __all__ = [
@@ -37,6 +38,7 @@ __all__ = [
     "discover",
     "discover_declared",
     "explain",
+    "of_drawn",
     "parse_rules",
     "read_alignment",
     "read_joints",

@@ -1,5 +1,6 @@
 """CAD files to an `Assembly`: `read_cad`; `check_file` without reading;
-`files_of`, what is read with it; `taken_apart` for meshes of several parts.
+`files_of`, what is read with it; `taken_apart` for meshes of several parts; `half_of`,
+`completed` and `mirrored` for machines of which one half is drawn.
 
 In the order in which they build on each other: `naming` and `tolerances`; `appearance` and `mesh`; `brep`; then
 `formats` (the registry: one entry a format), `proprietary` (formats without an open reader) and `recognition` (which of
@@ -15,9 +16,10 @@ from yellowiron.cad.dependence import files_of
 from yellowiron.cad.read import check_file, read_cad
 
 if TYPE_CHECKING:
+    from yellowiron.cad.mesh.halves import completed, half_of, mirrored
     from yellowiron.cad.mesh.split import taken_apart
 
-__all__ = ["check_file", "files_of", "read_cad", "taken_apart"]
+__all__ = ["check_file", "completed", "files_of", "half_of", "mirrored", "read_cad", "taken_apart"]
 
 
 def __getattr__(name: str) -> Any:
@@ -26,4 +28,8 @@ def __getattr__(name: str) -> Any:
         from yellowiron.cad.mesh.split import taken_apart
 
         return taken_apart
+    if name in ("completed", "half_of", "mirrored"):
+        from yellowiron.cad.mesh import halves
+
+        return getattr(halves, name)
     raise AttributeError(f"module 'yellowiron.cad' has no attribute {name!r}")

@@ -14,7 +14,7 @@ from rich.text import Text
 
 import yellowiron
 from yellowiron.cli.application import app
-from yellowiron.cli.options import Config, Settings, Sheets, Type, command, reads_sheets
+from yellowiron.cli.options import Config, Mirror, Settings, Sheets, Type, command, reads_sheets
 from yellowiron.cli.telling import answer, progress_shown, tell
 
 
@@ -34,6 +34,7 @@ def build(
         Literal["belt", "shoes", "fixed"] | None,
         typer.Option("--tracks", help="How a crawler's tracks are modelled: hidden wheels, every shoe, or standing."),
     ] = None,
+    mirror: Mirror = False,
     simulate: Annotated[bool, typer.Option("--simulate", help="Drive it in every engine that is installed.")] = False,
     watch: Annotated[
         bool, typer.Option("--watch", help="Build again whenever an input changes, until Ctrl-C.")
@@ -58,7 +59,7 @@ def build(
             machine = yellowiron.build(
                 equipment_type, cad, out, sheets=specs or (), alignment_file=alignment, documents=data or (),
                 settings=[*(settings or ()), *([f"--tracks={tracks}"] if tracks else [])],
-                engines=engines, progress=progress, **reading,
+                mirror=mirror, engines=engines, progress=progress, **reading,
             )  # fmt: skip
         reasons = machine.fell_short
         answer(machine.document, build_summary(machine.document, reasons, str(out)))
@@ -179,6 +180,7 @@ def align_parts(
     sheets: Sheets = None,
     settings: Settings = None,
     config: Config = "",
+    mirror: Mirror = False,
 ) -> None:
     """Find the part that plays each role; with a sheet, the model's scale is checked against it."""
     from yellowiron.alignment import explain as explained
@@ -186,7 +188,7 @@ def align_parts(
 
     with progress_shown() as progress:
         alignment = yellowiron.align(
-            equipment_type, cad, sheets=sheets or (), settings=settings or (), config=config, out=out,
+            equipment_type, cad, sheets=sheets or (), settings=settings or (), config=config, mirror=mirror, out=out,
             roles=roles or (), confirmed=confirmed or (), forgotten=forgotten or (),
             by=by, date=datetime.date.today().isoformat(), why=why, progress=progress,
         ).alignment  # fmt: skip

@@ -129,7 +129,8 @@ def film(
     with progress_shown() as progress, tempfile.TemporaryDirectory(prefix="yellowiron-") as folder:
         built = build(
             setup.equipment_type, setup.cad, Path(folder, "machine"), sheets=setup.sheets, documents=setup.documents,
-            settings=setup.settings, config=setup.config, alignment_file=kept if kept.exists() else None,
+            settings=setup.settings, config=setup.config, mirror=setup.mirror,
+            alignment_file=kept if kept.exists() else None,
             progress=progress,
         )  # fmt: skip
         made(built, out, sheets=setup.sheets, progress=progress)

@@ -30,6 +30,10 @@ Settings = Annotated[
 ]
 Config = Annotated[str, typer.Option("--config", help="The column of the sheet to take, by its heading.")]
 
+Mirror = Annotated[
+    bool, typer.Option("--mirror", help="Of a model that is one half of a machine, build the whole: its mirror image.")
+]
+
 
 def _reading(
     config: Config = "",

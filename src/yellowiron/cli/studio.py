@@ -10,7 +10,7 @@ import typer
 from rich.text import Text
 
 from yellowiron.cli.application import app
-from yellowiron.cli.options import Config, Settings, Sheets, command
+from yellowiron.cli.options import Config, Mirror, Settings, Sheets, command
 from yellowiron.cli.telling import progress_shown
 from yellowiron.model.errors import YellowironError
 from yellowiron.report import terminal
@@ -29,6 +29,7 @@ def studio(
     ] = None,
     settings: Settings = None,
     config: Config = "",
+    mirror: Mirror = False,
     by: Annotated[str, typer.Option("--by", help="Who decides.", envvar="YELLOWIRON_USER")] = "",
     port: Annotated[int, typer.Option("--port", min=0, max=65535, help="Of the page (0: any that is free).")] = 0,
     opened: Annotated[bool, typer.Option("--open/--no-open", help="Open the page in the browser.")] = True,
@@ -38,7 +39,7 @@ def studio(
     from yellowiron.studio.server import serve
 
     if cad is None:
-        if out is not None or specs or data or settings or config:
+        if out is not None or specs or data or settings or config or mirror:
             raise YellowironError(
                 "The CAD model is not named", where="studio", hint="Name TYPE, --cad and --out, or a folder alone."
             )
@@ -50,7 +51,7 @@ def studio(
     else:
         setup = Setup(
             machine, cad, out, sheets=tuple(specs or ()), documents=tuple(data or ()), settings=tuple(settings or ()),
-            config=config,
+            config=config, mirror=mirror,
         )  # fmt: skip
     with progress_shown() as progress:
         session = Session(setup, by=by, progress=progress)

@@ -86,7 +86,7 @@ class Session:
         )  # fmt: skip
         self._given, self._choices = inputs.given, inputs.choices
         progress("Reading the CAD model")
-        read = memory.read_model(setup.cad) if assembly is None else assembly
+        read = memory.read_model(setup.cad, mirror=setup.mirror) if assembly is None else assembly
         self._bare = inputs.template
         self._read = read
         # What the alignment file says of joints is the first of what is said here.

@@ -26,6 +26,7 @@ class Setup:
     documents: tuple[Path, ...] = ()
     settings: tuple[str, ...] = ()
     config: str = ""
+    mirror: bool = False
 
     def command(self) -> list[str]:
         """The arguments of `yellowiron` that build it."""
@@ -33,6 +34,7 @@ class Setup:
         listed += [("--set", setting) for setting in self.settings]
         listed += [("--config", self.config)] if self.config else []
         given = [word for pair in listed for word in pair]
+        given += ["--mirror"] if self.mirror else []
         return ["build", self.equipment_type, "--cad", str(self.cad), *given, "--out", str(self.out)]
 
 
@@ -64,5 +66,5 @@ def _setup(entry: Mapping[str, Any], folder: Path) -> Setup:
     return Setup(
         str(entry["equipment_type"]), Path(str(entry["cad"])), folder,
         sheets=tuple(map(Path, texts["specs"])), documents=tuple(map(Path, texts["data"])),
-        settings=tuple(texts["set"]), config=str(entry["config"]),
+        settings=tuple(texts["set"]), config=str(entry["config"]), mirror=entry.get("mirror") is True,
     )  # fmt: skip

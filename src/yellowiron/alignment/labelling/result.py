@@ -56,7 +56,7 @@ def to_alignment(
         # What hangs on bodies that are in doubt is in doubt itself.
         doubted |= {p.id for p in assembly.parts if p.id in labels.places and p.id not in labels.decided}
     played = {p.role for p in parts} | {p.body for p in parts}
-    missing = tuple(r.name for r in template.roles if _required(r.name, template) and r.name not in played)
+    missing = tuple(r.name for r in template.roles if is_required(r.name, template) and r.name not in played)
     doubtful = tuple(p.part for p in sorted(parts, key=lambda p: p.confidence) if p.part in doubted)
     against = doubts(labels.decided, _against(labels, whole=whole, rung=rung))
     findings = (*_findings(template, answer.solution, missing, frame, labels.decided), *against, *remarks)
@@ -127,7 +127,8 @@ def _is_doubted(part: str, labels: Labels) -> bool:
     return place is None or place.confidence < REVIEW
 
 
-def _required(name: str, template: Template) -> bool:
+def is_required(name: str, template: Template) -> bool:
+    """Whether a machine lacks something where no part plays a role."""
     role = template.role(name)
     if role.optional or role.many or role.kind in ("group", "tyre", "edge"):
         return False
