@@ -67,6 +67,8 @@ HELD = 0.7
 """Contacts that find this share of the type's joints have found the machine; below, every reading is asked."""
 EXPLAINED = 0.9
 """… as have those that leave no more than this of what is drawn unexplained, whatever the type has besides."""
+BETTER = 150.0
+"""… unless the judge finds another reading better by so much."""
 HEARD = 0.9
 """Names trusted so far go before contacts that they contradict and that did not find the whole machine."""
 
@@ -115,7 +117,8 @@ def align(
     search = Search(look, plain, specifications, choices or {}, edited)
     answer, observation, scores = search.run()
     agreement = search.agreement
-    held = held_share(answer) >= HELD or drawn_share(answer, observation.solids) >= EXPLAINED
+    held = held_share(answer) >= HELD
+    explained = held or drawn_share(answer, observation.solids) >= EXPLAINED
     contradicted = agreement < BELIEVED and not is_whole(answer)
     fused_reading = None
     if not held or contradicted:
@@ -123,8 +126,11 @@ def align(
         named = name_scores(tuple(s.part for s in wide.solids), plain, template)
         fused_reading = _fused(answer, wide, named, plain, choices or {}, edited, tracks)
     # Names against contacts that found most of a machine: they are heard where they explain who is beside whom.
-    if fused_reading is not None and (not held or fused_reading[2] >= HEARD):
-        (answer, frame, agreement), observation, scores = fused_reading, wide, named
+    # Contacts that leave little of a part of a machine unexplained are, but for a clearly better reading.
+    if fused_reading is not None and (
+        not explained or (fused_reading[2] >= HEARD if held else fused_reading[3] >= BETTER)
+    ):
+        (answer, frame, agreement, _), observation, scores = fused_reading, wide, named
     else:
         answer, frame = _framed(answer, observation, tracks)
     low = undercut(observation, answer)
@@ -323,12 +329,13 @@ def _fused(
     choices: Mapping[str, str],
     edited: Mapping[str, str],
     tracks: list[Track],
-) -> tuple[Answer, MachineFrame | None, float]:
+) -> tuple[Answer, MachineFrame | None, float, float]:
     """What names, shapes, places and contacts say together; the machine's frame, that of its joints, or as the machine
-    stands where these leave it open; and how far the names are to be believed."""
+    stands where these leave it open; how far the names are to be believed; and how much better it is than what the
+    contacts alone say."""
     solids = observation.solids
     if not solids:
-        return answer, None, 1.0
+        return answer, None, 1.0, 0.0
     told = {s.index: template.body_of(edited[s.part.id]) for s in solids if template.knows(edited.get(s.part.id, ""))}
     said = {i: body for i, body in told.items() if body is not None}
     found = fused(observation, template, variants_of(template, choices), scores, answer, said)
@@ -337,7 +344,7 @@ def _fused(
     if frame.doubts:
         frame = MachineFrame(found.stance.matrix(), ("it is read off how the machine stands",))
     answer = replace(answer, solution=with_root(solution, answer.structure, solids, answer.template))
-    return answer, frame, found.trust
+    return answer, frame, found.trust, found.lead
 
 
 def _surfaces(observation: Observation, answer: Answer) -> dict[str, float]:

@@ -11,7 +11,7 @@ import json
 import re
 import unicodedata
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib import resources
 
@@ -28,14 +28,19 @@ CLEAR = 0.3
 """Names that speak less of a body say nothing of it."""
 EXACT = 1.5
 """What a part counts for a body if it bears the very name of one of the body's roles."""
+NAMESAKE = 0.6
+"""An assembly that shares this share of a part's words, or of its own, is that part's."""
 SOME = 8
 COMMON, IDLE = 0.3, 0.6
 """A word that more than a share of `COMMON` of at least `SOME` different names has counts less, one that more than
 `IDLE` have nothing: it tells no part from another."""
+VAGUE_SHARE = 0.5
+"""A vague word of less than this share of a name's words says nothing: an upper holder holds anything."""
 ALIKE = 0.79
 """Words less alike than this are different words, not typos."""
 _SPLIT = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+")
-_CJK = re.compile(r"[぀-ヿ㐀-鿿]")
+_UNSPACED = re.compile(r"[\u0370-\u1fff\u3040-\u30ff\u3400-\u9fff\uac00-\ud7a3]")
+"""Letters of scripts whose words are looked for wherever they stand: Chinese and Japanese, Korean, Cyrillic."""
 _ELIDED = re.compile(r"\b[dl]['\u2019](?=\w)", re.IGNORECASE)
 _HIGH = re.compile(r"[\x80-\xff\u0152-\u2122]{2,}")
 _COUNT = re.compile(r"[\s_#.-]*\d*$")
@@ -87,8 +92,8 @@ def vocabulary(template: Template) -> Vocabulary:
     for table in (template.words, own, _common()):
         for key, entry in table.items():
             for word in (w for words in entry.values() for w in words):
-                if _CJK.search(word):
-                    scripts.setdefault(unicodedata.normalize("NFKC", word), frozenset(key.split()))
+                if _UNSPACED.search(word):
+                    scripts.setdefault(unicodedata.normalize("NFKC", word).casefold(), frozenset(key.split()))
                     continue
                 for spelled in (word, _spelled_out(word)):
                     meant = vague if key.startswith(VAGUE) else phrases
@@ -124,10 +129,11 @@ def concepts(text: str, words: Vocabulary) -> frozenset[str]:
 
 def _concepts(text: str, words: Vocabulary) -> frozenset[str]:
     found: set[str] = set()
-    for word in sorted((w for w in words.scripts if w in text), key=lambda w: (-len(w), w)):
-        if word in text:
+    written = text.casefold() if _UNSPACED.search(text) else ""
+    for word in sorted((w for w in words.scripts if w in written), key=lambda w: (-len(w), w)):
+        if word in written:
             found |= words.scripts[word]
-            text = text.replace(word, " ")
+            written = written.replace(word, " ")
     said = tokens(text)
     used = [False] * len(said)
     for size in (4, 3, 2, 1):
@@ -140,7 +146,8 @@ def _concepts(text: str, words: Vocabulary) -> frozenset[str]:
                 used[start : start + size] = [True] * size
     if found - _PLACES:
         return frozenset(found)
-    runs = (tuple(said[a:b]) for a in range(len(said)) for b in range(len(said), a, -1))
+    least = VAGUE_SHARE * len(said)
+    runs = (tuple(said[a:b]) for a in range(len(said)) for b in range(len(said), a, -1) if b - a >= least)
     return frozenset(found).union(next((words.vague[run] for run in runs if run in words.vague), ()))
 
 
@@ -289,6 +296,25 @@ def _defaults() -> Mapping[str, bool]:
     return dict.fromkeys(document["tools"], False) | dict.fromkeys(document["doubtful"], True)
 
 
+def _owned(parts: Sequence[Part]) -> frozenset[tuple[str, ...]]:
+    """The places in the tree that are one part's own: it is drawn there, or right below under the same words."""
+    found = {(*p.path, p.name) for p in parts}
+    for part in parts:
+        said, above = set(tokens(part.name)), set(tokens(part.path[-1] if part.path else ""))
+        if said and len(said & above) >= NAMESAKE * min(len(said), len(above)):
+            found.add(part.path)
+    return frozenset(found)
+
+
+def _assemblies(part: Part, own: Collection[tuple[str, ...]], shared: int) -> Iterator[str]:
+    """The names above a part that are its own as well, from the inside out: what is above a place that is a part's own
+    carries that one and is no assembly of it, as in the bones of an animated model."""
+    for depth in range(len(part.path), shared, -1):
+        yield part.path[depth - 1]
+        if part.path[:depth] in own:
+            return
+
+
 def name_scores(parts: tuple[Part, ...], template: Template, whole: Template | None = None) -> list[dict[str, float]]:
     """For every part: body → how well its names speak of it (`EXACT` where it bears the exact name of one of its
     roles). Names of assemblies that hold all parts say nothing, nor does a word that most parts' own names have; one
@@ -301,12 +327,14 @@ def name_scores(parts: tuple[Part, ...], template: Template, whole: Template | N
         shared += 1
     silent = unnamed(n for p in parts for n in (p.name, *p.path))
     telling = _telling([p.name for p in parts], words)
+    own = _owned(parts)
     bodies: dict[str, list[frozenset[str]]] = {}
     for wanted_body, wanted in _wanted(template, whole or template):
         bodies.setdefault(wanted_body, []).append(wanted)
     scores = []
     for part in parts:
-        names = ("" if name in silent else name for name in (part.name, *reversed(part.path[shared:])))
+        above = _assemblies(part, own, shared)
+        names = ("" if name in silent else name for name in (part.name, *above))
         said = spoken(names, words)
         # What an assembly is called counts as it stands: all that is in it may well be most of the machine.
         said = {c: w * telling.get(c, 1.0) if w == 1.0 else w for c, w in said.items()}

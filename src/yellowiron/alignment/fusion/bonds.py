@@ -37,8 +37,8 @@ class Bond:
     (`level`), of frames on each other, one that does not (`turned`); `slide`, whether they are seen to be barrel and
     rod.
 
-    `branch`: whether one is the other's child in the scene's tree; `alike`: whether they are one shape, mirrored: of
-    one body, or of twins.
+    `branch`: 1 where `b` is the child of `a` in the scene's tree, -1 where it is the parent; `alike`: whether they are
+    one shape, mirrored: of one body, or of twins.
 
     `same` has `beside` (1: neighbours), `flat` (how much of the smaller one lies flat on the other, 0 to 1), `sunk`
     (the share of one inside of the other), `welded` (one cluster of what the contacts alone found), `kin` (one assembly
@@ -50,7 +50,7 @@ class Bond:
     beside: bool
     hinge: bool
     slide: bool
-    branch: bool = False
+    branch: int = 0
     alike: bool = False
     level: bool = False
     turned: bool = False
@@ -73,7 +73,7 @@ def bonds_of(observation: Observation, pieces: Sequence[Piece], structure: Struc
     stems = _stems(observation, pieces)
     twins = _mirrored(pieces, stance)
     pairs = [(piece_of[i], piece_of[j]) for i, j in observation.branches if i in piece_of and j in piece_of]
-    tree = {_pair(a, b) for a, b in pairs if a != b}
+    tree = {_pair(child, parent): 1 if child > parent else -1 for child, parent in pairs if child != parent}
     found = []
     for a, b in sorted({*flat, *hinged, *slides, *kin, *stems, *twins, *gaps, *tree}):
         same = {"branch": float((a, b) in tree)}
@@ -93,7 +93,7 @@ def bonds_of(observation: Observation, pieces: Sequence[Piece], structure: Struc
         across = hinged.get((a, b), ())
         found.append(
             Bond(
-                a, b, same, (a, b) in gaps, (a, b) in hinged, (a, b) in slides, (a, b) in tree, (a, b) in twins,
+                a, b, same, (a, b) in gaps, (a, b) in hinged, (a, b) in slides, tree.get((a, b), 0), (a, b) in twins,
                 level=any(cosine > ALIKE for cosine in across), turned=any(cosine < NOT_ACROSS for cosine in across),
             )
         )  # fmt: skip

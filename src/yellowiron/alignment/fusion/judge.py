@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from yellowiron.alignment.assignment.directions import linkages_of
 from yellowiron.alignment.assignment.weights import twin_role
 from yellowiron.alignment.fusion.bonds import Bond
-from yellowiron.alignment.fusion.votes import BARS, Features
+from yellowiron.alignment.fusion.votes import BARS, Features, joints_apart
 from yellowiron.model.geometry import Floats
 from yellowiron.model.template import JointTemplate, Template
 
@@ -46,7 +46,8 @@ class Field:
     between two labels, or the number of joints. `kind` (joints + 1,): which of `KINDS` a joint is. `played` (labels,):
     what each body counts that is there; `held` what a joint counts that is held nearly, and exactly. `astray` (pieces,
     pieces): what two pieces count that are both of one half of a hydraulic cylinder, `halves` (labels,), but not in
-    line."""
+    line. `order` (bonds,): what it counts that the second end's body is farther from the root than the first's, by the
+    scene's tree; `farther` (labels, labels): 1 where the second label is, -1 where the first is."""
 
     bodies: tuple[str, ...]
     unary: Floats
@@ -61,6 +62,8 @@ class Field:
     held: tuple[float, float]
     astray: Floats
     halves: NDArray[np.bool_]
+    order: Floats
+    farther: Floats
 
     @property
     def joints(self) -> int:
@@ -117,7 +120,7 @@ def field_of(
             [
                 (
                     weighed(b.same, weights),
-                    weights["joined"] * b.beside + weights["branched"] * b.branch,
+                    weights["joined"] * b.beside + weights["branched"] * abs(b.branch),
                     weights["alike"] * b.alike,
                 )
                 for b in bonds
@@ -133,7 +136,19 @@ def field_of(
         (near, weights["exact"]),
         np.asarray(weights["astray"] * (np.zeros((len(votes), len(votes))) if astray is None else astray), np.float64),
         np.array([template.role(b).kind in BARS for b in bodies] + [False]),
+        weights["ordered"] * np.array([b.branch for b in bonds], dtype=np.float64),
+        _farther(bodies, template),
     )
+
+
+def _farther(bodies: Sequence[str], template: Template) -> Floats:
+    """(labels, labels) 1 where more joints lead from the root to the second body than to the first, -1 where fewer do;
+    0 for one as far, and for none."""
+    apart = joints_apart(template)
+    depths = np.array([apart.get((template.root, b), 0) for b in bodies])
+    found = np.zeros((len(bodies) + 1, len(bodies) + 1))
+    found[:-1, :-1] = np.sign(depths[None, :] - depths[:, None])
+    return found
 
 
 def _kind(joint: JointTemplate, linkage_of: Mapping[str, int], frames: Collection[int]) -> int:
@@ -165,6 +180,7 @@ def score_of(field: Field, labels: Ints) -> float:
     one_half = field.halves[labels][:, None] & (labels[:, None] == labels)
     return float(
         total
+        + field.order @ field.farther[a, b]
         + 0.5 * field.astray[one_half].sum()
         + field.held[0] * (near > 0).sum()
         + field.held[1] * (exact > 0).sum()
@@ -175,13 +191,15 @@ def score_of(field: Field, labels: Ints) -> float:
 @dataclass(frozen=True, eq=False)
 class _Around:
     """The bonds of one piece: their numbers, the pieces at their other ends, what they count for one body, for bodies
-    that a joint joins, and for twins; whether each is `near`, and `exact` as each of `KINDS`."""
+    that a joint joins, for twins, and for the piece's body being the `farther` one; whether each is `near`, and `exact`
+    as each of `KINDS`."""
 
     bonds: Ints
     others: Ints
     same: Floats
     joined: Floats
     alike: Floats
+    farther: Floats
     near: Ints
     exact: Ints
 
@@ -191,7 +209,8 @@ class _Around:
         others = np.where(field.ends[bonds, 0] == p, field.ends[bonds, 1], field.ends[bonds, 0])
         weights, exact = field.weights[bonds], field.exact[bonds]
         same, joined, alike = weights.T
-        return cls(bonds, others, same, joined, alike, field.near[bonds], exact)
+        farther = np.where(field.ends[bonds, 1] == p, 1.0, -1.0) * field.order[bonds]
+        return cls(bonds, others, same, joined, alike, farther, field.near[bonds], exact)
 
 
 class Annealing:
@@ -245,6 +264,7 @@ class Annealing:
             same[-1] = 0.0
             scores += same + self._joined @ np.bincount(theirs, weights=around.joined, minlength=n)
             scores += field.twins @ np.bincount(theirs, weights=around.alike, minlength=n)
+            scores += np.bincount(theirs, weights=around.farther, minlength=n) @ field.farther
             near = np.minimum(np.bincount(theirs, weights=around.near, minlength=n), 1.0)
             scores += self._free(self.near, field.held[0])[field.joint] @ near
             for kind, exact in zip(self._kinds, around.exact.T, strict=True):

@@ -6,13 +6,15 @@ import itertools
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
+import networkx
 import numpy as np
 
 from yellowiron.alignment.assignment.answer import Answer, Judged
 from yellowiron.alignment.assignment.cp_sat import MISSING_WEIGHT, Solution
 from yellowiron.alignment.assignment.directions import ALIKE, NOT_ACROSS, linkages_of
+from yellowiron.alignment.assignment.weights import twin_role
 from yellowiron.alignment.fusion.bonds import Bond, bonds_of, out_of_line
-from yellowiron.alignment.fusion.judge import SWEEPS, Field, against, field_of, labelled, leads, weighed
+from yellowiron.alignment.fusion.judge import SWEEPS, Field, against, field_of, labelled, leads, score_of, weighed
 from yellowiron.alignment.fusion.pieces import Piece, leading, pieces_of
 from yellowiron.alignment.fusion.stance import Stance, stance_of
 from yellowiron.alignment.fusion.votes import (
@@ -35,6 +37,10 @@ GLANCE, LIKELY = SWEEPS // 2, 4
 """So many sweeps tell which variants are the likeliest, and so many of these are judged with all."""
 TRIES = 4
 """One annealing in three ends beside the best labelling."""
+PARTS = (1, 2)
+"""What begins so many joints from the root may be all that is drawn …"""
+PART = 60.0
+"""… if that explains it better by so much."""
 MISSING = 60.0
 """What a variant loses for every body of its own that nothing plays."""
 SLIGHT = 0.03
@@ -109,11 +115,13 @@ class Evidence:
 
 @dataclass(frozen=True, eq=False)
 class Fused:
-    """The fused `answer`, how the machine stands, and how far its names were trusted (0 to 1)."""
+    """The fused `answer`, how the machine stands, how far its names were trusted (0 to 1), and by how much the judge
+    finds it better than what the contacts alone gave."""
 
     answer: Answer
     stance: Stance
     trust: float
+    lead: float
 
 
 def evidence_of(
@@ -169,9 +177,12 @@ def fused(
         return found_so_far[evidence, id(resolved)]
 
     machines = [(chosen, choose(template, chosen)) for chosen in variants]
-    # Which end is the front is a guess so far.
-    turned = replace(evidence, stance=evidence.stance.turned())
-    evidence = max((evidence, turned), key=lambda e: tried(*machines[0], e, GLANCE).score)
+    # Which end is the front is a guess so far, and whether all of a machine is drawn.
+    ways = [
+        s for way in (evidence.stance, evidence.stance.turned()) for s in (way, *_as_parts(way, evidence, template))
+    ]
+    seen = [replace(evidence, stance=way) for way in ways]
+    evidence = max(seen, key=lambda e: tried(*machines[0], e, GLANCE).score - PART * (e.stance.drawn < 1.0))
     glanced = sorted((tried(*machine, evidence, GLANCE) for machine in machines), key=lambda b: -b.score)
     likely = [tried(b.choices, b.template, evidence) for b in glanced[:LIKELY]]
     bare = [(b, as_drawn(b.template, b.played)) for b in likely]
@@ -182,12 +193,51 @@ def fused(
         wider = replace(evidence, leading=tuple(sorted({*evidence.leading, *more})))
         found = tried(best.choices, best.template, wider, tries=TRIES)
         evidence, best = (wider, found) if found.score > best.score else (evidence, best)
+    lead = best.score - _score_of_contacts(answer, evidence)
     pieces, trust = evidence.pieces, evidence.trust
     judged = _judged(best, evidence)
     judged = {i: what for i, what in judged.items() if not _is_pin(i, what, observation, best.template)}
     judged |= _by_name_alone(observation, pieces, scores, trust, judged)
     judged = judged or _all_root(pieces, best.template)
-    return Fused(_answer(observation, best, judged, answer, evidence.stance), evidence.stance, trust)
+    return Fused(_answer(observation, best, judged, answer, evidence.stance), evidence.stance, trust, lead)
+
+
+def _score_of_contacts(answer: Answer, evidence: Evidence) -> float:
+    """What the judge makes of the bodies that the contacts alone gave; a piece is of the body that most of it is of."""
+    template = answer.template
+    field = _field(evidence, evidence.votes(template), template)
+    none = len(field.bodies)
+    solved = {
+        i: field.bodies.index(body)
+        for c, body in sorted(answer.solution.body_of.items())
+        for i in answer.structure.clusters[c].members
+    }
+    labels = np.full(len(evidence.leading), none, dtype=np.int64)
+    for n, k in enumerate(evidence.leading):
+        counts = np.bincount([solved.get(i, none) for i in evidence.pieces[k].members], minlength=none + 1)
+        labels[n] = int(np.argmax(counts))
+    played = _drawn(evidence, field.bodies, labels, template)
+    return score_of(field, labels) - MISSING * len(_missing(template, played))
+
+
+def _as_parts(stance: Stance, evidence: Evidence, template: Template) -> list[Stance]:
+    """How the machine would stand if only what is more than so many joints from the root were drawn of it: all above
+    its carrier, its work equipment."""
+    resolved = choose(template, {})
+    depths = {b: n for (a, b), n in joints_apart(resolved).items() if a == resolved.root}
+    ends = [tuple(map(str, resolved.bodies_of(j))) for j in resolved.joints]
+    total = sum(usual.area for usual in resolved.usual.values()) or 1.0
+    points = np.concatenate([p.samples for p in evidence.pieces]) if evidence.pieces else np.zeros((0, 3))
+    found = []
+    for depth in PARTS:
+        far = networkx.Graph([pair for pair in ends if min(depths.get(b, 0) for b in pair) >= depth])
+        groups: list[set[str]] = list(networkx.connected_components(far))
+        bodies = max(groups, key=lambda some: (len(some), sorted(some)), default=set[str]())
+        usual = [resolved.usual[b] for b in sorted(bodies) if b in resolved.usual]
+        if usual and len(points):
+            low, high = np.min([u.low for u in usual], axis=0), np.max([u.high for u in usual], axis=0)
+            found.append(stance.as_part(points, low, high, sum(u.area for u in usual) / total))
+    return found
 
 
 def _field(evidence: Evidence, votes: Votes, resolved: Template) -> Field:
@@ -274,6 +324,7 @@ def _judged(best: _Best, evidence: Evidence) -> dict[int, Judged]:
     bodies = best.field.bodies
     none = len(bodies)
     label_of = {k: int(best.labels[n]) for n, k in enumerate(chief)}
+    label_of |= _with_twins(label_of, best, bonds)
     played = {bodies[n] for n in label_of.values() if n < none}
     votes: list[dict[str, Features]] = []
     for k, mine in enumerate(best.votes):
@@ -311,6 +362,22 @@ def _judged(best: _Best, evidence: Evidence) -> dict[int, Judged]:
     return found
 
 
+def _with_twins(label_of: Mapping[int, int], best: _Best, bonds: Sequence[Bond]) -> dict[int, int]:
+    """Piece → label, for those judged to be nothing whose mirror image is of a body that has no twin: a link's other
+    plate."""
+    bodies = best.field.bodies
+    single = {
+        n for n, b in enumerate(bodies) if twin_role(b) is None and best.template.role(b).kind not in (*BARS, "wheel")
+    }
+    found = {}
+    for bond in bonds:
+        for own, other in ((bond.a, bond.b), (bond.b, bond.a)):
+            alike = bond.alike and label_of.get(own) == len(bodies) and label_of.get(other) in single
+            if alike and bodies[label_of[other]] in best.votes[own]:
+                found[own] = label_of[other]
+    return found
+
+
 def _told(votes: Sequence[Mapping[str, Features]], bodies: Sequence[str]) -> Floats:
     """(pieces, bodies) what names say."""
     return np.array([[weights()["name"] * mine.get(b, {}).get("name", 0.0) for b in bodies] for mine in votes])
@@ -337,13 +404,19 @@ def _by_name_alone(
     trust: float,
     judged: Mapping[int, Judged],
 ) -> dict[int, Judged]:
-    """Solid → body, for those too small to be pieces whose names say clearly which of the bodies found they are of."""
+    """Solid → body, for those too small to be pieces whose names say clearly which of the bodies found they are of. A
+    name that another body was judged to bear means something else here: levers may be a boom and an arm."""
     inside = {i for p in pieces for i in p.members}
     played = {j.body for j in judged.values()}
+    mistaken = {
+        observation.solids[i].part.name
+        for i, what in judged.items()
+        if scores[i] and max(scores[i].values()) - scores[i].get(what.body, 0.0) >= CLEARLY
+    }
     found = {}
     for solid in observation.solids:
         said = {b: s for b, s in scores[solid.index].items() if b in played}
-        if solid.index in inside or not said or trust < 1.0:
+        if solid.index in inside or not said or trust < 1.0 or solid.part.name in mistaken:
             continue
         best, *others = sorted(said, key=lambda b: (-said[b], b))
         lead = 100.0 * (said[best] - (said[others[0]] if others else 0.0))

@@ -51,6 +51,7 @@ class Stance:
     origin: Floats
     size: float
     likeness: float
+    drawn: float = 1.0
 
     @property
     def left(self) -> Floats:
@@ -60,6 +61,15 @@ class Stance:
     def turned(self) -> Stance:
         """The same with its front behind."""
         return replace(self, rotation=self.rotation * np.array([[-1.0], [-1.0], [1.0]]))
+
+    def as_part(self, points: Floats, low: Floats, high: Floats, drawn: float) -> Stance:
+        """The same if what is drawn (`points` (n, 3) all over it) is the part of a machine that is usually between
+        `low` and `high` (3,), in machine sizes, and has so much of its surface."""
+        own = points @ self.rotation.T
+        ends = np.array([own.min(axis=0), own.max(axis=0)])
+        size = float(np.linalg.norm(ends[1] - ends[0]) / np.linalg.norm(high - low))
+        middle = self.rotation.T @ (ends.mean(axis=0) - 0.5 * (low + high) * size)
+        return replace(self, origin=middle, size=size, drawn=drawn)
 
     def matrix(self) -> Floats:
         """(4, 4) from CAD metres to the machine's frame."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 
 import networkx
 import numpy as np
@@ -64,18 +64,22 @@ def votes_of(
     for piece, said in zip(pieces, saids, strict=True):
         mine: dict[str, Features] = {}
         told = {edited[i] for i in piece.members if i in edited}
+        meant = {kinds[b] for b, score in said.items() if score > 0.0 and b in kinds}
         for body, kind in kinds.items():
             name = said.get(body, 0.0)
             shape = _shape(piece, kind, name > 0 or body in told, total, largest, stance)
             if shape is None:
                 continue
+            if meant and meant <= set(BARS) and kind not in BARS and not told:
+                # Its names speak of hydraulic cylinders alone, if not of which.
+                shape = {**shape, "unlike": max(trust * max(said.values()), shape.get("unlike", 0.0))}
             contact = max((solved[i].get(body, 0.0) for i in piece.members if i in solved), default=0.0)
             # All of a cluster is one guess of the contacts, and counts once.
             contact *= piece.area / areas.get(body, piece.area)
             found = {"name": trust * name, "contacts": contact, "said": float(body in told), **shape}
             if body in template.usual:
                 depth = apart.get((template.root, body), 0)
-                found |= _unusual(piece, template.usual[body], piece.area / total, stance, depth)
+                found |= _unusual(piece, template.usual[body], stance.drawn * piece.area / total, stance, depth)
             mine[body] = {key: value for key, value in found.items() if value}
         votes.append(mine)
     return votes
@@ -104,29 +108,60 @@ def clearly_named(pieces: Sequence[Piece], scores: Sequence[Mapping[str, float]]
 def borrowed(saids: list[dict[str, float]], template: Template) -> list[dict[str, float]]:
     """What names say, where a body that no name speaks of clearly borrows those of a neighbour of its kind: of two arms
     both called arm, one is the boom; a cylinder is as often called after the arm it stands on as after the one it
-    moves."""
+    moves; and where no name tells barrels, what is called a piston may be all of a cylinder."""
     spoken = {body for said in saids for body, score in said.items() if score >= CLEARLY}
-    kinds = {r.name: r.kind for r in template.roles if r.rigid}
+    lent = {own: {(other, LENT) for other in others} for own, others in _lent_by_cylinders(spoken, template).items()}
+    for own, others in _lent_by_arms(spoken, template).items():
+        lent.setdefault(own, set()).update(others)
+    kinds = {r.name: r.kind for r in template.roles}
+    told = {kinds[body] for said in saids for body in said if body in kinds}
+    for own, half in _other_halves(template).items():
+        if kinds[own] not in told:
+            lent.setdefault(own, set()).add((half, LENT))
+    return [
+        {
+            **said,
+            **{
+                own: max(said.get(own, 0.0), *(part * said.get(other, 0.0) for other, part in sorted(others)))
+                for own, others in lent.items()
+            },
+        }
+        for said in saids
+    ]
+
+
+def _lent_by_arms(spoken: Collection[str], template: Template) -> dict[str, set[tuple[str, float]]]:
+    """Arm that no name speaks of → those of the nearest arms that some do, and what they count for it: less by `LENT`
+    for each joint between them."""
+    arms = {r.name for r in template.roles if r.rigid and r.kind == "arm"}
+    graph = networkx.Graph([ends for j in template.joints if set(ends := template.bodies_of(j)) <= arms])
+    lent = {}
+    for own in sorted(arms & set(graph) - set(spoken)):
+        reached = networkx.single_source_shortest_path_length(graph, own)
+        far = {other: n for other, n in reached.items() if other in spoken}
+        if far:
+            lent[own] = {(other, LENT**n) for other, n in far.items() if n == min(far.values())}
+    return lent
+
+
+def _lent_by_cylinders(spoken: Collection[str], template: Template) -> dict[str, set[str]]:
+    """Half of a hydraulic cylinder that no name speaks of → those that do of the arm it stands on."""
     lent: dict[str, set[str]] = {}
-    for joint in template.joints:
-        for own, other in (template.bodies_of(joint), template.bodies_of(joint)[::-1]):
-            alike = own != other and kinds.get(str(own)) == kinds.get(str(other)) == "arm"
-            if alike and own not in spoken and other in spoken:
-                lent.setdefault(str(own), set()).add(str(other))
     inner = _cylinders_before(template)
     for own in (b for b in sorted(inner) if b not in spoken):
         # What is lent is missed by its owner, who may have to borrow in turn.
         owing: str | None = own
-        while owing is not None and inner.get(owing, frozenset()) & spoken and owing not in lent:
-            lent[owing] = set(inner[owing] & spoken)
+        while owing is not None and inner.get(owing, frozenset()) & set(spoken) and owing not in lent:
+            lent[owing] = set(inner[owing] & set(spoken))
             owing = min(lent[owing])
-    return [
-        {
-            **said,
-            **{b: max(said.get(b, 0.0), LENT * max(said.get(o, 0.0) for o in others)) for b, others in lent.items()},
-        }
-        for said in saids
-    ]
+    return lent
+
+
+def _other_halves(template: Template) -> dict[str, str]:
+    """Half of a hydraulic cylinder → the other."""
+    pairs = [tuple(map(str, template.bodies_of(j))) for j in template.joints if j.type == "prismatic"]
+    kinds = {r.name: r.kind for r in template.roles}
+    return {own: other for a, b in pairs for own, other in ((a, b), (b, a)) if {kinds[a], kinds[b]} == set(BARS)}
 
 
 def _cylinders_before(template: Template) -> dict[str, frozenset[str]]:
