@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -26,6 +26,8 @@ ASIDE = 0.02
 BESIDE = 2.0
 """What is of one half of a hydraulic cylinder is off the line of its longest bar by no more than so many of its widths
 (ports, pipes along it, clamps), and no farther beyond its ends than this share of its length."""
+ENOUGH = 3.0
+"""Of what is only called alike, or lies in one assembly, so many others say as much as any more would."""
 SMALL = 0.34
 """An assembly of more than this share of the pieces says nothing."""
 
@@ -42,7 +44,8 @@ class Bond:
 
     `same` has `beside` (1: neighbours), `flat` (how much of the smaller one lies flat on the other, 0 to 1), `sunk`
     (the share of one inside of the other), `welded` (one cluster of what the contacts alone found), `kin` (one assembly
-    that is a small part of the machine), `branch` and `stem` (one name but for its number)."""
+    that is a small part of the machine), `branch` and `stem` (one name but for its number); these two count less in
+    large groups."""
 
     a: int
     b: int
@@ -77,7 +80,7 @@ def bonds_of(observation: Observation, pieces: Sequence[Piece], structure: Struc
     found = []
     for a, b in sorted({*flat, *hinged, *slides, *kin, *stems, *twins, *gaps, *tree}):
         same = {"branch": float((a, b) in tree)}
-        same |= {"kin": float((a, b) in kin), "stem": float((a, b) in stems)}
+        same |= {"kin": kin.get((a, b), 0.0), "stem": stems.get((a, b), 0.0)}
         if (a, b) in gaps:
             least = min(pieces[a].area, pieces[b].area)
             i, j = min(pieces[a].members), min(pieces[b].members)
@@ -100,9 +103,9 @@ def bonds_of(observation: Observation, pieces: Sequence[Piece], structure: Struc
     return found
 
 
-def _stems(observation: Observation, pieces: Sequence[Piece]) -> set[tuple[int, int]]:
-    """Pairs of pieces whose names differ in their numbers alone, where few pieces have that name; those that a
-    modelling tool gave say nothing."""
+def _stems(observation: Observation, pieces: Sequence[Piece]) -> dict[tuple[int, int], float]:
+    """Pairs of pieces whose names differ in their numbers alone, where few pieces have that name (`_together`); those
+    that a modelling tool gave say nothing."""
     groups: dict[str, set[int]] = {}
     silent = unnamed(s.part.name for s in observation.solids)
     for k, piece in enumerate(pieces):
@@ -110,8 +113,19 @@ def _stems(observation: Observation, pieces: Sequence[Piece]) -> set[tuple[int, 
         names = {re.sub(r"[\W\d_]+", "", name.casefold()) for name in own}
         for name in names - {""}:
             groups.setdefault(name, set()).add(k)
-    small = [g for g in groups.values() if 1 < len(g) <= max(2, FEW * len(pieces))]
-    return {(a, b) for g in small for a in g for b in g if a < b}
+    return _together(groups.values(), max(2, FEW * len(pieces)))
+
+
+def _together(groups: Iterable[set[int]], most: float) -> dict[tuple[int, int], float]:
+    """Pairs of pieces of one group of no more than so many → how much of a bond that is, 0 to 1: a piece of a large
+    group is bound to all of it by no more than `ENOUGH` bonds."""
+    found: dict[tuple[int, int], float] = {}
+    for group in groups:
+        if 1 < len(group) <= most:
+            share = min(1.0, ENOUGH / (len(group) - 1))
+            for pair in itertools.combinations(sorted(group), 2):
+                found[pair] = max(found.get(pair, 0.0), share)
+    return found
 
 
 def _mirrored(pieces: Sequence[Piece], stance: Stance) -> set[tuple[int, int]]:
@@ -196,16 +210,15 @@ def _in_line(one: Piece, other: Piece) -> bool:
     return off < 0.5 * max(one.spread[1], other.spread[1]) and abs(along) < reach * 1.1
 
 
-def _kin(observation: Observation, pieces: Sequence[Piece]) -> set[tuple[int, int]]:
-    """Pairs of pieces of the same innermost assembly that is a small part of the machine."""
+def _kin(observation: Observation, pieces: Sequence[Piece]) -> dict[tuple[int, int], float]:
+    """Pairs of pieces of the same innermost assembly that is a small part of the machine (`_together`)."""
     groups: dict[tuple[str, ...], set[int]] = {}
     for k, piece in enumerate(pieces):
         for i in piece.members:
             path = observation.solids[i].part.path
             if path:
                 groups.setdefault(path, set()).add(k)
-    small = [g for g in groups.values() if 1 < len(g) <= max(2, SMALL * len(pieces))]
-    return {(a, b) for g in small for a in g for b in g if a < b}
+    return _together(groups.values(), max(2, SMALL * len(pieces)))
 
 
 def _gaps(observation: Observation, pieces: Sequence[Piece]) -> dict[tuple[int, int], float]:
