@@ -8,17 +8,18 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
 
 from kit.machines.defects import drawn
 from kit.machines.synthetic import disguise
 from kit.scene import scene
 from yellowiron.alignment import align
 from yellowiron.alignment.features.solids import size_of, solids_of
-from yellowiron.alignment.fusion.bonds import Bond, out_of_line
+from yellowiron.alignment.fusion.bonds import ENOUGH, Bond, _together, out_of_line
 from yellowiron.alignment.fusion.judge import Annealing, against, field_of, labelled, leads, score_of
 from yellowiron.alignment.fusion.pieces import Piece, leading
 from yellowiron.alignment.fusion.reading import CONTRARY
-from yellowiron.alignment.fusion.stance import stance_of
+from yellowiron.alignment.fusion.stance import Stance, stance_of
 from yellowiron.alignment.fusion.votes import LENT, borrowed
 from yellowiron.alignment.fusion.weights import weights
 from yellowiron.library import load_template
@@ -79,7 +80,13 @@ def test_conditionals_are_differences_of_the_score(excavator: Template, seed: in
     votes = [{b: {"name": float(rng.random())} for b in bodies} for _ in range(6)]
     pairs = [(a, b) for a in range(6) for b in range(a + 1, 6) if rng.random() < 0.6]
     kinds = {"hinge": 0.5, "slide": 0.3, "alike": 0.4}
-    bonds = [_bond(a, b, **{kind: bool(rng.random() < share) for kind, share in kinds.items()}) for a, b in pairs]
+    bonds = [
+        replace(
+            _bond(a, b, **{kind: bool(rng.random() < share) for kind, share in kinds.items()}),
+            branch=int(rng.integers(-1, 2)),
+        )
+        for a, b in pairs
+    ]
     field = field_of(votes, bonds, template, weights())
     labels = rng.choice(len(field.bodies), size=6)
     labels = np.array([n if field.bodies[n] in bodies else len(field.bodies) for n in labels], dtype=np.int64)
@@ -100,6 +107,52 @@ def test_a_body_nothing_names_borrows_its_neighbours_name(excavator: Template) -
     said = borrowed([{"arm": 1.0}, {"bucket": 1.0}], excavator)
     assert said[0]["boom"] == pytest.approx(LENT)
     assert "boom" not in borrowed([{"arm": 1.0}, {"boom": 1.0}], excavator)[0]
+
+
+def test_an_arm_borrows_from_the_nearest_that_is_named(excavator: Template) -> None:
+    """`lever1`, `lever2`, where levers are links: one may be the arm, and another the boom behind it."""
+    said = borrowed([{"tipping_link": 1.0}, {"tipping_link": 1.0}], excavator)
+    assert said[0]["arm"] == pytest.approx(LENT)
+    assert said[0]["boom"] == pytest.approx(LENT**2)
+
+
+def test_where_no_barrel_is_named_a_piston_may_be_all_of_a_cylinder(excavator: Template) -> None:
+    piston = {"boom_piston_rod": 0.5, "arm_piston_rod": 0.5}
+    assert borrowed([piston], excavator)[0]["boom_cylinder_barrel"] == pytest.approx(0.5 * LENT)
+    assert borrowed([piston, {"arm_cylinder_barrel": 0.8}], excavator)[0].get("boom_cylinder_barrel", 0.0) == 0.0
+
+
+def test_the_scenes_tree_tells_what_carries_what(excavator: Template) -> None:
+    """Of two pieces that could be either, the child is the one farther from the root."""
+    either = [{"boom": {}, "arm": {}}, {"boom": {}, "arm": {}}]
+    for branch, bodies in ((1, ["boom", "arm"]), (-1, ["arm", "boom"])):
+        bond = replace(_bond(0, 1), same={}, branch=branch)
+        field = field_of(either, [bond], excavator, weights())
+        labels, _ = labelled(field)
+        assert [field.bodies[n] for n in labels] == bodies
+
+
+def test_a_large_assembly_binds_no_more_than_a_small_one() -> None:
+    few, many = (_together([set(range(n))], 99.0) for n in (3, 31))
+    assert set(few.values()) == {1.0}
+    of_one = sum(share for pair, share in many.items() if 0 in pair)
+    assert of_one == pytest.approx(ENOUGH)
+    assert _together([set(range(31))], 30.0) == {}
+
+
+@given(st.integers(0, 1000))
+@settings(max_examples=20, deadline=None)
+def test_a_part_of_a_machine_stands_where_that_part_usually_is(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    points = rng.uniform(-1.0, 1.0, (50, 3)) * rng.uniform(0.1, 30.0) + rng.uniform(-9.0, 9.0, 3)
+    low = rng.uniform(-0.3, 0.2, 3)
+    high = low + rng.uniform(0.05, 0.5, 3)
+    rotation = Rotation.random(rng=seed).as_matrix()
+    part = Stance(rotation, np.zeros(3), 7.0, 1.0).as_part(points, low, high, 0.25)
+    places = part.place(points)
+    assert part.drawn == 0.25
+    assert 0.5 * (places.min(axis=0) + places.max(axis=0)) == pytest.approx(0.5 * (low + high), abs=1e-9)
+    assert np.linalg.norm(np.ptp(places, axis=0)) == pytest.approx(np.linalg.norm(high - low), rel=1e-9)
 
 
 @pytest.mark.parametrize("kind", ["loader", "excavator"])

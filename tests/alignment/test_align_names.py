@@ -193,3 +193,36 @@ def test_names_of_modelling_tools_say_nothing(digger: Template) -> None:
 def test_vague_words_speak_where_nothing_else_does(digger: Template, name: str, bodies: set[str]) -> None:
     said = name_scores((part(name), part("x")), digger)[0]
     assert {b for b, score in said.items() if score == max(said.values())} == bodies
+
+
+@pytest.mark.parametrize(("name", "body"), [
+    ("Стрела экскаватора", "boom"), ("рукоять", "arm"), ("КОВШ", "bucket"),
+    ("гидроцилиндр стрелы", "boom_cylinder_barrel"),
+    ("버킷", "bucket"), ("붐_실린더", "boom_cylinder_barrel"),
+    ("benna", "bucket"), ("cacamba", "bucket"), ("Kepçe", "bucket"),
+    ("łyżka", "bucket"),
+])  # fmt: skip
+def test_names_in_further_languages(digger: Template, name: str, body: str) -> None:
+    (found,) = name_scores((part(name),), digger, digger)
+    assert found
+    assert found[body] == max(found.values())
+
+
+def test_upper_and_lower_arms_are_boom_and_arm_whichever(digger: Template) -> None:
+    upper, lower = name_scores((part("UpperArm"), part("bn_LowerArm")), digger, digger)
+    for found in (upper, lower):
+        assert found["boom"] == found["arm"] == max(found.values())
+        assert not found.keys() & {"upperstructure", "undercarriage"}
+
+
+def test_what_carries_a_part_does_not_name_it(digger: Template) -> None:
+    """Bones in bones: an arm is below the boom in the tree, and no part of an assembly called boom."""
+    bones = (part("Boom", "b_Boom"), part("Holder", "b_Boom", "b_Arm"), part("Arm", "b_Boom", "b_Arm"))
+    _, holder, arm = name_scores(bones, digger, digger)
+    assert "boom" not in arm
+    assert "boom" not in holder
+    assert holder["arm"] > 0.3
+    assembly = (part("Plate 7", "BOOM_ASM"), part("Rod", "BOOM_ASM", "CYLINDER"), part("Bucket"))
+    plate, rod, _ = name_scores(assembly, digger, digger)
+    assert plate["boom"] > 0.3
+    assert rod["boom_piston_rod"] == max(rod.values())

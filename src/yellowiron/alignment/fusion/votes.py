@@ -115,8 +115,8 @@ def borrowed(saids: list[dict[str, float]], template: Template) -> list[dict[str
         lent.setdefault(own, set()).update(others)
     kinds = {r.name: r.kind for r in template.roles}
     told = {kinds[body] for said in saids for body in said if body in kinds}
-    for own, half in _other_halves(template).items():
-        if kinds[own] not in told:
+    for own, half in _rods(template).items():
+        if "barrel" not in told:
             lent.setdefault(own, set()).add((half, LENT))
     return [
         {
@@ -157,11 +157,13 @@ def _lent_by_cylinders(spoken: Collection[str], template: Template) -> dict[str,
     return lent
 
 
-def _other_halves(template: Template) -> dict[str, str]:
-    """Half of a hydraulic cylinder → the other."""
+def _rods(template: Template) -> dict[str, str]:
+    """Barrel → its rod."""
     pairs = [tuple(map(str, template.bodies_of(j))) for j in template.joints if j.type == "prismatic"]
     kinds = {r.name: r.kind for r in template.roles}
-    return {own: other for a, b in pairs for own, other in ((a, b), (b, a)) if {kinds[a], kinds[b]} == set(BARS)}
+    return {
+        own: rod for a, b in pairs for own, rod in ((a, b), (b, a)) if (kinds[own], kinds[rod]) == ("barrel", "rod")
+    }
 
 
 def _cylinders_before(template: Template) -> dict[str, frozenset[str]]:
