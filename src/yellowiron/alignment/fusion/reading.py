@@ -228,8 +228,10 @@ def _as_parts(stance: Stance, evidence: Evidence, template: Template) -> list[St
     ends = [tuple(map(str, resolved.bodies_of(j))) for j in resolved.joints]
     total = sum(usual.area for usual in resolved.usual.values()) or 1.0
     points = np.concatenate([p.samples for p in evidence.pieces]) if evidence.pieces else np.zeros((0, 3))
+    said = clearly_named(evidence.pieces, evidence.scores) if evidence.trust > 0.0 else {}
+    nearest = min((depths[b] for b in said.values() if b in depths), default=len(depths))
     found = []
-    for depth in PARTS:
+    for depth in (d for d in PARTS if d <= nearest):
         far = networkx.Graph([pair for pair in ends if min(depths.get(b, 0) for b in pair) >= depth])
         groups: list[set[str]] = list(networkx.connected_components(far))
         bodies = max(groups, key=lambda some: (len(some), sorted(some)), default=set[str]())
