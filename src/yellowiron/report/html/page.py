@@ -65,14 +65,20 @@ def page(
     reasons = causes(document)
     joints = joint_rows(document)
     seen = _cameras(document, mechanism)
+    made: dict[str, Any] = {}
+
+    def meanwhile() -> None:
+        made["template"] = environment.from_string(source)
+        made["viewer"] = viewer(mechanism, assembly, alignment, tables, poses=poses) if tables is not None else None
+
     pictures = draw(drawn, {
         "machine": Picture(seen.machine),
         "joints": Picture(seen.joints, colors=drawn.by_body(mechanism)),
         **({"sensors": Picture(seen.sensors)} if document["sensors"] else {}),
         **{f"pose {caption}": _pose(mechanism, moved) for caption, moved in (poses or {}).items()},
         **sweep_pictures(sweeps or {}, mechanism),
-    })  # fmt: skip
-    return environment.from_string(source).render(
+    }, meanwhile=meanwhile)  # fmt: skip
+    text: str = made["template"].render(
         d=document,
         style=style,
         reasons=reasons[:REASONS],
@@ -83,7 +89,7 @@ def page(
         figures=_figures(document),
         machine=pictures["machine"],
         poses=[(caption, pictures[f"pose {caption}"]) for caption in (poses or {})],
-        viewer=viewer(mechanism, assembly, alignment, tables, poses=poses) if tables is not None else None,
+        viewer=made["viewer"],
         measurements=[_measurement(m) for m in document["measurements"]],
         simulation=simulation_tables(document["simulation"]),
         sweeps=sweep_entries(sweeps or {}, document, pictures),
@@ -96,6 +102,7 @@ def page(
         not_given=[s for s in map(_specification, document["specifications"]) if s["status"] == "missing"],
         bodies=_bodies(document, alignment),
     )
+    return text
 
 
 @dataclass(frozen=True, eq=False)
