@@ -170,7 +170,9 @@ def build(
             filled = library.filled_joints(chosen, mechanism, specifications)
             report.write_document(filled, folder / "joints.filled.json")
             write_alignment(alignment, assembly, folder / "alignment.json")
-            page = memory.page(document, mechanism, assembly, alignment, sweeps)
+            page = memory.page(
+                document, mechanism, assembly, alignment, sweeps, [Path(s) for s in sheets], specifications
+            )
             (folder / "report.html").write_text(page, encoding="utf-8")
             report.write_document({
                 "equipment_type": _place(equipment_type) if Path(equipment_type).is_dir() else str(equipment_type),
