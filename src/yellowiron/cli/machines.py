@@ -130,7 +130,7 @@ def film(
         built = build(
             setup.equipment_type, setup.cad, Path(folder, "machine"), sheets=setup.sheets, documents=setup.documents,
             settings=setup.settings, config=setup.config, alignment_file=kept if kept.exists() else None,
-            progress=progress,
+            page=False, progress=progress,
         )  # fmt: skip
         made(built, out, sheets=setup.sheets, progress=progress)
     answer({"file": str(out)}, Text(str(out)))
