@@ -525,7 +525,11 @@ class Studio {
 
   #list() {
     const wanted = by("find").value.trim().toLowerCase().split(/\s+/).filter(Boolean);
-    this.roles = this.state.roles.filter((role) => wanted.every((word) => `${role.name} ${role.words}`.toLowerCase().includes(word)));
+    // Who types a role's whole name means that one, not the first that has the words too.
+    const whole = wanted.join(" ");
+    const rank = (role) => [role.words.toLowerCase(), role.name].includes(whole) ? 0 : role.words.toLowerCase().startsWith(whole) ? 1 : 2;
+    this.roles = this.state.roles.filter((role) => wanted.every((word) => `${role.name} ${role.words}`.toLowerCase().includes(word)))
+      .sort((one, other) => rank(one) - rank(other));
     this.row = 0;
     this.#rows();
   }
