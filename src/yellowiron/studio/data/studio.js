@@ -379,7 +379,7 @@ class Studio {
       card.append(answers);
       if (question.kind === "value") card.append(this.#form(question));
       else card.append(rest);
-      if (question.page != null) card.append(element("div", { class: "more" }, button(`Page ${question.page} of the sheet`, () => this.sheet(question.page))));
+      if (question.page != null) card.append(element("div", { class: "more" }, button(`Page ${question.page} of the sheet`, () => this.sheet(question.page, question.file))));
     } else {
       card.replaceChildren(
         element("p", { class: "eyebrow" }, "Nothing left to ask"), element("h2", {}, "Build the machine"),
@@ -450,7 +450,7 @@ class Studio {
   #values() {
     const rows = this.state.values.filter((value) => value.value != null || value.status !== "missing").map((value) =>
       element("li", { class: "t-value" }, element("b", {}, value.name),
-        value.page == null ? element("span") : button(`p. ${value.page}`, () => this.sheet(value.page)),
+        value.page == null ? element("span") : button(`p. ${value.page}`, () => this.sheet(value.page, value.file)),
         element("span", {}, value.value == null ? "–" : `${Number(value.value.toPrecision(6))} ${value.unit}`),
         element("span", { class: `tag ${value.status}` }, value.source === "set" ? "given" : value.status)));
     by("values").replaceChildren(rows.length ? element("ol", {}, ...rows) : element("p", { class: "dim" }, "No sheet was read."));
@@ -467,8 +467,8 @@ class Studio {
     );
   }
 
-  sheet(number) {
-    const source = `sheet/${number}?token=${encodeURIComponent(token)}`;
+  sheet(number, file) {
+    const source = `sheet/${number}?file=${encodeURIComponent(file)}&token=${encodeURIComponent(token)}`;
     by("sheet").replaceChildren(element("img", { src: source, alt: `Page ${number} of the sheet, values boxed` }),
       element("div", { class: "more" }, button("Close", () => by("sheet").close())));
     by("sheet").showModal();
