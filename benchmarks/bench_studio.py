@@ -1,7 +1,7 @@
 """What a review in the studio costs a person: real models with labels, answered by one who knows the truth.
 
     python benchmarks/bench_studio.py [--models DIR:…] [--only NAME,…] [--names with,without] [--most N]
-                                      [--undo N --seed S]
+                                      [--undo N --seed S] | --parts N,…
 
 The one who answers takes the first question that is about parts. Where all of them are right he says yes; where all are
 wrong in the same way, the body that they are of; else he picks out those that are wrong, body by body, which costs a
@@ -11,6 +11,9 @@ clicks, the minutes that they take, and the median of the seconds from a decisio
 Values are not asked. With `--undo`, every part but N random ones was decided as the truth has it before; the review is
 of what the program makes of those. The alternative is what the same person would do without the page: one entry of
 alignment.json for every wrong part, found by its name, a full run after each ten.
+
+With `--parts` no model is reviewed: the example loader, grown by bolts to so many parts, takes nine decisions, and
+what is printed is how long each took to its machine, in seconds solving and packing: the least and the median.
 """
 
 from __future__ import annotations
@@ -29,11 +32,14 @@ ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "tests"), str(ROOT / "benchmarks")]
 
 import strangers_models as strangers  # noqa: E402
+from bench_scale import resize  # noqa: E402
 from kit.scoring import score, true_bodies  # noqa: E402
 from yellowiron.studio import Session, Setup  # noqa: E402
 from yellowiron.studio.questions import Question, boxes_of, questions  # noqa: E402
+from yellowiron.studio.scene import Scene  # noqa: E402
 
 SECONDS = 4.0
+EXAMPLE = ROOT / "examples" / "wheel_loader"
 
 
 class Person:
@@ -112,6 +118,31 @@ def _row(model, names, most, scene, session, undo, seed) -> str:  # type: ignore
     )
 
 
+def speed(parts: int) -> str:
+    """One size's row."""
+    with tempfile.TemporaryDirectory() as folder:
+        source, sheet = EXAMPLE / "wheel_loader.step", EXAMPLE / "specifications.pdf"
+        grown = resize(source, Path(folder, "grown.step"), parts) if parts else source
+        session = Session(Setup("wheel_loader", grown, Path(folder, "out"), sheets=(sheet,)))
+        try:
+            scene = Scene(session.assembly)
+            played = [p for p in session.settled(300.0).aligned.parts if p.role]
+            solving, packing = [], []
+            for number in range(9):
+                one = played[37 * number % len(played)]
+                start = time.perf_counter()
+                session.do(session.read({"kind": "confirm", "parts": {one.part: one.role}}))
+                state = session.settled(300.0)
+                solved = time.perf_counter()
+                scene.machine(state)
+                solving.append(solved - start)
+                packing.append(time.perf_counter() - solved)
+        finally:
+            session.close()
+    each = "  ".join(f"{min(s):8.2f} {statistics.median(s):8.2f}" for s in (solving, packing))
+    return f"{len(session.assembly.parts):6d} parts  {each}"
+
+
 def main() -> None:
     """Prints a row a model and naming."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
@@ -121,7 +152,13 @@ def main() -> None:
     parser.add_argument("--most", type=int, default=80, help="questions")
     parser.add_argument("--undo", type=int, default=0, help="parts whose decision is undone")
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--parts", default="", help="sizes, 0: the example as it is")
     given = parser.parse_args()
+    if given.parts:
+        print(f"{'':14s} {'solving s: least, median':>17s}  {'packing s: least, median':>17s}")
+        for parts in given.parts.split(","):
+            print(speed(int(parts)), flush=True)
+        return
     folders = [Path(p) for p in given.models.split(":") if p]
     only = {n for n in given.only.split(",") if n}
     print(f"{'':35s} before  after  wrong  asked  decis clicks  minutes  s/decis")

@@ -9,8 +9,10 @@ from typing import Any
 import numpy as np
 import pytest
 from PIL import Image
+from typer.testing import CliRunner
 
 from yellowiron import build, film
+from yellowiron.cli.application import app
 from yellowiron.film import film as made
 from yellowiron.model.errors import YellowironError
 
@@ -64,3 +66,19 @@ def test_what_it_refuses(machine: Any, tmp_path: Path, monkeypatch: pytest.Monke
     with pytest.raises(YellowironError, match="ffmpeg"):
         made(machine, tmp_path / "film.mp4")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_the_command_draws_no_report(
+    cad_read_once: None, example: Path, tmp_path: Path, small: None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folder = tmp_path / "machine"
+    build("wheel_loader", example / "wheel_loader.step", folder, page=False)
+    assert (folder / "report.json").is_file() and not (folder / "report.html").exists()
+
+    def drawn(*_: object, **__: object) -> str:
+        raise AssertionError("a page was drawn")
+
+    monkeypatch.setattr("yellowiron.report.page", drawn)
+    target = tmp_path / "film.gif"
+    assert CliRunner().invoke(app, ["film", str(folder), "--out", str(target)]).exit_code == 0
+    assert target.stat().st_size > 10_000

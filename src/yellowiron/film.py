@@ -87,7 +87,7 @@ def film(
             )
         frame = np.asarray(machine.alignment.frame, dtype=np.float64)
         drawn = machine_triangles(machine.mechanism, machine.assembly, frame)
-        if not len(drawn.corners):
+        if not len(drawn.triangles):
             raise YellowironError("The machine has nothing to show", where=str(out), hint="Look at its report.")
         progress("Moving the machine")
         frames = list(_frames(machine, drawn, sheets))
@@ -249,7 +249,7 @@ def _finished(frame: Frame, picture: Floats) -> Image:
 
 def _drawn(drawn: DrawnTriangles, colors: Any, shots: Sequence[Shot]) -> list[Any]:
     """Every shot as an array (rows, columns, 3), drawn by several processes."""
-    bare = DrawnTriangles(drawn.corners, drawn.normals, colors, drawn.parts, drawn.spans)
+    bare = replace(drawn, colors=colors)
     count = max(1, min(os.cpu_count() or 1, _MOST))
     with ThreadPoolExecutor(count) as pool:
         shares = [list(shots[k::count]) for k in range(count)]
@@ -262,14 +262,16 @@ def draw_shots(drawn: DrawnTriangles, shots: Sequence[Shot]) -> list[Any]:
     """Shots of a machine whose triangles have their bodies' colours."""
     middle = 0.5 * (drawn.box[0] + drawn.box[1])
     sums = np.zeros((int(drawn.parts.max()) + 1, 4))
-    np.add.at(sums, drawn.parts, np.concatenate([drawn.corners.mean(axis=1), np.ones((len(drawn.parts), 1))], axis=1))
+    middles = drawn.points[drawn.triangles].mean(axis=1)
+    np.add.at(sums, drawn.parts, np.concatenate([middles, np.ones((len(drawn.parts), 1))], axis=1))
     outwards = (sums[:, :3] / np.maximum(sums[:, 3:], 1.0) - middle).astype(np.float32)
     outwards[:, 2] = np.abs(outwards[:, 2])
     pictures = []
     for shot in shots:
         moved = posed(drawn, shot.poses or {})
         if shot.apart:
-            moved = replace(moved, corners=moved.corners + np.float32(shot.apart) * outwards[moved.parts][:, None, :])
+            away = outwards[moved.parts[moved.owners]]
+            moved = replace(moved, points=moved.points + np.float32(shot.apart) * away)
         share = np.float32(shot.mix)
         pictures.append(np.asarray(render(moved, shot.camera, colors=(1 - share) * _GREY + share * drawn.colors)))
     return pictures

@@ -10,6 +10,7 @@ import functools
 import importlib
 import threading
 from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any, ParamSpec, TypeVar
 
@@ -148,11 +149,18 @@ def page(
     assembly: Assembly,
     alignment: Alignment,
     sweeps: Mapping[str, tuple[Sweep, ...]],
+    sheets: Sequence[Path],
+    specifications: Specifications,
 ) -> str:
-    """`report.page`, with its poses."""
+    """`report.page`, with its poses and the pages of its sheets."""
 
     def make() -> str:
-        poses, tables = kinematics.key_poses(mechanism), kinematics.pose_tables(mechanism)
-        return report.page(document, mechanism, assembly, alignment, poses=poses, tables=tables, sweeps=sweeps)
+        with ThreadPoolExecutor(1) as pool:
+            pages = pool.submit(specs.page_pictures, sheets, specifications)
+            poses, tables = kinematics.key_poses(mechanism), kinematics.pose_tables(mechanism)
+            return report.page(
+                document, mechanism, assembly, alignment,
+                poses=poses, tables=tables, sweeps=sweeps, sheets=pages.result,
+            )  # fmt: skip
 
-    return kept("pages", make, document, mechanism, assembly, alignment, sweeps)
+    return kept("pages", make, document, mechanism, assembly, alignment, sweeps, files=sheets)

@@ -97,6 +97,7 @@ def build(
     extractor: specs.Extractor = "rules",
     model: specs.ModelOptions | None = None,
     engines: Sequence[str] = (),
+    page: bool = True,
     progress: Progress = lambda words: None,
 ) -> Machine:
     """Fuses an equipment type's template, a CAD model and specification sheets into a USD machine in the folder `out`.
@@ -104,9 +105,9 @@ def build(
     `equipment_type` is a library type or a template folder; `alignment_file` an edited alignment (default: the one
     that an earlier run left in `out`); `documents` are JSON-1 … JSON-4 or a filled joint template; `settings` are
     texts such as `Lift Cylinder Stroke=764 mm`; `config` picks a column of the sheet; `mirror` completes a model of
-    which one half is drawn by its mirror image; `extractor` and `model` say who
-    reads it; the machine is driven in each of `engines` with its rated payload. Raises `YellowironError` for unusable
-    input, having written nothing.
+    which one half is drawn by its mirror image; `extractor` and `model` say who reads it; the machine is driven in each
+    of `engines` with its rated payload; without `page` no report.html is drawn, a third of the time. Raises
+    `YellowironError` for unusable input, having written nothing.
     """
     clock = _Clock(progress)
     cad_file, out = Path(cad_file), Path(out)
@@ -172,8 +173,11 @@ def build(
             filled = library.filled_joints(chosen, mechanism, specifications)
             report.write_document(filled, folder / "joints.filled.json")
             write_alignment(alignment, assembly, folder / "alignment.json")
-            page = memory.page(document, mechanism, assembly, alignment, sweeps)
-            (folder / "report.html").write_text(page, encoding="utf-8")
+            if page:
+                text = memory.page(
+                    document, mechanism, assembly, alignment, sweeps, [Path(s) for s in sheets], specifications
+                )
+                (folder / "report.html").write_text(text, encoding="utf-8")
             report.write_document({
                 "equipment_type": _place(equipment_type) if Path(equipment_type).is_dir() else str(equipment_type),
                 "cad": _place(cad_file), "specs": [_place(s) for s in sheets], "data": [_place(d) for d in documents],

@@ -12,7 +12,7 @@ from planar_zbar import direction, sketch, strokes, with_measurements, zbar_mech
 from scipy.optimize import brentq
 
 from yellowiron.kinematics import ClosedChain, calibrate, complete, key_poses, lever_table, measure
-from yellowiron.kinematics.measuring.quantities import KINDS, wheels
+from yellowiron.kinematics.measuring.quantities import KINDS, Hulls, wheels
 from yellowiron.model.template import MeasurementTemplate
 from yellowiron.support.text import plain
 
@@ -267,3 +267,19 @@ def test_the_library_measures_only_what_exists(root):
     for path in sorted((root / "src" / "yellowiron" / "library" / "data").glob("*/measurements.json")):
         for entry in json.loads(path.read_text(encoding="utf-8"))["measurements"]:
             assert entry["quantity"]["kind"] in KINDS
+
+
+def test_hulls_are_where_their_bodies_stand(mechanism):
+    """In any order of poses, whatever was kept of the one before."""
+    chain = ClosedChain(mechanism)
+    hulls = Hulls(chain)
+    boom = next(c.slide for c in mechanism.cylinders)
+    moved = chain.solve({boom: 0.1})
+    for state in (chain.drawn, moved, chain.drawn, moved, moved):
+        for body in (b for b in mechanism.bodies if len(b.hull)):
+            pose = chain.displacement(state, body.name)
+            corners = body.hull @ pose[:3, :3].T + pose[:3, 3]
+            np.testing.assert_array_equal(hulls.corners(state, body), corners)
+            np.testing.assert_array_equal(hulls.box(state, body), [corners.min(axis=0), corners.max(axis=0)])
+    apart = [np.abs(hulls.corners(chain.drawn, b) - b.hull).max() for b in mechanism.bodies if len(b.hull)]
+    assert max(apart) < 1e-9

@@ -59,6 +59,16 @@ def test_the_drawn_pose_is_where_it_was_drawn(loader):
     assert gap(ClosedChain(loader), pose_tables(loader), {}) <= BETWEEN
 
 
+def test_a_drawn_pose_beyond_a_stop_is_where_it_was_drawn(loader):
+    """Else what is read off it, such as a stop set where the machine stands, is the old stop's."""
+    slides = {c.slide: 0.02 for c in loader.cylinders}
+    joints = tuple(replace(j, lower=slides[j.name]) if j.name in slides else j for j in loader.joints)
+    beyond = replace(loader, joints=joints)
+    tables = pose_tables(beyond)
+    assert [axis[0] for table in tables.tables for axis in table.axes if axis[0] == 0.0]
+    assert gap(ClosedChain(beyond), tables, {}) <= AT_NODES
+
+
 def test_what_cannot_be_reached_repeats_its_neighbour(loader):
     """The lift cylinder may now go far past the dead point."""
     joints = tuple(replace(j, upper=j.upper + 2.0) if j.name == "lift_l" else j for j in loader.joints)

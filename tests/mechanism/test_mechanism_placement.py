@@ -34,6 +34,13 @@ def test_a_mirrored_and_enlarged_pin_is_a_larger_pin() -> None:
     assert abs(features.direction[0, 2]) == pytest.approx(1.0)
 
 
+def test_the_diagonal_is_that_of_the_box_around_parts() -> None:
+    turned = np.diag([-2.0, 2.0, 2.0, 1.0])
+    machine = placed(pin("pin", 0.1, 0.5), turned)
+    assert machine.diagonal([0]) == pytest.approx(float(np.linalg.norm(np.ptp(machine.points_of([0]), axis=0))))
+    assert machine.diagonal([]) == 0.0
+
+
 def test_a_pin_made_longer_is_one_and_a_flattened_one_is_none() -> None:
     longer = placed(pin("pin", 0.1, 0.5), np.diag([1.0, 1.0, 3.0, 1.0])).features([0])
     assert (longer.radius[0], longer.length[0]) == pytest.approx((0.1, 1.5))

@@ -322,3 +322,19 @@ def test_without_webgl_the_picture_stays(browser: Any, machine: Any) -> None:
     page.wait_for_function("document.getElementById('viewer-caption').textContent.includes('WebGL2')")
     assert page.locator("#viewer img").is_visible()
     page.close()
+
+
+def test_from_a_value_to_its_box_on_the_page_and_back(page: Any) -> None:
+    row = page.locator("tr[data-value='Lift Cylinder Stroke']")
+    row.locator("a.piece").click()
+    box = page.locator("details.sheet[open] a:target")
+    assert "Lift Cylinder Stroke" in box.get_attribute("aria-label") and box.is_visible()
+    box.click()
+    assert page.evaluate("document.querySelector('tr:target').dataset.value") == "Lift Cylinder Stroke"
+    # The piece shows the page: print on paper, within its box's colour.
+    shown = np.asarray(Image.open(io.BytesIO(row.locator("a.piece").screenshot())).convert("L"), dtype=int)
+    assert (shown < 120).sum() > 50 and (shown > 230).mean() > 0.4
+    # What the value limits: a joint, which is shown.
+    row.locator("small a").first.click()
+    assert page.url.rpartition("#")[2].startswith("joint=")
+    page.evaluate("location.hash = ''")

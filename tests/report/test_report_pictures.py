@@ -16,11 +16,13 @@ from yellowiron.report.html.pictures import DrawnTriangles, encode, look_at, ren
 
 
 def triangles_of(*meshes: trimesh.Trimesh, colors: list[tuple[float, float, float]]) -> DrawnTriangles:
-    corners = np.concatenate([m.vertices[m.faces] for m in meshes]).astype(np.float32)
+    points = np.concatenate([m.vertices for m in meshes]).astype(np.float32)
+    before = np.cumsum([0, *(len(m.vertices) for m in meshes)])
+    faces = np.concatenate([m.faces + n for m, n in zip(meshes, before, strict=False)]).astype(np.int32)
     normals = np.concatenate([np.repeat(m.face_normals[:, None], 3, axis=1) for m in meshes]).astype(np.float32)
     counts = [len(m.faces) for m in meshes]
     painted = np.repeat(np.array(colors, dtype=np.float32), counts, axis=0)
-    return DrawnTriangles(corners, normals, painted, np.repeat(np.arange(len(meshes), dtype=np.int32), counts))
+    return DrawnTriangles(points, faces, normals, painted, np.repeat(np.arange(len(meshes), dtype=np.int32), counts))
 
 
 @pytest.fixture(scope="module")
@@ -32,7 +34,7 @@ def two_boxes() -> DrawnTriangles:
 
 def test_a_box_is_where_the_camera_projects_it(two_boxes: DrawnTriangles) -> None:
     """Seen from the front (+X), the machine's left (+Y) is on the right of the picture."""
-    camera = look_at(two_boxes.corners.reshape(-1, 3), azimuth=0.0, elevation=0.2, width=320, height=180)
+    camera = look_at(two_boxes.points, azimuth=0.0, elevation=0.2, width=320, height=180)
     pixels = np.asarray(render(two_boxes, camera)).astype(int)
     for center, channel in (((0.5, 1.0, 0.5), 0), ((0.5, -1.0, 0.5), 2)):
         x, y = camera.project(np.array([center]))[0]
@@ -42,7 +44,7 @@ def test_a_box_is_where_the_camera_projects_it(two_boxes: DrawnTriangles) -> Non
 
 
 def test_the_same_scene_gives_the_same_bytes(two_boxes: DrawnTriangles) -> None:
-    camera = look_at(two_boxes.corners.reshape(-1, 3), width=160, height=90)
+    camera = look_at(two_boxes.points, width=160, height=90)
     assert encode(render(two_boxes, camera)) == encode(render(two_boxes, camera))
 
 
@@ -66,7 +68,7 @@ def test_every_point_is_in_the_frame(
 
 
 def test_what_is_drawn_finer_at_edges_alone_is_as_fine_as_a_picture_twice_the_size(two_boxes: DrawnTriangles) -> None:
-    corners = two_boxes.corners.reshape(-1, 3).astype(np.float64)
+    corners = two_boxes.points.astype(np.float64)
     camera = look_at(corners, width=320, height=200)
     twice = replace(camera, width=640, height=400, scale=2.0 * camera.scale)
     ours = np.asarray(render(two_boxes, camera), dtype=int)

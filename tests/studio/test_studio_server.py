@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import json
+import shutil
 import threading
 import time
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
 
+from yellowiron.model.specification import Evidence, Specification, Specifications
 from yellowiron.studio import Session, Setup
 
 starlette = pytest.importorskip("starlette.testclient", reason="the extra 'studio' is not installed")
@@ -141,6 +145,32 @@ def test_pages_of_the_sheet(client: Any) -> None:
     answer = client.get(f"/sheet/{page}")
     assert answer.status_code == 200
     assert answer.content.startswith(b"\x89PNG")
+
+
+def test_each_of_two_sheets_shows_its_own_page(session: Session, example: Path, tmp_path: Path) -> None:
+    """Also where both say something on a page of the same number."""
+    from yellowiron.studio.server import application
+
+    sheets = (example / "specifications.pdf", tmp_path / "options.pdf")
+    shutil.copy(*sheets)
+    values = {
+        sheet.name: Specification(
+            sheet.stem, 1.0, "m", "ok", evidence=Evidence(sheet.name, 2, "", (x, 90.0, 300.0, 99.0))
+        )
+        for sheet, x in zip(sheets, (100.0, 250.0), strict=True)
+    }
+    two = SimpleNamespace(
+        assembly=session.assembly, setup=replace(session.setup, sheets=sheets),
+        state=replace(session.state, specifications=Specifications(values)), close=lambda: None,
+    )  # fmt: skip
+    studio = application(two, token=TOKEN, port=PORT)  # type: ignore[arg-type]
+    with starlette.TestClient(studio, base_url=f"http://{HOST}", headers={"X-Yellowiron-Token": TOKEN}) as client:
+        pages = [client.get("/sheet/2", params={"file": sheet.name}) for sheet in sheets]
+        assert [page.status_code for page in pages] == [200, 200]
+        assert pages[0].content != pages[1].content
+        assert client.get("/sheet/2").content == pages[0].content
+        for name in ("../options.pdf", str(sheets[1]), "other.pdf"):
+            assert client.get("/sheet/2", params={"file": name}).status_code == 404
 
 
 def test_a_build_writes_what_the_command_line_writes(

@@ -130,8 +130,7 @@ def film(
         built = build(
             setup.equipment_type, setup.cad, Path(folder, "machine"), sheets=setup.sheets, documents=setup.documents,
             settings=setup.settings, config=setup.config, mirror=setup.mirror,
-            alignment_file=kept if kept.exists() else None,
-            progress=progress,
+            alignment_file=kept if kept.exists() else None, page=False, progress=progress,
         )  # fmt: skip
         made(built, out, sheets=setup.sheets, progress=progress)
     answer({"file": str(out)}, Text(str(out)))

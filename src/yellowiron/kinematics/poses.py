@@ -19,7 +19,8 @@ POINTS = {1: 41, 2: 21, 3: 9, 4: 6}
 
 
 def pose_tables(mechanism: Mechanism, *, chain: ClosedChain | None = None) -> PoseTables:
-    """The coordinates of all joints that follow from the loops, over the strokes of the joints that drive them.
+    """The coordinates of all joints that follow from the loops, over the strokes of the joints that drive them, and to
+    the drawn pose where that is beyond one.
 
     Groups whose drivers have no limits, or that have more than four drivers, get no table. Raises `MechanismError`
     where the joints are no tree with cuts.
@@ -46,7 +47,8 @@ def _table(chain: ClosedChain, component: Component, joints: Mapping[str, Joint]
         lower, upper = joints[name].lower, joints[name].upper
         if lower is None or upper is None or not lower < upper:
             return None
-        ranges[name] = (lower, upper)
+        # A drawing may stand a little beyond a stop: where it stands is on the table too.
+        ranges[name] = (min(lower, 0.0), max(upper, 0.0))
     if len(ranges) not in POINTS:
         return None
     count = POINTS[len(ranges)]

@@ -132,6 +132,12 @@ class Placement:
                 corners[:, row] = points.min(axis=0), points.max(axis=0)
         return corners[0], corners[1]
 
+    def diagonal(self, rows: Iterable[int]) -> float:
+        """Metres across the box around those parts; 0 without any."""
+        low, high = self.boxes
+        there = [row for row in rows if np.isfinite(low[row]).all()]
+        return float(np.linalg.norm(high[there].max(axis=0) - low[there].min(axis=0))) if there else 0.0
+
     def planes(self, row: int) -> tuple[Floats, Floats, Floats]:
         """Planar faces of one part, else its facets, machine frame: points (m, 3), unit normals (m, 3), areas (m,)."""
         if row not in self._planes:

@@ -24,6 +24,17 @@ class Evidence:
 
 
 @dataclass(frozen=True)
+class SheetPage:
+    """A page of a sheet to look at: its `picture` as WebP bytes, its `size`, width and height in points, as `box`es are
+    in."""
+
+    file: str
+    page: int
+    size: tuple[float, float]
+    picture: bytes
+
+
+@dataclass(frozen=True)
 class Candidate:
     """One value that a sheet offers for a wanted name, in SI units; `configuration` is its column or variant."""
 

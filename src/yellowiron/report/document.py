@@ -87,7 +87,7 @@ def specification_entry(specification: Specification) -> dict[str, Any]:
         "hint": specification.hint,
         "candidates": [
             {"value": c.value, "unit": c.unit, "page": c.evidence.page, "quote": c.evidence.quote,
-             "configuration": c.configuration}
+             "box": c.evidence.box, "file": c.evidence.file, "configuration": c.configuration}
             for c in specification.candidates
         ],
     }  # fmt: skip

@@ -13,7 +13,7 @@ pages in a guarded child process, `extraction` goes the whole way and `findings`
 from __future__ import annotations
 
 from yellowiron.specs.columns import columns_of
-from yellowiron.specs.evidence_images import PICTURE_MARGIN, PICTURE_SCALE, draw_evidence
+from yellowiron.specs.evidence_images import PICTURE_MARGIN, PICTURE_SCALE, draw_evidence, page_pictures
 from yellowiron.specs.extraction import Extractor, extract, from_sheets, read
 from yellowiron.specs.llm.endpoint import EndpointError, ModelOptions
 from yellowiron.specs.ocr import described as picture_programs
@@ -36,6 +36,7 @@ __all__ = [
     "from_sheets",
     "merge",
     "missing_values",
+    "page_pictures",
     "parse_settings",
     "picture_programs",
     "read",

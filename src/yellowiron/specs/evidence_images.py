@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from yellowiron.model.errors import OutputError, SheetError
-from yellowiron.model.specification import Evidence, Specifications
+from yellowiron.model.specification import Evidence, SheetPage, Specifications
 from yellowiron.specs.reader import MEMORY_MB, RESIDENT_MB, TIMEOUT_S, check_file
 from yellowiron.support.guard import beat, run_guarded
 
@@ -15,6 +15,9 @@ PICTURE_SCALE = 1.6
 """Pixels a point, less on a page that would be more than this many pixels:"""
 _MOST_PIXELS = 12_000_000
 PICTURE_MARGIN = 330
+MOST_BYTES = 1_500_000
+"""Of all pages in a report, which is no more than 5 MB."""
+_SCALES = (1.6, 1.1, 0.75, 0.5, 0.3)
 _COLORS = {"ok": (24, 128, 56), "example": (32, 96, 190), "review": (214, 118, 0), "conflict": (200, 30, 30)}
 Mark = tuple[int, tuple[float, float, float, float], str, str]
 """Page, box in points, kind (a key of the colours), caption."""
@@ -52,6 +55,47 @@ def draw_evidence(sheets: Sequence[Path], specifications: Specifications, folder
         )
         written.extend(folder / name for name in pages)
     return tuple(written)
+
+
+def page_pictures(sheets: Sequence[Path], specifications: Specifications) -> tuple[SheetPage, ...]:
+    """The pages that gave evidence, without boxes, for a page that draws these itself: all together no more than
+    `MOST_BYTES`, the more there are the smaller. `SheetError` for a PDF that cannot be read."""
+    wanted = [(Path(s), sorted({mark[0] for mark in _marks(specifications, Path(s).name)})) for s in sheets]
+    count = sum(len(numbers) for _, numbers in wanted)
+    found: list[SheetPage] = []
+    for sheet, numbers in wanted:
+        if numbers:
+            found += run_guarded(
+                "yellowiron.specs.evidence_images:bare_pages", sheet.resolve(), numbers, MOST_BYTES // count,
+                where=str(sheet), error=SheetError, timeout_s=TIMEOUT_S, memory_mb=MEMORY_MB, resident_mb=RESIDENT_MB,
+            )  # fmt: skip
+    return tuple(found)
+
+
+def bare_pages(sheet: Path, numbers: Sequence[int], most: int) -> list[SheetPage]:
+    """Pages of one sheet (runs in the guarded child), each in about `most` bytes."""
+    import io
+
+    import pypdfium2
+
+    pages: list[SheetPage] = []
+    document = pypdfium2.PdfDocument(sheet)
+    try:
+        for number in numbers:
+            beat(f"Drawing page {number} of {sheet.name}")
+            opened = document[number - 1]
+            size = opened.get_size()
+            for scale in _SCALES:
+                scale = min(scale, (_MOST_PIXELS / max(size[0] * size[1], 1.0)) ** 0.5)
+                buffer = io.BytesIO()
+                opened.render(scale=scale).to_pil().convert("RGB").save(buffer, "WEBP", quality=60, method=2)
+                if buffer.tell() <= most:
+                    break
+            opened.close()
+            pages.append(SheetPage(sheet.name, number, size, buffer.getvalue()))
+    finally:
+        document.close()
+    return pages
 
 
 def _marks(specifications: Specifications, file: str) -> list[Mark]:

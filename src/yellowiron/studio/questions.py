@@ -50,6 +50,7 @@ class Question:
     candidates: tuple[Candidate, ...] = ()
     known: tuple[str, ...] = ()
     page: int | None = None
+    file: str = ""
 
 
 def questions(state: State, boxes: Mapping[str, Floats], joints: Sequence[JointState] = ()) -> list[Question]:
@@ -150,10 +151,11 @@ def _of_values(state: State) -> list[Question]:
         offered = [] if said is None else _offered(said)
         drawn, known, parts = _of_machine(name, state)
         reason = (said.reason or said.hint) if said is not None else "It is on no sheet, and was not given."
-        page = said.evidence.page if said is not None and said.evidence is not None else None
+        evidence = said.evidence if said is not None else None
+        page, file = (evidence.page, evidence.file) if evidence is not None else (None, "")
         found.append(Question(
             "value", f"value:{name}", f"{name}?", 3.0 if name in missing else 0.5, reason, parts,
-            candidates=(*offered, *drawn)[:MOST_CANDIDATES], known=known, page=page,
+            candidates=(*offered, *drawn)[:MOST_CANDIDATES], known=known, page=page, file=file,
         ))  # fmt: skip
     return found
 

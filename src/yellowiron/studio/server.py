@@ -154,7 +154,7 @@ class _Pages:
         self._questions: tuple[int, list[dict[str, Any]], list[dict[str, Any]]] = (0, [], [])
         self._lock = threading.Lock()
         self._folder = tempfile.TemporaryDirectory(prefix="yellowiron-")
-        self._drawn: dict[int, Path] | None = None
+        self._drawn: dict[tuple[str, int], Path] | None = None
 
     def close(self) -> None:
         """Ends what still runs, and removes what was drawn."""
@@ -191,9 +191,12 @@ class _Pages:
         return await self._answer(lambda: None)
 
     async def sheet(self, request: Request) -> Response:
-        """A page of the sheets with a box around every value (PNG), by its number."""
+        """A page of the sheets with a box around every value (PNG), by its number and, of several sheets, the
+        sheet's name."""
         pages = await run_in_threadpool(self._sheets)
-        file = pages.get(int(request.path_params["number"]))
+        number = int(request.path_params["number"])
+        name = request.query_params.get("file") or next((name for name, page in pages if page == number), "")
+        file = pages.get((name, number))
         if file is None:
             return PlainTextResponse("There is no such page with a value on it.", 404, headers=_HEAD)
         return Response(file.read_bytes(), media_type="image/png", headers=_HEAD)
@@ -297,12 +300,16 @@ class _Pages:
                 self._machine = (state.version, self._scene.machine(state))
             return self._machine[1]
 
-    def _sheets(self) -> dict[int, Path]:
+    def _sheets(self) -> dict[tuple[str, int], Path]:
         with self._lock:
             if self._drawn is None:
-                folder = Path(self._folder.name)
-                drawn = specs.draw_evidence(self._session.setup.sheets, self._session.state.specifications, folder)
-                self._drawn = {_number(file): file for file in reversed(drawn)}
+                found: dict[tuple[str, int], Path] = {}
+                for place, sheet in enumerate(self._session.setup.sheets):
+                    folder = Path(self._folder.name, str(place))
+                    drawn = specs.draw_evidence([sheet], self._session.state.specifications, folder)
+                    for file in drawn:
+                        found.setdefault((sheet.name, _number(file)), file)
+                self._drawn = found
             return self._drawn
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.optimize import brentq, least_squares
 
 from yellowiron.kinematics.measuring.extremes import Strokes, extreme, level_cut
-from yellowiron.kinematics.measuring.quantities import Posed, Unmeasurable, evaluate, wheels
+from yellowiron.kinematics.measuring.quantities import Hulls, Posed, Unmeasurable, evaluate, wheels
 from yellowiron.kinematics.measuring.sheet import specified
 from yellowiron.kinematics.solver.chain import ClosedChain, KinematicsError, State
 from yellowiron.kinematics.solver.pose_grid import PoseGrid, explore
@@ -39,6 +39,7 @@ class Bench:
         self._joints = {joint.name: joint for joint in mechanism.joints}
         self._cylinders = {cylinder.name: cylinder for cylinder in mechanism.cylinders}
         self._wheels = wheels(mechanism)
+        self._hulls = Hulls(self.chain)
         self._grids: dict[tuple[str, ...], PoseGrid] = {}
         self._strokes: dict[tuple[tuple[str, ...], bytes], Strokes] = {}
         self._states: dict[str, State] = {}
@@ -100,7 +101,7 @@ class Bench:
 
     def value(self, quantity: Mapping[str, Any], state: State) -> float:
         """A quantity in a state, SI."""
-        return evaluate(quantity, Posed(self.chain, self.mechanism, state, self.straight, self._wheels))
+        return evaluate(quantity, Posed(self.chain, self.mechanism, state, self.straight, self._wheels, self._hulls))
 
     def _step(self, step: Mapping[str, Any], state: State) -> State:
         if "set" in step:

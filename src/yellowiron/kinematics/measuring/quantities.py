@@ -21,6 +21,37 @@ class Unmeasurable(Exception):  # noqa: N818 - it ends one measurement with a re
     """Why one measurement has no value, as one sentence."""
 
 
+class Hulls:
+    """Corners of bodies' hulls in poses. Most bodies stand still while one actuator moves, so each body's last is
+    kept."""
+
+    def __init__(self, chain: ClosedChain) -> None:
+        self._chain = chain
+        self._corners: dict[str, tuple[bytes, Floats]] = {}
+        self._boxes: dict[str, tuple[bytes, Floats]] = {}
+
+    def corners(self, state: State, body: Body) -> Floats:
+        """Corners (n, 3), machine frame; not to be written to."""
+        pose = self._chain.displacement(state, body.name)
+        key = pose.tobytes()
+        known = self._corners.get(body.name)
+        if known is None or known[0] != key:
+            corners = np.asarray(body.hull @ pose[:3, :3].T + pose[:3, 3], dtype=np.float64)
+            known = self._corners[body.name] = (key, corners)
+        return known[1]
+
+    def box(self, state: State, body: Body) -> Floats:
+        """Least and greatest coordinates (2, 3) of the corners."""
+        corners = self.corners(state, body)
+        key = self._corners[body.name][0]
+        known = self._boxes.get(body.name)
+        if known is None or known[0] != key:
+            # By columns: over rows of three numpy takes five times as long.
+            columns = np.ascontiguousarray(corners.T)
+            known = self._boxes[body.name] = (key, np.array([columns.min(axis=1), columns.max(axis=1)]))
+        return known[1]
+
+
 @dataclass(frozen=True, eq=False)
 class Posed:
     """A machine in a pose. `straight` gives a joint's coordinate in the straight machine; `rolling`: its wheels."""
@@ -30,6 +61,7 @@ class Posed:
     state: State
     straight: Callable[[str], float]
     rolling: Sequence[tuple[Joint, float]]
+    hulls: Hulls
 
     def point(self, body: str, position: Sequence[float]) -> Floats:
         """A point of a body, given in the drawn pose, where it is now: machine frame (3,)."""
@@ -42,9 +74,8 @@ class Posed:
         return np.asarray(turned, dtype=np.float64)
 
     def hull(self, body: Body) -> Floats:
-        """Corners (n, 3) of a body's hulls where they are now."""
-        pose = self.chain.displacement(self.state, body.name)
-        return np.asarray(body.hull @ pose[:3, :3].T + pose[:3, 3], dtype=np.float64)
+        """Corners (n, 3) of a body's hulls where they are now; not to be written to."""
+        return self.hulls.corners(self.state, body)
 
 
 def evaluate(quantity: Mapping[str, Any], posed: Posed) -> float:
@@ -147,7 +178,11 @@ def _extent(quantity: Mapping[str, Any], posed: Posed) -> float:
     """Length, largest or smallest coordinate along an axis of the machine frame, over bodies' hulls, or over what of
     them is in a `zone`."""
     axis = _AXES[str(quantity.get("axis", "x"))]
-    values = _zone(quantity, np.concatenate([posed.hull(body) for body in _bodies(quantity, posed)]))[:, axis]
+    bodies = _bodies(quantity, posed)
+    if quantity.get("zone"):
+        values = _zone(quantity, np.concatenate([posed.hull(body) for body in bodies]))[:, axis]
+    else:
+        values = np.array([posed.hulls.box(posed.state, body)[:, axis] for body in bodies])
     low, high = float(values.min()), float(values.max())
     return {"length": high - low, "max": high, "min": low}[str(quantity.get("of", "length"))]
 

@@ -6,8 +6,6 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
-import numpy as np
-
 from yellowiron.mechanism.joints.frames import JointFrame
 from yellowiron.mechanism.placement import Placement
 from yellowiron.model.finding import Finding
@@ -104,13 +102,8 @@ def _hinge(
     ways = sorted((way for c in actuator.cylinders for way in _ways(template, c)), key=len)
     names = dict.fromkeys(j.name for way in ways for j in way if j.type == "revolute")
     fit = [name for name in names if name in frames and name not in claimed | own]
-    return max(fit, key=lambda name: min(_size(b, placement) for b in frames[name].bodies), default=None)
-
-
-def _size(body: str, placement: Placement) -> float:
-    """The diagonal (m) of the box around a body."""
-    points = placement.points_of(placement.rows_of_body(body))
-    return float(np.linalg.norm(np.ptp(points, axis=0))) if len(points) else 0.0
+    sizes = {b: placement.diagonal(placement.rows_of_body(b)) for name in fit for b in frames[name].bodies}
+    return max(fit, key=lambda name: min(sizes[b] for b in frames[name].bodies), default=None)
 
 
 def _ends(frames: Mapping[str, JointFrame], joint: str) -> tuple[str, ...]:

@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import numpy as np
-
 from yellowiron.mechanism.bodies.mass import Masses
 from yellowiron.mechanism.placement import Placement
 from yellowiron.mechanism.values import Known
@@ -59,5 +57,4 @@ def proportion_of(placement: Placement, masses: Masses, bodies: Sequence[str]) -
     """Weight and size of a machine of those bodies."""
     rows = {body: placement.rows_of_body(body) for body in bodies}
     kg = sum(masses.factors[body].value * masses.moments[row].mass for body, own in rows.items() for row in own)
-    points = placement.points_of([row for own in rows.values() for row in own])
-    return Proportion(GRAVITY * kg, float(np.linalg.norm(np.ptp(points, axis=0))) if len(points) else 0.0)
+    return Proportion(GRAVITY * kg, placement.diagonal(row for own in rows.values() for row in own))

@@ -12,6 +12,7 @@ from yellowiron.mechanism.placement import Placement
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats, Mesh
 from yellowiron.model.mechanism import Body, BodyPart, Vector
+from yellowiron.support.caching.remembered import remembered
 from yellowiron.support.vectors import clean_triple
 
 COLLISION = "convexHull"
@@ -28,7 +29,6 @@ def bodies(
 ) -> tuple[Body, ...]:
     """The bodies of those names, in that order, machine frame. `tokens` choose each part's collision
     approximation."""
-    hulls = _Hulls()
     result = []
     for name in names:
         rows = placement.rows_of_body(name)
@@ -46,7 +46,7 @@ def bodies(
                 center_of_mass=clean_triple(whole.center),
                 inertia=whole.inertia,
                 parts=tuple(_part(row, placement, masses, factor, tokens) for row in rows),
-                hull=np.concatenate([hulls.placed(placement, row) for row in rows]),
+                hull=np.concatenate([_placed_hull(placement, row) for row in rows]),
                 source=factor.source,
             )
         )
@@ -66,6 +66,7 @@ def _part(row: int, placement: Placement, masses: Masses, factor: Factor, tokens
     )
 
 
+@remembered
 def hull_corners(mesh: Mesh) -> Floats:
     """(n, 3) corners of a mesh's convex hull, in the mesh's order; of a flat or tiny one its distinct points."""
     from scipy.spatial import ConvexHull, QhullError  # a tenth of a second that not every command needs
@@ -76,15 +77,8 @@ def hull_corners(mesh: Mesh) -> Floats:
         return np.unique(mesh.points, axis=0)
 
 
-class _Hulls:
-    """Hull corners by shape: instances share them, and a hull's image under a linear map is the image's hull."""
-
-    def __init__(self) -> None:
-        self._corners: dict[str, Floats] = {}
-
-    def placed(self, placement: Placement, row: int) -> Floats:
-        """(n, 3) hull corners of one placed part."""
-        shape, matrix = placement.shapes[row], placement.transforms[row]
-        if shape.key not in self._corners:
-            self._corners[shape.key] = hull_corners(shape.mesh)
-        return np.asarray(self._corners[shape.key] @ matrix[:3, :3].T + matrix[:3, 3], dtype=np.float64)
+def _placed_hull(placement: Placement, row: int) -> Floats:
+    """(n, 3) hull corners of one placed part: a hull's image under a linear map is the image's hull."""
+    matrix = placement.transforms[row]
+    corners = hull_corners(placement.shapes[row].mesh)
+    return np.asarray(corners @ matrix[:3, :3].T + matrix[:3, 3], dtype=np.float64)

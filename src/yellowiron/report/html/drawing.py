@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.geometry import Floats
@@ -17,8 +17,8 @@ from yellowiron.support.guard import run_guarded
 _MOST = 4
 """Processes."""
 _WORTH = 400_000
-"""Rays: what is drawn while a process starts."""
-_BUILDING = 6.0
+"""Rays: what is drawn while a process starts, and while this one does what is to be done meanwhile."""
+_BUILDING = 3.0
 """Rays as costly as one triangle in its place for rays: a machine in another pose is built anew."""
 
 
@@ -32,25 +32,36 @@ class Picture:
     colors: Singles | None = None
 
 
-def draw(drawn: DrawnTriangles, pictures: Mapping[str, Picture]) -> dict[str, str]:
+def draw(
+    drawn: DrawnTriangles, pictures: Mapping[str, Picture], *, meanwhile: Callable[[], None] = lambda: None
+) -> dict[str, str]:
     """The pictures of some triangles by name, each as a data URI. The same, however many processes draw them, and
-    whether they were drawn before."""
-    machine = content_of([drawn.corners, drawn.normals, drawn.colors, drawn.parts])
+    whether they were drawn before. `meanwhile` is done once, while others draw."""
+    machine = content_of([drawn.points, drawn.triangles, drawn.normals, drawn.colors, drawn.parts])
     given = {name: [machine, drawn.spans if one.poses else None, one] for name, one in pictures.items()}
-    return kept_each("pictures", lambda names: _draw(drawn, {name: pictures[name] for name in names}), given)
+    waiting = [meanwhile]
+
+    def make(names: Sequence[str]) -> dict[str, str]:
+        return _draw(drawn, {name: pictures[name] for name in names}, waiting.pop())
+
+    found = kept_each("pictures", make, given)
+    for other in waiting:
+        other()
+    return found
 
 
-def _draw(drawn: DrawnTriangles, pictures: Mapping[str, Picture]) -> dict[str, str]:
+def _draw(drawn: DrawnTriangles, pictures: Mapping[str, Picture], meanwhile: Callable[[], None]) -> dict[str, str]:
     costs = {name: _cost(drawn, picture) for name, picture in pictures.items()}
     count = max(1, min(os.cpu_count() or 1, _MOST, len(pictures), int(sum(costs.values()) / _WORTH)))
     shares: list[dict[str, Picture]] = [{} for _ in range(count)]
-    loads = [0.0] + [float(_WORTH)] * (count - 1)
+    loads = [float(_WORTH)] * count
     for name in sorted(pictures, key=lambda name: -costs[name]):
         place = loads.index(min(loads))
         shares[place][name] = pictures[name]
         loads[place] += costs[name]
     with ThreadPoolExecutor(count) as pool:
         others = [pool.submit(_elsewhere, drawn, share) for share in shares[1:] if share]
+        meanwhile()
         done = draw_here(drawn, shares[0])
         for other in others:
             done |= other.result()
@@ -68,7 +79,7 @@ def draw_here(drawn: DrawnTriangles, pictures: Mapping[str, Picture]) -> dict[st
 
 
 def _elsewhere(drawn: DrawnTriangles, pictures: Mapping[str, Picture]) -> dict[str, str]:
-    bare = DrawnTriangles(drawn.corners, drawn.normals, drawn.colors, drawn.parts, drawn.spans)
+    bare = replace(drawn)  # without what was computed of it
     try:
         done: dict[str, str] = run_guarded(f"{__name__}:draw_here", bare, pictures, where="report.html")
     except YellowironError:
@@ -80,4 +91,4 @@ def _elsewhere(drawn: DrawnTriangles, pictures: Mapping[str, Picture]) -> dict[s
 def _cost(drawn: DrawnTriangles, picture: Picture) -> float:
     """Rays, and what is as costly."""
     rays = float(picture.camera.width * picture.camera.height)
-    return rays if picture.poses is None else rays + _BUILDING * len(drawn.corners)
+    return rays if picture.poses is None else rays + _BUILDING * len(drawn.triangles)

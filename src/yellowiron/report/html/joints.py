@@ -54,6 +54,14 @@ def _row(number: int, name: str, joints: Sequence[Mapping[str, Any]], levers: Ma
         "range": spans[0] if len(spans) == 1 else "each its own",
         "drive": f"{drive['kind']}, {shown(drive['max_force'], force_unit, digits=4)}" if drive else "",
         "source": joint_evidence(first["source"], levers),
+        "lever": levers.get(first["name"], name),
+        "values": list(
+            dict.fromkeys(
+                str(name)
+                for end in ("lower", "upper")
+                if (name := str(first["source"].get(f"{end}_specification") or "").lstrip("-− "))
+            )
+        ),
     }
 
 

@@ -10,6 +10,7 @@ import gzip
 import json
 import struct
 from collections.abc import Mapping, Sequence
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -100,4 +101,10 @@ def _srgb(linear: Floats | Sequence[float]) -> NDArray[np.int64]:
 
 def rgb(linear: Sequence[float]) -> list[int]:
     """Linear RGB as display bytes."""
-    return [int(value) for value in _srgb(linear)]
+    return list(_bytes(tuple(linear)))
+
+
+@lru_cache(maxsize=1024)
+def _bytes(linear: tuple[float, ...]) -> tuple[int, ...]:
+    """Most parts of a machine have one of a few colours."""
+    return tuple(int(value) for value in _srgb(linear))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from importlib import resources
 from typing import Any
@@ -15,12 +15,14 @@ from yellowiron.model.assembly import Assembly
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Measurement, Mechanism
 from yellowiron.model.poses import PoseTables
+from yellowiron.model.specification import SheetPage
 from yellowiron.report.document import within_tolerance
 from yellowiron.report.html.drawing import Picture, draw
 from yellowiron.report.html.joints import joint_marks, joint_rows
 from yellowiron.report.html.marks import overlay
 from yellowiron.report.html.pictures import Camera, look_at, machine_triangles, outline
 from yellowiron.report.html.sensors import sensor_marks, sensor_rows, view_svg, views
+from yellowiron.report.html.sheets import pieces, sheet_pages
 from yellowiron.report.html.simulation import engine_name, in_a_sentence, simulation_tables
 from yellowiron.report.html.sweeps import Sweeps, sweep_entries, sweep_pictures
 from yellowiron.report.html.viewer import viewer
@@ -45,9 +47,10 @@ def page(
     poses: Poses | None = None,
     tables: PoseTables | None = None,
     sweeps: Sweeps | None = None,
+    sheets: Callable[[], Sequence[SheetPage]] = tuple,
 ) -> str:
-    """The page as text; with `tables` it has a 3D view to move the machine in, with `sweeps` what engines did with it.
-    Deterministic: no time, no path of this machine."""
+    """The page as text; with `tables` it has a 3D view to move the machine in, with `sweeps` what engines did with it,
+    with `sheets`, asked last, the pages of which values were read. Deterministic: no time, no path of this machine."""
     import jinja2
 
     environment = jinja2.Environment(autoescape=True, trim_blocks=True, undefined=jinja2.StrictUndefined)
@@ -65,14 +68,24 @@ def page(
     reasons = causes(document)
     joints = joint_rows(document)
     seen = _cameras(document, mechanism)
+    made: dict[str, Any] = {}
+
+    def meanwhile() -> None:
+        made["template"] = environment.from_string(source)
+        made["viewer"] = viewer(mechanism, assembly, alignment, tables, poses=poses) if tables is not None else None
+
     pictures = draw(drawn, {
         "machine": Picture(seen.machine),
         "joints": Picture(seen.joints, colors=drawn.by_body(mechanism)),
         **({"sensors": Picture(seen.sensors)} if document["sensors"] else {}),
         **{f"pose {caption}": _pose(mechanism, moved) for caption, moved in (poses or {}).items()},
         **sweep_pictures(sweeps or {}, mechanism),
-    })  # fmt: skip
-    return environment.from_string(source).render(
+    }, meanwhile=meanwhile)  # fmt: skip
+    seen_pages = sheets()
+    found = [s for s in document["specifications"] if s["status"] != "missing"]
+    values = [_specification(s, joints, pieces(seen_pages, s)) for s in found]
+    rows = {s["name"]: f"value-{n}" for n, s in enumerate(found, start=1)}
+    text: str = made["template"].render(
         d=document,
         style=style,
         reasons=reasons[:REASONS],
@@ -83,19 +96,21 @@ def page(
         figures=_figures(document),
         machine=pictures["machine"],
         poses=[(caption, pictures[f"pose {caption}"]) for caption in (poses or {})],
-        viewer=viewer(mechanism, assembly, alignment, tables, poses=poses) if tables is not None else None,
+        viewer=made["viewer"],
         measurements=[_measurement(m) for m in document["measurements"]],
         simulation=simulation_tables(document["simulation"]),
         sweeps=sweep_entries(sweeps or {}, document, pictures),
         sensors=sensor_rows(document),
         sensor_svg=_sensor_svg(document, mechanism, seen.sensors, pictures["sensors"]) if document["sensors"] else "",
-        joints=joints,
+        joints=[{**j, "values": [(v, rows[v]) for v in j["values"] if v in rows]} for j in joints],
         joint_svg=overlay(seen.joints, pictures["joints"], joint_marks(joints), alt="Joints on the machine"),
         cylinders=[_cylinder(c) for c in document["cylinders"]],
-        specifications=[s for s in map(_specification, document["specifications"]) if s["status"] != "missing"],
-        not_given=[s for s in map(_specification, document["specifications"]) if s["status"] == "missing"],
+        specifications=values,
+        sheets=sheet_pages(seen_pages, values),
+        not_given=[s for s in document["specifications"] if s["status"] == "missing"],
         bodies=_bodies(document, alignment),
     )
+    return text
 
 
 @dataclass(frozen=True, eq=False)
@@ -199,11 +214,15 @@ def _cylinder(entry: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-def _specification(entry: Mapping[str, Any]) -> dict[str, Any]:
+def _specification(
+    entry: Mapping[str, Any], joints: Sequence[Mapping[str, Any]], shown_pieces: Sequence[Mapping[str, Any]]
+) -> dict[str, Any]:
     candidates = entry["candidates"] if entry["status"] in ("conflict", "review") else []
     return {
         **entry,
         "value_text": shown(entry["value"], entry["unit"]),
+        "pieces": shown_pieces,
+        "limits": list({j["lever"]: j["name"] for j in joints if entry["name"] in j["values"]}.items()),
         "candidates_text": [
             f"{shown(c['value'], c['unit'])} {c['configuration']} (page {c['page']}: “{c['quote']}”)"
             for c in candidates

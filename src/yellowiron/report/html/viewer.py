@@ -214,7 +214,8 @@ def _sensors(mechanism: Mechanism) -> list[dict[str, Any]]:
     """Where each sensor sits, and the outlines of what it sees, in the drawn pose."""
     joints = {joint.name: joint for joint in mechanism.joints}
     hulls = [np.asarray(body.hull) for body in mechanism.bodies if len(body.hull)]
-    size = float(np.linalg.norm(np.ptp(np.concatenate(hulls), axis=0))) if hulls else 1.0
+    ends = np.array([(hull.min(axis=0), hull.max(axis=0)) for hull in hulls if mechanism.sensors]).reshape(-1, 2, 3)
+    size = float(np.linalg.norm(ends[:, 1].max(axis=0) - ends[:, 0].min(axis=0))) if len(ends) else 1.0
     made = []
     for sensor in mechanism.sensors:
         joint = joints.get(sensor.joint)

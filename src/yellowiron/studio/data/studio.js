@@ -379,7 +379,7 @@ class Studio {
       card.append(answers);
       if (question.kind === "value") card.append(this.#form(question));
       else card.append(rest);
-      if (question.page != null) card.append(element("div", { class: "more" }, button(`Page ${question.page} of the sheet`, () => this.sheet(question.page))));
+      if (question.page != null) card.append(element("div", { class: "more" }, button(`Page ${question.page} of the sheet`, () => this.sheet(question.page, question.file))));
     } else {
       card.replaceChildren(
         element("p", { class: "eyebrow" }, "Nothing left to ask"), element("h2", {}, "Build the machine"),
@@ -450,7 +450,7 @@ class Studio {
   #values() {
     const rows = this.state.values.filter((value) => value.value != null || value.status !== "missing").map((value) =>
       element("li", { class: "t-value" }, element("b", {}, value.name),
-        value.page == null ? element("span") : button(`p. ${value.page}`, () => this.sheet(value.page)),
+        value.page == null ? element("span") : button(`p. ${value.page}`, () => this.sheet(value.page, value.file)),
         element("span", {}, value.value == null ? "–" : `${Number(value.value.toPrecision(6))} ${value.unit}`),
         element("span", { class: `tag ${value.status}` }, value.source === "set" ? "given" : value.status)));
     by("values").replaceChildren(rows.length ? element("ol", {}, ...rows) : element("p", { class: "dim" }, "No sheet was read."));
@@ -467,8 +467,8 @@ class Studio {
     );
   }
 
-  sheet(number) {
-    const source = `sheet/${number}?token=${encodeURIComponent(token)}`;
+  sheet(number, file) {
+    const source = `sheet/${number}?file=${encodeURIComponent(file)}&token=${encodeURIComponent(token)}`;
     by("sheet").replaceChildren(element("img", { src: source, alt: `Page ${number} of the sheet, values boxed` }),
       element("div", { class: "more" }, button("Close", () => by("sheet").close())));
     by("sheet").showModal();
@@ -525,7 +525,11 @@ class Studio {
 
   #list() {
     const wanted = by("find").value.trim().toLowerCase().split(/\s+/).filter(Boolean);
-    this.roles = this.state.roles.filter((role) => wanted.every((word) => `${role.name} ${role.words}`.toLowerCase().includes(word)));
+    // Who types a role's whole name means that one, not the first that has the words too.
+    const whole = wanted.join(" ");
+    const rank = (role) => [role.words.toLowerCase(), role.name].includes(whole) ? 0 : role.words.toLowerCase().startsWith(whole) ? 1 : 2;
+    this.roles = this.state.roles.filter((role) => wanted.every((word) => `${role.name} ${role.words}`.toLowerCase().includes(word)))
+      .sort((one, other) => rank(one) - rank(other));
     this.row = 0;
     this.#rows();
   }
