@@ -284,6 +284,7 @@ BUILDERS: dict[str, Callable[[Job], None]] = {
     "mini_excavator": many,
     "natutech_excavator": in_blender(MERGED),
     "newton_excavator": turned(urdf),
+    "octoman_excavator": one,
     "okkwok_by_material": one,
     "persimenreed_excavator": one,
     "pudong_excavator": turned(urdf),
