@@ -292,7 +292,9 @@ def _qt_mesh(file: Path) -> trimesh.Trimesh:
         at += 8 + int(np.frombuffer(content, "<u4", 1, at)[0]) // 4 * 4
     points = np.frombuffer(content, "<f4", size // 4, at).reshape(-1, stride // 4)[:, :3]
     width = {3: "<u2", 5: "<u4"}[int(np.frombuffer(content, "<u4", 1, 32)[0])]
-    indices = np.frombuffer(content, width, int(np.frombuffer(content, "<u4", 1, 40)[0]) // int(width[2]), at + size)
+    indices = np.frombuffer(
+        content, width, int(np.frombuffer(content, "<u4", 1, 40)[0]) // int(width[2]), at + size + 4 - size % 4
+    )
     return trimesh.Trimesh(points.astype(np.float64), indices.reshape(-1, 3), process=False)
 
 
