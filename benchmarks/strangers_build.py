@@ -251,6 +251,53 @@ def instances(job: Job) -> Placed:
         yield name, trimesh.util.concatenate(meshes), place
 
 
+def qml(job: Job) -> Placed:
+    """Meshes of Qt Quick 3D by the nodes of a QML file, all of its own angles at 0; those absent are left out."""
+    meshes = {f.name: f for f in job.files if f.suffix == ".mesh"}
+    stack: list[dict[str, Any]] = [{"place": np.eye(4)}]
+    for line in (words.strip() for words in job.file(".qml").read_text(encoding="utf-8").splitlines()):
+        key, _, value = line.partition(": ")
+        if line.endswith("{"):
+            stack.append({"model": line == "Model {"})
+        elif line == "}":
+            stack.pop()
+        elif key in ("position", "rotation", "scale") and "Qt." in value:
+            stack[-1][key] = [float(v.split(" ")[0]) for v in value.partition("(")[2].rstrip(")").split(", ")]
+        elif key in ("objectName", "source"):
+            stack[-1][key] = value.strip('"')
+        if (
+            line.endswith("{")
+            or "place" in stack[-1]
+            or not ({"source", "position", "rotation", "scale"} & stack[-1].keys())
+        ):
+            continue
+        turn = Rotation.from_quat(stack[-1].get("rotation", (1.0, 0.0, 0.0, 0.0)), scalar_first=True)
+        stack[-1]["own"] = _place(turn, stack[-1].get("position", (0.0, 0.0, 0.0))) @ np.diag(
+            [*stack[-1].get("scale", (1.0, 1.0, 1.0)), 1.0]
+        )
+        file = Path(stack[-1].get("source", "")).name
+        if key == "source" and stack[-1]["model"] and file in meshes:
+            place = np.eye(4)
+            for frame in stack:
+                place = place @ frame.get("own", np.eye(4))
+            yield stack[-1]["objectName"], _qt_mesh(meshes[file]), place
+
+
+def _qt_mesh(file: Path) -> trimesh.Trimesh:
+    """Positions and triangles of a Qt Quick 3D mesh (version 7; the names of its vertex entries end the header)."""
+    content = file.read_bytes()
+    count, stride, _, size = np.frombuffer(content, "<u4", 4, 16)
+    at = 0x44 + 16 * int(count) + 4
+    for _ in range(count):
+        at += 8 + int(np.frombuffer(content, "<u4", 1, at)[0]) // 4 * 4
+    points = np.frombuffer(content, "<f4", size // 4, at).reshape(-1, stride // 4)[:, :3]
+    width = {3: "<u2", 5: "<u4"}[int(np.frombuffer(content, "<u4", 1, 32)[0])]
+    indices = np.frombuffer(
+        content, width, int(np.frombuffer(content, "<u4", 1, 40)[0]) // int(width[2]), at + size + 4 - size % 4
+    )
+    return trimesh.Trimesh(points.astype(np.float64), indices.reshape(-1, 3), process=False)
+
+
 def _numbers(text: str | None, default: str) -> np.ndarray:
     return np.array([float(v) for v in (text or default).split()])
 
@@ -296,6 +343,13 @@ BUILDERS: dict[str, Callable[[Job], None]] = {
 }
 
 
+HELD_BACK: dict[str, Callable[[Job], None]] = {
+    "cat_390f_excavator": in_nodes(qml),
+    "octoman_excavator": one,
+}
+"""Of models that are held back: for the end, not built by `main`."""
+
+
 def snapshot_of(mirror: Path, repository: str, commit: str) -> Snapshot:
     git = mirror / repository.replace("/", "+") / "repo"
     return Snapshot(git / ".git" if (git / ".git").is_dir() else git, commit)
@@ -317,7 +371,7 @@ def build_model(name: str, mirror: Path, models: Path, blender: str | None) -> d
             file.parent.mkdir(parents=True, exist_ok=True)
             file.write_bytes(snapshot.file(path, sha256))
             files.append(file)
-        BUILDERS[name](Job(name, snapshot, folder, tuple(files), models, blender))
+        (BUILDERS | HELD_BACK)[name](Job(name, snapshot, folder, tuple(files), models, blender))
     return label
 
 
