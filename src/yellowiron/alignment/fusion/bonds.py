@@ -26,7 +26,7 @@ ASIDE = 0.02
 BESIDE = 2.0
 """What is of one half of a hydraulic cylinder is off the line of its longest bar by no more than so many of its widths
 (ports, pipes along it, clamps), and no farther beyond its ends than this share of its length."""
-ENOUGH = 3.0
+ENOUGH = 8.0
 """Of what is only called alike, or lies in one assembly, so many others say as much as any more would."""
 SMALL = 0.34
 """An assembly of more than this share of the pieces says nothing."""
