@@ -32,6 +32,8 @@ _SAME_JOINT = (math.sin(math.radians(1.0)), 0.02)
 """Sine and metres up to which two lines may be one joint's axis."""
 _RIVAL = 0.5
 """A second axis whose shared area is more than this share of the best one's makes the choice doubtful."""
+_SHAFT = 0.5
+"""What has less than this share of the area of a pin's largest shaft are the bolts and holes of its flange."""
 _MAIN = 0.5
 """A pin part with this share of the pin's cylinder area is no bolt or plate: it should be on the axis."""
 
@@ -103,7 +105,8 @@ def pin_bearing(placement: Placement, pins: Sequence[int], bodies: tuple[str, st
     if not groups:
         near = placement.points_of(pins).mean(axis=0)
         return shared_bearing(placement, bodies, near=near) or outline_bearing(placement, pins)
-    best = max(groups, key=rank)
+    least = _SHAFT * max(float(g.area.sum()) for g in groups)
+    best = max((g for g in groups if g.area.sum() >= least), key=rank)
     # The pin's own cylinders fix the axis; shafts before bores, which may be a bush's or a grease hole.
     shafts = best.take(~best.inner)
     best = shafts if len(shafts) else best
