@@ -19,6 +19,7 @@ def entries(template: Template) -> Iterator[Finding]:
     yield from specifications(template)
     yield from _roles(template)
     yield from _gains(template)
+    yield from _driven_followers(template)
     yield from _rows_and_drives(template)
     yield from measurements(template)
     yield from machine_tests(template)
@@ -58,6 +59,21 @@ def _gains(template: Template) -> Iterator[Finding]:
                 joint.name,
                 f"The joint states {', '.join(stated)} and has no drive: they have no effect.",
                 "Give it a Drive.",
+            )
+
+
+def _driven_followers(template: Template) -> Iterator[Finding]:
+    """Joints that follow another and that an actuator names."""
+    named = {c.slide: a.name for a in template.actuators for c in a.cylinders}
+    named |= {joint: a.name for a in template.actuators for joint in a.joints}
+    for joint in template.joints:
+        if joint.follows is not None and joint.name in named:
+            yield Finding(
+                "TPL021",
+                "error",
+                joint.name,
+                f"It follows '{joint.follows.joint}', and the actuator '{named[joint.name]}' drives it.",
+                "Name the leader in actuators.json.",
             )
 
 
