@@ -120,3 +120,20 @@ def test_a_pivot_may_follow_one_that_a_cylinder_turns() -> None:
     if leader.name in pivots:
         assert pivots["wheel"]["angle"] == pytest.approx([-3.0 * a for a in pivots[leader.name]["angle"]], abs=1e-8)
     assert math.isfinite(chain.effective_mass(chain.drawn, chain.independent[0]))
+
+
+def test_a_wheel_geared_to_a_motor_has_no_ends_and_needs_none() -> None:
+    """The wheels of a tandem: one chain, no limits, no loop that could flip."""
+    motor = Drive("velocity", 0.0, 1e3, 1e4, 3.0)
+    bodies = (body("axle", 100.0), body("front", 10.0), body("rear", 10.0))
+    joints = (
+        Joint("front_wheel", "revolute", "axle", "front", (1, 0, 1), (0, 1, 0), drive=motor),
+        Joint("rear_wheel", "revolute", "axle", "rear", (-1, 0, 1), (0, 1, 0), follows=Follows("front_wheel")),
+    )
+    drive = Actuator("drive", "motor", (ActuatorJoint("front_wheel"),))
+    done = complete(Mechanism("tandem", "tandem", "axle", bodies, joints, actuators=(drive,)))
+    assert done.findings == ()
+    rear = done.joint("rear_wheel")
+    assert (rear.lower, rear.upper) == (None, None)
+    chain = ClosedChain(done)
+    assert chain.coordinate(chain.solve({"front_wheel": 7.0}), "rear_wheel") == pytest.approx(7.0)

@@ -57,7 +57,22 @@ def test_followers_are_no_freedom_of_their_own(folder: Path) -> None:
     report = library.lint(library.load_template(folder))
     (mobility,) = report.mobility
     assert (mobility.computed, mobility.expected, mobility.planar, mobility.spatial) == (1, 1, 1, 1)
-    assert report.sound and "TPL010" not in {f.code for f in report.findings}
+    # The lift's slide turns at neither end: it is no cylinder's, and driven for itself.
+    assert [(f.code, f.severity, f.where) for f in report.findings] == [("TPL007", "warning", "middle_joint")]
+
+
+def test_a_section_that_tilts_is_no_barrel(folder: Path) -> None:
+    """The outer section turns on a truck: the lift's slide is still driven for itself, and not as half a cylinder."""
+    hierarchy = json.loads((folder / "hierarchy.json").read_text())
+    hierarchy["mast"]["child"] = {"truck": {"rigid body": "Y", "child": {}}, **hierarchy["mast"]["child"]}
+    (folder / "hierarchy.json").write_text(json.dumps(hierarchy))
+    document = json.loads((folder / "joints.json").read_text())
+    document["tilt_joint"] = {"joint_type": "Revolute", "Body": ["truck", "outer"], "Drive": ["Angular Drive"]}
+    (folder / "joints.json").write_text(json.dumps(document))
+    template = library.load_template(folder)
+    assert [(a.name, a.kind, a.joints) for a in template.actuators] == [("tilt", "motor", ("tilt_joint",))]
+    (mobility,) = library.lint(template).mobility
+    assert (mobility.computed, mobility.expected) == (2, 2)
 
 
 def test_without_what_they_follow_they_are_loose(folder: Path) -> None:

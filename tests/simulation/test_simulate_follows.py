@@ -16,11 +16,12 @@ from pxr import Sdf, Usd, UsdGeom, UsdPhysics
 import yellowiron
 from kit.builds import without_pages
 from kit.machines import mast
+from kit.machines import simple_machines as simple
 from yellowiron.checks import check
 from yellowiron.exporters import export_mjcf
 from yellowiron.kinematics import ClosedChain
 from yellowiron.model.errors import YellowironError
-from yellowiron.model.mechanism import Mechanism
+from yellowiron.model.mechanism import Actuator, ActuatorJoint, Body, Drive, Joint, Mechanism
 from yellowiron.model.template import Follows
 from yellowiron.report.html.joints import joint_rows
 from yellowiron.simulation.engine import Setup, coordinates
@@ -206,6 +207,37 @@ def test_the_mast_holds_its_ratio(engine: str, built: Built) -> None:
     masses = [built.mechanism.body(n).mass for n in ("middle", "inner", "carriage")]
     sag = 9.81 * float(np.dot(masses, (1.0, 2.0, 3.0))) / drive.stiffness
     assert middle[-1] == pytest.approx(1.4 - sag, abs=1e-3)
+
+
+@pytest.mark.parametrize("engine", EVERY)
+def test_geared_pivots_turn_with_their_ratio(engine: str, tmp_path: Path) -> None:
+    """A wheel that is driven by 1 rad turns one of half the speed the other way, by half a radian."""
+
+    def wheel(name: str, x: float) -> Body:
+        return Body(name, (x, 0.0, 1.0), 20.0, (x, 0.0, 1.0), np.eye(3), parts=(), hull=np.zeros((0, 3)))
+
+    drive = Drive("position", 4000.0, 400.0, 1e5, 10.0)
+    gear = Follows("small", -0.5, kind="gear")
+    joints = (
+        Joint("small", "revolute", "base", "pinion", (1.0, 0.0, 1.0), (0, 1, 0), -2.0, 2.0, drive=drive),
+        Joint("large", "revolute", "base", "wheel", (-1.0, 0.0, 1.0), (0, 1, 0), -2.0, 2.0, follows=gear),
+    )
+    turn = Actuator("turn", "motor", (ActuatorJoint("small"),))
+    bodies = (wheel("base", 0.0), wheel("pinion", 1.0), wheel("wheel", -1.0))
+    mechanism = Mechanism("simple", "simple", "base", bodies, joints, actuators=(turn,))
+    file, step = simple.write(tmp_path, mechanism), ENGINES[engine].timestep
+    loaded = load(engine, Setup(file, mechanism, "fixed", step, ("small", "large")))
+    count = round(3.0 / step)
+    angles = []
+    try:
+        for _ in loaded.targets(("small",), np.interp(np.arange(count) * step, [0.0, 1.0], [0.0, 1.0])[:, None]):
+            loaded.step()
+            angles.append(coordinates(loaded))
+    finally:
+        loaded.close()
+    small, large = np.array(angles).T
+    assert small[-1] == pytest.approx(1.0, abs=1e-3)
+    assert np.abs(large + 0.5 * small).max() < 1e-3
 
 
 @pytest.mark.slow

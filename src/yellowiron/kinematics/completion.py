@@ -183,7 +183,7 @@ def _report_gap(component: Component, grid: PoseGrid, work: _Work) -> None:
 def _limit(component: Component, grid: PoseGrid, rotations: Floats, work: _Work) -> None:
     """Limits of everything that moves with a component's drivers, once all of them have ends of stroke."""
     endless = [name for name in component.drivers if name not in grid.drivers]
-    if endless:
+    if endless and component.cuts:  # a wheel geared to another needs none
         work.find(
             "KIN009",
             "warning",

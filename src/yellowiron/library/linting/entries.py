@@ -86,7 +86,7 @@ def _rows_and_drives(template: Template) -> Iterator[Finding]:
             template.equipment_type,
             f"Rows of parts (name[*]) are looked at with {SAMPLE} parts; rings are joined to nothing and not counted.",
         )
-    if not template.actuators:
+    if not template.actuators and not any(j.drive for j in template.joints):
         yield Finding(
             "TPL007",
             "warning",
