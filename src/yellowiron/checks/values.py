@@ -112,7 +112,9 @@ class Side:
 class StageJoint:
     """A joint. `freedoms` are the directions it leaves free in its own frame, axis first (a hinge: `rotX` for token X);
     `lower` and `upper` are of a hinge's or slide's coordinate; `coordinate` is where it is drawn. `held` means that
-    something other than a drive holds it (friction, a spring, a mimic), `damped` that something slows it."""
+    something other than a drive holds it (friction, a spring, a mimic), `damped` that something slows it. `leader` is
+    the joint that it follows: "" where its mimic names none, None where it has no mimic; `ratio` and `offset` (m or
+    rad) are the mimic's."""
 
     path: str
     type: str
@@ -127,6 +129,9 @@ class StageJoint:
     held: bool = False
     damped: bool = False
     actuated: bool = False
+    leader: str | None = None
+    ratio: float = 1.0
+    offset: float = 0.0
     record: Mapping[str, Any] = field(default_factory=dict)
 
     @property

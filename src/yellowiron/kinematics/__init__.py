@@ -20,7 +20,7 @@ KIN008  the pins of a loop are not parallel: it does not close exactly
 KIN009  a driven slide has no ends of stroke, so what follows from it has no limits
 KIN010  a cylinder's closed length was calibrated: on what, and how well (a warning where it fits badly)
 KIN011  a closed length is unknown, and no measured specification depends on it
-KIN012  a driven joint is drawn outside its limits; the machine starts in the nearest legal pose
+KIN012  a driven joint is drawn outside its limits, or a follower off its place; the start is the nearest legal pose
 KIN013  an axis that nothing drawn shows was placed by published dimensions: by which, and how well
 KIN014  a published dimension cannot be met wherever the axes that nothing drawn shows may be
 KIN015  with the template's pressure a cylinder could not hold the machine's own weight; its force was raised

@@ -99,6 +99,7 @@ def _mobility(mechanism: Mechanism, work: _Work) -> Mobility:
     freedom = {"fixed": 0, "revolute": 1, "prismatic": 1, "spherical": 3, "distance": 0}
     tree = sum(freedom[joint.type] for joint in mechanism.joints if not joint.cut)
     grubler = tree - sum(_PER_FREEDOM[joint.type] for joint in mechanism.joints if joint.cut)
+    grubler -= sum(joint.follows is not None for joint in mechanism.joints)
     held = [name for name in work.chain.idle if work.joints[name].held]
     mobility = Mobility(work.chain.degrees_of_freedom - len(held), len(independent_joints(mechanism)), grubler)
     if mobility.computed != mobility.expected:
@@ -182,7 +183,7 @@ def _report_gap(component: Component, grid: PoseGrid, work: _Work) -> None:
 def _limit(component: Component, grid: PoseGrid, rotations: Floats, work: _Work) -> None:
     """Limits of everything that moves with a component's drivers, once all of them have ends of stroke."""
     endless = [name for name in component.drivers if name not in grid.drivers]
-    if endless:
+    if endless and component.cuts:  # a wheel geared to another needs none
         work.find(
             "KIN009",
             "warning",

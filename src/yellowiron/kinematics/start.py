@@ -24,24 +24,28 @@ INSIDE = 0.01
 @dataclass(frozen=True, eq=False)
 class Start:
     """Where an illegally drawn machine starts: `coordinates` of the joints that had to move (m, rad from the drawn
-    pose), the (4, 4) `displacements` of the bodies in the machine frame, and what there is to say."""
+    pose), the (4, 4) `displacements` of the bodies in the machine frame, and what there is to say. `closed`: it was
+    reached, so that every joint that follows is where its leader puts it."""
 
     coordinates: Mapping[str, float]
     displacements: Mapping[str, Floats]
     findings: tuple[Finding, ...]
+    closed: bool = True
 
 
 def legal_start(mechanism: Mechanism) -> Start | None:
-    """The nearest pose in which no driven joint is outside its limits; None where the drawn pose is one.
+    """The nearest pose in which no driven joint is outside its limits and every joint that follows is where its leader
+    puts it; None where the drawn pose is one.
 
     A joint whose limit cannot be reached on this branch of its loop stays where the linkage locks, with a finding.
     """
     wanted = {j.name: target for j in mechanism.joints if (target := _target(j)) is not None}
-    if not wanted:
+    led = {j.name: j.follows for j in mechanism.joints if j.follows is not None and j.follows.offset}
+    if not wanted and not led:
         return None
     chain = ClosedChain(mechanism)
     wanted = {name: target for name, target in wanted.items() if name in chain.independent}
-    if not wanted:
+    if not wanted and not led:
         return None
     state, share = chain.reach(wanted)
     coordinates = {name: chain.coordinate(state, name) for name in wanted}
@@ -51,10 +55,16 @@ def legal_start(mechanism: Mechanism) -> Start | None:
         words = f"It is drawn outside its limits {_range(joint)}: the machine starts {_shown(joint, value)} from there."
         hint = "Check the limits, stroke and closed length, or draw a legal pose."
         findings.append(Finding("KIN012", "warning", name, words, hint))
+    for name, follows in led.items():
+        coordinates[name] = chain.coordinate(state, name)
+        words = f"'{follows.joint}' puts it {_shown(mechanism.joint(name), coordinates[name])} from where it is drawn: "
+        hint = "The offset of its 'follows' says so; 0 is the drawn pose."
+        findings.append(Finding("KIN012", "info", name, f"{words}the machine starts there.", hint))
     if share < 1.0:
         words = f"The linkage locks after {share:.0%} of the way to a legal start pose."
-        findings.append(Finding("KIN012", "error", next(iter(wanted)), words, "Check stroke and closed length."))
-    return Start(coordinates, chain.pose(state), tuple(findings))
+        first = next(iter((*wanted, *led)))
+        findings.append(Finding("KIN012", "error", first, words, "Check stroke and closed length."))
+    return Start(coordinates, chain.pose(state), tuple(findings), share == 1.0)
 
 
 def started(
@@ -72,8 +82,12 @@ def started(
     )
     nodes = _nodes(assembly, {p.node: moves[str(body_of[p.id])] for p in assembly.parts if body_of.get(p.id) in moves})
     joints = []
+    # A cylinder's slide counts from its closed length, wherever it is drawn.
+    rams = {c.slide for a in template.actuators for c in a.cylinders}
     for joint in template.joints:
-        by = start.coordinates.get(joint.name, 0.0) if joint.type == "revolute" else 0.0
+        if joint.follows is not None and start.closed:
+            joint = replace(joint, follows=replace(joint.follows, offset=0.0))
+        by = start.coordinates.get(joint.name, 0.0) if joint.name not in rams else 0.0
         lower = joint.lower - by if isinstance(joint.lower, float) else joint.lower
         upper = joint.upper - by if isinstance(joint.upper, float) else joint.upper
         joints.append(replace(joint, lower=lower, upper=upper) if by else joint)

@@ -8,7 +8,7 @@ from yellowiron.library.notation.quantities import number_text
 from yellowiron.library.parsing.joints import DIMENSION, stated_gains
 from yellowiron.model.mechanism import Mechanism
 from yellowiron.model.specification import Specification, Specifications
-from yellowiron.model.template import JointTemplate, Template
+from yellowiron.model.template import Follows, JointTemplate, Template
 from yellowiron.support.units import SI_UNIT
 
 
@@ -79,7 +79,14 @@ def _further(joint: JointTemplate) -> dict[str, Any]:
         entry["free"] = "Y"
     if joint.ring:
         entry["ring"] = "Y"
+    if joint.follows is not None:
+        entry["follows"] = _coupled(joint.follows, SI_UNIT[DIMENSION[joint.type]])
     for key, when in (("when", joint.when), ("drive_when", joint.drive_when)):
         if when:
             entry[key] = {name: list(choices) for name, choices in when.items()}
     return entry
+
+
+def _coupled(follows: Follows, unit: str) -> dict[str, Any]:
+    offset = {"offset": number_text(follows.offset, unit)} if follows.offset else {}
+    return {"joint": follows.joint, "ratio": follows.ratio, **offset, "kind": follows.kind}

@@ -13,7 +13,7 @@ from yellowiron.library.notation.validated_json import Document, near, read_docu
 from yellowiron.library.parsing.actuators import read_actuators
 from yellowiron.library.parsing.hierarchy import read_hierarchy, read_relations, root_of
 from yellowiron.library.parsing.implied_hierarchy import infer_actuators, infer_roles
-from yellowiron.library.parsing.joints import check_bodies, read_joints, resolve_parts
+from yellowiron.library.parsing.joints import check_bodies, read_joints, resolve_leaders, resolve_parts
 from yellowiron.library.parsing.machine_tests import read_tests
 from yellowiron.library.parsing.materials import read_material
 from yellowiron.library.parsing.measurements import read_measurements
@@ -135,7 +135,8 @@ def _resolved(
     document: Document, joints: tuple[JointTemplate, ...], roles: tuple[Role, ...]
 ) -> tuple[JointTemplate, ...]:
     by_name = {fold(r.name): r for r in roles}
-    return tuple(resolve_parts(j, by_name, document.at(j.name, "Body")) for j in joints)
+    joints = tuple(resolve_parts(j, by_name, document.at(j.name, "Body")) for j in joints)
+    return resolve_leaders(joints, document.at)
 
 
 def _further(documents: Mapping[str, Document], template: Template) -> dict[str, Any]:

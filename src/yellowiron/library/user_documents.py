@@ -19,7 +19,7 @@ import numpy as np
 from yellowiron.library.notation.role_keys import EVERYTHING, matches
 from yellowiron.library.notation.validated_json import Document, check_document, near, read_json, template_schema, where
 from yellowiron.library.parsing.axes import read_axis
-from yellowiron.library.parsing.joints import check_bodies, read_joint
+from yellowiron.library.parsing.joints import check_bodies, read_joint, resolve_leaders
 from yellowiron.library.parsing.materials import read_material
 from yellowiron.library.parsing.sensors import read_sensor
 from yellowiron.library.parsing.variants import check_choices
@@ -103,7 +103,7 @@ def load_documents(
         materials=reader.materials,
         collision=reader.collision,
         relations={leader: tuple(names) for leader, names in reader.relations.items()},
-        joints=reader.joints,
+        joints=reader.led(),
         followers=tuple(reader.followers.values()),
         folders=tuple(dict.fromkeys(str(Path(p).parent) for p in paths)),
         findings=tuple(dict.fromkeys(reader.findings)),
@@ -218,6 +218,7 @@ class _Reader:
         self.relations: dict[str, list[str]] = {}
         self.joints: dict[str, JointTemplate] = {}
         self.sensors: dict[str, SensorTemplate] = {}
+        self.said: dict[str, Document] = {}
         self.axes: dict[str, tuple[Vector, Vector]] = {}
         self.followers: dict[str, Follower] = {}
         self.findings: list[Finding] = []
@@ -340,8 +341,18 @@ class _Reader:
         if axis is not None:
             self.axes[joint.name] = axis
         joint = _signed(joint, known, document.path.name)
+        self.said[joint.name] = document
         said = {"axis": document.path.name} if axis is not None else {}
         self.joints[joint.name] = replace(joint, documents={**joint.documents, **said})
+
+    def led(self) -> dict[str, JointTemplate]:
+        """The documents' joints, the leaders of those that follow looked up among all joints."""
+        every = {j.name: j for j in self.template.joints} | self.joints
+        unknown = Document(Path("joints.json"), {})
+        found = resolve_leaders(
+            tuple(every.values()), lambda name, *keys: self.said.get(str(name), unknown).at(name, *keys)
+        )
+        return {j.name: j for j in found if j.name in self.joints}
 
     def role_of(self, part: str) -> str | None:
         """The role that a joint's part stands for: its own name, or the body it follows."""

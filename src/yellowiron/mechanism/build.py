@@ -18,6 +18,7 @@ from yellowiron.mechanism.bodies import body, mass
 from yellowiron.mechanism.bodies.choice import Choice
 from yellowiron.mechanism.bodies.hidden_wheels import hidden_wheels, with_wheels
 from yellowiron.mechanism.joints import chains
+from yellowiron.mechanism.joints.followers import with_followers
 from yellowiron.mechanism.joints.frames import JointFrame, joint_frames, weld
 from yellowiron.mechanism.joints.planarity import follow_first, make_parallel
 from yellowiron.mechanism.joints.tree import Tree, links, loop_groups, loose_bodies
@@ -108,6 +109,7 @@ def build_mechanism(
     joints = tuple(
         _joint(_sourced(frame, alignment), tree, slides, powered, specifications, findings) for frame in frames.values()
     )
+    joints = with_followers(joints, template, frames, findings)
     joints = _with_idle_held(joints, tree, findings)
 
     # The bodies.
@@ -261,7 +263,8 @@ def _with_idle_held(joints: Sequence[Joint], tree: Tree, findings: list[Finding]
     closed = {name for loop in tree.loops for name in loop.joints}
     held = []
     for joint in joints:
-        if joint.type in ("revolute", "prismatic") and joint.drive is None and not joint.free | (joint.name in closed):
+        moved = joint.free or joint.name in closed or joint.follows is not None
+        if joint.type in ("revolute", "prismatic") and joint.drive is None and not moved:
             words = f"Nothing moves or holds '{joint.body1}' on it: it stands as drawn."
             hint = "Give what is missing of its linkage in CAD, or make the joint free in a joints document (--data)."
             findings.append(Finding("MEC019", "warning", joint.name, words, hint))

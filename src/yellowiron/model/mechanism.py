@@ -11,7 +11,7 @@ from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
 from yellowiron.model.machine_tests import MachineTest, PayloadTemplate
 from yellowiron.model.sensor import Sensor
-from yellowiron.model.template import JointType, Material, MeasurementTemplate
+from yellowiron.model.template import Follows, JointType, Material, MeasurementTemplate
 
 Vector = tuple[float, float, float]
 
@@ -93,7 +93,8 @@ class Joint:
     """A joint in the drawn pose, where its coordinate is 0. `body0` is the parent in the tree (for a cut joint: the
     body nearer the root); `axis` is a unit vector, `anchor` a point on it, both in the machine frame. Limits are in
     metres or radians from the drawn pose, None: unlimited. `free` coordinates move without a drive (an oscillating
-    axle). `source` holds the evidence: template entry, CAD parts, residuals, page and quote of a limit."""
+    axle); that of one that `follows` is its leader's times a ratio. `source` holds the evidence: template entry, CAD
+    parts, residuals, page and quote of a limit."""
 
     name: str
     type: JointType
@@ -107,6 +108,7 @@ class Joint:
     free: bool = False
     drive: Drive | None = None
     source: Mapping[str, Any] = field(default_factory=dict)
+    follows: Follows | None = None
 
     @property
     def held(self) -> bool:

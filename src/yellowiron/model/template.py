@@ -12,6 +12,7 @@ from yellowiron.model.sensor import SensorTemplate
 
 JointType = Literal["fixed", "distance", "spherical", "revolute", "prismatic"]
 DriveType = Literal["linear", "angular"]
+Coupling = Literal["chain", "gear", "rope"]
 Choices = Mapping[str, tuple[str, ...]]
 """Variant name → the choices under which an entry exists; empty: always."""
 
@@ -47,11 +48,39 @@ class Role:
 
 
 @dataclass(frozen=True)
+class Follows:
+    """What a joint's coordinate follows: that of `joint`, of the same type, times `ratio`, plus `offset` (metres or
+    radians: where it is while the leader is as drawn). `kind` says what couples them."""
+
+    joint: str
+    ratio: float = 1.0
+    offset: float = 0.0
+    kind: Coupling = "chain"
+
+    @property
+    def words(self) -> str:
+        """It as people read it: "follows lift by chain, ratio 1"."""
+        return f"follows {self.joint} by {self.kind}, ratio {self.ratio:g}"
+
+
+def by_first_leader(joint: str, every: Mapping[str, Follows]) -> Follows:
+    """What a joint follows, told by the first leader of the chain, which follows nothing. `every`: joint → what it
+    follows."""
+    told = every[joint]
+    for _ in every:
+        if told.joint not in every:
+            break
+        above = every[told.joint]
+        told = Follows(above.joint, told.ratio * above.ratio, told.offset + told.ratio * above.offset, told.kind)
+    return told
+
+
+@dataclass(frozen=True)
 class JointTemplate:
     """A joint entry. `parts` are role names as written in `Body`; limits are numbers (metres, radians), texts naming a
     specification (with an optional leading minus), or None (free). Gains in SI (N/m, N·m/rad …) or None: computed.
     `ring`: of a joint along a row (`shoe[i]`, `shoe[i+1]`), the last part is joined to the first; such a ring is joined
-    to nothing else and touches the machine only.
+    to nothing else and touches the machine only. `follows`: another joint leads it, and nothing drives it.
 
     `documents`: where a user's document, not the template, says what the entry joins (`joint`) or its limits (`limit`),
     that document's file name.
@@ -72,6 +101,7 @@ class JointTemplate:
     drive_when: Choices = field(default_factory=dict)
     documents: Mapping[str, str] = field(default_factory=dict)
     ring: bool = False
+    follows: Follows | None = None
 
 
 @dataclass(frozen=True)

@@ -190,8 +190,8 @@ def _body_entry(body: Body) -> dict[str, Any]:
 
 def _joint_entry(joint: Joint) -> dict[str, Any]:
     entry = asdict(joint)
-    drive = entry.pop("drive")
-    return {**entry, "drive": drive}
+    drive, follows = entry.pop("drive"), entry.pop("follows")
+    return {**entry, "drive": drive, **({"follows": follows} if follows else {})}
 
 
 def _counts(mechanism: Mechanism, template: Template) -> dict[str, int]:

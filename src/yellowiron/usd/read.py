@@ -18,12 +18,13 @@ from pxr import Gf, Sdf, Tf, Usd, UsdGeom, UsdPhysics, UsdUtils
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Body, BodyPart, BodyShape, Drive, Joint, Mechanism, Site
-from yellowiron.model.template import JointType
+from yellowiron.model.template import Follows, JointType, by_first_leader
 from yellowiron.support.record import RECORD
 from yellowiron.support.vectors import triple
 from yellowiron.usd.authoring.metadata import DOCUMENTS, FORMAT, from_json
 from yellowiron.usd.authoring.rotation import axis_of, principal_axes
 from yellowiron.usd.layers.drives import INSTANCES, per_usd_unit, to_usd_unit
+from yellowiron.usd.layers.mujoco import MIMIC, MIMIC_NAMES
 from yellowiron.usd.layers.sensors import read_sensors
 from yellowiron.usd.planning.pin_links import KIND as PIN_LINK
 from yellowiron.usd.planning.plan import HULL, JOINTS, VISUALS
@@ -132,6 +133,7 @@ class _Reader:
         self._prim = prim
         self._cache = UsdGeom.XformCache()
         self._names: dict[Sdf.Path, str] = {}
+        self._built_follows: dict[str, Follows] = {}
 
     def read(self) -> Mechanism:
         data = self._prim.GetCustomDataByKey(RECORD)
@@ -141,6 +143,8 @@ class _Reader:
         bodies = tuple(self._body(p) for p in body_prims)
         scope = self._prim.GetChild(JOINTS)
         joint_prims = [p for p in scope.GetChildren() if _kind(p) == "joint"] if scope else []
+        records = [_data(p) for p in joint_prims]
+        self._built_follows = {str(r["name"]): from_json(Follows, r["follows"]) for r in records if "follows" in r}
         hints = typing.get_type_hints(Mechanism)
         return Mechanism(
             name=str(data["name"]),
@@ -244,7 +248,32 @@ class _Reader:
             free=bool(data.get("free", False)),
             drive=None if drive is None else _drive(prim, kind, from_json(Drive, drive)),
             source=from_json(dict, data["evidence"]) if "evidence" in data else {},
+            follows=self._follows(prim, kind, data),
         )
+
+    def _follows(self, prim: Usd.Prim, kind: str, data: Any) -> Follows | None:
+        """What the joint follows: as recorded, unless its attributes, which name the chain's first leader, were
+        edited."""
+        # Unregistered schemas, as Newton's mostly are, are in the metadata only.
+        applied = prim.GetMetadata("apiSchemas")
+        if applied is None or MIMIC not in applied.GetAppliedItems() or _said(prim, "Enabled", True) is False:
+            return None
+        relation = prim.GetRelationship(f"{MIMIC_NAMES}Joint")
+        targets = [self._stage.GetPrimAtPath(path) for path in (relation.GetTargets() if relation else [])]
+        if len(targets) != 1 or not targets[0] or _kind(targets[0]) != "joint":
+            raise YellowironError(
+                "A joint that follows has no leader among the machine's joints",
+                where=str(prim.GetPath()),
+                hint=f"{MIMIC_NAMES}Joint names the one joint that it follows; without {MIMIC} it follows none.",
+            )
+        leader, factor = str(_data(targets[0])["name"]), to_usd_unit(kind)
+        ratio, offset = float(_said(prim, "Coef1", 1.0)), float(_said(prim, "Coef0", 0.0)) / factor
+        name, built = str(data["name"]), self._built_follows
+        if name not in built:
+            return Follows(leader, ratio, offset)
+        told = by_first_leader(name, built)
+        unedited = told.joint == leader and _same(ratio, told.ratio) and _same(offset, told.offset)
+        return built[name] if unedited else Follows(leader, ratio, offset, told.kind)
 
     def _joined(self, relationship: Usd.Relationship, joint: Usd.Prim) -> str:
         targets = relationship.GetTargets()
@@ -268,6 +297,12 @@ class _Reader:
             return lower, upper
         factor = to_usd_unit(kind)
         return _limit(prim, names[0], lower, factor), _limit(prim, names[1], upper, factor)
+
+
+def _said(prim: Usd.Prim, name: str, default: Any) -> Any:
+    """An attribute of a joint that follows; the schema's default where it is not authored."""
+    attribute = prim.GetAttribute(f"{MIMIC_NAMES}{name}")
+    return attribute.Get() if attribute and attribute.HasAuthoredValue() else default
 
 
 def _limit(prim: Usd.Prim, name: str, recorded: float | None, factor: float) -> float | None:

@@ -31,6 +31,7 @@ _RESISTANCE = (
 )
 _DAMPING = ("newton:damping", "mjc:damping")
 _MIMICS = ("PhysxMimicJointAPI", "NewtonMimicAPI")
+_LEADERS = {"NewtonMimicAPI": "newton:mimicJoint", "PhysxMimicJointAPI": "physxMimicJoint:{}:referenceJoint"}
 _EQUALITIES = "MjcEqualityJointAPI"
 _ACTUATORS = {"MjcActuator": "mjc:target", "NewtonActuator": "newton:targets"}
 _TENDON = "mjc:path"
@@ -66,7 +67,9 @@ def _read_joint(prim: Usd.Prim, poses: Poses, units: Units, actuated: set[str]) 
     freedoms = _freedoms(prim, kind)
     drives = tuple(_read_drive(prim, i, units) for i in _instances(prim, "PhysicsDriveAPI"))
     lower, upper = _limits(prim, kind, freedoms, units)
-    schemas = prim.GetAppliedSchemas()
+    schemas = _applied(prim)
+    offset = number(prim, "newton:mimicCoef0") or 0.0
+    ratio = number(prim, "newton:mimicCoef1")
     return StageJoint(
         path=str(prim.GetPath()),
         type=_as_simple(kind, freedoms),
@@ -82,8 +85,31 @@ def _read_joint(prim: Usd.Prim, poses: Poses, units: Units, actuated: set[str]) 
         or any(s.split(":")[0] in (*_MIMICS, _EQUALITIES) for s in schemas),
         damped=any((number(prim, n) or 0.0) > 0.0 for n in _DAMPING),
         actuated=str(prim.GetPath()) in actuated,
+        leader=_leader(prim),
+        ratio=1.0 if ratio is None else ratio,
+        offset=offset * (units.meters_per_unit if freedoms[:1] and freedoms[0] in LINEAR else math.radians(1.0)),
         record=record_of(prim),
     )
+
+
+def _applied(prim: Usd.Prim) -> list[str]:
+    """Applied schemas, with those that nothing here has registered: USD knows them by the metadata alone."""
+    written = prim.GetMetadata("apiSchemas")
+    return list(dict.fromkeys([*prim.GetAppliedSchemas(), *(written.GetAppliedItems() if written else ())]))
+
+
+def _leader(prim: Usd.Prim) -> str | None:
+    """The joint that a mimic names, "" where it names none that is there; None without a mimic that is on."""
+    for applied in _applied(prim):
+        schema, _, instance = applied.partition(":")
+        enabled = prim.GetAttribute("newton:mimicEnabled")
+        off = schema == "NewtonMimicAPI" and enabled and enabled.Get() is False
+        if schema in _LEADERS and not off:
+            relation = prim.GetRelationship(_LEADERS[schema].format(instance))
+            targets = relation.GetTargets() if relation else []
+            there = [t for t in targets if (found := prim.GetStage().GetPrimAtPath(t)) and found.IsActive()]
+            return str(there[0]) if len(targets) == len(there) == 1 else ""
+    return None
 
 
 def _instances(prim: Usd.Prim, schema: str) -> list[str]:

@@ -16,6 +16,7 @@ from yellowiron.checks.tolerances import FRAMES_APART
 from yellowiron.checks.values import WORLD, StageJoint, direction
 from yellowiron.checks.view import View
 from yellowiron.model.geometry import Floats
+from yellowiron.model.template import Follows, by_first_leader
 from yellowiron.support.vectors import angle_between
 
 _TURNED = math.radians(0.01)
@@ -218,8 +219,45 @@ def mobility(view: View) -> Remarks:
         return
     own = [i for i in view.islands if any(b.path.startswith(f"{view.machine}/") for b in i.bodies)]
     freedoms = sum(_freedoms(island) for island in own if not island.floating)
+    # One that follows another moves in no way of its own.
+    freedoms -= sum(bool(j.leader) for island in own for j in island.joints if not j.cut)
     if freedoms != built["computed"]:
         yield view.machine, f"It moves in {freedoms} way(s), and was built to move in {built['computed']}."
+
+
+@rule(
+    "CHK127",
+    "warning",
+    "Nothing to do if it was edited on purpose; otherwise build again.",
+)
+def edited_leader(view: View) -> Remarks:
+    """A joint does not follow what the build made it follow."""
+    names = {j.path: str(j.record.get("name")) for j in view.joints}
+    built = dict(_recorded_follows(view))
+    for joint, record in _recorded(view):
+        name = str(record.get("name"))
+        # A file names the first leader of a chain.
+        before = by_first_leader(name, built) if name in built else None
+        now = names.get(joint.leader or "", "")
+        if now != (before.joint if before is not None else ""):
+            what = f"'{now}'" if now else "no joint"
+            was = f"'{before.joint}'" if before is not None else "no joint"
+            yield joint.path, f"It follows {what}, and was built to follow {was}."
+        elif before is not None:
+            for word, value, given in (("ratio", joint.ratio, before.ratio), ("offset", joint.offset, before.offset)):
+                if not _same(value, given):
+                    yield joint.path, f"It follows with a {word} of {value:.5g}, and was built with {given:.5g} (SI)."
+
+
+def _recorded_follows(view: View) -> Iterator[tuple[str, Follows]]:
+    """Joint → what the build made it follow; damaged records are passed over."""
+    for _, record in _recorded(view):
+        try:
+            said = json.loads(record.get("follows", "null"))
+            if isinstance(said, dict):
+                yield str(record.get("name")), Follows(str(said["joint"]), float(said["ratio"]), float(said["offset"]))
+        except (json.JSONDecodeError, TypeError, KeyError, ValueError):
+            continue
 
 
 def _freedoms(island: Island) -> int:

@@ -1,4 +1,4 @@
-"""MJCF: the machine's tree with hinges and slides, a `connect` for every cut, explicit masses, convex colliders."""
+"""MJCF: the machine's tree, a `connect` for every cut, a coupling where a joint follows, masses, convex colliders."""
 
 from __future__ import annotations
 
@@ -297,6 +297,10 @@ class _Document:
                 )
                 ends = {"class": "machine", "name": joint.name, "body1": joint.body0, "body2": joint.body1}
                 ET.SubElement(section, kind, {**ends, "anchor": row(anchor)})
+            if joint.follows is not None:
+                led = {"class": "machine", "name": joint.name, "joint1": joint.name, "joint2": joint.follows.joint}
+                polynomial = row((joint.follows.offset, joint.follows.ratio, 0.0, 0.0, 0.0))
+                ET.SubElement(section, "joint", {**led, "polycoef": polynomial})
         return section
 
     def _tendon(self) -> ET.Element:

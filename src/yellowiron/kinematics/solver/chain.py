@@ -53,8 +53,8 @@ class State:
 
 @dataclass(frozen=True)
 class Component:
-    """Coordinates that loops couple: the `drivers` that are given, the `dependent` tree joints that follow, and the
-    `cuts` of those loops."""
+    """Coordinates that loops couple, or joints that follow others: the `drivers` that are given, the `dependent` tree
+    joints that follow from them, and the `cuts` of those loops."""
 
     drivers: tuple[str, ...]
     dependent: tuple[str, ...]
@@ -79,6 +79,7 @@ class ClosedChain:
         self._model = self._body.model
         self._data = mujoco.MjData(self._model)
         self._joints = {joint.name: joint for joint in mechanism.joints}
+        self._follows = [(joint.name, joint.follows) for joint in mechanism.joints if joint.follows is not None]
         self._origins = {body.name: np.array(body.origin, dtype=np.float64) for body in mechanism.bodies}
         for name in floating:
             self._body.bodies[name] = self._body.bodies[mechanism.root]
@@ -101,7 +102,7 @@ class ClosedChain:
         for name in given:
             fixed[self._dofs(name)] = True
         loose = np.flatnonzero(~fixed)
-        system = square_system(self._jacobian, loose, self._body.cuts.values())
+        system = square_system(self._jacobian, loose, self._body.cuts.values(), len(self._follows))
         if system is None:
             raise MechanismError(
                 "the drawn pose is at a dead point of a loop",
@@ -116,7 +117,7 @@ class ClosedChain:
         self.dependent: tuple[str, ...] = tuple(
             name for name in self._body.joints if any(d in dependent for d in self._dofs(name))
         )
-        """Tree joints whose coordinates follow from the loops."""
+        """Tree joints whose coordinates follow from the loops, or from the joints that lead them."""
         self.idle: tuple[str, ...] = tuple(
             name for name in self._body.joints if name not in self.independent and name not in self.dependent
         )
@@ -138,11 +139,13 @@ class ClosedChain:
         """The groups of coordinates that the loops couple, in the mechanism's order."""
         jacobian = np.abs(self._at(self.drawn)) > 1e-9
         groups: list[tuple[set[int], list[str]]] = []
-        for cut, points in self._body.cuts.items():
-            rows = [3 * point + row for point in points for row in range(3)]
+        coupling = [([c], [3 * point + row for point in p for row in range(3)]) for c, p in self._body.cuts.items()]
+        first = len(jacobian) - len(self._follows)
+        coupling += [([], [first + number]) for number in range(len(self._follows))]
+        for cut, rows in coupling:
             columns = {int(c) for c in np.flatnonzero(jacobian[rows].any(axis=0))}
             joined = [group for group in groups if group[0] & columns]
-            merged = (columns.union(*(g[0] for g in joined)), [*(name for g in joined for name in g[1]), cut])
+            merged = (columns.union(*(g[0] for g in joined)), [*(name for g in joined for name in g[1]), *cut])
             groups = [group for group in groups if group not in joined] + [merged]
 
         def moving(names: Sequence[str], columns: set[int]) -> tuple[str, ...]:
@@ -282,21 +285,36 @@ class ClosedChain:
         return state
 
     def _evaluate(self, position: Floats) -> None:
-        """Gaps (rows: 3 a connection point, in the cut's own frame on `body0`) and their Jacobian at a position."""
+        """Gaps (rows: 3 a connection point, in the cut's own frame on `body0`, then one a joint that follows) and their
+        Jacobian at a position."""
         data, model = self._data, self._model
         data.qpos[:] = position
         self._placed = None
         mujoco.mj_kinematics(model, data)
         mujoco.mj_comPos(model, data)
-        if not len(self._body.bases):
-            return
-        mujoco.mj_makeConstraint(model, data)
-        points = len(self._body.bases)
-        if data.nefc != 3 * points:
-            raise self._locked()
-        turned = self._body.frames @ data.xmat[self._body.bases].reshape(points, 3, 3).transpose(0, 2, 1)
-        self._gaps = (turned @ data.efc_pos.reshape(points, 3, 1)).reshape(-1)
-        self._jacobian = (turned @ data.efc_J.reshape(points, 3, model.nv)).reshape(3 * points, model.nv)
+        if len(self._body.bases):
+            mujoco.mj_makeConstraint(model, data)
+            points = len(self._body.bases)
+            if data.nefc != 3 * points:
+                raise self._locked()
+            turned = self._body.frames @ data.xmat[self._body.bases].reshape(points, 3, 3).transpose(0, 2, 1)
+            self._gaps = (turned @ data.efc_pos.reshape(points, 3, 1)).reshape(-1)
+            self._jacobian = (turned @ data.efc_J.reshape(points, 3, model.nv)).reshape(3 * points, model.nv)
+        if self._follows:
+            self._evaluate_followers(position)
+
+    def _evaluate_followers(self, position: Floats) -> None:
+        """Puts a row below those of the loops for every joint that follows: how far it is from where it should be."""
+        loops = 3 * len(self._body.bases)
+        rows = np.zeros((len(self._follows), self._model.nv))
+        gaps = np.zeros(len(self._follows))
+        for number, (name, follows) in enumerate(self._follows):
+            own, led = self._body.joints[name], self._body.joints[follows.joint]
+            gaps[number] = position[own[0]] - follows.ratio * position[led[0]] - follows.offset
+            rows[number, own[1]] = 1.0
+            rows[number, led[1]] -= follows.ratio
+        self._gaps = np.concatenate([self._gaps[:loops], gaps])
+        self._jacobian = np.concatenate([self._jacobian[:loops], rows])
 
     def _locked(self) -> MechanismError:
         """The error for cuts whose bodies cannot move against each other, with the joints that hold them."""

@@ -16,7 +16,7 @@ from yellowiron.model.mechanism import Mechanism
 
 def independent_joints(mechanism: Mechanism) -> tuple[str, ...]:
     """Tree joints with a coordinate of their own: the driven slide of each cylinder actuator, every motor joint, every
-    driven joint besides, and the joints declared free; in the mechanism's order."""
+    driven joint besides, and the joints declared free; none that follows another. In the mechanism's order."""
     passive = {cylinder.slide for cylinder in mechanism.cylinders if cylinder.passive}
     actuated = {
         entry.joint
@@ -27,6 +27,7 @@ def independent_joints(mechanism: Mechanism) -> tuple[str, ...]:
         joint.name
         for joint in mechanism.joints
         if not joint.cut
+        and joint.follows is None
         and joint.name not in passive
         and (joint.name in actuated or joint.free or joint.drive is not None)
     )
@@ -44,10 +45,11 @@ def suspects(mechanism: Mechanism, among: Sequence[str] | None = None) -> str:
 
 
 def square_system(
-    jacobian: Floats, loose: np.ndarray, cuts: Collection[Sequence[int]]
+    jacobian: Floats, loose: np.ndarray, cuts: Collection[Sequence[int]], coupled: int = 0
 ) -> tuple[np.ndarray, np.ndarray] | None:
-    """The rows of the closure Jacobian (3 a connection point, all tree coordinates) that are independent, and as many
-    of its `loose` columns, the coordinates they determine; None at a dead point of a loop.
+    """The rows of the closure Jacobian (3 a connection point, then one each of the `coupled` joints; all tree
+    coordinates) that are independent, and as many of its `loose` columns, the coordinates they determine; None at a
+    dead point of a loop.
 
     `cuts` gives the connection points of each cut: first ones come before further ones, across the axis before along.
     """
@@ -55,6 +57,7 @@ def square_system(
     first = [point for points in cuts for point in points[:1]]
     further = [point for points in cuts for point in points[1:]]
     tiers = [np.array([3 * p + row for p in points for row in (1, 2, 0)], dtype=int) for points in (first, further)]
+    tiers.insert(0, np.arange(len(jacobian) - coupled, len(jacobian)))
     rows = _independent_rows(jacobian, tiers)
     chosen = _independent_rows(jacobian[rows].T, [np.arange(len(loose))])
     if len(chosen) < len(rows):  # a drawn pose next to a dead point

@@ -27,6 +27,8 @@ def _gone(template: Template, chosen: Template, choices: Mapping[str, str]) -> I
         for part in joint.parts:
             if split_index(part)[0] not in roles:
                 yield joint.name, f"its part '{part}'"
+        if joint.follows is not None and joint.follows.joint not in joints:
+            yield joint.name, f"the joint '{joint.follows.joint}' that it follows"
     for role in chosen.roles:
         if role.parent is not None and role.parent not in roles:
             yield role.name, f"its parent '{role.parent}'"

@@ -19,6 +19,7 @@ def entries(template: Template) -> Iterator[Finding]:
     yield from specifications(template)
     yield from _roles(template)
     yield from _gains(template)
+    yield from _driven_followers(template)
     yield from _rows_and_drives(template)
     yield from measurements(template)
     yield from machine_tests(template)
@@ -61,6 +62,21 @@ def _gains(template: Template) -> Iterator[Finding]:
             )
 
 
+def _driven_followers(template: Template) -> Iterator[Finding]:
+    """Joints that follow another and that an actuator names."""
+    named = {c.slide: a.name for a in template.actuators for c in a.cylinders}
+    named |= {joint: a.name for a in template.actuators for joint in a.joints}
+    for joint in template.joints:
+        if joint.follows is not None and joint.name in named:
+            yield Finding(
+                "TPL021",
+                "error",
+                joint.name,
+                f"It follows '{joint.follows.joint}', and the actuator '{named[joint.name]}' drives it.",
+                "Name the leader in actuators.json.",
+            )
+
+
 def _rows_and_drives(template: Template) -> Iterator[Finding]:
     """Rows, which are looked at with a few parts only, and a machine in which nothing is driven."""
     if any(r.many for r in template.roles):
@@ -70,7 +86,7 @@ def _rows_and_drives(template: Template) -> Iterator[Finding]:
             template.equipment_type,
             f"Rows of parts (name[*]) are looked at with {SAMPLE} parts; rings are joined to nothing and not counted.",
         )
-    if not template.actuators:
+    if not template.actuators and not any(j.drive for j in template.joints):
         yield Finding(
             "TPL007",
             "warning",

@@ -7,7 +7,7 @@ no loop move on their own.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -45,7 +45,8 @@ class Group:
 class TemplateMobility:
     """Degrees of freedom relative to the root under one set of `choices`: `computed` by the generic rank, `expected`
     the driven and free coordinates, `planar` and `spatial` by Grübler's count (a planar loop counts 3 too few in
-    space). `loose` are joints in no loop that are neither driven nor free."""
+    space). A joint that follows another takes 1 from each count. `loose` are joints in no loop that are neither driven
+    nor free, and follow none."""
 
     choices: Mapping[str, str]
     computed: int
@@ -62,25 +63,31 @@ def mobility(template: Template, choices: Mapping[str, str]) -> TemplateMobility
     joints = [j for j in template.joints if not j.ring and not any(split_index(p)[1] for p in j.parts)]
     ends = welded_ends(template, joints)
     coordinates = _coordinates_of(template)
+    leaders = {j.name: j.follows.joint for j in joints if j.follows is not None}
     groups, loose = [], []
     computed = planar = 0
     for names in blocks(ends):
         members = [template.joint(n) for n in names]
         if len(members) == 1:
-            computed += _SPATIAL_FREEDOM[members[0].type]
-            planar += _SPATIAL_FREEDOM[members[0].type]
-            loose += [n for n in names if n not in coordinates]
+            alone = _SPATIAL_FREEDOM[members[0].type] if names[0] not in leaders else 0
+            computed += alone
+            planar += alone
+            loose += [n for n in names if n not in coordinates and n not in leaders]
             continue
+        # What follows a joint elsewhere stands still while that does.
+        led = frozenset(n for n in names if n in leaders and leaders[n] not in names)
         bodies = tuple(dict.fromkeys(b for n in names for b in ends[n]))
         count = 3 * (len(bodies) - 1) - sum(3 - _PLANAR_FREEDOM[j.type] for j in members)
-        free = _generic_freedom(bodies, members, ends)
+        count -= sum(n in leaders for n in names)
+        free = _generic_freedom(bodies, members, ends, held=led)
         given = frozenset(names) & frozenset(coordinates)
-        left = _generic_freedom(bodies, members, ends, held=given)
+        left = _generic_freedom(bodies, members, ends, held=given | led)
         groups.append(Group(bodies, names, count, free, len(given), left))
         computed += free
         planar += count
     bodies = tuple(dict.fromkeys(b for pair in ends.values() for b in pair))
     spatial = 6 * (len(bodies) - 1) - sum(6 - _SPATIAL_FREEDOM[template.joint(n).type] for n in ends)
+    spatial -= sum(n in ends for n in leaders)
     return TemplateMobility(choices, computed, len(coordinates), planar, spatial, tuple(groups), tuple(loose))
 
 
@@ -93,7 +100,9 @@ def _coordinates_of(template: Template) -> tuple[str, ...]:
     return tuple(
         j.name
         for j in template.joints
-        if not j.ring and (j.name in given or (j.drive and j.name not in passive) or (j.free and not j.drive))
+        if not j.ring
+        and j.follows is None
+        and (j.name in given or (j.drive and j.name not in passive) or (j.free and not j.drive))
     )
 
 
@@ -135,13 +144,14 @@ def _generic_freedom(
 
 def _jacobian(
     bodies: tuple[str, ...],
-    joints: Iterable[JointTemplate],
+    joints: Sequence[JointTemplate],
     ends: Mapping[str, tuple[str, str]],
     held: frozenset[str],
     random: np.random.Generator,
 ) -> Floats:
     """Rows: velocity constraints; columns: (vx, vy, ω) of every body but the first. Unit lengths."""
     rows: list[Floats] = []
+    moved: dict[str, Floats] = {}
     for joint in joints:
         x, y = random.uniform(-1.0, 1.0, 2)
         angle = random.uniform(0.0, 2.0 * np.pi)
@@ -156,9 +166,17 @@ def _jacobian(
             local = (along @ at)[None, :]
         else:
             local = at
-        block = np.zeros((len(local), 3 * len(bodies)))
-        for body, sign in zip(ends[joint.name], (1.0, -1.0), strict=True):
-            start = 3 * bodies.index(body)
-            block[:, start : start + 3] += sign * local
-        rows.append(block)
+
+        def block(of: Floats, pair: tuple[str, str] = ends[joint.name]) -> Floats:
+            made = np.zeros((len(of), 3 * len(bodies)))
+            for body, sign in zip(pair, (1.0, -1.0), strict=True):
+                start = 3 * bodies.index(body)
+                made[:, start : start + 3] += sign * of
+            return made
+
+        rows.append(block(local))
+        moved[joint.name] = block((along @ at)[None, :] if joint.type == "prismatic" else np.eye(3)[2:])
+    for joint in joints:
+        if joint.follows is not None and joint.follows.joint in moved:
+            rows.append(moved[joint.name] - joint.follows.ratio * moved[joint.follows.joint])
     return np.vstack(rows)[:, 3:]

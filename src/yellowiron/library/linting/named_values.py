@@ -30,7 +30,8 @@ def specifications(template: Template) -> Iterator[Finding]:
     known = {fold(w.name): w for w in template.wanted}
     said: set[str] = set()
     for joint in template.joints:
-        if joint.type == "prismatic" and joint.lower is None and joint.upper is None:
+        unlimited = joint.lower is None and joint.upper is None and joint.follows is None
+        if joint.type == "prismatic" and unlimited:
             yield Finding("TPL010", "warning", joint.name, "The slide has no limits.", 'Give Limit ["0", "… Stroke"].')
         for value in (joint.lower, joint.upper):
             if not isinstance(value, str):

@@ -56,7 +56,8 @@ def infer_roles(
 
 def infer_actuators(template: Template) -> tuple[ActuatorTemplate, ...]:
     """Actuators for a template without `actuators.json`: one a driven joint, left and right twins together. Which twin
-    retracts is not known; all signs are +1."""
+    retracts is not known; all signs are +1. A slide that turns at neither end, or
+    at one and is between neither barrel nor rod, is no cylinder's: its drive is its own."""
     cylinders: dict[str, list[CylinderTemplate]] = {}
     strokes: dict[str, dict[str, str]] = {}
     motors: dict[str, list[str]] = {}
@@ -64,6 +65,9 @@ def infer_actuators(template: Template) -> tuple[ActuatorTemplate, ...]:
         name = _SIDE.sub("", joint.name.removesuffix("_joint"))
         if joint.drive == "linear":
             barrel, rod = (_pivot(template, joint, body) for body in _barrel_first(template, joint))
+            kinds = {template.role(split_index(part)[0]).kind for part in joint.parts}
+            if not (barrel and rod) and (not (barrel or rod) or kinds.isdisjoint(("barrel", "rod"))):
+                continue
             strokes[name] = {"stroke": joint.upper} if isinstance(joint.upper, str) else {}
             twins = cylinders.setdefault(name, [])
             twins.append(CylinderTemplate(joint.name, barrel, rod, passive=bool(twins), when=joint.when))

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, cast
 
-from yellowiron.library.notation.quantities import limit, yes
+from yellowiron.library.notation.quantities import limit, quantity, yes
 from yellowiron.library.notation.validated_json import Document, near
 from yellowiron.library.parsing.variants import choices_of
 from yellowiron.model.errors import TemplateError
 from yellowiron.model.rows import split_index
 from yellowiron.model.specification import fold
-from yellowiron.model.template import DriveType, JointTemplate, JointType, Role
+from yellowiron.model.template import DriveType, Follows, JointTemplate, JointType, Role
 
 DIMENSION: Mapping[str, str] = {
     "prismatic": "length",
@@ -25,6 +25,8 @@ DIMENSION: Mapping[str, str] = {
 _GAINS = ("stiffness", "damping", "max_force", "max_velocity")
 """The keys of JSON-4, all in SI units."""
 _DRIVABLE: Mapping[str, str] = {"linear": "prismatic", "angular": "revolute"}
+_COUPLED = ("prismatic", "revolute")
+"""Types of joints that can follow: those of one coordinate."""
 
 
 def read_joints(document: Document) -> tuple[JointTemplate, ...]:
@@ -62,7 +64,14 @@ def read_joint(document: Document, name: str, entry: Mapping[str, Any], base: Jo
         when=choices_of(entry, "when") if "when" in entry else base.when,
         drive_when=choices_of(entry, "drive_when") if "drive_when" in entry else base.drive_when,
         ring=yes(entry["ring"]) if "ring" in entry else base.ring,
+        follows=_follows(document, name, entry["follows"], kind) if "follows" in entry else base.follows,
     )
+    if joint.follows is not None and joint.drive is not None:
+        raise TemplateError(
+            f"Joint '{name}' follows '{joint.follows.joint}' and has a drive of its own",
+            where=document.at(name, "follows" if "follows" in entry else "Drive"),
+            hint="Drive the leader: what follows takes its motion from there.",
+        )
     if joint.ring and [split_index(part)[1] for part in joint.parts] != ["i", "i+1"]:
         raise TemplateError(
             f"Joint '{name}' closes a ring, but does not run along a row",
@@ -76,6 +85,55 @@ def read_joint(document: Document, name: str, entry: Mapping[str, Any], base: Jo
         max_force=gains.get("max_force", base.max_force),
         max_velocity=gains.get("max_velocity", base.max_velocity),
     )
+
+
+def resolve_leaders(joints: Sequence[JointTemplate], at: Callable[..., str]) -> tuple[JointTemplate, ...]:
+    """The joints with their leaders spelled as the joints are. `at` gives a place by its keys. `TemplateError` for a
+    leader that is not there, is of another type or a joint along a row, and for joints that lead each other in a
+    circle."""
+    by_name = {fold(j.name): j for j in joints}
+    resolved = []
+    for joint in joints:
+        if joint.follows is not None:
+            place = at(joint.name, "follows", "joint")
+            leader = _leader(joint, joint.follows.joint, by_name, place)
+            joint = replace(joint, follows=replace(joint.follows, joint=leader.name))
+        resolved.append(joint)
+    leads = {j.name: j.follows.joint for j in resolved if j.follows is not None}
+    for name in leads:
+        way = [name]
+        while way[-1] in leads and leads[way[-1]] not in way:
+            way.append(leads[way[-1]])
+        if leads.get(way[-1]) == name:
+            raise TemplateError(
+                f"Joint '{name}' follows itself" + (f", by way of {', '.join(way[1:])}" if way[1:] else ""),
+                where=at(name, "follows", "joint"),
+                hint="One of them leads: give that one a drive instead.",
+            )
+    return tuple(resolved)
+
+
+def _leader(joint: JointTemplate, name: str, joints: Mapping[str, JointTemplate], place: str) -> JointTemplate:
+    leader = joints.get(fold(name))
+    if leader is None:
+        raise TemplateError(
+            f"Joint '{joint.name}' follows a joint '{name}' that is not there",
+            where=place,
+            hint=near(name, (j.name for j in joints.values())) or "Name a joint of joints.json.",
+        )
+    if leader.type != joint.type:
+        raise TemplateError(
+            f"Joint '{joint.name}' is {joint.type} and follows '{leader.name}', which is {leader.type}",
+            where=place,
+            hint="Leader and follower are of one type: slides follow slides, pivots follow pivots.",
+        )
+    if any(split_index(part)[1] for part in leader.parts):
+        raise TemplateError(
+            f"Joint '{joint.name}' follows '{leader.name}', which is a row of joints",
+            where=place,
+            hint="Name a joint that is there once.",
+        )
+    return leader
 
 
 def stated_gains(joint: JointTemplate) -> Iterator[tuple[str, float]]:
@@ -142,6 +200,24 @@ def _limits(
     if kind == "fixed" and (lower is not None or upper is not None):
         raise TemplateError(f"The fixed joint '{name}' has limits", where=place, hint="Remove Limit.")
     return lower, upper
+
+
+def _follows(document: Document, name: str, entry: Mapping[str, Any], kind: str) -> Follows:
+    if kind not in _COUPLED:
+        raise TemplateError(
+            f"Joint '{name}' is {kind} and cannot follow another",
+            where=document.at(name, "follows"),
+            hint="Slides and pivots can: they have one coordinate.",
+        )
+    ratio = float(entry.get("ratio", 1.0))
+    if ratio == 0.0:
+        raise TemplateError(
+            f"Joint '{name}' follows with a ratio of 0, which holds it still",
+            where=document.at(name, "follows", "ratio"),
+            hint="Make it a Fixed joint, or give the ratio.",
+        )
+    offset = quantity(entry.get("offset", 0.0), DIMENSION[kind], where=document.at(name, "follows", "offset"))
+    return Follows(" ".join(entry["joint"].split()), ratio, offset, entry.get("kind", "chain"))
 
 
 def _drive(document: Document, name: str, value: Any, kind: str) -> DriveType | None:

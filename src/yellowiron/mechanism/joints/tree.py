@@ -4,7 +4,7 @@ The tree is the cheapest spanning tree of the joint graph (Kruskal), so that wha
 least fit to be in it. What stays first, as engines hold loops best (docs/architecture.md):
 
 1. slides and welds: a slide is never cut;
-2. motors, then both pins of every driven cylinder: they carry the load;
+2. motors, what follows another joint and what leads it, then both pins of every driven cylinder: they carry the load;
 3. the pin on which a passive cylinder's barrel hangs;
 4. structural pins, the farthest from the root first: those a driven cylinder bridges, nearer to the root, close the
 loops; 5. the rod pin of a passive cylinder.
@@ -61,6 +61,9 @@ def links(template: Template, frames: Mapping[str, JointFrame]) -> tuple[Link, .
     kinds.update((c.rod_joint, "loose") for c in passive)
     kinds.update((name, "driven") for c in driven for name in (c.barrel_joint, c.rod_joint))
     kinds.update((name, "motor") for a in template.actuators for name in a.joints)
+    # What follows, and what it follows, are coordinates of the tree: engines couple no others.
+    led = [j for j in template.joints if j.follows is not None]
+    kinds.update((name, "motor") for j in led for name in (j.name, j.follows.joint if j.follows else ""))
 
     def kind(frame: JointFrame) -> LinkKind:
         if frame.joint.type == "fixed":

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from yellowiron.model.template import Follows
 from yellowiron.report.html.marks import Mark
 from yellowiron.report.rows import in_rows
 from yellowiron.report.words import counted, shown
@@ -52,7 +53,7 @@ def _row(number: int, name: str, joints: Sequence[Mapping[str, Any]], levers: Ma
         "free": first["free"] and not many,
         "anchors": [joint["anchor"] for joint in joints],
         "range": spans[0] if len(spans) == 1 else "each its own",
-        "drive": f"{drive['kind']}, {shown(drive['max_force'], force_unit, digits=4)}" if drive else "",
+        "drive": f"{drive['kind']}, {shown(drive['max_force'], force_unit, digits=4)}" if drive else _led(joints),
         "source": joint_evidence(first["source"], levers),
         "lever": levers.get(first["name"], name),
         "values": list(
@@ -63,6 +64,12 @@ def _row(number: int, name: str, joints: Sequence[Mapping[str, Any]], levers: Ma
             )
         ),
     }
+
+
+def _led(joints: Sequence[Mapping[str, Any]]) -> str:
+    """What joints follow, in the place of a drive."""
+    said = [Follows(**joint["follows"]).words if "follows" in joint else "" for joint in joints]
+    return said[0] if len(set(said)) == 1 else "each its own"
 
 
 def _span(joint: Mapping[str, Any]) -> str:

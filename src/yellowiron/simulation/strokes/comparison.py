@@ -29,7 +29,8 @@ class Worst:
 class Agreement:
     """How a stretch of steps agrees with the kinematics, the root's own motion taken out.
 
-    `pin`: distance of a pin, carried by either of its bodies, from where the kinematics has it; `gap`: between its
+    `pin`: distance of a pin (or of a place on a slide that follows another joint), carried by either of its bodies,
+    from where the kinematics has it; `gap`: between its
     places on its two bodies, for cut joints; `angle`: by which a body is turned from its pose. `sines`: cut joint → the
     least signed sine at its loop's triangle of pivots, positive on the drawn branch. `followed` is false where poses
     were not finite or no pose of the kinematics belongs to the measured strokes. `pins`, `angles` (m ≤ n,): the worst
@@ -58,7 +59,7 @@ class Comparison:
         self._pins: list[str] = []
         carriers, arms = [], []
         for joint in mechanism.joints:
-            if joint.type in _PIVOTS:
+            if joint.type in _PIVOTS or joint.follows is not None:
                 for body in (joint.body0, joint.body1):
                     self._pins.append(joint.name)
                     carriers.append(number[body])

@@ -98,6 +98,7 @@ def describe_joint(joint: Joint, *, floating: bool = False) -> dict[str, Any]:
         "cut": joint.cut or None,
         "free": joint.free or None,
         "floating": floating or None,
+        "follows": to_json(joint.follows) if joint.follows else None,
         "drive": to_json(joint.drive) if joint.drive else None,
         "source": _readable(joint.source) or None,
         "evidence": to_json(joint.source) if joint.source else None,

@@ -2,6 +2,7 @@
 
 A cut is a `connect` equality (`MjcEqualityConnectAPI`, which Newton reads too): one soft constraint of three rows,
 stiff enough at time steps of a millisecond. Newton closes a revolute cut by two of them, which is forty times worse.
+What a joint follows is one as well: as stiff, for Newton's own stiffness lets chains give by 2 mm. PhysX reads it here.
 """
 
 from __future__ import annotations
@@ -11,8 +12,9 @@ from collections.abc import Container
 
 from pxr import Sdf, Vt
 
-from yellowiron.model.mechanism import Body
-from yellowiron.usd.authoring.stage import Types, apply_schemas, over, set_attribute
+from yellowiron.model.mechanism import Body, Joint
+from yellowiron.model.template import Follows, by_first_leader
+from yellowiron.usd.authoring.stage import Types, apply_schemas, over, set_attribute, set_targets
 from yellowiron.usd.layers.articulation import articulation_roots
 from yellowiron.usd.layers.base import shape_path
 from yellowiron.usd.layers.drives import to_usd_unit
@@ -27,6 +29,9 @@ SOLIMP = (0.9999, 0.9999, 0.001, 0.5, 2.0)
 RULING = ("min", "multiply")
 """Ways to combine friction that MuJoCo does not know: its colliders of such a material rule by priority."""
 
+MIMIC, MIMIC_NAMES = "NewtonMimicAPI", "newton:mimic"
+"""The schema of a joint that follows another, and how the names of its attributes begin."""
+
 _EQUALITIES = {"spherical": "MjcEqualityConnectAPI", "fixed": "MjcEqualityWeldAPI"}
 
 
@@ -36,9 +41,13 @@ def write_mujoco(layer: Sdf.Layer, base: Sdf.Layer, plan: Plan) -> None:
     for root in articulation_roots(layer, plan):
         apply_schemas(root, "NewtonArticulationRootAPI")
         set_attribute(root, "newton:selfCollisionEnabled", Types.Bool, False)
+    follows = {joint.name: joint.follows for joint in plan.mechanism.joints if joint.follows is not None}
     for joint in plan.mechanism.joints:
         if joint.cut and (equality := _EQUALITIES.get(usd_type(joint))) is not None:
             _write_equality(over(layer, plan.joint_paths[joint.name]), equality)
+        elif joint.name in follows:
+            spec = over(layer, plan.joint_paths[joint.name])
+            _write_follows(spec, joint, by_first_leader(joint.name, follows), plan)
         elif joint.drive is not None and not joint.cut and 0.0 < joint.drive.max_velocity < math.inf:
             spec = over(layer, plan.joint_paths[joint.name])
             apply_schemas(spec, "NewtonJointAPI")
@@ -56,10 +65,23 @@ def write_mujoco(layer: Sdf.Layer, base: Sdf.Layer, plan: Plan) -> None:
 
 
 def _write_equality(joint: Sdf.PrimSpec, equality: str) -> None:
-    """The constraint that closes a cut."""
+    """The constraint that closes a cut, or that holds a joint to what its `NewtonMimicAPI` says."""
     apply_schemas(joint, equality)
     set_attribute(joint, "mjc:solref", Types.DoubleArray, Vt.DoubleArray(SOLREF), uniform=True)
     set_attribute(joint, "mjc:solimp", Types.DoubleArray, Vt.DoubleArray(SOLIMP), uniform=True)
+
+
+def _write_follows(spec: Sdf.PrimSpec, joint: Joint, follows: Follows, plan: Plan) -> None:
+    """What it follows, as `NewtonMimicAPI`, which PhysX and Newton both hold (PhysX ignores its own
+    `PhysxMimicJointAPI` on slides). `follows` names the first leader of the chain: Newton takes no leader that follows
+    another itself. The offset is in the joint's units: metres, degrees."""
+    apply_schemas(spec, MIMIC)
+    _write_equality(spec, "MjcEqualityJointAPI")
+    set_targets(spec, f"{MIMIC_NAMES}Joint", plan.joint_paths[follows.joint])
+    if follows.offset:
+        set_attribute(spec, f"{MIMIC_NAMES}Coef0", Types.Float, follows.offset * to_usd_unit(joint.type))
+    if follows.ratio != 1.0:
+        set_attribute(spec, f"{MIMIC_NAMES}Coef1", Types.Float, float(follows.ratio))
 
 
 def _write_priorities(layer: Sdf.Layer, plan: Plan, body: Body, ruling: Container[str]) -> None:
