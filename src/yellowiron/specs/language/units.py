@@ -34,30 +34,30 @@ class PrintedUnit:
 
 # name understood by pint | dimension | system | spellings (regular expressions, longest match wins)
 _TABLE = """
-millimeter          | length        | metric   | mm|millimet(?:er|re)s?
+millimeter          | length        | metric   | mm|MM|millimet(?:er|re)s?
 centimeter          | length        | metric   | cm
-meter               | length        | metric   | m|met(?:er|re)s?|mtr
+meter               | length        | metric   | m|met(?:er|re)s?|metros?|mtr
 inch                | length        | imperial | in\\.?|inch(?:es)?|"|″|”|''|′′
 foot                | length        | imperial | ft\\.?|feet|foot|'|′|’
-kilogram            | mass          | metric   | kgs?|kilograms?
+kilogram            | mass          | metric   | kgs?|Kgs?|KG|kilograms?
 metric_ton          | mass          | metric   | t|tonnes?|mt|metric tons?
 short_ton           | mass          | imperial | short tons?
 pound               | mass          | imperial | lbs?\\.?|pounds?
 megapascal          | pressure      | metric   | MPa
 kilopascal          | pressure      | metric   | kPa
 bar                 | pressure      | metric   | bars?
-kgf/centimeter**2   | pressure      | metric   | kgf? ?/ ?cm(?:2|²)
+kgf/centimeter**2   | pressure      | metric   | [kK]gf? ?/ ?cm(?:2|²)
 psi                 | pressure      | imperial | psi|lbf?/in(?:2|²)
 liter/minute        | flow          | metric   | (?:l|L|ltr\\.?|lit(?:er|re)s?)/min\\.?|lpm|LPM|(?:l|L) ?min-1
 gallon/minute       | flow          | imperial | (?:US |U\\.S\\. )?gal(?:lons?)?\\.?/min\\.?|gpm|GPM|USgpm
 meter**3            | volume        | metric   | m(?:3|³)|cu\\.? ?m
-liter               | volume        | metric   | l|L|ltr|lit(?:er|re)s?
+liter               | volume        | metric   | l|L|ltr|lit(?:er|re)s?|litros?
 centimeter**3       | volume        | metric   | cm(?:3|³)|cc|ccm
 yard**3             | volume        | imperial | yd(?:s)?(?:3|³)|cu\\.? ?yds?\\.?|yds?\\.? ?cu
 foot**3             | volume        | imperial | ft(?:3|³)|cu\\.? ?ft\\.?
 inch**3             | volume        | imperial | in(?:3|³)|cu\\.? ?in\\.?|cubic inch(?:es)?
 gallon              | volume        | imperial | (?:US |U\\.S\\. )?gal(?:lons?)?\\.?
-kilonewton          | force         | metric   | kN
+kilonewton          | force         | metric   | kN|KN|Kn
 newton              | force         | metric   | N
 kilogram_force      | force         | metric   | kgf
 force_pound         | force         | imperial | lbf
@@ -77,9 +77,9 @@ foot/minute         | speed         | imperial | ft/min\\.?|fpm|ft\\./min\\.?
 foot/second         | speed         | imperial | ft/s(?:ec)?\\.?|fps
 mile/hour           | speed         | imperial | mph|MPH|mi/h
 revolution/minute   | angular_speed | both     | rpm|RPM|r/min|rev/min|min-1|min⁻¹|1/min|U/min|tr/min
-second              | time          | both     | s|secs?\\.?|seconds?
-minute              | time          | both     | mins?\\.?|minutes?
-degree              | angle         | both     | °|º|˚|deg\\.?|degrees?|Grad
+second              | time          | both     | s|secs?\\.?|seconds?|segundos?|secondes?|Sekunden?
+minute              | time          | both     | mins?\\.?|minutes?|minutos?|Minuten?
+degree              | angle         | both     | °|º|˚|deg\\.?|degrees?|grados?|degrés?|Grad
 radian              | angle         | both     | rad
 """
 _FINE = {"meter", "metric_ton", "foot", "inch", "meter**3", "yard**3", "second", "megapascal", "kilonewton", "radian"}
