@@ -36,7 +36,7 @@ class TextPiece:
 
     words: tuple[Word, ...]
 
-    @property
+    @functools.cached_property
     def text(self) -> str:
         """The words, a space between them."""
         return " ".join(w.text for w in self.words)
@@ -46,7 +46,7 @@ class TextPiece:
         """The words with their footnote signs, as the page prints them."""
         return " ".join(w.text + w.marks for w in self.words)
 
-    @property
+    @functools.cached_property
     def box(self) -> Box:
         """x0, top, x1, bottom."""
         return join_boxes(w.box for w in self.words)
@@ -56,17 +56,17 @@ class TextPiece:
         """Left edge."""
         return self.words[0].x0
 
-    @property
+    @functools.cached_property
     def x1(self) -> float:
         """Right edge."""
         return max(w.x1 for w in self.words)
 
-    @property
+    @functools.cached_property
     def size(self) -> float:
         """Size of its largest word."""
         return max(w.size for w in self.words)
 
-    @property
+    @functools.cached_property
     def bold(self) -> bool:
         """Whether every word is bold."""
         return all(w.bold for w in self.words)
@@ -78,7 +78,7 @@ class TextPiece:
         match = _MARK.search(self.text)
         return found + (match.group(0).strip() if match else "")
 
-    @property
+    @functools.cached_property
     def bare(self) -> str:
         """The text without footnote signs and example marks."""
         text = EXAMPLE.sub("", self.text).strip()
@@ -158,6 +158,7 @@ def ascending(keys: Sequence[str]) -> bool:
     return all(a < b for a, b in pairwise(numbers))
 
 
+@functools.lru_cache(maxsize=65536)
 def is_unit(text: str) -> str:
     """The unit that a text is and nothing else ("mm", "(kg)", "ft in"); "" if it is not one.
 

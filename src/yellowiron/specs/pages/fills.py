@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from bisect import bisect_left, bisect_right
+from collections.abc import Iterator, Sequence
 from collections.abc import Set as AbstractSet
 
 from yellowiron.specs.pages.strokes import SNAP, Box, DrawnRule
@@ -24,15 +25,18 @@ def edges_of_fills(
     where drawn walls part the columns, unless the boxes cover the whole table: then they are its cells, and what else
     is drawn there is none of its rules. With the edges the places of those tables."""
     cells = sorted({b for b in bars if b[3] - b[1] <= _HIGHEST and b[2] - b[0] >= 12})
-    beside = [(a, b) for a in cells for b in cells if abs(a[2] - b[0]) <= SNAP and _overlap(a, b) > 0.6]
+    beside = [(a, b) for a, b in _meeting(cells, 2, 0) if _overlap(a, b) > 0.6]
+    next_to: dict[Box, list[Box]] = {}
+    for a, b in (*beside, *(pair for pair in _meeting(cells, 3, 1) if _continues(*pair))):
+        next_to.setdefault(a, []).append(b)
+        next_to.setdefault(b, []).append(a)
     found: list[DrawnRule] = []
     tiled: list[Box] = []
     while beside:
-        table = set(beside[0])
+        table = {beside[0][0]}
         newest = list(table)
-        while more := [c for c in cells if c not in table and any(_belongs(c, member) for member in newest)]:
-            table.update(more)
-            newest = more
+        while newest := list({c for member in newest for c in next_to[member]} - table):
+            table.update(newest)
         pairs = [pair for pair in beside if pair[0] in table]
         beside = [pair for pair in beside if pair[0] not in table]
         whole = _extent(table)
@@ -77,10 +81,13 @@ def _are_walled(table: AbstractSet[Box], walls: Sequence[DrawnRule]) -> bool:
     return len(inner) > 1
 
 
-def _belongs(a: Box, b: Box) -> bool:
-    """Whether a box stands beside, over or under a cell of a table."""
-    level = (abs(a[2] - b[0]) <= SNAP or abs(b[2] - a[0]) <= SNAP) and _overlap(a, b) > 0.6
-    return level or _continues(a, b)
+def _meeting(cells: Sequence[Box], end: int, begin: int) -> Iterator[tuple[Box, Box]]:
+    """The pairs of boxes of which the second begins, at its edge `begin`, where the first ends, at `end`."""
+    ordered = sorted(cells, key=lambda b: b[begin])
+    places = [b[begin] for b in ordered]
+    for cell in cells:
+        first, last = bisect_left(places, cell[end] - SNAP), bisect_right(places, cell[end] + SNAP)
+        yield from ((cell, other) for other in ordered[first:last])
 
 
 def _overlap(a: Box, b: Box) -> float:
@@ -89,9 +96,8 @@ def _overlap(a: Box, b: Box) -> float:
 
 
 def _continues(a: Box, b: Box) -> bool:
-    """Whether a box stands right over or under another one, and level with it at a side."""
-    touch = abs(a[1] - b[3]) <= SNAP or abs(a[3] - b[1]) <= SNAP
-    return touch and (abs(a[0] - b[0]) <= SNAP or abs(a[2] - b[2]) <= SNAP)
+    """Whether a box right over another one is level with it at a side."""
+    return abs(a[0] - b[0]) <= SNAP or abs(a[2] - b[2]) <= SNAP
 
 
 def _edges(box: Box) -> tuple[DrawnRule, ...]:

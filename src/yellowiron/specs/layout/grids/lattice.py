@@ -109,9 +109,14 @@ def _lies_in(rule: DrawnRule, box: Box) -> bool:
 def _closing_bars(page: Page, walls: Sequence[DrawnRule]) -> list[DrawnRule]:
     """The lower edges of headings' bars on which walls stand: the table's first row has no other rule above it."""
     found = []
+    standing = sorted((w.top, w.x0) for w in walls)
     for bar in page.bars:
-        on = [w.x0 for w in walls if abs(w.top - bar[3]) <= SNAP and bar[0] - SNAP <= w.x0 <= bar[2] + SNAP]
-        if bar[3] - bar[1] < HEADING_BAR and on:
+        if bar[3] - bar[1] >= HEADING_BAR:
+            continue
+        level = standing[
+            bisect_left(standing, (bar[3] - SNAP,)) : bisect_right(standing, (bar[3] + SNAP, bar[2] + SNAP))
+        ]
+        if on := [x for _, x in level if bar[0] - SNAP <= x <= bar[2] + SNAP]:
             found.append(DrawnRule(min(*on, bar[0]), bar[3], max(*on, bar[2]), bar[3]))
     return found
 
