@@ -12,11 +12,12 @@ from yellowiron.model.errors import YellowironError
 from yellowiron.specs.language.decimal_style import DecimalStyle, decimal_style
 from yellowiron.specs.language.numbers import parse_one, read
 from yellowiron.specs.language.quantities import same
-from yellowiron.specs.language.units import printed_unit
+from yellowiron.specs.language.units import printed_unit, printed_units
 from yellowiron.specs.language.vocabulary import tokens
 from yellowiron.specs.layout.statement import is_unit, looks_like_value, split_inline, unit_in_label, without_key
 from yellowiron.specs.values.claims import spelled_out
 from yellowiron.specs.values.enumerations import enumerated
+from yellowiron.support.units import SI_UNIT, to_si
 
 
 def numbers(text: str, **options: str) -> list[tuple[float, str]]:
@@ -208,3 +209,10 @@ def test_lists_in_labels() -> None:
     assert enumerated("Bucket cylinder bore diameter × stroke", 2)[1] == "Bucket cylinder stroke"
     assert enumerated("Bore x stroke", 3) == []
     assert enumerated("Wheelbase", 2) == []
+
+
+def test_the_scales_of_units_are_pints() -> None:
+    for unit in [unit for unit, _ in printed_units()]:
+        scale, si = to_si(1.0, unit.name)
+        assert unit.scale == pytest.approx(scale, rel=1e-15), unit.name
+        assert si == SI_UNIT[unit.dimension]

@@ -12,14 +12,20 @@ pages in a guarded child process, `extraction` goes the whole way and `findings`
 
 from __future__ import annotations
 
-from yellowiron.specs.columns import columns_of
-from yellowiron.specs.evidence_images import PICTURE_MARGIN, PICTURE_SCALE, draw_evidence, page_pictures
-from yellowiron.specs.extraction import Extractor, extract, from_sheets, read
-from yellowiron.specs.llm.endpoint import EndpointError, ModelOptions
-from yellowiron.specs.ocr import described as picture_programs
-from yellowiron.specs.reader import Sheet, check_file
-from yellowiron.specs.values.overrides import accept, merge, parse_settings, split_settings
-from yellowiron.specs.values.requested import missing_values
+# Imported on first use: a reader's child process needs neither numpy nor what decides.
+from typing import TYPE_CHECKING
+
+from yellowiron.support.lazy import lazy_names
+
+if TYPE_CHECKING:
+    from yellowiron.specs.columns import columns_of
+    from yellowiron.specs.evidence_images import PICTURE_MARGIN, PICTURE_SCALE, draw_evidence, page_pictures
+    from yellowiron.specs.extraction import Extractor, extract, from_sheets, read
+    from yellowiron.specs.llm.endpoint import EndpointError, ModelOptions
+    from yellowiron.specs.ocr import picture_programs
+    from yellowiron.specs.reader import Sheet, check_file
+    from yellowiron.specs.values.overrides import accept, merge, parse_settings, split_settings
+    from yellowiron.specs.values.requested import missing_values
 
 __all__ = [
     "PICTURE_MARGIN",
@@ -42,3 +48,27 @@ __all__ = [
     "read",
     "split_settings",
 ]
+
+__getattr__, __dir__ = lazy_names(
+    __name__,
+    {
+        "EndpointError": "llm.endpoint",
+        "Extractor": "extraction",
+        "ModelOptions": "llm.endpoint",
+        "PICTURE_MARGIN": "evidence_images",
+        "PICTURE_SCALE": "evidence_images",
+        "Sheet": "reader",
+        "accept": "values.overrides",
+        "check_file": "reader",
+        "columns_of": "columns",
+        "draw_evidence": "evidence_images",
+        "extract": "extraction",
+        "from_sheets": "extraction",
+        "merge": "values.overrides",
+        "missing_values": "values.requested",
+        "parse_settings": "values.overrides",
+        "picture_programs": "ocr",
+        "read": "extraction",
+        "split_settings": "values.overrides",
+    },
+)

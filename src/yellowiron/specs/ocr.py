@@ -58,7 +58,7 @@ def programs() -> tuple[str, ...]:
     return tuple(name for name, installed in there.items() if installed)
 
 
-def described() -> tuple[str, ...]:
+def picture_programs() -> tuple[str, ...]:
     """The programs and what they know, of which it depends what is recognised."""
     languages = sorted(tesseract.languages()) if tesseract.program() is not None else []
     return (*programs(), tesseract.program() or "", *languages)

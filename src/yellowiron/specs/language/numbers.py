@@ -20,11 +20,11 @@ _TIMES = re.compile(r"\s*[x×✕*]\s*[Øø⌀]?\s*", re.IGNORECASE)
 _DASH = re.compile(r"(?:\s*(?:[-–—~～〜∼]|\.\.\.|…)|\s*(?:to|bis)\b|\s+(?:à|a))\s*[Øø⌀]?\s*")
 _CONDITION = re.compile(r"(?:\bat|@|\bbei|\bà|\bfor|\bfür|\bpour|\bwith|\bper)\s*$", re.IGNORECASE)
 _OF_NEXT = re.compile(
-    r"(?:(?:^|[\s,;/|~–-])(?:to|bis|à|a)\s+|[\s,;/|~–-]*)((?:\b(?:min|max|mid|low|high)\w*\.?|[^\W\d][^\d,;:()|/]*[:：])\s*)$",
+    r"(?:(?:^|[\s,;/|~–-])(?:to|bis|à|a)\s+|[\s,;/|~–-]*)((?:\b(?:min|max|mid|low|high)\w*\.?|[^\W\d][^\d,;:()|/]*[:：]|[^\W\d]\w*[:：])\s*)$",
     re.IGNORECASE,
 )
 """What stands before a number and says which it is, though no separator parts it from the number before: "Min. 3 m to
-Max. 7 m", "Retracted: 2 m Extended: 5 m"."""
+Max. 7 m", "Retracted: 2 m Extended: 5 m", "JS145W: 12.6 rpm JS160W: 8.9 rpm"."""
 _NAMED = re.compile(r"[:：]\s*$")
 _JUNK = re.compile(r"[\s:=~≈<>≤≥Øø⌀•.·]+")
 

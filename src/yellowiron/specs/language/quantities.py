@@ -169,8 +169,8 @@ def _inside_a_word(text: str, at: int) -> bool:
     if before is None:
         return False
     word = before.group(0)
-    if word.lower() == "x" or _ends_in_unit().search(text):
-        return False
+    if word.lower() == "x" or _ends_in_unit().search(text) or (measured and _ends_in_unit().search(text.rstrip("/"))):
+        return False  # "950kg/1110kg"
     if measured and re.search(r"[A-Za-z]{4,}/$", word):
         return False  # "continuous/1.5 rpm"
     return word[-1].isalnum() or word[-1] in "-/"

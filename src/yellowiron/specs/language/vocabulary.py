@@ -64,9 +64,12 @@ _LEAST_STEM = 4
 _LEAST_COMPOUND = 6
 
 
+@functools.lru_cache(maxsize=16384)
 def _fold(word: str) -> str:
     """A word without case and accents, in one spelling; plurals as singulars, whatever means most or least alike."""
-    plain = "".join(c for c in unicodedata.normalize("NFKD", word.casefold()) if not unicodedata.combining(c))
+    plain = word.casefold()
+    if not plain.isascii():
+        plain = "".join(c for c in unicodedata.normalize("NFKD", plain) if not unicodedata.combining(c))
     if plain in _ALIAS:
         return _ALIAS[plain]
     if plain in _STOP:

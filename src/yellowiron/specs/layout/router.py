@@ -18,7 +18,7 @@ from yellowiron.specs.layout.rows.legends import key_legend, labelled, spelled
 from yellowiron.specs.layout.rows.lines import TextLine, blocks_of, lines_of
 from yellowiron.specs.layout.rows.margin import without_keys
 from yellowiron.specs.layout.rows.row_reader import read_block
-from yellowiron.specs.layout.statement import COUNTED, Statement, kind_of, unit_noted, unit_said
+from yellowiron.specs.layout.statement import COUNTED, Statement, is_unit, kind_of, unit_noted, unit_said
 from yellowiron.specs.pages.strokes import Box
 from yellowiron.specs.pages.words import Page, Word
 
@@ -132,10 +132,15 @@ def _title(lines: Sequence[TextLine], grid: TableGrid) -> str:
 
 
 def _unit_above(lines: Sequence[TextLine], grid: TableGrid) -> str:
-    """The unit that a line right above a table gives for its bare numbers."""
-    box = grid.box
-    over = [p for line in lines for p in line.pieces if 0 <= box[1] - p.box[3] < 1.5 * p.size]
-    return next((u for p in over if p.x1 > box[0] and p.x0 < box[2] and (u := unit_said(p.bare))), "")
+    """The unit that a line right above a table gives for its bare numbers, or that stands over its only column of
+    them."""
+    box, columns = grid.box, columns_of(grid)
+    over = [p for line in lines for p in line.pieces if -2 <= box[1] - p.box[3] < 1.5 * p.size]
+    said = next((u for p in over if p.x1 > box[0] and p.x0 < box[2] and (u := unit_said(p.bare))), "")
+    if said or len(columns) != 1:
+        return said
+    x0, x1 = columns[0]
+    return next((u for p in over if x0 <= (p.x0 + p.x1) / 2 <= x1 and (u := is_unit(p.bare))), "")
 
 
 def _heading_above(headings: list[Heading], top: float, x0: float, x1: float) -> str:

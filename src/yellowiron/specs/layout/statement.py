@@ -36,7 +36,7 @@ class TextPiece:
 
     words: tuple[Word, ...]
 
-    @property
+    @functools.cached_property
     def text(self) -> str:
         """The words, a space between them."""
         return " ".join(w.text for w in self.words)
@@ -46,7 +46,7 @@ class TextPiece:
         """The words with their footnote signs, as the page prints them."""
         return " ".join(w.text + w.marks for w in self.words)
 
-    @property
+    @functools.cached_property
     def box(self) -> Box:
         """x0, top, x1, bottom."""
         return join_boxes(w.box for w in self.words)
@@ -56,17 +56,17 @@ class TextPiece:
         """Left edge."""
         return self.words[0].x0
 
-    @property
+    @functools.cached_property
     def x1(self) -> float:
         """Right edge."""
         return max(w.x1 for w in self.words)
 
-    @property
+    @functools.cached_property
     def size(self) -> float:
         """Size of its largest word."""
         return max(w.size for w in self.words)
 
-    @property
+    @functools.cached_property
     def bold(self) -> bool:
         """Whether every word is bold."""
         return all(w.bold for w in self.words)
@@ -78,7 +78,7 @@ class TextPiece:
         match = _MARK.search(self.text)
         return found + (match.group(0).strip() if match else "")
 
-    @property
+    @functools.cached_property
     def bare(self) -> str:
         """The text without footnote signs and example marks."""
         text = EXAMPLE.sub("", self.text).strip()
@@ -136,6 +136,8 @@ GRAVITATIONAL = re.compile(r"(?<=[^\s{｛])\s?[{｛][^{}｛｝]*[}｝]")
 """The same in gravitational units, as Japanese sheets print it behind the SI one: "kN{kgf}", "200{20,400}"."""
 _AT_SPEED = re.compile(r"(\S+?)\s?[/@]\s?(?:min\s?[-⁻]\s?[1¹]|r/min|rpm|1/min|U/min|tr/min)", re.IGNORECASE)
 """A power or torque over the speed that it is given at: "kW/min-1" for "175/2,000"."""
+_AT_RPM = re.compile(r"(?<=[\w)])\s*@\s*\d[\d.,]*\s?(?:rpm|r/min|min-1|U/min|tr/min)$", re.IGNORECASE)
+"""The speed at which the numbers of a column or row hold: "kW (hp) @ 2100 rpm"."""
 _UNIT_PAIR = re.compile(r"(\S*[^\s(/\[|])\s*[(/\[|]\s*([^()\[\]]+?)\s*[)\]]?")
 _KEY = re.compile(
     r"[(\[]?(?:[a-zα-ω]\d{0,2}(?:/[a-zα-ω]\d{0,2})+|[α-ω]|"
@@ -156,12 +158,13 @@ def ascending(keys: Sequence[str]) -> bool:
     return all(a < b for a, b in pairwise(numbers))
 
 
+@functools.lru_cache(maxsize=65536)
 def is_unit(text: str) -> str:
     """The unit that a text is and nothing else ("mm", "(kg)", "ft in"); "" if it is not one.
 
     Two of them, one for the number in brackets, are "m|ft-in" for "m (ft-in)".
     """
-    bare = GRAVITATIONAL.sub("", text).strip() or text.strip()
+    bare = _AT_RPM.sub("", GRAVITATIONAL.sub("", text).strip() or text.strip())
     power = _AT_SPEED.fullmatch(bare)
     if power and (first := printed_unit(power.group(1))) and first.dimension in ("power", "torque"):
         return f"{power.group(1)}|rpm"
@@ -174,7 +177,8 @@ def is_unit(text: str) -> str:
     if _FEET_HEAD.fullmatch(bare):
         return FEET_INCHES
     bare = bare.strip("()[]{}: （）［］【】：")
-    return bare if bare and re.fullmatch(unit_pattern(), bare) and printed_unit(bare) else ""
+    spelled = re.fullmatch(unit_pattern(), bare) or (len(bare) > 3 and bare.isalpha())  # "Seconds", "Bars"
+    return bare if spelled and printed_unit(bare) else ""
 
 
 def unit_in_label(text: str, *, bare: bool = False) -> tuple[str, str]:
@@ -277,7 +281,7 @@ def looks_like_value(text: str) -> bool:
     return len(words_beside_numbers(text, readings)) <= 8
 
 
-_ITEM = re.compile(r"(?:^|[\s|,;/)])[^\W\d][^\d:|;]*[:：]\s*[<>≤≥~±Øø⌀φ]*\s*\d")
+_ITEM = re.compile(r"(?:^|[\s|,;/)])[^\W\d](?:[^\d:|;]*|\w*)[:：]\s*[<>≤≥~±Øø⌀φ]*\s*\d")
 
 
 def lists_items(text: str) -> bool:

@@ -49,7 +49,7 @@ def strokes_of(page: Any, place: Place) -> tuple[list[DrawnRule], list[Box], int
         pdfium.FPDFPath_GetDrawMode(item.raw, mode, stroked)
         if not (mode.value or stroked.value):
             continue
-        points = _polylines(item)
+        points = _polylines(item, straight=not stroked.value)
         for line in points:
             placed = [place(x, y) for x, y in line]
             box = _extent(placed)
@@ -64,8 +64,9 @@ def strokes_of(page: Any, place: Place) -> tuple[list[DrawnRule], list[Box], int
     return rules, bars, images
 
 
-def _polylines(item: Any) -> list[list[tuple[float, float]]]:
-    """The straight parts of a path in page space (containers' matrices applied)."""
+def _polylines(item: Any, *, straight: bool) -> list[list[tuple[float, float]]]:
+    """The straight parts of a path in page space (containers' matrices applied); `straight`: none of one that has
+    curves, as letters drawn as outlines have."""
     import pypdfium2.raw as pdfium
 
     matrix = item.get_matrix()
@@ -78,9 +79,11 @@ def _polylines(item: Any) -> list[list[tuple[float, float]]]:
     x, y = ctypes.c_float(), ctypes.c_float()
     for index in range(min(pdfium.FPDFPath_CountSegments(item.raw), 20000)):
         segment = pdfium.FPDFPath_GetPathSegment(item.raw, index)
+        kind = pdfium.FPDFPathSegment_GetType(segment)
+        if straight and kind == pdfium.FPDF_SEGMENT_BEZIERTO:
+            return []
         pdfium.FPDFPathSegment_GetPoint(segment, x, y)
         point = (a * x.value + c * y.value + e, b * x.value + d * y.value + f)
-        kind = pdfium.FPDFPathSegment_GetType(segment)
         if kind == pdfium.FPDF_SEGMENT_MOVETO or not lines:
             lines.append([point])
         elif kind == pdfium.FPDF_SEGMENT_LINETO:

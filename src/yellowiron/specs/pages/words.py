@@ -85,12 +85,13 @@ class _Glyph:
 
 
 def read_page(page: Any, number: int) -> Page:
-    """A pypdfium2 page as words, rules and bars. Text that is not horizontal is left out."""
+    """A pypdfium2 page as words, rules and bars. Text that is not horizontal is left out, and what lies beyond the
+    page's edge: a spread cut into pages leaves the other half there."""
     width, height = page.get_size()
     place = _placement(page)
     textpage = page.get_textpage()
     try:
-        glyphs, characters, unmapped = _glyphs(textpage, place)
+        glyphs, characters, unmapped = _glyphs(textpage, place, (width, height))
         text = textpage.get_text_range()
     finally:
         textpage.close()
@@ -128,7 +129,7 @@ def _placement(page: Any) -> Place:
     return place
 
 
-def _glyphs(textpage: Any, place: Place) -> tuple[list[_Glyph], int, int]:
+def _glyphs(textpage: Any, place: Place, size_of_page: tuple[float, float]) -> tuple[list[_Glyph], int, int]:
     import pypdfium2.raw as pdfium
 
     ox, oy = ctypes.c_double(), ctypes.c_double()
@@ -144,6 +145,12 @@ def _glyphs(textpage: Any, place: Place) -> tuple[list[_Glyph], int, int]:
         if code == 0x20 or code == 0xA0:
             found.append(_Glyph(" ", 0, 0, 0, 0, False))
             continue
+        if not pdfium.FPDFText_GetLooseCharBox(textpage, index, rect):
+            continue
+        (xa, ya), (xb, yb) = place(rect.left, rect.bottom), place(rect.right, rect.top)
+        x0, x1, middle = min(xa, xb), max(xa, xb), (ya + yb) / 2
+        if not (0 <= (x0 + x1) / 2 <= size_of_page[0] and 0 <= middle <= size_of_page[1]):
+            continue
         characters += 1
         if (
             code in (0, 0xFFFD, 0xFFFE)
@@ -152,21 +159,17 @@ def _glyphs(textpage: Any, place: Place) -> tuple[list[_Glyph], int, int]:
         ):
             unmapped += 1
             continue
-        if not pdfium.FPDFText_GetLooseCharBox(textpage, index, rect):
-            continue
         pdfium.FPDFText_GetCharOrigin(textpage, index, ox, oy)
         owner = pdfium.FPDFText_GetTextObject(textpage, index)
         key = ctypes.cast(owner, ctypes.c_void_p).value or 0
         if key not in styles:
             pdfium.FPDFText_GetMatrix(textpage, index, matrix)
             size = pdfium.FPDFText_GetFontSize(textpage, index) * math.hypot(matrix.c, matrix.d)
-            (xa, ya), (xb, yb) = place(0, 0), place(matrix.a, matrix.b)
-            styles[key] = (size, _bold(textpage, index), xb - xa > 5 * abs(yb - ya))
+            (left, low), (right, high) = place(0, 0), place(matrix.a, matrix.b)
+            styles[key] = (size, _bold(textpage, index), right - left > 5 * abs(high - low))
         size, bold, level = styles[key]
         if not level:  # text that runs up or down the page as shown
             continue
-        (xa, ya), (xb, yb) = place(rect.left, rect.bottom), place(rect.right, rect.top)
-        x0, x1 = min(xa, xb), max(xa, xb)
         _, baseline = place(ox.value, oy.value)
         if x1 <= x0:
             continue

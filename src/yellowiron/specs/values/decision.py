@@ -160,12 +160,14 @@ def configuration(found: Match) -> str:
 def _configured(matches: Sequence[Match], sheets: Sheets, config: str) -> list[Match]:
     """The matches that fit the configuration asked for: each of its phrases keeps those whose column says it best. A
     head that says the phrase and no more ("Teeth") beats one that says more ("Teeth and segments")."""
-    kept = list(matches)
+    said = set(tokens(config))
+    kept = [_explained(m, said) for m in matches]
     for phrase, words in phrases_of(config).items():
         named = [m for m in kept if any(without_case(phrase) == without_case(h) for h in configured_by(m.claim))]
         if named:  # a head that is the phrase, to the letter: "M12-L" is not "M12"
             kept = named
             continue
+        kept = _near_best(kept)  # a heading may say the phrase over what is named worse
         shares = [_share(words, m.claim, sheets) for m in kept]
         if max(shares) >= _SAID and max(shares) > min(shares):
             kept = [m for m, share in zip(kept, shares, strict=True) if share == max(shares)]
@@ -174,7 +176,13 @@ def _configured(matches: Sequence[Match], sheets: Sheets, config: str) -> list[M
             kept = [
                 m for m, own in zip(kept, heads, strict=True) if words in own or not any(words < head for head in own)
             ]
-    return [_explained(m, set(tokens(config))) for m in kept]
+    return kept
+
+
+def _near_best(matches: Sequence[Match]) -> list[Match]:
+    """The matches that have a say: those nearly as good as the best."""
+    best = max(m.score for m in matches)
+    return [m for m in matches if m.score >= best - _NEAR]
 
 
 def phrases_of(config: str) -> dict[str, set[str]]:
@@ -265,8 +273,7 @@ def _config_words(claim: Claim, sheets: Sheets) -> set[str]:
 def _groups(wanted: Wanted, matches: Sequence[Match]) -> list[list[Match]]:
     """By value; those outside what is usual have no say where others are inside."""
     inside = [m for m in matches if usual(wanted, settled(wanted, m.claim)[0].si_value)] or matches
-    best = max(m.score for m in inside)
-    return _by_value(wanted, [m for m in inside if m.score >= best - _NEAR])
+    return _by_value(wanted, _near_best(inside))
 
 
 def _by_value(wanted: Wanted, matches: Sequence[Match]) -> list[list[Match]]:

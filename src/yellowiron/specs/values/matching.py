@@ -68,10 +68,15 @@ def match(claims: Sequence[Claim], wanted: Sequence[Wanted]) -> dict[str, list[M
     by_dimension: dict[str, tuple[_Asked, ...]] = {}
     for group in _by_dimension(wanted).values():
         by_dimension[group[0].dimension] = _asked(tuple(group))
+    known: dict[tuple[object, ...], list[Match]] = {}  # the cells of a row say the same
     for claim in claims:
-        asked_for = by_dimension.get(claim.quantity.dimension, ())
-        said = _said(claim)
-        matches = [m for a in asked_for if (m := _match(a, claim, said)) is not None and m.score >= LEAST]
+        said, dimension = _said(claim), claim.quantity.dimension
+        place = claim.statement
+        words = (dimension, claim.words, claim.head, place.column, place.context, place.section)
+        if words not in known:
+            every = (_match(a, claim, said) for a in by_dimension.get(dimension, ()))
+            known[words] = [m for m in every if m is not None and m.score >= LEAST]
+        matches = [m if m.claim is claim else replace(m, claim=claim) for m in known[words]]
         if not matches:
             continue
         if any(m.by_label for m in matches):

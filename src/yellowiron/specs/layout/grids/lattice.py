@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import itertools
-from bisect import bisect_right
+from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
 
-from yellowiron.specs.layout.grids.open_sided import side_walls
+from yellowiron.specs.layout.grids.open_sided import joined, merged, side_walls
 from yellowiron.specs.layout.grids.partly_ruled import with_columns, with_rows
 from yellowiron.specs.layout.grids.table_grid import Cell, TableGrid
 from yellowiron.specs.layout.rows.lines import lines_of
@@ -18,38 +18,105 @@ from yellowiron.specs.pages.words import Page, Word
 
 _WALL = 6.0
 """A vertical rule shorter than this is a tick or part of a letter."""
+_MOST_EDGES = 3000
+"""More are no table's."""
 
 
 def grids_of(page: Page) -> list[TableGrid]:
     """The tables of a page that have at least two rows, two columns and words in three cells."""
     walls = [r for r in page.rules if not r.horizontal and r.bottom - r.top >= _WALL]
-    filled = edges_of_fills(page.bars, walls)
+    filled, tiled = edges_of_fills(page.bars, walls, page.words)
+    drawn = [r for r in page.rules if not any(_lies_in(r, box) for box in tiled)]
+    walls = [r for r in drawn if not r.horizontal and r.bottom - r.top >= _WALL]
     walls += [r for r in filled if not r.horizontal]
     if len(walls) < 2:
         return []
     from pdfplumber.table import cells_to_tables, edges_to_intersections, intersections_to_cells, merge_edges
 
-    level = [*(r for r in (*page.rules, *filled) if r.horizontal), *_closing_bars(page, walls)]
+    level = [*(r for r in (*drawn, *filled) if r.horizontal), *_closing_bars(page, walls)]
     walls += side_walls(level, walls, page.words)
-    edges = merge_edges([_edge(r) for r in (*level, *walls)], SNAP, SNAP, SNAP, SNAP)
-    if not 4 <= len(edges) <= 3000:
-        return []
-    grids = [
-        with_columns(with_rows(_grid(boxes, page.words)))
-        for boxes in cells_to_tables(intersections_to_cells(edges_to_intersections(edges, SNAP, SNAP)))
-    ]
+    grids = []
+    for rules in _joining(_framing(merged(level), joined(walls))):
+        edges = merge_edges([_edge(r) for r in rules], SNAP, SNAP, SNAP, SNAP)
+        if 4 <= len(edges) <= _MOST_EDGES:
+            cells = intersections_to_cells(edges_to_intersections(edges, SNAP, SNAP))
+            grids += [with_columns(with_rows(_grid(boxes, page.words))) for boxes in cells_to_tables(cells)]
     grids = [g for g in grids if g.columns >= 2 and sum(bool(c.lines) for c in g.cells) >= 2 and not _is_frame(g)]
     tables = [g for g in grids if g.rows >= 2 and sum(bool(c.lines) for c in g.cells) >= 3]
     found = [g for g in grids if any(g is t or (g.rows == 1 and _are_level(g, t)) for t in tables)]
     return sorted(found, key=lambda g: (g.box[1], g.box[0]))
 
 
+def _framing(level: Sequence[DrawnRule], walls: Sequence[DrawnRule]) -> list[DrawnRule]:
+    """The rules without those that can frame no cell: what joins no two of the other direction is a drawing's stroke,
+    and would pull a table's rules together, each within `SNAP` of the next."""
+    while True:
+        crossed = sorted((w.x0, w.top, w.bottom) for w in walls)
+        kept = [r for r in level if _joins_two(r.top, r.x0, r.x1, crossed)]
+        crossed = sorted((r.top, r.x0, r.x1) for r in kept)
+        across = [w for w in walls if _joins_two(w.x0, w.top, w.bottom, crossed)]
+        if len(kept) == len(level) and len(across) == len(walls):
+            return [*kept, *across]
+        level, walls = kept, across
+
+
+def _joins_two(at: float, begin: float, end: float, others: Sequence[tuple[float, float, float]]) -> bool:
+    """Whether a rule at one place, from `begin` to `end`, meets two others across it (place, begin, end; sorted) that
+    do not lie at one place."""
+    first = None
+    for place, low, high in others[bisect_left(others, (begin - SNAP,)) :]:
+        if place > end + SNAP:
+            return False
+        if low - SNAP <= at <= high + SNAP:
+            if first is not None and place - first > SNAP:
+                return True
+            first = place if first is None else first
+    return False
+
+
+def _joining(rules: Sequence[DrawnRule]) -> list[list[DrawnRule]]:
+    """The rules, those together that touch each other: the rows of two tables side by side have nothing in common."""
+    ordered = sorted(rules, key=lambda r: r.top)
+    lead = list(range(len(ordered)))
+
+    def root(index: int) -> int:
+        while lead[index] != index:
+            lead[index] = index = lead[lead[index]]
+        return index
+
+    open_: list[int] = []
+    for index, rule in enumerate(ordered):
+        open_ = [i for i in open_ if ordered[i].bottom >= rule.top - SNAP]
+        for other in open_:
+            if ordered[other].x0 - SNAP <= rule.x1 and rule.x0 - SNAP <= ordered[other].x1:
+                lead[root(index)] = root(other)
+        open_.append(index)
+    parts: dict[int, list[DrawnRule]] = {}
+    for index, rule in enumerate(ordered):
+        parts.setdefault(root(index), []).append(rule)
+    return list(parts.values())
+
+
+def _lies_in(rule: DrawnRule, box: Box) -> bool:
+    return (
+        box[0] - SNAP <= rule.x0
+        and rule.x1 <= box[2] + SNAP
+        and box[1] - SNAP <= rule.top
+        and rule.bottom <= box[3] + SNAP
+    )
+
+
 def _closing_bars(page: Page, walls: Sequence[DrawnRule]) -> list[DrawnRule]:
     """The lower edges of headings' bars on which walls stand: the table's first row has no other rule above it."""
     found = []
+    standing = sorted((w.top, w.x0) for w in walls)
     for bar in page.bars:
-        on = [w.x0 for w in walls if abs(w.top - bar[3]) <= SNAP and bar[0] - SNAP <= w.x0 <= bar[2] + SNAP]
-        if bar[3] - bar[1] < HEADING_BAR and on:
+        if bar[3] - bar[1] >= HEADING_BAR:
+            continue
+        level = standing[
+            bisect_left(standing, (bar[3] - SNAP,)) : bisect_right(standing, (bar[3] + SNAP, bar[2] + SNAP))
+        ]
+        if on := [x for _, x in level if bar[0] - SNAP <= x <= bar[2] + SNAP]:
             found.append(DrawnRule(min(*on, bar[0]), bar[3], max(*on, bar[2]), bar[3]))
     return found
 

@@ -19,7 +19,7 @@ def side_walls(level: Sequence[DrawnRule], walls: Sequence[DrawnRule], words: Se
     """The walls that a table lacks at its left or right: between two rules that end level with each other and that
     walls in between join, with words but no value left of the first wall, or with words right of the last one."""
     found: list[DrawnRule] = []
-    rules, walls = _merged(level), _joined(walls)
+    rules, walls = merged(level), joined(walls)
     for edge in ("x0", "x1"):
         for above in rules:
             x = getattr(above, edge)
@@ -51,29 +51,29 @@ def _lacks_wall(
     return bool(right) if x > max(inner) else "text" in left and "value" not in left
 
 
-def _merged(level: Sequence[DrawnRule]) -> list[DrawnRule]:
+def merged(level: Sequence[DrawnRule]) -> list[DrawnRule]:
     """Rules at one height that touch are one; from top to bottom."""
-    merged: list[DrawnRule] = []
+    found: list[DrawnRule] = []
     for rule in sorted(level, key=lambda r: (round(r.top), r.x0)):
-        last = merged[-1] if merged else None
+        last = found[-1] if found else None
         if last is not None and abs(last.top - rule.top) <= 1 and rule.x0 <= last.x1 + SNAP:
-            merged[-1] = DrawnRule(min(last.x0, rule.x0), last.top, max(last.x1, rule.x1), last.top)
+            found[-1] = DrawnRule(min(last.x0, rule.x0), last.top, max(last.x1, rule.x1), last.top)
         else:
-            merged.append(rule)
-    return sorted(merged, key=lambda r: (r.top, r.x0))
+            found.append(rule)
+    return sorted(found, key=lambda r: (r.top, r.x0))
 
 
-def _joined(walls: Sequence[DrawnRule]) -> list[DrawnRule]:
+def joined(walls: Sequence[DrawnRule]) -> list[DrawnRule]:
     """Walls at one place that touch are one, though drawn row by row."""
-    joined: list[DrawnRule] = []
+    found: list[DrawnRule] = []
     for wall in sorted(walls, key=lambda w: (round(w.x0), w.top)):
-        last = joined[-1] if joined else None
+        last = found[-1] if found else None
         touch = last is not None and last.top - 1 <= wall.top <= last.bottom + 1
         if last is not None and touch and abs(last.x0 - wall.x0) <= 1:
-            joined[-1] = DrawnRule(last.x0, last.top, last.x0, max(last.bottom, wall.bottom))
+            found[-1] = DrawnRule(last.x0, last.top, last.x0, max(last.bottom, wall.bottom))
         else:
-            joined.append(wall)
-    return joined
+            found.append(wall)
+    return found
 
 
 def heads_above(

@@ -7,9 +7,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
+from yellowiron.specs.language.vocabulary import CIRCUITS, tokens
 from yellowiron.specs.layout.grids.table_grid import Cell, TableGrid
 from yellowiron.specs.layout.rows.cells import is_circumstance, marked_by_footnote
-from yellowiron.specs.layout.rows.headings import in_capitals, names_no_columns
+from yellowiron.specs.layout.rows.headings import in_capitals, names_models, names_no_columns
 from yellowiron.specs.layout.statement import (
     COUNTED,
     EXAMPLE,
@@ -26,6 +27,9 @@ from yellowiron.specs.layout.statement import (
     without_key,
 )
 from yellowiron.specs.pages.words import Page
+
+_LONGEST_SECTION = 12
+"""Words; more are no heading."""
 
 
 @dataclass(frozen=True)
@@ -51,30 +55,50 @@ def read_grid(
     naming = frozenset(heads)
     titles = _titles(grid)
     facts = _facts(grid)
+    over_rows: tuple[str, ...] = ()
+    circuit: tuple[str, ...] = ()
+    carried: list[Cell] = []
+    titled = False
     for index in range(grid.rows):
         cells = _row_cells(grid, index)
         filled = [c for c in cells if c.lines]
         values = _values_of(filled)
         if not values:
+            if len(filled) == 1 and len(filled[0].text.split()) > _LONGEST_SECTION:
+                continue  # a sentence
             if len(filled) == 1 and _is_section(grid, filled[0]):
-                section = " ".join(p.text for p in filled[0].pieces)
-            elif index not in facts and not (
-                filled and filled[0].columns[0] == 0 and names_no_columns([c.text for c in filled])
-            ):
+                title = " ".join(p.text for p in filled[0].pieces)
+                spans = filled[0].columns[1] - filled[0].columns[0] == grid.columns
+                titled |= spans
+                section, over_rows = (title, ()) if spans or not titled else (section, (title,))
+                circuit = ()
+            elif index in facts:
+                circuit = (filled[0].text,) if CIRCUITS & set(tokens(filled[0].text)) else ()
+            elif not (filled and filled[0].columns[0] == 0 and _heads_none(grid, filled, heads if found else [])):
                 heads.append(index)
             continue
+        if len(filled) == 1 and filled[0].columns[0] == 0 and not is_unit(filled[0].text.lstrip("0123456789.,± ")):
+            over_rows = (filled[0].text,)  # "4.7 m monoboom"
+            continue
+        if len(filled) == 1:
+            cells = [*carried, *cells]  # "Travel speed | High: 4.6 km/h" over " | Low: 2.7 km/h"
+        elif all(split_inline(c.text)[0] for c in values):
+            carried = [c for c in filled if not any(c is v for v in values)]
+        else:
+            carried = []
         if not _labels(cells, values[0]) and (not heads or index in naming):
             heads.extend([] if index in heads else [index])
             continue
         over = [h for h in heads if h <= index] if index in naming else heads
-        read = _read_row(_Row(page, grid, cells, first_row + index, section), values, over)
-        if heads and index not in heads and not any(f.label for f in read):
-            read = [replace(f, variant=(values[0].text,)) for f in read]
+        own = _read_row(_Row(page, grid, cells, first_row + index, section), values, over)
+        if heads and index not in heads and not any(f.label for f in own):
+            own = [replace(f, variant=(values[0].text,)) for f in own]
+        own = [replace(f, context=(*circuit, *f.context, *over_rows)) for f in own]
         if index in titles:
-            read = [_under_title(f, titles[index]) for f in read]
+            own = [_under_title(f, titles[index]) for f in own]
         if above and not heads:
-            read = [_headed(f, above) for f in read]
-        found.extend(read)
+            own = [_headed(f, above) for f in own]
+        found.extend(own)
     return found
 
 
@@ -83,22 +107,36 @@ def _is_section(grid: TableGrid, cell: Cell) -> bool:
     no label does, in bold."""
     if cell.columns[1] - cell.columns[0] == grid.columns:
         return True
-    labels = [c for c in grid.cells if c.columns[0] == 0 and c.lines and c is not cell]
+    labels = [c for c in grid.cells if c.columns[0] == 0 and c.lines and c is not cell and not _is_alone(grid, c)]
     bold = _is_bold(cell) and not any(map(_is_bold, labels))
     return cell.columns[0] == 0 and (bold or all(map(in_capitals, cell.pieces)))
 
 
+def _is_alone(grid: TableGrid, cell: Cell) -> bool:
+    return all(c is cell or not c.lines for row in range(*cell.rows) for c in _row_cells(grid, row))
+
+
+def _heads_none(grid: TableGrid, filled: Sequence[Cell], heads: Sequence[int]) -> bool:
+    """Whether a row of words, a label first, says nothing of its columns: as `names_no_columns`; or it is set like the
+    rows of values, under some of them, and rows that stand out (`heads`) head the table."""
+    named = [[c for c in _row_cells(grid, head) if c.lines] for head in heads]
+    apart = any(all(map(_is_bold, row)) or names_models(row[0].text) for row in named if row)
+    return names_no_columns([c.text for c in filled]) or (apart and not all(map(_is_bold, filled)))
+
+
 def _facts(grid: TableGrid) -> frozenset[int]:
-    """The rows of words that head nothing: several, one after the other, each a label beside the only other column
-    ("Make | …", "Model | …")."""
-    if grid.columns != 2:
+    """The rows of words that head nothing in a table with one value to a row: several, one after the other, each a
+    label beside the only other column ("Make | …", "Model | …"), or under values."""
+    rows = [[c for c in _row_cells(grid, row) if c.lines] for row in range(grid.rows)]
+    valued = [len(_values_of(filled)) for filled in rows]
+    if max(valued, default=0) > 1:
         return frozenset()
     worded = {
         row
-        for row in range(grid.rows)
-        if len(filled := [c for c in _row_cells(grid, row) if c.lines]) == 2 and not _values_of(filled)
+        for row, filled in enumerate(rows)
+        if len(filled) == 2 and not valued[row] and filled[0].columns[0] == 0 and not all(map(_is_bold, filled))
     }
-    return frozenset(row for row in worded if {row - 1, row + 1} & worded)
+    return frozenset(row for row in worded if {row - 1, row + 1} & worded or any(valued[:row]))
 
 
 def _values_of(filled: Sequence[Cell]) -> list[Cell]:
@@ -108,6 +146,8 @@ def _values_of(filled: Sequence[Cell]) -> list[Cell]:
         values = values[1:]
     if not values and all(split_inline(c.text)[0] for c in filled):
         return list(filled)
+    if not values and len(filled) > 1 and all(len(split_inline(c.text)[0].split()) in (1, 2) for c in filled[1:]):
+        return list(filled[1:])
     return values
 
 
@@ -186,20 +226,26 @@ def _titles(grid: TableGrid) -> dict[int, str]:
 
 
 def _head_rows(page: Page, grid: TableGrid) -> list[int]:
-    """The first rows of quantities that name the columns ("2925 mm arm"): set in bold or shaded, which not all that
-    follows is, or spread over columns that part below."""
+    """The first rows of numbers that name the columns ("2925 mm arm"): models by their label, or set in bold or shaded,
+    which not all that follows is, or spread over columns that part below."""
     found: list[int] = []
     for row in range(grid.rows - 1):
         filled = [c for c in _row_cells(grid, row) if c.lines]
         values = [c for c in filled if looks_like_value(c.text)]
-        if not values:
-            if found or len(filled) == 1:
+        if not values or (len(filled) == 1 and filled[0].columns[0] == 0):
+            if found:
                 break
+            continue  # a title, or what heads columns by words
+        if names_models(filled[0].text) and len(values) == len(filled) - 1 and len({c.text for c in values}) > 1:
+            found.append(row)
             continue
         below = [c for c in grid.cells if c.rows[0] > row and looks_like_value(c.text)]
         wide = all(c.columns[1] - c.columns[0] > 1 and _parts(grid, row, c) for c in values)
         if wide and len(values) == 1 and _labels(filled, values[0]) and values[0].columns[1] == grid.columns:
             break  # one value for all columns
+        wide = wide and not any(
+            is_unit(c.text) for c in filled
+        )  # a row with its unit gives values for groups of columns
         bold = all(_is_bold(c) for c in filled) and not all(_is_bold(c) for c in below)
         shaded = all(_is_shaded(page, c) for c in filled) and not any(_is_shaded(page, c) for c in below)
         if not below or not (wide or bold or shaded):

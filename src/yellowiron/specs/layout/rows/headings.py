@@ -46,6 +46,15 @@ def names_no_columns(row: Sequence[str]) -> bool:
     return len(row) > 2 and (len(set(row[1:])) == 1 or "engine" in tokens(row[0]))
 
 
+_MODEL = frozenset(["model", "modelo", "modell", "modele", "typ", "maschinentyp", "型号", "型號", "型式", "機種"])
+
+
+def names_models(label: str) -> bool:
+    """Whether a row's label says that its cells name models: "Machine model", "Modelo"."""
+    words = set(tokens(label)) - {"machine"}
+    return bool(words) and words <= _MODEL
+
+
 def bar_under(page: Page, piece: TextPiece, size: float) -> Box | None:
     """The filled bar an emphasised piece is printed on, if that is no higher than a heading needs; shaded rows of a
     table are none."""

@@ -26,6 +26,8 @@ _FULL = 0.72
 """Of a paragraph's width: shorter lines end it."""
 _NUMBER = re.compile(r"[<>≤≥~±]?\d+(?:[.,\s]\d+)*")
 _WORD = re.compile(r"[^\W\d_]{3,}")
+_NEXT_IN_LIST = re.compile(r"[^\W\d][)\]]?\s*[,，]\s*$|\d[)\]]\s*,\s*$")
+_NAMED_BEHIND = re.compile(r"\s*[^\W\d_]{3,}")
 _LONGEST = 16
 """Words before a value; more are about something else."""
 
@@ -117,6 +119,9 @@ def read_paragraph(page: int, lines: Sequence[TextLine], first_row: int, section
         for reading in read(sentence):
             quantities = (*reading.numbers, *reading.partner)
             begin, stop = min(q.start for q in quantities), max(q.end for q in quantities)
+            if _NEXT_IN_LIST.search(sentence[:begin]) and _NAMED_BEHIND.match(sentence[stop:]):
+                edge = stop  # "Vinyl seat, 800 mm dipper, boom offset": what it is stands behind it
+                continue
             label = _label(sentence[edge:begin])
             if not label and quantities[0].dimension != "angle":  # "Dump height at 45°: 2.9 m"
                 label = _label(sentence[before:begin])
