@@ -66,6 +66,7 @@ __getattr__, __dir__ = lazy_names(
         "from_sheets": "extraction",
         "merge": "values.overrides",
         "missing_values": "values.requested",
+        "page_pictures": "evidence_images",
         "parse_settings": "values.overrides",
         "picture_programs": "ocr",
         "read": "extraction",
