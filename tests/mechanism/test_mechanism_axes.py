@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
+from typing import cast
 
 import numpy as np
 import pytest
@@ -10,7 +12,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from yellowiron.mechanism.joints.axes import coaxial_groups, fit_axis, machine_sense, on_axis, symmetry_axis
-from yellowiron.mechanism.placement import Features
+from yellowiron.mechanism.joints.bearings import pin_bearing
+from yellowiron.mechanism.placement import Features, Placement
 
 coordinate = st.floats(-5.0, 5.0)
 vectors = st.tuples(coordinate, coordinate, coordinate)
@@ -97,3 +100,25 @@ def test_a_round_part_without_features_still_has_an_axis(height: float) -> None:
     rise = np.array([0, 0, height / 2])
     points = np.concatenate([ring - rise, ring + rise])[:, [0, 2, 1]]
     assert abs(symmetry_axis(points + 3.0).direction[1]) == pytest.approx(1.0)
+
+
+def test_a_pin_turns_on_its_shaft_and_not_on_the_bolts_of_its_flange() -> None:
+    """The holes of a flange's bolts are in line with holes of both bodies, and still no hinge."""
+    along = np.tile([0.0, 1.0, 0.0], (2, 1))
+    rows = {
+        "pin": features(np.array([[0, 0, 0], [0.1, 0.4, 0]]), along, np.array([1.0, 0.05])),
+        "bodies": features(np.array([[0.1, 0.4, 0], [0.1, 0.45, 0]]), along, np.array([0.05, 0.05])),
+    }
+
+    class Drawn:
+        bodies = ("a", "b", "a")
+
+        def features(self, which: Iterable[int]) -> Features:
+            return rows["pin"] if list(which) == [2] else rows["bodies"]
+
+        def rows_of_body(self, body: str) -> tuple[int, ...]:
+            return {"a": (0,), "b": (1,)}[body]
+
+    bearing = pin_bearing(cast(Placement, Drawn()), [2], ("a", "b"))
+    assert bearing is not None
+    assert bearing.line.distance(np.zeros((1, 3)))[0] == pytest.approx(0.0, abs=1e-9)
