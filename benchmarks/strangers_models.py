@@ -10,7 +10,7 @@ from __future__ import annotations
 import itertools
 import json
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -48,6 +48,9 @@ LINKS = {
 """Of labels that are robot descriptions: which role each link is."""
 BODIES = {"upper_structure": "upperstructure"}
 """Bodies that labels call otherwise than the template."""
+
+
+_SIDE = re.compile(r"_[lr]$")
 
 
 @dataclass(frozen=True)
@@ -157,6 +160,7 @@ def _entries(model: Model, assembly: Assembly, template: Template) -> Iterator[_
     of_name: dict[str, list[str]] = {}
     for key in known:
         of_name.setdefault(key.rpartition("/")[2], []).append(key)
+    merged = _merged(known)
     for part in assembly.parts:
         keys = [part.id] if part.id in known else of_name.get(part.name, [])
         if len(keys) != 1:
@@ -166,8 +170,27 @@ def _entries(model: Model, assembly: Assembly, template: Template) -> Iterator[_
         body = label["body"]
         bodies = ("-",) if body is None else (body, *label.get("alternatives", ()))
         bodies = () if label.get("flexible") or (not body and body is not None) else bodies
-        expanded = tuple(dict.fromkeys(b for name in bodies for b in _bodies(name, template)))
+        expanded = tuple(
+            dict.fromkeys(b for name in bodies for b in (*_bodies(name, template), *_as_one(name, merged)))
+        )
         yield _Entry(part, label.get("role", ""), expanded, label.get("with"), tuple(label.get("fused", ())))
+
+
+def _merged(parts: Mapping[str, Mapping[str, Any]]) -> frozenset[str]:
+    """Bodies without their side, of which left and right are shells of one mesh: as drawn, they are one."""
+    return frozenset(
+        _SIDE.sub("", entry["body"])
+        for entry in parts.values()
+        for shell in entry.get("fused", ())
+        if entry["body"]
+        and entry["body"] != shell["body"]
+        and _SIDE.sub("", entry["body"]) == _SIDE.sub("", shell["body"])
+    )
+
+
+def _as_one(name: str | None, merged: Collection[str]) -> tuple[str, ...]:
+    plain = _SIDE.sub("", name or "")
+    return (plain,) if plain in merged else ()
 
 
 def _bodies(name: str | None, template: Template) -> tuple[str, ...]:
@@ -236,6 +259,7 @@ def _joints(model: Model, template: Template) -> Iterator[TrueJoint]:
     known = model.labels["joints"]
     rows = [{"name": n, **j} for n, j in known.items()] if isinstance(known, dict) else known
     links = LINKS.get(model.name)
+    merged = _merged(model.labels["parts"]) if isinstance(model.labels["parts"], dict) else frozenset()
     for joint in rows:
         parent, child = joint["parent"], joint["child"]
         if links is not None:
@@ -248,8 +272,8 @@ def _joints(model: Model, template: Template) -> Iterator[TrueJoint]:
         if joint["type"] == "fixed" and links is None:
             continue
         more = [
-            tuple(b for n in joint.get(f"alternatives_{end}", ()) for b in _bodies(n, template))
-            for end in ("parent", "child")
+            (*(b for n in joint.get(f"alternatives_{end}", ()) for b in _bodies(n, template)), *_as_one(body, merged))
+            for end, body in (("parent", parent), ("child", child))
         ]
         axis = np.array(joint["axis"], dtype=np.float64)
         axis /= np.linalg.norm(axis)
