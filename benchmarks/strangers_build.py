@@ -322,15 +322,20 @@ def _mesh(file: Path) -> trimesh.Trimesh:
 
 
 BUILDERS: dict[str, Callable[[Job], None]] = {
+    "cat_390f_excavator": in_nodes(qml),
     "clem_excavator": one,
+    "hiepnm_excavator": one,
     "ix35e_excavator": turned(summed),
+    "johnweez_komatsu": one,
     "johnweez_v2_simple": one,
     "jommsy_mini_excavator": turned(mjcf),
+    "kcl_wheel_loader": one,
     "kennyvilella_excavator": in_nodes(mjcf),
     "l580_wheel_loader": turned(xacro),
     "mini_excavator": many,
     "natutech_excavator": in_blender(MERGED),
     "newton_excavator": turned(urdf),
+    "octoman_excavator": one,
     "okkwok_by_material": one,
     "persimenreed_excavator": one,
     "pudong_excavator": turned(urdf),
@@ -338,16 +343,10 @@ BUILDERS: dict[str, Callable[[Job], None]] = {
     "simscape_backhoe_arm": in_nodes(instances),
     "simscape_excavator": many,
     "simscape_wheel_loader": many,
+    "tobias_work_equipment": one,
     "valkoja_low_poly_full": in_blender(OPENED, "full"),
     "valkoja_low_poly_half": in_blender(OPENED, "half"),
 }
-
-
-HELD_BACK: dict[str, Callable[[Job], None]] = {
-    "cat_390f_excavator": in_nodes(qml),
-    "octoman_excavator": one,
-}
-"""Of models that are held back: for the end, not built by `main`."""
 
 
 def snapshot_of(mirror: Path, repository: str, commit: str) -> Snapshot:
@@ -371,7 +370,7 @@ def build_model(name: str, mirror: Path, models: Path, blender: str | None) -> d
             file.parent.mkdir(parents=True, exist_ok=True)
             file.write_bytes(snapshot.file(path, sha256))
             files.append(file)
-        (BUILDERS | HELD_BACK)[name](Job(name, snapshot, folder, tuple(files), models, blender))
+        BUILDERS[name](Job(name, snapshot, folder, tuple(files), models, blender))
     return label
 
 
