@@ -126,9 +126,9 @@ def align(
         named = name_scores(tuple(s.part for s in wide.solids), plain, template)
         fused_reading = _fused(answer, wide, named, plain, choices or {}, edited, tracks)
     # Names against contacts that found most of a machine: they are heard where they explain who is beside whom.
-    # Contacts that leave little of a part of a machine unexplained are, but for a clearly better reading.
+    # Contacts that leave little of a part of a machine unexplained are, but for a clearly better reading of its names.
     if fused_reading is not None and (
-        not explained or (fused_reading[2] >= HEARD if held else fused_reading[3] >= BETTER)
+        not explained or (fused_reading[2] >= HEARD if held else any(named) and fused_reading[3] >= BETTER)
     ):
         (answer, frame, agreement, _), observation, scores = fused_reading, wide, named
     else:
