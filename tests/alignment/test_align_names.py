@@ -208,6 +208,12 @@ def test_names_in_further_languages(digger: Template, name: str, body: str) -> N
     assert found[body] == max(found.values())
 
 
+@pytest.mark.parametrize("name", ["машина", "Скорость", "программа"])
+def test_words_of_spaced_scripts_are_no_part_of_others(digger: Template, name: str) -> None:
+    """A machine (машина) is no tyre (шина), a speed no pin (ось), a program no frame (рама)."""
+    assert name_scores((part(name),), digger, digger) == [{}]
+
+
 def test_upper_and_lower_arms_are_boom_and_arm_whichever(digger: Template) -> None:
     upper, lower = name_scores((part("UpperArm"), part("bn_LowerArm")), digger, digger)
     for found in (upper, lower):
@@ -222,6 +228,8 @@ def test_what_carries_a_part_does_not_name_it(digger: Template) -> None:
     assert "boom" not in arm
     assert "boom" not in holder
     assert holder["arm"] > 0.3
+    chinese = (part("Plate 7", "动臂总成", "板"), part("挖斗"))
+    assert name_scores(chinese, digger, digger)[0]["boom"] > 0.25  # 板 says nothing, and is nobody's own
     assembly = (part("Plate 7", "BOOM_ASM"), part("Rod", "BOOM_ASM", "CYLINDER"), part("Bucket"))
     plate, rod, _ = name_scores(assembly, digger, digger)
     assert plate["boom"] > 0.3

@@ -96,13 +96,28 @@ def test_whole_machines_are_not_halves() -> None:
         mirrored(model(boxes(cut=False), np.eye(4)))
 
 
-def test_what_only_ends_in_one_plane_is_no_half() -> None:
-    """Boxes that stand on the ground end in its plane, with their flat faces: but so does nothing in a middle."""
-    rows = [
-        trimesh.creation.box((1.0, 1.0, h)).apply_translation((1.5 * k, 0.0, 0.5 * h))
-        for k, h in enumerate((0.5, 1.0, 2.0))
+HEIGHTS = (0.5, 1.0, 2.0, 1.2, 0.7, 1.6)
+
+
+def test_what_stands_on_the_ground_is_no_half() -> None:
+    """Boxes end in one plane with their flat faces, as halves do; but these are alike to the left and the right."""
+    left = [
+        trimesh.creation.box((1.0, 0.8, h)).apply_translation((1.5 * k, 0.9, 0.5 * h)) for k, h in enumerate(HEIGHTS)
     ]
-    assert half_of(model(rows, np.eye(4))) is None
+    right = [m.copy().apply_translation((0.0, -1.8, 0.0)) for m in left]
+    assert half_of(model([*left, *right], np.eye(4))) is None
+    # Of what is lopsided too nothing tells: being alike is what decided.
+    askew = [m.copy().apply_translation((0.0, 0.3 * k, 0.0)) for k, m in enumerate(left)]
+    assert half_of(model(askew, np.eye(4))) is not None
+
+
+def test_where_parts_end_from_both_sides_there_is_no_half() -> None:
+    beyond = [
+        trimesh.creation.box((1.0, 0.5, h)).apply_translation((1.5 * k, -0.25, 0.5 * h))
+        for k, h in enumerate(HEIGHTS[:3])
+    ]
+    assert half_of(model(boxes(cut=True), np.eye(4))) is not None
+    assert half_of(model([*boxes(cut=True), *beyond], np.eye(4))) is None
 
 
 @pytest.mark.parametrize("kind", ["loader", "excavator"])

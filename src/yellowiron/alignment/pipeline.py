@@ -20,7 +20,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Collection, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -68,7 +68,7 @@ HELD = 0.7
 EXPLAINED = 0.9
 """… as have those that leave no more than this of what is drawn unexplained, whatever the type has besides."""
 BETTER = 150.0
-"""… unless the judge finds another reading better by so much."""
+"""… unless names speak and the judge finds another reading better by so much."""
 HEARD = 0.9
 """Names trusted so far go before contacts that they contradict and that did not find the whole machine."""
 
@@ -120,17 +120,14 @@ def align(
     held = held_share(answer) >= HELD
     explained = held or drawn_share(answer, observation.solids) >= EXPLAINED
     contradicted = agreement < BELIEVED and not is_whole(answer)
-    fused_reading = None
+    judged: _Judged | None = None
     if not held or contradicted:
         wide = look(CONTACT[-1])
         named = name_scores(tuple(s.part for s in wide.solids), plain, template)
-        fused_reading = _fused(answer, wide, named, plain, choices or {}, edited, tracks)
-    # Names against contacts that found most of a machine: they are heard where they explain who is beside whom.
-    # Contacts that leave little of a part of a machine unexplained are, but for a clearly better reading of its names.
-    if fused_reading is not None and (
-        not explained or (fused_reading[2] >= HEARD if held else any(named) and fused_reading[3] >= BETTER)
-    ):
-        (answer, frame, agreement, _), observation, scores = fused_reading, wide, named
+        judged = _fused(answer, wide, named, plain, choices or {}, edited, tracks)
+    if judged is not None and (not explained or judged.goes_before(held=held, named=any(named))):
+        answer, frame, agreement = judged.answer, judged.frame, judged.trust
+        observation, scores = wide, named
     else:
         answer, frame = _framed(answer, observation, tracks)
     low = undercut(observation, answer)
@@ -307,6 +304,24 @@ def _left(assembly: Assembly, parts: frozenset[str]) -> Assembly:
     return replace(assembly, parts=tuple(p for p in assembly.parts if p.id not in parts))
 
 
+@dataclass(frozen=True, eq=False)
+class _Judged:
+    """What names, shapes, places and contacts say together: the answer; the machine's frame, that of its joints, or as
+    the machine stands where these leave it open; how far the names are to be believed (0 to 1); and by how much the
+    judge finds it better than what the contacts alone say."""
+
+    answer: Answer
+    frame: MachineFrame | None
+    trust: float
+    lead: float
+
+    def goes_before(self, *, held: bool, named: bool) -> bool:
+        """Whether it goes before contacts that explain what is drawn. Where these found most of the type's joints
+        (`held`), names are heard if they explain who is beside whom; where they found a part of a machine, a clearly
+        better reading is, if anything is `named`."""
+        return self.trust >= HEARD if held else named and self.lead >= BETTER
+
+
 def _framed(answer: Answer, observation: Observation, tracks: list[Track]) -> tuple[Answer, MachineFrame | None]:
     """The machine's frame, and the answer solved again with what that says of left and right; with a root in any case.
     No frame where the model has no solids."""
@@ -329,13 +344,11 @@ def _fused(
     choices: Mapping[str, str],
     edited: Mapping[str, str],
     tracks: list[Track],
-) -> tuple[Answer, MachineFrame | None, float, float]:
-    """What names, shapes, places and contacts say together; the machine's frame, that of its joints, or as the machine
-    stands where these leave it open; how far the names are to be believed; and how much better it is than what the
-    contacts alone say."""
+) -> _Judged:
+    """What names, shapes, places and contacts say together."""
     solids = observation.solids
     if not solids:
-        return answer, None, 1.0, 0.0
+        return _Judged(answer, None, 1.0, 0.0)
     told = {s.index: template.body_of(edited[s.part.id]) for s in solids if template.knows(edited.get(s.part.id, ""))}
     said = {i: body for i, body in told.items() if body is not None}
     found = fused(observation, template, variants_of(template, choices), scores, answer, said)
@@ -344,7 +357,7 @@ def _fused(
     if frame.doubts:
         frame = MachineFrame(found.stance.matrix(), ("it is read off how the machine stands",))
     answer = replace(answer, solution=with_root(solution, answer.structure, solids, answer.template))
-    return answer, frame, found.trust, found.lead
+    return _Judged(answer, frame, found.trust, found.lead)
 
 
 def _surfaces(observation: Observation, answer: Answer) -> dict[str, float]:

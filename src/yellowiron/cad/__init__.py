@@ -10,10 +10,11 @@ entry in `formats` and a module in `readers`, or in another package.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from yellowiron.cad.dependence import files_of
 from yellowiron.cad.read import check_file, read_cad
+from yellowiron.support.lazy import lazy_names
 
 if TYPE_CHECKING:
     from yellowiron.cad.mesh.halves import completed, half_of, mirrored
@@ -21,15 +22,12 @@ if TYPE_CHECKING:
 
 __all__ = ["check_file", "completed", "files_of", "half_of", "mirrored", "read_cad", "taken_apart"]
 
-
-def __getattr__(name: str) -> Any:
-    """What needs scipy is loaded when it is asked for: most runs never do."""
-    if name == "taken_apart":
-        from yellowiron.cad.mesh.split import taken_apart
-
-        return taken_apart
-    if name in ("completed", "half_of", "mirrored"):
-        from yellowiron.cad.mesh import halves
-
-        return getattr(halves, name)
-    raise AttributeError(f"module 'yellowiron.cad' has no attribute {name!r}")
+__getattr__, __dir__ = lazy_names(
+    __name__,
+    {
+        "completed": "mesh.halves",
+        "half_of": "mesh.halves",
+        "mirrored": "mesh.halves",
+        "taken_apart": "mesh.split",
+    },
+)

@@ -39,8 +39,10 @@ VAGUE_SHARE = 0.5
 ALIKE = 0.79
 """Words less alike than this are different words, not typos."""
 _SPLIT = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+")
-_UNSPACED = re.compile(r"[\u0370-\u1fff\u3040-\u30ff\u3400-\u9fff\uac00-\ud7a3]")
-"""Letters of scripts whose words are looked for wherever they stand: Chinese and Japanese, Korean, Cyrillic."""
+_SCRIPTS = re.compile(r"[\u0400-\u052f\u3040-\u30ff\u3400-\u9fff\uac00-\ud7a3]")
+"""Letters of scripts whose words are looked for in a name as it is written: Cyrillic, Japanese, Chinese, Korean."""
+_SPACED = re.compile(r"[\u0400-\u052f]")
+"""Of these, those that have spaces: their words are looked for where words begin (машина is no шина, a tyre)."""
 _ELIDED = re.compile(r"\b[dl]['\u2019](?=\w)", re.IGNORECASE)
 _HIGH = re.compile(r"[\x80-\xff\u0152-\u2122]{2,}")
 _COUNT = re.compile(r"[\s_#.-]*\d*$")
@@ -92,7 +94,7 @@ def vocabulary(template: Template) -> Vocabulary:
     for table in (template.words, own, _common()):
         for key, entry in table.items():
             for word in (w for words in entry.values() for w in words):
-                if _UNSPACED.search(word):
+                if _SCRIPTS.search(word):
                     scripts.setdefault(unicodedata.normalize("NFKC", word).casefold(), frozenset(key.split()))
                     continue
                 for spelled in (word, _spelled_out(word)):
@@ -129,11 +131,11 @@ def concepts(text: str, words: Vocabulary) -> frozenset[str]:
 
 def _concepts(text: str, words: Vocabulary) -> frozenset[str]:
     found: set[str] = set()
-    written = text.casefold() if _UNSPACED.search(text) else ""
+    written = text.casefold() if _SCRIPTS.search(text) else ""
     for word in sorted((w for w in words.scripts if w in written), key=lambda w: (-len(w), w)):
-        if word in written:
-            found |= words.scripts[word]
-            written = written.replace(word, " ")
+        begin = r"(?<![^\W\d_])" if _SPACED.match(word) else ""
+        written, times = re.subn(begin + re.escape(word), " ", written)
+        found |= words.scripts[word] if times else frozenset()
     said = tokens(text)
     used = [False] * len(said)
     for size in (4, 3, 2, 1):
@@ -301,7 +303,7 @@ def _owned(parts: Sequence[Part]) -> frozenset[tuple[str, ...]]:
     found = {(*p.path, p.name) for p in parts}
     for part in parts:
         said, above = set(tokens(part.name)), set(tokens(part.path[-1] if part.path else ""))
-        if said and len(said & above) >= NAMESAKE * min(len(said), len(above)):
+        if said and above and len(said & above) >= NAMESAKE * min(len(said), len(above)):
             found.add(part.path)
     return frozenset(found)
 

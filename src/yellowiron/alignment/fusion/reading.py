@@ -221,8 +221,8 @@ def _score_of_contacts(answer: Answer, evidence: Evidence) -> float:
 
 
 def _as_parts(stance: Stance, evidence: Evidence, template: Template) -> list[Stance]:
-    """How the machine would stand if only what is more than so many joints from the root were drawn of it: all above
-    its carrier, its work equipment."""
+    """How the machine would stand if only what is so many joints (`PARTS`) from the root, or more, were drawn of it:
+    all above its carrier, its work equipment. None where what it would lack is named."""
     resolved = choose(template, {})
     depths = {b: n for (a, b), n in joints_apart(resolved).items() if a == resolved.root}
     ends = [tuple(map(str, resolved.bodies_of(j))) for j in resolved.joints]

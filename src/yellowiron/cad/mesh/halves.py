@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
 from yellowiron.cad.mesh import measures
 from yellowiron.cad.mesh.assembly import shape_of
@@ -32,6 +33,11 @@ EVEN = 0.05
 FLAT = 0.02
 """A part is cut where at least this share of the circumference of its box in the plane is the edge of an open mesh, or
 where at least this share of that box is faces in the plane."""
+WHOLE = 0.8
+"""What is like its mirror image across any axis, in this share of its surface, is whole: it stands on the plane, or
+ends in it."""
+LIKE = 0.02
+"""A part has a mirror image where a part's box is its own's, mirrored, within this share of the model's size."""
 IMAGE = " (mirror image)"
 """Ends the ids of mirror images."""
 _ASYMMETRIC = "What is on one side only (a cab, an exhaust) is now on both: give its image no role if it matters."
@@ -61,15 +67,19 @@ class Half:
 @remembered
 def half_of(assembly: Assembly) -> Half | None:
     """Where a model is cut in half, or None: a plane across an axis of the file's frame in which many parts end, open
-    or with a flat face, all on the same side of it. Of several the one that cuts the most parts."""
+    or with a flat face, all on the same side of it, while what is drawn is like its mirror image across no axis: a
+    whole machine may stand on flat parts, or be flush. Of several the one that cuts the most parts."""
     parts = [p for p in assembly.parts if len(assembly.shape_of(p).mesh.triangles)]
     if len(parts) < FEWEST or assembly.joints:
         return None
     points = [assembly.points_of(p) for p in parts]
     meshes = [replace(assembly.shape_of(p).mesh, points=q, normals=None) for p, q in zip(parts, points, strict=True)]
     low, high = (np.array([end(q, axis=0) for q in points]) for end in (np.min, np.max))
-    on = ON * float(np.linalg.norm(high.max(axis=0) - low.min(axis=0)))
+    size = float(np.linalg.norm(high.max(axis=0) - low.min(axis=0)))
+    on = ON * size
     area = np.array([measures.area_properties(mesh)[0] for mesh in meshes])
+    if any(_alike(low, high, area, axis, LIKE * size) > WHOLE for axis in range(3)):
+        return None
     halves = []
     for axis in range(3):
         for side, ends, others in ((1, low[:, axis], high[:, axis]), (-1, -high[:, axis], -low[:, axis])):
@@ -84,6 +94,17 @@ def half_of(assembly: Assembly) -> Half | None:
                     ids = (frozenset(parts[k].id for k in some) for some in (cut, np.flatnonzero(even).tolist()))
                     halves.append(Half(axis, side, side * at, on, *ids))
     return max(halves, key=lambda h: len(h.cut), default=None)
+
+
+def _alike(low: Floats, high: Floats, area: Floats, axis: int, near: float) -> float:
+    """The share of the surface that is of parts whose boxes (n, 3) have a mirror image among the boxes, within `near`
+    metres, across an axis in the middle of all."""
+    boxes = np.concatenate([low, high], axis=1)
+    mirrored = boxes.copy()
+    twice = low[:, axis].min() + high[:, axis].max()
+    mirrored[:, axis], mirrored[:, axis + 3] = twice - boxes[:, axis + 3], twice - boxes[:, axis]
+    off, _ = cKDTree(boxes).query(mirrored, p=np.inf)
+    return float(area[off < near].sum() / max(float(area.sum()), 1e-12))
 
 
 def _planes(ends: Floats, area: Floats, on: float) -> Iterator[tuple[float, list[int]]]:

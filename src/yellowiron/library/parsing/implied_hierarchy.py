@@ -56,8 +56,8 @@ def infer_roles(
 
 def infer_actuators(template: Template) -> tuple[ActuatorTemplate, ...]:
     """Actuators for a template without `actuators.json`: one a driven joint, left and right twins together. Which twin
-    retracts is not known; all signs are +1. A slide that turns at neither end, or
-    at one and is between neither barrel nor rod, is no cylinder's: its drive is its own."""
+    retracts is not known; all signs are +1. A slide that turns at neither end, or at one and is between neither barrel
+    nor rod, is no cylinder's: its drive is its own."""
     cylinders: dict[str, list[CylinderTemplate]] = {}
     strokes: dict[str, dict[str, str]] = {}
     motors: dict[str, list[str]] = {}

@@ -56,14 +56,14 @@ def _row(number: int, name: str, joints: Sequence[Mapping[str, Any]], levers: Ma
         "drive": f"{drive['kind']}, {shown(drive['max_force'], force_unit, digits=4)}" if drive else _led(joints),
         "source": joint_evidence(first["source"], levers),
         "lever": levers.get(first["name"], name),
-        "values": list(
-            dict.fromkeys(
-                str(name)
-                for end in ("lower", "upper")
-                if (name := str(first["source"].get(f"{end}_specification") or "").lstrip("-− "))
-            )
-        ),
+        "values": _limiting(first["source"]),
     }
+
+
+def _limiting(source: Mapping[str, Any]) -> list[str]:
+    """The sheet's values that limit a joint, without their signs."""
+    named = [str(source.get(f"{end}_specification") or "").lstrip("-− ") for end in ("lower", "upper")]
+    return [name for name in dict.fromkeys(named) if name]
 
 
 def _led(joints: Sequence[Mapping[str, Any]]) -> str:

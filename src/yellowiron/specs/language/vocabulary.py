@@ -38,6 +38,8 @@ VAGUE = _words(_DATA["vague"])
 """Words that name a property only under a heading of its part."""
 TELLING = _words(_DATA["telling"])
 """Conditions and other bodies: beside the words of a property they may make it another one."""
+MODELS = _words(_DATA["models"])
+"""Words for a machine's model."""
 CIRCUITS = _words(_DATA["circuits"])
 """Words for a circuit of its own: its pressure and flow are no other's."""
 _PAIRS = tuple(pair.split("/") for pair in _DATA["opposites"])

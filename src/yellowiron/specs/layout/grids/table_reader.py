@@ -243,9 +243,8 @@ def _head_rows(page: Page, grid: TableGrid) -> list[int]:
         wide = all(c.columns[1] - c.columns[0] > 1 and _parts(grid, row, c) for c in values)
         if wide and len(values) == 1 and _labels(filled, values[0]) and values[0].columns[1] == grid.columns:
             break  # one value for all columns
-        wide = wide and not any(
-            is_unit(c.text) for c in filled
-        )  # a row with its unit gives values for groups of columns
+        # A row with its unit gives values for groups of columns.
+        wide = wide and not any(is_unit(c.text) for c in filled)
         bold = all(_is_bold(c) for c in filled) and not all(_is_bold(c) for c in below)
         shaded = all(_is_shaded(page, c) for c in filled) and not any(_is_shaded(page, c) for c in below)
         if not below or not (wide or bold or shaded):

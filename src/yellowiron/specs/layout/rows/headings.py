@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from yellowiron.specs.language.vocabulary import tokens
+from yellowiron.specs.language.vocabulary import MODELS, tokens
 from yellowiron.specs.layout.rows.lines import TextBlock
 from yellowiron.specs.layout.statement import EXAMPLE, TextPiece, kind_of
 from yellowiron.specs.layout.tolerances import HEADING_BAR, LARGER
@@ -46,13 +46,10 @@ def names_no_columns(row: Sequence[str]) -> bool:
     return len(row) > 2 and (len(set(row[1:])) == 1 or "engine" in tokens(row[0]))
 
 
-_MODEL = frozenset(["model", "modelo", "modell", "modele", "typ", "maschinentyp", "型号", "型號", "型式", "機種"])
-
-
 def names_models(label: str) -> bool:
     """Whether a row's label says that its cells name models: "Machine model", "Modelo"."""
     words = set(tokens(label)) - {"machine"}
-    return bool(words) and words <= _MODEL
+    return bool(words) and words <= MODELS
 
 
 def bar_under(page: Page, piece: TextPiece, size: float) -> Box | None:
