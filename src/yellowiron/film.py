@@ -185,7 +185,7 @@ def _read(machine: Machine, camera: Camera, sheets: Sequence[Path]) -> Iterator[
     piece = page.crop((left, above, left + width, above + height))
     place = (SIZE[0] - width - 16, 16)
     start = (place[0] + (x0 + x1) / 2 - left, place[1] + bottom - above)
-    pins = [machine.mechanism.joint(name).anchor for name in (cylinder.barrel_joint, cylinder.rod_joint)]
+    pins = [machine.mechanism.joint(name).anchor for name in cylinder.pins or (cylinder.slide,)]
     end = camera.project(np.array(pins, dtype=np.float64)).mean(axis=0)
     for k in range(count := round(_READING * RATE)):
         caption = f"{value.name}: {value.text}     page {evidence.page} of {evidence.file}"

@@ -47,6 +47,7 @@ from yellowiron.alignment.labelling.coupler import with_couplers
 from yellowiron.alignment.labelling.fittings import fittings_of, sitting
 from yellowiron.alignment.labelling.place import pin_role
 from yellowiron.alignment.labelling.propagation import Propagation
+from yellowiron.alignment.labelling.rams import with_rams
 from yellowiron.alignment.labelling.result import Labels, to_alignment
 from yellowiron.alignment.labelling.review import name_findings, review_findings
 from yellowiron.alignment.labelling.suspects import suspect_bodies
@@ -146,6 +147,7 @@ def align(
         },
     )
     places = with_couplers(propagation.run(), observation.solids, answer)
+    places = with_rams(places, observation, answer, frame)
     apart |= {observation.solids[i].part.id: metres for i, metres in propagation.apart.items()}
     by_id = {observation.solids[i].part.id: place for i, place in places.items()}
     whole = as_drawn(choose(template, answer.choices), set(answer.solution.body_of.values()))

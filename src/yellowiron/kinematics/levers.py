@@ -51,7 +51,7 @@ def lever_table(
 def _pivots(mechanism: Mechanism, chain: ClosedChain, slide: str, states: Sequence[State]) -> dict[str, Any]:
     """Angles and lever arms of the pivots that turn with a slide, in those states."""
     component = next((c for c in chain.components() if slide in c.drivers), None)
-    pins = {name for cylinder in mechanism.cylinders for name in (cylinder.barrel_joint, cylinder.rod_joint)}
+    pins = {name for cylinder in mechanism.cylinders for name in cylinder.pins}
     joints = {joint.name: joint for joint in mechanism.joints}
     tangents = [chain.tangent(state, slide) for state in states]
     pivots: dict[str, Any] = {}

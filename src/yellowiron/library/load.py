@@ -152,7 +152,7 @@ def _further(documents: Mapping[str, Document], template: Template) -> dict[str,
     if "wanted" in documents:
         found["wanted"] = read_wanted(documents["wanted"], template.roles)
     if "actuators" in documents:
-        found["actuators"] = read_actuators(documents["actuators"], template.joints)
+        found["actuators"] = read_actuators(documents["actuators"], template.joints, template.roles)
     if "measurements" in documents:
         sites, measurements = read_measurements(documents["measurements"], template.roles, template.joints)
         found.update(sites=sites, measurements=measurements)

@@ -35,7 +35,7 @@ MEC018  a cylinder's linkage does not work as it was found; it stands as drawn, 
 MEC019  nothing moves or holds a body on its pivot or slide; it stands as drawn
 MEC020  a bore or rod diameter differs between sheet and CAD
 MEC021  the piston's travel in CAD is not the stroke
-MEC022  a cylinder's closed length is not known; mid-stroke was assumed
+MEC022  a cylinder's closed length is not known; mid-stroke was assumed, or closed of one without pins
 MEC023  a cylinder's stroke is not on the sheet
 MEC024  the drawn pose is outside a slide's limits
 MEC025  the template's default stands for a value that no sheet gives

@@ -118,16 +118,17 @@ class Joint:
 
 @dataclass(frozen=True)
 class Cylinder:
-    """A hydraulic cylinder. Lengths are between the barrel's and the rod's pivots, metres; `extension` is the drawn one
-    (drawn length − closed length); forces in N, `speed` in m/s (extending). `passive` twins follow the driven one.
-    `sources` says for every quantity where it came from."""
+    """A hydraulic cylinder. Lengths are between the barrel's and the rod's pivots, metres; of one without pins (its
+    halves fixed to the two bodies `barrel` and `rod`) from the foot of its barrel to the end of its rod. `extension` is
+    the drawn one (drawn length − closed length); forces in N, `speed` in m/s (extending). `passive` twins follow the
+    driven one. `sources` says for every quantity where it came from."""
 
     name: str
     barrel: str
     rod: str
     slide: str
-    barrel_joint: str
-    rod_joint: str
+    barrel_joint: str | None
+    rod_joint: str | None
     bore: float
     rod_diameter: float
     stroke: float
@@ -139,6 +140,11 @@ class Cylinder:
     speed: float
     passive: bool = False
     sources: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def pins(self) -> tuple[str, ...]:
+        """The joints at its two ends; none of one that is fixed at both."""
+        return tuple(name for name in (self.barrel_joint, self.rod_joint) if name is not None)
 
     @property
     def extension(self) -> float:

@@ -154,14 +154,30 @@ class Wanted:
 @dataclass(frozen=True)
 class CylinderTemplate:
     """One cylinder of an actuator: its slide joint; `sign` −1 where it retracts when the actuator moves positive;
-    `passive` twins follow the driven one (their rod pin is cut)."""
+    `passive` twins follow the driven one (their rod pin is cut).
+
+    One without pins (a mast's ram, a jack) has both its halves fixed to the bodies of its slide: `rams` are the parts
+    of each that moves it, (barrel, rod). `rod_through`: the rod comes out at both ends, both areas are the same.
+    """
 
     slide: str
-    barrel_joint: str
-    rod_joint: str
+    barrel_joint: str | None = None
+    rod_joint: str | None = None
     sign: int = 1
     passive: bool = False
     when: Choices = field(default_factory=dict)
+    rams: tuple[tuple[str, str], ...] = ()
+    rod_through: bool = False
+
+    @property
+    def pins(self) -> tuple[str, ...]:
+        """The joints at its barrel's and its rod's ends; none of one that is fixed at both."""
+        return tuple(name for name in (self.barrel_joint, self.rod_joint) if name is not None)
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        """Its slide, and its pins."""
+        return (self.slide, *self.pins)
 
 
 @dataclass(frozen=True)
@@ -330,10 +346,14 @@ def choose(template: Template, choices: Mapping[str, str]) -> Template:
         for j in template.joints
         if holds(j.when)
     )
-    kept = {j.name for j in joints}
+    kept, present = {j.name for j in joints}, {r.name for r in roles}
     actuators = []
     for actuator in template.actuators:
-        cylinders = tuple(replace(c, when={}) for c in actuator.cylinders if holds(c.when) and c.slide in kept)
+        cylinders = tuple(
+            replace(c, when={}, rams=tuple(pair for pair in c.rams if present.issuperset(pair)))
+            for c in actuator.cylinders
+            if holds(c.when) and c.slide in kept
+        )
         motors = tuple(
             j for j in actuator.joints if j in kept and template.joint(j).drive and holds(template.joint(j).drive_when)
         )

@@ -169,7 +169,7 @@ def _by_cylinders(variants: list[dict[str, str]], template: Template, drawn: int
     no variant with fewer or more can score as high."""
     groups: dict[int, list[dict[str, str]]] = {}
     for chosen in variants:
-        count = sum(1 for r in choose(template, chosen).roles if r.rigid and r.kind == "barrel")
+        count = sum(1 for r in choose(template, chosen).roles if r.kind == "barrel")
         groups.setdefault(abs(count - drawn), []).append(chosen)
     return [groups[apart] for apart in sorted(groups)]
 

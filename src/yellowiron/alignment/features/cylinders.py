@@ -16,7 +16,8 @@ class DrawnCylinder:
     """One cylinder: indices of the solids of its barrel and of its rod (those about its own axis; eyes come later), the
     axis from the closed end towards the rod's eye, and the two radii. Where the barrel is not `hollow`, `bore` is its
     outer radius. `count` twins side by side are one. A rod that is drawn `apart`, in line with its barrel but not in
-    its place, holds nothing and hangs on nothing."""
+    its place, holds nothing and hangs on nothing; one that is `fixed` hangs on no pins: each half is of what carries
+    it."""
 
     barrel: frozenset[int]
     rod: frozenset[int]
@@ -27,6 +28,7 @@ class DrawnCylinder:
     hollow: bool = True
     count: int = 1
     apart: bool = False
+    fixed: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,15 +41,21 @@ class Pair:
     shaft: Cyl
     direction: Floats
     score: float
+    fixed: bool = False
 
 
-def cylinders_of(solids: tuple[Solid, ...], tolerance: float) -> list[DrawnCylinder]:
+FIXED = 5.0
+"""The bore of a cylinder without eyes is at least so many times its radius long, and the rod its own: else it may be a
+pin in its boss."""
+
+
+def cylinders_of(solids: tuple[Solid, ...], tolerance: float, *, fixed: bool = False) -> list[DrawnCylinder]:
     """Every hydraulic cylinder, longest first; no solid belongs to two. Twins that share their two parts are one, in
-    the middle between them."""
-    pairs = _rods_in_bores(solids, tolerance)
+    the middle between them. With `fixed` those without eyes, and those whose rod comes out at both ends, are too."""
+    pairs = _rods_in_bores(solids, tolerance, fixed=fixed)
     cylinders: list[DrawnCylinder] = []
     used: set[int] = set()
-    for pair in sorted(pairs, key=lambda p: (-round(p.score, 6), p.tube.index, p.bar.index)):
+    for pair in sorted(pairs, key=lambda p: (p.fixed, -round(p.score, 6), p.tube.index, p.bar.index)):
         if pair.tube.index in used or pair.bar.index in used:
             continue
         twins = [p for p in pairs if p.tube is pair.tube and p.bar is pair.bar and _alike(p, pair)]
@@ -62,14 +70,14 @@ def cylinders_of(solids: tuple[Solid, ...], tolerance: float) -> list[DrawnCylin
     return cylinders
 
 
-def _rods_in_bores(solids: tuple[Solid, ...], tolerance: float) -> list[Pair]:
+def _rods_in_bores(solids: tuple[Solid, ...], tolerance: float, *, fixed: bool) -> list[Pair]:
     """Every long bore with a long shaft of another part in it."""
     faces = [(s, c) for s in solids for c in s.cylinders if c.full]
     bores = [(s, c) for s, c in faces if c.inner and 2 * c.half > 3.5 * c.radius and c.radius < 0.25 * s.size]
     shafts = [(s, c) for s, c in faces if not c.inner and 2 * c.half > 4 * c.radius]
     eyes = [c for _, c in faces if c.inner]
     pairs = (_pair(tube, bore, bar, shaft, eyes, tolerance) for tube, bore in bores for bar, shaft in shafts)
-    return [pair for pair in pairs if pair is not None]
+    return [pair for pair in pairs if pair is not None and (fixed or not pair.fixed)]
 
 
 def _alike(one: Pair, other: Pair) -> bool:
@@ -94,8 +102,9 @@ def _pair(tube: Solid, bore: Cyl, bar: Solid, shaft: Cyl, eyes: list[Cyl], toler
         direction, (a, b) = -direction, (-b, -a)
     inside = min(b, bore.half) - max(a, -bore.half)
     out = b - bore.half
-    if inside < 1.0 * bore.radius or out < 1.0 * shaft.radius or a < -bore.half - 3 * bore.radius:
+    if inside < 1.0 * bore.radius or out < 1.0 * shaft.radius:
         return None
+    through = a < -bore.half - 3 * bore.radius
     low, high = tube.span(bore.center, direction)
     far = max(bar.span(bore.center, direction)[1], b)
     reach = 6 * bore.radius
@@ -103,9 +112,10 @@ def _pair(tube: Solid, bore: Cyl, bar: Solid, shaft: Cyl, eyes: list[Cyl], toler
     places = [p for p in ends if p is not None]
     behind = any(low - reach < p < bore.half for p in places)
     ahead = any(max(bore.half, b - reach) < p < far + reach for p in places)
-    if not (behind and ahead):
+    fixed = through or not (behind and ahead)
+    if fixed and (bore.half < 0.5 * FIXED * bore.radius or shaft.half < 0.5 * FIXED * bore.radius):
         return None
-    return Pair(tube, bore, bar, shaft, direction, inside * bore.radius + 1e-3 * (high - low))
+    return Pair(tube, bore, bar, shaft, direction, inside * bore.radius + 1e-3 * (high - low), fixed)
 
 
 def crossing(eye: Cyl, origin: Floats, direction: Floats, radius: float) -> float | None:
@@ -142,7 +152,7 @@ def with_coaxial_parts(pair: Pair, solids: tuple[Solid, ...], used: set[int], to
             rod.add(s.index)
         else:
             barrel.add(s.index)
-    return DrawnCylinder(frozenset(barrel), frozenset(rod), origin, d, r, pair.shaft.radius)
+    return DrawnCylinder(frozenset(barrel), frozenset(rod), origin, d, r, pair.shaft.radius, fixed=pair.fixed)
 
 
 def _radius(solid: Solid, origin: Floats, direction: Floats) -> float:

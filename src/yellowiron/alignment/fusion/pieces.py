@@ -66,7 +66,7 @@ def pieces_of(observation: Observation, named: frozenset[int]) -> tuple[Piece, .
     solids = observation.solids
     owner: dict[int, tuple[str, int]] = {}
     for k, cylinder in enumerate(observation.cylinders):
-        if not cylinder.apart:
+        if not (cylinder.apart or cylinder.fixed):
             owner |= dict.fromkeys(cylinder.barrel, ("barrel", k)) | dict.fromkeys(cylinder.rod, ("rod", k))
     for k, wheel in enumerate(observation.wheels):
         owner |= dict.fromkeys(wheel.members, ("wheel", k))

@@ -172,10 +172,10 @@ def _cylinders_before(template: Template) -> dict[str, frozenset[str]]:
     ends: dict[tuple[str, str], list[str]] = {}
     for one in (c for a in template.actuators for c in a.cylinders):
         joints = {j.name: j for j in template.joints}
-        if not {one.slide, one.barrel_joint, one.rod_joint} <= joints.keys():
+        if not one.pins or not {*one.joints} <= joints.keys():
             continue
         halves = [str(b) for b in template.bodies_of(joints[one.slide])]
-        around = [str(b) for n in (one.barrel_joint, one.rod_joint) for b in template.bodies_of(joints[n])]
+        around = [str(b) for n in one.pins for b in template.bodies_of(joints[n])]
         around = sorted((b for b in around if b not in halves), key=lambda b: apart.get((template.root, b), 0))
         ends[halves[0], halves[1]] = around
     found: dict[str, frozenset[str]] = {}

@@ -95,8 +95,12 @@ def _tagged(evidence: ContactEvidence) -> Groups:
     """Groups of what is certain: barrels, rods, wheels, rings in their bores."""
     groups = Groups(len(evidence.solids))
     for k, cylinder in enumerate(evidence.cylinders):
-        groups.tag(cylinder.barrel, ("barrel", k))
-        groups.tag(cylinder.rod, ("rod", k))
+        for half, kind in ((cylinder.barrel, "barrel"), (cylinder.rod, "rod")):
+            if not cylinder.fixed:
+                groups.tag(half, (kind, k))
+            else:
+                for other in half - {min(half)}:
+                    groups.join(min(half), other)
     for k, wheel in enumerate(evidence.wheels):
         groups.tag(wheel.members, ("wheel", k))
     for ring, around in evidence.pressed:
@@ -127,7 +131,7 @@ def _touching(groups: Groups, evidence: ContactEvidence) -> list[tuple[int, int]
 
 def _attach_eyes(groups: Groups, evidence: ContactEvidence) -> None:
     """A barrel or rod without a pin line across it takes the touching group that has one."""
-    for cylinder in evidence.cylinders:
+    for cylinder in (c for c in evidence.cylinders if not c.fixed):
         for part in (cylinder.barrel,) if cylinder.apart else (cylinder.barrel, cylinder.rod):
             root = groups.find(min(part))
             mine = {s.index for s in evidence.solids if groups.find(s.index) == root}
@@ -224,8 +228,9 @@ def labelled_structure(
     cluster → body. What is of no body is a cluster of its own."""
     body_of_solid = {i: body for body, members in bodies.items() for i in members}
     groups = Groups(len(evidence.solids))
-    halves = {frozenset(c.barrel): ("barrel", k) for k, c in enumerate(evidence.cylinders) if not c.apart}
-    halves |= {frozenset(c.rod): ("rod", k) for k, c in enumerate(evidence.cylinders) if not c.apart}
+    whole = [(k, c) for k, c in enumerate(evidence.cylinders) if not (c.apart or c.fixed)]
+    halves = {frozenset(c.barrel): ("barrel", k) for k, c in whole}
+    halves |= {frozenset(c.rod): ("rod", k) for k, c in whole}
     wheels = {w.tyre: k for k, w in enumerate(evidence.wheels)}
     for body, members in sorted(bodies.items()):
         own = set(members)

@@ -59,7 +59,9 @@ def observe(assembly: Assembly, template: Template, contact: float) -> Observati
     size = size_of(solids)
     tolerance = contact * size
     touch = Touch(solids, tolerance)
-    cylinders = cylinders_of(solids, tolerance) if any(r.kind in ("barrel", "rod") for r in template.roles) else []
+    fixed = any(c.rams for a in template.actuators for c in a.cylinders)
+    drawn = any(r.kind in ("barrel", "rod") for r in template.roles)
+    cylinders = cylinders_of(solids, tolerance, fixed=fixed) if drawn else []
     if any(r.kind == "barrel" for r in template.roles):
         cylinders += solid_cylinders_of(solids, cylinders, tolerance)
         cylinders += apart_cylinders_of(solids, cylinders, tolerance)

@@ -80,7 +80,7 @@ def _named_joints(view: View) -> Iterator[str]:
     for loop in _entries(view, "loops"):
         yield from (str(j) for j in _list(loop.get("joints")))
     for cylinder in _entries(view, "cylinders"):
-        yield from (str(cylinder[k]) for k in ("slide", "barrel_joint", "rod_joint") if k in cylinder)
+        yield from (str(cylinder[k]) for k in ("slide", "barrel_joint", "rod_joint") if cylinder.get(k))
     for actuator in _entries(view, "actuators"):
         moved = (j.get("joint") for j in _list(actuator.get("joints")) if isinstance(j, dict))
         yield from (str(j) for j in moved if j)

@@ -61,14 +61,15 @@ def branch_sines(chain: ClosedChain, pivots: Pivots, rotations: Floats, origins:
 def _cylinder_triangle(mechanism: Mechanism, loop: Loop, joints: Mapping[str, Joint]) -> Pivots | None:
     """Where a cylinder's own pin is cut: barrel pivot, rod pivot, and the pivot between the bodies they stand on."""
     for cylinder in mechanism.cylinders:
-        if loop.cut not in (cylinder.barrel_joint, cylinder.rod_joint):
+        if loop.cut not in cylinder.pins:
             continue
-        ends = [joints[cylinder.barrel_joint], joints[cylinder.rod_joint]]
+        hung, held = cylinder.pins
+        ends = [joints[hung], joints[held]]
         own = {cylinder.barrel, cylinder.rod}
         outer = {name for joint in ends for name in (joint.body0, joint.body1)} - own
         for joint in mechanism.joints:
             if joint.type in _PIVOTS and {joint.body0, joint.body1} == outer:
-                return (cylinder.barrel_joint, cylinder.rod_joint, joint.name)
+                return (hung, held, joint.name)
     return None
 
 

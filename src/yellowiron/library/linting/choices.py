@@ -36,9 +36,12 @@ def _gone(template: Template, chosen: Template, choices: Mapping[str, str]) -> I
         yield chosen.root, "the root"
     for actuator in template.actuators:
         for cylinder in (c for c in actuator.cylinders if _holds(c.when, choices)):
-            for name in (cylinder.slide, cylinder.barrel_joint, cylinder.rod_joint):
+            for name in cylinder.joints:
                 if name and name not in joints:
                     yield actuator.name, f"its joint '{name}'"
+            for half in (name for pair in cylinder.rams for name in pair):
+                if half not in roles:
+                    yield actuator.name, f"its part '{half}'"
 
 
 def _sensors(chosen: Template, under: str) -> Iterator[Finding]:
@@ -59,11 +62,17 @@ def _sensors(chosen: Template, under: str) -> Iterator[Finding]:
 
 
 def _cylinders(chosen: Template) -> Iterator[Finding]:
-    """Actuators' cylinders: a slide with a drive, each end with its own pivot."""
+    """Actuators' cylinders: a slide with a drive, each end with its own pivot, or fixed."""
     joints = {j.name: j for j in chosen.joints}
+    seen: set[str] = set()
     for actuator in chosen.actuators:
         for cylinder in actuator.cylinders:
             yield from _cylinder(chosen, actuator.name, joints, cylinder)
+            if cylinder.slide in seen:
+                words = f"Two cylinders have the slide '{cylinder.slide}'."
+                hint = "Those that move one slide together are the 'rams' of one cylinder."
+                yield Finding("TPL006", "error", actuator.name, words, hint)
+            seen.add(cylinder.slide)
 
 
 def _cylinder(
@@ -86,7 +95,16 @@ def _cylinder(
             "barrel: bore, force and stroke would be measured on the wrong halves.",
             "Exchange barrel_joint and rod_joint.",
         )
-    for pivot in (cylinder.barrel_joint, cylinder.rod_joint):
+    for pair in cylinder.rams:
+        known = {r.name for r in template.roles}
+        if known.issuperset(pair) and {template.body_of(half) for half in pair} != ends:
+            between = " and ".join(f"'{b}'" for b in sorted(str(b) for b in ends))
+            words = f"The ram of '{pair[0]}' and '{pair[1]}' is not between {between}, which '{slide}' joins."
+            yield Finding("TPL006", "error", actuator, words, "Name its barrel and its rod, one on each of the two.")
+    if cylinder.passive and not cylinder.pins:
+        words = f"The cylinder '{slide}' is passive and has no pins: nothing else moves its slide."
+        yield Finding("TPL006", "error", actuator, words, "Name it among the 'rams' of the driven one.")
+    for pivot in cylinder.pins:
         there = pivot in joints and not _missing_parts(template, joints[pivot])
         if there and not ends & set(template.bodies_of(joints[pivot])):
             yield Finding(
@@ -102,9 +120,9 @@ def _crossed(template: Template, joints: Mapping[str, JointTemplate], cylinder: 
     """Whether a cylinder's pivots are each at the other half, by the kinds of the bodies that they carry."""
     kinds = {r.name: r.kind for r in template.roles}
     halves = {kinds.get(b or "", ""): b for b in template.bodies_of(joints[cylinder.slide])}
-    if halves.keys() != {"barrel", "rod"} or not {cylinder.barrel_joint, cylinder.rod_joint} <= joints.keys():
+    if halves.keys() != {"barrel", "rod"} or not cylinder.pins or not {*cylinder.pins} <= joints.keys():
         return False
-    carried, pushed = (set(template.bodies_of(joints[n])) for n in (cylinder.barrel_joint, cylinder.rod_joint))
+    carried, pushed = (set(template.bodies_of(joints[n])) for n in cylinder.pins)
     return halves["rod"] in carried and halves["barrel"] in pushed
 
 

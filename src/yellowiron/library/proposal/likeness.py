@@ -81,7 +81,7 @@ class Likeness:
             cylinders = [
                 {k: v for k, v in c.items() if k != "when"}
                 for c in entry.get("cylinders", ())
-                if c["slide"] in slides and {c["barrel_joint"], c["rod_joint"]} <= self.ends.keys()
+                if c["slide"] in slides and {c[k] for k in ("barrel_joint", "rod_joint") if k in c} <= self.ends.keys()
             ]
             if cylinders and sorted(c["slide"] for c in cylinders) == sorted(slides):
                 return name, {**entry, "cylinders": cylinders}

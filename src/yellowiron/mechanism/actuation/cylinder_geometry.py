@@ -5,6 +5,7 @@ Coordinates run along the slide's axis, from the barrel's pivot towards the rod'
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -60,9 +61,11 @@ class CylinderGeometry:
         return self.to_base + self.to_gland
 
 
-def measure_cylinder(placement: Placement, barrel: str, rod: str, line: Axis) -> CylinderGeometry:
-    """The cylinder of the bodies `barrel` and `rod` about a line that points from barrel pivot to rod pivot."""
-    barrel_rows, rod_rows = placement.rows_of_body(barrel), placement.rows_of_body(rod)
+def measure_cylinder(
+    placement: Placement, barrel_rows: Sequence[int], rod_rows: Sequence[int], line: Axis, *, through: bool = False
+) -> CylinderGeometry:
+    """The cylinder that those parts make about a line that points from barrel to rod; `through` one whose rod comes out
+    at both ends."""
     inside, outside = placement.features(barrel_rows), placement.features(rod_rows)
     line, count = _own_axis(inside, line)
     bores = inside.take(on_axis(inside, line) & inside.inner)
@@ -93,7 +96,7 @@ def measure_cylinder(placement: Placement, barrel: str, rod: str, line: Axis) ->
 
     to_base = to_gland = to_eye = None
     if len(piston):
-        low, high = float(along[in_bore].min()), float(piston.max())
+        low, high = float((piston if through else along[in_bore]).min()), float(piston.max())
         bottom = _face(placement, barrel_rows, line, bore, sense=1.0, before=low + _TOUCH)
         to_base = max(0.0, low - bottom) if bottom is not None else None
         gland = _face(placement, barrel_rows, line, bore, sense=-1.0, before=-high + _TOUCH)
@@ -171,7 +174,7 @@ def _gland(bores: Features, bore: float) -> float | None:
 
 
 def _face(
-    placement: Placement, rows: tuple[int, ...], line: Axis, radius: float, *, sense: float, before: float
+    placement: Placement, rows: Sequence[int], line: Axis, radius: float, *, sense: float, before: float
 ) -> float | None:
     """The last face within a radius of the line that faces along `sense`, in coordinates that run along `sense`, not
     beyond `before`; None if there is none. (With sense −1 coordinates are the negatives of the line's.)"""

@@ -17,7 +17,8 @@ import numpy as np
 from yellowiron.mechanism.actuation.cylinder_geometry import CylinderGeometry, measure_cylinder
 from yellowiron.mechanism.actuation.proportion import FASTEST
 from yellowiron.mechanism.joints.axes import Axis
-from yellowiron.mechanism.joints.frames import JointFrame
+from yellowiron.mechanism.joints.bearings import slide_bearing
+from yellowiron.mechanism.joints.frames import JointFrame, barrel_end, drawn_rams
 from yellowiron.mechanism.placement import Placement
 from yellowiron.mechanism.tolerances import PARALLEL
 from yellowiron.mechanism.values import Known, default, known, limit
@@ -62,6 +63,7 @@ class _Work:
 
     actuator: ActuatorTemplate
     placement: Placement
+    template: Template
     frames: Mapping[str, JointFrame]
     specifications: Specifications
     findings: list[Finding]
@@ -85,7 +87,9 @@ class _Work:
 
 @dataclass(frozen=True)
 class _Sizes:
-    """One cylinder before its neighbours in the actuator are known; areas are those of all that are drawn as one."""
+    """One cylinder before its neighbours in the actuator are known; areas are those of all `count` that are drawn as
+    one, or that move its slide together. `length`: from the foot of a fixed barrel to the end of its rod, m, where they
+    are drawn."""
 
     template: CylinderTemplate
     barrel: str
@@ -93,14 +97,16 @@ class _Sizes:
     geometry: CylinderGeometry
     bore: Known
     rod_diameter: Known
+    count: int = 1
+    length: float | None = None
 
     @property
     def push_area(self) -> float:
-        return self.geometry.count * math.pi / 4.0 * self.bore.value**2
+        return self.pull_area if self.template.rod_through else self.count * math.pi / 4.0 * self.bore.value**2
 
     @property
     def pull_area(self) -> float:
-        return self.geometry.count * math.pi / 4.0 * (self.bore.value**2 - self.rod_diameter.value**2)
+        return self.count * math.pi / 4.0 * (self.bore.value**2 - self.rod_diameter.value**2)
 
 
 def with_leaders(template: Template, frames: Mapping[str, JointFrame], findings: list[Finding]) -> Template:
@@ -127,8 +133,8 @@ def fit_cylinders(
     fitted = {}
     for actuator in template.actuators:
         if actuator.kind == "cylinder":
-            work = _Work(actuator, placement, frames, specifications, findings)
-            whole = [c for c in actuator.cylinders if {c.slide, c.barrel_joint, c.rod_joint} <= frames.keys()]
+            work = _Work(actuator, placement, template, frames, specifications, findings)
+            whole = [c for c in actuator.cylinders if {*c.joints} <= frames.keys()]
             sizes = [_sizes(c, work) for c in whole]
             # sorted() is stable: the template's order within driven and passive
             driven_first = sorted(sizes, key=lambda s: s.template.passive)
@@ -136,9 +142,8 @@ def fit_cylinders(
     return fitted, findings
 
 
-def extension_axis(entry: CylinderTemplate, frames: Mapping[str, JointFrame]) -> Axis:
+def extension_axis(slide: JointFrame, hung: JointFrame, held: JointFrame) -> Axis:
     """A slide's line, from the foot of the barrel's pivot towards the rod's pivot."""
-    slide, hung, held = frames[entry.slide], frames[entry.barrel_joint], frames[entry.rod_joint]
     axis = slide.axis if (held.anchor - hung.anchor) @ slide.axis >= 0.0 else -slide.axis
     return Axis(Axis(slide.anchor, axis).foot(hung.anchor), axis)
 
@@ -154,10 +159,18 @@ def pivot_distance(hung: JointFrame, held: JointFrame) -> float:
 
 
 def _sizes(entry: CylinderTemplate, work: _Work) -> _Sizes:
-    slide, hung = work.frames[entry.slide], work.frames[entry.barrel_joint]
-    barrel = next((b for b in slide.bodies if b in hung.bodies), slide.bodies[0])
-    rod = next(b for b in slide.bodies if b != barrel)
-    geometry = measure_cylinder(work.placement, barrel, rod, extension_axis(entry, work.frames))
+    slide = work.frames[entry.slide]
+    if entry.pins:
+        hung, held = (work.frames[name] for name in entry.pins)
+        barrel = next((b for b in slide.bodies if b in hung.bodies), slide.bodies[0])
+        rod = next(b for b in slide.bodies if b != barrel)
+        rows = work.placement.rows_of_body(barrel), work.placement.rows_of_body(rod)
+        geometry = measure_cylinder(work.placement, *rows, extension_axis(slide, hung, held))
+        count, length = geometry.count, None
+    else:
+        end = barrel_end(entry, work.template, slide.bodies)
+        barrel, rod = slide.bodies[end], slide.bodies[1 - end]
+        geometry, count, length = _fixed(entry, end, work)
     bore = _size("bore", geometry.bore, entry.slide, work)
     if bore.value == 0.0 and geometry.outer is not None:
         outer = _mm(geometry.outer)
@@ -165,9 +178,26 @@ def _sizes(entry: CylinderTemplate, work: _Work) -> _Sizes:
         words = f"The barrel is drawn without its bore: {_mm(bore.value)} was taken, {WALL:g} of its outer diameter."
         name = work.actuator.specifications.get("bore", "bore")
         work.warn("MEC029", entry.slide, words, f'--set "{name}=… mm"')
-    if geometry.count > 1:
-        bore = Known(bore.value, f"{bore.source}; {geometry.count} cylinders drawn as one")
-    return _Sizes(entry, barrel, rod, geometry, bore, _size("rod_diameter", geometry.rod_diameter, entry.slide, work))
+    if count > 1:
+        bore = Known(bore.value, f"{bore.source}; {count} cylinders {'drawn' if entry.pins else 'moving'} as one")
+    diameter = _size("rod_diameter", geometry.rod_diameter, entry.slide, work)
+    return _Sizes(entry, barrel, rod, geometry, bore, diameter, count, length)
+
+
+def _fixed(entry: CylinderTemplate, end: int, work: _Work) -> tuple[CylinderGeometry, int, float | None]:
+    """What the CAD model shows of a cylinder without pins: the first of its rams that is drawn, how many move the slide
+    together, and how long the first is as drawn, metres."""
+    slide, placement = work.frames[entry.slide], work.placement
+    drawn = drawn_rams(entry, placement, work.template, slide.bodies)
+    if not drawn:
+        return CylinderGeometry(), max(1, len(entry.rams)), None
+    barrel, rod = drawn[0][end], drawn[0][1 - end]
+    axis = -slide.axis if end else slide.axis
+    own = slide_bearing(placement, (barrel, rod), (None, None), None)
+    line = Axis(own.line.point if own is not None else slide.anchor, axis)
+    geometry = measure_cylinder(placement, barrel, rod, line, through=entry.rod_through)
+    foot, tip = line.along(placement.points_of(barrel)).min(), line.along(placement.points_of(rod)).max()
+    return geometry, len(drawn), float(tip - foot)
 
 
 def _size(quantity: str, drawn: float | None, slide: str, work: _Work) -> Known:
@@ -188,9 +218,17 @@ def _size(quantity: str, drawn: float | None, slide: str, work: _Work) -> Known:
 
 def _fit(one: _Sizes, group: list[_Sizes], work: _Work) -> FittedCylinder:
     entry = one.template
-    drawn = pivot_distance(work.frames[entry.barrel_joint], work.frames[entry.rod_joint])
-    stroke = _stroke(one, drawn, work)
-    closed = _closed_length(one, drawn, stroke.value, work)
+    between = "between the pivots"
+    if entry.pins:
+        hung, held = (work.frames[name] for name in entry.pins)
+        drawn = pivot_distance(hung, held)
+        stroke = _stroke(one, drawn, work)
+        closed = _closed_length(one, drawn, stroke.value, work)
+    else:
+        between = "from the barrel's foot to the rod's end" if one.length is not None else "none: no ram is drawn"
+        stroke = _stroke(one, one.length or 0.0, work)
+        drawn = stroke.value if one.length is None else one.length
+        closed = _closed_length(one, drawn, stroke.value, work)
     pressure = work.printed("pressure") or work.assumed("pressure") or Known(0.0, UNKNOWN)
     extend, retract = _speeds(one, group, stroke.value, work)
     cylinder = Cylinder(
@@ -215,7 +253,7 @@ def _fit(one: _Sizes, group: list[_Sizes], work: _Work) -> FittedCylinder:
             "rod_diameter": one.rod_diameter.source,
             "stroke": stroke.source,
             "closed_length": closed.source,
-            "drawn_length": "geometry: between the pivots",
+            "drawn_length": f"geometry: {between}",
             "pressure": pressure.source,
             "speed": extend.source,
         },
@@ -245,6 +283,8 @@ def _stroke(one: _Sizes, drawn: float, work: _Work) -> Known:
         words = f"it is the piston's travel in the CAD model, {_mm(travel)}"
     elif (assumed := work.assumed("stroke")) is not None:
         found, words = assumed, f"it is the template's, {_mm(assumed.value)}"
+    elif not drawn:
+        found, words = Known(0.0, UNKNOWN), "its slide has no end"
     else:
         usual = _usual_stroke(one, drawn)
         found = Known(usual, f"estimate: usual of cylinders of this length, {_mm(usual)}")
@@ -291,9 +331,14 @@ def _closed_length(one: _Sizes, drawn: float, stroke: float, work: _Work) -> Kno
     if one.geometry.to_eye is not None:
         ways.append(Known(drawn - one.geometry.to_eye, _BY_EYE))
     slide, hint = one.template.slide, work.setting("closed_length")
-    if not ways:
-        words = "Neither sheet nor CAD model shows its closed length: drawn at mid-stroke until it is calibrated."
+    if not ways or (one.length is None and not one.template.pins):
+        # What lifts or props stands low in a model; what comes out at both ends stands in the middle.
+        low = not one.template.pins and not one.template.rod_through
+        where = "closed" if low else "at mid-stroke"
+        words = f"Neither sheet nor CAD model shows its closed length: drawn {where} until it is calibrated."
         work.warn("MEC022", slide, words, hint)
+        if low:
+            return Known(drawn, f"{UNKNOWN}: closed assumed")
         return Known(drawn - 0.5 * stroke, f"{UNKNOWN}: mid-stroke assumed")
     best, *others = ways
     if best.source == _BY_EYE and 0.0 < stroke < drawn - best.value:
@@ -377,8 +422,14 @@ def _limits(cylinder: Cylinder, work: _Work) -> tuple[float | None, float | None
 
 
 def _name(one: _Sizes) -> str:
-    """The barrel's name without 'barrel': boom_cylinder_l."""
-    return "_".join(word for word in one.barrel.split("_") if word != "barrel") or one.template.slide
+    """The barrel's name without 'barrel': boom_cylinder_l; of one without pins that of its ram, of several without a
+    side: lift_cylinder."""
+    rams = one.template.rams
+    if not one.template.pins and not rams:
+        return one.template.slide.removesuffix("_joint")
+    words = (rams[0][0] if rams else one.barrel).split("_")
+    left_out = ("barrel", "l", "r") if len(rams) > 1 else ("barrel",)
+    return "_".join(word for word in words if word not in left_out) or one.template.slide
 
 
 def _mm(value: float) -> str:

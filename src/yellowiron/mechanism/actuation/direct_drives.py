@@ -24,6 +24,9 @@ def without_cylinders(
     such a cylinder hangs on its pins and moves nothing."""
     left = dict(frames)
     for cylinder in (c for a in template.actuators for c in a.cylinders if c.slide in standing and c.slide in frames):
+        if not cylinder.pins:
+            del left[cylinder.slide]
+            continue
         barrel = next((b for b in _ends(left, cylinder.barrel_joint) if b in left[cylinder.slide].bodies), None)
         rods = {b for b in left.pop(cylinder.slide).bodies if b != barrel}
         left = {n: f for n, f in left.items() if n == cylinder.rod_joint or not rods & {*f.bodies}}
@@ -51,7 +54,7 @@ def with_direct_hinges(
         if hinge is not None:
             claimed.add(hinge)
         wrong = {c.slide: standing[c.slide] for c in actuator.cylinders if c.slide in standing}
-        whole = any({c.slide, c.barrel_joint, c.rod_joint} <= frames.keys() for c in actuator.cylinders)
+        whole = any({*c.joints} <= frames.keys() for c in actuator.cylinders)
         if hinge is not None and not whole:
             findings.append(_told(actuator.name, hinge, next(iter(wrong.values()), None)))
             direct.append(hinge)
@@ -98,7 +101,7 @@ def _hinge(
     claimed: set[str],
 ) -> str | None:
     # What a barrel or a rod hangs on moves nothing but that.
-    own = {name for c in actuator.cylinders for name in (c.barrel_joint, c.rod_joint)}
+    own = {name for c in actuator.cylinders for name in c.pins}
     ways = sorted((way for c in actuator.cylinders for way in _ways(template, c)), key=len)
     names = dict.fromkeys(j.name for way in ways for j in way if j.type == "revolute")
     fit = [name for name in names if name in frames and name not in claimed | own]
@@ -106,14 +109,14 @@ def _hinge(
     return max(fit, key=lambda name: min(sizes[b] for b in frames[name].bodies), default=None)
 
 
-def _ends(frames: Mapping[str, JointFrame], joint: str) -> tuple[str, ...]:
-    return frames[joint].bodies if joint in frames else ()
+def _ends(frames: Mapping[str, JointFrame], joint: str | None) -> tuple[str, ...]:
+    return frames[joint].bodies if joint is not None and joint in frames else ()
 
 
 def _ways(template: Template, cylinder: CylinderTemplate) -> Iterator[list[JointTemplate]]:
     """Joints from a cylinder's barrel to its rod, without its slide: every way that passes no body twice."""
     by_name = {j.name: j for j in template.joints}
-    slide, hung = by_name.get(cylinder.slide), by_name.get(cylinder.barrel_joint)
+    slide, hung = by_name.get(cylinder.slide), by_name.get(cylinder.barrel_joint or "")
     if slide is None or hung is None:
         return
     ends = template.bodies_of(slide)

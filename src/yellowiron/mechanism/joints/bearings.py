@@ -24,6 +24,9 @@ from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
 from yellowiron.model.template import JointTemplate
 
+Rows = tuple[Sequence[int], Sequence[int]]
+"""Rows of a placement: parts of the one body, parts of the other."""
+
 _OUT_OF_LINE = {True: (math.radians(0.05), 1e-4), False: (math.radians(0.2), 3e-4)}
 """Angle (rad) and offset (m) from which features are out of line; exact ones, and fitted ones."""
 _GAP = 0.02
@@ -104,7 +107,8 @@ def pin_bearing(placement: Placement, pins: Sequence[int], bodies: tuple[str, st
     groups = [features.take(rows) for rows in coaxial_groups(features)]
     if not groups:
         near = placement.points_of(pins).mean(axis=0)
-        return shared_bearing(placement, bodies, near=near) or outline_bearing(placement, pins)
+        rows = (placement.rows_of_body(bodies[0]), placement.rows_of_body(bodies[1]))
+        return shared_bearing(placement, rows, near=near) or outline_bearing(placement, pins)
     least = _SHAFT * max(float(g.area.sum()) for g in groups)
     best = max((g for g in groups if g.area.sum() >= least), key=rank)
     # The pin's own cylinders fix the axis; shafts before bores, which may be a bush's or a grease hole.
@@ -116,10 +120,10 @@ def pin_bearing(placement: Placement, pins: Sequence[int], bodies: tuple[str, st
     return Bearing(axis_of(best), best, f"least squares over {len(best)} cylinder(s) of the pin", doubt)
 
 
-def shared_bearing(placement: Placement, bodies: tuple[str, str], *, near: Floats | None = None) -> Bearing | None:
-    """The axis on which both bodies have cylinders, side by side or one in the other: the one on which they share most
-    area, or the one nearest to a point. None if there is no such axis."""
-    few, many = sorted((placement.features(placement.rows_of_body(b)) for b in bodies), key=len)
+def shared_bearing(placement: Placement, rows: Rows, *, near: Floats | None = None) -> Bearing | None:
+    """The axis on which the parts of two bodies have cylinders, side by side or one in the other: the one on which they
+    share most area, or the one nearest to a point. None if there is no such axis."""
+    few, many = sorted((placement.features(own) for own in rows), key=len)
     ranked: list[tuple[float, Features]] = []
     for group in coaxial_groups(few):
         mine = few.take(group)
@@ -195,14 +199,14 @@ def outline_bearing(placement: Placement, rows: Sequence[int]) -> Bearing | None
 
 
 def slide_bearing(
-    placement: Placement, bodies: tuple[str, str], ends: tuple[Floats | None, Floats | None], hinge: Floats | None
+    placement: Placement, rows: Rows, ends: tuple[Floats | None, Floats | None], hinge: Floats | None
 ) -> Bearing | None:
-    """The axis of a slide: its barrel's bore and its rod. `ends` are points on the pivots of both bodies and `hinge`
-    the direction of the pivots, where known: they stand in for a bore that is not there, and steady one fitted to
-    facets."""
-    bore = shared_bearing(placement, bodies)
+    """The axis of a slide: its barrel's bore and its rod, among the parts of both its bodies. `ends` are points on the
+    pivots of both bodies and `hinge` the direction of the pivots, where known: they stand in for a bore that is not
+    there, and steady one fitted to facets."""
+    bore = shared_bearing(placement, rows)
     if bore is not None:
-        bore = _between_twins(placement, bodies, bore)
+        bore = _between_twins(placement, rows, bore)
     if ends[0] is None or ends[1] is None:
         return replace(bore, doubt=None) if bore is not None else None
     if bore is not None:
@@ -217,10 +221,10 @@ def slide_bearing(
     )
 
 
-def _between_twins(placement: Placement, bodies: tuple[str, str], bore: Bearing) -> Bearing:
+def _between_twins(placement: Placement, rows: Rows, bore: Bearing) -> Bearing:
     """A slide's axis where both bodies have equal pairs of coaxial cylinders side by side (twins drawn as one): midway
     between them."""
-    one, other = (placement.features(placement.rows_of_body(b)) for b in bodies)
+    one, other = (placement.features(own) for own in rows)
     largest = [_largest(features.take(on_axis(features, bore.line))) for features in (one, other)]
     feet = [bore.line.point]
     for group in coaxial_groups(one):

@@ -24,7 +24,7 @@ def with_followers(
 ) -> tuple[Joint, ...]:
     """The joints, those that follow another with what they follow and their senses told by their leaders.
 
-    A slide's sense is told by the pivots of its cylinder. One that leads or follows has none as a rule: the first of
+    A slide's sense is told by its cylinder. One that leads or follows has none as a rule: the first of
     all leads in the sense of the machine (up, left, forward), and a slide beside its leader points the same way, so
     that a ratio above 0 says that both move alike. A leader that is not there, or that is cut, leads nothing (MEC037).
     """
@@ -60,7 +60,9 @@ def _sensed(joint: Joint, leader: Joint | None, template: Template, frames: Mapp
     axis = np.asarray(joint.axis, dtype=np.float64)
     if leader is not None and abs(axis @ np.asarray(leader.axis)) > _ASIDE:
         outwards = axis if axis @ np.asarray(leader.axis) > 0.0 else -axis
-    elif any(template.role(body).kind in _RAM for body in frames[joint.name].bodies):
+    elif any(template.role(body).kind in _RAM for body in frames[joint.name].bodies) or any(
+        c.slide == joint.name for a in template.actuators for c in a.cylinders
+    ):
         return joint
     else:
         outwards = machine_sense(axis)

@@ -5,7 +5,7 @@ Pivots first, then slides, which run from one pivot of their cylinder to the oth
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,6 +15,7 @@ from yellowiron.mechanism.bodies.hidden_wheels import HiddenWheel
 from yellowiron.mechanism.joints.axes import Axis, machine_sense
 from yellowiron.mechanism.joints.bearings import (
     Bearing,
+    Rows,
     agree,
     declared_bearing,
     given_bearing,
@@ -28,7 +29,7 @@ from yellowiron.mechanism.joints.bearings import (
 from yellowiron.mechanism.placement import Placement
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
-from yellowiron.model.template import JointTemplate, Template
+from yellowiron.model.template import CylinderTemplate, JointTemplate, Template
 
 WHEELS = ("wheel", "sprocket", "idler", "roller", "carrier")
 """Kinds of roles that turn about their own axis of symmetry."""
@@ -135,7 +136,7 @@ def _pivot(
     """A pivot: on its pin, else on the bores both bodies have; a wheel without either on its own axis of symmetry."""
     pins = [row for part in joint.parts if not template.role(part).rigid for row in placement.rows_of_role(part)]
     wheel = next((part for part in joint.parts if template.role(part).kind in WHEELS), None)
-    bearing = pin_bearing(placement, pins, bodies) or shared_bearing(placement, bodies)
+    bearing = pin_bearing(placement, pins, bodies) or shared_bearing(placement, _rows(placement, bodies))
     # A pin that shows no axis (an open or faceted one) is none.
     if joint.name in placement.axes and (bearing is None or not pins or not len(bearing.features)):
         found = Axis(*placement.axes[joint.name])
@@ -163,18 +164,24 @@ def _slide(
     findings: list[Finding],
 ) -> JointFrame | None:
     """A slide: on the bore that barrel and rod share, at the foot of the rod's pivot, pointing from the first body's
-    pivot to the second's."""
+    pivot to the second's. That of a cylinder without pins is on its rams, if they are drawn, and points the way that
+    they push the second body."""
+    cylinder = next((c for a in template.actuators for c in a.cylinders if c.slide == joint.name and not c.pins), None)
+    rams = drawn_rams(cylinder, placement, template, bodies) if cylinder is not None else ()
     ends = [_end_pivot(body, bodies, pivots) for body in bodies]
     tips = [end.anchor if end is not None else None for end in ends]
     hinge = ends[0].axis if ends[0] is not None and ends[0].joint.type == "revolute" else None
-    bearing = slide_bearing(placement, bodies, (tips[0], tips[1]), hinge)
+    rows = _rows(placement, bodies) if not rams else _together(rams)
+    if cylinder is not None:
+        tips, hinge = [None, None], None
+    bearing = slide_bearing(placement, rows, (tips[0], tips[1]), hinge)
     sense = None
     if joint.name in placement.by_hand:
         bearing, sense = given_bearing(placement, joint), placement.axes[joint.name][1]
     elif joint.name in placement.axes:
         found = Axis(*placement.axes[joint.name])
-        sense = found.direction
-        if bearing is None or not agree(bearing.line, found):
+        sense = found.direction if cylinder is None else None
+        if bearing is None or (not rams and not agree(bearing.line, found)):
             bearing = lone_slide(placement, bodies, found)
     bearing = bearing or declared_bearing(placement, bodies, "prismatic")
     if bearing is None:
@@ -183,6 +190,8 @@ def _slide(
         findings.append(Finding("MEC005", "error", joint.name, words, hint))
         return None
     findings += bearing.findings(joint.name)
+    if cylinder is not None and sense is None:
+        sense = _outwards(bearing.line, cylinder, rams, placement, template, bodies)
     places = [
         tip if tip is not None else placement.points_of(placement.rows_of_body(body)).mean(axis=0)
         for tip, body in zip(tips, bodies, strict=True)
@@ -192,6 +201,59 @@ def _slide(
     outwards = line.direction if ahead else -line.direction
     rod = next((i for i, body in enumerate(bodies) if template.role(body).kind == "rod"), 1)
     return _frame(joint, bodies, placement, bearing, line.foot(places[rod]), outwards)
+
+
+def _rows(placement: Placement, bodies: tuple[str, str]) -> Rows:
+    """The parts of both of two bodies."""
+    return placement.rows_of_body(bodies[0]), placement.rows_of_body(bodies[1])
+
+
+def drawn_rams(
+    cylinder: CylinderTemplate, placement: Placement, template: Template, bodies: tuple[str, str]
+) -> tuple[Rows, ...]:
+    """The parts of each of a cylinder's rams that is drawn whole, those of the slide's first body first."""
+    found = []
+    for pair in cylinder.rams:
+        rows = {template.body_of(half): _rows_of(half, placement, template) for half in pair}
+        if all(rows.get(body) for body in bodies):
+            found.append((rows[bodies[0]], rows[bodies[1]]))
+    return tuple(found)
+
+
+def _rows_of(half: str, placement: Placement, template: Template) -> tuple[int, ...]:
+    """The parts of a ram's half: of the body that it is, else of that role."""
+    return placement.rows_of_body(half) if template.role(half).rigid else placement.rows_of_role(half)
+
+
+def _together(rams: Sequence[Rows]) -> Rows:
+    return tuple(row for one in rams for row in one[0]), tuple(row for one in rams for row in one[1])
+
+
+def barrel_end(cylinder: CylinderTemplate, template: Template, bodies: tuple[str, str]) -> int:
+    """Which of a slide's two bodies has the barrel of a cylinder without pins: as its rams say, else by the bodies'
+    kinds, else the first."""
+    if cylinder.rams:
+        return bodies.index(str(template.body_of(cylinder.rams[0][0])))
+    kinds = [template.role(body).kind for body in bodies]
+    return 1 if kinds[1] == "barrel" or kinds[0] == "rod" else 0
+
+
+def _outwards(
+    line: Axis,
+    cylinder: CylinderTemplate,
+    rams: Sequence[Rows],
+    placement: Placement,
+    template: Template,
+    bodies: tuple[str, str],
+) -> Floats:
+    """The way that a cylinder without pins pushes the second of its slide's bodies: to where its rod comes out; where
+    that is not drawn, or it comes out alike at both ends, its rod's body goes up, left or forward."""
+    turned = barrel_end(cylinder, template, bodies)
+    sign = -1.0 if turned else 1.0
+    if rams and not cylinder.rod_through:
+        barrel, rod = (line.along(placement.points_of(rams[0][k])) for k in (turned, 1 - turned))
+        return sign * (1.0 if rod.max() - barrel.max() >= barrel.min() - rod.min() else -1.0) * line.direction
+    return sign * machine_sense(line.direction)
 
 
 def _end_pivot(body: str, slide: tuple[str, str], pivots: Mapping[str, JointFrame]) -> JointFrame | None:

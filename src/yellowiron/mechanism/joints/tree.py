@@ -57,9 +57,9 @@ def links(template: Template, frames: Mapping[str, JointFrame]) -> tuple[Link, .
     driven = [c for a in template.actuators for c in a.cylinders if not c.passive]
     passive = [c for a in template.actuators for c in a.cylinders if c.passive]
     kinds: dict[str, LinkKind] = {}
-    kinds.update((c.barrel_joint, "hung") for c in passive)
-    kinds.update((c.rod_joint, "loose") for c in passive)
-    kinds.update((name, "driven") for c in driven for name in (c.barrel_joint, c.rod_joint))
+    kinds.update((c.barrel_joint, "hung") for c in passive if c.barrel_joint is not None)
+    kinds.update((c.rod_joint, "loose") for c in passive if c.rod_joint is not None)
+    kinds.update((name, "driven") for c in driven for name in c.pins)
     kinds.update((name, "motor") for a in template.actuators for name in a.joints)
     # What follows, and what it follows, are coordinates of the tree: engines couple no others.
     led = [j for j in template.joints if j.follows is not None]

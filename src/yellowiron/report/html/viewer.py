@@ -238,7 +238,7 @@ def _sensors(mechanism: Mechanism) -> list[dict[str, Any]]:
 
 def _readouts(mechanism: Mechanism, tables: PoseTables) -> list[str]:
     """Pivots of the loops that are no cylinder's own pin and in no counted row: they say how the machine stands."""
-    pins = {name for cylinder in mechanism.cylinders for name in (cylinder.barrel_joint, cylinder.rod_joint)}
+    pins = {name for cylinder in mechanism.cylinders for name in cylinder.pins}
     names = [joint.name for joint in mechanism.joints]
     pins |= {names[p] for places in in_rows(names).values() if len(places) > 1 for p in places}
     return [j.name for j in mechanism.joints if j.name in tables.straight and j.name not in pins]
