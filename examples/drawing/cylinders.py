@@ -9,6 +9,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from OCP.TopoDS import TopoDS_Shape
+
 from .product import CHROME, GREY, STEEL, YELLOW, Assembly, Colour, Part
 from .solids import X, Y, Z, bored, box, cut, fuse, plate, ring, rod, shift
 
@@ -105,4 +107,62 @@ def draw_cylinder(c: Cylinder, pin_fast_in_rod: bool = False) -> Assembly:
         "rod",
         at=shift(c.drawn),
     )
+    return tree
+
+
+@dataclass(frozen=True, slots=True)
+class Ram:
+    """Sizes of a cylinder whose halves are fixed, millimetres; its barrel's foot at the origin, its rod along +z.
+
+    `out`: how far it is drawn out; `long`: from the foot to the rod's end when closed; `base` the thickness of its
+    bottom. With `through` the rod comes out of both ends alike, and `long` is half of it. `lugs` are one with its tube.
+    """
+
+    name: str
+    bore: float
+    rod: float
+    stroke: float
+    out: float
+    outside: float
+    long: float
+    base: float = 40.0
+    piston: float = 60.0
+    gland: float = 60.0
+    through: bool = False
+    lugs: TopoDS_Shape | None = None
+    colour: Colour = GREY
+
+    @property
+    def length(self) -> float:
+        """Of the barrel."""
+        return self.base + self.stroke + self.piston + self.gland
+
+    def slide(self) -> dict[str, float]:
+        """What the truth about a machine says of its slide, metres."""
+        mm = {"stroke": self.stroke, "bore": self.bore, "rod_diameter": self.rod, "extension": self.out}
+        return {key: round(value / 1000.0, 9) for key, value in mm.items()}
+
+
+def draw_ram(r: Ram) -> Assembly:
+    """The ram as drawn; bodies are tagged "barrel" and "rod", roles "barrel_role" and "rod_role": the user of the
+    assembly names them."""
+    tree = Assembly(r.name)
+    inner, shaft = r.bore / 2, r.rod / 2
+    tube = rod((0, 0, 0), Z, r.outside / 2, r.length - 30)
+    tube = fuse(tube, r.lugs) if r.lugs is not None else tube
+    tube = cut(tube, rod((0, 0, r.base), Z, inner, r.length))
+    if r.through:
+        tube = bored(tube, Z, ((0, 0, 0), shaft + ROD_CLEARANCE))
+    tree.add(Part(f"{r.name} TUBE", tube, r.colour), "barrel", "barrel_role")
+    top = r.length - r.gland
+    gland = fuse(rod((0, 0, top), Z, inner, r.gland), rod((0, 0, r.length - 30), Z, r.outside / 2, 30))
+    gland = bored(gland, Z, ((0, 0, 0), shaft + ROD_CLEARANCE))
+    tree.add(Part(f"{r.name} GLAND", gland, GREY), "barrel", "barrel_role")
+    low = r.base + r.out
+    start, end = (r.length / 2 - r.long + r.out - r.stroke / 2, r.length / 2 + r.long + r.out - r.stroke / 2) if (
+        r.through
+    ) else (low, r.long + r.out)  # fmt: skip
+    tree.add(Part(f"{r.name} ROD", rod((0, 0, start), Z, shaft, end - start), CHROME), "rod", "rod_role")
+    piston = ring((0, 0, low), Z, inner - PISTON_CLEARANCE, shaft, r.piston)
+    tree.add(Part(f"{r.name} PISTON", piston, STEEL), "rod", "rod_role")
     return tree

@@ -280,6 +280,16 @@ def test_provisional_gains_do_not_stay_unless_the_template_states_them():
     assert partly.damping == 1e9 and partly.stiffness == pytest.approx(1e5 * omega**2)
 
 
+def test_a_load_that_is_most_of_what_is_moved_counts():
+    """Stiff enough for the load; damped as much too much without it as too little with it."""
+    drive = Drive("position", 0.0, 0.0, 1e9, 0.2, "pressure times area: 400 kN; gains provisional")
+    found = position_gains(drive, 1e3, laden=16e3)
+    assert found.stiffness == pytest.approx(16e3 * (math.tau * FREQUENCY) ** 2)
+    empty, laden = (found.damping / (2.0 * math.sqrt(found.stiffness * m)) for m in (1e3, 16e3))
+    assert (empty, laden) == pytest.approx((2.0, 0.5))
+    assert "with and without the rated load, on the 16 t" in found.source
+
+
 def test_velocity_drives_get_damping(mechanism, done):
     drive = done.joint("rear_wheel_l_joint").drive
     assert drive.stiffness == 0.0

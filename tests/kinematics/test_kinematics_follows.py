@@ -11,10 +11,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 from planar_zbar import sketch, strokes, zbar_mechanism
 
-from yellowiron.kinematics import ClosedChain, complete, legal_start, lever_table, pose_tables
+from yellowiron.kinematics import ClosedChain, complete, legal_start, lever_table, measure, pose_tables
+from yellowiron.kinematics.completion import FREQUENCY
 from yellowiron.model.geometry import Floats
-from yellowiron.model.mechanism import Actuator, ActuatorJoint, Body, Drive, Joint, Mechanism
-from yellowiron.model.template import Follows
+from yellowiron.model.machine_tests import PayloadTemplate, RatedLoad
+from yellowiron.model.mechanism import Actuator, ActuatorJoint, Body, Drive, Joint, Mechanism, Site
+from yellowiron.model.template import Follows, MeasurementTemplate
 
 UP = (0.0, 0.0, 1.0)
 MASSES = (500.0, 300.0, 200.0)
@@ -137,3 +139,48 @@ def test_a_wheel_geared_to_a_motor_has_no_ends_and_needs_none() -> None:
     assert (rear.lower, rear.upper) == (None, None)
     chain = ClosedChain(done)
     assert chain.coordinate(chain.solve({"front_wheel": 7.0}), "rear_wheel") == pytest.approx(7.0)
+
+
+def test_a_rise_is_counted_from_where_its_steps_lead() -> None:
+    """The fork rises three times as far as the first slide goes, wherever the mast is drawn."""
+    template = MeasurementTemplate(
+        "Lift",
+        "Lift",
+        {"kind": "rise", "site": "fork", "above": ({"set": {"lift": "min"}},)},
+        ({"set": {"lift": 0.5}},),
+    )
+    machine = replace(
+        mast(Follows("lift"), Follows("inner")),
+        sites=(Site("fork", "fork", (1.0, 0.0, 0.2)),),
+        measurements=(template,),
+    )
+    (found,) = measure(machine)
+    assert found.model == pytest.approx(3 * 0.5 * 1.5, abs=1e-9)
+
+
+def laden(kilograms: float) -> Mechanism:
+    machine = mast(Follows("lift"), Follows("inner"))
+    joints = tuple(
+        replace(j, drive=replace(j.drive, stiffness=0.0, damping=0.0)) if j.drive is not None else j
+        for j in machine.joints
+    )
+    return replace(
+        machine,
+        joints=joints,
+        sites=(Site("fork", "fork", (1.0, 0.0, 0.2)),),
+        payload=PayloadTemplate("fork", (RatedLoad("Rated Capacity", 1.0),)),
+        specifications={"Rated Capacity": {"value": kilograms, "status": "ok"}},
+    )
+
+
+def test_a_drive_that_lifts_mostly_load_is_stiff_enough_for_it() -> None:
+    """The chain ties the fork to three times the slide's way, its load to nine times its mass."""
+    empty = MASSES[0] + 4.0 * MASSES[1] + 9.0 * MASSES[2]
+    omega = math.tau * FREQUENCY
+    for load, seen in ((1000.0, empty), (10e3, empty + 9.0 * 10e3)):
+        done = complete(replace(laden(load), joints=tuple(
+            replace(j, drive=replace(j.drive, max_force=1e9)) if j.drive is not None else j for j in laden(load).joints
+        )))  # fmt: skip
+        drive = done.joint("lift").drive
+        assert drive is not None
+        assert drive.stiffness == pytest.approx(seen * omega**2, rel=1e-6)

@@ -121,14 +121,20 @@ def _island(
 
 
 def cylinders(island: Island) -> Iterator[tuple[StageJoint, StageJoint, StageJoint]]:
-    """Slides between two pins of a loop, each once, with these pins."""
+    """Slides between two pins of a loop, each once, with these pins: what they join hangs on nothing else (a steering
+    rod with a tie at either end is no cylinder's half)."""
     seen = set()
+    pins: dict[str, int] = {}
+    for joint in island.joints:
+        if joint.type in ("revolute", "spherical"):
+            pins.update({body: pins.get(body, 0) + 1 for body in joint.bodies})
     for loop in island.loops:
         joints = loop.joints
         for index, joint in enumerate(joints if len(joints) >= 4 else ()):
             before, after = joints[index - 1], joints[(index + 1) % len(joints)]
             pinned = all(p.type in ("revolute", "spherical") for p in (before, after))
-            if joint.type == "prismatic" and pinned and joint.path not in seen:
+            alone = all(pins.get(body) == 1 for body in joint.bodies)
+            if joint.type == "prismatic" and pinned and alone and joint.path not in seen:
                 seen.add(joint.path)
                 yield joint, before, after
 

@@ -13,11 +13,11 @@ from yellowiron.kinematics.solver.branches import branch_pivots, branch_sines
 from yellowiron.kinematics.solver.chain import ClosedChain, Component, State
 from yellowiron.kinematics.solver.independence import independent_joints, suspects
 from yellowiron.kinematics.solver.pose_grid import PoseGrid, explore, joint_values
-from yellowiron.kinematics.strength import strong_enough
+from yellowiron.kinematics.strength import carried, rated_load, strong_enough
 from yellowiron.kinematics.tolerances import PINS_APART
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
-from yellowiron.model.mechanism import PROVISIONAL, STATED, Drive, Joint, Mechanism, Mobility
+from yellowiron.model.mechanism import PROVISIONAL, STATED, Drive, Joint, Mechanism, Mobility, Site
 
 ANGLE_MARGIN = math.radians(0.5)
 """Radians added to a pivot's range from the loop, so that its limit never carries load."""
@@ -37,6 +37,9 @@ _OWN, _OTHERS = 13, 25
 """Poses sampled for the mass a drive sees: of its own component, and of each other one."""
 _USUAL = 0.95
 """The share of those poses whose masses the gains are for."""
+MOSTLY_LOAD = 10.0
+"""A drive that sees so many times its mass with the rated load gets its gains for that: a truck's or a crane's load is
+most of what it lifts (13 to 17 times), a loader's weighs a few of its bucket."""
 _SATURATED = 0.005
 """A drive has its full force at no less than this share of its travel: stiffer, it would only saturate."""
 _PER_FREEDOM = {"fixed": 6, "revolute": 5, "prismatic": 5, "spherical": 3, "distance": 0}
@@ -269,6 +272,10 @@ def _branches(mechanism: Mechanism, grids: list[PoseGrid], placed: list[tuple[Fl
 
 def _gains(mechanism: Mechanism, grids: list[PoseGrid], work: _Work) -> None:
     masses = _seen_masses(work.chain, grids)
+    laden: dict[str, float] = {}
+    if (load := rated_load(mechanism)) is not None:
+        seen = _seen_masses(work.chain, grids, load)
+        laden = {name: mass for name, mass in seen.items() if mass > MOSTLY_LOAD * masses[name]}
     for joint in mechanism.joints:
         drive = work.joints[joint.name].drive
         if drive is None or joint.name not in work.chain.independent:
@@ -280,18 +287,26 @@ def _gains(mechanism: Mechanism, grids: list[PoseGrid], work: _Work) -> None:
             masses[joint.name] = work.chain.effective_mass(work.chain.drawn, joint.name)
         travel = joint.upper - joint.lower if joint.upper is not None and joint.lower is not None else None
         unit = "kg" if joint.type == "prismatic" else "kg·m²"
-        gained = position_gains(drive, masses[joint.name], unit, travel=travel)
+        gained = position_gains(drive, masses[joint.name], unit, travel=travel, laden=laden.get(joint.name))
         work.joints[joint.name] = replace(work.joints[joint.name], drive=gained)
 
 
 def position_gains(
-    drive: Drive, mass: float, unit: str = "kg", *, travel: float | None = None, frequency: float = FREQUENCY
+    drive: Drive,
+    mass: float,
+    unit: str = "kg",
+    *,
+    travel: float | None = None,
+    frequency: float = FREQUENCY,
+    laden: float | None = None,
 ) -> Drive:
     """A position drive with gains for a mass (kg, or kg·m² for a pivot): k = m(2πf)², d = 2k/(2πf), critically damped.
 
     No stiffer than the drive's force over half a percent of its `travel` (metres, radians). Gains that the drive has
     stay, unless its source calls them provisional; those that "template states" names after that stay too. A stiffness
-    that stays gets the damping d = 2√(km) where it has none.
+    that stays gets the damping d = 2√(km) where it has none. `laden`: the mass with a load that is most of it, which
+    the stiffness is for then; the damping is critical for the geometric mean of both, so that it neither creeps
+    without the load nor rings with it.
     """
     provisional = PROVISIONAL in drive.source
     stated = drive.source.partition(STATED)[2]
@@ -300,16 +315,18 @@ def position_gains(
     if keep_stiffness and keep_damping:
         return drive
     omega = 2.0 * math.pi * frequency
+    empty, mass = mass, laden if laden is not None else mass
     capped = ""
     if not keep_stiffness and travel and mass * omega * omega * _SATURATED * travel > drive.max_force:
         mass = drive.max_force / (_SATURATED * travel * omega * omega)
         capped = f", no stiffer than its force over {_SATURATED:.1%} of its travel: as for"
     stiffness = drive.stiffness if keep_stiffness else mass * omega * omega
-    damping = drive.damping if keep_damping else 2.0 * math.sqrt(stiffness * mass)
+    damping = drive.damping if keep_damping else 2.0 * math.sqrt(stiffness * math.sqrt(min(empty, mass) * mass))
     shown = f"{1e-3 * mass:.4g} t" if unit == "kg" else f"{mass:.4g} {unit}"
     at = "" if keep_stiffness else f"{frequency:g} Hz, "
     on = capped + f" {shown}" if capped else f" on the {shown} it sees through the linkage"
-    gains = f"gains: {at}critically damped{on}"
+    how = "critically damped" if laden is None else "damped for it with and without the rated load,"
+    gains = f"gains: {at}{how}{on}"
     source = (
         drive.source.replace(PROVISIONAL, gains) if provisional else "; ".join(t for t in (drive.source, gains) if t)
     )
@@ -330,17 +347,19 @@ def _velocity_gain(drive: Drive, joint: Joint, work: _Work) -> Drive:
     )
 
 
-def _seen_masses(chain: ClosedChain, grids: list[PoseGrid]) -> dict[str, float]:
+def _seen_masses(chain: ClosedChain, grids: list[PoseGrid], load: tuple[Site, float] | None = None) -> dict[str, float]:
     """Driver → the mass it sees in all but the rarest poses of its own component and of the others (a steering cylinder
     turns a raised or outstretched boom too). The rarest are left out: at full lock a short lever makes it ten times the
-    usual mass, and gains for that saturate and buzz everywhere else."""
+    usual mass, and gains for that saturate and buzz everywhere else. `load`: a mass (kg) at a site, counted too."""
     seen: dict[str, list[float]] = {}
     for component, grid in zip(chain.components(), grids, strict=True):
         others = [pose for other in grids if other is not grid for pose in _spread(other.states, _OTHERS)]
         for state in _spread(grid.states, _OWN) if others else grid.states:
             for pose in [chain.combined(state, component, other) for other in others] or [state]:
                 for name in grid.drivers:
-                    seen.setdefault(name, []).append(chain.effective_mass(pose, name))
+                    mass = chain.effective_mass(pose, name)
+                    mass += carried(chain, pose, name, *load) if load is not None else 0.0
+                    seen.setdefault(name, []).append(mass)
     return {name: float(np.quantile(masses, _USUAL)) for name, masses in seen.items()}
 
 

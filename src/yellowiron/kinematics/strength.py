@@ -7,10 +7,11 @@ from dataclasses import replace
 
 import numpy as np
 
+from yellowiron.kinematics.measuring.sheet import specified
 from yellowiron.kinematics.solver.chain import ClosedChain, State
 from yellowiron.kinematics.solver.pose_grid import PoseGrid
 from yellowiron.model.finding import Finding
-from yellowiron.model.mechanism import DEFAULT, GRAVITY, Joint
+from yellowiron.model.mechanism import DEFAULT, GRAVITY, Joint, Mechanism, Site
 from yellowiron.support.text import display
 
 _STEP = 1e-4
@@ -39,6 +40,27 @@ def weight(chain: ClosedChain, state: State, joint: str) -> float:
         return GRAVITY * chain.raised_mass(state, joint)
     except np.linalg.LinAlgError:  # a dead point: no velocity of the coordinate moves anything
         return 0.0
+
+
+def rated_load(mechanism: Mechanism) -> tuple[Site, float] | None:
+    """Where the rated load is in the machine's tool, and its mass, kg: by the first of the template's rules whose value
+    is known."""
+    payload = mechanism.payload
+    site = next((s for s in mechanism.sites if payload is not None and s.name == payload.site), None)
+    for rated in payload.rated if payload is not None and site is not None else ():
+        value = specified(mechanism, rated.specification)[0]
+        if value is not None and value > 0.0 and site is not None:
+            return site, rated.factor * value
+    return None
+
+
+def carried(chain: ClosedChain, state: State, joint: str, site: Site, mass: float) -> float:
+    """What a mass (kg) at a site adds to the mass (kg, kg·m²) that a joint's drive sees; 0 where the linkage locks."""
+    ends, apart = beside(chain, state, joint)
+    if not apart > 0.0:
+        return 0.0
+    at = [chain.displacement(end, site.body) @ np.array([*site.position, 1.0]) for end in ends]
+    return float(mass * np.sum(((at[1] - at[0])[:3] / apart) ** 2))
 
 
 def strong_enough(chain: ClosedChain, grids: list[PoseGrid], joints: dict[str, Joint]) -> tuple[Finding, ...]:

@@ -62,7 +62,9 @@ def _site(
         )
     if "middle_of" in rule:
         return _middle_site(entry, placement)
-    name = rule.get("joint", rule.get("edge_from", rule.get("inside_from")))
+    if "foremost" in rule:
+        return _foremost_site(entry, placement)
+    name = next((rule[key] for key in ("joint", "along", "edge_from", "inside_from") if key in rule), "")
     if isinstance(name, tuple):
         name = next((each for each in name if each in frames), name[0])
     frame = frames.get(name)
@@ -70,11 +72,24 @@ def _site(
         return None
     if "joint" in rule:
         return Site(entry.name, entry.body, clean_triple(frame.anchor), source=f"anchor of {name}")
+    if "along" in rule:
+        return _upright_site(entry, frame)
     spanning = float(rule.get("spanning", 0.8))
     if "inside_from" in rule:
         return _inside_site(entry, frame, spanning, placement)
     edge = _edge_site(entry, frame, spanning, template, placement, findings)
     return _at_tip(edge, frame, placement) if edge is not None and rule.get("tip") else edge
+
+
+def _upright_site(entry: SiteTemplate, frame: JointFrame) -> Site | None:
+    """At a slide's anchor: z along the slide, upwards, x square to it in the machine's long plane, forwards."""
+    up = frame.axis if frame.axis[2] >= 0.0 else -frame.axis
+    ahead = np.cross((0.0, 1.0, 0.0), up)
+    if not np.linalg.norm(ahead) > 0.0:
+        return None
+    ahead /= np.linalg.norm(ahead)
+    source = f"upright along {frame.joint.name}"
+    return Site(entry.name, entry.body, clean_triple(frame.anchor), clean_triple(ahead), clean_triple(up), source)
 
 
 def _middle_site(entry: SiteTemplate, placement: Placement) -> Site | None:
@@ -84,6 +99,19 @@ def _middle_site(entry: SiteTemplate, placement: Placement) -> Site | None:
         return None
     middle = 0.5 * (points.min(axis=0) + points.max(axis=0))
     return Site(entry.name, entry.body, clean_triple(middle), source=f"middle of {entry.rule['middle_of']}")
+
+
+def _foremost_site(entry: SiteTemplate, placement: Placement) -> Site:
+    """The middle of the box around those of a body's parts that reach as far ahead as it does, within a share of its
+    length: a truck's forks."""
+    low, high = placement.boxes
+    rows = [row for row in placement.rows_of_body(entry.body) if np.isfinite(low[row]).all()]
+    front = high[rows, 0].max() - float(entry.rule["foremost"]) * (high[rows, 0].max() - low[rows, 0].min())
+    ahead = [row for row in rows if high[row, 0] >= front]
+    middle = 0.5 * (low[ahead].min(axis=0) + high[ahead].max(axis=0))
+    also = f" and {len(ahead) - 1} more" if len(ahead) > 1 else ""
+    source = f"middle of {placement.parts[ahead[0]].id}{also}, the foremost"
+    return Site(entry.name, entry.body, clean_triple(middle), source=source)
 
 
 def _at_tip(edge: Site, frame: JointFrame, placement: Placement) -> Site:

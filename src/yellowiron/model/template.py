@@ -15,6 +15,8 @@ DriveType = Literal["linear", "angular"]
 Coupling = Literal["chain", "gear", "rope"]
 Choices = Mapping[str, tuple[str, ...]]
 """Variant name → the choices under which an entry exists; empty: always."""
+TEMPLATE_ONLY = "template only"
+"""In a field's metadata: what a machine's file does not carry, since its choices are made."""
 
 
 VAGUE = "?"
@@ -158,6 +160,7 @@ class CylinderTemplate:
 
     One without pins (a mast's ram, a jack) has both its halves fixed to the bodies of its slide: `rams` are the parts
     of each that moves it, (barrel, rod). `rod_through`: the rod comes out at both ends, both areas are the same.
+    `specifications`: the wanted names that are others than the actuator's.
     """
 
     slide: str
@@ -168,6 +171,7 @@ class CylinderTemplate:
     when: Choices = field(default_factory=dict)
     rams: tuple[tuple[str, str], ...] = ()
     rod_through: bool = False
+    specifications: Mapping[str, str] = field(default_factory=dict, hash=False)
 
     @property
     def pins(self) -> tuple[str, ...]:
@@ -197,7 +201,8 @@ class ActuatorTemplate:
 
 @dataclass(frozen=True)
 class SiteTemplate:
-    """A named frame on a body. `rule` says where: {"joint": J} (its anchor), {"edge_from": J, "spanning": 0.8} (the
+    """A named frame on a body. `rule` says where: {"joint": J} (its anchor), {"along": J} (there, upright along that
+    slide), {"edge_from": J, "spanning": 0.8} (the
     point of the body farthest from that joint's axis among parts spanning that share of the body's width along the
     axis), {"point": [x, y, z]} (machine frame)."""
 
@@ -220,6 +225,7 @@ class MeasurementTemplate:
     steps: tuple[Mapping[str, Any], ...] = ()
     unit: str = "m"
     definition: str = ""
+    when: Choices = field(default_factory=dict, metadata={TEMPLATE_ONLY: True})
 
 
 @dataclass(frozen=True)
@@ -358,9 +364,20 @@ def choose(template: Template, choices: Mapping[str, str]) -> Template:
             j for j in actuator.joints if j in kept and template.joint(j).drive and holds(template.joint(j).drive_when)
         )
         if cylinders or motors:
-            actuators.append(replace(actuator, cylinders=cylinders, joints=motors))
+            own = {k: name for c in cylinders for k, name in c.specifications.items()}
+            specifications = {**actuator.specifications, **own}
+            actuators.append(replace(actuator, cylinders=cylinders, joints=motors, specifications=specifications))
     sensors = tuple(replace(s, when={}) for s in template.sensors if holds(s.when))
-    return replace(template, roles=roles, joints=joints, actuators=tuple(actuators), variants=(), sensors=sensors)
+    measurements = tuple(replace(m, when={}) for m in template.measurements if holds(m.when))
+    return replace(
+        template,
+        roles=roles,
+        joints=joints,
+        actuators=tuple(actuators),
+        variants=(),
+        sensors=sensors,
+        measurements=measurements,
+    )
 
 
 def as_drawn(template: Template, present: Collection[str]) -> Template:

@@ -68,7 +68,9 @@ def _said(lever: Lever) -> str:
 
 
 def _idle(actuator: Actuator, mechanism: Mechanism, looped: Collection[str]) -> bool:
-    """True for an actuator that has lost its joints, or drives slides that close no loop."""
+    """True for an actuator that has lost its joints, or drives slides that close no loop, save those of cylinders
+    without pins: what they push needs none."""
+    looped = {*looped, *(c.slide for c in mechanism.cylinders if not c.pins)}
     kinds = {j.name: j.type for j in mechanism.joints}
     joints = [j.joint for j in actuator.joints if j.joint in kinds]
     return not any(kinds[j] != "prismatic" or j in looped for j in joints)

@@ -186,7 +186,7 @@ def _add_joint(
     table = program.slides if joint.type == "prismatic" else program.pivots
     by_end: dict[tuple[int, str], list[Any]] = {}
     every = []
-    for number, (a, b) in _edges(joint, structure):
+    for number, (a, b) in _edges(joint, structure, template):
         if joint.type != "prismatic" and (joint.name, number) in barred:
             continue
         for ca, cb in ((a, b), (b, a)):
@@ -258,9 +258,13 @@ def _solution(program: _Program, solver: Any, structure: Structure, template: Te
     return Solution(body_of, chosen(program.pivots), chosen(program.slides), score, objective, proven)
 
 
-def _edges(joint: JointTemplate, structure: Structure) -> list[tuple[int, tuple[int, int]]]:
+def _edges(joint: JointTemplate, structure: Structure, template: Template) -> list[tuple[int, tuple[int, int]]]:
+    """The hinges or slides that a joint can be: one between two sections that no cylinder moves is no cylinder's."""
     if joint.type == "prismatic":
-        return [(k, (barrel, rod)) for k, (barrel, rod, _) in enumerate(structure.slides)]
+        kinds = {template.role(str(body)).kind for body in template.bodies_of(joint)}
+        moved = any(c.slide == joint.name for a in template.actuators for c in a.cylinders)
+        any_slide = moved or bool(kinds & {"barrel", "rod"})
+        return [(k, (a, b)) for k, (a, b, n) in enumerate(structure.slides) if any_slide or n >= structure.cylinders]
     if joint.type in ("revolute", "spherical"):
         return [(k, (h.a, h.b)) for k, h in enumerate(structure.hinges)]
     return []

@@ -95,8 +95,11 @@ def _up(scene: _Scene, swing: str | None, flat: Floats | None, doubts: list[str]
     if swing is not None:
         up = scene.axes[swing].direction
     elif flat is not None:
-        up = flat
-        doubts.append("up is the normal of the wheels' plane")
+        # Wheels that are steered turn on upright pins.
+        upright = [a.direction for a in scene.axes.values() if abs(float(a.direction @ flat)) > SAME_DIRECTION]
+        up = upright[0] if upright else flat
+        if not upright:
+            doubts.append("up is the normal of the wheels' plane")
     else:
         up = _up_guess(_common_direction(list(scene.axes.values())))
         if scene.axes:

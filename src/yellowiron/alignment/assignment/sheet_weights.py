@@ -38,7 +38,7 @@ def sheet_findings(
     solution: Solution,
 ) -> list[Finding]:
     """A remark (ALN006) for each cylinder that is not drawn as the sheet has it."""
-    slides = {solution.body_of.get(b): n for b, _, n in structure.slides}
+    slides = {solution.body_of.get(b): n for b, _, n in structure.slides if n < len(cylinders)}
     findings = []
     for barrel, _, quantity, name, value in _known(template, specifications):
         if barrel not in slides:

@@ -146,7 +146,8 @@ def with_coaxial_parts(pair: Pair, solids: tuple[Solid, ...], used: set[int], to
         middle = 0.5 * (low + high)
         error = 2.0 * (pair.bore.error + s.line.error)
         if s.reach <= 1.01 * r + error and high < mouth - 0.05 * r and low > bottom - 0.05 * r:
-            near_rod = low <= start + 0.5 * r and high >= start - 1.5 * r
+            # A rod that comes out at both ends has its piston in the middle.
+            near_rod = start < bottom or (low <= start + 0.5 * r and high >= start - 1.5 * r)
             (rod if near_rod or middle - start < mouth - middle else barrel).add(s.index)
         elif middle > mouth and s.reach < 1.2 * outside and end - middle < middle - mouth:
             rod.add(s.index)

@@ -51,7 +51,7 @@ class Hinge:
 @dataclass(frozen=True, eq=False)
 class Structure:
     """What geometry alone says: clusters, hinges between them, slides (barrel, rod, number of the hydraulic
-    cylinder; then sections in each other, numbered on),
+    cylinder; then sections in each other, numbered on from how many `cylinders` there are),
     axes (the wheels' axes behind those of the evidence), for each pin and bolt its hosts, and the pairs of solids that
     touch but were not welded, since a pin would have nothing to turn on, with the strength of their contact;
     and the hoses and such that hold nothing; and axis → the races of a slewing bearing on it."""
@@ -59,6 +59,7 @@ class Structure:
     clusters: tuple[Cluster, ...] = ()
     hinges: tuple[Hinge, ...] = ()
     slides: tuple[tuple[int, int, int], ...] = ()
+    cylinders: int = 0
     axes: tuple[SharedAxis, ...] = ()
     hosts: dict[int, tuple[Fit, ...]] = field(default_factory=dict)
     refused: tuple[tuple[int, int, float], ...] = ()
@@ -278,6 +279,7 @@ def _collected(groups: Groups, evidence: ContactEvidence, refused: Pairs) -> Str
         clusters,
         hinges=tuple(Hinge(a, b, k, tuple(sorted(p))) for (a, b, k), p in sorted(pins.items())),
         slides=_slides(evidence, cluster_of),
+        cylinders=len(evidence.cylinders),
         axes=(*evidence.axes, *(SharedAxis(w.center, w.direction, w.radius, ()) for w in evidence.wheels)),
         hosts=dict(evidence.hosts),
         refused=tuple((a, b, strength(evidence, a, b)) for a, b in refused if groups.find(a) != groups.find(b)),

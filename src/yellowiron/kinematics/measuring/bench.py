@@ -101,7 +101,15 @@ class Bench:
 
     def value(self, quantity: Mapping[str, Any], state: State) -> float:
         """A quantity in a state, SI."""
-        return evaluate(quantity, Posed(self.chain, self.mechanism, state, self.straight, self._wheels, self._hulls))
+
+        def after(steps: Sequence[Mapping[str, Any]]) -> State:
+            moved = state
+            for step in steps:
+                moved = self._step(step, moved)
+            return moved
+
+        posed = Posed(self.chain, self.mechanism, state, self.straight, self._wheels, self._hulls, after)
+        return evaluate(quantity, posed)
 
     def _step(self, step: Mapping[str, Any], state: State) -> State:
         if "set" in step:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
 from typing import Any
 
@@ -54,7 +54,8 @@ class Hulls:
 
 @dataclass(frozen=True, eq=False)
 class Posed:
-    """A machine in a pose. `straight` gives a joint's coordinate in the straight machine; `rolling`: its wheels."""
+    """A machine in a pose. `straight` gives a joint's coordinate in the straight machine; `rolling`: its wheels;
+    `after`: the state that steps lead to from here."""
 
     chain: ClosedChain
     mechanism: Mechanism
@@ -62,6 +63,7 @@ class Posed:
     straight: Callable[[str], float]
     rolling: Sequence[tuple[Joint, float]]
     hulls: Hulls
+    after: Callable[[Sequence[Mapping[str, Any]]], State]
 
     def point(self, body: str, position: Sequence[float]) -> Floats:
         """A point of a body, given in the drawn pose, where it is now: machine frame (3,)."""
@@ -130,6 +132,12 @@ def _place(quantity: Mapping[str, Any], posed: Posed) -> Floats:
 def _height(quantity: Mapping[str, Any], posed: Posed) -> float:
     """z of a site or of a joint's anchor above the ground, which is z = 0 of the machine frame."""
     return float(_place(quantity, posed)[2])
+
+
+def _rise(quantity: Mapping[str, Any], posed: Posed) -> float:
+    """How much higher a site or a joint's anchor is than after the steps `above`, made from here: a mast's lift."""
+    below = replace(posed, state=posed.after(quantity.get("above", ())))
+    return _height(quantity, posed) - _height(quantity, below)
 
 
 def _angle(quantity: Mapping[str, Any], posed: Posed) -> float:
@@ -268,6 +276,7 @@ def _tyre_diameter(quantity: Mapping[str, Any], posed: Posed) -> float:
 
 _KINDS: Mapping[str, Callable[[Mapping[str, Any], Posed], float]] = {
     "height": _height,
+    "rise": _rise,
     "angle": _angle,
     "reach": _reach,
     "joint_angle": _joint_angle,

@@ -87,6 +87,7 @@ def read_actuators(
             when=choices_of(entry, "when"),
             rams=tuple((barrel, rod) for barrel, rod in rams),
             rod_through=yes(entry.get("rod_through")),
+            specifications=dict(entry.get("specifications", {})),
         )
 
     actuators = []

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from yellowiron.mechanism.joints.axes import machine_sense
-from yellowiron.mechanism.joints.frames import JointFrame
+from yellowiron.mechanism.joints.frames import RAM, JointFrame
 from yellowiron.model.finding import Finding
 from yellowiron.model.mechanism import Joint
 from yellowiron.model.template import Template
@@ -16,7 +16,6 @@ from yellowiron.support.vectors import clean_triple
 
 _ASIDE = 0.1
 """Cosine of the angle between two slides below which neither points along the other."""
-_RAM = ("barrel", "rod")
 
 
 def with_followers(
@@ -60,7 +59,7 @@ def _sensed(joint: Joint, leader: Joint | None, template: Template, frames: Mapp
     axis = np.asarray(joint.axis, dtype=np.float64)
     if leader is not None and abs(axis @ np.asarray(leader.axis)) > _ASIDE:
         outwards = axis if axis @ np.asarray(leader.axis) > 0.0 else -axis
-    elif any(template.role(body).kind in _RAM for body in frames[joint.name].bodies) or any(
+    elif any(template.role(body).kind in RAM for body in frames[joint.name].bodies) or any(
         c.slide == joint.name for a in template.actuators for c in a.cylinders
     ):
         return joint

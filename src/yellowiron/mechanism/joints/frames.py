@@ -6,7 +6,7 @@ Pivots first, then slides, which run from one pivot of their cylinder to the oth
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -31,6 +31,8 @@ from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
 from yellowiron.model.template import CylinderTemplate, JointTemplate, Template
 
+RAM = ("barrel", "rod")
+"""Kinds of the halves of a cylinder."""
 WHEELS = ("wheel", "sprocket", "idler", "roller", "carrier")
 """Kinds of roles that turn about their own axis of symmetry."""
 
@@ -183,6 +185,8 @@ def _slide(
         sense = found.direction if cylinder is None else None
         if bearing is None or (not rams and not agree(bearing.line, found)):
             bearing = lone_slide(placement, bodies, found)
+            if not any(template.role(body).kind in RAM for body in bodies):
+                bearing = replace(bearing, doubt=None)  # sections in each other have no rod
     bearing = bearing or declared_bearing(placement, bodies, "prismatic")
     if bearing is None:
         words = f"'{bodies[0]}' and '{bodies[1]}' share no bore: the slide is left out."
