@@ -17,42 +17,18 @@ from example_drawn import differences
 from example_file import EXAMPLES, module
 
 from kit.builds import MadeOnce, without_pages
-from kit.machines.nameless import write_nameless
+from kit.machines.forklifts import drawn, truth_of
 from yellowiron import library, specs
 from yellowiron.kinematics import ClosedChain
 from yellowiron.model.mechanism import Mechanism
 from yellowiron.pipeline import Machine, build
 
 FOLDER = EXAMPLES / "forklift"
-MASTS = {"simplex": (0.3, 0.0), "duplex": (0.25, 0.2), "triplex": (0.2, 0.15)}
-"""Kinds of masts, and how far the rams at the sides and in the middle are drawn out, metres."""
 
 
 @pytest.fixture(scope="module")
 def values() -> ModuleType:
     return module("forklift", "values")
-
-
-def drawn(kind: str, made_once: MadeOnce) -> Path:
-    """A folder with the example's files, drawn with that mast, and the file without names."""
-
-    def fill(folder: Path) -> None:
-        folder.mkdir()
-        lift, free = (1000.0 * out for out in MASTS[kind])
-        words = (
-            "import sys; from pathlib import Path; from forklift.draw import main; from forklift.mast import Mast; "
-            f"main(Path(sys.argv[1]), Mast('{kind}', {lift}, {free}))"
-        )
-        subprocess.run([sys.executable, "-c", words, str(folder)], cwd=EXAMPLES, check=True)
-        (folder / "nameless").mkdir()
-        write_nameless(folder / "forklift.step", folder / "nameless" / "forklift.step")
-
-    return made_once(f"forklift_{kind}", fill)
-
-
-def truth_of(folder: Path) -> dict[str, Any]:
-    document: dict[str, Any] = json.loads((folder / "truth.json").read_text(encoding="utf-8"))
-    return document
 
 
 # ---- drawing and sheet --------
