@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from yellowiron import checks, library, specs
+from yellowiron.endpoint import ModelOptions
 from yellowiron.model.alignment import Alignment
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import OutputError
@@ -51,7 +52,7 @@ def extract(
     settings: Sequence[str] = (),
     accepted: Sequence[str] = (),
     extractor: specs.Extractor = "rules",
-    model: specs.ModelOptions | None = None,
+    model: ModelOptions | None = None,
     show: Path | str | None = None,
     progress: Progress = lambda words: None,
 ) -> Specifications:

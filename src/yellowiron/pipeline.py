@@ -12,6 +12,7 @@ from typing import Any
 
 from yellowiron import library, memory, report, specs, usd
 from yellowiron.alignment import read_joints, write_alignment
+from yellowiron.endpoint import ModelOptions
 from yellowiron.inputs import checked_inputs
 from yellowiron.mechanism import declared_findings
 from yellowiron.model.alignment import Alignment
@@ -95,7 +96,7 @@ def build(
     config: str = "",
     mirror: bool = False,
     extractor: specs.Extractor = "rules",
-    model: specs.ModelOptions | None = None,
+    model: ModelOptions | None = None,
     engines: Sequence[str] = (),
     page: bool = True,
     progress: Progress = lambda words: None,

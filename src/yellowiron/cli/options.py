@@ -65,7 +65,7 @@ def _reading(
 ) -> dict[str, Any]:
     """How sheets are read, as `yellowiron.extract` and `yellowiron.build` take it; the model is asked only where the
     extractor is one that asks."""
-    from yellowiron.specs import ModelOptions
+    from yellowiron.endpoint import ModelOptions
 
     model = ModelOptions(llm_model, llm_url, llm_key, record=llm_record, replay=llm_replay)
     return {"config": config, "extractor": extractor, "model": model}
