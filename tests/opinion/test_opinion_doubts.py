@@ -41,6 +41,8 @@ def test_what_lies_together_is_one_and_the_largest_first() -> None:
     whole = sum(spread(box) for box in BOXES.values())
     assert pieces[1].weight == pytest.approx(2.0 * spread(BOXES[FAR]) / whole)
     assert sum(piece.weight for piece in pieces) == pytest.approx(2.0)
+    pin = replace(doubt, parts=(SMALL,), weight=9.0)  # by how much hangs on the body alone, it would be the first
+    assert [piece.parts for piece in apart([pin, doubt], BOXES)][-1] == (SMALL,)
 
 
 def test_the_runner_up_comes_before_what_is_near(doubted: Doubted) -> None:

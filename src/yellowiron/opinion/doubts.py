@@ -63,13 +63,12 @@ def doubts_of(alignment: Alignment, template: Template, boxes: Mapping[str, Floa
 
 
 def apart(doubts: Sequence[Doubt], boxes: Mapping[str, Floats]) -> list[Doubt]:
-    """The doubts taken apart into what lies together, the weightiest first; what has no box is left out. Each has its
-    share of the weight by how much of the machine it is: of a beam and its bolts the beam's is the most."""
+    """The doubts taken apart into what lies together, the weightiest first; what has no box is left out. Each has that
+    share of the weight which it is of the machine: a beam comes before its bolts."""
+    whole = sum(spread(box) for box in boxes.values()) or 1.0
     found = []
     for doubt in doubts:
-        parts = [part for part in doubt.parts if part in boxes]
-        whole = sum(spread(boxes[part]) for part in parts) or 1.0
-        for piece in _lying_together(parts, boxes):
+        for piece in _lying_together([part for part in doubt.parts if part in boxes], boxes):
             share = sum(spread(boxes[part]) for part in piece) / whole
             found.append(replace(doubt, parts=piece, weight=doubt.weight * share))
     return sorted(found, key=lambda doubt: (-doubt.weight, doubt.parts))
@@ -80,7 +79,7 @@ def boxes_of(assembly: Assembly) -> dict[str, Floats]:
     own = {
         key: np.array([shape.mesh.points.min(axis=0), shape.mesh.points.max(axis=0)])
         for key, shape in assembly.shapes.items()
-        if len(shape.mesh.points)
+        if len(shape.mesh.triangles)
     }
     corners = np.array([[(k >> axis) & 1 for axis in range(3)] for k in range(8)])
     found = {}
