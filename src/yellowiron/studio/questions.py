@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
 
+from yellowiron.model.alignment import Suggestion
 from yellowiron.model.geometry import Floats
 from yellowiron.model.specification import Specification, fold
 from yellowiron.opinion.doubts import doubts_of, size_of, spread
-from yellowiron.report.words import titled
+from yellowiron.report.words import counted, titled
 from yellowiron.studio.joints import JointState
 from yellowiron.studio.session import State
 
@@ -61,6 +62,7 @@ def questions(state: State, boxes: Mapping[str, Floats], joints: Sequence[JointS
 
 def _of_parts(state: State, boxes: Mapping[str, Floats]) -> list[Question]:
     """Doubted parts together where they were given the same body and could be the same other one."""
+    said = {p.part: p.suggestion for p in state.alignment.parts if p.suggestion is not None}
     found = []
     for doubt in doubts_of(state.alignment, state.template, boxes):
         called = titled(doubt.body) if doubt.body else "No part of the machine"
@@ -69,8 +71,16 @@ def _of_parts(state: State, boxes: Mapping[str, Floats]) -> list[Question]:
             "parts", f"parts:{doubt.body or ''}:{doubt.runner_up or ''}", f"{called}{count}?", doubt.weight,
             doubt.reason, doubt.parts,
             tuple(Candidate(role, titled(role)) for role in doubt.others[:MOST_CANDIDATES]),
+            tuple(_suggested([said[part] for part in doubt.parts if part in said])),
         ))  # fmt: skip
     return found
+
+
+def _suggested(said: Sequence[Suggestion]) -> Iterator[str]:
+    """What language models that were asked say, in words."""
+    for (model, body), number in Counter((one.model, one.body) for one in said).items():
+        called = titled(body) if body is not None else "No part of the machine"
+        yield f"{model} says, and decides nothing: {called} ({counted(number, 'part')})."
 
 
 def _of_roles(state: State, boxes: Mapping[str, Floats]) -> list[Question]:
