@@ -54,4 +54,6 @@ def test_it_is_read_where_the_reason_is(doubted: Doubted) -> None:
     assert assignment_entry(shown)["reason"] == words
     assert [p["suggestion"]["body"] for p in alignment_entry(said)["parts"] if "suggestion" in p] == ["arm"]
     assert replace(shown, suggestion=replace(OTHER, body="boom", reason="")).why == f"{part.reason}; m agrees"
-    assert replace(shown, suggestion=replace(OTHER, body=None, reason="")).why.endswith("m sees no part of the machine")
+    assert replace(shown, suggestion=replace(OTHER, body=None, reason="")).why.endswith(
+        "m takes it for none of those offered"
+    )

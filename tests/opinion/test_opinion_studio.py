@@ -33,7 +33,7 @@ def test_suggestions_stay_while_their_parts_are_in_doubt(doubted: Doubted, examp
         assert suggested(state.alignment) == said
         known = {part: q.known for q in questions(state, boxes_of(doubted.assembly)) for part in q.parts}
         assert any("m says, and decides nothing: Boom (1 part)." in words for words in known[first])
-        assert any("No part of the machine (1 part)." in words for words in known[second])
+        assert any("none of those offered (1 part)." in words for words in known[second])
         session.do(session.read({"kind": "role", "parts": {first: "boom"}}))
         assert suggested(session.settled(60.0).alignment).keys() == {second}
         session.undo()

@@ -12,10 +12,11 @@ from typing import Any
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from specs_endpoint import SECRET, Model, chatting, failing, playing, refusing, serving
+from specs_endpoint import Model, chatting, failing, playing, refusing, serving
 from specs_layouts import canvas, lattice, leaders, put, template, wanted
 from typer.testing import CliRunner
 
+from kit.endpoint import SECRET
 from kit.sheets.page_models import LIARS, Entry, Question, at_hand, truthful
 from yellowiron.cli import app
 from yellowiron.endpoint import EndpointError, ModelOptions, parsed

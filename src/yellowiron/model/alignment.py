@@ -79,7 +79,7 @@ UNDECIDED = Decisions()
 
 @dataclass(frozen=True)
 class Suggestion:
-    """Which body a language model points to for a part (None: no part of the machine), and why in its words; `question`
+    """Which body a language model points to for a part (None: none of those offered), and why in its words; `question`
     stands for what it was asked (a digest). It decides nothing."""
 
     body: str | None
@@ -115,7 +115,7 @@ class PartAssignment:
         said = self.suggestion
         if said is None:
             return self.reason
-        other = f"points to {said.body}" if said.body is not None else "sees no part of the machine"
+        other = f"points to {said.body}" if said.body is not None else "takes it for none of those offered"
         words = f"; {said.model} {'agrees' if said.body == self.body else other}"
         return self.reason + words + (f" ({said.reason})" if said.reason else "")
 

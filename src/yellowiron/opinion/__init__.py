@@ -6,3 +6,14 @@ listed for review are those that went in.
 
 `doubts` (what is asked, the most consequential first) and `drawing` (pictures of it) ← `asking`.
 """
+
+from typing import TYPE_CHECKING
+
+from yellowiron.support.lazy import lazy_names
+
+if TYPE_CHECKING:
+    from yellowiron.opinion.asking import second_opinion
+
+__all__ = ["second_opinion"]
+
+__getattr__, __dir__ = lazy_names(__name__, {"second_opinion": "asking"})

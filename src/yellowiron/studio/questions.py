@@ -79,7 +79,7 @@ def _of_parts(state: State, boxes: Mapping[str, Floats]) -> list[Question]:
 def _suggested(said: Sequence[Suggestion]) -> Iterator[str]:
     """What language models that were asked say, in words."""
     for (model, body), number in Counter((one.model, one.body) for one in said).items():
-        called = titled(body) if body is not None else "No part of the machine"
+        called = titled(body) if body is not None else "none of those offered"
         yield f"{model} says, and decides nothing: {called} ({counted(number, 'part')})."
 
 
