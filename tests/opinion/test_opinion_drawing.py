@@ -50,6 +50,13 @@ def test_other_parts_are_another_picture_and_the_same_the_same_bytes(doubted: Do
     assert arm[0] != boom[0] and arm[1] != boom[1]
 
 
+def test_parts_alone_stand_on_the_ground(doubted: Doubted, stage: Stage) -> None:
+    """Where nothing is under them but air, it is as blue as the sky."""
+    assert box_of(stage, of(doubted, "bucket"))[0, 2] > 3.0
+    pixels = np.asarray(Image.open(io.BytesIO(pictures_of(stage, of(doubted, "bucket"))[1])), dtype=np.int16)
+    assert (pixels[-20:, :, 0] > pixels[-20:, :, 2]).mean() > 0.5
+
+
 def test_boxes_are_in_the_machine_frame(doubted: Doubted, stage: Stage) -> None:
     parts = of(doubted, "boom")
     points = np.concatenate([doubted.assembly.points_of(doubted.assembly.part(part)) for part in parts])

@@ -183,5 +183,6 @@ def _findings(heard: _Heard, endpoint: Endpoint, where: str) -> list[Finding]:
     if heard.failed is not None:
         error = heard.failed
         words = f"{error.message}: of {heard.doubts} things in doubt it was heard on {asked}"
-        found.append(Finding("ALN031", "warning", error.where, words, error.hint))
+        hint = f"{error.hint} The model has to take pictures."
+        found.append(Finding("ALN031", "warning", error.where, words, hint))
     return found
