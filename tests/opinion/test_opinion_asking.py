@@ -201,10 +201,14 @@ def test_a_model_that_is_not_configured_is_an_error(doubted: Doubted, tmp_path: 
         assert caught.value.hint
 
 
-def test_what_is_offered(doubted: Doubted) -> None:
-    """Pins stand for their bodies and one wheel for its row; of what no part plays, what is joined to any of these."""
+def test_what_is_offered(doubted: Doubted, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Pins stand for their bodies and one wheel for its row; then comes what is joined to these, missing bodies first,
+    as long as there is room."""
     others = ("boom_pin", "track_support_l_2", "track_support_l_1", "wing", "arm", "bucket")
     doubt = Doubt("boom", "boom_pin", ("x",), others, 1.0, "")
-    missing = replace(doubted.alignment, missing=("upperstructure", "bucket_link", "bucket_pin"))
-    offered = offered_for(doubt, missing, load_template("excavator"))
-    assert offered == ["arm", "boom", "track_support_l_2", "upperstructure"]
+    template, found = load_template("excavator"), replace(doubted.alignment, missing=("arm", "bucket_pin"))
+    offered = offered_for(doubt, found, template)
+    assert len(offered) == 10 and {"arm", "boom", "track_support_l_2", "upperstructure"} <= {*offered}
+    assert "track_support_l_1" not in offered and "wing" not in offered and offered == sorted(offered)
+    monkeypatch.setattr("yellowiron.opinion.asking._OFFERED", 2)
+    assert offered_for(replace(doubt, others=()), found, template) == ["arm", "boom"]

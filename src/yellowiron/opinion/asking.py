@@ -107,14 +107,14 @@ def _ask(
 
 def offered_for(doubt: Doubt, alignment: Alignment, template: Template) -> list[str]:
     """The bodies among which a model is to choose, by name, so that their order tells nothing: the parts' own, what
-    else the alignment considers, those nearby, and those that no part plays and that are joined to any of these. One
-    body of a row stands for all."""
+    else the alignment considers, those nearby, and those joined to any of these, of which those that no part plays come
+    first. One body of a row stands for all."""
     roles = [role for role in (doubt.body, *doubt.others[:_NEAR]) if role is not None and template.knows(role)]
     known = [template.body_of(role) for role in roles]
-    joined = [template.bodies_of(joint) for joint in template.joints]
-    beside = [b for pair in joined for b in pair if b in alignment.missing and any(a in known for a in pair)]
+    pairs = [template.bodies_of(joint) for joint in template.joints]
+    joined = [body for pair in pairs for body in pair if any(other in known for other in pair)]
     found: dict[str, str] = {}
-    for body in (*known, *beside):
+    for body in (*known, *sorted(joined, key=lambda body: body not in alignment.missing)):
         if body is not None and body != _NONE:
             found.setdefault(template.row_of(body) or body, body)
     return sorted(list(found.values())[:_OFFERED])
