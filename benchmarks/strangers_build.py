@@ -40,10 +40,12 @@ from strangers_placed import (  # noqa: E402
     Job,
     Placed,
     Snapshot,
+    ftl,
     instances,
     mjcf,
     qml,
     summed,
+    templates,
     urdf,
     xacro,
 )
@@ -133,6 +135,8 @@ def turned(placed: Callable[[Job], Placed]) -> Callable[[Job], None]:
 BUILDERS: dict[str, Callable[[Job], None]] = {
     "cat_390f_excavator": in_nodes(qml),
     "clem_excavator": one,
+    "dozzer197_excavator": turned(xacro),
+    "fedem_wheel_loader": turned(ftl),
     "hiepnm_excavator": one,
     "ix35e_excavator": turned(summed),
     "johnweez_komatsu": one,
@@ -141,9 +145,11 @@ BUILDERS: dict[str, Callable[[Job], None]] = {
     "kcl_wheel_loader": one,
     "kennyvilella_excavator": in_nodes(mjcf),
     "l580_wheel_loader": turned(xacro),
+    "leadcoder_excavator": in_nodes(templates),
     "mini_excavator": many,
     "natutech_excavator": in_blender(MERGED),
     "newton_excavator": turned(urdf),
+    "niklaslidz_wheel_loader": turned(urdf),
     "octoman_excavator": one,
     "okkwok_by_material": one,
     "persimenreed_excavator": one,
@@ -153,8 +159,10 @@ BUILDERS: dict[str, Callable[[Job], None]] = {
     "simscape_excavator": many,
     "simscape_wheel_loader": many,
     "tobias_work_equipment": one,
+    "trailer_wheel_loader": one,
     "valkoja_low_poly_full": in_blender(OPENED, "full"),
     "valkoja_low_poly_half": in_blender(OPENED, "half"),
+    "wajueji_excavator": one,
 }
 
 

@@ -74,6 +74,12 @@ class Job:
 
 
 Placed = Iterator[tuple[str, trimesh.Trimesh, np.ndarray]]
+FACES = {
+    "TRI3": ((0, 1, 2),),
+    "QUAD4": ((0, 1, 2), (0, 2, 3)),
+    "TET4": ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)),
+}
+"""The triangles of a finite element, by its corners."""
 
 
 def mjcf(job: Job) -> Placed:
@@ -138,7 +144,7 @@ def _expanded(description: str) -> str:
 
 
 def ftl(job: Job) -> Placed:
-    """The triangles of a FEDEM model's parts, each in its own coordinate system."""
+    """The surfaces of a FEDEM model's parts, each in its own coordinate system."""
     model = job.file(".fmm").read_text(encoding="latin-1")
     for part in re.findall(r"^PART\n\{(.*?)^\}", model, re.MULTILINE | re.DOTALL):
         (file,) = re.findall(r'BASE_FTL_FILE = "([^"]+)"', part)
@@ -146,13 +152,64 @@ def ftl(job: Job) -> Placed:
         content = job.file(file).read_text(encoding="latin-1")
         nodes = {n: p.split() for n, p in re.findall(r"^NODE\{(\d+) \S+ ([^}\n]*)", content, re.MULTILINE)}
         number = {node: k for k, node in enumerate(nodes)}
-        triangles = re.findall(r"^TRI3\{\d+ (\d+) (\d+) (\d+)", content, re.MULTILINE)
+        faces: list[tuple[int, ...]] = []
+        for kind, words in re.findall(r"^(TRI3|QUAD4|TET4)\{\d+((?: \d+)+)", content, re.MULTILINE):
+            corners = [number[word] for word in words.split()]
+            faces += [tuple(corners[k] for k in face) for face in FACES[kind]]
+        uses = Counter(frozenset(face) for face in faces)
         mesh = trimesh.Trimesh(
             np.array([p[:3] for p in nodes.values()], dtype=np.float64),
-            [[number[node] for node in triangle] for triangle in triangles],
+            [face for face in faces if uses[frozenset(face)] == 1],
             process=False,
         )
         yield Path(file).stem, mesh, np.vstack([_numbers(rows, "").reshape(3, 4), (0, 0, 0, 1)])
+
+
+def templates(job: Job) -> Placed:
+    """OBJ meshes by the object templates of a game engine's XML files, the first of the first file placed; Y up.
+
+    What is attached to its parent is told in the parent's frame, else in the world's; what looks at another object has
+    its Y axis turned to it, about X."""
+    xml = [ET.parse(f).getroot() for f in job.files if f.suffix == ".template"]
+    known = {t.find("Name").get("value"): t for root in xml for t in root.iter("SceneObjectTemplate")}
+    placed: dict[str, dict[str, Any]] = {}
+
+    def add(template: Any, parent: str) -> None:
+        line = [template]
+        while (inherited := line[-1].find("Inheritance")) is not None:
+            line.append(known[inherited.get("value")])
+
+        def told(path: str) -> str:
+            return next((e.get("value") for t in line if (e := t.find(path)) is not None), "")
+
+        name, location = told("ID"), "Components/LocationComponent/"
+        placed[name] = {
+            "file": Path(told("Components/MeshComponent/Filename")).stem,
+            "at": _numbers(told(location + "Position") or None, "0 0 0"),
+            "parent": parent if told(location + "AttachToParent") == "true" else "",
+            "looks": told("Components/LookAtComponent/LookAt"),
+            "turn": np.eye(3),
+        }
+        for child in (c for t in line for c in t.findall("ComponentContainers/SceneObjectTemplate")):
+            add(child, name)
+
+    def place(name: str) -> np.ndarray:
+        own, frame = placed[name], np.eye(4)
+        parent = place(own["parent"]) if own["parent"] else np.eye(4)
+        frame[:3, :3] = own["turn"] if own["looks"] else parent[:3, :3]
+        frame[:3, 3] = parent[:3, :3] @ own["at"] + parent[:3, 3]
+        return frame
+
+    add(xml[0].find("SceneObjectTemplate"), "")
+    looking = [name for name, own in placed.items() if own["looks"]]
+    for name in looking * 30:  # where they look depends on where others do
+        y = place(placed[name]["looks"])[:3, 3] - place(name)[:3, 3]
+        y /= np.linalg.norm(y)
+        x = np.eye(3)[0] - y[0] * y
+        x /= np.linalg.norm(x)
+        placed[name]["turn"] = np.column_stack([x, y, np.cross(x, y)])
+    for name, own in placed.items():
+        yield name, _mesh(job.file(f"{own['file']}.obj")), place(name)
 
 
 def summed(job: Job) -> Placed:
