@@ -133,6 +133,7 @@ def turned(placed: Callable[[Job], Placed]) -> Callable[[Job], None]:
 
 
 BUILDERS: dict[str, Callable[[Job], None]] = {
+    "auwo_excavator": turned(urdf),
     "cat_390f_excavator": in_nodes(qml),
     "clem_excavator": one,
     "dozzer197_excavator": turned(xacro),

@@ -103,7 +103,8 @@ def mjcf(job: Job) -> Placed:
 
 
 def urdf(job: Job, description: str = ".urdf") -> Placed:
-    """Meshes by a robot description with all joints at 0; a mesh that two links have is named by link, and last."""
+    """Meshes by a robot description with all joints at 0; a mesh that two links have is named by link, and last; the
+    parts of a DAE file by themselves."""
     root = ET.fromstring(_expanded(job.file(description).read_text(encoding="utf-8")))
     joints = root.findall("joint")
     frames = dict.fromkeys({j.find("parent").get("link") for j in joints}, np.eye(4))
@@ -127,9 +128,9 @@ def urdf(job: Job, description: str = ".urdf") -> Placed:
     uses = Counter(file for _, _, file in visuals)
     for link, origin, file in sorted(visuals, key=lambda visual: uses[visual[2]]):
         name = link if uses[file] > 1 else Path(file).stem.removesuffix("_co2")
-        mesh = _mesh(job.file(file))
-        mesh.apply_transform(frames[link] @ origin)
-        yield name, mesh, np.eye(4)
+        for piece, mesh in _pieces(job.file(file), name):
+            mesh.apply_transform(frames[link] @ origin)
+            yield piece, mesh, np.eye(4)
 
 
 def xacro(job: Job) -> Placed:
@@ -302,6 +303,16 @@ def _origin(element: ET.Element | None) -> np.ndarray:
         return np.eye(4)
     turn = Rotation.from_euler("xyz", _numbers(element.get("rpy"), "0 0 0"))
     return _place(turn, _numbers(element.get("xyz"), "0 0 0"))
+
+
+def _pieces(file: Path, name: str) -> Iterator[tuple[str, trimesh.Trimesh]]:
+    if file.suffix.lower() != ".dae":
+        yield name, _mesh(file)
+        return
+    assembly = read_cad(file)
+    for part in assembly.parts:
+        points, triangles = assembly.points_of(part), assembly.shape_of(part).mesh.triangles
+        yield part.name, trimesh.Trimesh(points, triangles, process=False)
 
 
 def _mesh(file: Path) -> trimesh.Trimesh:
