@@ -13,7 +13,7 @@ from yellowiron.kinematics.solver.branches import branch_pivots, branch_sines
 from yellowiron.kinematics.solver.chain import ClosedChain, Component, State
 from yellowiron.kinematics.solver.independence import independent_joints, suspects
 from yellowiron.kinematics.solver.pose_grid import PoseGrid, explore, joint_values
-from yellowiron.kinematics.strength import strong_enough
+from yellowiron.kinematics.strength import strong_enough, weight
 from yellowiron.kinematics.tolerances import PINS_APART
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
@@ -39,6 +39,11 @@ _USUAL = 0.95
 """The share of those poses whose masses the gains are for."""
 _SATURATED = 0.005
 """A drive has its full force at no less than this share of its travel: stiffer, it would only saturate."""
+_SAGS = 0.02
+"""… and gives way to the weight on it by no more than this share, in the drawn pose: short strokes need more."""
+_STEP, _STABLE = 1e-3, 1.7
+"""Engines step that many seconds. A velocity drive's damping over one is no more than so many times the inertia that it
+turns: from 2 on, explicit steps swing to and fro."""
 _PER_FREEDOM = {"fixed": 6, "revolute": 5, "prismatic": 5, "spherical": 3, "distance": 0}
 
 
@@ -280,16 +285,24 @@ def _gains(mechanism: Mechanism, grids: list[PoseGrid], work: _Work) -> None:
             masses[joint.name] = work.chain.effective_mass(work.chain.drawn, joint.name)
         travel = joint.upper - joint.lower if joint.upper is not None and joint.lower is not None else None
         unit = "kg" if joint.type == "prismatic" else "kg·m²"
-        gained = position_gains(drive, masses[joint.name], unit, travel=travel)
+        held = abs(weight(work.chain, work.chain.drawn, joint.name)) if travel else 0.0
+        gained = position_gains(drive, masses[joint.name], unit, travel=travel, held=held)
         work.joints[joint.name] = replace(work.joints[joint.name], drive=gained)
 
 
 def position_gains(
-    drive: Drive, mass: float, unit: str = "kg", *, travel: float | None = None, frequency: float = FREQUENCY
+    drive: Drive,
+    mass: float,
+    unit: str = "kg",
+    *,
+    travel: float | None = None,
+    held: float = 0.0,
+    frequency: float = FREQUENCY,
 ) -> Drive:
     """A position drive with gains for a mass (kg, or kg·m² for a pivot): k = m(2πf)², d = 2k/(2πf), critically damped.
 
-    No stiffer than the drive's force over half a percent of its `travel` (metres, radians). Gains that the drive has
+    No softer than the weight that it has `held` (N, N·m) over two percent of its `travel` (metres, radians), and no
+    stiffer than its force over half a percent of that. Gains that the drive has
     stay, unless its source calls them provisional; those that "template states" names after that stay too. A stiffness
     that stays gets the damping d = 2√(km) where it has none.
     """
@@ -301,6 +314,9 @@ def position_gains(
         return drive
     omega = 2.0 * math.pi * frequency
     capped = ""
+    if not keep_stiffness and travel and held > mass * omega * omega * _SAGS * travel:
+        mass = held / (_SAGS * travel * omega * omega)
+        capped = f", no softer than the weight on it over {_SAGS:.0%} of its travel: as for"
     if not keep_stiffness and travel and mass * omega * omega * _SATURATED * travel > drive.max_force:
         mass = drive.max_force / (_SATURATED * travel * omega * omega)
         capped = f", no stiffer than its force over {_SATURATED:.1%} of its travel: as for"
@@ -318,7 +334,10 @@ def position_gains(
 
 def _velocity_gain(drive: Drive, joint: Joint, work: _Work) -> Drive:
     if drive.damping > 0.0:
-        return drive
+        most = _STABLE * work.chain.effective_mass(work.chain.drawn, joint.name) / _STEP
+        if drive.damping <= most or "damping" in drive.source.partition(STATED)[2]:
+            return drive
+        return replace(drive, damping=most, source=f"{drive.source}; damping: as much as the inertia it turns takes")
     if not (drive.max_force > 0.0 and drive.max_velocity > 0.0):
         work.find("KIN007", "warning", joint.name, "the drive has no force or no speed, so it gets no damping")
         return drive

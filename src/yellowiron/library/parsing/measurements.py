@@ -7,6 +7,7 @@ from typing import Any
 
 from yellowiron.library.notation.quantities import quantity
 from yellowiron.library.notation.validated_json import Document, near
+from yellowiron.library.parsing.variants import choices_of
 from yellowiron.model.errors import TemplateError
 from yellowiron.model.specification import fold
 from yellowiron.model.template import JointTemplate, MeasurementTemplate, Role, SiteTemplate
@@ -48,6 +49,7 @@ def read_measurements(
                 steps=tuple(in_si(step, place) for step in entry.get("steps", ())),
                 unit=entry.get("unit", "m"),
                 definition=entry.get("definition", ""),
+                when=choices_of(entry, "when"),
             )
         )
     return tuple(sites), tuple(measurements)

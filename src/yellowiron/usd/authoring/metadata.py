@@ -18,6 +18,7 @@ from pxr import Gf, Sdf, Vt
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.mechanism import Body, BodyPart, Joint, Mechanism, Site
 from yellowiron.model.sensor import Sensor
+from yellowiron.model.template import UNDECIDED
 from yellowiron.support.record import RECORD
 
 FORMAT = 1
@@ -151,7 +152,8 @@ def to_json(value: Any) -> str:
 
 def _plain(value: Any) -> Any:
     if is_dataclass(value) and not isinstance(value, type):
-        return {f.name: _plain(getattr(value, f.name)) for f in fields(value)}
+        # A machine's variants are decided: its file has no use for what they were decided by.
+        return {f.name: _plain(getattr(value, f.name)) for f in fields(value) if not f.metadata.get(UNDECIDED)}
     if isinstance(value, Mapping):
         return {str(k): _plain(v) for k, v in value.items()}
     if isinstance(value, list | tuple):
