@@ -40,11 +40,11 @@ ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "src"), str(ROOT / "tests")]
 
 from kit.sheets.page_models import LIARS, at_hand, truthful  # noqa: E402
+from yellowiron.endpoint import ModelOptions  # noqa: E402
 from yellowiron.library import load_template  # noqa: E402
 from yellowiron.model.errors import SheetError  # noqa: E402
 from yellowiron.model.specification import Specification, Specifications  # noqa: E402
 from yellowiron.model.template import Template  # noqa: E402
-from yellowiron.specs import ModelOptions  # noqa: E402
 from yellowiron.specs.extraction import from_sheets, read  # noqa: E402
 from yellowiron.specs.reader import Sheet  # noqa: E402
 from yellowiron.support.units import parse_quantity  # noqa: E402

@@ -34,8 +34,9 @@ sys.path[:0] = [str(ROOT / "tests"), str(ROOT / "benchmarks")]
 import strangers_models as strangers  # noqa: E402
 from bench_scale import resize  # noqa: E402
 from kit.scoring import score, true_bodies  # noqa: E402
+from yellowiron.opinion.doubts import boxes_of  # noqa: E402
 from yellowiron.studio import Session, Setup  # noqa: E402
-from yellowiron.studio.questions import Question, boxes_of, questions  # noqa: E402
+from yellowiron.studio.questions import Question, questions  # noqa: E402
 from yellowiron.studio.scene import Scene  # noqa: E402
 
 SECONDS = 4.0

@@ -1,6 +1,7 @@
 """The open models and PDFs that the labels of `benchmarks/` are for, built from git snapshots of public repositories.
 
     python benchmarks/strangers_build.py MIRROR_DIR OUT_DIR [--only NAME,…] [--blender PYTHON]
+        [--held-back]
 
 From the repository's root, in the project's environment. MIRROR_DIR has a bare git directory
 `OWNER+NAME/repo` for each repository; nothing is fetched. OUT_DIR gets `brochures/NAME.pdf` for each
@@ -9,7 +10,7 @@ for the two public ones of `../shared/data`. `--blender`: a Python that has `bpy
 
 Every source file must have its SHA-256 in the label. Then every model is read, and must have the label's parts, height
 (`frame.height`, to 0.1 %) and joints (each within the boxes of its bodies, seen along its axis). Models that are held
-back are not built and their labels not opened; PDFs that are held are copied unread.
+back are not built unless `--held-back` is given; PDFs that are held are copied unread.
 """
 
 from __future__ import annotations
@@ -22,22 +23,32 @@ import shutil
 import subprocess
 import sys
 import tempfile
-import xml.etree.ElementTree as ET
-from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import trimesh
 from scipy.linalg import null_space
-from scipy.spatial.transform import Rotation
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT / "src"), str(ROOT / "tests"), str(ROOT / "benchmarks")]
 
 from strangers_models import LABELS, SHARED  # noqa: E402
+from strangers_placed import (  # noqa: E402
+    BuildError,
+    Job,
+    Placed,
+    Snapshot,
+    ftl,
+    instances,
+    mjcf,
+    qml,
+    summed,
+    templates,
+    urdf,
+    xacro,
+)
 from yellowiron.cad import read_cad  # noqa: E402
 
 BROCHURES = LABELS.parent / "brochures"
@@ -64,60 +75,6 @@ bpy.ops.import_scene.fbx(filepath=sys.argv[2])
 bpy.ops.export_scene.gltf(filepath=sys.argv[3], export_format="GLB")
 """
 """In Blender: the first file without its flattened arm, with that of the second, which is in its place."""
-
-
-class BuildError(Exception):
-    """A file or a model is not what its label says."""
-
-
-@dataclass(frozen=True)
-class Snapshot:
-    """A repository at a commit."""
-
-    git: Path
-    commit: str
-
-    def show(self, path: str, commit: str = "") -> bytes:
-        return self._git("show", f"{commit or self.commit}:{path}")
-
-    def file(self, path: str, sha256: str) -> bytes:
-        """A file with this hash at a path, or at that path below some folder."""
-        listed = self._git("ls-tree", "-r", "-z", "--name-only", self.commit).decode().split("\0")
-        for found in (p for p in listed if p == path or p.endswith(f"/{path}")):
-            content = self.show(found)
-            if hashlib.sha256(content).hexdigest() == sha256:
-                return content
-        raise BuildError(f"{path} is not in {self.git}, or is another file there")
-
-    def _git(self, *words: str) -> bytes:
-        done = subprocess.run(["git", "--git-dir", str(self.git), *words], capture_output=True, check=False)
-        if done.returncode:
-            raise BuildError(done.stderr.decode().strip())
-        return done.stdout
-
-
-@dataclass(frozen=True)
-class Job:
-    """A model to build: its source files in `folder`, and what it becomes."""
-
-    name: str
-    snapshot: Snapshot
-    folder: Path
-    files: tuple[Path, ...]
-    models: Path
-    blender: str | None
-
-    @property
-    def glb(self) -> Path:
-        return self.models / f"{self.name}.glb"
-
-    def file(self, name: str) -> Path:
-        """The one source file of this name or suffix."""
-        (found,) = (f for f in self.files if name in (f.name, f.suffix))
-        return found
-
-
-Placed = Iterator[tuple[str, trimesh.Trimesh, np.ndarray]]
 
 
 def one(job: Job) -> None:
@@ -175,155 +132,12 @@ def turned(placed: Callable[[Job], Placed]) -> Callable[[Job], None]:
     return build
 
 
-def mjcf(job: Job) -> Placed:
-    """Meshes by an MJCF's body tree as drawn."""
-    root = ET.parse(job.file("excavator.xml")).getroot()
-    files = {f.stem: f for f in job.files if f.suffix != ".xml"}
-    turns = {Path(m.get("file", "")).stem: _numbers(m.get("refquat"), "1 0 0 0") for m in root.iter("mesh")}
-
-    def walk(body: ET.Element, frame: np.ndarray) -> Placed:
-        for name in (g.get("mesh", "") for g in body.findall("geom")):
-            if name in files:
-                own = Rotation.from_quat(turns[name], scalar_first=True).inv()
-                yield name, _mesh(files[name]), frame @ _place(own, (0.0, 0.0, 0.0))
-        for child in body.findall("body"):
-            turn = Rotation.from_euler("XYZ", _numbers(child.get("euler"), "0 0 0"), degrees=True)
-            yield from walk(child, frame @ _place(turn, _numbers(child.get("pos"), "0 0 0")))
-
-    world = root.find("worldbody")
-    assert world is not None
-    return walk(world, np.eye(4))
-
-
-def urdf(job: Job, description: str = ".urdf") -> Placed:
-    """Meshes by a robot description with all joints at 0; a mesh that two links have is named by link, and last."""
-    root = ET.parse(job.file(description)).getroot()
-    joints = root.findall("joint")
-    frames = dict.fromkeys({j.find("parent").get("link") for j in joints}, np.eye(4))
-    waiting = {j.find("child").get("link"): j for j in joints}
-    while waiting:
-        for link, joint in list(waiting.items()):
-            parent = joint.find("parent").get("link")
-            if parent not in waiting:
-                frames[link] = frames[parent] @ _origin(joint.find("origin"))
-                del waiting[link]
-    visuals = [
-        (link.get("name"), _origin(visual.find("origin")), Path(mesh.get("filename")).name)
-        for link in root.findall("link")
-        for visual in link.findall("visual")
-        for mesh in visual.findall("geometry/mesh")
-    ]
-    uses = Counter(file for _, _, file in visuals)
-    for link, origin, file in sorted(visuals, key=lambda visual: uses[visual[2]]):
-        name = link if uses[file] > 1 else Path(file).stem.removesuffix("_co2")
-        yield name, _mesh(job.file(file)), frames[link] @ origin
-
-
-def xacro(job: Job) -> Placed:
-    """As `urdf`; the one here has no macros."""
-    return urdf(job, ".xacro")
-
-
-def summed(job: Job) -> Placed:
-    """Meshes by the joints' origins in a Python file that later commits no longer have."""
-    code = job.snapshot.show("src/exca_dance/rendering/urdf_kin.py", "58dd8e6^").decode()
-    origins = {"base_link": np.zeros(3)}
-    joint = r'URDFJoint\(\s*"\w+",\s*"(\w+)",\s*"(\w+)",\s*"\w+",\s*\(([^)]*)\)'
-    for parent, child, origin in re.findall(joint, code):
-        origins[child] = origins[parent] + _numbers(origin.replace(",", " "), "")
-    links = dict(re.findall(r'"(\w+)": "(\w+_link)"', code))
-    for file in sorted(job.files):
-        yield file.stem, _mesh(file), _place(Rotation.identity(), origins[links[file.stem]])
-
-
-def instances(job: Job) -> Placed:
-    """STEP files by the instances of a Simscape Multibody assembly."""
-    for instance in ET.parse(job.file(".xml")).getroot().iterfind(".//{*}Instance"):
-        name = instance.get("name", "").removesuffix(" <1>")
-        turn, shift = (_numbers(instance.findtext(f"{{*}}Transform/{{*}}{w}"), "") for w in ("Rotation", "Translation"))
-        assembly = read_cad(job.file(f"{name}.step"))
-        meshes = [
-            trimesh.Trimesh(assembly.points_of(p), assembly.shape_of(p).mesh.triangles, process=False)
-            for p in assembly.parts
-        ]
-        place = np.eye(4)
-        place[:3, :3], place[:3, 3] = turn.reshape(3, 3), shift
-        yield name, trimesh.util.concatenate(meshes), place
-
-
-def qml(job: Job) -> Placed:
-    """Meshes of Qt Quick 3D by the nodes of a QML file, all of its own angles at 0; those absent are left out."""
-    meshes = {f.name: f for f in job.files if f.suffix == ".mesh"}
-    stack: list[dict[str, Any]] = [{"place": np.eye(4)}]
-    for line in (words.strip() for words in job.file(".qml").read_text(encoding="utf-8").splitlines()):
-        key, _, value = line.partition(": ")
-        if line.endswith("{"):
-            stack.append({"model": line == "Model {"})
-        elif line == "}":
-            stack.pop()
-        elif key in ("position", "rotation", "scale") and "Qt." in value:
-            stack[-1][key] = [float(v.split(" ")[0]) for v in value.partition("(")[2].rstrip(")").split(", ")]
-        elif key in ("objectName", "source"):
-            stack[-1][key] = value.strip('"')
-        if (
-            line.endswith("{")
-            or "place" in stack[-1]
-            or not ({"source", "position", "rotation", "scale"} & stack[-1].keys())
-        ):
-            continue
-        turn = Rotation.from_quat(stack[-1].get("rotation", (1.0, 0.0, 0.0, 0.0)), scalar_first=True)
-        stack[-1]["own"] = _place(turn, stack[-1].get("position", (0.0, 0.0, 0.0))) @ np.diag(
-            [*stack[-1].get("scale", (1.0, 1.0, 1.0)), 1.0]
-        )
-        file = Path(stack[-1].get("source", "")).name
-        if key == "source" and stack[-1]["model"] and file in meshes:
-            place = np.eye(4)
-            for frame in stack:
-                place = place @ frame.get("own", np.eye(4))
-            yield stack[-1]["objectName"], _qt_mesh(meshes[file]), place
-
-
-def _qt_mesh(file: Path) -> trimesh.Trimesh:
-    """Positions and triangles of a Qt Quick 3D mesh (version 7; the names of its vertex entries end the header)."""
-    content = file.read_bytes()
-    count, stride, _, size = np.frombuffer(content, "<u4", 4, 16)
-    at = 0x44 + 16 * int(count) + 4
-    for _ in range(count):
-        at += 8 + int(np.frombuffer(content, "<u4", 1, at)[0]) // 4 * 4
-    points = np.frombuffer(content, "<f4", size // 4, at).reshape(-1, stride // 4)[:, :3]
-    width = {3: "<u2", 5: "<u4"}[int(np.frombuffer(content, "<u4", 1, 32)[0])]
-    indices = np.frombuffer(
-        content, width, int(np.frombuffer(content, "<u4", 1, 40)[0]) // int(width[2]), at + size + 4 - size % 4
-    )
-    return trimesh.Trimesh(points.astype(np.float64), indices.reshape(-1, 3), process=False)
-
-
-def _numbers(text: str | None, default: str) -> np.ndarray:
-    return np.array([float(v) for v in (text or default).split()])
-
-
-def _place(turn: Rotation, shift: Sequence[float] | np.ndarray) -> np.ndarray:
-    place = np.eye(4)
-    place[:3, :3] = turn.as_matrix()
-    place[:3, 3] = shift
-    return place
-
-
-def _origin(element: ET.Element | None) -> np.ndarray:
-    if element is None:
-        return np.eye(4)
-    turn = Rotation.from_euler("xyz", _numbers(element.get("rpy"), "0 0 0"))
-    return _place(turn, _numbers(element.get("xyz"), "0 0 0"))
-
-
-def _mesh(file: Path) -> trimesh.Trimesh:
-    mesh = trimesh.load(file, process=False, force="mesh")
-    return trimesh.Trimesh(mesh.vertices, mesh.faces, process=False)
-
-
 BUILDERS: dict[str, Callable[[Job], None]] = {
+    "auwo_excavator": turned(urdf),
     "cat_390f_excavator": in_nodes(qml),
     "clem_excavator": one,
+    "dozzer197_excavator": turned(xacro),
+    "fedem_wheel_loader": turned(ftl),
     "hiepnm_excavator": one,
     "ix35e_excavator": turned(summed),
     "johnweez_komatsu": one,
@@ -332,9 +146,11 @@ BUILDERS: dict[str, Callable[[Job], None]] = {
     "kcl_wheel_loader": one,
     "kennyvilella_excavator": in_nodes(mjcf),
     "l580_wheel_loader": turned(xacro),
+    "leadcoder_excavator": in_nodes(templates),
     "mini_excavator": many,
     "natutech_excavator": in_blender(MERGED),
     "newton_excavator": turned(urdf),
+    "niklaslidz_wheel_loader": turned(urdf),
     "octoman_excavator": one,
     "okkwok_by_material": one,
     "persimenreed_excavator": one,
@@ -344,8 +160,10 @@ BUILDERS: dict[str, Callable[[Job], None]] = {
     "simscape_excavator": many,
     "simscape_wheel_loader": many,
     "tobias_work_equipment": one,
+    "trailer_wheel_loader": one,
     "valkoja_low_poly_full": in_blender(OPENED, "full"),
     "valkoja_low_poly_half": in_blender(OPENED, "half"),
+    "wajueji_excavator": one,
 }
 
 
@@ -357,8 +175,6 @@ def snapshot_of(mirror: Path, repository: str, commit: str) -> Snapshot:
 def build_model(name: str, mirror: Path, models: Path, blender: str | None) -> dict[str, Any]:
     """Builds a model of `benchmarks/strangers`; its label."""
     label: dict[str, Any] = json.loads((LABELS / f"{name}.json").read_text(encoding="utf-8"))
-    if label["held_back"]:
-        raise BuildError("is held back")
     source = label["source"]
     snapshot = snapshot_of(mirror, source["repository"], source["commit"])
     with tempfile.TemporaryDirectory() as temporary:
@@ -372,6 +188,12 @@ def build_model(name: str, mirror: Path, models: Path, blender: str | None) -> d
             files.append(file)
         BUILDERS[name](Job(name, snapshot, folder, tuple(files), models, blender))
     return label
+
+
+def held_back() -> set[str]:
+    """The models that nobody may look at yet."""
+    files = {f.stem: f.read_text(encoding="utf-8") for f in LABELS.glob("*.json")}
+    return {name for name, text in files.items() if json.loads(text)["held_back"]}
 
 
 def build_apdecky(name: str, mirror: Path, models: Path, _: str | None) -> dict[str, Any]:
@@ -450,6 +272,7 @@ def main() -> int:
     parser.add_argument("out", type=Path)
     parser.add_argument("--only", default="", help="names of models or brochures")
     parser.add_argument("--blender", help="a Python that has bpy 5.0.1")
+    parser.add_argument("--held-back", action="store_true")
     given = parser.parse_args()
     only = set(filter(None, given.only.split(",")))
     pdfs, models = given.out / "brochures", given.out / "models"
@@ -464,7 +287,7 @@ def main() -> int:
                 faults += 1
                 _say(f"{file.stem}: FAULT is another PDF than the label's")
             (pdfs / f"{file.stem}.pdf").write_bytes(pdf)
-    build = dict.fromkeys(BUILDERS, build_model)
+    build = {n: build_model for n in BUILDERS if given.held_back or n not in held_back()}
     build |= {"apdecky_excavator_47": build_apdecky, "tele_dig_267": build_tele_dig}
     for name in sorted(n for n in build if not only or n in only):
         try:

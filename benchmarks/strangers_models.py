@@ -197,7 +197,7 @@ def _bodies(name: str | None, template: Template) -> tuple[str, ...]:
     """What the template calls a label's body: without the number in a row; a twin that it has but once by both."""
     if name is None:
         return ("-",)
-    name = BODIES.get(re.sub(r"\[.*\]$", "", name), re.sub(r"\[.*\]$", "", name))
+    name = _unnumbered(name)
     known = {r.name for r in template.roles}
     plain = re.sub(r"_[lr]$", "", name)
     return (plain, name) if name not in known and plain in known else (name,)
@@ -221,10 +221,10 @@ def _surface(assembly: Assembly, entries: Sequence[_Entry]) -> Surface:
         if entry.fused:
             first = len(labels)
             for shell, rows in enumerate(_shells(mesh)):
-                body = _fused(entry, mesh, assembly.shape_of(entry.part).mesh, rows)
-                if body is not None and body not in entry.bodies[:1]:
+                bodies = _fused(entry, mesh, assembly.shape_of(entry.part).mesh, rows)
+                if bodies and bodies != entry.bodies[:1]:
                     own[rows] = len(labels)
-                    labels.append((f"{entry.role} shell {shell}", body))
+                    labels.append((f"{entry.role} shell {shell}", "|".join(bodies)))
             whole[entry.part.id] = (number, *range(first, len(labels)))
         label.append(own)
     ties = {numbers[e.part.id]: numbers[e.tied] for e in entries if e.tied in numbers}
@@ -236,22 +236,33 @@ def _shells(mesh: Mesh) -> list[np.ndarray]:
     return [np.flatnonzero(label == k) for k in np.unique(label)]
 
 
-def _fused(entry: _Entry, mesh: Mesh, own: Mesh, rows: np.ndarray) -> str | None:
-    """The body of a shell, by its box in the file's frame or in the mesh's own, or by the side it is on."""
+def _fused(entry: _Entry, mesh: Mesh, own: Mesh, rows: np.ndarray) -> tuple[str, ...]:
+    """The bodies of a shell, the best first, by its box in the file's frame or in the mesh's own, or by the side it is
+    on; none: not told."""
     for told in entry.fused:
         if "half_space" in told:
             place = told["half_space"]
             middle = mesh.points[mesh.triangles[rows]].mean(axis=(0, 1))
             if (middle - np.array(place["point"])) @ np.array(place["normal"]) > 0.0:
-                return BODIES.get(told["body"], told["body"])
+                return _told(told)
             continue
         for points in (mesh.points[mesh.triangles[rows]], own.points[own.triangles[rows]]):
             low, high = points.min(axis=(0, 1)), points.max(axis=(0, 1))
             box = np.array([told["centre"], told["extent"]])
             size = max(float(np.linalg.norm(box[1])), 1e-9)
             if np.abs(np.array([0.5 * (low + high), high - low]) - box).max() < SAME_BOX * size:
-                return BODIES.get(told["body"], told["body"])
-    return None
+                return _told(told)
+    return ()
+
+
+def _told(shell: Mapping[str, Any]) -> tuple[str, ...]:
+    return tuple(_unnumbered(body) for body in (shell["body"], *shell.get("alternatives", ())))
+
+
+def _unnumbered(body: str) -> str:
+    """A body as the template calls it, without its number in a row."""
+    plain = re.sub(r"\[.*\]$", "", body)
+    return BODIES.get(plain, plain)
 
 
 def _joints(model: Model, template: Template) -> Iterator[TrueJoint]:

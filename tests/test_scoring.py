@@ -195,7 +195,7 @@ def two_blocks(name: str, x: float) -> tuple[Part, Shape]:
 def labelled() -> tuple[Assembly, Surface]:
     rows = [two_blocks("a", 0.0), two_blocks("b", 10.0), two_blocks("c", 20.0)]
     assembly = Assembly("m", "glb", 1.0, tuple(p for p, _ in rows), {p.shape: s for p, s in rows})
-    cube = {"centre": [3, 0, 0], "extent": [1, 1, 1], "body": "boom_piston_rod"}
+    cube = {"centre": [3, 0, 0], "extent": [1, 1, 1], "body": "boom_piston_rod", "alternatives": ["arm[2]"]}
     labels = {
         "parts": {
             "world/a": {"role": "barrel", "body": "boom_cylinder_barrel", "fused": [cube]},
@@ -239,7 +239,7 @@ def test_a_fused_mesh_that_was_taken_apart_is_judged_by_its_shells() -> None:
     }
     halves = [replace(assembly.parts[0], id=f"world/a/{k + 1}", shape=f"a{k}") for k in range(2)]
     apart = replace(assembly, parts=(*halves, *assembly.parts[1:]), shapes={**assembly.shapes, **shapes})
-    for body, right in (("boom_piston_rod", 36.0), ("boom_cylinder_barrel", 30.0)):
+    for body, right in (("boom_piston_rod", 36.0), ("arm", 36.0), ("boom_cylinder_barrel", 30.0)):
         alignment = aligned(a_1="boom_cylinder_barrel", a_2=body, b="tipping_link", c="tipping_link")
         found = score(apart, alignment, None, truth, (), 1.0, load_template("excavator"))
         assert (found.area, found.right) == (pytest.approx(36.0), pytest.approx(right))

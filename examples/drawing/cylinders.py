@@ -34,6 +34,8 @@ class Cylinder:
     piston: float
     gland: float
     colour: Colour = YELLOW
+    port: float = 22.0
+    """Radius of the ports, which stand out in proportion."""
 
     @property
     def inside(self) -> float:
@@ -79,9 +81,10 @@ def draw_cylinder(c: Cylinder, pin_fast_in_rod: bool = False) -> Assembly:
     half = c.eye_width / 2
     outer, inner = c.outside / 2, c.bore / 2
     start = c.base - c.cap
+    size = c.port / 22.0
     port = (
-        rod((c.base + 35, 0, 0), Z, 22, outer + 28),
-        rod((c.gland_face - c.gland - 40, 0, 0), Z, 22, outer + 28),
+        rod((c.base + 35 * size, 0, 0), Z, c.port, outer + 28 * size),
+        rod((c.gland_face - c.gland - 40 * size, 0, 0), Z, c.port, outer + 28 * size),
     )
     tube = fuse(rod((start, 0, 0), X, outer, c.cap + c.inside + c.gland - 30), *port)
     tube = cut(tube, rod((c.base, 0, 0), X, inner, c.inside + c.gland))

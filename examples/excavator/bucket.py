@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from OCP.TopoDS import TopoDS_Shape
 from scipy.optimize import brentq
 
+from drawing.digger import Linkage, Pose
 from drawing.hardware import CLEARANCE, bush, fit_pin, placed
 from drawing.planar import direction
 from drawing.product import GREY, STEEL, YELLOW, Assembly, Colour, Part
@@ -19,7 +20,7 @@ from drawing.solids import Y, bored, box, cut, moved, outline, plate, ring, rod,
 
 from . import values as v
 from .equipment import PIN_G, PIN_H, PIN_J, PIN_K, between, pair
-from .linkage import ARM, Linkage, Pose
+from .linkage import ARM
 
 SKIN, SIDE, LIP = 20.0, 20.0, 40.0
 """Thickness of the wrapper, the sides and the cutting edge."""

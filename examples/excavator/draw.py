@@ -15,6 +15,7 @@ from pathlib import Path
 from OCP.gp import gp_Trsf
 
 from drawing.cylinders import Cylinder, draw_cylinder
+from drawing.digger import Linkage, Pose
 from drawing.hardware import placed
 from drawing.planar import direction
 from drawing.product import Assembly, Use, write_step
@@ -23,7 +24,7 @@ from . import values as v
 from .bucket import draw_bucket, draw_bucket_link, draw_tipping_links
 from .cab import draw_cab
 from .equipment import CYLINDER_Y, PIN_C, PIN_E, PIN_M, draw_arm, draw_boom
-from .linkage import Linkage, Pose, solve
+from .linkage import solve
 from .track import solve_track
 from .truth import to_cad, truth
 from .undercarriage import draw_undercarriage

@@ -12,11 +12,12 @@ import math
 from OCP.gp import gp_Trsf
 from OCP.TopoDS import TopoDS_Shape
 
+from drawing.digger import Linkage, Pose
 from drawing.hardware import bush, fit_pin, placed
 from drawing.product import BLACK, GREY, YELLOW, Assembly, Colour, Part
 from drawing.solids import Y, bored, box, cut, mirrored, moved, outline, pipe, plate, ring, rod, shift, turn
 
-from .linkage import ARM, BOOM, Linkage, Pose
+from .linkage import ARM, BOOM
 
 PIN_A = PIN_B = 100.0
 PIN_C = PIN_D = PIN_K = PIN_M = PIN_P = 90.0

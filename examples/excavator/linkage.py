@@ -18,12 +18,12 @@ from __future__ import annotations
 
 import functools
 import math
-from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import brentq, least_squares
+from scipy.optimize import least_squares
 
-from drawing.planar import Point, direction, meet, rot, sine, vec
+from drawing.digger import Ends, Linkage, Strokes, wrapped
+from drawing.planar import Point, direction, rot, sine, vec
 
 from . import values as v
 
@@ -32,145 +32,7 @@ BOOM_MIN, BOOM_MAX = v.BOOM_CLOSED.value, v.BOOM_CLOSED.value + v.BOOM_STROKE.va
 ARM_MIN, ARM_MAX = v.ARM_CLOSED.value, v.ARM_CLOSED.value + v.ARM_STROKE.value
 BUCKET_MIN, BUCKET_MAX = v.BUCKET_CLOSED.value, v.BUCKET_CLOSED.value + v.BUCKET_STROKE.value
 DOWN = -math.pi / 2
-
-
-@dataclass(frozen=True, slots=True)
-class Pose:
-    """Where the pins are at one length of each cylinder; world points, millimetres, radians. Boom, arm and bucket
-    angles are those of A -> B, B -> K and K -> T from the level."""
-
-    boom: float
-    arm: float
-    bucket: float
-    boom_angle: float
-    arm_angle: float
-    bucket_angle: float
-    B: Point
-    K: Point
-    T: Point
-    D: Point
-    M: Point
-    P: Point
-    E: Point
-    G: Point
-    H: Point
-    J: Point
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Linkage:
-    """Pin positions. A and C are world; D and M are in the boom's frame (origin A, x towards B); P, E and G in the
-    arm's (origin B, x towards K); J in the bucket's (origin K, x towards T); `tip` is K-T, `tipping` G-H, `link` H-J.
-    """
-
-    A: Point
-    C: Point
-    D: Point
-    M: Point
-    P: Point
-    E: Point
-    G: Point
-    tipping: float
-    link: float
-    J: Point
-    tip: float
-
-    # ---- cylinder lengths and angles --------
-    def boom_at(self, angle: float) -> float:
-        """Boom cylinder length at an angle of A -> B."""
-        return float(np.hypot(*(self.A + rot(angle, self.D) - self.C)))
-
-    def boom_angle(self, length: float) -> float:
-        """Angle of A -> B at a boom cylinder length."""
-        p, q = float(np.hypot(*(self.C - self.A))), float(np.hypot(*self.D))
-        opening = math.acos((p * p + q * q - length * length) / (2 * p * q))
-        return direction(self.C - self.A) + opening - direction(self.D)
-
-    def arm_at(self, angle: float) -> float:
-        """Arm cylinder length at an angle between A -> B and B -> K (negative: crowded)."""
-        return float(np.hypot(*(vec(BOOM, 0.0) + rot(angle, self.P) - self.M)))
-
-    def arm_angle(self, length: float) -> float:
-        """Angle between A -> B and B -> K at an arm cylinder length."""
-        m = self.M - vec(BOOM, 0.0)
-        p, q = float(np.hypot(*m)), float(np.hypot(*self.P))
-        opening = math.acos((p * p + q * q - length * length) / (2 * p * q))
-        return direction(m) - opening - direction(self.P)
-
-    def four_bar(self, length: float) -> tuple[float, Point, Point]:
-        """Angle between B -> K and K -> T at a bucket cylinder length, and H and J in the arm's frame."""
-        k = vec(ARM, 0.0)
-        h = meet(self.E, length, self.G, self.tipping, 1.0)
-        j = meet(h, self.link, k, float(np.hypot(*self.J)), 1.0)
-        return wrapped(direction(j - k) - direction(self.J)), h, j
-
-    def bucket_for(self, angle: float) -> float:
-        """Bucket cylinder length at an angle between B -> K and K -> T."""
-        return float(brentq(lambda c: self.four_bar(c)[0] - angle, BUCKET_MIN, BUCKET_MAX, xtol=1e-10))
-
-    def pose(self, boom: float, arm: float, bucket: float) -> Pose:
-        """All pins at one length of each cylinder."""
-        beta = self.boom_angle(boom)
-        alpha = beta + self.arm_angle(arm)
-        gamma, h, j = self.four_bar(bucket)
-        b = self.A + rot(beta, vec(BOOM, 0.0))
-        k = b + rot(alpha, vec(ARM, 0.0))
-        theta = alpha + gamma
-        return Pose(
-            boom,
-            arm,
-            bucket,
-            beta,
-            alpha,
-            theta,
-            B=b,
-            K=k,
-            T=k + rot(theta, vec(self.tip, 0.0)),
-            D=self.A + rot(beta, self.D),
-            M=self.A + rot(beta, self.M),
-            P=b + rot(alpha, self.P),
-            E=b + rot(alpha, self.E),
-            G=b + rot(alpha, self.G),
-            H=b + rot(alpha, h),
-            J=b + rot(alpha, j),
-        )
-
-    def margins(self, pose: Pose) -> tuple[float, float, float, float, float]:
-        """Sines at C, P, H (rod on tipping link), H (tipping link on bucket link) and J: none may come near 0."""
-        return (
-            sine(self.A, self.C, pose.D) * -1.0,
-            sine(pose.M, pose.P, pose.B),
-            sine(pose.E, pose.H, pose.G),
-            sine(pose.G, pose.H, pose.J),
-            sine(pose.H, pose.J, pose.K),
-        )
-
-    def lowest_arm_pin(self) -> Point:
-        """B with the boom cylinders closed."""
-        return self.A + rot(self.boom_angle(BOOM_MIN), vec(BOOM, 0.0))
-
-    def ends(self) -> Ends:
-        """Angles at the ends of the strokes."""
-        return Ends(
-            low=self.boom_angle(BOOM_MIN),
-            high=self.boom_angle(BOOM_MAX),
-            out=self.arm_angle(ARM_MIN),
-            crowd=self.arm_angle(ARM_MAX),
-            open=self.four_bar(BUCKET_MIN)[0],
-            curl=self.four_bar(BUCKET_MAX)[0],
-        )
-
-
-@dataclass(frozen=True, slots=True)
-class Ends:
-    """Angles at the ends of the strokes, radians: boom from the level, arm from A -> B, bucket from B -> K."""
-
-    low: float
-    high: float
-    out: float
-    crowd: float
-    open: float
-    curl: float
+STROKES = Strokes((BOOM_MIN, BOOM_MAX), (ARM_MIN, ARM_MAX), (BUCKET_MIN, BUCKET_MAX))
 
 
 def ranges(a: Point, tip: float, e: Ends, depth: float = v.LEVEL_DEPTH.value) -> dict[str, float]:
@@ -224,11 +86,6 @@ def _ahead(a: Point, tip: float, e: Ends, depth: float) -> tuple[float, float]:
 LEVEL = "length of level bottom"
 
 
-def wrapped(angle: float) -> float:
-    """The angle within half a turn."""
-    return (angle + math.pi) % (2 * math.pi) - math.pi
-
-
 # Where the search starts and what it stays near, and how near: proportions of the class.
 _SKETCH: dict[str, tuple[float, float]] = {
     "A.x": (80, 8),
@@ -269,7 +126,8 @@ def _linkage(x: Point) -> tuple[Linkage, Ends]:
     pins = {n: vec(p[f"{n}.x"], p[f"{n}.z"]) for n in "ACDMPEG"}
     j = rot(p["J.a"], vec(p["J.r"], 0.0))
     ends = Ends(**{n: p[n] for n in ("low", "high", "out", "crowd", "open", "curl")})
-    return Linkage(**pins, tipping=p["tipping"], link=p["link"], J=j, tip=p["tip"]), ends
+    links = {"tipping": p["tipping"], "link": p["link"], "tip": p["tip"]}
+    return Linkage(**pins, **links, J=j, boom=BOOM, arm=ARM, strokes=STROKES), ends
 
 
 _TARGETS = {

@@ -12,6 +12,7 @@ from OCP.gp import gp_Ax3, gp_Dir, gp_Pnt, gp_Trsf
 from scipy.optimize import brentq
 
 from drawing.cylinders import Cylinder
+from drawing.digger import Linkage, Pose, wrapped
 from drawing.hardware import placed
 from drawing.planar import Point, direction, rot, vec
 from drawing.product import Assembly, Occurrence, extent, farthest, occurrences
@@ -27,10 +28,7 @@ from .linkage import (
     BUCKET_MAX,
     BUCKET_MIN,
     LEVEL,
-    Linkage,
-    Pose,
     ranges,
-    wrapped,
 )
 from .track import CARRIER_X, COUNT, HALF, ROLLER_X, Loop, solve_track
 from .undercarriage import GAUGE

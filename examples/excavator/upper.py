@@ -11,13 +11,13 @@ from OCP.GProp import GProp_GProps
 from OCP.TopoDS import TopoDS_Shape
 from scipy.optimize import brentq
 
+from drawing.digger import Linkage
 from drawing.hardware import bolt, fit_pin
 from drawing.product import BLACK, GREY, RED, STEEL, YELLOW, Assembly, Colour, Part
 from drawing.solids import X, Y, Z, bored, box, cut, fuse, mirrored, pipe, plate, prism, ring, rod, shift, turn, turned
 
 from . import values as v
 from .equipment import PIN_A, PIN_C
-from .linkage import Linkage
 from .undercarriage import BEARING, BEARING_Z
 
 BODY = "upperstructure"

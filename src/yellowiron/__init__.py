@@ -21,6 +21,7 @@ from yellowiron.support.lazy import lazy_names
 if TYPE_CHECKING:
     from yellowiron.api import Roles, align, check, convert, export, extract, measure, new_template, simulate
     from yellowiron.cad import read_cad
+    from yellowiron.endpoint import ModelOptions
     from yellowiron.kinematics import ClosedChain
     from yellowiron.library import lint, list_templates, load_template
     from yellowiron.model.errors import YellowironError
@@ -28,7 +29,6 @@ if TYPE_CHECKING:
     from yellowiron.model.specification import Specifications
     from yellowiron.model.template import Template
     from yellowiron.pipeline import Machine, build
-    from yellowiron.specs import ModelOptions
     from yellowiron.usd import read_mechanism, write_machine
 
 __version__ = "0.2.0"
@@ -66,7 +66,7 @@ __getattr__, __dir__ = lazy_names(
         "ClosedChain": "kinematics",
         "Machine": "pipeline",
         "Mechanism": "model.mechanism",
-        "ModelOptions": "specs",
+        "ModelOptions": "endpoint",
         "Roles": "api",
         "Specifications": "model.specification",
         "Template": "model.template",

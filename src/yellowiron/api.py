@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from yellowiron import checks, library, specs
+from yellowiron.endpoint import Endpoint, ModelOptions
 from yellowiron.model.alignment import Alignment
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import OutputError
@@ -51,7 +52,7 @@ def extract(
     settings: Sequence[str] = (),
     accepted: Sequence[str] = (),
     extractor: specs.Extractor = "rules",
-    model: specs.ModelOptions | None = None,
+    model: ModelOptions | None = None,
     show: Path | str | None = None,
     progress: Progress = lambda words: None,
 ) -> Specifications:
@@ -102,10 +103,12 @@ def align(
     by: str = "",
     date: str = "",
     why: str = "",
+    opinion: ModelOptions | None = None,
     progress: Progress = lambda words: None,
 ) -> Roles:
     """The part that plays each role of a type. With `sheets` and `settings` the model's scale is checked against them;
-    `mirror` completes a model of which one half is drawn by its mirror image.
+    `mirror` completes a model of which one half is drawn by its mirror image. The language model of `opinion` is shown
+    parts in doubt; it points, and decides nothing.
 
     The alignment is written to the file `out`; what a person decided in it before holds. Decisions for whole parts of
     the CAD tree: `roles` are texts such as `ADT30/HITCH/*=hitch` (none: not part of the machine); what fits a pattern
@@ -114,7 +117,13 @@ def align(
     from yellowiron import cad
     from yellowiron.alignment import parse_rules, write_alignment
     from yellowiron.model.alignment import Decisions, Signature
+    from yellowiron.model.rows import expand
+    from yellowiron.model.template import choose
+    from yellowiron.opinion import second_opinion
     from yellowiron.stages import compare_with_declared, find_roles, values_by_hand
+
+    if opinion is not None:
+        Endpoint(opinion)  # says at once what is wrong with it
 
     signature = Signature(by, date, why)
     decisions = Decisions(parse_rules(roles, signature), tuple(confirmed), tuple(forgotten), signature)
@@ -131,6 +140,9 @@ def align(
     assembly, alignment = find_roles(
         assembly, template, specifications, earlier=earlier, choices=choices, decisions=decisions
     )
+    if opinion is not None:
+        chosen = expand(choose(template, alignment.choices), alignment.counts)
+        alignment = second_opinion(alignment, assembly, chosen, opinion, progress=progress)
     if out is not None:
         with output_file(Path(out)) as temporary:
             write_alignment(alignment, assembly, temporary)

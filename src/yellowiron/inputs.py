@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from yellowiron import cad, library, specs
+from yellowiron.endpoint import Endpoint, ModelOptions
 from yellowiron.model.alignment import LARGEST_FILE
 from yellowiron.model.errors import AlignmentError
 from yellowiron.model.specification import Specifications
@@ -34,9 +35,11 @@ def checked_inputs(
     alignment_file: Path | None = None,
     documents: Sequence[Path] = (),
     settings: Sequence[str] = (),
+    opinion: ModelOptions | None = None,
 ) -> Inputs:
     """`YellowironError` for a template that does not load, settings it does not know, an output folder that cannot be
-    written, and files that are missing or plainly not what they should be. Nothing is left behind."""
+    written, a model for a second opinion that is not configured, and files that are missing or plainly not what they
+    should be. Nothing is left behind."""
     keep_apart(out, [cad_file, *sheets])
     # The quickest first: a template takes half a second.
     cad.check_file(cad_file)
@@ -46,6 +49,8 @@ def checked_inputs(
         require_file(alignment_file, what="The alignment", most=LARGEST_FILE, error=AlignmentError)
     library.check_documents(documents)
     check_folder(out)
+    if opinion is not None:
+        Endpoint(opinion)
     template = library.load_template(equipment_type)
     values, choices = specs.split_settings(settings, template)
     return Inputs(template, specs.parse_settings(values, template), choices)

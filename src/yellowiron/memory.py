@@ -16,6 +16,7 @@ from typing import Any, ParamSpec, TypeVar
 
 from yellowiron import cad, checks, kinematics, library, report, specs, stages, usd
 from yellowiron.alignment import said_in
+from yellowiron.endpoint import ModelOptions
 from yellowiron.model.alignment import Alignment
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.finding import Finding
@@ -68,7 +69,7 @@ def read_sheets(
     *,
     config: str,
     extractor: specs.Extractor,
-    model: specs.ModelOptions | None,
+    model: ModelOptions | None,
     progress: Callable[[str], None],
 ) -> Specifications:
     """What the sheets say, as `specs.extract` has it. A language model's answers are its own to keep."""

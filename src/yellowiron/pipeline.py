@@ -12,6 +12,7 @@ from typing import Any
 
 from yellowiron import library, memory, report, specs, usd
 from yellowiron.alignment import read_joints, write_alignment
+from yellowiron.endpoint import ModelOptions
 from yellowiron.inputs import checked_inputs
 from yellowiron.mechanism import declared_findings
 from yellowiron.model.alignment import Alignment
@@ -19,6 +20,7 @@ from yellowiron.model.assembly import Assembly
 from yellowiron.model.mechanism import Measurement, Mechanism
 from yellowiron.model.specification import Specifications
 from yellowiron.model.sweep import Sweep
+from yellowiron.opinion import second_opinion
 from yellowiron.stages import values_by_hand
 from yellowiron.support.output import output_folder
 
@@ -95,7 +97,8 @@ def build(
     config: str = "",
     mirror: bool = False,
     extractor: specs.Extractor = "rules",
-    model: specs.ModelOptions | None = None,
+    model: ModelOptions | None = None,
+    opinion: ModelOptions | None = None,
     engines: Sequence[str] = (),
     page: bool = True,
     progress: Progress = lambda words: None,
@@ -105,8 +108,9 @@ def build(
     `equipment_type` is a library type or a template folder; `alignment_file` an edited alignment (default: the one
     that an earlier run left in `out`); `documents` are JSON-1 … JSON-4 or a filled joint template; `settings` are
     texts such as `Lift Cylinder Stroke=764 mm`; `config` picks a column of the sheet; `mirror` completes a model of
-    which one half is drawn by its mirror image; `extractor` and `model` say who reads it; the machine is driven in each
-    of `engines` with its rated payload; without `page` no report.html is drawn, a third of the time. Raises
+    which one half is drawn by its mirror image; `extractor` and `model` say who reads it; the language model of
+    `opinion` is shown parts in doubt, points, and decides nothing; the machine is driven in each of `engines` with its
+    rated payload; without `page` no report.html is drawn, a third of the time. Raises
     `YellowironError` for unusable input, having written nothing.
     """
     clock = _Clock(progress)
@@ -115,7 +119,7 @@ def build(
     inputs = checked_inputs(
         equipment_type, cad_file, out, sheets=[Path(s) for s in sheets],
         alignment_file=Path(alignment_file) if alignment_file else None,
-        documents=[Path(d) for d in documents], settings=settings,
+        documents=[Path(d) for d in documents], settings=settings, opinion=opinion,
     )  # fmt: skip
     template, given, choices = inputs.template, inputs.given, inputs.choices
     earlier = _earlier(alignment_file, out / "alignment.json")
@@ -142,6 +146,11 @@ def build(
             solved = memory.solve(template, assembly, alignment, specifications, data, choices)
             chosen, template, assembly, alignment = solved.chosen, solved.template, solved.assembly, solved.alignment
             mechanism, specifications, compared = solved.mechanism, solved.specifications, solved.compared
+
+        if opinion is not None:
+            # After all that an alignment is used for: what the model says can change nothing.
+            with clock.stage("opinion", "Asking for a second opinion"):
+                alignment = second_opinion(alignment, assembly, template, opinion, progress=progress)
 
         with clock.stage("measure", "Measuring the machine against its sheet"):
             measurements = memory.measure(mechanism)

@@ -24,7 +24,7 @@ from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Mechanism
 from yellowiron.model.rows import expand
-from yellowiron.model.specification import Specification, Specifications
+from yellowiron.model.specification import Specification, Specifications, fold
 from yellowiron.model.template import Template, choose
 from yellowiron.support.caching.disk import kept
 from yellowiron.support.vectors import triple
@@ -57,6 +57,7 @@ def solve(
     """The mechanism of an aligned CAD model: axes put where the sheet has them, values that the CAD file declares lent,
     the machine brought to a pose within its limits."""
     chosen = choose(template, {**alignment.choices, **choices})
+    specifications = _missed(specifications, template, chosen)
     template = expand(chosen, alignment.counts)
     alignment, tape = on_sheet(assembly, template, alignment, specifications, data)
     mechanism = complete_mechanism(assembly, template, alignment, specifications, data)
@@ -73,6 +74,17 @@ def solve(
     mechanism = replace(mechanism, findings=(*mechanism.findings, *tape))
     moved = start.coordinates if start is not None else {}
     return Solved(chosen, template, assembly, alignment, mechanism, specifications, compared, moved)
+
+
+def _missed(specifications: Specifications, template: Template, chosen: Template) -> Specifications:
+    """The specifications without what no sheet has and what this machine, its variants `chosen`, has no use for."""
+    of_others = {fold(w.name) for w in template.wanted} - {fold(w.name) for w in chosen.wanted}
+    kept = {
+        name: value
+        for name, value in specifications.values.items()
+        if fold(name) not in of_others or value.status not in ("missing", "unreadable")
+    }
+    return replace(specifications, values=kept) if len(kept) < len(specifications) else specifications
 
 
 def heard_of(template: Template, specifications: Specifications) -> Specifications:
@@ -115,9 +127,9 @@ def find_roles(
     apart = kept("apart", lambda: _apart(assembly), assembly) if merged or hidden(alignment) else None
     if apart is not None:
         other = found(apart)
-        # Bodies in crumbs answer to more roles, wrongly: where few bodies were missing, pins must be found as well.
-        most = hidden(alignment) > len(moving) and hidden(other) < 0.5 * hidden(alignment)
-        if most or len(other.missing) < 0.5 * len(alignment.missing):
+        # Bodies in crumbs answer to more roles, wrongly: pins must not be lost where bodies are found.
+        fewer = len(other.missing) < len(alignment.missing)
+        if (fewer and hidden(other) < 0.5 * hidden(alignment)) or len(other.missing) < 0.5 * len(alignment.missing):
             return apart, _of_drawn(other, apart, template)
     return assembly, _of_drawn(alignment, assembly, template)
 

@@ -28,6 +28,8 @@ KINDS = {
     "wide_blade": Features(blade=2, two_piece=True, bearing="flat"),
     "coupler": Features(coupler=True, through=True),
     "track_pins": Features("single", track_pins=True, hoses=3),
+    "swing": Features("single", swing=True, blade=1),
+    "swing_alone": Features("single", swing=True, bearing="boss", tipping="welded"),
 }
 """One machine of each kind; each optional role is in one of them."""
 UNSEEN = range(3000, 3012)
@@ -123,4 +125,15 @@ def test_unseen(template: Template, seed: int) -> None:
     silent = [w for w in wrong(found, truth, template) if w.split(":")[0] not in found.to_review]
     assert len(silent) <= (any_features(seed).hoses > 0)  # a floating part may follow the hose that touches it
     assert found.choices["blade"] == any_features(seed).choices()["blade"]
+    assert np.abs(found.frame - frame).max() < 1e-9
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("seed", "blade"), [(3000, 1), (3001, 0), (3002, 2)])
+def test_unseen_swing_booms(template: Template, seed: int, blade: int) -> None:
+    features = Features("single", swing=True, blade=blade)
+    assembly, truth, frame = disguise(excavator(seed, features), seed)
+    found = align(assembly, template, NOTHING)
+    assert wrong(found, truth, template) == []
+    whole(found, features)
     assert np.abs(found.frame - frame).max() < 1e-9

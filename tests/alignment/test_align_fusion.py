@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import cast
 
 import numpy as np
 import pytest
@@ -14,6 +15,7 @@ from kit.machines.defects import drawn
 from kit.machines.synthetic import disguise
 from kit.scene import scene
 from yellowiron.alignment import align
+from yellowiron.alignment.assignment.answer import Answer
 from yellowiron.alignment.features.solids import size_of, solids_of
 from yellowiron.alignment.fusion.bonds import ENOUGH, Bond, _together, out_of_line
 from yellowiron.alignment.fusion.judge import Annealing, against, field_of, labelled, leads, score_of
@@ -22,6 +24,7 @@ from yellowiron.alignment.fusion.reading import CONTRARY
 from yellowiron.alignment.fusion.stance import Stance, stance_of
 from yellowiron.alignment.fusion.votes import LENT, borrowed
 from yellowiron.alignment.fusion.weights import weights
+from yellowiron.alignment.pipeline import _Judged
 from yellowiron.library import load_template
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import Template, choose
@@ -264,3 +267,16 @@ def test_names_of_tools_are_as_good_as_none() -> None:
         alignment = align(replace(given.assembly, parts=parts), template, Specifications())
         found.append([(p.role, p.body) for p in alignment.parts])
     assert found[0] == found[1]
+
+
+@pytest.mark.parametrize(
+    ("contacts", "named", "held", "before"),
+    [(960.0, True, False, False), (840.0, True, False, True), (840.0, False, False, False), (290.0, False, False, True),
+     (-50.0, False, False, True), (-50.0, True, True, False)],
+)  # fmt: skip
+def test_contacts_that_explain_a_part_of_a_machine_give_way(
+    contacts: float, named: bool, held: bool, before: bool
+) -> None:
+    """To names where the judge finds them better, without names only where it finds another reading better by far."""
+    judged = _Judged(cast("Answer", None), None, 0.5, 1000.0, contacts)
+    assert judged.goes_before(held=held, named=named) is before

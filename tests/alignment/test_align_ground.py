@@ -70,3 +70,27 @@ def test_a_smaller_machine_and_a_trailer_beside_it_are_no_parts_of_it(kind: str,
     driver = {p.id for p in machine.parts if p.name.startswith("Driver")}
     assert set(separate_parts(machine.assembly())) == beside - driver
     assert separate_parts(damaged(kind, seed, "sound").assembly()) == {}
+
+
+def test_a_block_that_only_a_thin_plate_is_near_is_near_the_machine_and_asked_about() -> None:
+    """No second machine, and too large to be taken for a part of what is nearest without a look."""
+    machine, _ = _standing(drawn("excavator", 3), 1.5)
+    machine.parts.pop()
+    every = [machine.assembly().points_of(p) for p in machine.parts]
+    rear = min(every, key=lambda points: float(points[:, 0].min()))
+    points = np.concatenate(every)
+    low, size = points.min(axis=0), float(np.linalg.norm(np.ptp(points, axis=0)))
+    middle, away = 0.5 * (rear.min(axis=0) + rear.max(axis=0)), 0.1 * size
+    for name, along, across, up, x in (
+        ("plate", 0.8 * away, 0.2 * size, 0.00005 * size, low[0] - 0.5 * away),
+        ("block", 0.2 * size, 0.2 * size, 0.2 * size, low[0] - away - 0.1 * size),
+    ):
+        place = np.eye(4)
+        place[:3, 3] = [x, middle[1], middle[2] + 0.05 * size]
+        machine.add(name, "", "", box(name, along, across, up), place)
+    block = machine.parts[-1].id
+    assert separate_parts(machine.assembly()) == {}
+    found = align(machine.assembly(), load_template("excavator"), Specifications())
+    (part,) = (p for p in found.parts if p.part == block)
+    assert part.reason.startswith("floats")
+    assert block in found.to_review

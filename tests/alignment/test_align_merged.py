@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from kit.cadfiles.meshes import lumps
+from kit.machines.defects import drawn
 from kit.machines.excavators import excavator
 from kit.machines.synthetic import Machine, disguise, loader
+from yellowiron import stages
 from yellowiron.alignment import align
 from yellowiron.cad.mesh.assembly import Occurrence, assemble
 from yellowiron.library import load_template
+from yellowiron.model.alignment import Alignment
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.geometry import Mesh
 from yellowiron.model.specification import Specifications
@@ -97,3 +102,31 @@ def test_a_mesh_a_material_is_taken_apart_without_pins_too() -> None:
     owner = owners(assembly, found)
     right = [p.body == truth[owner[p.part]][1] for p in alignment.parts if truth[owner[p.part]][1]]
     assert sum(right) > 0.97 * len(right)
+
+
+@pytest.mark.parametrize(
+    ("whole", "apart", "taken"),
+    [
+        # Most bodies are found, and no pin is lost for them.
+        (("boom", "arm", "bucket", "boom_pin"), ("boom", "arm_pin"), True),
+        # As many bodies, but more pins are lost than bodies found.
+        (("boom", "arm", "bucket", "boom_pin"), ("boom", "arm_pin", "bucket_pin", "boom_pin"), False),
+        # Too few of the bodies.
+        (("boom", "arm", "bucket", "boom_pin"), ("boom", "arm"), False),
+    ],
+)
+def test_a_merged_mesh_is_taken_apart_where_bodies_are_found_by_it(
+    whole: tuple[str, ...], apart: tuple[str, ...], taken: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    machine = drawn("excavator", 3).assembly()
+    pieces = replace(machine, name="pieces")
+    template = load_template("excavator")
+    found = align(machine, template, Specifications())
+
+    def told(model: Assembly, *_: object, **__: object) -> Alignment:
+        return replace(found, missing=apart if model is pieces else whole)
+
+    monkeypatch.setattr(stages, "_roles_of_whole", told)
+    monkeypatch.setattr(stages, "kept", lambda *_: pieces)
+    model, _ = stages.find_roles(machine, template, Specifications())
+    assert (model is pieces) is taken

@@ -11,6 +11,7 @@ from planar_zbar import length, sketch, strokes, zbar_mechanism
 
 from yellowiron.kinematics import ClosedChain, branch_pivots, branch_sine, complete
 from yellowiron.kinematics.completion import ANGLE_MARGIN, FREQUENCY, SLIDE_MARGIN, position_gains
+from yellowiron.kinematics.strength import weight
 from yellowiron.model.mechanism import Actuator, ActuatorJoint, Body, Cylinder, Drive, Joint, Loop, Mechanism
 
 
@@ -241,11 +242,44 @@ def test_gains_hold_the_usual_mass_at_three_hertz():
     mechanism = crane(0.5)
     chain = ClosedChain(mechanism)
     masses = [chain.effective_mass(s, "ram") for s in chain.sweep({"ram": np.linspace(-0.1, 0.3, 41)})]
-    drive = complete(mechanism).joint("ram").drive
-    omega = math.tau * FREQUENCY
-    assert drive.stiffness == pytest.approx(np.quantile(masses, 0.95) * omega**2, rel=1e-9)
-    assert drive.damping == pytest.approx(2.0 * drive.stiffness / omega)
-    assert "3 Hz" in drive.source and drive.max_force == 1e6
+    usual = float(np.quantile(masses, 0.95))
+    joint = complete(mechanism).joint("ram")
+    omega, held = math.tau * FREQUENCY, abs(weight(chain, chain.drawn, "ram"))
+    # Its stroke is short: at 3 Hz its own weight would move it by more than two percent of that.
+    assert held > usual * omega**2 * 0.02 * (joint.upper - joint.lower)
+    provisional = mechanism.joint("ram").drive
+    assert joint.drive == position_gains(provisional, usual, travel=joint.upper - joint.lower, held=held)
+    light = position_gains(provisional, usual, travel=joint.upper - joint.lower)
+    assert light.stiffness == pytest.approx(usual * omega**2, rel=1e-9)
+    assert light.damping == pytest.approx(2.0 * light.stiffness / omega)
+    assert "3 Hz" in light.source and light.max_force == 1e6
+
+
+def test_a_drive_is_no_softer_than_its_weight_over_two_percent_of_its_travel():
+    drive = Drive("position", 0.0, 0.0, 1e5, 0.2, "gains provisional")
+    held = position_gains(drive, 10.0, travel=0.5, held=2e3)
+    assert held.stiffness == pytest.approx(2e3 / 0.01)
+    assert held.damping == pytest.approx(2.0 * held.stiffness / (math.tau * FREQUENCY))
+    assert "no softer" in held.source
+    assert position_gains(drive, 1e3, travel=0.5, held=2e3) == position_gains(drive, 1e3, travel=0.5)
+
+
+def test_a_velocity_drive_damps_no_more_than_its_inertia_takes():
+    mechanism = crane(0.5)
+    free = replace(mechanism.joint("boom_pin"), free=False, lower=None, upper=None, cut=False)
+    ends = tuple(b for b in mechanism.bodies if b.name in (free.body0, free.body1))
+
+    def damped(damping: float, source: str = "") -> Drive:
+        turned = replace(free, drive=Drive("velocity", 0.0, damping, 1e6, 1.0, source))
+        arm = replace(mechanism, joints=(turned,), bodies=ends, cylinders=(), actuators=(), loops=())
+        found = complete(arm).joint(turned.name).drive
+        assert found is not None
+        inertia = ClosedChain(arm).effective_mass(ClosedChain(arm).drawn, turned.name)
+        return replace(found, damping=found.damping / inertia)
+
+    assert damped(1e9).damping == pytest.approx(1700.0)
+    assert damped(1.0).damping < 1.0
+    assert damped(1e9, "x; template states damping").damping > 1700.0
 
 
 def test_a_steering_cylinder_sees_the_boom_wherever_it_is(planar, mechanism):

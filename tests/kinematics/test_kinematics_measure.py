@@ -42,6 +42,8 @@ TEMPLATES = [
     ),
     template("steering", {"kind": "joint_angle", "joint": "articulation"}, {"set": {"steering": "max"}}),
     template("right", {"kind": "joint_angle", "joint": "articulation", "factor": -1}, {"set": {"steering": "min"}}),
+    template("yaw", {"kind": "yaw", "joint": "boom_pin"}, {"set": {"steering": "max"}}),
+    template("front", {"kind": "extent", "axis": "x", "of": "max", "bodies": ["bucket"], "zone": {"x": [0.9, 1]}}),
     template("wheelbase", {"kind": "distance", "joints": ["front_wheel_l_joint", "rear_wheel_l_joint"], "axis": "x"}),
     template("tread", {"kind": "distance", "joints": ["front_wheel_l_joint", "front_wheel_r_joint"]}),
     template("oscillation", {"kind": "joint_range", "joint": "axle_joint"}),
@@ -91,6 +93,8 @@ def expected(z, travel) -> dict[str, float]:
         "rack back low": pitch(z.pose(ground, z.tilt + t1)),
         "steering": 0.6,
         "right": 0.6,
+        "yaw": 0.6,
+        "front": max(z.pose(z.lift, z.tilt)[pin][0] for pin in "TBJ"),
         "wheelbase": 3.4,
         "tread": 2.0,
         "oscillation": 0.4,
@@ -141,6 +145,7 @@ def test_a_drawing_may_show_the_machine_steered(planar, mechanism):
     found = {m.name: m.model for m in measure(steered)}
     assert found["steering"] == pytest.approx(0.6, abs=1e-9)
     assert found["right"] == pytest.approx(0.6, abs=1e-9)
+    assert found["yaw"] == pytest.approx(0.6, abs=1e-9)
 
 
 def test_what_cannot_be_measured_says_why(mechanism):

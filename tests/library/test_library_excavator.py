@@ -9,7 +9,9 @@ import math
 import pytest
 
 from yellowiron import library
+from yellowiron.alignment.assignment.search import variants_of
 from yellowiron.library.type_folders import library_folder
+from yellowiron.model.errors import AlignmentError
 from yellowiron.model.rows import expand, split_index
 from yellowiron.model.specification import fold
 from yellowiron.model.template import Template, choose
@@ -31,10 +33,10 @@ def excavator() -> Template:
 def test_moves_as_expected_in_every_set_of_choices(excavator: Template) -> None:
     report = library.lint(excavator)
     assert [f.code for f in report.findings] == ["TPL014"]
-    assert len(report.mobility) == 36
+    assert len(report.mobility) == 45
     for mobility in report.mobility:
         assert mobility.computed == mobility.expected, mobility.choices
-        arms = 2 + (mobility.choices["boom_type"] == "two_piece") + (mobility.choices["blade"] != "none")
+        arms = 2 + (mobility.choices["boom_type"] != "mono") + (mobility.choices["blade"] != "none")
         loops = [g for g in mobility.groups if g.expected]
         assert len(loops) == arms + 1
         assert all((g.grubler, g.computed, g.undetermined) == (1, 1, 0) for g in loops), mobility.choices
@@ -76,6 +78,42 @@ def test_one_mesh_for_both_boom_cylinders_a_two_piece_boom_and_a_blade(excavator
     assert with_blade.body_of("blade_pin") == "undercarriage"
     assert {a.name for a in with_blade.actuators} - {a.name for a in choose(excavator, {}).actuators} == {"blade"}
     assert choose(excavator, {"blade": "twin"}).body_of("blade_piston_rod_r_pin") == "blade"
+
+
+def test_a_swing_boom_hangs_on_a_bracket_that_its_cylinder_swings(excavator: Template) -> None:
+    chosen = choose(excavator, {"boom_type": "swing", "boom_cylinders": "single", "blade": "fitted"})
+    for pin in ("boom", "boom_cylinder_barrel"):
+        assert chosen.body_of(f"swing_bracket_{pin}_pin") == "swing_bracket"
+        assert not chosen.knows(f"{pin}_pin")
+    assert chosen.body_of("swing_bracket_pin") == chosen.body_of("swing_cylinder_barrel_pin") == "upperstructure"
+    levers = {a.name: a for a in chosen.actuators}
+    assert levers.keys() == {"swing", "boom", "arm", "bucket", "boom_swing", "blade", "travel_left", "travel_right"}
+    (cylinder,) = levers["boom"].cylinders
+    assert cylinder.barrel_joint == "swing_bracket2boom_cylinder_barrel_joint"
+    (fixed,) = (m for m in library.lint(excavator).mobility if m.choices == {
+        "boom_type": "swing", "boom_cylinders": "single", "blade": "fitted", "tracks": "fixed"
+    })  # fmt: skip
+    assert fixed.computed == fixed.expected == 6
+
+
+def test_a_swing_boom_has_one_boom_cylinder(excavator: Template) -> None:
+    tried = variants_of(excavator, {})
+    assert len(tried) == 15
+    assert {c["boom_cylinders"] for c in tried if c["boom_type"] == "swing"} == {"single"}
+    with pytest.raises(AlignmentError, match="boom_cylinders=twin, boom_type=swing") as caught:
+        variants_of(excavator, {"boom_cylinders": "twin", "boom_type": "swing"})
+    assert "needs" in caught.value.hint
+
+
+def test_only_machines_with_a_swing_boom_or_blade_are_measured_and_asked_for_it(excavator: Template) -> None:
+    plain = choose(excavator, {})
+    swing = choose(excavator, {"boom_type": "swing", "boom_cylinders": "single", "blade": "twin"})
+    more = {m.name for m in swing.measurements} - {m.name for m in plain.measurements}
+    assert more == {
+        "Boom Swing Angle Left", "Boom Swing Angle Right", "Blade Lift Height", "Blade Digging Depth", "Blade Width"
+    }  # fmt: skip
+    asked = {w.name for w in swing.wanted} - {w.name for w in plain.wanted}
+    assert asked == {f"Boom Swing Cylinder {what}" for what in ("Stroke", "Bore", "Rod Diameter", "Closed Length")}
 
 
 def test_everything_measured_and_driven_is_asked_for(excavator: Template) -> None:
@@ -124,7 +162,10 @@ def test_sites_are_there_in_every_set_of_choices(excavator: Template, name: str)
     (site,) = (s for s in excavator.sites if s.name == name)
     variants = {v.name: v.choices for v in excavator.variants}
     for values in itertools.product(*variants.values()):
-        chosen = choose(excavator, dict(zip(variants, values, strict=True)))
+        choices = dict(zip(variants, values, strict=True))
+        if not excavator.go_together(choices):
+            continue
+        chosen = choose(excavator, choices)
         rule = site.rule.get("joint", site.rule.get("edge_from"))
         joints = (rule,) if isinstance(rule, str) else rule
         assert {j.name for j in chosen.joints} & set(joints)

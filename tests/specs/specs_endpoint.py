@@ -4,20 +4,17 @@ refusing, failing. Every request is kept. What the models say of a page is `kit.
 from __future__ import annotations
 
 import json
-import threading
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, field
-from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from dataclasses import dataclass
 from typing import Any
 
+from kit import endpoint
+from kit.endpoint import SECRET, Reply
 from kit.sheets import page_models
-from kit.sheets.page_models import Question, completion, question_of
+from kit.sheets.page_models import Question, question_of
 
-Reply = tuple[int, str]
-"""HTTP status and the message's text."""
 Model = Callable[["Request"], Reply]
-SECRET = "sk-not-to-be-shown"
 
 
 @dataclass(frozen=True)
@@ -33,43 +30,21 @@ class Server:
     """Where it listens, what was asked, and with which headers."""
 
     url: str
-    requests: list[Request] = field(default_factory=list)
-    headers: list[dict[str, str]] = field(default_factory=list)
+    requests: list[Request]
+    headers: list[dict[str, str]]
 
 
 @contextmanager
 def serving(model: Model) -> Iterator[Server]:
-    class Handler(BaseHTTPRequestHandler):
-        protocol_version = "HTTP/1.1"
+    requests: list[Request] = []
 
-        def do_POST(self) -> None:
-            body = json.loads(self.rfile.read(int(self.headers["Content-Length"])))
-            text = next(m["content"] for m in body["messages"] if m["role"] == "user")
-            request = Request(question_of(text), body)
-            server.requests.append(request)
-            server.headers.append(dict(self.headers))
-            status, text = model(request)
-            data = json.dumps(completion(text) if status == 200 else {"error": {"message": text}}).encode()
-            self.send_response(status)
-            self.send_header("Content-Type", "application/json")
-            self.send_header("Content-Length", str(len(data)))
-            self.end_headers()
-            self.wfile.write(data)
+    def reply(body: Mapping[str, Any]) -> Reply:
+        text = next(m["content"] for m in body["messages"] if m["role"] == "user")
+        requests.append(Request(question_of(text), body))
+        return model(requests[-1])
 
-        def log_message(self, *_: object) -> None:
-            pass
-
-    http = ThreadingHTTPServer(("127.0.0.1", 0), Handler)
-    http.daemon_threads = True
-    server = Server(f"http://127.0.0.1:{http.server_port}/v1")
-    thread = threading.Thread(target=http.serve_forever, kwargs={"poll_interval": 0.02})
-    thread.start()
-    try:
-        yield server
-    finally:
-        http.shutdown()
-        thread.join()
-        http.server_close()
+    with endpoint.serving(reply) as server:
+        yield Server(server.url, requests, server.headers)
 
 
 def playing(model: page_models.Model) -> Model:

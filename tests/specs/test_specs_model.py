@@ -12,19 +12,19 @@ from typing import Any
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from specs_endpoint import SECRET, Model, chatting, failing, playing, refusing, serving
+from specs_endpoint import Model, chatting, failing, playing, refusing, serving
 from specs_layouts import canvas, lattice, leaders, put, template, wanted
 from typer.testing import CliRunner
 
+from kit.endpoint import SECRET
 from kit.sheets.page_models import LIARS, Entry, Question, at_hand, truthful
 from yellowiron.cli import app
+from yellowiron.endpoint import EndpointError, ModelOptions, parsed
 from yellowiron.library import load_template
 from yellowiron.model.specification import Specification, Specifications
 from yellowiron.model.template import Template
-from yellowiron.specs import EndpointError, ModelOptions
 from yellowiron.specs.extraction import from_sheets
 from yellowiron.specs.extraction import read as read_pdf
-from yellowiron.specs.llm.endpoint import parsed
 
 pytestmark = pytest.mark.usefixtures("read_here")
 
@@ -203,9 +203,15 @@ def test_a_recorded_conversation_is_replayed_without_network(sheet: Path, tmp_pa
     assert replayed.values == first.values
     with pytest.raises(EndpointError, match="has no answer"):
         extract(TEMPLATE, [sheet], extractor="llm", model=ModelOptions("another", replay=record))
+    said = record.read_text()
+    read(sheet, HONEST, extractor="both", record=record)  # another question, which is added
+    assert record.read_text().startswith(said) and len(record.read_text().splitlines()) == 2
     record.write_text("{}\n")
     with pytest.raises(EndpointError, match="no recorded conversation"):
         extract(TEMPLATE, [sheet], extractor="llm", model=ModelOptions("test-model", replay=record))
+    with pytest.raises(EndpointError, match="no recorded conversation"):  # and is not written over
+        read(sheet, HONEST, record=record)
+    assert record.read_text() == "{}\n"
 
 
 def test_answers_are_kept_by_what_was_asked(sheet: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -198,6 +198,41 @@ def test_parts_by_body_and_as_the_cad_model_has_them(page: tuple[Any, list[str]]
     assert not errors
 
 
+def test_parts_nobody_asks_about_are_found_by_keys(page: tuple[Any, list[str]]) -> None:
+    opened, errors = page
+    parts = opened.evaluate("yellowiron.viewer.model.parts.filter(p => !p.hidden).map(p => [p.number, p.path])")
+    path_of = dict(parts)
+    paths = list(path_of.values())
+
+    def selected() -> list[str]:
+        return [path_of[n] for n in opened.evaluate("[...yellowiron.selection]")]
+
+    opened.keyboard.press("Escape")
+    opened.keyboard.press("s")
+    opened.keyboard.type(paths[5].split("/")[-1])
+    opened.keyboard.press("Enter")
+    assert selected() == [paths[5]]
+    opened.keyboard.press("n")
+    assert selected() == [paths[6]]
+    opened.keyboard.press("Shift+N")
+    opened.keyboard.press("Shift+N")
+    assert selected() == [paths[4]]
+    # What is listed for an assembly is all that is in it.
+    assembly = paths[5].split("/")[0]
+    opened.keyboard.press("s")
+    opened.keyboard.type(f"{assembly}/")
+    opened.keyboard.press("Shift+Enter")
+    assert selected() == [p for p in paths if f"{assembly}/".lower() in p.lower()]
+    assert len(selected()) > 1
+    opened.keyboard.press("s")
+    opened.keyboard.type("no such part")
+    assert "No part of that name" in opened.locator("#found").inner_text()
+    opened.keyboard.press("Escape")
+    opened.keyboard.press("Escape")
+    assert selected() == []
+    assert errors == []
+
+
 @pytest.mark.parametrize(("width", "height"), [(1400, 900), (900, 800), (420, 800)])
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_nothing_runs_out_of_the_page(page: tuple[Any, list[str]], width: int, height: int, scheme: str) -> None:

@@ -87,9 +87,12 @@ def test_the_zx120_is_reviewed_in_two_minutes(
         actions += 1
         page.wait_for_timeout(100)
         solved()
-    # What is still wrong is chosen, and named: a click, and a role found by its name.
+    # What is still wrong is found by its name, and its role by the role's.
     for part in wrong():
-        page.evaluate("path => yellowiron.choose(yellowiron.numbers.get(path), null)", part)
+        page.keyboard.press("s")
+        page.keyboard.type(part)
+        page.keyboard.press("Enter")
+        assert page.evaluate("[...yellowiron.selection].map(n => yellowiron.viewer.model.parts[n - 1].path)") == [part]
         page.keyboard.press("/")
         page.keyboard.type(truth[part][0].replace("_", " "))
         page.keyboard.press("Enter")

@@ -12,11 +12,12 @@ import numpy as np
 import pytest
 
 from yellowiron.model.errors import YellowironError
+from yellowiron.opinion.doubts import boxes_of
 from yellowiron.pipeline import build
 from yellowiron.studio import Session, Setup, read_setup
 from yellowiron.studio.joints import joints_of
 from yellowiron.studio.operations import words
-from yellowiron.studio.questions import boxes_of, in_words, questions
+from yellowiron.studio.questions import in_words, questions
 from yellowiron.studio.scene import Scene
 from yellowiron.studio.twins import twins_of
 

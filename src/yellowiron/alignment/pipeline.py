@@ -69,7 +69,10 @@ HELD = 0.7
 EXPLAINED = 0.9
 """… as have those that leave no more than this of what is drawn unexplained, whatever the type has besides."""
 BETTER = 150.0
-"""… unless names speak and the judge finds another reading better by so much."""
+"""… unless names speak and the judge finds another reading better by so much …"""
+FAR_BETTER = 0.3
+"""… or none do, and it makes of the contacts less than this share of what it makes of another reading. Of what contacts
+told rightly of loaders' work equipment it made 0.39 to 0.61, of 741 parts of an artist that they told wrongly 0.22."""
 HEARD = 0.9
 """Names trusted so far go before contacts that they contradict and that did not find the whole machine."""
 
@@ -309,19 +312,22 @@ def _left(assembly: Assembly, parts: frozenset[str]) -> Assembly:
 @dataclass(frozen=True, eq=False)
 class _Judged:
     """What names, shapes, places and contacts say together: the answer; the machine's frame, that of its joints, or as
-    the machine stands where these leave it open; how far the names are to be believed (0 to 1); and by how much the
-    judge finds it better than what the contacts alone say."""
+    the machine stands where these leave it open; how far the names are to be believed (0 to 1); what the judge makes of
+    it, and of what the contacts alone say."""
 
     answer: Answer
     frame: MachineFrame | None
     trust: float
-    lead: float
+    score: float
+    contacts: float
 
     def goes_before(self, *, held: bool, named: bool) -> bool:
         """Whether it goes before contacts that explain what is drawn. Where these found most of the type's joints
         (`held`), names are heard if they explain who is beside whom; where they found a part of a machine, a clearly
-        better reading is, if anything is `named`."""
-        return self.trust >= HEARD if held else named and self.lead >= BETTER
+        better reading is, and a much better one where nothing is `named`."""
+        if held:
+            return self.trust >= HEARD
+        return self.score - self.contacts >= BETTER if named else self.contacts < FAR_BETTER * self.score
 
 
 def _framed(answer: Answer, observation: Observation, tracks: list[Track]) -> tuple[Answer, MachineFrame | None]:
@@ -350,7 +356,7 @@ def _fused(
     """What names, shapes, places and contacts say together."""
     solids = observation.solids
     if not solids:
-        return _Judged(answer, None, 1.0, 0.0)
+        return _Judged(answer, None, 1.0, 0.0, 0.0)
     told = {s.index: template.body_of(edited[s.part.id]) for s in solids if template.knows(edited.get(s.part.id, ""))}
     said = {i: body for i, body in told.items() if body is not None}
     found = fused(observation, template, variants_of(template, choices), scores, answer, said)
@@ -359,7 +365,7 @@ def _fused(
     if frame.doubts:
         frame = MachineFrame(found.stance.matrix(), ("it is read off how the machine stands",))
     answer = replace(answer, solution=with_root(solution, answer.structure, solids, answer.template))
-    return _Judged(answer, frame, found.trust, found.lead)
+    return _Judged(answer, frame, found.trust, found.score, found.contacts)
 
 
 def _surfaces(observation: Observation, answer: Answer) -> dict[str, float]:

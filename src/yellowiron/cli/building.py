@@ -14,11 +14,22 @@ from rich.text import Text
 
 import yellowiron
 from yellowiron.cli.application import app
-from yellowiron.cli.options import Config, Mirror, Settings, Sheets, Type, command, reads_sheets
+from yellowiron.cli.options import (
+    Config,
+    Mirror,
+    SecondOpinion,
+    Settings,
+    Sheets,
+    Type,
+    asks_a_model,
+    command,
+    reads_sheets,
+)
 from yellowiron.cli.telling import answer, progress_shown, tell
 
 
 @command(app)
+@asks_a_model
 @reads_sheets
 def build(
     equipment_type: Type,
@@ -39,11 +50,14 @@ def build(
     watch: Annotated[
         bool, typer.Option("--watch", help="Build again whenever an input changes, until Ctrl-C.")
     ] = False,
+    second_opinion: SecondOpinion = False,
     *,
     reading: dict[str, Any],
+    llm: Any,
 ) -> None:
     """Build a machine: the whole way."""
     engines: tuple[str, ...] = ()
+    opinion = llm if second_opinion else None
     if simulate:
         from yellowiron.simulation import installed_engines
 
@@ -54,12 +68,12 @@ def build(
     def once() -> int:
         # Before the libraries of a build are loaded, which takes more than a second.
         checked_inputs(equipment_type, cad, out, sheets=specs or (), alignment_file=alignment, documents=data or (),
-                       settings=settings or ())  # fmt: skip
+                       settings=settings or (), opinion=opinion)  # fmt: skip
         with progress_shown() as progress:
             machine = yellowiron.build(
                 equipment_type, cad, out, sheets=specs or (), alignment_file=alignment, documents=data or (),
                 settings=[*(settings or ()), *([f"--tracks={tracks}"] if tracks else [])],
-                mirror=mirror, engines=engines, progress=progress, **reading,
+                mirror=mirror, engines=engines, progress=progress, model=llm, opinion=opinion, **reading,
             )  # fmt: skip
         reasons = machine.fell_short
         answer(machine.document, build_summary(machine.document, reasons, str(out)))
@@ -100,6 +114,7 @@ def _watched(once: Callable[[], int], inputs: Sequence[Path], kept: Path) -> int
 
 
 @command(app)
+@asks_a_model
 @reads_sheets
 def extract(
     equipment_type: Type,
@@ -113,6 +128,7 @@ def extract(
     models: Annotated[bool, typer.Option("--models", help="List the columns that --config takes, and stop.")] = False,
     *,
     reading: dict[str, Any],
+    llm: Any,
 ) -> None:
     """Read the specifications a template asks for, each with its evidence."""
     from yellowiron import library, specs
@@ -127,7 +143,7 @@ def extract(
     with progress_shown() as progress:
         found = yellowiron.extract(
             equipment_type, sheets, settings=settings or (), accepted=accept or (), show=show, progress=progress,
-            **reading,
+            model=llm, **reading,
         )  # fmt: skip
     template = library.load_template(equipment_type, sheet_only=True)
     entries = [specification_entry(s) for s in found]
@@ -158,6 +174,7 @@ def convert(
 
 
 @command(app, "align")
+@asks_a_model
 def align_parts(
     equipment_type: Type,
     cad: Annotated[Path, typer.Argument(metavar="CAD", help="The CAD model.")],
@@ -181,6 +198,9 @@ def align_parts(
     settings: Settings = None,
     config: Config = "",
     mirror: Mirror = False,
+    second_opinion: SecondOpinion = False,
+    *,
+    llm: Any,
 ) -> None:
     """Find the part that plays each role; with a sheet, the model's scale is checked against it."""
     from yellowiron.alignment import explain as explained
@@ -190,7 +210,8 @@ def align_parts(
         alignment = yellowiron.align(
             equipment_type, cad, sheets=sheets or (), settings=settings or (), config=config, mirror=mirror, out=out,
             roles=roles or (), confirmed=confirmed or (), forgotten=forgotten or (),
-            by=by, date=datetime.date.today().isoformat(), why=why, progress=progress,
+            by=by, date=datetime.date.today().isoformat(), why=why,
+            opinion=llm if second_opinion else None, progress=progress,
         ).alignment  # fmt: skip
     if explain is not None:
         words = explained(alignment, explain)

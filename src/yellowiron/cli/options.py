@@ -34,6 +34,11 @@ Mirror = Annotated[
     bool, typer.Option("--mirror", help="Of a model that is one half of a machine, build the whole: its mirror image.")
 ]
 
+SecondOpinion = Annotated[
+    bool,
+    typer.Option("--model", help="Show parts in doubt to the language model: it points, and decides nothing."),
+]
+
 
 def _reading(
     config: Config = "",
@@ -43,6 +48,12 @@ def _reading(
             "--extractor", help="How sheets are read: by rules (no network), by a language model, or by both."
         ),
     ] = "rules",
+) -> dict[str, Any]:
+    """How sheets are read, as `yellowiron.extract` and `yellowiron.build` take it."""
+    return {"config": config, "extractor": extractor}
+
+
+def _llm(
     llm_url: Annotated[
         str,
         typer.Option("--llm-url", envvar="YELLOWIRON_LLM_URL", help="An OpenAI-compatible endpoint, http://…/v1."),
@@ -62,18 +73,21 @@ def _reading(
     llm_replay: Annotated[
         Path | None, typer.Option("--llm-replay", help="Answer from a recorded conversation, no network.")
     ] = None,
-) -> dict[str, Any]:
-    """How sheets are read, as `yellowiron.extract` and `yellowiron.build` take it; the model is asked only where the
-    extractor is one that asks."""
-    from yellowiron.specs import ModelOptions
+) -> Any:
+    """Where a language model is, as `ModelOptions`; it is asked only where another option says so."""
+    from yellowiron.endpoint import ModelOptions
 
-    model = ModelOptions(llm_model, llm_url, llm_key, record=llm_record, replay=llm_replay)
-    return {"config": config, "extractor": extractor, "model": model}
+    return ModelOptions(llm_model, llm_url, llm_key, record=llm_record, replay=llm_replay)
 
 
 def reads_sheets(command: Callable[..., None]) -> Callable[..., None]:
     """Gives a command the options of `_reading`; it gets what they say as `reading`."""
     return _with_options(command, _reading, "reading")
+
+
+def asks_a_model(command: Callable[..., None]) -> Callable[..., None]:
+    """Gives a command the options of `_llm`; it gets what they say as `llm`."""
+    return _with_options(command, _llm, "llm")
 
 
 def command(group: typer.Typer, name: str | None = None) -> Callable[[Callable[..., None]], Callable[..., None]]:

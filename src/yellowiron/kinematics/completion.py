@@ -13,7 +13,7 @@ from yellowiron.kinematics.solver.branches import branch_pivots, branch_sines
 from yellowiron.kinematics.solver.chain import ClosedChain, Component, State
 from yellowiron.kinematics.solver.independence import independent_joints, suspects
 from yellowiron.kinematics.solver.pose_grid import PoseGrid, explore, joint_values
-from yellowiron.kinematics.strength import carried, rated_load, strong_enough
+from yellowiron.kinematics.strength import carried, rated_load, strong_enough, weight
 from yellowiron.kinematics.tolerances import PINS_APART
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
@@ -42,6 +42,11 @@ MOSTLY_LOAD = 10.0
 most of what it lifts (13 to 17 times), a loader's weighs a few of its bucket."""
 _SATURATED = 0.005
 """A drive has its full force at no less than this share of its travel: stiffer, it would only saturate."""
+_SAGS = 0.02
+"""… and gives way to the weight on it by no more than this share, in the drawn pose: short strokes need more."""
+_STEP, _STABLE = 1e-3, 1.7
+"""Engines step that many seconds. A velocity drive's damping over one is no more than so many times the inertia that it
+turns: from 2 on, explicit steps swing to and fro."""
 _PER_FREEDOM = {"fixed": 6, "revolute": 5, "prismatic": 5, "spherical": 3, "distance": 0}
 
 
@@ -287,7 +292,8 @@ def _gains(mechanism: Mechanism, grids: list[PoseGrid], work: _Work) -> None:
             masses[joint.name] = work.chain.effective_mass(work.chain.drawn, joint.name)
         travel = joint.upper - joint.lower if joint.upper is not None and joint.lower is not None else None
         unit = "kg" if joint.type == "prismatic" else "kg·m²"
-        gained = position_gains(drive, masses[joint.name], unit, travel=travel, laden=laden.get(joint.name))
+        held = abs(weight(work.chain, work.chain.drawn, joint.name)) if travel else 0.0
+        gained = position_gains(drive, masses[joint.name], unit, travel=travel, held=held, laden=laden.get(joint.name))
         work.joints[joint.name] = replace(work.joints[joint.name], drive=gained)
 
 
@@ -297,12 +303,14 @@ def position_gains(
     unit: str = "kg",
     *,
     travel: float | None = None,
+    held: float = 0.0,
     frequency: float = FREQUENCY,
     laden: float | None = None,
 ) -> Drive:
     """A position drive with gains for a mass (kg, or kg·m² for a pivot): k = m(2πf)², d = 2k/(2πf), critically damped.
 
-    No stiffer than the drive's force over half a percent of its `travel` (metres, radians). Gains that the drive has
+    No softer than the weight that it has `held` (N, N·m) over two percent of its `travel` (metres, radians), and no
+    stiffer than its force over half a percent of that. Gains that the drive has
     stay, unless its source calls them provisional; those that "template states" names after that stay too. A stiffness
     that stays gets the damping d = 2√(km) where it has none. `laden`: the mass with a load that is most of it, which
     the stiffness is for then; the damping is critical for the geometric mean of both, so that it neither creeps
@@ -317,11 +325,15 @@ def position_gains(
     omega = 2.0 * math.pi * frequency
     empty, mass = mass, laden if laden is not None else mass
     capped = ""
+    if not keep_stiffness and travel and held > mass * omega * omega * _SAGS * travel:
+        mass = held / (_SAGS * travel * omega * omega)
+        capped = f", no softer than the weight on it over {_SAGS:.0%} of its travel: as for"
     if not keep_stiffness and travel and mass * omega * omega * _SATURATED * travel > drive.max_force:
         mass = drive.max_force / (_SATURATED * travel * omega * omega)
         capped = f", no stiffer than its force over {_SATURATED:.1%} of its travel: as for"
     stiffness = drive.stiffness if keep_stiffness else mass * omega * omega
-    damping = drive.damping if keep_damping else 2.0 * math.sqrt(stiffness * math.sqrt(min(empty, mass) * mass))
+    damped = mass if laden is None else math.sqrt(min(empty, mass) * mass)
+    damping = drive.damping if keep_damping else 2.0 * math.sqrt(stiffness * damped)
     shown = f"{1e-3 * mass:.4g} t" if unit == "kg" else f"{mass:.4g} {unit}"
     at = "" if keep_stiffness else f"{frequency:g} Hz, "
     on = capped + f" {shown}" if capped else f" on the {shown} it sees through the linkage"
@@ -335,7 +347,10 @@ def position_gains(
 
 def _velocity_gain(drive: Drive, joint: Joint, work: _Work) -> Drive:
     if drive.damping > 0.0:
-        return drive
+        most = _STABLE * work.chain.effective_mass(work.chain.drawn, joint.name) / _STEP
+        if drive.damping <= most or "damping" in drive.source.partition(STATED)[2]:
+            return drive
+        return replace(drive, damping=most, source=f"{drive.source}; damping: as much as the inertia it turns takes")
     if not (drive.max_force > 0.0 and drive.max_velocity > 0.0):
         work.find("KIN007", "warning", joint.name, "the drive has no force or no speed, so it gets no damping")
         return drive

@@ -184,6 +184,13 @@ def _check_variants(template: Template, documents: Mapping[str, Document]) -> No
         if sensor.when:
             place = documents["sensors"].at(sensor.name, "when")
             check_choices(sensor.when, template.variants, place)
+    for number, measurement in enumerate(template.measurements):
+        if measurement.when:
+            place = documents["measurements"].at("measurements", number, "when")
+            check_choices(measurement.when, template.variants, place)
+    for wanted in template.wanted:
+        if wanted.when:
+            check_choices(wanted.when, template.variants, documents["wanted"].at(wanted.name, "when"))
 
 
 def _equipment_type(roles: tuple[Role, ...], folder: Path) -> str:

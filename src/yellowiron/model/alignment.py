@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 from yellowiron.model.finding import Finding
@@ -78,13 +78,24 @@ UNDECIDED = Decisions()
 
 
 @dataclass(frozen=True)
+class Suggestion:
+    """Which body a language model points to for a part (None: none of those offered), and why in its words; `question`
+    stands for what it was asked (a digest). It decides nothing."""
+
+    body: str | None
+    model: str
+    question: str
+    reason: str = ""
+
+
+@dataclass(frozen=True)
 class PartAssignment:
     """The role of one part.
 
     `role` is the template's most specific name for the part (a pin's role; else the role of its body), `body` the
     rigid role it moves with (None: left out of the machine). `confidence` in [0, 1] is the probability that it is
     right, which rests on the figures in `evidence` (see `align.confidence.grounds`); `reason` in words; what is
-    `DECIDED` wins over every solver, signed by who decided it.
+    `DECIDED` wins over every solver, signed by who decided it. A `suggestion` is to be read, and counts for nothing.
     """
 
     part: str
@@ -96,6 +107,17 @@ class PartAssignment:
     runner_up: str | None = None
     evidence: Mapping[str, float] = field(default_factory=dict, compare=False)
     signature: Signature = UNSIGNED
+    suggestion: Suggestion | None = None
+
+    @property
+    def why(self) -> str:
+        """The reason, and what a language model said of it."""
+        said = self.suggestion
+        if said is None:
+            return self.reason
+        other = f"points to {said.body}" if said.body is not None else "takes it for none of those offered"
+        words = f"; {said.model} {'agrees' if said.body == self.body else other}"
+        return self.reason + words + (f" ({said.reason})" if said.reason else "")
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,3 +149,7 @@ class Alignment:
     joints: Mapping[str, Mapping[str, object]] = field(default_factory=dict)
     values: Mapping[str, GivenValue] = field(default_factory=dict)
     by_hand: frozenset[str] = frozenset()
+
+    def suggested(self, said: Mapping[str, Suggestion]) -> Alignment:
+        """The same alignment with suggestions (part → suggestion) on its parts in place of those it had."""
+        return replace(self, parts=tuple(replace(p, suggestion=said.get(p.part)) for p in self.parts))

@@ -15,9 +15,8 @@ DriveType = Literal["linear", "angular"]
 Coupling = Literal["chain", "gear", "rope"]
 Choices = Mapping[str, tuple[str, ...]]
 """Variant name → the choices under which an entry exists; empty: always."""
-TEMPLATE_ONLY = "template only"
-"""In a field's metadata: what a machine's file does not carry, since its choices are made."""
-
+UNDECIDED = "undecided"
+"""Marks fields that say something only until a template's variants are decided."""
 
 VAGUE = "?"
 """What those of a template's words begin with that speak only where nothing else in a name does."""
@@ -135,7 +134,8 @@ class Wanted:
     words rule a statement out; `concepts` are sets of English words that say it in any language; `sections` are
     headings that support it; `mass_of` names the body (or `*`, the whole machine) whose mass it is; `length_of` is `*`
     for the whole machine's length; `in_label_of` another wanted value in whose label it is printed; `low_end_of`
-    another one whose ranges it is the lower end of; `where` says in which table makers print it."""
+    another one whose ranges it is the lower end of; `where` says in which table makers print it. `when`: choices under
+    which it is missed where no sheet has it."""
 
     name: str
     dimension: str
@@ -151,6 +151,7 @@ class Wanted:
     low_end_of: str | None = None
     minimum: float | None = None
     maximum: float | None = None
+    when: Choices = field(default_factory=dict, hash=False)
 
 
 @dataclass(frozen=True)
@@ -225,18 +226,19 @@ class MeasurementTemplate:
     steps: tuple[Mapping[str, Any], ...] = ()
     unit: str = "m"
     definition: str = ""
-    when: Choices = field(default_factory=dict, metadata={TEMPLATE_ONLY: True})
+    when: Choices = field(default_factory=dict, metadata={UNDECIDED: True})
 
 
 @dataclass(frozen=True)
 class Variant:
     """A declared choice of the template. `decided_by`: `geometry` (the aligner finds it) or `user` (`--set
-    NAME=CHOICE`)."""
+    NAME=CHOICE`). `needs`: choice → the choices of other variants that it goes with only."""
 
     name: str
     choices: tuple[str, ...]
     default: str
     decided_by: Literal["geometry", "user"] = "user"
+    needs: Mapping[str, Choices] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -333,24 +335,33 @@ class Template:
         """Every variant's default."""
         return {v.name: v.default for v in self.variants}
 
+    def go_together(self, choices: Mapping[str, str]) -> bool:
+        """Whether none of the choices needs another variant's choice than is among them (`Variant.needs`)."""
+        return all(
+            holds(v.needs.get(choices.get(v.name, v.default), {}), {**self.default_choices(), **choices})
+            for v in self.variants
+        )
+
+
+def holds(when: Choices, chosen: Mapping[str, str]) -> bool:
+    """Whether the choices made are among those that a `when` names."""
+    return all(chosen.get(name) in allowed for name, allowed in when.items())
+
 
 def choose(template: Template, choices: Mapping[str, str]) -> Template:
     """The template with its variants decided: only the entries that exist under `choices` (defaults elsewhere)
     remain."""
     chosen = {**template.default_choices(), **choices}
 
-    def holds(when: Choices) -> bool:
-        return all(chosen.get(name) in allowed for name, allowed in when.items())
-
     roles = tuple(
-        replace(r, when={}, rigid_when={}, rigid=r.rigid and holds(r.rigid_when))
+        replace(r, when={}, rigid_when={}, rigid=r.rigid and holds(r.rigid_when, chosen))
         for r in template.roles
-        if holds(r.when)
+        if holds(r.when, chosen)
     )
     joints = tuple(
-        replace(j, when={}, drive_when={}, drive=j.drive if holds(j.drive_when) else None)
+        replace(j, when={}, drive_when={}, drive=j.drive if holds(j.drive_when, chosen) else None)
         for j in template.joints
-        if holds(j.when)
+        if holds(j.when, chosen)
     )
     kept, present = {j.name for j in joints}, {r.name for r in roles}
     actuators = []
@@ -358,25 +369,26 @@ def choose(template: Template, choices: Mapping[str, str]) -> Template:
         cylinders = tuple(
             replace(c, when={}, rams=tuple(pair for pair in c.rams if present.issuperset(pair)))
             for c in actuator.cylinders
-            if holds(c.when) and c.slide in kept
+            if holds(c.when, chosen) and c.slide in kept
         )
         motors = tuple(
-            j for j in actuator.joints if j in kept and template.joint(j).drive and holds(template.joint(j).drive_when)
+            j
+            for j in actuator.joints
+            if j in kept and template.joint(j).drive and holds(template.joint(j).drive_when, chosen)
         )
         if cylinders or motors:
             own = {k: name for c in cylinders for k, name in c.specifications.items()}
             specifications = {**actuator.specifications, **own}
             actuators.append(replace(actuator, cylinders=cylinders, joints=motors, specifications=specifications))
-    sensors = tuple(replace(s, when={}) for s in template.sensors if holds(s.when))
-    measurements = tuple(replace(m, when={}) for m in template.measurements if holds(m.when))
     return replace(
         template,
         roles=roles,
         joints=joints,
         actuators=tuple(actuators),
         variants=(),
-        sensors=sensors,
-        measurements=measurements,
+        sensors=tuple(replace(s, when={}) for s in template.sensors if holds(s.when, chosen)),
+        measurements=tuple(replace(m, when={}) for m in template.measurements if holds(m.when, chosen)),
+        wanted=tuple(replace(w, when={}) for w in template.wanted if holds(w.when, chosen)),
     )
 
 

@@ -171,7 +171,7 @@ def _review_table(alignment: Alignment, doubtful: Sequence[str]) -> Table:
             table.add_row(item, "", "", "", "")
         else:
             role = (worst.role or worst.body or "–") if item == worst.part else ""
-            table.add_row(item, role, worst.runner_up or "", f"{worst.confidence:.2f}", Text(worst.reason, "dim"))
+            table.add_row(item, role, worst.runner_up or "", f"{worst.confidence:.2f}", Text(worst.why, "dim"))
     return table
 
 

@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
-from yellowiron.model.alignment import Alignment
+from yellowiron.model.alignment import Alignment, PartAssignment
 from yellowiron.model.finding import Finding
 from yellowiron.model.mechanism import Body, Joint, Measurement, Mechanism
 from yellowiron.model.specification import Specification, Specifications
@@ -98,14 +98,16 @@ def alignment_entry(alignment: Alignment) -> dict[str, Any]:
     return {
         "frame": alignment.frame,
         "choices": dict(alignment.choices),
-        "parts": [
-            {"part": a.part, "role": a.role, "body": a.body, "confidence": a.confidence, "reason": a.reason}
-            for a in alignment.parts
-        ],
+        "parts": [_part_entry(a) for a in alignment.parts],
         "missing": list(alignment.missing),
         "to_review": list(alignment.to_review),
         "findings": [asdict(f) for f in alignment.findings],
     }
+
+
+def _part_entry(entry: PartAssignment) -> dict[str, Any]:
+    said = {key: getattr(entry, key) for key in ("part", "role", "body", "confidence", "reason")}
+    return {**said, **({"suggestion": asdict(entry.suggestion)} if entry.suggestion is not None else {})}
 
 
 def within_tolerance(measurement: Measurement) -> bool | None:

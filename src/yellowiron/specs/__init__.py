@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from yellowiron.specs.columns import columns_of
     from yellowiron.specs.evidence_images import PICTURE_MARGIN, PICTURE_SCALE, draw_evidence, page_pictures
     from yellowiron.specs.extraction import Extractor, extract, from_sheets, read
-    from yellowiron.specs.llm.endpoint import EndpointError, ModelOptions
     from yellowiron.specs.ocr import picture_programs
     from yellowiron.specs.reader import Sheet, check_file
     from yellowiron.specs.values.overrides import accept, merge, parse_settings, split_settings
@@ -30,9 +29,7 @@ if TYPE_CHECKING:
 __all__ = [
     "PICTURE_MARGIN",
     "PICTURE_SCALE",
-    "EndpointError",
     "Extractor",
-    "ModelOptions",
     "Sheet",
     "accept",
     "check_file",
@@ -52,9 +49,7 @@ __all__ = [
 __getattr__, __dir__ = lazy_names(
     __name__,
     {
-        "EndpointError": "llm.endpoint",
         "Extractor": "extraction",
-        "ModelOptions": "llm.endpoint",
         "PICTURE_MARGIN": "evidence_images",
         "PICTURE_SCALE": "evidence_images",
         "Sheet": "reader",

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
 
+from yellowiron.endpoint import Endpoint, EndpointError, ModelOptions
 from yellowiron.model.errors import SheetError
 from yellowiron.model.finding import Finding
 from yellowiron.model.specification import Specification, Specifications
@@ -17,7 +18,6 @@ from yellowiron.specs.findings import ignored_phrases, model_cost, model_failure
 from yellowiron.specs.language.decimal_style import DecimalStyle, decimal_style
 from yellowiron.specs.layout.nearest import Near
 from yellowiron.specs.llm.agreement import Asked, agreed
-from yellowiron.specs.llm.endpoint import Endpoint, EndpointError, ModelOptions
 from yellowiron.specs.llm.page_reader import Reading, pages_of, read_pages
 from yellowiron.specs.reader import MEMORY_MB, RESIDENT_MB, TIMEOUT_S, Sheet, check_file
 from yellowiron.specs.values.claims import Claim, claims_of, configured

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from yellowiron.endpoint import Endpoint, EndpointError
 from yellowiron.model.finding import Finding
 from yellowiron.specs import ocr
-from yellowiron.specs.llm.endpoint import Endpoint, EndpointError
 from yellowiron.specs.reader import Sheet
 from yellowiron.specs.values.claims import Claim
 from yellowiron.specs.values.decision import Sheets, unmatched

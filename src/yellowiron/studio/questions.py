@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
 
-from yellowiron.model.alignment import PartAssignment
-from yellowiron.model.assembly import Assembly
+from yellowiron.model.alignment import Suggestion
 from yellowiron.model.geometry import Floats
 from yellowiron.model.specification import Specification, fold
-from yellowiron.report.words import titled
+from yellowiron.opinion.doubts import doubts_of, size_of, spread
+from yellowiron.report.words import counted, titled
 from yellowiron.studio.joints import JointState
 from yellowiron.studio.session import State
 
@@ -60,48 +60,27 @@ def questions(state: State, boxes: Mapping[str, Floats], joints: Sequence[JointS
     return sorted(found, key=lambda q: (-q.weight, q.key))
 
 
-def boxes_of(assembly: Assembly) -> dict[str, Floats]:
-    """Part → its (2, 3) box in the CAD file's frame; parts without a mesh have none."""
-    own = {
-        key: np.array([shape.mesh.points.min(axis=0), shape.mesh.points.max(axis=0)])
-        for key, shape in assembly.shapes.items()
-        if len(shape.mesh.points)
-    }
-    corners = np.array([[(k >> axis) & 1 for axis in range(3)] for k in range(8)])
-    found = {}
-    for part in assembly.parts:
-        if part.shape in own:
-            points = np.take_along_axis(own[part.shape], corners, axis=0)
-            placed = points @ part.transform[:3, :3].T + part.transform[:3, 3]
-            found[part.id] = np.array([placed.min(axis=0), placed.max(axis=0)])
-    return found
-
-
 def _of_parts(state: State, boxes: Mapping[str, Floats]) -> list[Question]:
     """Doubted parts together where they were given the same body and could be the same other one."""
-    doubted = set(state.alignment.to_review)
-    together: dict[tuple[str, str], list[PartAssignment]] = {}
-    for part in state.alignment.parts:
-        if part.part in doubted:
-            together.setdefault((part.body or "", part.runner_up or ""), []).append(part)
-    joints = Counter(body for joint in state.template.joints for body in state.template.bodies_of(joint))
-    whole = sum(_spread(box) for box in boxes.values()) or 1.0
+    said = {p.part: p.suggestion for p in state.alignment.parts if p.suggestion is not None}
     found = []
-    for (body, other), parts in sorted(together.items()):
-        doubt = 1.0 - float(np.mean([p.confidence for p in parts]))
-        share = sum(_spread(boxes[p.part]) for p in parts if p.part in boxes) / whole
-        called = titled(body) if body else "No part of the machine"
-        count = f", {len(parts)} parts" if len(parts) > 1 else ""
-        least = min(parts, key=lambda p: (p.confidence, p.part))
-        near = _nearest([p.part for p in parts], state, boxes)
-        listed = list(dict.fromkeys([*([other] if other and state.template.knows(other) else []), *near]))
-        candidates = [Candidate(role, titled(role)) for role in listed if role != body][:MOST_CANDIDATES]
-        weight = doubt * (1.0 + joints[body]) + share
+    for doubt in doubts_of(state.alignment, state.template, boxes):
+        called = titled(doubt.body) if doubt.body else "No part of the machine"
+        count = f", {len(doubt.parts)} parts" if len(doubt.parts) > 1 else ""
         found.append(Question(
-            "parts", f"parts:{body}:{other}", f"{called}{count}?", weight, least.reason,
-            tuple(sorted(p.part for p in parts)), tuple(candidates),
+            "parts", f"parts:{doubt.body or ''}:{doubt.runner_up or ''}", f"{called}{count}?", doubt.weight,
+            doubt.reason, doubt.parts,
+            tuple(Candidate(role, titled(role)) for role in doubt.others[:MOST_CANDIDATES]),
+            tuple(_suggested([said[part] for part in doubt.parts if part in said])),
         ))  # fmt: skip
     return found
+
+
+def _suggested(said: Sequence[Suggestion]) -> Iterator[str]:
+    """What language models that were asked say, in words."""
+    for (model, body), number in Counter((one.model, one.body) for one in said).items():
+        called = titled(body) if body is not None else "none of those offered"
+        yield f"{model} says, and decides nothing: {called} ({counted(number, 'part')})."
 
 
 def _of_roles(state: State, boxes: Mapping[str, Floats]) -> list[Question]:
@@ -111,7 +90,7 @@ def _of_roles(state: State, boxes: Mapping[str, Floats]) -> list[Question]:
     for role in state.alignment.missing:
         could = [p.part for p in state.alignment.parts if p.runner_up == role]
         loose = [p.part for p in state.alignment.parts if p.role is None and p.part in boxes]
-        loose = sorted(loose, key=lambda part: (-_spread(boxes[part]), part))
+        loose = sorted(loose, key=lambda part: (-spread(boxes[part]), part))
         listed = list(dict.fromkeys([*could, *loose]))[:MOST_CANDIDATES]
         weight = 2.0 + joints[role] if joints[role] else _PIN
         found.append(Question(
@@ -132,14 +111,6 @@ def _of_joints(joints: Sequence[JointState], boxes: Mapping[str, Floats]) -> lis
         )
         for joint in joints if joint.doubt > 0.0
     ]  # fmt: skip
-
-
-def size_of(boxes: Mapping[str, Floats]) -> float:
-    """Metres across all boxes."""
-    if not boxes:
-        return 1.0
-    corners = np.array(list(boxes.values())).reshape(-1, 3)
-    return float(np.linalg.norm(np.ptp(corners, axis=0))) or 1.0
 
 
 def _of_values(state: State) -> list[Question]:
@@ -203,26 +174,3 @@ def in_words(value: float, unit: str) -> str:
     """A value as a person writes it, and as `--set` takes it."""
     shown, factor = _UNITS.get(unit, (unit, 1.0))
     return f"{value * factor:.6g} {shown}" if shown != "1" else f"{value:.6g}"
-
-
-def _nearest(parts: Sequence[str], state: State, boxes: Mapping[str, Floats]) -> list[str]:
-    """Bodies by their distance from some parts, the nearest first."""
-    mine = [boxes[p] for p in parts if p in boxes]
-    if not mine:
-        return []
-    low, high = np.min([b[0] for b in mine], axis=0), np.max([b[1] for b in mine], axis=0)
-    own = set(parts)
-    gaps: dict[str, float] = {}
-    for part in state.alignment.parts:
-        if part.body is not None and part.part not in own and part.part in boxes:
-            box = boxes[part.part]
-            gap = float(np.linalg.norm(np.maximum(0.0, np.maximum(box[0] - high, low - box[1]))))
-            gap += 1e-3 * float(np.linalg.norm(box.mean(axis=0) - 0.5 * (low + high)))
-            gaps[part.body] = min(gap, gaps.get(part.body, np.inf))
-    return sorted(gaps, key=lambda body: (gaps[body], body))
-
-
-def _spread(box: Floats) -> float:
-    """The surface of a box, m²: how much of the machine a part is."""
-    a, b, c = box[1] - box[0]
-    return float(2.0 * (a * b + b * c + c * a))

@@ -22,13 +22,14 @@ from typing import Any
 
 from yellowiron import report, specs
 from yellowiron.model.errors import YellowironError
+from yellowiron.opinion.doubts import boxes_of, size_of
 from yellowiron.report.html.viewer import asset
 from yellowiron.report.words import titled
 from yellowiron.studio.axes import axis_of, read_picks
 from yellowiron.studio.building import Build
 from yellowiron.studio.joints import joints_of
 from yellowiron.studio.operations import words
-from yellowiron.studio.questions import boxes_of, questions, size_of
+from yellowiron.studio.questions import questions
 from yellowiron.studio.scene import Scene
 from yellowiron.studio.session import Session, State
 from yellowiron.support.text import to_json

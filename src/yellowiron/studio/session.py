@@ -242,6 +242,8 @@ class Session:
         by_hand = specs.parse_settings([f"{n}={v.text}" for n, v in values.items()], template)
         specifications = specs.merge(self._sheet, by_hand, self._given)
         alignment = roles_of(self.assembly, template, specifications, edits=edits, data=data, choices=choices)
+        asked = {p.part: p.suggestion for p in self._edits.parts if p.suggestion is not None}
+        alignment = alignment.suggested({part: asked[part] for part in alignment.to_review if part in asked})
         self._fixed = dict(alignment.choices)
         chosen = choose(template, {**alignment.choices, **choices})
         self._version += 1

@@ -12,7 +12,7 @@ import numpy as np
 
 from kit.machines import solids as align_solids
 from kit.machines.crawler import merged
-from kit.machines.excavators import excavator
+from kit.machines.excavators import Features, excavator
 from kit.machines.solids import Array, bolt, place
 from kit.machines.synthetic import Machine, loader
 from yellowiron.cad.mesh.assembly import shape_of
@@ -33,6 +33,9 @@ def drawn(kind: str, seed: int, *, segments: int = 32, hollow: bool = True) -> M
     try:
         if kind == "loader":
             return loader(seed, embedded=embedded, stop=stop, hoses=hoses, links=links)
+        if kind == "mini":
+            swinging = Features("single", swing=True, blade=seed % 3, tipping=("plates", "welded")[seed % 2])
+            return excavator(seed, swinging, embedded=embedded)
         return excavator(seed, embedded=embedded)
     finally:
         align_solids.SEGMENTS, align_solids.HOLLOW = kept

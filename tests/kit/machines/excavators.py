@@ -1,8 +1,9 @@
 """Parametric crawler excavators straight as `Assembly` objects, with the truth: what a maker may build otherwise.
 
 Proportions come from a seed, features from `Features`: one boom cylinder or two (each a part, or both drawn as one
-mesh), one-piece or two-piece boom, a blade with one cylinder or two, a quick coupler, four ways to draw the slewing
-bearing, a tipping link of loose plates or welded. Metres, machine frame; the planar pins are letters of `Drawer.P`.
+mesh), one-piece or two-piece boom, or one that swings on a bracket, a blade with one cylinder or two, a quick coupler,
+four ways to draw the slewing bearing, a tipping link of loose plates or welded. Metres, machine frame; the planar pins
+are letters of `Drawer.P`.
 """
 
 from __future__ import annotations
@@ -41,12 +42,14 @@ class Features:
     bolts: bool = True
     hoses: int = 0
     track_pins: bool = False
+    swing: bool = False
+    """The boom on a bracket that a cylinder swings; with one boom cylinder."""
 
     def choices(self) -> dict[str, str]:
         """The template's variants that this is."""
         return {
             "boom_cylinders": "twin" if self.boom_cylinders == "twin" else "single",
-            "boom_type": "two_piece" if self.two_piece else "mono",
+            "boom_type": "two_piece" if self.two_piece else "swing" if self.swing else "mono",
             "blade": ("none", "fitted", "twin")[self.blade],
         }
 
@@ -65,6 +68,7 @@ def any_features(seed: int) -> Features:
         "bolts": bool(rng.random() < 0.6),
         "hoses": int(rng.choice([0, 0, 3])),
         "track_pins": bool(rng.random() < 0.2),
+        "swing": False,
     }
     assert set(drawn) == {f.name for f in fields(Features)}
     return Features(**drawn)
@@ -126,7 +130,8 @@ class Digger(Drawer):
             return np.array([x, z]) * s * u(0.95, 1.05)
 
         for _ in range(4000):
-            A = np.array([0.08 * s, self.deck_top + 0.7 * s * u(0.9, 1.1)])
+            ahead = 1.72 if self.f.swing else 0.08
+            A = np.array([ahead * s, self.deck_top + 0.7 * s * u(0.9, 1.1)])
             C = A + near(0.55, -0.5)
             beta, arm_turn, swung = float(u(-0.2, 0.7)), float(u(-2.0, -0.7)), float(u(0.6, 2.1))
             boom, arm = near(5.2, 0.0), near(2.8, 0.0)
@@ -367,6 +372,9 @@ class Digger(Drawer):
                 for k in range(2):
                     at = (back + 0.02 * s + 0.1 * s, side * (0.5 + 0.3 * k) * s, top)
                     m.add("M24", body, body, bolt("deck_bolt", 0.014 * s, 0.06 * s), place(at, Z))
+        if self.f.swing:
+            self.bracket()
+            return
         level = self.boom_level + 1
         A, C = self.P["A"], self.P["C"]
         base = [(-0.5 * s, top - e, 0.0), (float(C[0]) + 0.25 * s, top - e, 0.0)]
@@ -387,6 +395,51 @@ class Digger(Drawer):
             self.side_plate("cylinder lug", body, side * out, lug, "C")
             ends = [self.at("C", side * (self.level(level) - self.t / 2)), self.at("C", side * (out + self.t))]
             self.pin(f"boom_cylinder_barrel{tail}_pin", body, *ends)
+
+    def bracket(self) -> None:
+        """A nose on the deck, the bracket on its upright pin, and the cylinder that swings it, on the right."""
+        m, s, t, r = self.m, self.s, self.t, 2 * self.pin_r
+        level, middle = self.boom_level + 1, self.deck_top + 0.3 * s
+        hub, ear = np.array([1.45 * s, 0.0]), np.array([0.1 * s, -0.45 * s])
+        arm = hub + polar(0.42 * s * float(self.rng.uniform(0.95, 1.05)), math.radians(-70))
+        inner, outer = self.level(0), self.level(1)
+        half = self.level(level) - t / 2
+
+        def lugs(name: str, body: str, apart: float, outline: Array, *holes: Array) -> None:
+            bores = [(*map(float, p), self.bore_r) for p in holes]
+            for side in (1, -1):
+                shape = plate(f"{name}_{side}", outline, t, bores)
+                m.add(name, body, body, shape, place((0, 0, middle + side * apart), Z, X))
+
+        def upright(role: str, body: str, at: Array, apart: float) -> None:
+            ends = [np.array([*at, middle + side * (apart + t)]) for side in (-1, 1)]
+            self.pin(role, body, *ends)
+
+        def circle(p: Array) -> tuple[float, float, float]:
+            return (float(p[0]), float(p[1]), r)
+
+        body = "upperstructure"
+        height = 0.3 * s + outer + t / 2
+        web = box("nose_web", 0.1 * s, 0.6 * s, height)
+        m.add("nose web", body, body, web, place((0.8 * s, 0, self.deck_top + height / 2), Z, X))
+        lugs("nose lug", body, outer, around(circle(hub), (0.85 * s, 0.2 * s, 0), (0.85 * s, -0.2 * s, 0)), hub)
+        upright("swing_bracket_pin", body, hub, outer)
+        post = box("swing_post", 0.1 * s, 0.3 * s, height)
+        m.add("post", body, body, post, place((-0.2 * s, -0.45 * s, self.deck_top + height / 2), Z, X))
+        back = [(-0.15 * s, -0.55 * s, 0.0), (-0.15 * s, -0.35 * s, 0.0)]
+        lugs("swing cylinder lug", body, inner, around(circle(ear), *back), ear)
+        upright("swing_cylinder_barrel_pin", body, ear, inner)
+        body = "swing_bracket"
+        front = [(1.7 * s, half + self.e, 0.0), (1.7 * s, -half - self.e, 0.0)]
+        lugs("bracket lug", body, inner, around(circle(hub), circle(arm), *front), hub, arm)
+        upright("swing_piston_rod_pin", body, arm, inner)
+        A, C = ((float(self.P[p][0]), float(self.P[p][1]), r) for p in "AC")
+        rear = [(1.56 * s, middle + 0.2 * s, 0.0), (1.56 * s, middle - 0.2 * s, 0.0)]
+        self.pair("bracket side", body, level, around(A, C, *rear), "AC")
+        self.across("swing_bracket_boom_pin", body, "A", level)
+        self.across("swing_bracket_boom_cylinder_barrel_pin", body, "C", level)
+        ends = [np.array([*p, middle]) for p in (ear, arm)]
+        self.cylinder("swing", "swing_cylinder_barrel", "swing_piston_rod", *ends, Z, 0.055 * s)
 
     def sides(self) -> tuple[tuple[int, str], ...]:
         tails = ("_l", "_r") if self.f.boom_cylinders == "twin" else ("", "")

@@ -20,10 +20,10 @@ from unittest import mock
 
 from openai.types.chat import ChatCompletion
 
+from yellowiron.endpoint import Endpoint
 from yellowiron.specs.language.numbers import read
 from yellowiron.specs.language.vocabulary import tokens
 from yellowiron.specs.layout.statement import is_unit
-from yellowiron.specs.llm.endpoint import Endpoint
 from yellowiron.specs.values.claims import BARE_UNITS
 from yellowiron.support.units import parse_quantity
 

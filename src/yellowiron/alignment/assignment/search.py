@@ -211,7 +211,7 @@ def _has_leaves(template: Template) -> bool:
 
 
 def variants_of(template: Template, choices: Mapping[str, str]) -> list[dict[str, str]]:
-    """Every combination of the choices that geometry decides; what `choices` fixes is fixed."""
+    """Every combination that goes together of the choices that geometry decides; what `choices` fixes is fixed."""
     known = {v.name: v for v in template.variants}
     for name, value in choices.items():
         if name in known and value not in known[name].choices:
@@ -223,7 +223,15 @@ def variants_of(template: Template, choices: Mapping[str, str]) -> list[dict[str
     fixed = {n: v for n, v in choices.items() if n in known}
     open_ones = [v for v in template.variants if v.decided_by == "geometry" and v.name not in fixed]
     ordered = [[v.default, *(c for c in v.choices if c != v.default)] for v in open_ones]
-    return [
+    every = [
         {**fixed, **dict(zip((v.name for v in open_ones), combination, strict=True))}
         for combination in itertools.product(*ordered)
     ]
+    if not (found := [chosen for chosen in every if template.go_together(chosen)]):
+        said = ", ".join(f"{name}={value}" for name, value in fixed.items())
+        raise AlignmentError(
+            f"These choices do not go together: {said}",
+            where=template.equipment_type,
+            hint="Leave one of them to the CAD model, or choose what it needs ('needs' in variants.json).",
+        )
+    return found

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterator, Mapping
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +22,7 @@ from yellowiron.model.alignment import (
     PartAssignment,
     RoleRule,
     Signature,
+    Suggestion,
 )
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import AlignmentError, OutputError
@@ -87,6 +89,7 @@ def _entry(p: PartAssignment, known_by: Print | None) -> dict[str, Any]:
         "runner_up": p.runner_up,
         "source": p.source,
         **_signed(p.signature),
+        **({"suggestion": asdict(p.suggestion)} if p.suggestion is not None else {}),
         **({"shape": list(known_by.shape), "place": list(known_by.place)} if known_by is not None else {}),
     }
 
@@ -307,7 +310,16 @@ def _assignment(entry: Mapping[str, Any], role: str | None, template: Template) 
         source="confirmed" if confirmed else "edited" if edited else kept,
         runner_up=runner_up if isinstance(runner_up, str) else None,
         signature=_signature(entry) if edited else UNSIGNED,
+        suggestion=_suggestion(entry.get("suggestion"), template),
     )
+
+
+def _suggestion(entry: object, template: Template) -> Suggestion | None:
+    """A suggestion as it was written; None for what is none, or is of a body that there is not."""
+    said = entry if isinstance(entry, Mapping) else {}
+    body, *words = (said.get(key) for key in ("body", "model", "question", "reason"))
+    known = body is None or (isinstance(body, str) and template.knows(body))
+    return Suggestion(body, *(str(word or "") for word in words)) if said and known else None
 
 
 def _load(source: Path) -> dict[str, Any]:

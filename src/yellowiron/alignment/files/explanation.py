@@ -72,7 +72,7 @@ def _figures(p: PartAssignment) -> list[str]:
 
 
 def _sentence(p: PartAssignment) -> str:
-    text = f"{p.part}: {p.role or 'no role'} ({p.confidence:.0%}, {p.source}): {p.reason}."
+    text = f"{p.part}: {p.role or 'no role'} ({p.confidence:.0%}, {p.source}): {p.why}."
     moves = f" Moves with {p.body}." if p.body not in (None, p.role) else ""
     rival = f" Otherwise: {p.runner_up}." if p.runner_up else ""
     return text + moves + rival

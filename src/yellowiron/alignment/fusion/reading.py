@@ -115,13 +115,14 @@ class Evidence:
 
 @dataclass(frozen=True, eq=False)
 class Fused:
-    """The fused `answer`, how the machine stands, how far its names were trusted (0 to 1), and by how much the judge
-    finds it better than what the contacts alone gave."""
+    """The fused `answer`, how the machine stands, how far its names were trusted (0 to 1), what the judge makes of it,
+    and what it makes of the bodies that the `contacts` alone gave, however the machine stands."""
 
     answer: Answer
     stance: Stance
     trust: float
-    lead: float
+    score: float
+    contacts: float
 
 
 def evidence_of(
@@ -193,13 +194,14 @@ def fused(
         wider = replace(evidence, leading=tuple(sorted({*evidence.leading, *more})))
         found = tried(best.choices, best.template, wider, tries=TRIES)
         evidence, best = (wider, found) if found.score > best.score else (evidence, best)
-    lead = best.score - _score_of_contacts(answer, evidence)
+    contacts = max(_score_of_contacts(answer, replace(evidence, stance=way)) for way in ways)
     pieces, trust = evidence.pieces, evidence.trust
     judged = _judged(best, evidence)
     judged = {i: what for i, what in judged.items() if not _is_pin(i, what, observation, best.template)}
     judged |= _by_name_alone(observation, pieces, scores, trust, judged)
     judged = judged or _all_root(pieces, best.template)
-    return Fused(_answer(observation, best, judged, answer, evidence.stance), evidence.stance, trust, lead)
+    answer = _answer(observation, best, judged, answer, evidence.stance)
+    return Fused(answer, evidence.stance, trust, best.score, contacts)
 
 
 def _score_of_contacts(answer: Answer, evidence: Evidence) -> float:

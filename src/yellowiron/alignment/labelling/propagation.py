@@ -22,7 +22,9 @@ SURE_LEAD = 60.0
 NEIGHBOURHOOD = 0.04
 """How far, in machine sizes, a floating part looks for a neighbour."""
 CLOSE = 0.01
-"""How far, in machine sizes, a floating part may be from its neighbour without a person's look."""
+"""How far, in machine sizes, a floating part may be from its neighbour without a person's look …"""
+LARGE = 0.05
+"""… and how much of the surface it may have: more may be a body of its own."""
 ALOOF = 0.4
 """How much less than with others a floating part goes with a hydraulic cylinder or a wheel."""
 TORN = 0.8
@@ -361,13 +363,18 @@ class Propagation:
         while grown:
             known = len(self.places)
             # Hoses run anywhere: what floats beside one need not be of the same body.
-            placed = sorted(set(self.places) - self.structure.slight) or sorted(self.places)
+            placed, some = sorted(self.places), sorted(set(self.places) - self.structure.slight)
             self.apart = {}
             for group in self._groups():
-                self._float(group, placed)
+                if not self._float(group, some):
+                    self._float(group, placed)  # anything near says that it is no second machine
             grown = bool(self.apart) and len(self.places) > known
 
-    def _float(self, group: list[int], placed: list[int]) -> None:
+    def _float(self, group: list[int], placed: list[int]) -> bool:
+        """Gives solids the place of the nearest of those `placed`; False where these are far."""
+        if not placed:
+            return False
+        self.apart = {i: metres for i, metres in self.apart.items() if i not in group}
         low = np.array([self.solids[j].low for j in placed])
         high = np.array([self.solids[j].high for j in placed])
         size = float(np.linalg.norm(high.max(axis=0) - low.min(axis=0)))
@@ -380,13 +387,18 @@ class Propagation:
             for k in np.flatnonzero(gap <= limit):
                 j = placed[int(k)]
                 body = self.places[j].body
-                if self.never.get(i) != body and gap[k] < far.get(body, np.inf):
+                if gap[k] < far.get(body, np.inf):
                     far[body] = min(far.get(body, np.inf), self.touch.distance(min(i, j), max(i, j)))
         if not far:
-            return
+            return True
         if min(far.values()) > FAR * size:
             self.apart.update(dict.fromkeys(group, min(far.values())))
-            return
+            return False
+        # What cannot be of a body is near the machine all the same.
+        never = {self.never.get(i) for i in group}
+        far = {body: metres for body, metres in far.items() if body not in never}
+        if min(far.values(), default=np.inf) > FAR * size:
+            return True
         kin = self._kin(group[0])
         weight = {b: 1.0 / (d + 0.02 * reach) * (1 + 3 * kin.get(b, 0.0)) for b, d in far.items()}
         # What goes with a hydraulic cylinder or a wheel touches it.
@@ -396,12 +408,15 @@ class Propagation:
         ranked = sorted(weight, key=lambda b: (-round(weight[b], 9), b))
         rival = weight[ranked[1]] / weight[ranked[0]] if len(ranked) > 1 else 0.0
         confidence = 0.45 + 0.45 * (1 - rival)
-        if far[ranked[0]] > CLOSE * size and not self._borne(group, ranked[0]):
+        surface = sum(self.solids[i].surface for i in group)
+        large = surface > LARGE * sum(s.surface for s in self.solids)
+        if large or (far[ranked[0]] > CLOSE * size and not self._borne(group, ranked[0])):
             confidence = min(confidence, DOUBTFUL)
         words = f"floats; {ranked[0]} is nearest, {1e3 * far[ranked[0]]:.3g} mm away"
         for i in group:
             second = ranked[1] if len(ranked) > 1 else None
             self._give(i, Place(ranked[0], ranked[0], confidence, words, second, how="near"))
+        return True
 
     def _borne(self, group: list[int], body: str) -> bool:
         """Whether something long and thin of that body, which alone would not say where a part belongs, touches it."""

@@ -15,6 +15,8 @@ from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Body, Joint, Mechanism, Site
 
 _AXES = {"x": 0, "y": 1, "z": 2}
+_ON_EDGE = 1e-9
+"""Metres: a zone's edge is in it, however its place is rounded."""
 
 
 class Unmeasurable(Exception):  # noqa: N818 - it ends one measurement with a reason, it is no error of the program
@@ -147,6 +149,14 @@ def _angle(quantity: Mapping[str, Any], posed: Posed) -> float:
     return math.atan2(float(x[2]), math.copysign(math.hypot(x[0], x[1]), x[0]))
 
 
+def _yaw(quantity: Mapping[str, Any], posed: Posed) -> float:
+    """How far what carries a level joint is turned to the left of straight ahead: its axis against the machine's y."""
+    joint = _joint(quantity.get("joint"), posed)
+    axis = posed.direction(joint.body0, joint.axis)
+    axis = axis if axis[1] >= 0.0 else -axis
+    return math.atan2(-float(axis[0]), float(axis[1]))
+
+
 def _reach(quantity: Mapping[str, Any], posed: Posed) -> float:
     """Level distance along x to a site or joint, positive ahead, from the anchor of the joint `from` (a swing axis),
     else from the front of the front-most tyres (of `bodies`, where named)."""
@@ -201,7 +211,7 @@ def _zone(quantity: Mapping[str, Any], corners: Floats) -> Floats:
     for name, shares in quantity.get("zone", {}).items():
         along = corners[:, _AXES[str(name)]]
         low, high = along.min() + (along.max() - along.min()) * np.array(shares, dtype=np.float64)
-        inside &= (along >= low) & (along <= high)
+        inside &= (along >= low - _ON_EDGE) & (along <= high + _ON_EDGE)
     if not inside.any():
         raise Unmeasurable("nothing of these bodies is in that zone")
     return np.asarray(corners[inside], dtype=np.float64)
@@ -278,6 +288,7 @@ _KINDS: Mapping[str, Callable[[Mapping[str, Any], Posed], float]] = {
     "height": _height,
     "rise": _rise,
     "angle": _angle,
+    "yaw": _yaw,
     "reach": _reach,
     "joint_angle": _joint_angle,
     "joint_range": _joint_range,

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from yellowiron.model.finding import Finding
 from yellowiron.model.rows import split_index
-from yellowiron.model.template import Choices, CylinderTemplate, JointTemplate, Template
+from yellowiron.model.template import CylinderTemplate, JointTemplate, Template, holds
 
 
 def references(template: Template, chosen: Template, choices: Mapping[str, str]) -> Iterator[Finding]:
@@ -35,7 +35,7 @@ def _gone(template: Template, chosen: Template, choices: Mapping[str, str]) -> I
     if chosen.root not in roles:
         yield chosen.root, "the root"
     for actuator in template.actuators:
-        for cylinder in (c for c in actuator.cylinders if _holds(c.when, choices)):
+        for cylinder in (c for c in actuator.cylinders if holds(c.when, choices)):
             for name in cylinder.joints:
                 if name and name not in joints:
                     yield actuator.name, f"its joint '{name}'"
@@ -152,7 +152,3 @@ def without(template: Template, broken: Sequence[Finding]) -> Template:
     present = {r.name for r in template.roles}
     roles = tuple(r if r.parent in present else replace(r, parent=None) for r in template.roles)
     return replace(template, roles=roles, joints=tuple(j for j in template.joints if not _missing_parts(template, j)))
-
-
-def _holds(when: Choices, choices: Mapping[str, str]) -> bool:
-    return all(choices.get(name) in allowed for name, allowed in when.items())

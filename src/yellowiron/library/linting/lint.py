@@ -84,4 +84,6 @@ def counts(template: Template) -> dict[str, int]:
 def _combinations(template: Template) -> Iterator[dict[str, str]]:
     names = [v.name for v in template.variants]
     for values in itertools.product(*(v.choices for v in template.variants)):
-        yield dict(zip(names, values, strict=True))
+        choices = dict(zip(names, values, strict=True))
+        if template.go_together(choices):
+            yield choices

@@ -21,8 +21,19 @@ def read_variants(document: Document) -> tuple[Variant, ...]:
                 hint=f"Its choices: {', '.join(entry['choices'])}.",
             )
         variants.append(
-            Variant(name, tuple(entry["choices"]), entry["default"], decided_by=entry.get("decided_by", "user"))
+            Variant(
+                name,
+                tuple(entry["choices"]),
+                entry["default"],
+                decided_by=entry.get("decided_by", "user"),
+                needs={choice: choices_of(entry["needs"], choice) for choice in entry.get("needs", {})},
+            )
         )
+    for variant in variants:
+        where = document.at(variant.name, "needs")
+        check_choices({variant.name: tuple(variant.needs)}, variants, where)
+        for needed in variant.needs.values():
+            check_choices(needed, variants, where)
     return tuple(variants)
 
 

@@ -9,6 +9,7 @@ from typing import Any
 from yellowiron.library.notation.quantities import quantity
 from yellowiron.library.notation.role_keys import EVERYTHING
 from yellowiron.library.notation.validated_json import Document, near, read_json
+from yellowiron.library.parsing.variants import choices_of
 from yellowiron.library.type_folders import library_folder
 from yellowiron.model.errors import TemplateError
 from yellowiron.model.specification import fold
@@ -61,6 +62,7 @@ def read_wanted(document: Document, roles: tuple[Role, ...]) -> tuple[Wanted, ..
                 low_end_of=_other("low_end_of", entry, document, name),
                 minimum=bounds[0],
                 maximum=bounds[1],
+                when=choices_of(entry, "when"),
             )
         )
     return tuple(wanted)

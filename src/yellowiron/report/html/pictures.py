@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from yellowiron.model.assembly import Assembly
+from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Mechanism
 from yellowiron.report.rows import in_rows
@@ -146,6 +146,18 @@ def machine_triangles(
     `frame` (4, 4): CAD → machine; `poses`: body → (4, 4) displacement from the drawn pose, machine frame.
     """
     parts = {p.id: p for p in assembly.parts}
+    bodies = {body.name: [parts[each.part] for each in body.parts] for body in mechanism.bodies}
+    return part_triangles(bodies, assembly, frame, poses=poses)
+
+
+def part_triangles(
+    bodies: Mapping[str, Sequence[Part]],
+    assembly: Assembly,
+    frame: Floats,
+    *,
+    poses: Mapping[str, Floats] | None = None,
+) -> DrawnTriangles:
+    """Some parts by what they are drawn as one of, as `machine_triangles`; parts are numbered in the order given."""
     points: list[Singles] = []
     triangles: list[NDArray[np.int32]] = []
     normals: list[Singles] = []
@@ -153,11 +165,10 @@ def machine_triangles(
     numbers: list[NDArray[np.int32]] = []
     spans: dict[str, tuple[int, int]] = {}
     count = total = 0
-    for body in mechanism.bodies:
+    for name, members in bodies.items():
         first = count
-        displacement = poses.get(body.name, np.eye(4)) if poses else np.eye(4)
-        for body_part in body.parts:
-            part = parts[body_part.part]
+        displacement = poses.get(name, np.eye(4)) if poses else np.eye(4)
+        for part in members:
             shape = assembly.shape_of(part)
             place = displacement @ frame @ part.transform
             own = shape.mesh.triangles
@@ -181,7 +192,7 @@ def machine_triangles(
             numbers.append(np.full(len(own), len(numbers), dtype=np.int32))
             count += len(own)
             total += len(placed)
-        spans[body.name] = (first, count)
+        spans[name] = (first, count)
     if not points:
         nothing = np.zeros((0, 3, 3), dtype=np.float32)
         none = np.zeros((0, 3), dtype=np.int32)
@@ -435,4 +446,4 @@ def _extent(drawn: DrawnTriangles) -> tuple[Singles, np.float32]:
     if not len(drawn.points):
         return np.zeros(2, dtype=np.float32), np.float32(1.0)
     low, high = drawn.box
-    return (0.5 * (low + high))[:2], np.float32(1.4 * np.linalg.norm(high - low))
+    return (0.5 * (low + high))[:2], np.float32(max(float(1.4 * np.linalg.norm(high - low)), 1e-6))

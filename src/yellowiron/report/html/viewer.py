@@ -137,7 +137,7 @@ def assignment_entry(entry: PartAssignment | None, *, role: str | None = None, r
     return {
         "role": (entry.role if entry else role) or "",
         "confidence": round(entry.confidence, 2) if entry else None,
-        "reason": entry.reason if entry else "",
+        "reason": entry.why if entry else "",
         "review": review,
     }
 

@@ -12,13 +12,13 @@ from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
+from yellowiron.endpoint import Endpoint
 from yellowiron.model.specification import fold
 from yellowiron.model.template import Wanted
 from yellowiron.specs.language.decimal_style import DecimalStyle
 from yellowiron.specs.language.quantities import same
 from yellowiron.specs.language.vocabulary import KNOWN, NEUTRAL, TELLING, tokens
 from yellowiron.specs.layout.page_cells import Cell
-from yellowiron.specs.llm.endpoint import Endpoint
 from yellowiron.specs.llm.pointing import PageText, Place, RefusedError, place_of
 from yellowiron.specs.llm.prompts import PLACES, places_on
 from yellowiron.specs.values.claims import Claim, claims_of, phrases_in

@@ -9,8 +9,8 @@ from collections.abc import Sequence
 from itertools import groupby
 from typing import Any
 
+from yellowiron.endpoint import Message
 from yellowiron.model.template import Wanted
-from yellowiron.specs.llm.endpoint import Message
 from yellowiron.specs.llm.pointing import PageText
 
 _SYSTEM = (

@@ -4,6 +4,7 @@ const token = new URLSearchParams(location.search).get("token") ?? "";
 const by = (id) => document.getElementById(id);
 const KEYS = [
   ["⏎", "Yes"], ["1 – 9", "Instead: the numbered answer"], ["X", "No part of the machine"], ["/", "Find any role"],
+  ["S", "Find parts by name; ⇧⏎ takes all that are listed"], ["N, ⇧N", "The next part of the file, the one before"],
   ["J, K", "Next question, the one before"], ["U, ⇧U", "Undo, redo"], ["A", "Take in the assembly around what is selected"],
   ["M", "The same on the other side"], ["P", "Point at a joint's axis: a bore; two round things or points; three points of a circle; Alt: an edge"],
   ["R", "A slide the other way round"], ["[, ]", "The joint's lower and upper stop where it is now"],
@@ -23,6 +24,9 @@ async function ask(path, body) {
   }
   return answer;
 }
+
+/** So many rows of what was found are shown at a time. */
+const LISTED = 100;
 
 const packing = async (path) => unpack(new Uint8Array(await (await ask(path)).arrayBuffer()));
 const button = (label, onclick, attributes = {}) => element("button", { type: "button", onclick, ...attributes }, label);
@@ -514,10 +518,43 @@ class Studio {
     requestAnimationFrame(step);
   }
 
-  // ---- finding a role ----------------------------------------------------------------------------------------------
+  // ---- finding -----------------------------------------------------------------------------------------------------
+  /** Finds a role for what is meant. */
   find() {
-    if (!this.meant.size) return this.tell("Click a part first, or several with Shift.");
+    if (!this.meant.size) return this.tell("Click a part first, or several with Shift; S finds one by its name.");
+    const rows = this.state.roles.map((role) => ({ words: role.words, name: role.name, take: () => this.assign(role.name) }));
+    this.#finder("Role of these parts", rows, "No role of that name. A part without one of its own, such as a cab, has its body's.");
+  }
+
+  /** Finds parts by their names and those of their assemblies. */
+  search() {
+    const rows = this.viewer.model.parts.filter((part) => !part.hidden)
+      .map((part) => ({ words: part.path, name: part.path.split("/").at(-1), number: part.number, take: () => this.#select([part.number]) }));
+    this.#finder("Name of a part or assembly", rows, "No part of that name.");
+  }
+
+  /** Selects the next part of the file (1), or the one before (-1). */
+  step(way) {
+    const numbers = this.viewer.model.parts.filter((part) => !part.hidden).map((part) => part.number);
+    if (!numbers.length) return;
+    const from = way > 0 ? Math.max(...this.shown) : Math.min(...this.shown);
+    const at = this.shown.size ? numbers.indexOf(from) : (way > 0 ? -1 : 0);
+    this.#select([numbers[(at + way + numbers.length) % numbers.length]]);
+  }
+
+  #select(numbers) {
+    this.choose(0, null);
+    this.selection = new Set(numbers);
+    this.show();
+    this.viewer.focus(this.shown);
+  }
+
+  #finder(label, rows, none) {
+    this.finding = { rows, none };
     by("find").value = "";
+    by("find").placeholder = label;
+    by("find").setAttribute("aria-label", label);
+    by("finder").setAttribute("aria-label", label);
     this.#list();
     by("finder").showModal();
     by("find").focus();
@@ -525,33 +562,44 @@ class Studio {
 
   #list() {
     const wanted = by("find").value.trim().toLowerCase().split(/\s+/).filter(Boolean);
-    // Who types a role's whole name means that one, not the first that has the words too.
+    // Who types a whole name means that one, not the first that has the words too.
     const whole = wanted.join(" ");
-    const rank = (role) => [role.words.toLowerCase(), role.name].includes(whole) ? 0 : role.words.toLowerCase().startsWith(whole) ? 1 : 2;
-    this.roles = this.state.roles.filter((role) => wanted.every((word) => `${role.name} ${role.words}`.toLowerCase().includes(word)))
+    const rank = ({ words, name }) => [words.toLowerCase(), name.toLowerCase()].includes(whole) ? 0 : words.toLowerCase().startsWith(whole) ? 1 : 2;
+    this.found = this.finding.rows.filter(({ name, words }) => wanted.every((word) => `${name} ${words}`.toLowerCase().includes(word)))
       .sort((one, other) => rank(one) - rank(other));
     this.row = 0;
     this.#rows();
   }
 
   #rows() {
-    const none = element("li", { class: "dim" }, "No role of that name. A part without one of its own, such as a cab, has its body's.");
-    by("found").replaceChildren(...(this.roles.length ? [] : [none]), ...this.roles.map((role, index) => element("li", {}, button(role.words, () => this.#pick(index), { "aria-selected": index === this.row }))));
+    const none = element("li", { class: "dim" }, this.finding.none);
+    const from = Math.max(0, Math.min(this.row - LISTED / 2, this.found.length - LISTED));
+    const rows = this.found.slice(from, from + LISTED)
+      .map(({ words }, index) => element("li", {}, button(words, () => this.#take(from + index), { "aria-selected": from + index === this.row })));
+    const more = this.found.length - rows.length;
+    by("found").replaceChildren(...(rows.length ? rows : [none]), ...(more > 0 ? [element("li", { class: "dim" }, `and ${more} more`)] : []));
     by("found").querySelector("[aria-selected=true]")?.scrollIntoView({ block: "nearest" });
   }
 
-  #pick(index) {
-    const role = this.roles[index];
+  #take(index) {
+    const row = this.found[index];
     by("finder").close();
-    if (role) this.assign(role.name);
+    row?.take();
   }
 
   #findKey(event) {
-    if (event.key === "Enter") (event.preventDefault(), this.#pick(this.row));
+    if (event.key === "Escape") (event.preventDefault(), by("finder").close()); // else the first one only empties the field
+    if (event.key === "Enter") {
+      event.preventDefault();
+      const numbers = this.found.map((row) => row.number).filter(Boolean);
+      if (!event.shiftKey || !numbers.length) return this.#take(this.row);
+      by("finder").close();
+      return this.#select(numbers);
+    }
     const way = { ArrowDown: 1, ArrowUp: -1 }[event.key];
-    if (!way || !this.roles.length) return;
+    if (!way || !this.found.length) return;
     event.preventDefault();
-    this.row = (this.row + way + this.roles.length) % this.roles.length;
+    this.row = (this.row + way + this.found.length) % this.found.length;
     this.#rows();
   }
 
@@ -559,7 +607,7 @@ class Studio {
     if (event.ctrlKey || event.metaKey || event.altKey || document.querySelector("dialog[open]")) return;
     if (event.target.closest("input, textarea, select")) return event.key === "Escape" && event.target.blur();
     const acts = {
-      j: () => this.go(this.at + 1), k: () => this.go(this.at - 1), x: () => this.assign(null), "/": () => this.find(),
+      j: () => this.go(this.at + 1), k: () => this.go(this.at - 1), x: () => this.assign(null), "/": () => this.find(), s: () => this.search(), n: () => this.step(event.shiftKey ? -1 : 1),
       a: () => this.assembly(), m: () => { this.mirror = !this.mirror; this.show(); }, i: () => this.isolate(),
       f: () => this.viewer.focus(this.shown), w: () => this.wiggle(), b: () => this.build(), "?": () => this.keys(),
       u: () => this.say(event.shiftKey ? "redo" : "undo", {}), escape: () => { this.selection.clear(); this.picked = this.aim = null; this.show(); },

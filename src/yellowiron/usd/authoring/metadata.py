@@ -18,7 +18,7 @@ from pxr import Gf, Sdf, Vt
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.mechanism import Body, BodyPart, Joint, Mechanism, Site
 from yellowiron.model.sensor import Sensor
-from yellowiron.model.template import TEMPLATE_ONLY
+from yellowiron.model.template import UNDECIDED
 from yellowiron.support.record import RECORD
 
 FORMAT = 1
@@ -152,8 +152,8 @@ def to_json(value: Any) -> str:
 
 def _plain(value: Any) -> Any:
     if is_dataclass(value) and not isinstance(value, type):
-        kept = (f for f in fields(value) if TEMPLATE_ONLY not in f.metadata)
-        return {f.name: _plain(getattr(value, f.name)) for f in kept}
+        # A machine's variants are decided: its file has no use for what they were decided by.
+        return {f.name: _plain(getattr(value, f.name)) for f in fields(value) if not f.metadata.get(UNDECIDED)}
     if isinstance(value, Mapping):
         return {str(k): _plain(v) for k, v in value.items()}
     if isinstance(value, list | tuple):

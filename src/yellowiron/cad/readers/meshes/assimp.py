@@ -10,6 +10,7 @@ import struct
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 from xml.etree import ElementTree
 
@@ -20,7 +21,8 @@ from yellowiron.cad.appearance.looks import Dressed, Look, joined
 from yellowiron.cad.appearance.textures import Pictures, finish
 from yellowiron.cad.mesh import assembly
 from yellowiron.cad.mesh.assembly import Occurrence
-from yellowiron.cad.naming import decode_name, is_generic
+from yellowiron.cad.naming import decode_name, encoding_remarks, is_generic
+from yellowiron.cad.readers.meshes.fbx_names import legible
 from yellowiron.model.assembly import Assembly, Node
 from yellowiron.model.errors import CadError
 from yellowiron.model.geometry import Color, Floats, Mesh
@@ -79,13 +81,21 @@ def read_fbx(path: str) -> Assembly:
     triangle."""
     import assimp_py
 
-    data = Path(path).read_bytes()
+    drawn = Path(path).read_bytes()
+    data, titles, encoding = legible(drawn)
     up, unit = _setting(data, b"UpAxis"), _setting(data, b"UnitScaleFactor")
     frame = _FROM_Y_UP["Z_UP"] if up == 2.0 else np.eye(4)
     bones = {(binary or text).decode("utf-8", "replace") for binary, text in _BONE.findall(data)}
-    read = _read(path, "FBX", assimp_py.Process_GlobalScale, frame, {}, _declared(data), bones)
+    with TemporaryDirectory(prefix="yellowiron-") as folder:
+        spelled = path
+        if data is not drawn:
+            spelled = str(Path(folder) / "model.fbx")
+            Path(spelled).write_bytes(data)
+        flags = assimp_py.Process_GlobalScale
+        read = _read(path, "FBX", flags, frame, titles, _declared(data), bones, spelled=spelled)
     # The library has used the unit, centimetres by default, up.
-    return replace(read, unit=0.01 * (unit or 1.0))
+    findings = (*read.findings, *encoding_remarks(encoding, path))
+    return replace(read, unit=0.01 * (unit or 1.0), findings=findings)
 
 
 def _declared(data: bytes) -> int:
@@ -120,14 +130,18 @@ def _read(
     titles: Mapping[str, str],
     declared: int = 0,
     bones: Collection[str] = (),
+    *,
+    spelled: str = "",
 ) -> Assembly:
     """`frame` (4, 4) takes what the library delivers to the file's own axes; `titles` are better names of nodes;
     `declared` is how many nodes with meshes the file says it has, if it does; `bones` are the library's names of
-    bones."""
+    bones; `spelled` is the same file with names that the library reads."""
     import assimp_py
 
     try:
-        scene = assimp_py.import_file(path, assimp_py.Process_Triangulate | assimp_py.Process_SortByPType | flags)
+        scene = assimp_py.import_file(
+            spelled or path, assimp_py.Process_Triangulate | assimp_py.Process_SortByPType | flags
+        )
     except (RuntimeError, ValueError) as error:
         words = " ".join(str(error).split())[:200]
         raise CadError(f"The {format} file cannot be read: {words}", where=path, hint=_HINT) from error

@@ -7,6 +7,7 @@ recorded, and replayed without any network.
 
 from __future__ import annotations
 
+import base64
 import contextlib
 import hashlib
 import importlib.util
@@ -28,14 +29,15 @@ if TYPE_CHECKING:
     from openai.types.chat import ChatCompletion
 
 Answer = Mapping[str, Any]
-Message = dict[str, str]
+Message = dict[str, Any]
+"""A role and its content: a text, or parts that are texts (`text_part`) and pictures (`picture_part`)."""
 Rung = Literal["json_schema", "json_object", "prompt"]
 _LADDER: tuple[Rung, ...] = ("json_schema", "json_object", "prompt")
 """Ways to ask for JSON, strictest first; an endpoint that refuses one is asked the next way, and so from then on."""
 _ANSWER = {"value", "tokens_in", "tokens_out"}
 """What is kept of an answer."""
 _FENCED = re.compile(r"```(?:json)?\s*(.*?)```", re.DOTALL)
-_HINT = "Check --llm-url, --llm-model and the key, or leave --extractor at rules, which needs no network."
+_HINT = "Check --llm-url, --llm-model and the key, or ask no model: the rules need no network."
 
 
 @dataclass(frozen=True)
@@ -44,7 +46,7 @@ class ModelOptions:
 
     `url` is the base address of an OpenAI-compatible endpoint ("http://localhost:8000/v1"). A call may take
     `timeout_s` and `attempts`, all calls together `most_s` seconds and `most_calls`. `record` names a file to write
-    the conversation to, `replay` one to answer from instead of the network.
+    the conversation to, beside what was recorded there before; `replay` one to answer from instead of the network.
     """
 
     model: str
@@ -91,19 +93,24 @@ class Endpoint:
         self._rung = 0
         self._client: OpenAI | None = None
         self._started = time.monotonic()
-        self._replayed = _read_replay(options.replay) if options.replay else None
-        self._record: list[str] = []
-        if self._replayed is None and not (options.model and options.url):
+        self._record: dict[str, str] = {}
+        if options.record is not None and options.record.exists():
+            self._record = {line["question"]: _line(line) for line in _recorded(options.record)}
+        self._replayed: dict[str, dict[str, Any]] | None = None
+        if options.replay is not None:
+            said = _recorded(options.replay)
+            self._replayed = {line["question"]: {name: line[name] for name in sorted(_ANSWER)} for line in said}
+        elif not (options.model and options.url):
             raise EndpointError(
                 "No language model is configured",
                 where="--llm-url, --llm-model",
                 hint="Name an OpenAI-compatible endpoint and its model, by option or in YELLOWIRON_LLM_URL and "
                 "YELLOWIRON_LLM_MODEL.",
             )
-        if self._replayed is None and importlib.util.find_spec("openai") is None:
+        elif importlib.util.find_spec("openai") is None:
             raise EndpointError(
-                "The language-model extractor needs the package openai",
-                where="--extractor",
+                "Asking a language model needs the package openai",
+                where="--llm-model",
                 hint='Install it with: pip install "yellowiron[llm]".',
             )
 
@@ -113,7 +120,7 @@ class Endpoint:
     def __exit__(self, *_: object) -> None:
         if self.options.record is not None:
             with output_file(self.options.record) as file:
-                file.write_text("".join(f"{line}\n" for line in self._record), encoding="utf-8")
+                file.write_text("".join(f"{line}\n" for line in self._record.values()), encoding="utf-8")
         if self._client is not None:
             self._client.close()
 
@@ -123,14 +130,19 @@ class Endpoint:
         `EndpointError` where the endpoint cannot be reached or refuses, where calls or time are used up, and where a
         replay has no answer to the question.
         """
-        key = _key(self.options, messages, schema)
+        key = self.key(messages, schema)
         found = self._kept(key)
         if found is None:
             found = self._asked(messages, schema)
             _keep(key, found)
         self.usage.add(found)
-        self._record.append(json.dumps({"question": key, "messages": list(messages), **found}, sort_keys=True))
+        self._record[key] = _line({"question": key, "messages": list(messages), **found})
         return None if found["value"] is None else dict(found["value"])
+
+    def key(self, messages: Sequence[Message], schema: Mapping[str, Any]) -> str:
+        """Stands for a question: the model and what it is asked, not where it runs."""
+        document = json.dumps([self.options.model, list(messages), schema], sort_keys=True, ensure_ascii=False)
+        return hashlib.sha256(document.encode()).hexdigest()
 
     def _kept(self, key: str) -> dict[str, Any] | None:
         if self._replayed is None:
@@ -139,7 +151,7 @@ class Endpoint:
             raise EndpointError(
                 "The recorded conversation has no answer to a question of this run",
                 where=str(self.options.replay),
-                hint="Record it again: sheet, template, model or program have changed since.",
+                hint="Record it again: files, template, model or program have changed since.",
             )
         return self._replayed[key]
 
@@ -184,7 +196,7 @@ class Endpoint:
             form = {"response_format": {"type": "json_schema", "json_schema": shape}}
         else:
             words = f"Answer with one JSON object of this JSON Schema and nothing else: {json.dumps(schema)}"
-            said = [*said[:-1], {"role": "user", "content": f"{said[-1]['content']}\n\n{words}"}]
+            said = [*said[:-1], _with_words(said[-1], words)]
             if rung == "json_object":
                 form = {"response_format": {"type": "json_object"}}
         answer: ChatCompletion = self._connected().chat.completions.create(
@@ -212,7 +224,7 @@ class Endpoint:
             raise EndpointError(
                 f"The language model was asked {self.usage.calls} times in {spent:.0f} s, and there is more to ask",
                 where=options.url,
-                hint=f"At most {options.most_calls} calls and {options.most_s:g} s are spent; give fewer pages.",
+                hint=f"At most {options.most_calls} calls and {options.most_s:g} s are spent; the rest is not asked.",
             )
 
     def _refused(self, error: Exception) -> EndpointError:
@@ -220,6 +232,22 @@ class Endpoint:
         if self.options.key:
             words = words.replace(self.options.key, "…")
         return EndpointError(f"The language model gives no answer: {words}", where=self.options.url, hint=_HINT)
+
+
+def text_part(words: str) -> dict[str, Any]:
+    """A text as a part of a message with pictures."""
+    return {"type": "text", "text": words}
+
+
+def picture_part(png: bytes) -> dict[str, Any]:
+    """A picture, a PNG file's bytes, as a part of a message."""
+    return {"type": "image_url", "image_url": {"url": f"data:image/png;base64,{base64.b64encode(png).decode()}"}}
+
+
+def _with_words(message: Message, words: str) -> Message:
+    """A message that says more."""
+    said = message["content"]
+    return {**message, "content": f"{said}\n\n{words}" if isinstance(said, str) else [*said, text_part(words)]}
 
 
 def parsed(text: str, schema: Mapping[str, Any]) -> tuple[dict[str, Any] | None, str]:
@@ -246,12 +274,6 @@ def parsed(text: str, schema: Mapping[str, Any]) -> tuple[dict[str, Any] | None,
     return None, why
 
 
-def _key(options: ModelOptions, messages: Sequence[Message], schema: Mapping[str, Any]) -> str:
-    """Stands for a question: the model and what it is asked, not where it runs."""
-    document = json.dumps([options.model, list(messages), schema], sort_keys=True, ensure_ascii=False)
-    return hashlib.sha256(document.encode()).hexdigest()
-
-
 def _kept_on_disk(key: str) -> dict[str, Any] | None:
     folder = cache_folder()
     if folder is None:
@@ -276,15 +298,22 @@ def _keep(key: str, found: Mapping[str, Any]) -> None:
         part.replace(path)
 
 
-def _read_replay(path: Path) -> dict[str, dict[str, Any]]:
+def _recorded(path: Path) -> list[dict[str, Any]]:
+    """The lines of a recorded conversation."""
     try:
         lines = [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines() if line.strip()]
-        return {line["question"]: {name: line[name] for name in sorted(_ANSWER)} for line in lines}
+        if not all({"question", *_ANSWER} <= line.keys() for line in lines):
+            raise ValueError
     except OSError as error:
         raise EndpointError(
             f"{path.name} cannot be opened: {error.strerror or error}", where=str(path), hint="Check the path."
         ) from error
-    except (ValueError, KeyError, TypeError) as error:
+    except (ValueError, AttributeError) as error:
         raise EndpointError(
             f"{path.name} is no recorded conversation", where=str(path), hint="Record one with --llm-record."
         ) from error
+    return lines
+
+
+def _line(said: Mapping[str, Any]) -> str:
+    return json.dumps(said, sort_keys=True)

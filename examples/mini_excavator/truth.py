@@ -1,0 +1,233 @@
+"""The truth about the drawn machine: what each part is, where each joint is, what the linkage and the shapes give. CAD
+frame, metres."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from OCP.gp import gp_Ax3, gp_Dir, gp_Pnt, gp_Trsf
+
+from drawing.cylinders import Cylinder
+from drawing.digger import Linkage, Pose
+from drawing.hardware import placed
+from drawing.planar import Point, direction
+from drawing.product import Assembly, extent, farthest, occurrences
+
+from . import values as v
+from .carrier import FLOOR, HALF, SIDE_Y, axle, rollers, track_pins
+from .equipment import floor_angle, wall_depth
+from .linkage import BLADE_BARREL, BLADE_PIN, PIVOT, STROKES, SWING_Z, ranges, solve_blade, solve_swing
+
+Y, Z = (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
+ORIGIN = (0.0, 0.0, FLOOR)
+"""CAD origin in the machine frame: the swing axis at the revolving frame's underside, millimetres. CAD x is to the
+left, y backward, z up."""
+_TO_MACHINE = np.array([[0, -1.0, 0], [1.0, 0, 0], [0, 0, 1.0]])
+
+
+def to_cad() -> gp_Trsf:
+    """Machine frame to CAD frame."""
+    t = gp_Trsf()
+    t.SetTransformation(gp_Ax3(), gp_Ax3(gp_Pnt(*ORIGIN), gp_Dir(0, 0, 1), gp_Dir(0, 1, 0)))
+    return t
+
+
+def frame_matrix() -> list[list[float]]:
+    """4x4, CAD metres to machine metres."""
+    m = np.eye(4)
+    m[:3, :3] = _TO_MACHINE
+    m[:3, 3] = np.array(ORIGIN) / 1000.0
+    return [[float(c) + 0.0 for c in row] for row in m]
+
+
+def _point(p: tuple[float, float, float]) -> list[float]:
+    return [round(float(c), 9) + 0.0 for c in _TO_MACHINE.T @ (np.array(p, dtype=float) - ORIGIN) / 1000.0]
+
+
+def _axis(a: tuple[float, float, float]) -> list[float]:
+    n = np.array(a, dtype=float)
+    return [round(float(c), 9) + 0.0 for c in _TO_MACHINE.T @ (n / np.linalg.norm(n))]
+
+
+def track_bodies() -> list[str]:
+    """Bodies of their own where every shoe is one; otherwise they move with the undercarriage."""
+    out: list[str] = []
+    for letter in "lr":
+        out += [f"sprocket_{letter}", f"idler_{letter}"]
+        out += [f"{row}_{letter}_{i + 1}" for row, places in rollers().items() for i in range(len(places))]
+        out += [f"track_shoe_{letter}_{i + 1}" for i in range(len(track_pins()))]
+    return out
+
+
+def joints(k: Linkage, pose: Pose, drawn: dict[str, Cylinder]) -> dict[str, dict[str, Any]]:
+    """Every joint of the machine; `when` names the choice that a joint belongs to. Anchors and axes in the CAD frame;
+    pitch axes towards the machine's left, upright ones up, slides outward."""
+    out: dict[str, dict[str, Any]] = {}
+    swing, blade = solve_swing(), solve_blade()
+    blade_rod = blade.pins(blade.angle(drawn["blade"].drawn))[0]
+
+    def add(
+        bodies: tuple[str, str],
+        at: tuple[float, float, float],
+        axis: tuple[float, float, float] = Y,
+        *,
+        kind: str = "revolute",
+        name: str = "",
+        when: dict[str, str] | None = None,
+    ) -> None:
+        entry = {"type": kind, "body0": bodies[0], "body1": bodies[1], "anchor": _point(at), "axis": _axis(axis)}
+        out[name or f"{bodies[0]}2{bodies[1]}_joint"] = entry | ({"when": when} if when else {})
+
+    def pivot(a: str, b: str, at: Point) -> None:
+        add((a, b), (at[0], 0.0, at[1]))
+
+    def slide(name: str, start: Point, end: Point) -> None:
+        d = end - start
+        halves = (f"{name}_cylinder_barrel", f"{name}_piston_rod")
+        add(halves, (start[0], 0.0, start[1]), (d[0], 0.0, d[1]), kind="prismatic")
+
+    add(("undercarriage", "upperstructure"), (0, 0, FLOOR), Z)
+    add(("upperstructure", "swing_bracket"), (*PIVOT, SWING_Z), Z)
+    add(("upperstructure", "swing_cylinder_barrel"), (*swing.barrel, SWING_Z), Z)
+    add(("swing_bracket", "swing_piston_rod"), (*swing.rod(0.0), SWING_Z), Z)
+    along = swing.rod(0.0) - swing.barrel
+    halves = ("swing_cylinder_barrel", "swing_piston_rod")
+    add(halves, (*swing.barrel, SWING_Z), (along[0], along[1], 0.0), kind="prismatic")
+    pivot("swing_bracket", "boom", k.A)
+    pivot("swing_bracket", "boom_cylinder_barrel", k.C)
+    pivot("boom", "boom_piston_rod", pose.D)
+    slide("boom", k.C, pose.D)
+    pivot("boom", "arm", pose.B)
+    pivot("boom", "arm_cylinder_barrel", pose.M)
+    pivot("arm", "arm_piston_rod", pose.P)
+    slide("arm", pose.M, pose.P)
+    pivot("arm", "bucket", pose.K)
+    pivot("arm", "bucket_cylinder_barrel", pose.E)
+    slide("bucket", pose.E, pose.H)
+    pivot("arm", "tipping_link", pose.G)
+    pivot("bucket_piston_rod", "tipping_link", pose.H)
+    pivot("bucket_piston_rod", "bucket_link", pose.H)
+    pivot("bucket_link", "bucket", pose.J)
+    pivot("undercarriage", "blade", BLADE_PIN)
+    pivot("undercarriage", "blade_cylinder_barrel", BLADE_BARREL)
+    pivot("blade", "blade_piston_rod", blade_rod)
+    slide("blade", BLADE_BARREL, blade_rod)
+    for letter, y in (("l", SIDE_Y), ("r", -SIDE_Y)):
+        shoes = {"tracks": "shoes"}
+        for body, x in ((f"sprocket_{letter}", -HALF), (f"idler_{letter}", HALF)):
+            add(("undercarriage", body), (x, y, axle()), when=shoes)
+        for row, places in rollers().items():
+            for i, (x, z) in enumerate(places, 1):
+                name = f"undercarriage2{row}_{letter}_joint_{i}"
+                add(("undercarriage", f"{row}_{letter}_{i}"), (x, y, z), name=name, when=shoes)
+        shoe, pins = f"track_shoe_{letter}", track_pins()
+        for i in range(1, len(pins) + 1):
+            after = i % len(pins) + 1
+            x, z = pins[after - 1]
+            add((f"{shoe}_{i}", f"{shoe}_{after}"), (x, y, z), name=f"{shoe}2{shoe}_joint_{i}", when=shoes)
+    return out
+
+
+def measured(k: Linkage) -> dict[str, float]:
+    """What the solved linkages give, by the value's name; millimetres and degrees."""
+    swing, blade = solve_swing(), solve_blade()
+
+    def turned(length: float) -> float:
+        """The boom swing at a length of its cylinder, degrees to the left of straight ahead."""
+        p, q = float(np.hypot(*(swing.barrel - PIVOT))), swing.arm
+        opening = math.acos((p * p + q * q - length * length) / (2 * p * q))
+        return math.degrees(opening - direction(swing.rod(0.0) - PIVOT) + direction(swing.barrel - PIVOT)) % 360.0
+
+    low, high = (turned(swing.closed + share * v.SWING_STROKE.value) for share in (0.0, 1.0))
+    ends = [blade.pins(blade.angle(blade.closed + share * v.BLADE_STROKE.value))[1][1] for share in (0.0, 1.0)]
+    return ranges(k.A, k.tip, k.ends()) | {
+        v.WALL_DEPTH.name: wall_depth(k, floor_angle(k)),
+        v.SWING_RIGHT.name: 360.0 - low,
+        v.SWING_LEFT.name: high,
+        v.BLADE_LIFT.name: float(ends[0]),
+        v.BLADE_DIG.name: -float(ends[1]),
+    }
+
+
+def _folded(k: Linkage, start: Pose) -> dict[str, gp_Trsf]:
+    """Where the digger's bodies go from the drawn pose when its three cylinders open."""
+    end = k.pose(STROKES.boom[1], STROKES.arm[1], STROKES.bucket[1])
+
+    def frames(p: Pose) -> dict[str, gp_Trsf]:
+        def at(pin: Point, angle: float) -> gp_Trsf:
+            return placed((pin[0], 0.0, pin[1]), angle)
+
+        lift, crowd, curl = direction(p.D - k.C), direction(p.P - p.M), direction(p.H - p.E)
+        return {
+            "boom": at(k.A, p.boom_angle),
+            "arm": at(p.B, p.arm_angle),
+            "bucket": at(p.K, p.bucket_angle),
+            "tipping_link": at(p.G, direction(p.H - p.G)),
+            "bucket_link": at(p.H, direction(p.J - p.H)),
+            "boom_cylinder_barrel": at(k.C, lift),
+            "boom_piston_rod": at(p.D, lift),
+            "arm_cylinder_barrel": at(p.M, crowd),
+            "arm_piston_rod": at(p.P, crowd),
+            "bucket_cylinder_barrel": at(p.E, curl),
+            "bucket_piston_rod": at(p.H, curl),
+        }
+
+    before, after = frames(start), frames(end)
+    return {body: after[body].Multiplied(before[body].Inverted()) for body in before}
+
+
+def drawn_values(root: Assembly, k: Linkage, pose: Pose) -> dict[str, float]:
+    """What the drawn shapes give, by the value's name; millimetres."""
+    leaves = occurrences(root)
+
+    def of(*bodies: str) -> Any:
+        return extent([leaf for leaf in leaves if leaf.body.startswith(bodies)])
+
+    def named(name: str) -> Any:
+        return extent([leaf for leaf in leaves if leaf.part.name.startswith(name)])
+
+    moves = _folded(k, pose)
+    shoes, left, upper = of("track_shoe"), of("track_shoe_l"), of("upperstructure")
+    return {
+        v.SWING_RADIUS_MIN.name: farthest([leaf for leaf in leaves if leaf.body in moves], moves),
+        v.TAIL_RADIUS.name: farthest([leaf for leaf in leaves if leaf.part.name == "COUNTERWEIGHT"], {}),
+        v.CANOPY_HEIGHT.name: float(upper[1, 2]),
+        v.UPPER_WIDTH.name: float(np.ptp(upper[:, 1])),
+        v.KINGPOST_CLEARANCE.name: float(of("swing_bracket")[0, 2]),
+        v.OVERALL_WIDTH.name: float(np.ptp(shoes[:, 1])),
+        v.TRACK_LENGTH.name: float(np.ptp(left[:, 0])),
+        v.SHOE_WIDTH.name: float(np.ptp(left[:, 1])),
+        v.TRACK_GAUGE.name: float(left.mean(0)[1] - of("track_shoe_r").mean(0)[1]),
+        v.TRACK_ON_GROUND.name: float(of("idler_l").mean(0)[0] - of("sprocket_l").mean(0)[0]),
+        v.GROUND_CLEARANCE.name: float(named("CENTRE FRAME")[0, 2]),
+        v.BLADE_WIDTH.name: float(np.ptp(of("blade")[:, 1])),
+        v.BUCKET_WIDTH.name: float(np.ptp(named("CUTTING EDGE")[:, 1])),
+    }
+
+
+def truth(root: Assembly, k: Linkage, pose: Pose, drawn: dict[str, Cylinder]) -> dict[str, Any]:
+    """The document written as `truth.json`."""
+    got, shapes = measured(k), drawn_values(root, k, pose)
+    named = {value.name: value for value in (*v.PUBLISHED, *v.EXAMPLE)}
+    return {
+        "about": "CAD frame, metres; parts, bodies and joints as in the excavator's truth.",
+        "frame": frame_matrix(),
+        "undercarriage_with": track_bodies(),
+        "joints": joints(k, pose, drawn),
+        "parts": {leaf.path: {"body": leaf.body, "role": leaf.role} for leaf in occurrences(root)},
+        "cylinders": {f"{n}_cylinder_barrel2{n}_piston_rod_joint": c.slide() for n, c in drawn.items()},
+        "sites": {"bucket_tip": _point((pose.T[0], 0.0, pose.T[1])), "bucket_pin": _point((pose.K[0], 0.0, pose.K[1]))},
+        "values": {
+            name: {
+                "target": value.value,
+                "unit": value.unit,
+                "published": value.published,
+                **({"linkage": round(got[name], 5)} if name in got else {}),
+                **({"drawn": round(shapes[name], 3)} if name in shapes else {}),
+            }
+            for name, value in named.items()
+            if name in got or name in shapes
+        },
+    }
