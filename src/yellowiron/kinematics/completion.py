@@ -304,8 +304,8 @@ def position_gains(
     *,
     travel: float | None = None,
     held: float = 0.0,
-    frequency: float = FREQUENCY,
     laden: float | None = None,
+    frequency: float = FREQUENCY,
 ) -> Drive:
     """A position drive with gains for a mass (kg, or kg·m² for a pivot): k = m(2πf)², d = 2k/(2πf), critically damped.
 
@@ -332,8 +332,8 @@ def position_gains(
         mass = drive.max_force / (_SATURATED * travel * omega * omega)
         capped = f", no stiffer than its force over {_SATURATED:.1%} of its travel: as for"
     stiffness = drive.stiffness if keep_stiffness else mass * omega * omega
-    damped = mass if laden is None else math.sqrt(min(empty, mass) * mass)
-    damping = drive.damping if keep_damping else 2.0 * math.sqrt(stiffness * damped)
+    least = mass if laden is None else min(empty, mass)
+    damping = drive.damping if keep_damping else 2.0 * math.sqrt(stiffness * math.sqrt(least * mass))
     shown = f"{1e-3 * mass:.4g} t" if unit == "kg" else f"{mass:.4g} {unit}"
     at = "" if keep_stiffness else f"{frequency:g} Hz, "
     on = capped + f" {shown}" if capped else f" on the {shown} it sees through the linkage"
