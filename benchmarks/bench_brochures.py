@@ -105,8 +105,9 @@ def first(value: Specification) -> float | None:
 
 
 def near(printed: str, value: float | None) -> bool:
-    expected = parse_quantity(printed, where=printed)[0]
-    return value is not None and abs(value - expected) <= SLACK * abs(expected) + 1e-9
+    """Whether it is what the page prints, in either system of measurement ("10.9 m / 36 ft")."""
+    expected = [parse_quantity(one, where=printed)[0] for one in printed.split(" / ")]
+    return value is not None and any(abs(value - one) <= SLACK * abs(one) + 1e-9 for one in expected)
 
 
 def judge(where: str, truth: dict[str, dict[str, object]], found: Specifications, config: str) -> Tally:
@@ -146,7 +147,7 @@ def with_model(
 ) -> Tally:
     """A reading with a played model: with the right one beside the rules what became of what they left open; with the
     lying ones nothing but what is wrong."""
-    known = {name: str(one["value"]) for name, one in truth.items() if "value" in one}
+    known = {name: str(one["value"]).split(" / ")[0] for name, one in truth.items() if "value" in one}
     options = ModelOptions("played", "http://localhost", most_calls=10**6)
     alone = from_sheets(template, [sheet], config=config)
     if kind == "right":
@@ -166,7 +167,7 @@ def with_model(
     slips = {
         one.name: f"{value!r} {one.unit}"
         for one in alone
-        if one.status != "ok" and (value := first(one)) is not None and not near(known.get(one.name, "0 m"), value)
+        if one.status != "ok" and (value := first(one)) is not None and not near(str(truth.get(one.name, {}).get("value", "0 m")), value)
     }
     lies = {**LIARS, "yes to the rules": lambda _: truthful(slips)}
     for name, liar in lies.items():
