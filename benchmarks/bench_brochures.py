@@ -167,7 +167,9 @@ def with_model(
     slips = {
         one.name: f"{value!r} {one.unit}"
         for one in alone
-        if one.status != "ok" and (value := first(one)) is not None and not near(str(truth.get(one.name, {}).get("value", "0 m")), value)
+        if one.status != "ok"
+        and (value := first(one)) is not None
+        and not near(str(truth.get(one.name, {}).get("value", "0 m")), value)
     }
     lies = {**LIARS, "yes to the rules": lambda _: truthful(slips)}
     for name, liar in lies.items():

@@ -135,8 +135,8 @@ def _printed(line: TextLine) -> str:
 
 
 def _squeezed(text: str) -> str:
-    """A text without spaces and dotted leaders."""
-    return re.sub(r"\.(?!\d)|(?<!\d)\.|_", "", "".join(text.split()))
+    """A text without spaces, dotted leaders and hyphens, also those of broken words."""
+    return re.sub(r"\.(?!\d)|(?<!\d)\.|[_\-–\u00ad\ufffe]", "", "".join(text.split()))
 
 
 def check_file(path: Path) -> None:

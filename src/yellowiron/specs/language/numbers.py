@@ -17,7 +17,7 @@ from yellowiron.specs.language.quantities import Quantity, quantities_in, same
 from yellowiron.support.units import parse_quantity
 
 _TIMES = re.compile(r"\s*[x×✕*]\s*[Øø⌀]?\s*", re.IGNORECASE)
-_DASH = re.compile(r"(?:\s*(?:[-–—~～〜∼]|\.\.\.|…)|\s*(?:to|bis)\b|\s+(?:à|a))\s*[Øø⌀]?\s*")
+_DASH = re.compile(r"(?:\s*(?:[-–—~～〜∼]|\.\.\.|…)|\s*(?:to|bis)\b\s*\+?|\s+(?:à|a))\s*[Øø⌀]?\s*")
 _CONDITION = re.compile(r"(?:\bat|@|\bbei|\bà|\bfor|\bfür|\bpour|\bwith|\bper)\s*$", re.IGNORECASE)
 _OF_NEXT = re.compile(
     r"(?:(?:^|[\s,;/|~–-])(?:to|bis|à|a)\s+|[\s,;/|~–-]*)((?:\b(?:min|max|mid|low|high)\w*\.?|[^\W\d][^\d,;:()|/]*[:：]|[^\W\d]\w*[:：])\s*)$",

@@ -33,7 +33,7 @@ _FEET_POINT = re.compile(r"(?P<feet>\d+)\.(?P<inches>[01]?\d)\s*(?:ft\.?\s*[-/&]
 """Feet and inches with a point between them under both units, as data bases of machines print them: "31.3 ft in"."""
 _MIXED = re.compile(r"(?P<whole>\d+)?\s*[- ]?\s*" + _FRACTION.format("i"))
 _PLUS_MINUS = re.compile(r"(?:±|\+\s?/\s?[-–−]|\+-)\s*$")
-_MINUS = re.compile(r"(?:^|[\s(])[-−]$")
+_MINUS = re.compile(r"(?:^|[\s(])[-−–]$")
 
 
 @dataclass(frozen=True)
@@ -300,7 +300,7 @@ def _signed(text: str, quantity: Quantity, earlier: list[Quantity]) -> Quantity:
     if both:
         start = floor + both.start()
         return replace(quantity, sign="±", start=start, text=text[start : quantity.end].strip())
-    if _MINUS.search(before) and (not earlier or before.strip(" -−")):
+    if _MINUS.search(before) and (not earlier or before.strip(" -−–")):
         value, start = -quantity.value, quantity.start - 1
         return replace(quantity, sign="-", value=value, start=start, text=f"-{quantity.text}", other=None)
     return quantity

@@ -48,9 +48,9 @@ megapascal        |1000000.0            |pressure     |metric  |MPa
 kilopascal        |1000.0               |pressure     |metric  |kPa
 bar               |100000.0             |pressure     |metric  |bars?
 kgf/centimeter**2 |98066.5              |pressure     |metric  |[kK]gf? ?/ ?cm(?:2|²)
-psi               |6894.7572931683635   |pressure     |imperial|psi|lbf?/in(?:2|²)
-liter/minute      |1.666666666666667e-05|flow|metric|(?:l|L|ltr\\.?|lit(?:er|re)s?)/min\\.?|lpm|LPM|(?:l|L) ?min-1
-gallon/minute     |6.309019639999999e-05|flow|imperial|(?:US |U\\.S\\. )?gal(?:lons?)?\\.?/min\\.?|gpm|GPM|USgpm
+psi               |6894.7572931683635   |pressure     |imperial|psi|p\\.s\\.i\\.?|lbf?/in(?:2|²)
+liter/minute|1.666666666666667e-05|flow|metric|(?:l|L|ltr\\.?|lit(?:er|re)s?)/min\\.?|l\\.?p\\.?m\\.?|LPM|(?:l|L) ?min-1
+gallon/minute|6.309019639999999e-05|flow|imperial|(?:US |U\\.S\\. )?gal(?:lons?)?\\.?/min\\.?|g\\.?p\\.?m\\.?|GPM|USgpm
 meter**3          |1.0                  |volume       |metric  |m(?:3|³)|cu\\.? ?m
 liter             |0.0010000000000000002|volume       |metric  |l|L|ltr|lit(?:er|re)s?|litros?
 centimeter**3     |1.0000000000000002e-06|volume       |metric  |cm(?:3|³)|cc|ccm
@@ -65,19 +65,19 @@ force_pound       |4.4482216152605005   |force        |imperial|lbf
 newton*meter      |1.0                  |torque       |metric  |N ?[·.•*-]? ?m
 kilonewton*meter  |1000.0               |torque       |metric  |kN ?[·.•*-]? ?m
 foot*force_pound  |1.3558179483314001   |torque       |imperial|(?:lbf?|ft)[·.•*-](?:ft|lbf?)|lbf? ft|ft lbf?
-kilowatt          |1000.0               |power        |metric  |kW
+kilowatt          |1000.0               |power        |metric  |kW|KW|kw
 watt              |1.0                  |power        |metric  |W
-horsepower        |745.6998715822701    |power        |imperial|hp|HP|bhp
+horsepower        |745.6998715822701    |power        |imperial|hp|HP|bhp|h\\.p\\.?
 metric_horsepower |735.49875            |power        |metric  |PS|CV|ch
 kilometer/hour    |0.2777777777777778   |speed        |metric  |km/h|kph|km/hr|kmh|kmph
 meter/second      |1.0                  |speed        |metric  |m/s(?:ec)?\\.?
 meter/minute      |0.016666666666666666 |speed        |metric  |m/min\\.?|mpm
 centimeter/second |0.01                 |speed        |metric  |cm/s(?:ec)?\\.?
 millimeter/second |0.001                |speed        |metric  |mm/s(?:ec)?\\.?
-foot/minute       |0.0050799999999999994|speed        |imperial|ft/min\\.?|fpm|ft\\./min\\.?
+foot/minute       |0.0050799999999999994|speed        |imperial|ft/min\\.?|fpm|f\\.p\\.m\\.?|ft\\./min\\.?
 foot/second       |0.30479999999999996  |speed        |imperial|ft/s(?:ec)?\\.?|fps
-mile/hour         |0.44704              |speed        |imperial|mph|MPH|mi/h
-revolution/minute |0.10471975511965977  |angular_speed|both    |rpm|RPM|r/min|rev/min|min-1|min⁻¹|1/min|U/min|tr/min
+mile/hour         |0.44704              |speed        |imperial|mph|MPH|mi/h|m\\.p\\.h\\.?
+revolution/minute|0.10471975511965977|angular_speed|both|r\\.?p\\.?m\\.?|RPM|r/min|rev/min|min-1|min⁻¹|1/min|U/min|tr/min
 second            |1.0                  |time         |both    |s|secs?\\.?|seconds?|segundos?|secondes?|Sekunden?
 minute            |60.0                 |time         |both    |mins?\\.?|minutes?|minutos?|Minuten?
 degree            |0.017453292519943295 |angle        |both    |°|º|˚|deg\\.?|degrees?|grados?|degrés?|Grad

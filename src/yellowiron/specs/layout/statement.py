@@ -93,7 +93,8 @@ class Statement:
     `variant` is what names the row where heads name the properties (a bucket's capacity beside its width). `row` groups
     the cells of one row. `quote` is what the page prints, pieces that stand apart joined by " … "; `heads`
     are the lines over the column as printed, for a quote that needs them. `proven`: whether each part of the quote
-    stands together in the file's own text. `sheet` is the number of its sheet among those read together, from 0.
+    stands together in the file's own text; `running`: whether it is said in a sentence. `sheet` is the number of its
+    sheet among those read together, from 0.
     """
 
     page: int
@@ -111,6 +112,7 @@ class Statement:
     heads: tuple[str, ...] = ()
     variant: tuple[str, ...] = ()
     proven: bool = True
+    running: bool = False
     sheet: int = 0
 
 
@@ -308,7 +310,7 @@ def split_inline(text: str) -> tuple[str, str]:
     if lists_items(text):
         return "", ""
     colon = re.match(r"^(.*?[^\W\d].*?)\s*[:=]\s+(.+)$", text)
-    if colon and looks_like_value(colon.group(2)):
+    if colon and " = " not in colon.group(2) and looks_like_value(colon.group(2)):
         return colon.group(1), colon.group(2)
     readings = [r for r in read(text) if not r.condition and all(q.unit for q in r.numbers)]
     for reading in readings:

@@ -82,6 +82,8 @@ class _Glyph:
     baseline: float
     size: float
     bold: bool
+    ends: bool = False
+    """Whether PDFium sees a space behind it, though the file has none."""
 
 
 def read_page(page: Any, number: int) -> Page:
@@ -140,7 +142,11 @@ def _glyphs(textpage: Any, place: Place, size_of_page: tuple[float, float]) -> t
     characters = unmapped = 0
     for index in range(textpage.count_chars()):
         code = pdfium.FPDFText_GetUnicode(textpage, index)
-        if code in (0x0D, 0x0A) or pdfium.FPDFText_IsGenerated(textpage, index) == 1:
+        if code in (0x0D, 0x0A):
+            continue
+        if pdfium.FPDFText_IsGenerated(textpage, index) == 1:
+            if code == 0x20 and found:
+                found[-1].ends = True
             continue
         if code == 0x20 or code == 0xA0:
             found.append(_Glyph(" ", 0, 0, 0, 0, False))
@@ -206,7 +212,7 @@ def _words(glyphs: list[_Glyph]) -> tuple[list[Word], list[Box]]:
             last is not None
             and abs(last.baseline - glyph.baseline) < 0.1 * last.size
             and abs(last.size - glyph.size) < 0.2 * last.size
-            and -0.5 * last.size < glyph.x0 - last.x1 < 0.22 * last.size
+            and -0.5 * last.size < glyph.x0 - last.x1 < (0.12 if last.ends else 0.22) * last.size
         ):
             runs[-1].append(glyph)
         else:

@@ -44,7 +44,21 @@ def claims_of(statements: Sequence[Statement], style: DecimalStyle) -> list[Clai
     claims: list[Claim] = []
     for statement in statements:
         claims.extend(_expand(statement, style))
-    return _joined_systems(_with_units(_in_one_unit(claims)))
+    joined = _joined_systems(_with_units(_in_one_unit(claims)))
+    return [*joined, *(force for claim in joined if (force := _as_force(claim)))]
+
+
+_FORCES = {"kg": "kgf", "lb": "lbf"}
+_PULLS = {"force", "pull"}
+
+
+def _as_force(claim: Claim) -> Claim | None:
+    """A mass that a label calls a force or a pull, as the force that its weight is: "Line pull: 5,860 kg"."""
+    if claim.quantity.dimension != "mass" or not _PULLS & {*tokens(claim.words), *tokens(claim.head)}:
+        return None
+    own, other = (q and replace(q, unit=_FORCES.get(q.unit.rstrip("s.").casefold(), ""))
+                  for q in (claim.quantity, claim.partner))  # fmt: skip
+    return replace(claim, quantity=own, partner=other) if own and own.unit else None
 
 
 BARE_UNITS = {
@@ -311,7 +325,7 @@ def _factors(statement: Statement, label: str, reading: Reading) -> Iterator[Cla
     places = [(label, "label"), *((h, "head") for h in reversed(statement.column))]
     places += [(c, "context") for c in reversed(statement.context)]
     for text, place in places:
-        names = enumerated(text, len(reading.numbers))
+        names = enumerated(text, len(reading.numbers)) or enumerated(text.partition(")")[0], len(reading.numbers))
         if not names:
             continue
         for index, (name, quantity) in enumerate(zip(names, reading.numbers, strict=True)):

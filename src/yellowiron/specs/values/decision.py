@@ -82,8 +82,8 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
 
 
 def _is_broken_off(label: str) -> bool:
-    """Whether a label ends in the middle: behind a comma, or in brackets that are not closed."""
-    return re.search(r"[,，、]$|\w[-/]$", label.rstrip()) is not None or label.count("(") > label.count(")")
+    """Whether a label ends in the middle: behind a comma or a plus, or in brackets that are not closed."""
+    return re.search(r"[,，、+]$|\w[-/]$", label.rstrip()) is not None or label.count("(") > label.count(")")
 
 
 def name_printed(found: Match) -> str:
@@ -172,6 +172,12 @@ def _configured(matches: Sequence[Match], sheets: Sheets, config: str) -> list[M
         if max(shares) >= _SAID and max(shares) > min(shares):
             kept = [m for m, share in zip(kept, shares, strict=True) if share == max(shares)]
         heads = [[_words_of(head) for head in m.claim.statement.column] for m in kept]
+        parts = [any(head and head <= words for head in own) for own in heads]
+        if any(parts):  # the head "436" is a part of "436 ZX", "426" is not
+            kept, heads = (
+                [m for m, is_one in zip(kept, parts, strict=True) if is_one],
+                [h for h, p in zip(heads, parts, strict=True) if p],
+            )
         if any(words in own for own in heads):
             kept = [
                 m for m, own in zip(kept, heads, strict=True) if words in own or not any(words < head for head in own)
@@ -272,8 +278,11 @@ def _config_words(claim: Claim, sheets: Sheets) -> set[str]:
 
 def _groups(wanted: Wanted, matches: Sequence[Match]) -> list[list[Match]]:
     """By value; those outside what is usual have no say where others are inside."""
-    inside = [m for m in matches if usual(wanted, settled(wanted, m.claim)[0].si_value)] or matches
-    return _by_value(wanted, _near_best(inside))
+    inside = [m for m in matches if usual(wanted, settled(wanted, m.claim)[0].si_value)] or list(matches)
+    kept = _near_best(inside)
+    if all(m.claim.statement.running for m in kept):  # no sentence outdoes what a table says, too
+        kept += [m for m in inside if not m.claim.statement.running]
+    return _by_value(wanted, kept)
 
 
 def _by_value(wanted: Wanted, matches: Sequence[Match]) -> list[list[Match]]:

@@ -72,7 +72,7 @@ def match(claims: Sequence[Claim], wanted: Sequence[Wanted]) -> dict[str, list[M
     for claim in claims:
         said, dimension = _said(claim), claim.quantity.dimension
         place = claim.statement
-        words = (dimension, claim.words, claim.head, place.column, place.context, place.section)
+        words = (dimension, claim.words, claim.head, place.column, place.context, place.section, place.running)
         if words not in known:
             every = (_match(a, claim, said) for a in by_dimension.get(dimension, ()))
             known[words] = [m for m in every if m is not None and m.score >= LEAST]
@@ -89,7 +89,21 @@ def match(claims: Sequence[Claim], wanted: Sequence[Wanted]) -> dict[str, list[M
             # where no other label does.
             unsaid = len(kept) > 1 and (_EXTREME & set(tokens(one.wanted.name))) - said.label - said.head - said.context
             found[one.wanted.name].append(replace(one, score=one.score - _UNSAID) if unsaid else one)
-    return _ends_told_apart(found, wanted)
+    return _ends_told_apart({name: _without_shared_headings(own) for name, own in found.items()}, wanted)
+
+
+def _without_shared_headings(matches: list[Match]) -> list[Match]:
+    """The matches without those of values that have no name but a heading which stands over other ones, too."""
+    under: dict[tuple[object, ...], set[tuple[float, ...]]] = {}
+
+    def place(one: Match) -> tuple[object, ...]:
+        statement = one.claim.statement
+        return (statement.sheet, statement.page, statement.section, statement.column)
+
+    for one in matches:
+        if not one.by_label and not one.by_head:
+            under.setdefault(place(one), set()).add(one.claim.statement.box)
+    return [m for m in matches if m.by_label or m.by_head or m.claim.ranged or len(under[place(m)]) == 1]
 
 
 def _ends_told_apart(found: dict[str, list[Match]], wanted: Sequence[Wanted]) -> dict[str, list[Match]]:
@@ -339,9 +353,19 @@ def _is_telling(
     for other, phrase in asked_for.others.get(word, ()) if word not in asked_for.words else ():
         if phrase <= words and not _forbidden(other, claim, said.text, [said.label, *said.naming, *said.contexts]):
             return True
-    if word in HARMLESS or word in NEUTRAL:
+    if word in HARMLESS or word in NEUTRAL or (word not in KNOWN and _opens_sentence(word, asked_for, claim)):
         return False
     return not (word in known and word in asked_for.words)
+
+
+def _opens_sentence(word: str, asked_for: _Asked, claim: Claim) -> bool:
+    """Whether a word of running text stands before all that name the value: "TWIN-LOCK boom of 51 m". What stands
+    between a name and its number may make it another one's."""
+    if not claim.statement.running:
+        return False
+    order = tokens(claim.words)
+    first = next((i for i, t in enumerate(order) if t in asked_for.words), 0)
+    return word in order[:first] and word not in order[first:]
 
 
 @functools.lru_cache(maxsize=1024)
@@ -369,7 +393,7 @@ def _anchored(words: Set[str], label: Set[str], head: Set[str], above: Set[str])
         return True
     if words & head:
         return len(words & head) >= 1
-    return not label and not head and words <= above
+    return not label and all(map(_is_number, head)) and words <= above  # numbers over a column are models
 
 
 def _contradicts(words: Set[str], asked: Set[str]) -> bool:

@@ -33,14 +33,15 @@ def grids_of(page: Page) -> list[TableGrid]:
         return []
     from pdfplumber.table import cells_to_tables, edges_to_intersections, intersections_to_cells, merge_edges
 
-    level = [*(r for r in (*drawn, *filled) if r.horizontal), *_closing_bars(page, walls)]
+    level = [*(r for r in (*drawn, *filled) if r.horizontal), *_bands(page)]
     walls += side_walls(level, walls, page.words)
     grids = []
     for rules in _joining(_framing(merged(level), joined(walls))):
         edges = merge_edges([_edge(r) for r in rules], SNAP, SNAP, SNAP, SNAP)
         if 4 <= len(edges) <= _MOST_EDGES:
             cells = intersections_to_cells(edges_to_intersections(edges, SNAP, SNAP))
-            grids += [with_columns(with_rows(_grid(boxes, page.words))) for boxes in cells_to_tables(cells)]
+            parts = [part for boxes in cells_to_tables(cells) for part in _apart(boxes)]
+            grids += [with_columns(with_rows(_grid(boxes, page.words))) for boxes in parts]
     grids = [g for g in grids if g.columns >= 2 and sum(bool(c.lines) for c in g.cells) >= 2 and not _is_frame(g)]
     tables = [g for g in grids if g.rows >= 2 and sum(bool(c.lines) for c in g.cells) >= 3]
     found = [g for g in grids if any(g is t or (g.rows == 1 and _are_level(g, t)) for t in tables)]
@@ -98,27 +99,14 @@ def _joining(rules: Sequence[DrawnRule]) -> list[list[DrawnRule]]:
 
 
 def _lies_in(rule: DrawnRule, box: Box) -> bool:
-    return (
-        box[0] - SNAP <= rule.x0
-        and rule.x1 <= box[2] + SNAP
-        and box[1] - SNAP <= rule.top
-        and rule.bottom <= box[3] + SNAP
-    )
+    level = box[0] - SNAP <= rule.x0 and rule.x1 <= box[2] + SNAP
+    return level and box[1] - SNAP <= rule.top and rule.bottom <= box[3] + SNAP
 
 
-def _closing_bars(page: Page, walls: Sequence[DrawnRule]) -> list[DrawnRule]:
-    """The lower edges of headings' bars on which walls stand: the table's first row has no other rule above it."""
-    found = []
-    standing = sorted((w.top, w.x0) for w in walls)
-    for bar in page.bars:
-        if bar[3] - bar[1] >= HEADING_BAR:
-            continue
-        level = standing[
-            bisect_left(standing, (bar[3] - SNAP,)) : bisect_right(standing, (bar[3] + SNAP, bar[2] + SNAP))
-        ]
-        if on := [x for _, x in level if bar[0] - SNAP <= x <= bar[2] + SNAP]:
-            found.append(DrawnRule(min(*on, bar[0]), bar[3], max(*on, bar[2]), bar[3]))
-    return found
+def _bands(page: Page) -> list[DrawnRule]:
+    """The upper and lower edges of filled bars no higher than a row of some lines: they part rows, walls columns."""
+    bars = [b for b in page.bars if 6 <= b[3] - b[1] <= HEADING_BAR and b[2] - b[0] >= 12]
+    return [DrawnRule(b[0], y, b[2], y) for b in bars for y in (b[1], b[3])]
 
 
 def _are_level(row: TableGrid, table: TableGrid) -> bool:
@@ -128,36 +116,23 @@ def _are_level(row: TableGrid, table: TableGrid) -> bool:
 
 
 def _edge(rule: DrawnRule) -> dict[str, object]:
-    return {
-        "x0": rule.x0,
-        "x1": rule.x1,
-        "top": rule.top,
-        "bottom": rule.bottom,
-        "width": rule.x1 - rule.x0,
-        "height": rule.bottom - rule.top,
-        "orientation": "h" if rule.horizontal else "v",
-        "object_type": "line",
-    }
+    place = {name: getattr(rule, name) for name in ("x0", "x1", "top", "bottom")}
+    size = {"width": rule.x1 - rule.x0, "height": rule.bottom - rule.top}
+    return {**place, **size, "orientation": "h" if rule.horizontal else "v", "object_type": "line"}
 
 
 def _grid(boxes: Sequence[Box], words: Sequence[Word]) -> TableGrid:
-    xs, ys = (
-        _stops([b[0] for b in boxes] + [b[2] for b in boxes]),
-        _stops([b[1] for b in boxes] + [b[3] for b in boxes]),
-    )
+    xs, ys = (_stops([b[i] for b in boxes] + [b[i + 2] for b in boxes]) for i in (0, 1))
     inside: dict[tuple[int, int], list[Word]] = {}
     for word in words:
         place = (_slot(ys, (word.top + word.bottom) / 2), _slot(xs, (word.x0 + word.x1) / 2))
         inside.setdefault(place, []).append(word)
     cells = []
-    places: dict[tuple[int, int], Cell] = {}
     for box in sorted(boxes, key=lambda b: (b[1], b[0])):
         rows, columns = (_index(ys, box[1]), _index(ys, box[3])), (_index(xs, box[0]), _index(xs, box[2]))
-        covered = list(itertools.product(range(*rows), range(*columns)))
-        cell = Cell(box, rows, columns, tuple(lines_of([w for place in covered for w in inside.get(place, ())])))
-        cells.append(cell)
-        places.update((place, cell) for place in covered)
-    return TableGrid(join_boxes(boxes), tuple(cells), len(ys) - 1, len(xs) - 1, places)
+        own = [w for place in itertools.product(range(*rows), range(*columns)) for w in inside.get(place, ())]
+        cells.append(Cell(box, rows, columns, tuple(lines_of(own))))
+    return TableGrid(join_boxes(boxes), tuple(cells), len(ys) - 1, len(xs) - 1)
 
 
 def _slot(stops: Sequence[float], value: float) -> int:
@@ -176,6 +151,18 @@ def _stops(values: Sequence[float]) -> list[float]:
 
 def _index(stops: Sequence[float], value: float) -> int:
     return min(range(len(stops)), key=lambda i: abs(stops[i] - value))
+
+
+def _apart(boxes: list[Box]) -> list[list[Box]]:
+    """The cells of a table, parted where one side ends about where the other begins: tables that touch at a corner."""
+    for x in sorted({b[0] for b in boxes})[1:]:
+        left, right = [b for b in boxes if b[2] <= x + SNAP], [b for b in boxes if b[0] >= x - SNAP]
+        if len(left) + len(right) != len(boxes) or min(len(left), len(right)) < 4:
+            continue
+        (_, top, _, bottom), (_, other_top, _, other_bottom) = join_boxes(left), join_boxes(right)
+        if min(bottom, other_bottom) - max(top, other_top) < 1.5 * min(b[3] - b[1] for b in boxes):
+            return [*_apart(left), *_apart(right)]
+    return [boxes]
 
 
 def _is_frame(grid: TableGrid) -> bool:

@@ -37,8 +37,7 @@ def with_rows(grid: TableGrid) -> TableGrid:
             lines = tuple(line for line in cell.lines if top <= (line.top + line.bottom) / 2 < bottom)
             box = (cell.box[0], top, cell.box[2], bottom)
             cells.append(replace(cell, box=box, rows=(first[a] + index, first[a] + index + 1), lines=lines))
-    places = {place: c for c in cells for place in itertools.product(range(*c.rows), range(*c.columns))}
-    return replace(grid, cells=tuple(cells), rows=first[-1], places=places)
+    return replace(grid, cells=tuple(cells), rows=first[-1])
 
 
 def _edges(grid: TableGrid, row: int) -> list[float]:
@@ -133,5 +132,4 @@ def _with_wall(grid: TableGrid, column: int, x: float) -> TableGrid:
                 cells.append(replace(cell, box=box, columns=columns, lines=tuple(lines_of(words))))
         else:
             cells.append(replace(cell, columns=(first + (first > column), last + (last > column))))
-    places = {place: c for c in cells for place in itertools.product(range(*c.rows), range(*c.columns))}
-    return replace(grid, cells=tuple(cells), columns=grid.columns + 1, places=places)
+    return replace(grid, cells=tuple(cells), columns=grid.columns + 1)

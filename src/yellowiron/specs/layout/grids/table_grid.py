@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import itertools
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 
@@ -39,7 +40,11 @@ class TableGrid:
     cells: tuple[Cell, ...]
     rows: int
     columns: int
-    places: Mapping[tuple[int, int], Cell]
+
+    @functools.cached_property
+    def places(self) -> Mapping[tuple[int, int], Cell]:
+        """The cells by the grid positions that they cover."""
+        return {place: c for c in self.cells for place in itertools.product(range(*c.rows), range(*c.columns))}
 
     def at(self, row: int, column: int) -> Cell | None:
         """The cell that covers a grid position."""
@@ -47,6 +52,4 @@ class TableGrid:
 
     def emptied(self, cells: Collection[Cell]) -> TableGrid:
         """The table with no words in some of its cells."""
-        kept = {c: replace(c, lines=()) if c in cells else c for c in self.cells}
-        places = {place: kept[c] for place, c in self.places.items()}
-        return replace(self, cells=tuple(kept.values()), places=places)
+        return replace(self, cells=tuple(replace(c, lines=()) if c in cells else c for c in self.cells))

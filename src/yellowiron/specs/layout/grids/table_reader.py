@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -11,6 +11,7 @@ from yellowiron.specs.language.vocabulary import CIRCUITS, tokens
 from yellowiron.specs.layout.grids.table_grid import Cell, TableGrid
 from yellowiron.specs.layout.rows.cells import is_circumstance, marked_by_footnote
 from yellowiron.specs.layout.rows.headings import in_capitals, names_models, names_no_columns
+from yellowiron.specs.layout.rows.prose import paragraphs_of, read_paragraph
 from yellowiron.specs.layout.statement import (
     COUNTED,
     EXAMPLE,
@@ -30,6 +31,8 @@ from yellowiron.specs.pages.words import Page
 
 _LONGEST_SECTION = 12
 """Words; more are no heading."""
+_LONGEST_HEAD = 6
+"""Words; more name no column."""
 
 
 @dataclass(frozen=True)
@@ -63,6 +66,9 @@ def read_grid(
         cells = _row_cells(grid, index)
         filled = [c for c in cells if c.lines]
         values = _values_of(filled)
+        if not filled:
+            continue
+        found.extend(_sentences(page, filled, values, first_row + index, section))
         if not values:
             if len(filled) == 1 and len(filled[0].text.split()) > _LONGEST_SECTION:
                 continue  # a sentence
@@ -72,8 +78,10 @@ def read_grid(
                 titled |= spans
                 section, over_rows = (title, ()) if spans or not titled else (section, (title,))
                 circuit = ()
-            elif index in facts:
-                circuit = (filled[0].text,) if CIRCUITS & set(tokens(filled[0].text)) else ()
+            elif len(filled) == 1 and filled[0].columns[0] == 0:
+                over_rows, circuit = (filled[0].text,), ()
+            elif index in facts or _are_sentences(filled[1:]):
+                circuit = (filled[0].text,) if {"pump", *CIRCUITS} & set(tokens(filled[0].text)) else ()
             elif not (filled and filled[0].columns[0] == 0 and _heads_none(grid, filled, heads if found else [])):
                 heads.append(index)
             continue
@@ -86,9 +94,12 @@ def read_grid(
             carried = [c for c in filled if not any(c is v for v in values)]
         else:
             carried = []
-        if not _labels(cells, values[0]) and (not heads or index in naming):
-            heads.extend([] if index in heads else [index])
-            continue
+        if not _labels(cells, values[0]):
+            label = _labels(_row_cells(grid, heads[-1]), values[0]) if heads else []
+            if not heads or index in naming or _numbers_columns(grid, index, filled):
+                heads.extend([] if index in heads else [index])
+                continue
+            cells = [*label, *cells]  # "Travel speed | JS330 | JS370" over " | High: 5 km/h | …"
         over = [h for h in heads if h <= index] if index in naming else heads
         own = _read_row(_Row(page, grid, cells, first_row + index, section), values, over)
         if heads and index not in heads and not any(f.label for f in own):
@@ -100,6 +111,17 @@ def read_grid(
             own = [_headed(f, above) for f in own]
         found.extend(own)
     return found
+
+
+def _sentences(
+    page: Page, filled: Sequence[Cell], values: Sequence[Cell], row: int, section: str
+) -> Iterator[Statement]:
+    """The statements of running text in the cells of a row that hold no value, under the label that begins it."""
+    label = filled[0].text if len(filled) > 1 and filled[0].columns[0] == 0 else section
+    for cell in filled:
+        if len(cell.text.split()) > _LONGEST_SECTION and not any(cell is v for v in values):
+            for paragraph in paragraphs_of(cell.lines):
+                yield from read_paragraph(page.number, paragraph, row, label)
 
 
 def _is_section(grid: TableGrid, cell: Cell) -> bool:
@@ -114,6 +136,11 @@ def _is_section(grid: TableGrid, cell: Cell) -> bool:
 
 def _is_alone(grid: TableGrid, cell: Cell) -> bool:
     return all(c is cell or not c.lines for row in range(*cell.rows) for c in _row_cells(grid, row))
+
+
+def _are_sentences(cells: Sequence[Cell]) -> bool:
+    """Whether cells say more than a column's head."""
+    return bool(cells) and all(len(c.text.split()) > _LONGEST_HEAD or c.text.endswith(".") for c in cells)
 
 
 def _heads_none(grid: TableGrid, filled: Sequence[Cell], heads: Sequence[int]) -> bool:
@@ -251,6 +278,20 @@ def _head_rows(page: Page, grid: TableGrid) -> list[int]:
             break
         found.append(row)
     return found
+
+
+def _numbers_columns(grid: TableGrid, row: int, filled: Sequence[Cell]) -> bool:
+    """Whether a row without a label names its columns by numbers, models: bare ones, no two alike, over a row with a
+    label."""
+    texts = [c.text for c in filled]
+    below = [c for c in _row_cells(grid, row + 1) if c.lines] if row + 1 < grid.rows else []
+    return (
+        len(set(texts)) == len(texts) > 1
+        and all(t.isdigit() for t in texts)
+        and bool(below)
+        and not looks_like_value(below[0].text)
+        and below[0].columns[1] <= filled[0].columns[0]
+    )
 
 
 def _parts(grid: TableGrid, row: int, cell: Cell) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 from yellowiron.specs.layout.statement import TextPiece, kind_of, split_inline
 from yellowiron.specs.pages.strokes import Box, DrawnRule
@@ -95,8 +96,8 @@ def blocks_of(lines: Sequence[TextLine], bars: Sequence[Box] = (), across: Seque
     """The columns of text, in reading order: what is above a pair of columns, the left one, the right one, the rest.
 
     A gutter is an x at which several lines begin a label anew, each with a value to its right, and which no piece
-    crosses; or at which a filled bar begins beside another. `across` are leaders and rules, which do not cross a gutter
-    either.
+    crosses; at which running text begins beside running text; or a filled bar beside another. `across` are leaders and
+    rules, which do not cross a gutter either.
     """
     if not lines:
         return []
@@ -108,8 +109,9 @@ def blocks_of(lines: Sequence[TextLine], bars: Sequence[Box] = (), across: Seque
     left: list[TextLine] = []
     right: list[TextLine] = []
     for line in lines[first:last]:
-        a = tuple(p for p in line.pieces if p.x0 < x - 2)
-        b = tuple(p for p in line.pieces if p.x0 >= x - 2)
+        pieces = [part for p in line.pieces for part in _cut_at(p, x)]
+        a = tuple(p for p in pieces if p.x0 < x - 2)
+        b = tuple(p for p in pieces if p.x0 >= x - 2)
         if a:
             left.append(TextLine(a))
         if b:
@@ -122,20 +124,61 @@ def blocks_of(lines: Sequence[TextLine], bars: Sequence[Box] = (), across: Seque
     ]
 
 
+def _cut_at(piece: TextPiece, x: float) -> list[TextPiece]:
+    """A piece, parted where one of its words begins at an x: columns of text may stand closer than a wide gap."""
+    for index, (a, b) in enumerate(pairwise(piece.words), 1):
+        if abs(b.x0 - x) < 2 and b.x0 - a.x1 > 0.3 * b.size:
+            return [TextPiece(piece.words[:index]), TextPiece(piece.words[index:])]
+    return [piece]
+
+
 def _gutter(lines: Sequence[TextLine], bars: Sequence[Box], across: Sequence[Box]) -> tuple[float, int, int] | None:
     """The best gutter: its x and the range of lines that it parts."""
     by_bars = sorted({b[0] for b in bars if any(a[2] <= b[0] and a[1] < b[3] and b[1] < a[3] for a in bars)})
     drawn = [*by_bars, *_of_broken_rules(lines, across)]
+    running = _of_running_text(lines)
     best: tuple[int, float, int, int] | None = None
-    for x in [*_of_repeated_labels(lines), *_of_right_set_labels(lines), *drawn]:
+    for x in [*_of_repeated_labels(lines), *_of_right_set_labels(lines), *drawn, *running]:
         first, last, weight = _run(lines, across, x)
         part = lines[first:last]
         parts = sum(_has_value_left_of(line, x) for line in part) >= 2 or (
             x in drawn and _begun_at(part, x) >= 3 and not _parts_labels_from_values(part, x)
         )
+        parts = parts or (x in running and all(_runs(part, x, side) >= _FEWEST_RUNNING for side in (-1, 1)))
         if weight >= 3 and parts and (best is None or weight > best[0]):
             best = (weight, x, first, last)
     return best[1:] if best else None
+
+
+_FEWEST_RUNNING = 5
+"""Lines of running text that make a column of it."""
+
+
+def _of_running_text(lines: Sequence[TextLine]) -> list[float]:
+    """Where several lines of running text begin that are not the first of their line on the page."""
+    starts: dict[int, list[float]] = {}
+    left_edge = min(line.x0 for line in lines)
+    for line in lines:
+        for piece in line.pieces:
+            if piece.x0 > left_edge + 5 * _HANGING and _is_running(piece):
+                starts.setdefault(round(piece.x0 / 4), []).append(piece.x0)
+    found = [min(xs) for key, xs in sorted(starts.items()) if len(xs) >= _FEWEST_RUNNING]
+    return sorted({x for label in found for x in (label, *_hanging(lines, label))})
+
+
+def _hanging(lines: Sequence[TextLine], x: float) -> list[float]:
+    """Where headings hang out to the left of what begins at an x."""
+    return sorted({p.x0 for line in lines for p in line.pieces if x - _HANGING <= p.x0 < x - 2})[:3]
+
+
+def _is_running(piece: TextPiece) -> bool:
+    """Whether a piece may be a line of running text: several words, most of them in letters."""
+    return len(piece.words) >= 4 and 2 * sum(w.text[:1].isalpha() for w in piece.words) > len(piece.words)
+
+
+def _runs(lines: Sequence[TextLine], x: float, side: int) -> int:
+    """How many lines of running text stand left (-1) or right (1) of an x."""
+    return sum(_is_running(p) and (p.x0 < x - 2) == (side < 0) for line in lines for p in line.pieces)
 
 
 def _has_value_left_of(line: TextLine, x: float) -> bool:
@@ -166,10 +209,7 @@ def _of_repeated_labels(lines: Sequence[TextLine]) -> list[float]:
         near = starts[key] + starts.get(key + 1, [])
         if len(near) >= 4 and sum(paired for _, paired in near) >= max(3, 0.5 * len(near)):
             label = min(x for x, _ in near)
-            found.append(label)
-            # headings may hang out to the left of their rows
-            hanging = {p.x0 for line in lines for p in line.pieces if label - _HANGING <= p.x0 < label - 2}
-            found.extend(sorted(hanging)[:3])
+            found.extend([label, *_hanging(lines, label)])
     return found
 
 
@@ -253,7 +293,7 @@ def _run(lines: Sequence[TextLine], across: Sequence[Box], x: float) -> tuple[in
     start = 0
     for index in range(len(lines) + 1):
         ends = index == len(lines)
-        crossed = ends or any(p.x0 < x - 2 and p.x1 > x - 2 for p in lines[index].pieces)
+        crossed = ends or any(p.x0 < x - 2 and p.x1 > x - 2 and len(_cut_at(p, x)) == 1 for p in lines[index].pieces)
         if not crossed:
             middle = (lines[index].top + lines[index].bottom) / 2
             crossed = any(b[1] <= middle <= b[3] for b in covers)

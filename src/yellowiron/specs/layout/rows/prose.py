@@ -16,7 +16,7 @@ from yellowiron.specs.pages.words import Word
 _END = re.compile(r"[.;!?](?=\s|$)|[。；！？]")
 _ABBREVIATION = re.compile(
     r"(?:^|[\s(])(?:max|min|approx|ca|env|aprox|máx|mín|no|nr|n|incl|excl|resp|bzw|vs|std|opt|fig|e\.g|i\.e|z\.b|"
-    r"cu|sq|gal|in|ft|lb|lbs|yd|\d{1,2})$",
+    r"cu|sq|gal|in|ft|lb|lbs|yd|\d{1,2}|(?:[a-z]\.)+[a-z])$",
     re.IGNORECASE,
 )
 """What a full stop belongs to without ending a sentence; a unit with one ends it only before a capital."""
@@ -28,8 +28,16 @@ _NUMBER = re.compile(r"[<>≤≥~±]?\d+(?:[.,\s]\d+)*")
 _WORD = re.compile(r"[^\W\d_]{3,}")
 _NEXT_IN_LIST = re.compile(r"[^\W\d][)\]]?\s*[,，]\s*$|\d[)\]]\s*,\s*$")
 _NAMED_BEHIND = re.compile(r"\s*[^\W\d_]{3,}")
+_BROKEN_WORD = re.compile(r"[^\W\d_][-–\u2010]$")
 _LONGEST = 16
 """Words before a value; more are about something else."""
+_CIRCUMSTANCE = re.compile(
+    r"^\W*(?:\d+[.)]\s*)?(?:for|if|when|while|unless|during|für|wenn|bei|pour|si|lorsque|para|cuando)\b|"
+    r"(?:\b(?:between|than|below|above|exceed\w*|over|under|unter|über|als|zwischen|entre|plus de|más de|menos de)|"
+    r"[<>≤≥])\W*$|时[，,]",
+    re.IGNORECASE,
+)
+"""Words that make what follows a circumstance of the sentence, and no value of its own."""
 
 
 def paragraphs_of(lines: Sequence[TextLine]) -> list[tuple[TextLine, ...]]:
@@ -90,6 +98,8 @@ def _text_of(lines: Sequence[TextLine]) -> tuple[str, list[tuple[int, int, Word]
             glued = not text or (
                 begins_line and (has_cjk(text[-1]) or text[-1] in "。；，、）" or has_cjk(word.text[0]))
             )
+            if begins_line and _BROKEN_WORD.search(text) and word.text[0].islower():
+                text, glued = text[:-1], True
             text += "" if glued else " "
             places.append((len(text), len(text) + len(word.text), word))
             text += word.text
@@ -131,7 +141,17 @@ def read_paragraph(page: int, lines: Sequence[TextLine], first_row: int, section
                 owner, label = listed.group(1), f"{listed.group(1)} {listed.group(2)}"
             elif owner and label and re.match(r"[\s)]*[,，、]", sentence[edge:begin]):
                 label = f"{owner} {label}"
-            if label and not reading.condition and len(label.split()) <= _LONGEST:
+            opens = not label and not edge and bool(section)  # under a heading, its name may stand behind a value
+            label = label or (_behind(sentence[stop:]) if opens else "")
+            if label and (said := re.match(r"[\s)]*\(([^()\d]+)\)", sentence[stop:])):  # "298 kW (gross)"
+                label = f"{label} {said.group(1)}"
+            told = bool(label) or (opens and not offset)
+            if (
+                told
+                and not reading.condition
+                and not _CIRCUMSTANCE.search(sentence[:begin])
+                and len(label.split()) <= _LONGEST
+            ):
                 boxes = [w.box for a, b, w in places if a < offset + stop and b > offset + begin]
                 yield Statement(
                     page=page,
@@ -143,9 +163,17 @@ def read_paragraph(page: int, lines: Sequence[TextLine], first_row: int, section
                     section=section,
                     example=bool(EXAMPLE.search(sentence)),
                     x0=boxes[0][0],
+                    running=True,
                 )
                 before, edge = edge, stop
             first_row += 1
+
+
+def _behind(text: str) -> str:
+    """The words right behind a quantity, up to the end of the thought: "four section full power boom"."""
+    return re.split(r"[\d,;.(]|\s(?:with|and|for|on|in|at|of|consisting|mit|und|für|avec|et|pour|con|y|para)\b", text)[
+        0
+    ].strip(" )")
 
 
 def _opened(text: str) -> int:
