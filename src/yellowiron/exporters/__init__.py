@@ -13,7 +13,7 @@ from yellowiron.support.lazy import lazy_names
 
 if TYPE_CHECKING:
     from yellowiron.exporters.geometry import BodyGeometry, Geometry, read_geometry
-    from yellowiron.exporters.mjcf.document import actuator_names, export_mjcf
+    from yellowiron.exporters.mjcf.document import actuator_names, export_mjcf, integrator_of
     from yellowiron.exporters.registry import EXPORTERS, Exporter, export, exporter_names, find_exporter
 
 __all__ = [
@@ -26,6 +26,7 @@ __all__ = [
     "export_mjcf",
     "exporter_names",
     "find_exporter",
+    "integrator_of",
     "read_geometry",
 ]
 
@@ -41,6 +42,7 @@ __getattr__, __dir__ = lazy_names(
         "export_mjcf": "mjcf.document",
         "exporter_names": "registry",
         "find_exporter": "registry",
+        "integrator_of": "mjcf.document",
         "read_geometry": "geometry",
     },
 )

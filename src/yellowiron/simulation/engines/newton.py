@@ -17,6 +17,7 @@ import physx_usd_schemas  # noqa: F401  likewise
 import warp
 from pxr import Usd
 
+from yellowiron.exporters import integrator_of
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import chained
@@ -67,7 +68,7 @@ class NewtonEngine:
             found = builder.add_usd(_without_fields(Usd.Stage.Open(world.layer)), load_visual_shapes=False)
             self._model: Any = builder.finalize(device="cpu")
             self._solver: Any = newton.solvers.SolverMuJoCo(
-                self._model, use_mujoco_cpu=True, integrator="euler", cone="elliptic"
+                self._model, use_mujoco_cpu=True, integrator=integrator_of(setup.mechanism).lower(), cone="elliptic"
             )
             self._states = [self._model.state(), self._model.state()]
             self._control: Any = self._model.control()

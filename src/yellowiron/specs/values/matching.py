@@ -84,12 +84,25 @@ def match(claims: Sequence[Claim], wanted: Sequence[Wanted]) -> dict[str, list[M
         matches = _of_possible(matches, said)
         best = max((m.score, _specific(m)) for m in matches)
         kept = [m for m in matches if m.score >= best[0] - 1e-9 and (m.score > 0.999 or _specific(m) >= best[1])]
+        kept = _by_own_name(kept)
         for one in kept:
             # Both the angle and the greatest one are asked for: a label that does not say "maximum" is the latter only
             # where no other label does.
             unsaid = len(kept) > 1 and (_EXTREME & set(tokens(one.wanted.name))) - said.label - said.head - said.context
             found[one.wanted.name].append(replace(one, score=one.score - _UNSAID) if unsaid else one)
     return _ends_told_apart({name: _without_shared_headings(own) for name, own in found.items()}, wanted)
+
+
+def _by_own_name(matches: list[Match]) -> list[Match]:
+    """The matches without those of values that are called by the same words as another's own name: what is labelled
+    "fork length" is no length over forks."""
+
+    def telling(phrase: str) -> frozenset[str]:
+        return frozenset(tokens(phrase)) - HARMLESS - NEUTRAL
+
+    own = [telling(m.phrase) == telling(m.wanted.name) for m in matches]
+    names = {telling(m.phrase) for m, is_own in zip(matches, own, strict=True) if is_own}
+    return [m for m, is_own in zip(matches, own, strict=True) if is_own or telling(m.phrase) not in names]
 
 
 def _without_shared_headings(matches: list[Match]) -> list[Match]:
