@@ -127,9 +127,9 @@ def find_roles(
     apart = kept("apart", lambda: _apart(assembly), assembly) if merged or hidden(alignment) else None
     if apart is not None:
         other = found(apart)
-        # Bodies in crumbs answer to more roles, wrongly: pins must not be lost where bodies are found.
-        fewer = len(other.missing) < len(alignment.missing)
-        if (fewer and hidden(other) < 0.5 * hidden(alignment)) or len(other.missing) < 0.5 * len(alignment.missing):
+        # Bodies in crumbs answer to more roles, wrongly: where few bodies were missing, pins must be found as well.
+        most = hidden(alignment) > len(moving) and hidden(other) < 0.5 * hidden(alignment)
+        if most or len(other.missing) < 0.5 * len(alignment.missing):
             return apart, _of_drawn(other, apart, template)
     return assembly, _of_drawn(alignment, assembly, template)
 

@@ -167,10 +167,13 @@ def _equal(one: Structure, other: Structure) -> bool:
 def _by_cylinders(variants: list[dict[str, str]], template: Template, drawn: int) -> list[list[dict[str, str]]]:
     """The variants in groups: first those with as many hydraulic cylinders as are drawn. If one of these fits wholly,
     no variant with fewer or more can score as high."""
-    groups: dict[int, list[dict[str, str]]] = {}
+    needs = {v.name: v.needs for v in template.variants}
+    groups: dict[tuple[int, bool], list[dict[str, str]]] = {}
     for chosen in variants:
         count = sum(1 for r in choose(template, chosen).roles if r.kind == "barrel")
-        groups.setdefault(abs(count - drawn), []).append(chosen)
+        # Special machines are tried where no common one fits: the search is bounded.
+        special = any(choice in needs.get(name, ()) for name, choice in chosen.items())
+        groups.setdefault((abs(count - drawn), special), []).append(chosen)
     return [groups[apart] for apart in sorted(groups)]
 
 

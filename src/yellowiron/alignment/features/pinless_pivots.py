@@ -33,7 +33,13 @@ PIN = 0.5
 
 def has_drilled_pivots(solids: tuple[Solid, ...], template: Template, size: float) -> bool:
     """Whether a model's pivots are drawn with holes: as many stout ones as the template has hinges, or more."""
-    hinges = sum(1 for j in template.joints if j.type == "revolute")
+    special = {(v.name, choice) for v in template.variants for choice in v.needs}
+    # What only special variants have does not raise what the common ones must show.
+    hinges = sum(
+        1
+        for j in template.joints
+        if j.type == "revolute" and not any({(n, c) for c in allowed} <= special for n, allowed in j.when.items())
+    )
     holes = sum(
         c.inner and c.full and LEAST_PIVOT * size < c.radius < MOST * size and 2 * c.half < LONG * c.radius
         for s in solids
