@@ -44,9 +44,6 @@ _SATURATED = 0.005
 """A drive has its full force at no less than this share of its travel: stiffer, it would only saturate."""
 _SAGS = 0.02
 """… and gives way to the weight on it by no more than this share, in the drawn pose: short strokes need more."""
-_STEP, _STABLE = 1e-3, 1.7
-"""Engines step that many seconds. A velocity drive's damping over one is no more than so many times the inertia that it
-turns: from 2 on, explicit steps swing to and fro."""
 _PER_FREEDOM = {"fixed": 6, "revolute": 5, "prismatic": 5, "spherical": 3, "distance": 0}
 
 
@@ -347,10 +344,7 @@ def position_gains(
 
 def _velocity_gain(drive: Drive, joint: Joint, work: _Work) -> Drive:
     if drive.damping > 0.0:
-        most = _STABLE * work.chain.effective_mass(work.chain.drawn, joint.name) / _STEP
-        if drive.damping <= most or "damping" in drive.source.partition(STATED)[2]:
-            return drive
-        return replace(drive, damping=most, source=f"{drive.source}; damping: as much as the inertia it turns takes")
+        return drive
     if not (drive.max_force > 0.0 and drive.max_velocity > 0.0):
         work.find("KIN007", "warning", joint.name, "the drive has no force or no speed, so it gets no damping")
         return drive
