@@ -167,8 +167,6 @@ def test_pins_hold_in_engines(built: tuple[Path, dict[str, Any], Path], engine: 
         pytest.skip("the same machine as the named one")
     some = ["boom_swing", "blade", "travel_left"] if engine == "newton" else None
     result = simulate(folder / "excavator.usda", engine=engine, actuators=some)
-    # Hidden track wheels are so light that their motors' damping swings at 1 ms: they miss their speed, which is said.
-    assert result.completed
-    assert all(f.code == "SIM005" and "track_wheel" in f.where for f in result.findings)
+    assert result.completed and not result.findings
     assert result.pin_error < 5e-5
-    assert all(e.final_error_percent < 1.0 for e in result.actuators if not e.actuator.startswith("travel"))
+    assert all(each.final_error_percent < 1.0 for each in result.actuators)

@@ -264,6 +264,29 @@ def test_a_drive_is_no_softer_than_its_weight_over_two_percent_of_its_travel():
     assert position_gains(drive, 1e3, travel=0.5, held=2e3) == position_gains(drive, 1e3, travel=0.5)
 
 
+def test_a_velocity_drive_damps_no_more_than_its_inertia_takes():
+    mechanism = crane(0.5)
+    free = replace(mechanism.joint("boom_pin"), free=False, lower=None, upper=None, cut=False)
+    ends = tuple(b for b in mechanism.bodies if b.name in (free.body0, free.body1))
+
+    def damped(damping: float, source: str = "", *, beside: tuple[Body, ...] = ()) -> Drive:
+        turned = replace(free, drive=Drive("velocity", 0.0, damping, 1e6, 1.0, source))
+        arm = replace(
+            mechanism, joints=(turned,), bodies=(*ends, *beside), cylinders=(), actuators=(), loops=(),
+            floating=tuple(b.name for b in beside),
+        )  # fmt: skip
+        found = complete(arm).joint(turned.name).drive
+        assert found is not None
+        inertia = ClosedChain(arm).effective_mass(ClosedChain(arm).drawn, turned.name)
+        return replace(found, damping=found.damping / inertia)
+
+    assert damped(1e9).damping == pytest.approx(1700.0)
+    assert damped(1.0).damping < 1.0
+    assert damped(1e9, "x; template states damping").damping > 1700.0
+    # A ring of shoes runs around with what it turns, and no joint says so.
+    assert damped(1e9, beside=(replace(ends[0], name="shoe"),)).damping > 1700.0
+
+
 def test_a_steering_cylinder_sees_the_boom_wherever_it_is(planar, mechanism):
     _, travel = planar
     chain = ClosedChain(mechanism)

@@ -98,7 +98,7 @@ def test_force_and_area_go_with_the_sense(mechanism: Mechanism) -> None:
 
 def test_a_foot_of_many_corners_is_quick(mechanism: Mechanism) -> None:
     """A track's belt has thousands: looking for the lowest once for each took minutes."""
-    around = np.linspace(0.0, 2.0 * math.pi, 10_000, endpoint=False)
+    around = np.linspace(0.0, 2.0 * math.pi, 20_000, endpoint=False)
     disk = np.column_stack([np.cos(around), np.sin(around), np.zeros_like(around)])
     bodies = tuple(dataclasses.replace(b, hull=disk) if b.name == mechanism.root else b for b in mechanism.bodies)
     footed = dataclasses.replace(mechanism, bodies=bodies)

@@ -44,6 +44,9 @@ _SATURATED = 0.005
 """A drive has its full force at no less than this share of its travel: stiffer, it would only saturate."""
 _SAGS = 0.02
 """… and gives way to the weight on it by no more than this share, in the drawn pose: short strokes need more."""
+_STEP, _STABLE = 1e-3, 1.7
+"""Engines step that many seconds. A velocity drive's damping over one is no more than so many times the inertia that it
+turns: from 2 on, explicit steps swing to and fro. Sprockets turn rings besides, where these are bodies of their own."""
 _PER_FREEDOM = {"fixed": 6, "revolute": 5, "prismatic": 5, "spherical": 3, "distance": 0}
 
 
@@ -90,7 +93,7 @@ def complete(mechanism: Mechanism) -> Mechanism:
     _check_twins(mechanism, work)
     loops = _branches(mechanism, grids, placed, work)
     work.findings += strong_enough(chain, grids, work.joints)
-    _gains(mechanism, grids, work)
+    _gains(mechanism, grids, work, ringed=bool(whole.floating))
     return replace(
         whole,
         joints=tuple(work.joints[joint.name] for joint in whole.joints),
@@ -272,7 +275,7 @@ def _branches(mechanism: Mechanism, grids: list[PoseGrid], placed: list[tuple[Fl
     return tuple(loops)
 
 
-def _gains(mechanism: Mechanism, grids: list[PoseGrid], work: _Work) -> None:
+def _gains(mechanism: Mechanism, grids: list[PoseGrid], work: _Work, *, ringed: bool) -> None:
     masses = _seen_masses(work.chain, grids)
     laden: dict[str, float] = {}
     if (load := rated_load(mechanism)) is not None:
@@ -283,7 +286,7 @@ def _gains(mechanism: Mechanism, grids: list[PoseGrid], work: _Work) -> None:
         if drive is None or joint.name not in work.chain.independent:
             continue
         if drive.kind == "velocity":
-            work.joints[joint.name] = replace(work.joints[joint.name], drive=_velocity_gain(drive, joint, work))
+            work.joints[joint.name] = replace(work.joints[joint.name], drive=_velocity_gain(drive, joint, work, ringed))
             continue
         if joint.name not in masses:
             masses[joint.name] = work.chain.effective_mass(work.chain.drawn, joint.name)
@@ -342,9 +345,14 @@ def position_gains(
     return replace(drive, stiffness=stiffness, damping=damping, source=source)
 
 
-def _velocity_gain(drive: Drive, joint: Joint, work: _Work) -> Drive:
+def _velocity_gain(drive: Drive, joint: Joint, work: _Work, ringed: bool) -> Drive:
     if drive.damping > 0.0:
-        return drive
+        if ringed:
+            return drive
+        most = _STABLE * work.chain.effective_mass(work.chain.drawn, joint.name) / _STEP
+        if drive.damping <= most or "damping" in drive.source.partition(STATED)[2]:
+            return drive
+        return replace(drive, damping=most, source=f"{drive.source}; damping: as much as the inertia it turns takes")
     if not (drive.max_force > 0.0 and drive.max_velocity > 0.0):
         work.find("KIN007", "warning", joint.name, "the drive has no force or no speed, so it gets no damping")
         return drive
