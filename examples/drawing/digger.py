@@ -7,15 +7,21 @@ turn them negative).
 Pins: A boom on what carries it, B arm on the boom, K bucket on the arm; C and D boom cylinder (carrier, boom); M and P
 arm cylinder (boom, arm); E bucket cylinder on the arm, H its rod on the tipping link, G tipping link on the arm, J
 bucket link on the bucket. T is the line of the tooth points.
+
+Method of `fitted`. Makers print lengths, strokes and ranges, not pins. The pins are the unknowns of a least-squares
+problem that starts from a sketch of the class: first everything at once, softly pulled towards the sketch and away from
+dead points, then the published values alone, from there, to the last digit (the problem has more unknowns than
+equations, so the second solution stays beside the first).
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import brentq
+from scipy.optimize import brentq, least_squares
 
 from .planar import Point, direction, meet, rot, sine, vec
 
@@ -175,3 +181,69 @@ class Ends:
 def wrapped(angle: float) -> float:
     """The angle within half a turn."""
     return (angle + math.pi) % (2 * math.pi) - math.pi
+
+
+@dataclass(frozen=True, slots=True)
+class Sketch:
+    """A linkage to be fitted. `places`: where the search starts and what it stays near, and how near: pins `A.x` to
+    `G.z`, lengths `tipping`, `link` and `tip`, the pin J as `J.r` and `J.a` (millimetres, radians), the angles of
+    `Ends`. Boom and arm lengths and strokes as in `Linkage`. The sines of the bucket's levers stay above `least_sine`,
+    so much the more with `pull`."""
+
+    places: Mapping[str, tuple[float, float]]
+    boom: float
+    arm: float
+    strokes: Strokes
+    least_sine: float
+    pull: float
+
+    def linkage(self, x: Point) -> tuple[Linkage, Ends]:
+        """The linkage whose places are `x` (n,), in their order."""
+        p = dict(zip(self.places, map(float, x), strict=True))
+        pins = {n: vec(p[f"{n}.x"], p[f"{n}.z"]) for n in "ACDMPEG"}
+        j = rot(p["J.a"], vec(p["J.r"], 0.0))
+        ends = Ends(**{n: p[n] for n in ("low", "high", "out", "crowd", "open", "curl")})
+        links = {"tipping": p["tipping"], "link": p["link"], "tip": p["tip"]}
+        return Linkage(**pins, **links, J=j, boom=self.boom, arm=self.arm, strokes=self.strokes), ends
+
+
+def fitted(sketch: Sketch, published: Callable[[Linkage, Ends], list[float]]) -> Linkage:
+    """The linkage near a sketch of which all that is `published` is met: residuals in millimetres. The same on every
+    call."""
+    start = np.array([at for at, _ in sketch.places.values()])
+    loose = np.array([far for _, far in sketch.places.values()])
+    strokes = sketch.strokes
+
+    def required(x: Point) -> Point:
+        """What must be zero, millimetres; angles as radians times 1000."""
+        k, e = sketch.linkage(x)
+        return np.array(
+            [
+                *published(k, e),
+                k.boom_at(e.low) - strokes.boom[0],
+                k.boom_at(e.high) - strokes.boom[1],
+                k.arm_at(e.out) - strokes.arm[0],
+                k.arm_at(e.crowd) - strokes.arm[1],
+                1000.0 * wrapped(k.four_bar(strokes.bucket[0])[0] - e.open),
+                1000.0 * wrapped(k.four_bar(strokes.bucket[1])[0] - e.curl),
+            ]
+        )
+
+    def wished(x: Point) -> Point:
+        """The required residuals, and softly: near the sketch, and the bucket's levers far from their dead points."""
+        k, _ = sketch.linkage(x)
+        short: list[float] = []
+        for length in np.linspace(*strokes.bucket, 9):
+            _, h, j = k.four_bar(float(length))
+            pin, hub = vec(sketch.arm, 0.0), float(np.hypot(*k.J))
+            sines = (sine(k.E, h, k.G), sine(k.G, h, j), sine(h, j, pin))
+            short += [sketch.pull * min(0.0, s - sketch.least_sine) for s in sines]
+            for p, rp, q, rq in ((k.E, float(length), k.G, k.tipping), (h, k.link, pin, hub)):
+                d = float(np.hypot(*(q - p)))
+                short.append(max(0.0, d - rp - rq) + max(0.0, abs(rp - rq) - d))
+        return np.concatenate([required(x), 0.1 * (x - start) / loose, np.array(short)])
+
+    close = {"xtol": 1e-12, "ftol": 1e-12, "gtol": 1e-12}
+    near = least_squares(wished, start, x_scale=loose, method="trf", max_nfev=400, **close).x
+    exact = least_squares(required, near, x_scale=loose, method="trf", xtol=1e-15, ftol=1e-15, gtol=1e-15).x
+    return sketch.linkage(np.round(exact, 9))[0]

@@ -26,7 +26,7 @@ from .cab import draw_cab
 from .equipment import CYLINDER_Y, PIN_C, PIN_E, PIN_M, draw_arm, draw_boom
 from .linkage import solve
 from .track import solve_track
-from .truth import to_cad, truth
+from .truth import frame, truth
 from .undercarriage import draw_undercarriage
 from .upper import draw_counterweight, draw_frame, draw_hood, draw_rails, draw_tanks
 
@@ -145,7 +145,7 @@ def draw_machine() -> Assembly:
 def main(folder: Path) -> None:
     """Writes both files into `folder`."""
     root = draw_machine()
-    write_step(root, folder / "excavator.step", cad=to_cad())
+    write_step(root, folder / "excavator.step", cad=frame().to_cad())
     k, pose = drawn_pose()
     cylinders = {"boom": boom_cylinder(""), "arm": arm_cylinder(), "bucket": bucket_cylinder()}
     document = truth(root, k, pose, cylinders)

@@ -1,17 +1,6 @@
 """The excavator's planar linkage: solved so that the machine meets its published values, and measured again.
 
-Frame: the machine's, in millimetres and in the plane y = 0: x forward from the swing axis, z up from the ground.
-Angles are radians, counter-clockwise seen from the machine's right side turned so that x points right and z up (a
-raised boom is positive; crowding the arm and curling the bucket turn them negative).
-
-Pins: A boom on the upper structure, B arm on the boom, K bucket on the arm; C and D boom cylinder (frame, boom); M and
-P arm cylinder (boom, arm); E bucket cylinder on the arm, H its rod on the tipping link, G tipping link on the arm,
-J bucket link on the bucket. T is the line of the tooth points.
-
-Method. The maker prints lengths, strokes and ranges, not pins. The pins are the unknowns of a least-squares problem
-that starts from a sketch of the class: first everything at once, softly pulled towards the sketch and away from dead
-points, then the published values alone, from there, to the last digit (the problem has more unknowns than
-equations, so the second solution stays beside the first).
+Frame: the machine's, x from the swing axis, z from the ground; pins, angles and method are those of `drawing.digger`.
 """
 
 from __future__ import annotations
@@ -20,10 +9,9 @@ import functools
 import math
 
 import numpy as np
-from scipy.optimize import least_squares
 
-from drawing.digger import Ends, Linkage, Strokes, wrapped
-from drawing.planar import Point, direction, rot, sine, vec
+from drawing.digger import Ends, Linkage, Sketch, Strokes, fitted
+from drawing.planar import Point, direction, rot, vec
 
 from . import values as v
 
@@ -31,7 +19,6 @@ BOOM, ARM = v.BOOM_LENGTH.value, v.ARM_LENGTH.value
 BOOM_MIN, BOOM_MAX = v.BOOM_CLOSED.value, v.BOOM_CLOSED.value + v.BOOM_STROKE.value
 ARM_MIN, ARM_MAX = v.ARM_CLOSED.value, v.ARM_CLOSED.value + v.ARM_STROKE.value
 BUCKET_MIN, BUCKET_MAX = v.BUCKET_CLOSED.value, v.BUCKET_CLOSED.value + v.BUCKET_STROKE.value
-DOWN = -math.pi / 2
 STROKES = Strokes((BOOM_MIN, BOOM_MAX), (ARM_MIN, ARM_MAX), (BUCKET_MIN, BUCKET_MAX))
 
 
@@ -86,101 +73,48 @@ def _ahead(a: Point, tip: float, e: Ends, depth: float) -> tuple[float, float]:
 LEVEL = "length of level bottom"
 
 
-# Where the search starts and what it stays near, and how near: proportions of the class.
-_SKETCH: dict[str, tuple[float, float]] = {
-    "A.x": (80, 8),
-    "A.z": (1890, 40),
-    "C.x": (620, 80),
-    "C.z": (1235, 60),
-    "D.x": (2500, 120),
-    "D.z": (620, 20),
-    "M.x": (2850, 100),
-    "M.z": (900, 15),
-    "P.x": (-760, 40),
-    "P.z": (420, 40),
-    "E.x": (330, 60),
-    "E.z": (590, 25),
-    "G.x": (2490, 30),
-    "G.z": (45, 20),
-    "tipping": (610, 40),
-    "link": (570, 40),
-    "J.r": (440, 25),
-    "J.a": (math.radians(95), 0.12),
-    "tip": (1495, 4),
-    "low": (math.radians(-45.5), 0.1),
-    "high": (math.radians(66), 0.03),
-    "out": (math.radians(-33), 0.03),
-    "crowd": (math.radians(-148), 0.03),
-    "open": (math.radians(33), 0.04),
-    "curl": (math.radians(-140), 0.06),
-}
-_LEAST_SINE = 0.35
-"""How far every lever of the bucket's linkage stays from its dead point, as a sine."""
-_NAMES = tuple(_SKETCH)
-_START = np.array([at for at, _ in _SKETCH.values()])
-_LOOSE = np.array([loose for _, loose in _SKETCH.values()])
-
-
-def _linkage(x: Point) -> tuple[Linkage, Ends]:
-    p = dict(zip(_NAMES, map(float, x), strict=True))
-    pins = {n: vec(p[f"{n}.x"], p[f"{n}.z"]) for n in "ACDMPEG"}
-    j = rot(p["J.a"], vec(p["J.r"], 0.0))
-    ends = Ends(**{n: p[n] for n in ("low", "high", "out", "crowd", "open", "curl")})
-    links = {"tipping": p["tipping"], "link": p["link"], "tip": p["tip"]}
-    return Linkage(**pins, **links, J=j, boom=BOOM, arm=ARM, strokes=STROKES), ends
-
-
-_TARGETS = {
-    **{
-        value.name: value.value
-        for value in (
-            v.DIGGING_DEPTH,
-            v.GROUND_REACH,
-            v.MAX_REACH,
-            v.DIGGING_HEIGHT,
-            v.DUMPING_HEIGHT,
-            v.DUMPING_HEIGHT_MIN,
-        )
+SKETCH = Sketch(
+    {
+        "A.x": (80, 8),
+        "A.z": (1890, 40),
+        "C.x": (620, 80),
+        "C.z": (1235, 60),
+        "D.x": (2500, 120),
+        "D.z": (620, 20),
+        "M.x": (2850, 100),
+        "M.z": (900, 15),
+        "P.x": (-760, 40),
+        "P.z": (420, 40),
+        "E.x": (330, 60),
+        "E.z": (590, 25),
+        "G.x": (2490, 30),
+        "G.z": (45, 20),
+        "tipping": (610, 40),
+        "link": (570, 40),
+        "J.r": (440, 25),
+        "J.a": (math.radians(95), 0.12),
+        "tip": (1495, 4),
+        "low": (math.radians(-45.5), 0.1),
+        "high": (math.radians(66), 0.03),
+        "out": (math.radians(-33), 0.03),
+        "crowd": (math.radians(-148), 0.03),
+        "open": (math.radians(33), 0.04),
+        "curl": (math.radians(-140), 0.06),
     },
-}
+    boom=BOOM, arm=ARM, strokes=STROKES, least_sine=0.35, pull=60.0,
+)  # fmt: skip
+"""Proportions of the class."""
+_TARGETS = (
+    v.DIGGING_DEPTH, v.GROUND_REACH, v.MAX_REACH, v.DIGGING_HEIGHT, v.DUMPING_HEIGHT, v.DUMPING_HEIGHT_MIN,
+)  # fmt: skip
 
 
-def _required(x: Point) -> Point:
-    """What must be zero, millimetres; angles as radians times 1000."""
-    k, e = _linkage(x)
+def _published(k: Linkage, e: Ends) -> list[float]:
     got = ranges(k.A, k.tip, e)
-    return np.array(
-        [
-            *(got[name] - wanted for name, wanted in _TARGETS.items()),
-            k.boom_at(e.low) - BOOM_MIN,
-            k.boom_at(e.high) - BOOM_MAX,
-            k.arm_at(e.out) - ARM_MIN,
-            k.arm_at(e.crowd) - ARM_MAX,
-            1000.0 * wrapped(k.four_bar(BUCKET_MIN)[0] - e.open),
-            1000.0 * wrapped(k.four_bar(BUCKET_MAX)[0] - e.curl),
-        ]
-    )
-
-
-def _wished(x: Point) -> Point:
-    """The required residuals, and softly: near the sketch, and the bucket's levers far from their dead points."""
-    k, _ = _linkage(x)
-    short: list[float] = []
-    for length in np.linspace(BUCKET_MIN, BUCKET_MAX, 9):
-        _, h, j = k.four_bar(float(length))
-        pin, hub = vec(ARM, 0.0), float(np.hypot(*k.J))
-        sines = (sine(k.E, h, k.G), sine(k.G, h, j), sine(h, j, pin))
-        short += [60.0 * min(0.0, s - _LEAST_SINE) for s in sines]
-        for p, rp, q, rq in ((k.E, float(length), k.G, k.tipping), (h, k.link, pin, hub)):
-            d = float(np.hypot(*(q - p)))
-            short.append(max(0.0, d - rp - rq) + max(0.0, abs(rp - rq) - d))
-    return np.concatenate([_required(x), 0.1 * (x - _START) / _LOOSE, np.array(short)])
+    return [got[value.name] - value.value for value in _TARGETS]
 
 
 @functools.cache
 def solve() -> Linkage:
     """The linkage that meets every published value, and the example values above, exactly; the same on every call."""
-    close = {"xtol": 1e-12, "ftol": 1e-12, "gtol": 1e-12}
-    near = least_squares(_wished, _START, x_scale=_LOOSE, method="trf", max_nfev=400, **close).x
-    exact = least_squares(_required, near, x_scale=_LOOSE, method="trf", xtol=1e-15, ftol=1e-15, gtol=1e-15).x
-    return _linkage(np.round(exact, 9))[0]
+    return fitted(SKETCH, _published)

@@ -14,6 +14,8 @@ from pathlib import Path
 from reportlab.lib.pagesizes import A4, landscape
 from reportlab.pdfgen.canvas import Canvas
 
+from drawing.values import Value
+
 from . import values as v
 from .sheet_drawings import ranges, transport
 from .sheet_print import (
@@ -39,7 +41,6 @@ from .sheet_print import (
     speed,
     torque,
 )
-from .values import Value
 
 WIDTH, HEIGHT = A4
 MARGIN = 42.0

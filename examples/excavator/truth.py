@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from OCP.gp import gp_Ax3, gp_Dir, gp_Pnt, gp_Trsf
+from OCP.gp import gp_Trsf
 from scipy.optimize import brentq
 
 from drawing.cylinders import Cylinder
@@ -16,6 +16,7 @@ from drawing.digger import Linkage, Pose, wrapped
 from drawing.hardware import placed
 from drawing.planar import Point, direction, rot, vec
 from drawing.product import Assembly, Occurrence, extent, farthest, occurrences
+from drawing.truth import CadFrame, value_rows
 
 from . import values as v
 from .bucket import floor_angle, wall_depth
@@ -35,38 +36,13 @@ from .undercarriage import GAUGE
 from .upper import FLOOR
 
 Array = NDArray[np.float64]
-_TO_MACHINE = np.array([[0, 0, -1.0], [-1.0, 0, 0], [0, 1.0, 0]])
-"""CAD x is right, y up, z backward, as the drawing office of this example has it."""
 Y, Z = (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 
 
-def origin() -> tuple[float, float, float]:
-    """CAD origin in the machine frame: the sprockets' axis in the middle of the machine, millimetres."""
-    return (-HALF, 0.0, solve_track().axle)
-
-
-def to_cad() -> gp_Trsf:
-    """Machine frame to CAD frame: CAD x = -y, y = z, z = -x, about the origin."""
-    t = gp_Trsf()
-    t.SetTransformation(gp_Ax3(), gp_Ax3(gp_Pnt(*origin()), gp_Dir(-1, 0, 0), gp_Dir(0, -1, 0)))
-    return t
-
-
-def frame_matrix() -> list[list[float]]:
-    """4x4, CAD metres to machine metres."""
-    m = np.eye(4)
-    m[:3, :3] = _TO_MACHINE
-    m[:3, 3] = np.array(origin()) / 1000.0
-    return [[float(c) + 0.0 for c in row] for row in m]
-
-
-def _point(p: tuple[float, float, float]) -> list[float]:
-    return [round(float(c), 9) + 0.0 for c in _TO_MACHINE.T @ (np.array(p, dtype=float) - origin()) / 1000.0]
-
-
-def _axis(a: tuple[float, float, float]) -> list[float]:
-    n = np.array(a, dtype=float)
-    return [round(float(c), 9) + 0.0 for c in _TO_MACHINE.T @ (n / np.linalg.norm(n))]
+def frame() -> CadFrame:
+    """CAD x is right, y up, z backward, as the drawing office of this example has it; the origin is on the sprockets'
+    axis in the middle of the machine."""
+    return CadFrame((-HALF, 0.0, solve_track().axle), x=(0.0, -1.0, 0.0), z=(-1.0, 0.0, 0.0))
 
 
 def _row(body: str, count: int) -> list[str]:
@@ -98,7 +74,13 @@ def joints(k: Linkage, pose: Pose, loop: Loop) -> dict[str, dict[str, Any]]:
         axis: tuple[float, float, float] = Y,
         when: dict[str, str] | None = None,
     ) -> None:
-        out[name] = {"type": kind, "body0": bodies[0], "body1": bodies[1], "anchor": _point(at), "axis": _axis(axis)}
+        out[name] = {
+            "type": kind,
+            "body0": bodies[0],
+            "body1": bodies[1],
+            "anchor": frame().point(at),
+            "axis": frame().axis(axis),
+        }
         if when:
             out[name]["when"] = when
 
@@ -273,20 +255,19 @@ def drawn(root: Assembly, k: Linkage, pose: Pose) -> dict[str, float]:
 def truth(root: Assembly, k: Linkage, pose: Pose, cylinders: dict[str, Cylinder]) -> dict[str, Any]:
     """The document written as `truth.json`."""
     got, shapes = measured(k), drawn(root, k, pose)
-    named = {value.name: value for value in (*v.PUBLISHED, *v.EXAMPLE)}
     return {
         "about": "CAD frame, metres. A part's key is its product names from the root joined by '/', in tree "
         "order; the second of two equal keys ends in '#2', the third in '#3'. Bodies and joints are those with "
         "every track shoe a body; where the track is not, 'undercarriage_with' move with the undercarriage and "
         "joints whose 'when' says so are absent.",
-        "frame": frame_matrix(),
+        "frame": frame().matrix(),
         "undercarriage_with": track_bodies(),
         "joints": joints(k, pose, solve_track()),
         "parts": {leaf.path: {"body": leaf.body, "role": leaf.role} for leaf in occurrences(root)},
         "cylinders": _slides(cylinders),
         "sites": {
-            "bucket_tip": _point((pose.T[0], 0.0, pose.T[1])),
-            "bucket_pin": _point((pose.K[0], 0.0, pose.K[1])),
+            "bucket_tip": frame().point((pose.T[0], 0.0, pose.T[1])),
+            "bucket_pin": frame().point((pose.K[0], 0.0, pose.K[1])),
         },
         "drawn": {
             "boom_angle": round(math.degrees(pose.boom_angle), 9),
@@ -294,15 +275,5 @@ def truth(root: Assembly, k: Linkage, pose: Pose, cylinders: dict[str, Cylinder]
             "bucket_angle": round(math.degrees(pose.bucket_angle), 9),
             "bucket_floor": round(math.degrees(wrapped(pose.bucket_angle - floor_angle(k))), 9),
         },
-        "values": {
-            name: {
-                "target": value.value,
-                "unit": value.unit,
-                "published": value.published,
-                **({"linkage": round(got[name], 5)} if name in got else {}),
-                **({"drawn": round(shapes[name], 3)} if name in shapes else {}),
-            }
-            for name, value in named.items()
-            if name in got or name in shapes
-        },
+        "values": value_rows((*v.PUBLISHED, *v.EXAMPLE), got, shapes),
     }

@@ -25,30 +25,10 @@ level on its grousers:
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from drawing.values import Value
 
 BROCHURE = "KOMATSU-PC210LC11-BR02-0225-V2"
 """Document the published values are cited from."""
-
-
-@dataclass(frozen=True, slots=True)
-class Value:
-    """One value of the sheet; `source` names the maker's fact, and is None for a value of our own.
-
-    `high`: upper end where the maker prints a range; `value` is then its lower end.
-    """
-
-    name: str
-    value: float
-    unit: str
-    source: str | None = None
-    location: str = ""
-    high: float | None = None
-
-    @property
-    def published(self) -> bool:
-        """True when the maker prints it; False for an example value."""
-        return self.source is not None
 
 
 def _published(name: str, value: float, unit: str, location: str, high: float | None = None) -> Value:

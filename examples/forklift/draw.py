@@ -24,7 +24,7 @@ from . import values as v
 from .chassis import TILT_ANCHOR, draw_frame, draw_front_axle, draw_top
 from .mast import MID, PIN_TILT, PIVOT, TILT_BACK, Mast, draw_mast, half_depth, tilt_pin_y
 from .steer_axle import draw_steer_axle
-from .truth import to_cad, truth
+from .truth import FRAME, truth
 from .wheels import draw_wheel
 
 
@@ -99,7 +99,7 @@ def main(folder: Path, mast: Mast | None = None) -> None:
     """Writes both files into `folder`."""
     mast = mast or Mast()
     root = draw_machine(mast)
-    write_step(root, folder / "forklift.step", cad=to_cad())
+    write_step(root, folder / "forklift.step", cad=FRAME.to_cad())
     document = truth(root, mast, tilt_pin(mast), TILT_ANCHOR, tilt_cylinder(mast))
     (folder / "truth.json").write_text(json.dumps(document, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
     logging.getLogger(__name__).info("%d parts", len(document["parts"]))

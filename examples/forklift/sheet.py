@@ -19,8 +19,9 @@ from reportlab.lib.pagesizes import A4
 from reportlab.pdfbase.pdfmetrics import stringWidth
 from reportlab.pdfgen.canvas import Canvas
 
+from drawing.values import Value
+
 from . import values as v
-from .values import Value
 
 WIDTH, HEIGHT = A4
 MARGIN, PITCH = 40.0, 15.0

@@ -7,36 +7,18 @@ import math
 from typing import Any
 
 import numpy as np
-from OCP.gp import gp_Ax3, gp_Dir, gp_Pnt, gp_Trsf
 
 from drawing.cylinders import Cylinder
 from drawing.product import Assembly, extent, occurrences
+from drawing.truth import CadFrame, value_rows
 
 from . import values as v
 from .mast import FACE, FREE_RAM, PIVOT, RAM, Mast, free_ram, lift_ram, tilt_pin_y
 from .steer_axle import ARM, AXLE_X, AXLE_Z, CYL_Z, KINGPIN, ROD_END, knuckle_angle, steer_ram
 
-ORIGIN = (-900.0, 0.0, 300.0)
-"""CAD origin in the machine frame, millimetres: a point of the drawing office's."""
-_TO_CAD = np.array([[1.0, 0, 0], [0, 0, 1.0], [0, -1.0, 0]])
-"""CAD x is forward, y up, z to the right."""
+FRAME = CadFrame((-900.0, 0.0, 300.0), x=(1.0, 0.0, 0.0), z=(0.0, -1.0, 0.0))
+"""From a point of the drawing office's: x forward, y up, z to the right."""
 X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
-
-
-def to_cad() -> gp_Trsf:
-    """Machine frame to CAD frame."""
-    t = gp_Trsf()
-    t.SetTransformation(gp_Ax3(), gp_Ax3(gp_Pnt(*ORIGIN), gp_Dir(0, -1, 0), gp_Dir(1, 0, 0)))
-    return t
-
-
-def _point(p: tuple[float, float, float]) -> list[float]:
-    return [round(float(c), 9) + 0.0 for c in _TO_CAD @ (np.array(p) - ORIGIN) / 1000.0]
-
-
-def _axis(a: tuple[float, float, float]) -> list[float]:
-    n = np.array(a) / np.linalg.norm(a)
-    return [round(float(c), 9) + 0.0 for c in _TO_CAD @ n]
 
 
 def joints(mast: Mast, tilt: tuple[float, float], anchor: tuple[float, float]) -> dict[str, dict[str, Any]]:
@@ -45,7 +27,7 @@ def joints(mast: Mast, tilt: tuple[float, float], anchor: tuple[float, float]) -
 
     def add(a: str, b: str, at: tuple[float, float, float], axis: tuple[float, float, float] = Y, name: str = "",
             kind: str = "revolute") -> None:  # fmt: skip
-        entry = {"type": kind, "body0": a, "body1": b, "anchor": _point(at), "axis": _axis(axis)}
+        entry = {"type": kind, "body0": a, "body1": b, "anchor": FRAME.point(at), "axis": FRAME.axis(axis)}
         out[name or f"{a}2{b}_joint"] = entry
 
     r = v.TYRE_DIAMETER.value / 2
@@ -89,8 +71,6 @@ def truth(
     def of(*bodies: str) -> Any:
         return extent([leaf for leaf in leaves if leaf.body in bodies])
 
-    frame = np.eye(4)
-    frame[:3, :3], frame[:3, 3] = _TO_CAD.T, np.array(ORIGIN) / 1000.0
     masts = of("outer_mast", "middle_mast", "inner_mast")
     raised = mast.lift * (1 if mast.stages == 2 else 2)
     carriage = of("carriage")[1, 2] - mast.rise(-1)
@@ -115,7 +95,7 @@ def truth(
     return {
         "about": "CAD frame, metres. A part's key is its product names from the root joined by '/', in tree "
         "order; the second of two equal keys ends in '#2', the third in '#3'.",
-        "frame": [[float(c) + 0.0 for c in row] for row in frame],
+        "frame": FRAME.matrix(),
         "mast": mast.kind,
         "joints": joints(mast, tilt, anchor),
         "parts": {leaf.path: {"body": leaf.body, "role": leaf.role} for leaf in leaves},
@@ -124,9 +104,5 @@ def truth(
             "rod to the left": [round(math.degrees(knuckle_angle(half, side)), 6) for side in (1.0, -1.0)],
             "rod to the right": [round(math.degrees(knuckle_angle(-half, side)), 6) for side in (1.0, -1.0)],
         },
-        "values": {
-            value.name: {"target": value.value, "unit": value.unit, "published": value.published,
-                         "drawn": round(drawn[value.name], 3)}
-            for value in (*v.PUBLISHED, *v.EXAMPLE) if value.name in drawn
-        },
+        "values": value_rows((*v.PUBLISHED, *v.EXAMPLE), {}, drawn),
     }  # fmt: skip

@@ -12,25 +12,10 @@ Lengths are millimetres, angles degrees, masses kilograms, pressures MPa, flows 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from drawing.values import Value
 
 MANUAL = "FD70N workshop manual, part 3, page 11-1"
 REVIEW = "tradeplantequipment.com.au, review 1412"
-
-
-@dataclass(frozen=True, slots=True)
-class Value:
-    """One value of the sheet; `source` is None for a value of our own."""
-
-    name: str
-    value: float
-    unit: str
-    source: str | None = None
-
-    @property
-    def published(self) -> bool:
-        """True when the maker prints it; False for an example value."""
-        return self.source is not None
 
 
 # ---- published --------

@@ -28,7 +28,7 @@ from .carrier import draw_blade, draw_bracket, draw_undercarriage, draw_upper
 from .equipment import draw_arm, draw_boom, draw_bucket, draw_links
 from .linkage import BLADE_BARREL, STROKES, SWING_Z, solve, solve_blade, solve_swing
 from .sheet import write
-from .truth import to_cad, truth
+from .truth import FRAME, truth
 
 SHARES = {"boom": 0.62, "arm": 0.4, "bucket": 0.62, "blade": 0.45}
 """How far out the cylinders are drawn: neither end of a stroke, the bucket clear of the ground, the boom straight
@@ -111,7 +111,7 @@ def draw_machine() -> Assembly:
 def main(folder: Path) -> None:
     """Writes the three files into `folder`."""
     root = draw_machine()
-    write_step(root, folder / "mini_excavator.step", cad=to_cad())
+    write_step(root, folder / "mini_excavator.step", cad=FRAME.to_cad())
     document = truth(root, *drawn_pose(), cylinders())
     (folder / "truth.json").write_text(json.dumps(document, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
     write(folder / "specifications.pdf")

@@ -1,9 +1,5 @@
 """The mini excavator's linkages, solved so that it meets its published values: the digger's in the plane y = 0, the
-boom swing's and the blade's triangles.
-
-Method as for the crawler excavator: the pins are the unknowns of a least-squares problem that starts from a sketch of
-the class, first softly held to it and away from dead points, then the published values alone.
-"""
+boom swing's and the blade's triangles."""
 
 from __future__ import annotations
 
@@ -12,10 +8,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import brentq, least_squares
+from scipy.optimize import brentq
 
-from drawing.digger import Ends, Linkage, Strokes, wrapped
-from drawing.planar import Point, direction, rot, sine, vec
+from drawing.digger import Ends, Linkage, Sketch, Strokes, fitted
+from drawing.planar import Point, direction, rot, vec
 
 from . import values as v
 
@@ -29,38 +25,36 @@ NOSE_AT = 1124.02
 """x of the bucket pin with boom, arm and bucket cylinder open: what the published minimum swing radius takes of the
 drawn arm and bucket."""
 
-_SKETCH: dict[str, tuple[float, float]] = {
-    "A.x": (490, 10),
-    "A.z": (650, 20),
-    "C.x": (600, 30),
-    "C.z": (435, 15),
-    "D.x": (690, 50),
-    "D.z": (28, 3),
-    "M.x": (640, 40),
-    "M.z": (275, 12),
-    "P.x": (-215, 20),
-    "P.z": (110, 20),
-    "E.x": (110, 30),
-    "E.z": (140, 12),
-    "G.x": (760, 12),
-    "G.z": (10, 8),
-    "tipping": (178, 15),
-    "link": (165, 15),
-    "J.r": (132, 10),
-    "J.a": (math.radians(95), 0.15),
-    "tip": (480, 10),
-    "low": (math.radians(-42), 0.06),
-    "high": (math.radians(68), 0.04),
-    "out": (math.radians(-36), 0.05),
-    "crowd": (math.radians(-148), 0.05),
-    "open": (math.radians(25), 0.1),
-    "curl": (math.radians(-145), 0.15),
-}
-"""Where the search starts and what it stays near, and how near."""
-_LEAST_SINE = 0.3
-_NAMES = tuple(_SKETCH)
-_START = np.array([at for at, _ in _SKETCH.values()])
-_LOOSE = np.array([loose for _, loose in _SKETCH.values()])
+SKETCH = Sketch(
+    {
+        "A.x": (490, 10),
+        "A.z": (650, 20),
+        "C.x": (600, 30),
+        "C.z": (435, 15),
+        "D.x": (690, 50),
+        "D.z": (28, 3),
+        "M.x": (640, 40),
+        "M.z": (275, 12),
+        "P.x": (-215, 20),
+        "P.z": (110, 20),
+        "E.x": (110, 30),
+        "E.z": (140, 12),
+        "G.x": (760, 12),
+        "G.z": (10, 8),
+        "tipping": (178, 15),
+        "link": (165, 15),
+        "J.r": (132, 10),
+        "J.a": (math.radians(95), 0.15),
+        "tip": (480, 10),
+        "low": (math.radians(-42), 0.06),
+        "high": (math.radians(68), 0.04),
+        "out": (math.radians(-36), 0.05),
+        "crowd": (math.radians(-148), 0.05),
+        "open": (math.radians(25), 0.1),
+        "curl": (math.radians(-145), 0.15),
+    },
+    boom=BOOM, arm=ARM, strokes=STROKES, least_sine=0.3, pull=20.0,
+)  # fmt: skip
 
 
 def ranges(a: Point, tip: float, e: Ends) -> dict[str, float]:
@@ -77,57 +71,17 @@ def ranges(a: Point, tip: float, e: Ends) -> dict[str, float]:
     }
 
 
-def _linkage(x: Point) -> tuple[Linkage, Ends]:
-    p = dict(zip(_NAMES, map(float, x), strict=True))
-    pins = {n: vec(p[f"{n}.x"], p[f"{n}.z"]) for n in "ACDMPEG"}
-    j = rot(p["J.a"], vec(p["J.r"], 0.0))
-    ends = Ends(**{n: p[n] for n in ("low", "high", "out", "crowd", "open", "curl")})
-    links = {"tipping": p["tipping"], "link": p["link"], "tip": p["tip"]}
-    return Linkage(**pins, **links, J=j, boom=BOOM, arm=ARM, strokes=STROKES), ends
-
-
-def _required(x: Point) -> Point:
-    """What must be zero, millimetres; angles as radians times 1000."""
-    k, e = _linkage(x)
+def _published(k: Linkage, e: Ends) -> list[float]:
     got = ranges(k.A, k.tip, e)
     wanted = (v.DIGGING_DEPTH, v.GROUND_REACH, v.DIGGING_HEIGHT, v.DUMPING_HEIGHT)
     folded = k.A + rot(e.high, vec(BOOM, 0.0) + rot(e.crowd, vec(ARM, 0.0)))
-    return np.array(
-        [
-            *(got[value.name] - value.value for value in wanted),
-            folded[0] - NOSE_AT,
-            k.boom_at(e.low) - STROKES.boom[0],
-            k.boom_at(e.high) - STROKES.boom[1],
-            k.arm_at(e.out) - STROKES.arm[0],
-            k.arm_at(e.crowd) - STROKES.arm[1],
-            1000.0 * wrapped(k.four_bar(STROKES.bucket[0])[0] - e.open),
-            1000.0 * wrapped(k.four_bar(STROKES.bucket[1])[0] - e.curl),
-        ]
-    )
-
-
-def _wished(x: Point) -> Point:
-    """The required residuals, and softly: near the sketch, and the bucket's levers far from their dead points."""
-    k, _ = _linkage(x)
-    short: list[float] = []
-    for length in np.linspace(*STROKES.bucket, 9):
-        _, h, j = k.four_bar(float(length))
-        pin, hub = vec(ARM, 0.0), float(np.hypot(*k.J))
-        sines = (sine(k.E, h, k.G), sine(k.G, h, j), sine(h, j, pin))
-        short += [20.0 * min(0.0, s - _LEAST_SINE) for s in sines]
-        for p, rp, q, rq in ((k.E, float(length), k.G, k.tipping), (h, k.link, pin, hub)):
-            d = float(np.hypot(*(q - p)))
-            short.append(max(0.0, d - rp - rq) + max(0.0, abs(rp - rq) - d))
-    return np.concatenate([_required(x), 0.1 * (x - _START) / _LOOSE, np.array(short)])
+    return [*(got[value.name] - value.value for value in wanted), float(folded[0]) - NOSE_AT]
 
 
 @functools.cache
 def solve() -> Linkage:
     """The digger's linkage; the same on every call."""
-    close = {"xtol": 1e-12, "ftol": 1e-12, "gtol": 1e-12}
-    near = least_squares(_wished, _START, x_scale=_LOOSE, method="trf", max_nfev=400, **close).x
-    exact = least_squares(_required, near, x_scale=_LOOSE, method="trf", xtol=1e-15, ftol=1e-15, gtol=1e-15).x
-    return _linkage(np.round(exact, 9))[0]
+    return fitted(SKETCH, _published)
 
 
 # ---- boom swing: in plan, about the upright pin of the bracket --------

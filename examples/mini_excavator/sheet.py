@@ -7,6 +7,7 @@ from pathlib import Path
 from reportlab.lib.pagesizes import A4
 from reportlab.pdfgen.canvas import Canvas
 
+from drawing.values import Value
 from excavator.sheet_print import (
     BOLD,
     TEAL,
@@ -26,7 +27,6 @@ from excavator.sheet_print import (
     speed,
     torque,
 )
-from excavator.values import Value
 
 from . import values as v
 

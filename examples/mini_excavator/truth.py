@@ -7,13 +7,14 @@ import math
 from typing import Any
 
 import numpy as np
-from OCP.gp import gp_Ax3, gp_Dir, gp_Pnt, gp_Trsf
+from OCP.gp import gp_Trsf
 
 from drawing.cylinders import Cylinder
 from drawing.digger import Linkage, Pose
 from drawing.hardware import placed
 from drawing.planar import Point, direction
 from drawing.product import Assembly, extent, farthest, occurrences
+from drawing.truth import CadFrame, value_rows
 
 from . import values as v
 from .carrier import FLOOR, HALF, SIDE_Y, axle, rollers, track_pins
@@ -21,34 +22,8 @@ from .equipment import floor_angle, wall_depth
 from .linkage import BLADE_BARREL, BLADE_PIN, PIVOT, STROKES, SWING_Z, ranges, solve_blade, solve_swing
 
 Y, Z = (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
-ORIGIN = (0.0, 0.0, FLOOR)
-"""CAD origin in the machine frame: the swing axis at the revolving frame's underside, millimetres. CAD x is to the
-left, y backward, z up."""
-_TO_MACHINE = np.array([[0, -1.0, 0], [1.0, 0, 0], [0, 0, 1.0]])
-
-
-def to_cad() -> gp_Trsf:
-    """Machine frame to CAD frame."""
-    t = gp_Trsf()
-    t.SetTransformation(gp_Ax3(), gp_Ax3(gp_Pnt(*ORIGIN), gp_Dir(0, 0, 1), gp_Dir(0, 1, 0)))
-    return t
-
-
-def frame_matrix() -> list[list[float]]:
-    """4x4, CAD metres to machine metres."""
-    m = np.eye(4)
-    m[:3, :3] = _TO_MACHINE
-    m[:3, 3] = np.array(ORIGIN) / 1000.0
-    return [[float(c) + 0.0 for c in row] for row in m]
-
-
-def _point(p: tuple[float, float, float]) -> list[float]:
-    return [round(float(c), 9) + 0.0 for c in _TO_MACHINE.T @ (np.array(p, dtype=float) - ORIGIN) / 1000.0]
-
-
-def _axis(a: tuple[float, float, float]) -> list[float]:
-    n = np.array(a, dtype=float)
-    return [round(float(c), 9) + 0.0 for c in _TO_MACHINE.T @ (n / np.linalg.norm(n))]
+FRAME = CadFrame((0.0, 0.0, FLOOR), x=(0.0, 1.0, 0.0), z=(0.0, 0.0, 1.0))
+"""From the swing axis at the revolving frame's underside: x to the left, y backward, z up."""
 
 
 def track_bodies() -> list[str]:
@@ -77,7 +52,13 @@ def joints(k: Linkage, pose: Pose, drawn: dict[str, Cylinder]) -> dict[str, dict
         name: str = "",
         when: dict[str, str] | None = None,
     ) -> None:
-        entry = {"type": kind, "body0": bodies[0], "body1": bodies[1], "anchor": _point(at), "axis": _axis(axis)}
+        entry = {
+            "type": kind,
+            "body0": bodies[0],
+            "body1": bodies[1],
+            "anchor": FRAME.point(at),
+            "axis": FRAME.axis(axis),
+        }
         out[name or f"{bodies[0]}2{bodies[1]}_joint"] = entry | ({"when": when} if when else {})
 
     def pivot(a: str, b: str, at: Point) -> None:
@@ -210,24 +191,16 @@ def drawn_values(root: Assembly, k: Linkage, pose: Pose) -> dict[str, float]:
 def truth(root: Assembly, k: Linkage, pose: Pose, drawn: dict[str, Cylinder]) -> dict[str, Any]:
     """The document written as `truth.json`."""
     got, shapes = measured(k), drawn_values(root, k, pose)
-    named = {value.name: value for value in (*v.PUBLISHED, *v.EXAMPLE)}
     return {
         "about": "CAD frame, metres; parts, bodies and joints as in the excavator's truth.",
-        "frame": frame_matrix(),
+        "frame": FRAME.matrix(),
         "undercarriage_with": track_bodies(),
         "joints": joints(k, pose, drawn),
         "parts": {leaf.path: {"body": leaf.body, "role": leaf.role} for leaf in occurrences(root)},
         "cylinders": {f"{n}_cylinder_barrel2{n}_piston_rod_joint": c.slide() for n, c in drawn.items()},
-        "sites": {"bucket_tip": _point((pose.T[0], 0.0, pose.T[1])), "bucket_pin": _point((pose.K[0], 0.0, pose.K[1]))},
-        "values": {
-            name: {
-                "target": value.value,
-                "unit": value.unit,
-                "published": value.published,
-                **({"linkage": round(got[name], 5)} if name in got else {}),
-                **({"drawn": round(shapes[name], 3)} if name in shapes else {}),
-            }
-            for name, value in named.items()
-            if name in got or name in shapes
+        "sites": {
+            "bucket_tip": FRAME.point((pose.T[0], 0.0, pose.T[1])),
+            "bucket_pin": FRAME.point((pose.K[0], 0.0, pose.K[1])),
         },
+        "values": value_rows((*v.PUBLISHED, *v.EXAMPLE), got, shapes),
     }

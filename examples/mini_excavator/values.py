@@ -11,7 +11,7 @@ and as long.
 
 from __future__ import annotations
 
-from excavator.values import Value
+from drawing.values import Value
 
 BROCHURE = "JCB 8008/8010 CTS micro excavators, brochure, pages 5 and 6"
 MAKE, MODEL = "JCB", "8008 CTS"

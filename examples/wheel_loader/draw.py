@@ -35,7 +35,7 @@ from .frames import (
 from .front_end import draw_boom, draw_bucket, draw_link, draw_rocker, heel_x
 from .linkage import Linkage, Pose, Steering, solve, solve_steering
 from .superstructure import draw_cab, draw_hood, draw_power_train, draw_sides
-from .truth import to_cad, truth
+from .truth import FRAME, truth
 from .wheels import draw_front_axle, draw_rear_axle, draw_wheel
 
 LIFT_DRAWN = v.LIFT_CLOSED.value + 0.30 * v.LIFT_STROKE.value
@@ -184,7 +184,7 @@ def draw_machine() -> Assembly:
 def main(folder: Path) -> None:
     """Writes both files into `folder`."""
     root = draw_machine()
-    write_step(root, folder / "wheel_loader.step", cad=to_cad())
+    write_step(root, folder / "wheel_loader.step", cad=FRAME.to_cad())
     k, pose, s = drawn_pose()
     cylinders = {"lift": lift_cylinder(), "tilt": tilt_cylinder(), "steer": steering_cylinder(s.length(0.0))}
     document = truth(root, k, pose, s, cylinders, STEER_Z, LIFT_Y)

@@ -8,13 +8,14 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from OCP.gp import gp_Ax3, gp_Dir, gp_Pnt, gp_Trsf
+from OCP.gp import gp_Trsf
 from scipy.optimize import brentq
 
 from drawing.cylinders import Cylinder
 from drawing.hardware import placed
 from drawing.product import Assembly, Occurrence, extent, occurrences
 from drawing.solids import turn
+from drawing.truth import CadFrame, value_rows
 
 from . import values as v
 from .linkage import (
@@ -31,35 +32,9 @@ from .linkage import (
 )
 
 Array = NDArray[np.float64]
-ORIGIN = (-v.WHEELBASE.value / 2, 0.0, v.TYRE_DIAMETER.value / 2)
-"""CAD origin in the machine frame: the middle of the rear axle, millimetres."""
-_TO_MACHINE = np.array([[-1.0, 0, 0], [0, 0, 1.0], [0, 1.0, 0]])
-"""CAD x is backward, y up, z left, as the drawing office of this example has it."""
+FRAME = CadFrame((-v.WHEELBASE.value / 2, 0.0, v.TYRE_DIAMETER.value / 2), x=(-1.0, 0.0, 0.0), z=(0.0, 1.0, 0.0))
+"""From the middle of the rear axle: x backward, y up, z left, as the drawing office of this example has it."""
 Y, Z, X = (0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (1.0, 0.0, 0.0)
-
-
-def to_cad() -> gp_Trsf:
-    """Machine frame to CAD frame: CAD x = -x, y = z, z = y, about `ORIGIN`."""
-    t = gp_Trsf()
-    t.SetTransformation(gp_Ax3(), gp_Ax3(gp_Pnt(*ORIGIN), gp_Dir(0, 1, 0), gp_Dir(-1, 0, 0)))
-    return t
-
-
-def frame_matrix() -> list[list[float]]:
-    """4x4, CAD metres to machine metres."""
-    m = np.eye(4)
-    m[:3, :3] = _TO_MACHINE
-    m[:3, 3] = np.array(ORIGIN) / 1000.0
-    return [[float(c) + 0.0 for c in row] for row in m]
-
-
-def _point(p: tuple[float, float, float]) -> list[float]:
-    return [round(float(c), 9) + 0.0 for c in _TO_MACHINE.T @ (np.array(p, dtype=float) - ORIGIN) / 1000.0]
-
-
-def _axis(a: tuple[float, float, float]) -> list[float]:
-    n = np.array(a, dtype=float)
-    return [round(float(c), 9) + 0.0 for c in _TO_MACHINE.T @ (n / np.linalg.norm(n))]
 
 
 def joints(k: Linkage, pose: Pose, s: Steering, steer_z: float, lift_y: float) -> dict[str, dict[str, Any]]:
@@ -78,8 +53,8 @@ def joints(k: Linkage, pose: Pose, s: Steering, steer_z: float, lift_y: float) -
             "type": kind,
             "body0": bodies[0],
             "body1": bodies[1],
-            "anchor": _point(at),
-            "axis": _axis(axis),
+            "anchor": FRAME.point(at),
+            "axis": FRAME.axis(axis),
         }
 
     def pivot(a: str, b: str, at: tuple[float, float, float], axis: tuple[float, float, float] = Y) -> None:
@@ -209,31 +184,20 @@ def truth(
     """The document written as `truth.json`."""
     got = measured(k, s)
     shapes = drawn(root, k, pose)
-    named = {value.name: value for value in (*v.PUBLISHED, *v.EXAMPLE)}
     return {
         "about": "CAD frame, metres. A part's key is its product names from the root joined by '/', in tree "
         "order; the second of two equal keys ends in '#2', the third in '#3'.",
-        "frame": frame_matrix(),
+        "frame": FRAME.matrix(),
         "joints": joints(k, pose, s, steer_z, lift_y),
         "parts": {leaf.path: {"body": leaf.body, "role": leaf.role} for leaf in occurrences(root)},
         "cylinders": _slides(cylinders),
         "sites": {
-            "bucket_edge": _point((pose.T[0], 0.0, pose.T[1])),
-            "bucket_hinge": _point((pose.B[0], 0.0, pose.B[1])),
+            "bucket_edge": FRAME.point((pose.T[0], 0.0, pose.T[1])),
+            "bucket_hinge": FRAME.point((pose.B[0], 0.0, pose.B[1])),
         },
         "drawn": {
             "boom_angle": round(math.degrees(pose.boom_angle), 9),
             "bucket_angle": round(math.degrees(pose.bucket_angle), 9),
         },
-        "values": {
-            name: {
-                "target": value.value,
-                "unit": value.unit,
-                "published": value.published,
-                **({"linkage": round(got[name], 5)} if name in got else {}),
-                **({"drawn": round(shapes[name], 3)} if name in shapes else {}),
-            }
-            for name, value in named.items()
-            if name in got or name in shapes
-        },
+        "values": value_rows((*v.PUBLISHED, *v.EXAMPLE), got, shapes),
     }

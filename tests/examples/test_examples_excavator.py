@@ -34,6 +34,11 @@ def linkage() -> ModuleType:
 
 
 @pytest.fixture(scope="module")
+def digger() -> ModuleType:
+    return module("drawing", "digger")
+
+
+@pytest.fixture(scope="module")
 def track() -> ModuleType:
     return module("excavator", "track")
 
@@ -112,22 +117,24 @@ def test_ranges_are_the_work_spaces(poses: list[Any], values: ModuleType, linkag
     assert np.ptp(deep) == pytest.approx(values.LEVEL_LENGTH, abs=250)
 
 
-def test_dumping_heights_are_within_the_bucket_stroke(linkage: ModuleType, values: ModuleType) -> None:
+def test_dumping_heights_are_within_the_bucket_stroke(
+    linkage: ModuleType, digger: ModuleType, values: ModuleType
+) -> None:
     k = linkage.solve()
     for arm, wanted in ((linkage.ARM_MIN, values.DUMPING_HEIGHT), (linkage.ARM_MAX, values.DUMPING_HEIGHT_MIN)):
         at = k.pose(linkage.BOOM_MAX, arm, linkage.BUCKET_MIN)
-        down = k.bucket_for(linkage.wrapped(-math.pi / 2 - at.arm_angle))
+        down = k.bucket_for(digger.wrapped(-math.pi / 2 - at.arm_angle))
         assert linkage.BUCKET_MIN + 10 < down < linkage.BUCKET_MAX - 10
         assert k.pose(linkage.BOOM_MAX, arm, down).T[1] == pytest.approx(wanted.value, rel=PERCENT / 100)
 
 
-def test_wall_depth_is_the_lowest_upright_floor(linkage: ModuleType, values: ModuleType) -> None:
+def test_wall_depth_is_the_lowest_upright_floor(linkage: ModuleType, digger: ModuleType, values: ModuleType) -> None:
     k = linkage.solve()
     upright = -math.pi / 2 + module("excavator", "bucket").floor_angle(k)
     found = []
     for arm in np.linspace(linkage.ARM_MIN, linkage.ARM_MAX, 400):
         at = k.pose(linkage.BOOM_MIN, float(arm), linkage.BUCKET_MIN)
-        gamma = linkage.wrapped(upright - at.arm_angle)
+        gamma = digger.wrapped(upright - at.arm_angle)
         if k.four_bar(linkage.BUCKET_MAX)[0] < gamma < k.four_bar(linkage.BUCKET_MIN)[0]:
             found.append(k.pose(linkage.BOOM_MIN, float(arm), k.bucket_for(gamma)).T[1])
     assert -min(found) == pytest.approx(values.WALL_DEPTH.value, rel=PERCENT / 100)

@@ -335,6 +335,11 @@ class Template:
         """Every variant's default."""
         return {v.name: v.default for v in self.variants}
 
+    def special(self) -> frozenset[tuple[str, str]]:
+        """(variant, choice) of what only goes with some choices of other variants (`Variant.needs`): special machines,
+        which are looked for where no common one fits and do not raise what common ones must show."""
+        return frozenset((v.name, choice) for v in self.variants for choice in v.needs)
+
     def go_together(self, choices: Mapping[str, str]) -> bool:
         """Whether none of the choices needs another variant's choice than is among them (`Variant.needs`)."""
         return all(

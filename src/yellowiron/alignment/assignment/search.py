@@ -165,16 +165,14 @@ def _equal(one: Structure, other: Structure) -> bool:
 
 
 def _by_cylinders(variants: list[dict[str, str]], template: Template, drawn: int) -> list[list[dict[str, str]]]:
-    """The variants in groups: first those with as many hydraulic cylinders as are drawn. If one of these fits wholly,
-    no variant with fewer or more can score as high."""
-    needs = {v.name: v.needs for v in template.variants}
+    """The variants in groups: first those with as many hydraulic cylinders as are drawn, and of these common machines
+    before special ones: the search is bounded. If one fits wholly, no variant with fewer or more can score as high."""
+    special = template.special()
     groups: dict[tuple[int, bool], list[dict[str, str]]] = {}
     for chosen in variants:
         count = sum(1 for r in choose(template, chosen).roles if r.kind == "barrel")
-        # Special machines are tried where no common one fits: the search is bounded.
-        special = any(choice in needs.get(name, ()) for name, choice in chosen.items())
-        groups.setdefault((abs(count - drawn), special), []).append(chosen)
-    return [groups[apart] for apart in sorted(groups)]
+        groups.setdefault((abs(count - drawn), not special.isdisjoint(chosen.items())), []).append(chosen)
+    return [groups[key] for key in sorted(groups)]
 
 
 def _structures(observation: Observation, template: Template, *, careful: bool) -> Iterator[Structure]:

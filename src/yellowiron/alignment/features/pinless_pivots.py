@@ -32,9 +32,9 @@ PIN = 0.5
 
 
 def has_drilled_pivots(solids: tuple[Solid, ...], template: Template, size: float) -> bool:
-    """Whether a model's pivots are drawn with holes: as many stout ones as the template has hinges, or more."""
-    special = {(v.name, choice) for v in template.variants for choice in v.needs}
-    # What only special variants have does not raise what the common ones must show.
+    """Whether a model's pivots are drawn with holes: as many stout ones as the template has hinges, or more; those that
+    only special machines have do not count."""
+    special = template.special()
     hinges = sum(
         1
         for j in template.joints

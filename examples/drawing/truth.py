@@ -1,0 +1,69 @@
+"""What every example's truth says in the same way: points and axes in its CAD frame, values beside what they became."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from OCP.gp import gp_Ax3, gp_Dir, gp_Pnt, gp_Trsf
+
+from .values import Value
+
+Triple = tuple[float, float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class CadFrame:
+    """The frame that a drawing office has drawn a machine in: its `origin` (millimetres), and its `x` and `z` axes, all
+    in the machine's frame (x forward, y left, z up)."""
+
+    origin: Triple
+    x: Triple
+    z: Triple
+
+    @property
+    def rotation(self) -> NDArray[np.float64]:
+        """(3, 3) from the CAD frame to the machine's."""
+        return np.array([self.x, np.cross(self.z, self.x), self.z], dtype=np.float64).T + 0.0
+
+    def to_cad(self) -> gp_Trsf:
+        """Machine frame to CAD frame, millimetres."""
+        t = gp_Trsf()
+        t.SetTransformation(gp_Ax3(), gp_Ax3(gp_Pnt(*self.origin), gp_Dir(*self.z), gp_Dir(*self.x)))
+        return t
+
+    def matrix(self) -> list[list[float]]:
+        """4x4, CAD metres to machine metres."""
+        m = np.eye(4)
+        m[:3, :3] = self.rotation
+        m[:3, 3] = np.array(self.origin) / 1000.0
+        return [[float(c) + 0.0 for c in row] for row in m]
+
+    def point(self, p: Triple) -> list[float]:
+        """A point of the machine's frame, millimetres, in the CAD frame, metres."""
+        return [round(float(c), 9) + 0.0 for c in self.rotation.T @ (np.array(p, dtype=float) - self.origin) / 1000.0]
+
+    def axis(self, a: Triple) -> list[float]:
+        """A direction of the machine's frame as a unit vector of the CAD frame."""
+        n = np.array(a, dtype=float)
+        return [round(float(c), 9) + 0.0 for c in self.rotation.T @ (n / np.linalg.norm(n))]
+
+
+def value_rows(
+    values: Iterable[Value], linkage: Mapping[str, float], drawn: Mapping[str, float]
+) -> dict[str, dict[str, Any]]:
+    """By name: what a value is to be, and what linkage and drawn shapes make of it, as far as they show it."""
+    return {
+        value.name: {
+            "target": value.value,
+            "unit": value.unit,
+            "published": value.published,
+            **({"linkage": round(linkage[value.name], 5)} if value.name in linkage else {}),
+            **({"drawn": round(drawn[value.name], 3)} if value.name in drawn else {}),
+        }
+        for value in values
+        if value.name in linkage or value.name in drawn
+    }
