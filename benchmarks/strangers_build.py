@@ -83,6 +83,18 @@ def one(job: Job) -> None:
     shutil.copy(file, job.models / f"{job.name}{file.suffix.lower()}")
 
 
+def packed(job: Job) -> None:
+    """A glTF file and its buffer as one GLB; pictures are left where they are."""
+    text, buffer = job.files
+    document = json.loads(text.read_text(encoding="utf-8"))
+    del document["buffers"][0]["uri"]
+    data = buffer.read_bytes()
+    words = json.dumps(document).encode()
+    chunks = [(b"JSON", words + b" " * (-len(words) % 4)), (b"BIN\0", data + b"\0" * (-len(data) % 4))]
+    body = b"".join(len(c).to_bytes(4, "little") + kind + c for kind, c in chunks)
+    job.glb.write_bytes(b"glTF" + (2).to_bytes(4, "little") + (12 + len(body)).to_bytes(4, "little") + body)
+
+
 def many(job: Job) -> None:
     """All files in one folder."""
     into = job.models / job.name
@@ -138,6 +150,7 @@ BUILDERS: dict[str, Callable[[Job], None]] = {
     "clem_excavator": one,
     "dozzer197_excavator": turned(xacro),
     "fedem_wheel_loader": turned(ftl),
+    "haibingwang_simple_excavator": packed,
     "hiepnm_excavator": one,
     "ix35e_excavator": turned(summed),
     "johnweez_komatsu": one,
