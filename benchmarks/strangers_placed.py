@@ -213,6 +213,43 @@ def templates(job: Job) -> Placed:
         yield name, _mesh(job.file(f"{own['file']}.obj")), place(name)
 
 
+def prefab(job: Job) -> Placed:
+    """OBJ meshes that a Unity prefab has instances of, each moved as it says; Y up. Unity mirrors X as it reads."""
+    text = job.file(".prefab").read_text(encoding="utf-8")
+    blocks = re.findall(r"^--- !u!(\d+) &(-?\d+)[^\n]*\n(.*?)(?=^--- |\Z)", text, re.MULTILINE | re.DOTALL)
+    mirror = np.diag([-1.0, 1.0, 1.0, 1.0])
+    above: dict[str, str] = {}
+    local: dict[str, np.ndarray] = {}
+
+    def place(told: dict[str, float]) -> np.ndarray:
+        turn = Rotation.from_quat([told.get(f"m_LocalRotation.{k}", float(k == "w")) for k in "xyzw"])
+        moved = _place(turn, [told.get(f"m_LocalPosition.{k}", 0.0) for k in "xyz"])
+        return moved @ np.diag([*(told.get(f"m_LocalScale.{k}", 1.0) for k in "xyz"), 1.0])
+
+    for kind, own, block in blocks:
+        father = re.search(r"m_Father: \{fileID: (-?\d+)", block)
+        if kind == "4" and father is not None:
+            rows = re.findall(r"(m_Local\w+): \{([^}]*)\}", block)
+            pairs = [(row, *pair.split(":")) for row, words in rows for pair in words.split(",")]
+            local[own] = place({f"{row}.{key.strip()}": float(value) for row, key, value in pairs})
+            above[own] = father[1]
+    for kind, _, block in blocks:
+        if kind != "1001":
+            continue
+        (source,) = re.findall(r"m_SourcePrefab: \{fileID: \d+, guid: (\w+)", block)
+        files = [f for f in job.files if f.suffix == ".meta" and f"guid: {source}" in f.read_text(encoding="utf-8")]
+        if not files:
+            continue
+        changes = re.findall(r"propertyPath: (m_Local(?:Pos|Rot|Sca)\S+)\s+value: (\S+)", block)
+        frame, (at,) = (
+            place({k: float(v) for k, v in changes}),
+            re.findall(r"m_TransformParent: \{fileID: (-?\d+)", block),
+        )
+        while at in local:
+            frame, at = local[at] @ frame, above[at]
+        yield files[0].name.split(".")[0], _mesh(files[0].with_suffix("")), mirror @ frame @ mirror
+
+
 def summed(job: Job) -> Placed:
     """Meshes by the joints' origins in a Python file that later commits no longer have."""
     code = job.snapshot.show("src/exca_dance/rendering/urdf_kin.py", "58dd8e6^").decode()
