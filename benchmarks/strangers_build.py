@@ -149,6 +149,7 @@ BUILDERS: dict[str, Callable[[Job], None]] = {
     "auwo_excavator": turned(urdf),
     "cat_390f_excavator": in_nodes(qml),
     "clem_excavator": one,
+    "dale8nson_excavator": one,
     "dozzer197_excavator": turned(xacro),
     "fedem_wheel_loader": turned(ftl),
     "haibingwang_simple_excavator": packed,
