@@ -43,6 +43,7 @@ from strangers_placed import (  # noqa: E402
     ftl,
     instances,
     mjcf,
+    picked,
     prefab,
     qml,
     summed,
@@ -145,6 +146,11 @@ def turned(placed: Callable[[Job], Placed]) -> Callable[[Job], None]:
     return build
 
 
+LOADER = (
+    "Body.001", "Front_Forks", "Plane.001", "Front_Forks_Supporter",
+    "Wheel_Left_Back", "Wheel_Left_Front", "Wheel_Right_Back", "Wheel_Right_Front",
+)  # fmt: skip
+"""The objects of `gaia_wheel_loader` in a file of seven machines."""
 BUILDERS: dict[str, Callable[[Job], None]] = {
     "auwo_excavator": turned(urdf),
     "cat_390f_excavator": in_nodes(qml),
@@ -152,6 +158,7 @@ BUILDERS: dict[str, Callable[[Job], None]] = {
     "dale8nson_excavator": one,
     "dozzer197_excavator": turned(xacro),
     "fedem_wheel_loader": turned(ftl),
+    "gaia_wheel_loader": in_nodes(picked(*LOADER)),
     "haibingwang_simple_excavator": packed,
     "hiepnm_excavator": one,
     "icmantis_excavator": in_nodes(prefab),

@@ -10,7 +10,7 @@ import re
 import subprocess
 import xml.etree.ElementTree as ET
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -211,6 +211,19 @@ def templates(job: Job) -> Placed:
         placed[name]["turn"] = np.column_stack([x, y, np.cross(x, y)])
     for name, own in placed.items():
         yield name, _mesh(job.file(f"{own['file']}.obj")), place(name)
+
+
+def picked(*names: str) -> Callable[[Job], Placed]:
+    """The parts of these names of a file with several machines, as it is read."""
+
+    def some(job: Job) -> Placed:
+        assembly = read_cad(job.files[0])
+        for part in assembly.parts:
+            if part.name in names:
+                faces = assembly.shape_of(part).mesh.triangles
+                yield part.name, trimesh.Trimesh(assembly.points_of(part), faces, process=False), np.eye(4)
+
+    return some
 
 
 def prefab(job: Job) -> Placed:
