@@ -157,6 +157,7 @@ BUILDERS: dict[str, Callable[[Job], None]] = {
     "clem_excavator": one,
     "dale8nson_excavator": one,
     "dozzer197_excavator": turned(xacro),
+    "fattahhanafi_excavator": turned(xacro),
     "fedem_wheel_loader": turned(ftl),
     "gaia_wheel_loader": in_nodes(picked(*LOADER)),
     "haibingwang_simple_excavator": packed,

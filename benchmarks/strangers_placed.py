@@ -139,9 +139,19 @@ def xacro(job: Job) -> Placed:
 
 
 def _expanded(description: str) -> str:
-    """A robot description with its properties put in."""
+    """A robot description with its properties, and products of numbers and pi, put in."""
     values = dict(re.findall(r'<xacro:property name="(\w+)" value="([^"]*)"', description))
-    return re.sub(r"\$\{(\w+)\}", lambda found: values.get(found[1], found[0]), description)
+
+    def value(found: re.Match[str]) -> str:
+        if re.fullmatch(r"-?[\d.]*(pi)?( *[*/] *([\d.]+|pi))*", found[1]):
+            product = 1.0
+            for sign, minus, word in re.findall(r"([*/]?) *(-?)([\d.]+|pi)", found[1]):
+                factor = np.pi if word == "pi" else float(word)
+                product *= (-1.0 if minus else 1.0) * (1.0 / factor if sign == "/" else factor)
+            return str(product)
+        return values.get(found[1], found[0])
+
+    return re.sub(r"\$\{([^}]*)\}", value, description)
 
 
 def ftl(job: Job) -> Placed:
