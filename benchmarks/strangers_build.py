@@ -179,6 +179,7 @@ BUILDERS: dict[str, Callable[[Job], None]] = {
     "okkwok_by_material": one,
     "persimenreed_excavator": one,
     "pudong_excavator": turned(urdf),
+    "shebbyy_excavator": one,
     "simcity_excavator": one,
     "simscape_backhoe_arm": in_nodes(instances),
     "simscape_excavator": many,
