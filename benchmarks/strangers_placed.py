@@ -140,7 +140,7 @@ def xacro(job: Job) -> Placed:
 
 def _expanded(description: str) -> str:
     """A robot description with its properties, and products of numbers and pi, put in."""
-    values = dict(re.findall(r'<xacro:property name="(\w+)" value="([^"]*)"', description))
+    values: dict[str, str] = dict(re.findall(r'<xacro:property name="(\w+)" value="([^"]*)"', description))
 
     def value(found: re.Match[str]) -> str:
         if re.fullmatch(r"-?[\d.]*(pi)?( *[*/] *([\d.]+|pi))*", found[1]):
