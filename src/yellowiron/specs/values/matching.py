@@ -300,6 +300,8 @@ def _match(asked_for: _Asked, claim: Claim, said: _Said) -> Match | None:
     left = {t for t in primary - explained - _EXTREME - asked_for.name if not _is_number(t)}
     left = {t for t in left if t not in NEUTRAL or _is_telling(t, asked_for, explained | left, claim, said, KNOWN)}
     left -= said.standard | (frozenset() if from_head else _WHOLE)
+    if _is_translated(asked_for, claim):
+        left &= KNOWN | TELLING
     known = frozenset() if borrowed else KNOWN  # a heading that must help names other properties too
     rest = {t for t in left if _is_telling(t, asked_for, explained | left, claim, said, known)}
     worded = frozenset[str]().union(*(words for words in said.naming if not any(map(_is_number, words))))
@@ -375,6 +377,12 @@ def _is_telling(
     if word in HARMLESS or word in NEUTRAL or (word not in KNOWN and _opens_sentence(word, asked_for, claim)):
         return False
     return not (word in known and word in asked_for.words)
+
+
+def _is_translated(asked_for: _Asked, claim: Claim) -> bool:
+    """Whether a label says a phrase of a value in several languages: words that nothing is known of are further ones."""
+    order = tokens(claim.words)
+    return any(len(words) > 1 and all(order.count(w) > 1 for w in words) for _, words in asked_for.phrases)
 
 
 def _opens_sentence(word: str, asked_for: _Asked, claim: Claim) -> bool:

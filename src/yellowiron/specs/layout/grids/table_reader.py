@@ -83,7 +83,7 @@ def read_grid(
                 over_rows, circuit = (filled[0].text,), ()
             elif index in facts or _are_sentences(filled[1:]):
                 circuit = (filled[0].text,) if {"pump", *CIRCUITS} & set(tokens(filled[0].text)) else ()
-            elif not (filled and filled[0].columns[0] == 0 and _heads_none(grid, filled, heads if found else [])):
+            elif not _heads_none(grid, filled, heads if found else []):
                 heads.append(index)
             continue
         if len(filled) == 1 and filled[0].columns[0] == 0 and not is_unit(filled[0].text.lstrip("0123456789.,± ")):
@@ -149,7 +149,10 @@ def _heads_none(grid: TableGrid, filled: Sequence[Cell], heads: Sequence[int]) -
     rows of values, under some of them, and rows that stand out (`heads`) head the table."""
     named = [[c for c in _row_cells(grid, head) if c.lines] for head in heads]
     apart = any(all(map(_is_bold, row)) or names_models(row[0].text) for row in named if row)
-    return names_no_columns([c.text for c in filled]) or (apart and not all(map(_is_bold, filled)))
+    first = min((c.columns[0] for c in grid.cells if looks_like_value(c.text)), default=1)
+    labels, cells = [c.text for c in filled if c.columns[0] < first], [c.text for c in filled if c.columns[0] >= first]
+    none = names_no_columns([" ".join(labels), *cells]) or (apart and not all(map(_is_bold, filled)))
+    return bool(labels) and none
 
 
 def _facts(grid: TableGrid) -> frozenset[int]:
