@@ -54,7 +54,8 @@ _PULLS = {"force", "pull"}
 
 def _as_force(claim: Claim) -> Claim | None:
     """A mass that a label calls a force or a pull, as the force that its weight is: "Line pull: 5,860 kg"."""
-    if claim.quantity.dimension != "mass" or not _PULLS & {*tokens(claim.words), *tokens(claim.head)}:
+    words = {t for text in (claim.words, claim.head, *claim.statement.context[-1:]) for t in tokens(text)}
+    if claim.quantity.dimension != "mass" or not _PULLS & words:
         return None
     own, other = (q and replace(q, unit=_FORCES.get(q.unit.rstrip("s.").casefold(), ""))
                   for q in (claim.quantity, claim.partner))  # fmt: skip

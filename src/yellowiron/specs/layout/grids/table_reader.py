@@ -152,7 +152,7 @@ def _heads_none(grid: TableGrid, filled: Sequence[Cell], heads: Sequence[int]) -
     first = min((c.columns[0] for c in grid.cells if looks_like_value(c.text)), default=1)
     labels, cells = [c.text for c in filled if c.columns[0] < first], [c.text for c in filled if c.columns[0] >= first]
     none = names_no_columns([" ".join(labels), *cells]) or (apart and not all(map(_is_bold, filled)))
-    return bool(labels) and none
+    return bool(labels) and none and not any(map(is_unit, cells))
 
 
 def _facts(grid: TableGrid) -> frozenset[int]:
