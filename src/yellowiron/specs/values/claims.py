@@ -367,7 +367,6 @@ def _without_conditions(label: str) -> str:
     return " ".join(label.split())
 
 
-
 def _checked(claim: Claim) -> Claim:
     """The claim with its separator's doubt settled by its partner, and a doubt where the two disagree."""
     quantity, partner = claim.quantity, claim.partner

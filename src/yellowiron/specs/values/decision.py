@@ -195,7 +195,7 @@ def _configured(matches: Sequence[Match], sheets: Sheets, config: str) -> list[M
 
 
 _CHARTED = 4
-"""So many values under one head on a page, each for a row of its own, are a chart: what a load is at one radius after the other."""
+"""So many values under one head on a page, each for a row of its own, are a chart: one load for each radius."""
 
 
 def _without_charts(matches: Sequence[Match]) -> list[Match]:

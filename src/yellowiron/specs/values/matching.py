@@ -380,7 +380,7 @@ def _is_telling(
 
 
 def _is_translated(asked_for: _Asked, claim: Claim) -> bool:
-    """Whether a label says a phrase of a value in several languages: words that nothing is known of are further ones."""
+    """Whether a label says a phrase of a value in several languages: what nothing is known of are further ones."""
     order = tokens(claim.words)
     return any(len(words) > 1 and all(order.count(w) > 1 for w in words) for _, words in asked_for.phrases)
 

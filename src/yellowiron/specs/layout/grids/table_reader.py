@@ -58,7 +58,6 @@ def read_grid(
     heads = _head_rows(page, grid)
     naming = frozenset(heads)
     titles = _titles(grid)
-    facts = _facts(grid)
     over_rows: tuple[str, ...] = ()
     circuit: tuple[str, ...] = ()
     carried: list[Cell] = []
@@ -81,9 +80,9 @@ def read_grid(
                 circuit = ()
             elif len(filled) == 1 and filled[0].columns[0] == 0:
                 over_rows, circuit = (filled[0].text,), ()
-            elif index in facts or _are_sentences(filled[1:]):
+            elif _are_sentences(filled[1:]):
                 circuit = (filled[0].text,) if {"pump", *CIRCUITS} & set(tokens(filled[0].text)) else ()
-            elif not _heads_none(grid, filled, heads if found else []):
+            elif not _heads_none(grid, filled, heads, below=bool(found)):
                 heads.append(index)
             continue
         if len(filled) == 1 and filled[0].columns[0] == 0 and not is_unit(filled[0].text.lstrip("0123456789.,± ")):
@@ -144,30 +143,18 @@ def _are_sentences(cells: Sequence[Cell]) -> bool:
     return bool(cells) and all(len(c.text.split()) > _LONGEST_HEAD or c.text.endswith(".") for c in cells)
 
 
-def _heads_none(grid: TableGrid, filled: Sequence[Cell], heads: Sequence[int]) -> bool:
-    """Whether a row of words, a label first, says nothing of its columns: as `names_no_columns`; or it is set like the
-    rows of values, under some of them, and rows that stand out (`heads`) head the table."""
+def _heads_none(grid: TableGrid, filled: Sequence[Cell], heads: Sequence[int], *, below: bool) -> bool:
+    """Whether a row of words, a label first, says nothing of its columns: as `names_no_columns`; or it is in the only
+    column of values and no model, or set like the rows of values, under some of them (`below`), and rows that stand
+    out (`heads`) head the table."""
     named = [[c for c in _row_cells(grid, head) if c.lines] for head in heads]
     apart = any(all(map(_is_bold, row)) or names_models(row[0].text) for row in named if row)
     first = min((c.columns[0] for c in grid.cells if looks_like_value(c.text)), default=1)
     labels, cells = [c.text for c in filled if c.columns[0] < first], [c.text for c in filled if c.columns[0] >= first]
-    none = names_no_columns([" ".join(labels), *cells]) or (apart and not all(map(_is_bold, filled)))
+    single = first == grid.columns - 1 and not names_models(" ".join(labels))
+    plain = (single or (below and apart)) and not all(map(_is_bold, filled))
+    none = plain or names_no_columns([" ".join(labels), *cells])
     return bool(labels) and none and not any(map(is_unit, cells))
-
-
-def _facts(grid: TableGrid) -> frozenset[int]:
-    """The rows of words that head nothing in a table with one value to a row: several, one after the other, each a
-    label beside the only other column ("Make | …", "Model | …"), or under values."""
-    rows = [[c for c in _row_cells(grid, row) if c.lines] for row in range(grid.rows)]
-    valued = [len(_values_of(filled)) for filled in rows]
-    if max(valued, default=0) > 1:
-        return frozenset()
-    worded = {
-        row
-        for row, filled in enumerate(rows)
-        if len(filled) == 2 and not valued[row] and filled[0].columns[0] == 0 and not all(map(_is_bold, filled))
-    }
-    return frozenset(row for row in worded if {row - 1, row + 1} & worded or any(valued[:row]))
 
 
 def _values_of(filled: Sequence[Cell]) -> list[Cell]:
