@@ -8,11 +8,11 @@ from OCP.TopoDS import TopoDS_Shape
 
 from drawing.hardware import bolt
 from drawing.product import AMBER, BLACK, GLASS, GREY, RED, STEEL, YELLOW, Assembly, Colour, Part
-from drawing.solids import Y, bored, box, cut, fuse, mirrored, plate, ring, rod, shift, turned
+from drawing.solids import Y, Z, bored, box, cut, fuse, mirrored, plate, ring, rod, shift, turned
 from excavator.upper import sheet_box
 
 from . import values as v
-from .equipment import LINK_PIN, LINK_Y, PIN, twins
+from .equipment import ARM_END, ARM_Y, LINK_PIN, LINK_Y, PIN, Outline, twins
 from .linkage import AXLE_X, RADIUS, Linkage
 
 BODY = "chassis"
@@ -23,7 +23,8 @@ SPINDLE, HOUSING = 45.0, 75.0
 """Radii."""
 BEARING = 370.0
 """Where the axles' housings end, inside the chain cases."""
-TAIL_FRONT = -1440.0
+TAIL_FRONT, FLOOR = -1440.0, 20.0
+"""Front of the tail; thickness of the belly plate."""
 TYRE_DENSITY = 1100.0
 
 
@@ -33,33 +34,34 @@ def _pair(tree: Assembly, name: str, shape: TopoDS_Shape, colour: Colour = YELLO
 
 
 def draw_frame(k: Linkage, hardware: Assembly) -> Assembly:
-    """Side plates with the bosses of arms, links and lift cylinders; floor, cross plates, axle housings, chain cases."""
+    """Side plates with the bosses of arms, links and lift cylinders; floor, cross plates, chain cases with axles."""
     tree = Assembly("CHASSIS WELDMENT")
     belly = v.GROUND_CLEARANCE.value
-    pins = [(base, LINK_PIN) for base, _ in k.links]
-    plates = plate([(-1440, 330, 0), (-1180, belly, 0), (640, belly, 0), (700, 330, 0), (700, 840, 0), (-160, 930, 0), (-1440, 930, 0)], "xz", INSIDE, OUTSIDE)
-    for base, size in pins:
-        if base[1] > 900:
-            plates = fuse(plates, plate([(base[0], base[1], 75), (base[0] - 160, 900, 0), (base[0] + 200, 900, 0)], "xz", INSIDE, OUTSIDE))
-    axles = [((x, 0.0, RADIUS), HOUSING) for x in (AXLE_X, -AXLE_X)]
-    holes = [((float(p[0]), 0.0, float(p[1])), size / 2) for p, size in [*pins, (k.C, PIN)]]
-    _pair(tree, "SIDE PL", bored(plates, Y, *holes, *axles))
-    reach = LINK_Y[0] if len(k.links) > 1 else 636.0
-    for name, (base, size) in zip(("REAR", "CONTROL"), pins, strict=False):
-        boss = ring((float(base[0]), OUTSIDE, float(base[1])), Y, size / 2 + 20, size / 2, reach - 2 - OUTSIDE)
-        _pair(tree, f"{name} PIVOT BOSS", boss)
-    _pair(tree, "LIFT CYL BOSS", ring((float(k.C[0]), OUTSIDE, float(k.C[1])), Y, 40, PIN / 2, 22))
-    tree.add(Part("BELLY PL", box(-1180, 640, -INSIDE, INSIDE, belly, belly + 12), GREY), BODY)
+    arms = ("boom",) if len(k.links) == 1 else ("rear_link", "control_link")
+    boss_end, pin_end = (ARM_Y - 4, ARM_END + 4) if len(k.links) == 1 else (LINK_Y[0] - 2, LINK_Y[1] + 6)
+    side: Outline = [(-1440, 330, 0), (-1180, belly, 0), (640, belly, 0), (700, 330, 0), (700, 840, 0), (-160, 930, 0)]
+    plates = plate([*side, (-1440, 930, 0)], "xz", INSIDE, OUTSIDE)
+    holes = [((x, 0.0, RADIUS), HOUSING) for x in (AXLE_X, -AXLE_X)]
+    for arm, (at, _) in zip(arms, k.links, strict=True):
+        x, z = float(at[0]), float(at[1])
+        if z > 900.0:
+            plates = fuse(plates, plate([(x, z, 75), (x - 160, 900, 0), (x + 200, 900, 0)], "xz", INSIDE, OUTSIDE))
+        boss = ring((x, OUTSIDE, z), Y, LINK_PIN / 2 + 20, LINK_PIN / 2, boss_end - OUTSIDE)
+        _pair(tree, f"{arm.upper().replace('_', ' ')} BOSS", boss)
+        holes.append(((x, 0.0, z), LINK_PIN / 2))
+        twins(hardware, INSIDE - 5, pin_end, at, LINK_PIN, BODY, f"{arm}_pin")
+    x, z = float(k.C[0]), float(k.C[1])
+    _pair(tree, "LIFT CYL BOSS", ring((x, OUTSIDE, z), Y, 40, PIN / 2, 22))
+    twins(hardware, INSIDE - 5, 580, k.C, PIN, BODY, "boom_cylinder_barrel_{}_pin")
+    _pair(tree, "SIDE PL", bored(plates, Y, *holes, ((x, 0.0, z), PIN / 2)))
+    tree.add(Part("BELLY PL", box(-1180, 640, -INSIDE, INSIDE, belly, belly + FLOOR), GREY), BODY)
     tree.add(Part("FRONT PL", box(680, 700, -INSIDE, INSIDE, 335, 840)), BODY)
     tree.add(Part("REAR X-MEMBER", box(-1440, -1420, -INSIDE, INSIDE, 335, 900)), BODY)
-    case = bored(sheet_box(-AXLE_X - 130, AXLE_X + 130, 420, INSIDE, 300, 540, 6.0), Y, *axles)
+    case = bored(sheet_box(-AXLE_X - 130, AXLE_X + 130, 420, INSIDE, 300, 540, 12.0), Y, *holes[:2])
     for x in (AXLE_X, -AXLE_X):
         tube = rod((x, BEARING, RADIUS), Y, HOUSING, WHEEL_Y - 75 - BEARING)
         case = fuse(case, tube, rod((x, OUTSIDE, RADIUS), Y, SPINDLE, WHEEL_Y + 15 - OUTSIDE))
     _pair(tree, "CHAIN CASE AND AXLES", case, GREY)
-    for role, (base, size) in zip(("rear_link_pin", "control_link_pin") if len(k.links) > 1 else ("boom_pin",), pins, strict=True):
-        twins(hardware, INSIDE - 5, LINK_Y[1] + 6 if len(k.links) > 1 else 704.0, base, size, BODY, role)
-    twins(hardware, INSIDE - 5, 580, k.C, PIN, BODY, "boom_cylinder_barrel_{}_pin")
     return tree
 
 
@@ -71,21 +73,22 @@ def draw_engine(k: Linkage) -> Assembly:
     def put(name: str, shape: TopoDS_Shape, colour: Colour = GREY) -> None:
         tree.add(Part(name, shape, colour), BODY)
 
-    put("ENGINE", sheet_box(-1250, -660, -240, 240, 300, 820, 14.0))
-    put("ENGINE MOUNT", box(-1150, -760, -200, 200, v.GROUND_CLEARANCE.value + 12, 300))
-    put("HYDROSTATIC PUMP", rod((-500, -160, 420), Y, 110, 320))
-    put("PUMP FOOT", box(-560, -440, -150, 150, v.GROUND_CLEARANCE.value + 12, 320))
-    put("FUEL TANK", sheet_box(-480, 400, 280, 360, 230, 700, 4.0), BLACK)
-    put("HYDRAULIC TANK", sheet_box(-480, 400, -360, -280, 230, 700, 4.0), BLACK)
+    put("ENGINE", sheet_box(-1150, -560, -240, 240, 300, 800, 14.0))
+    put("ENGINE MOUNT", box(-1050, -660, -200, 200, v.GROUND_CLEARANCE.value + FLOOR, 300))
+    put("HYDROSTATIC PUMP", rod((-420, -160, 420), Y, 110, 320))
+    put("PUMP FOOT", box(-480, -360, -150, 150, v.GROUND_CLEARANCE.value + FLOOR, 320))
+    put("FUEL TANK", sheet_box(-250, 560, 280, 360, 230, 700, 4.0), BLACK)
+    put("HYDRAULIC TANK", sheet_box(-250, 560, -360, -280, 230, 700, 4.0), BLACK)
     hood = cut(box(-1440, -640, -INSIDE, INSIDE, 930, 1240), box(-1436, -644, -476, 476, 926, 1236))
     put("ENGINE HOOD", hood, YELLOW)
     put("RADIATOR", box(-1410, -1330, -400, 400, 420, 900), BLACK)
-    tail = cut(box(k.tail, TAIL_FRONT, -half, half, 430, 1300), box(k.tail + 40, TAIL_FRONT - 40, -half + 40, half - 40, 470, 1260))
-    put("TAILGATE", cut(tail, box(k.tail - 1, k.tail + 41, -300, 300, 620, 1150)), YELLOW)
-    put("TAIL GRILLE", box(k.tail + 12, k.tail + 30, -300, 300, 620, 1150), BLACK)
+    inside = box(k.tail + 20, TAIL_FRONT - 12, -half + 12, half - 12, 455, 1288)
+    tail = cut(box(k.tail, TAIL_FRONT, -half, half, 430, 1300), inside)
+    put("TAILGATE", cut(tail, box(k.tail - 1, k.tail + 21, -300, 300, 620, 1150)), YELLOW)
+    put("TAIL GRILLE", box(k.tail + 4, k.tail + 12, -300, 300, 620, 1150), BLACK)
     for name, y in (("LH", half - 150), ("RH", -half + 50)):
         put(f"TAIL LAMP {name}", box(k.tail + 30, k.tail + 90, y, y + 100, 1300, 1360), RED)
-    put("BEACON", fuse(rod((-1500, 0, 1300), (0.0, 0.0, 1.0), 50, 90)), AMBER)
+    put("BEACON", rod((-1500, 0, 1300), Z, 50, 90), AMBER)
     return tree
 
 
@@ -98,25 +101,29 @@ def draw_cab() -> Assembly:
         tree.add(Part(name, shape, colour), BODY)
 
     put("CAB FLOOR", box(-400, 680, -INSIDE, INSIDE, 700, 712), GREY)
-    side: list[tuple[float, float, float]] = [(-620, 1250, 0), (-300, 935, 0), (610, 935, 0), (640, 1040, 0), (560, top - 60, 0), (-560, top - 60, 0)]
-    window: list[tuple[float, float, float]] = [(-500, 1290, 0), (-230, 1060, 0), (540, 1060, 0), (480, top - 130, 0), (-480, top - 130, 0)]
-    for name, y in (("LH", half - 30), ("RH", -half)):
-        put(f"CAB SIDE {name}", cut(plate(side, "xz", y, y + 30), plate(window, "xz", y - 1, y + 31)))
-        put(f"SIDE SCREEN {name}", plate(window, "xz", y + 12, y + 18), GLASS)
-    put("CAB SILL", box(-300, 640, half - 30, INSIDE, 712, 935), YELLOW)
-    put("CAB SILL", box(-300, 640, -INSIDE, -half + 30, 712, 935), YELLOW)
-    put("CAB BACK", cut(box(-600, -570, -half + 30, half - 30, 1240, top - 60), box(-601, -569, -330, 330, 1400, top - 200)))
-    put("REAR GLASS", box(-590, -582, -330, 330, 1400, top - 200), GLASS)
-    put("CAB ROOF", box(-580, 590, -half - 5, half + 5, top - 60, top))
+    side: Outline = [(-620, 1250, 0), (-300, 935, 0), (610, 935, 0), (640, 1040, 0)]
+    side += [(560, top - 60, 0), (-560, top - 60, 0)]
+    window: Outline = [(-500, 1290, 0), (-230, 1060, 0), (540, 1060, 0)]
+    window += [(480, top - 130, 0), (-480, top - 130, 0)]
+    for name, y in (("LH", half - 12), ("RH", -half)):
+        put(f"CAB SIDE {name}", cut(plate(side, "xz", y, y + 12), plate(window, "xz", y - 1, y + 13)))
+        put(f"SIDE SCREEN {name}", plate(window, "xz", y + 4, y + 8), GLASS)
+    put("CAB SILL", box(-300, 640, half - 12, INSIDE, 712, 935), YELLOW)
+    put("CAB SILL", box(-300, 640, -INSIDE, -half + 12, 712, 935), YELLOW)
+    back = box(-580, -570, -half + 12, half - 12, 1240, top - 60)
+    put("CAB BACK", cut(back, box(-601, -569, -330, 330, 1400, top - 200)))
+    put("REAR GLASS", box(-578, -572, -330, 330, 1400, top - 200), GLASS)
+    put("CAB ROOF", sheet_box(-580, 590, -half - 5, half + 5, top - 60, top, 4.0))
     put("WORK LAMP", box(590, 640, 250, 350, top - 60, top - 10), GREY)
     put("WORK LAMP", box(590, 640, -350, -250, top - 60, top - 10), GREY)
-    seat = fuse(box(-300, 200, -240, 240, 900, 1040), box(-380, -280, -240, 240, 900, 1560))
-    put("SEAT", seat)
-    put("SEAT BASE", box(-260, 120, -200, 200, 712, 900), GREY)
-    for name, y in (("LH", 300.0), ("RH", -330.0)):
-        put(f"LEVER CONSOLE {name}", box(150, 330, y, y + 30, 712, 1180), GREY)
-        put(f"LEVER {name}", rod((240, y + 15, 1180), (0.0, 0.0, 1.0), 14, 140))
-    put("LAP BAR", fuse(rod((180, -260, 1240), Y, 14, 520), box(166, 194, -260, -246, 1040, 1240), box(166, 194, 246, 260, 1040, 1240)))
+    put("SEAT BASE", sheet_box(-260, 120, -200, 200, 712, 900, 4.0), GREY)
+    put("SEAT CUSHION", sheet_box(-280, 200, -240, 240, 900, 1020, 3.0))
+    put("SEAT BACK", sheet_box(-380, -280, -240, 240, 900, 1560, 3.0))
+    for name, y in (("LH", 300.0), ("RH", -310.0)):
+        put(f"LEVER CONSOLE {name}", box(150, 330, y, y + 10, 712, 1180), GREY)
+        put(f"LEVER {name}", rod((240, y + 5, 1180), Z, 5, 140))
+    stays = [box(166, 194, y, y + 14, 1040, 1240) for y in (-260.0, 246.0)]
+    put("LAP BAR", fuse(rod((180, -260, 1240), Y, 14, 520), *stays))
     return tree
 
 

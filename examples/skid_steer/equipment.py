@@ -115,14 +115,15 @@ def draw_bucket(k: Linkage, turn: float, angle: float, hardware: Assembly) -> As
 
     carrier.add(Part("ATTACH PLATE", moved(box(back, face, -590, 590, -105, 125), at), GREY), body, "quick_attach")
     ear = plate([(0, 0, 42), (back, -90, 0), (back, 110, 0)], "xz", 605, 636)
-    fit("ATTACH EAR", fuse(bored(ear, Y, ((0, 0, 0), PIN / 2)), box(back, face, 580, 636, -90, 110)))
+    fit("ATTACH EAR", fuse(bored(ear, Y, ((0, 0, 0), PIN / 2)), box(back, face, 590, 636, -90, 110)))
     lug: Outline = [(jx, jz, 30), (jx - 30, 70, 0), (back, -60, 0), (back, 120, 0)]
     for low, high in ((516.0, 534.0), (586.0, 604.0)):
         fit("TILT ROD LUG", bored(plate(lug, "xz", low, high), Y, ((jx, 0, jz), TILT_PIN / 2)))
     inner, floor = half - CHEEK, -DEPTH
-    heel: tuple[float, float, float] = (face + 90, floor + 90, 90)
-    outer: Outline = [heel, (edge - 110, floor, 0), (face + 90, TOP, 0), (face, TOP, 0)]
-    cave: Outline = [(heel[0], heel[1], 90 - SKIN), (edge - 110, floor + SKIN, 0), (face + 90, TOP, 0), (face + SKIN, TOP, 0)]
+    hx, hz, front = face + 90, floor + 90, face + 90
+    heel: tuple[float, float, float] = (hx, hz, 90)
+    outer: Outline = [heel, (edge - 110, floor, 0), (front, TOP, 0), (face, TOP, 0)]
+    cave: Outline = [(hx, hz, 90 - SKIN), (edge - 110, floor + SKIN, 0), (front, TOP, 0), (face + SKIN, TOP, 0)]
     sheet = plate(outer, "xz", -inner, inner)
     put("BUCKET WRAPPER", cut(sheet, plate(cave, "xz", -inner - 1, inner + 1)))
     cheek: Outline = [heel, (edge - 110, floor, 0), (edge - 60, floor + 20, 0), *outer[2:]]

@@ -93,19 +93,19 @@ def hinge_x(edge: float, back: float) -> float:
     return CORNER_X - edge * math.cos(back) - DEPTH * math.sin(back)
 
 
-# Where the search starts and what it stays near: P, Q, R, S, the arms' turn, the edge ahead of B, the arms' turn when it
-# is on the ground.
-_SKETCH = np.array(
-    [-977.0, 758.0, -1168.0, 1621.0, -258.0, 850.0, -964.0, 1244.0, math.radians(70.0), v.LENGTH.value - v.BARE_LENGTH.value + FOOT, 0.0]
-)  # fmt: skip
-_LOOSE = np.array([30.0, 30.0, 30.0, 30.0, 30.0, 30.0, 30.0, 30.0, 0.05, 10.0, 0.01])
+# Where the search starts and what it stays near: P, Q, R, S, the arms' turn, the edge ahead of B, the arms' turn with
+# the bucket on the ground.
+_PINS = [-977.0, 758.0, -1168.0, 1621.0, -258.0, 850.0, -964.0, 1244.0]
+_SKETCH = np.array([*_PINS, math.radians(70.0), v.LENGTH.value - v.BARE_LENGTH.value + FOOT, 0.0])
+_LOOSE = np.array([*[30.0] * 8, 0.05, 10.0, 0.01])
 
 
 def _on_links(x: Point) -> Linkage:
     pins = x[:8].reshape(4, 2)
     nowhere, edge, level = vec(0.0, 0.0), float(x[9]), float(x[10])
     links = ((pins[0], pins[1]), (pins[2], pins[3]))
-    return Linkage(links, vec(hinge_x(edge, ROLLBACK - level), LOW), nowhere, nowhere, nowhere, nowhere, vec(edge, -DEPTH), float(x[8]))
+    hinge, tip = vec(hinge_x(edge, ROLLBACK - level), LOW), vec(edge, -DEPTH)
+    return Linkage(links, hinge, nowhere, nowhere, nowhere, nowhere, tip, float(x[8]))
 
 
 def _required(x: Point) -> Point:

@@ -79,7 +79,8 @@ def _page(c: Canvas) -> None:
     )
     y = lines(c, x, y, rows, HALF)
     y = heading(c, x, y, "Hydraulic cylinders", HALF)
-    cells = [[Cell((name,), head=True, mark=name in ("Stroke", "Bore", "Rod dia.")) for name in ("Cylinder", "No.", "Stroke", "Bore", "Rod dia.")]]
+    heads = ("Cylinder", "No.", "Stroke", "Bore", "Rod dia.")
+    cells = [[Cell((name,), head=True, mark=name in heads[2:]) for name in heads]]
     for name in ("Lift", "Tilt"):
         sizes = [f"{getattr(v, f'{name.upper()}_{what}').value:g} mm" for what in ("STROKE", "BORE", "ROD")]
         cells.append([Cell((name,), align="l"), Cell(("2",)), *(Cell((words,)) for words in sizes)])

@@ -161,12 +161,12 @@ def side_weights(
         there = {name: place(cluster_of[name]) for name in names if name in cluster_of}
         middle = np.mean(list(there.values()), axis=0) if there else np.zeros(3)
         for found, at in there.items():
-            ahead, left = (bool(at[axis] > middle[axis]) for axis in (0, 1))
+            ahead, leftward = (bool(at[axis] > middle[axis]) for axis in (0, 1))
             for name in names:
                 ends, sides = _END.findall(name), _SIDE.findall(name)
-                right = (ends[0] == "front") == ahead and (not sides or (sides[0] == "l") == left)
-                key = (cluster_of[found], name)
-                sided[key] = sided.get(key, 0) + (SIDE_WEIGHT if right else -SIDE_WEIGHT)
+                fits = (ends[0] == "front") == ahead and (not sides or (sides[0] == "l") == leftward)
+                where = (cluster_of[found], name)
+                sided[where] = sided.get(where, 0) + (SIDE_WEIGHT if fits else -SIDE_WEIGHT)
 
     for name in sorted(cluster_of.keys() - frozenset().union(*alike)):
         match = _SIDE.search(name)
@@ -175,8 +175,7 @@ def side_weights(
             continue
         own = cluster_of[name]
         other = cluster_of.get(twin)
-        ahead = float(place(own)[1] - (place(other)[1] if other is not None else 0.0))
-        is_left = ahead > 0
+        is_left = float(place(own)[1] - (place(other)[1] if other is not None else 0.0)) > 0
         left, right = (name, twin) if match.group(1) == "l" else (twin, name)
         key = (own, left if is_left else right)
         sided[key] = sided.get(key, 0) + SIDE_WEIGHT
