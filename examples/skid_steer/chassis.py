@@ -37,7 +37,7 @@ def draw_frame(k: Linkage, hardware: Assembly) -> Assembly:
     """Side plates with the bosses of arms, links and lift cylinders; floor, cross plates, chain cases with axles."""
     tree = Assembly("CHASSIS WELDMENT")
     belly = v.GROUND_CLEARANCE.value
-    arms = ("boom",) if len(k.links) == 1 else ("rear_link", "control_link")
+    arms = ("boom",) if len(k.links) == 1 else ("rear_link", "front_link")
     boss_end, pin_end = (ARM_Y - 4, ARM_END + 4) if len(k.links) == 1 else (LINK_Y[0] - 2, LINK_Y[1] + 6)
     side: Outline = [(-1440, 330, 0), (-1180, belly, 0), (640, belly, 0), (700, 330, 0), (700, 840, 0), (-160, 930, 0)]
     plates = plate([*side, (-1440, 930, 0)], "xz", INSIDE, OUTSIDE)

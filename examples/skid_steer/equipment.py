@@ -75,7 +75,7 @@ def draw_arms(k: Linkage, turn: float, hardware: Assembly) -> Assembly:
         for y in (ARM_Y, -ARM_END):
             tree.add(bush(BUSH, LINK_PIN, long), body, at=at.Multiplied(shift(float(x), y, float(z))))
     else:
-        for name, (_, pin) in zip(("rear", "control"), k.links, strict=True):
+        for name, (_, pin) in zip(("rear", "front"), k.links, strict=True):
             twins(hardware, 596, ARM_END + 4, k.carry(turn, pin), LINK_PIN, body, f"{name}_link_boom_pin")
     return tree
 
@@ -83,7 +83,7 @@ def draw_arms(k: Linkage, turn: float, hardware: Assembly) -> Assembly:
 def draw_links(k: Linkage, turn: float) -> Assembly:
     """A flat link on either side for each pair of pins."""
     tree, hole = Assembly("LIFT LINKS"), LINK_PIN / 2 + CLEARANCE
-    for name, (base, end) in zip(("rear", "control"), k.links, strict=True):
+    for name, (base, end) in zip(("rear", "front"), k.links, strict=True):
         along = k.carry(turn, end) - base
         far = float(np.hypot(*along))
         bar = bored(plate([(0, 0, 48), (far, 0, 48)], "xz", *LINK_Y), Y, ((0, 0, 0), hole), ((far, 0, 0), hole))

@@ -5,7 +5,7 @@ Millimetres, in the plane y = 0: x forward from the middle of the wheelbase, z u
 a raised arm and a bucket rolled back positive. The arms' pins are given with the arms lowered, `turn` of them 0.
 
 Pins: B bucket on the arms, C and D lift cylinder (chassis, arms), E tilt cylinder on the arms, J its rod on the bucket;
-P and Q rear link (chassis, arms), R and S control link, A the arms' pivot of the radial lift. T is the cutting edge. J
+P and Q rear link (chassis, arms), R and S front link, A the arms' pivot of the radial lift. T is the cutting edge. J
 and T are in the level bucket's frame, from B.
 """
 
@@ -39,7 +39,7 @@ PIVOT = vec(-1000.0, 1500.0)
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Linkage:
-    """Pins, millimetres. `links`: chassis' and arms' pin of the rear and the control link; of one pivot both are the
+    """Pins, millimetres. `links`: chassis' and arms' pin of the rear and the front link; of one pivot both are the
     same. `turn`: how far the arms turn from lowered to raised."""
 
     links: tuple[tuple[Point, Point], ...]

@@ -37,7 +37,7 @@ def joints(k: Linkage, pose: tuple[float, float]) -> dict[str, dict[str, Any]]:
     if len(k.links) == 1:
         add("chassis", "boom", k.links[0][0])
     else:
-        for name, (base, pin) in zip(("rear_link", "control_link"), k.links, strict=True):
+        for name, (base, pin) in zip(("rear_link", "front_link"), k.links, strict=True):
             add("chassis", name, base)
             add(name, "boom", k.carry(lifted, pin))
     hinge = k.carry(lifted, k.B)

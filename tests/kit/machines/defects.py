@@ -13,6 +13,7 @@ import numpy as np
 from kit.machines import solids as align_solids
 from kit.machines.crawler import merged
 from kit.machines.excavators import Features, excavator
+from kit.machines.skid_steers import skid_steer
 from kit.machines.solids import Array, bolt, place
 from kit.machines.synthetic import Machine, loader
 from yellowiron.cad.mesh.assembly import shape_of
@@ -33,6 +34,8 @@ def drawn(kind: str, seed: int, *, segments: int = 32, hollow: bool = True) -> M
     try:
         if kind == "loader":
             return loader(seed, embedded=embedded, stop=stop, hoses=hoses, links=links)
+        if kind == "skid_steer":
+            return skid_steer(seed, embedded=embedded)
         if kind == "mini":
             swinging = Features("single", swing=True, blade=seed % 3, tipping=("plates", "welded")[seed % 2])
             return excavator(seed, swinging, embedded=embedded)
