@@ -1,5 +1,5 @@
-"""The skid steer example: its linkage meets what its sheet publishes, it is drawn so, and it builds to a machine that is
-ready, with and without names, from surfaces and from triangles."""
+"""The skid steer example: its linkage meets what its sheet publishes, it is drawn so, and it builds to a machine that
+is ready, with and without names, from surfaces and from triangles."""
 
 from __future__ import annotations
 
@@ -124,7 +124,8 @@ def test_every_value_is_read_off_the_sheet(values: ModuleType, made_once: MadeOn
         "Hinge Pin Height at Maximum Lift": values.HINGE_HEIGHT, "Dumping Reach": values.REACH,
         "Turning Radius with Bucket": values.TURNING_RADIUS, "Turning Radius Rear": values.REAR_RADIUS,
         "Wheelbase": values.WHEELBASE, "Ground Clearance": values.GROUND_CLEARANCE,
-        "Tyre Diameter": values.TYRE_DIAMETER, "Digging Depth": values.DIG_DEPTH, "Lift Cylinder Bore": values.LIFT_BORE,
+        "Tyre Diameter": values.TYRE_DIAMETER, "Digging Depth": values.DIG_DEPTH,
+        "Lift Cylinder Bore": values.LIFT_BORE,
         "Lift Cylinder Rod Diameter": values.LIFT_ROD, "Lift Cylinder Stroke": values.LIFT_STROKE,
         "Tilt Cylinder Bore": values.TILT_BORE, "Tilt Cylinder Rod Diameter": values.TILT_ROD,
         "Tilt Cylinder Stroke": values.TILT_STROKE,

@@ -17,7 +17,8 @@ def drawn(path: str, made_once: MadeOnce) -> Path:
 
     def fill(folder: Path) -> None:
         folder.mkdir()
-        words = "import sys; from pathlib import Path; from skid_steer.draw import main; main(Path(sys.argv[1]), sys.argv[2])"
+        words = "import sys; from pathlib import Path; from skid_steer.draw import main; "
+        words += "main(Path(sys.argv[1]), sys.argv[2])"
         subprocess.run([sys.executable, "-c", words, str(folder), path], cwd=EXAMPLES, check=True)
         (folder / "nameless").mkdir()
         write_nameless(folder / "skid_steer.step", folder / "nameless" / "skid_steer.step")
