@@ -40,7 +40,7 @@ def cylinders(k: Linkage) -> dict[str, Cylinder]:
         ),
         "bucket": Cylinder(
             "TILT CYL", v.TILT_BORE.value, v.TILT_ROD.value, v.TILT_STROKE.value, v.TILT_CLOSED.value,
-            v.TILT_CLOSED.value + TILTED * v.TILT_STROKE.value, outside=78, pin=TILT_PIN, eye=30, eye_width=44, base=60,
+            v.TILT_CLOSED.value + TILTED * v.TILT_STROKE.value, outside=86, pin=TILT_PIN, eye=30, eye_width=44, base=60,
             cap=22, piston=40, gland=50, port=10.0,
         ),
     }  # fmt: skip
