@@ -1,6 +1,6 @@
 """Where the bodies of a type usually are, and how large: `usual.json` of its template, from the machines we can draw.
 
-    python benchmarks/fit_usual.py [--first SEED] [--count N]
+    python benchmarks/fit_usual.py [--first SEED] [--count N] [--only KIND]
 
 From the repository's root. For every body: the box that the middle 90 % of its surface takes (forward, left, up, in
 machine sizes, as `alignment.fusion.stance` finds the frame), over all machines; its length and its share of the surface
@@ -25,7 +25,7 @@ from yellowiron.alignment.features.solids import size_of, solids_of  # noqa: E40
 from yellowiron.alignment.fusion.stance import stance_of, surface_points  # noqa: E402
 from yellowiron.library import load_template  # noqa: E402
 
-TYPES = {"loader": "wheel_loader", "excavator": "excavator"}
+TYPES = {"loader": "wheel_loader", "excavator": "excavator", "skid_steer": "skid_steer"}
 KEPT = 0.05
 """This share of a body's surface is left out at either end of its box."""
 
@@ -56,8 +56,11 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--count", type=int, default=40)
+    parser.add_argument("--only", choices=sorted(TYPES), help="a kind of machine; without it all of them")
     given = parser.parse_args()
     for kind, name in TYPES.items():
+        if given.only not in (None, kind):
+            continue
         bodies: dict[str, list] = {}
         for seed in range(given.first, given.first + given.count):
             for body, what in seen(kind, seed).items():

@@ -5,7 +5,7 @@ Each defect takes a machine as drawn and a generator of random numbers and gives
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -13,11 +13,12 @@ import numpy as np
 from kit.machines import solids as align_solids
 from kit.machines.crawler import merged
 from kit.machines.excavators import Features, excavator
+from kit.machines.skid_steers import skid_steer
 from kit.machines.solids import Array, bolt, place
 from kit.machines.synthetic import Machine, loader
 from yellowiron.cad.mesh.assembly import shape_of
 from yellowiron.model.assembly import Part
-from yellowiron.model.geometry import Mesh
+from yellowiron.model.geometry import Mesh, Shape
 
 Defect = Callable[[Machine, np.random.Generator], Machine]
 
@@ -33,6 +34,8 @@ def drawn(kind: str, seed: int, *, segments: int = 32, hollow: bool = True) -> M
     try:
         if kind == "loader":
             return loader(seed, embedded=embedded, stop=stop, hoses=hoses, links=links)
+        if kind == "skid_steer":
+            return skid_steer(seed, embedded=embedded)
         if kind == "mini":
             swinging = Features("single", swing=True, blade=seed % 3, tipping=("plates", "welded")[seed % 2])
             return excavator(seed, swinging, embedded=embedded)
@@ -165,13 +168,13 @@ def spoiled(kind: str, seed: int, defect: str, *, triangles: bool = False) -> Ma
     machine = DEFECTS[defect](machine, np.random.default_rng([seed, 31]))
     if triangles:
         used = {p.shape for p in machine.parts}
-        machine = replace(
-            machine,
-            shapes={
-                k: replace(shape_of(_plain(s.mesh), s.name), key=k) for k, s in machine.shapes.items() if k in used
-            },
-        )
+        machine = replace(machine, shapes=on_triangles({k: s for k, s in machine.shapes.items() if k in used}))
     return machine
+
+
+def on_triangles(shapes: Mapping[str, Shape]) -> dict[str, Shape]:
+    """The shapes as their triangles show them, in single precision."""
+    return {k: replace(shape_of(_plain(s.mesh), s.name), key=k) for k, s in shapes.items()}
 
 
 def _plain(mesh: Mesh) -> Mesh:

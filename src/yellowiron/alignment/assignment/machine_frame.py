@@ -20,6 +20,8 @@ from yellowiron.support.vectors import unit
 
 RUN = 0.05
 """Shoes this near to the lowest, as a share of the track's height, are on the ground."""
+LYING = 0.01
+"""Axles within this sine lie in a plane, and wheels within this share of their radius stand on one."""
 SNAP = 1e-6
 """A rotation this near to a signed permutation of the axes is that permutation."""
 
@@ -98,7 +100,7 @@ def _up(scene: _Scene, swing: str | None, flat: Floats | None, doubts: list[str]
         # Wheels that are steered turn on upright pins.
         upright = [a.direction for a in scene.axes.values() if abs(float(a.direction @ flat)) > SAME_DIRECTION]
         up = upright[0] if upright else flat
-        if not upright:
+        if not upright and not _stand_alike(scene.rolling, flat):
             doubts.append("up is the normal of the wheels' plane")
     else:
         up = _up_guess(_common_direction(list(scene.axes.values())))
@@ -127,6 +129,14 @@ def _ground_normal(wheels: list[Wheel]) -> Floats | None:
     centres = np.array([w.center for w in wheels])
     _, spread, axes = np.linalg.svd(centres - centres.mean(axis=0))
     return np.asarray(axes[2], dtype=np.float64) if spread[1] > 0.2 * spread[0] else None
+
+
+def _stand_alike(wheels: list[Wheel], normal: Floats) -> bool:
+    """Whether four wheels or more stand on one plane with this normal, on axles that lie along it: it is the ground."""
+    if len(wheels) < 4 or any(abs(float(w.direction @ normal)) > LYING for w in wheels):
+        return False
+    heights = np.array([w.center @ normal - w.radius for w in wheels])
+    return float(np.ptp(heights)) < LYING * min(w.radius for w in wheels)
 
 
 def _swing(scene: _Scene, flat: Floats | None) -> str | None:

@@ -14,6 +14,7 @@ from yellowiron.alignment.assignment.cp_sat import Solution
 from yellowiron.alignment.assignment.machine_frame import MachineFrame
 from yellowiron.alignment.features.solids import Solid
 from yellowiron.alignment.structure.clusters import Structure
+from yellowiron.model.geometry import Floats
 from yellowiron.model.template import Template
 
 Weights = dict[tuple[int, str], int]
@@ -30,6 +31,7 @@ AS_GOOD = 0.1
 TRUSTING = 6
 """So many parts must contradict their names as clearly as if so many more agreed: names are mostly right."""
 _SIDE = re.compile(r"(?<=_)([lr])(?=_|$)")
+_END = re.compile(r"(?:^|(?<=_))(front|rear)(?=_|$)")
 
 
 def name_weights(
@@ -119,6 +121,23 @@ def twin_role(name: str) -> str | None:
     return swapped if swapped != name else None
 
 
+def interchangeable(template: Template) -> list[frozenset[str]]:
+    """Groups of bodies whose names differ in front, rear, left and right alone and which hang on the same bodies by
+    joints of one type: a machine's four wheels on one chassis. Only where they stand tells which is which."""
+    rigid = [r.name for r in template.roles if r.rigid]
+    joined: dict[str, list[tuple[str, str]]] = {name: [] for name in rigid}
+    for joint in template.joints:
+        a, b = template.bodies_of(joint)
+        if a in joined and b in joined:
+            joined[a].append((joint.type, b))
+            joined[b].append((joint.type, a))
+    groups: dict[tuple[str, tuple[tuple[str, str], ...]], set[str]] = {}
+    for name in rigid:
+        if _END.search(name):
+            groups.setdefault((_SIDE.sub("", _END.sub("", name)), tuple(sorted(joined[name]))), set()).add(name)
+    return [frozenset(g) for g in groups.values() if len({_END.findall(name)[0] for name in g}) > 1]
+
+
 def side_weights(
     solids: tuple[Solid, ...],
     structure: Structure,
@@ -127,24 +146,36 @@ def side_weights(
     frame: MachineFrame,
     unary: Weights,
 ) -> Weights:
-    """Weights that put the left one of each mirrored pair on +Y."""
+    """Weights that put the left one of each mirrored pair on +Y, and the front one of each pair that the joints do not
+    tell apart on +X."""
     sided = dict(unary)
     cluster_of = {b: c for c, b in solution.body_of.items()}
 
-    def y(cluster: int) -> float:
+    def place(cluster: int) -> Floats:
         members = [solids[i] for i in sorted(structure.clusters[cluster].members)]
         middle = np.mean([0.5 * (s.low + s.high) for s in members], axis=0)
-        return float(frame.matrix[1, :3] @ middle + frame.matrix[1, 3])
+        return np.asarray(frame.matrix[:3, :3] @ middle + frame.matrix[:3, 3], dtype=np.float64)
 
-    for name in sorted(cluster_of):
+    alike = interchangeable(template)
+    for names in alike:
+        there = {name: place(cluster_of[name]) for name in names if name in cluster_of}
+        middle = np.mean(list(there.values()), axis=0) if there else np.zeros(3)
+        for found, at in there.items():
+            ahead, leftward = (bool(at[axis] > middle[axis]) for axis in (0, 1))
+            for name in names:
+                ends, sides = _END.findall(name), _SIDE.findall(name)
+                fits = (ends[0] == "front") == ahead and (not sides or (sides[0] == "l") == leftward)
+                where = (cluster_of[found], name)
+                sided[where] = sided.get(where, 0) + (SIDE_WEIGHT if fits else -SIDE_WEIGHT)
+
+    for name in sorted(cluster_of.keys() - frozenset().union(*alike)):
         match = _SIDE.search(name)
         twin = twin_role(name)
         if match is None or twin is None or not any(r.name == twin for r in template.roles):
             continue
         own = cluster_of[name]
         other = cluster_of.get(twin)
-        ahead = y(own) - (y(other) if other is not None else 0.0)
-        is_left = ahead > 0
+        is_left = float(place(own)[1] - (place(other)[1] if other is not None else 0.0)) > 0
         left, right = (name, twin) if match.group(1) == "l" else (twin, name)
         key = (own, left if is_left else right)
         sided[key] = sided.get(key, 0) + SIDE_WEIGHT

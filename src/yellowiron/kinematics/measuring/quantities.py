@@ -218,19 +218,23 @@ def _zone(quantity: Mapping[str, Any], corners: Floats) -> Floats:
 
 
 def _radius(quantity: Mapping[str, Any], posed: Posed) -> float:
-    """Largest distance of bodies' corners, or of a site, from a joint's axis; of `front` or `rear` only those ahead of
-    it or behind."""
-    joint = _joint(quantity.get("joint"), posed)
+    """Largest distance of bodies' corners, or of a site, from a joint's axis, or from the upright line midway between
+    two `joints`; of `front` or `rear` only those ahead of it or behind."""
+    if "joints" in quantity:
+        start = np.mean([_place({"joint": name}, posed) for name in quantity["joints"]], axis=0)
+        axis = np.array([0.0, 0.0, 1.0])
+    else:
+        joint = _joint(quantity.get("joint"), posed)
+        start, axis = posed.point(joint.body0, joint.anchor), posed.direction(joint.body0, joint.axis)
     if "site" in quantity:
         corners = _place({"site": quantity["site"]}, posed)[None]
     else:
         corners = np.concatenate([posed.hull(body) for body in _bodies(quantity, posed)])
-    away = corners - posed.point(joint.body0, joint.anchor)
+    away = corners - start
     side = {"front": 1.0, "rear": -1.0}.get(str(quantity.get("of", "")), 0.0)
     away = away[side * away[:, 0] >= 0.0]
     if not len(away):
         raise Unmeasurable("nothing of these bodies is on that side of the axis")
-    axis = posed.direction(joint.body0, joint.axis)
     away = away - np.outer(away @ axis, axis) / (axis @ axis)
     return float(np.linalg.norm(away, axis=1).max())
 

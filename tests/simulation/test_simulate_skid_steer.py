@@ -1,0 +1,73 @@
+"""The skid steer example in engines: its strokes with and without the rated load, what it lifts, and how it drives with
+its two sides."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import in_engines
+import pytest
+
+from kit.builds import MadeOnce, without_pages
+from kit.machines.skid_example import drawn
+from yellowiron.pipeline import build
+from yellowiron.simulation import drive, rated_payload, run_tests, simulate
+from yellowiron.simulation.driving.result import driving_findings
+from yellowiron.simulation.registry import import_engine
+from yellowiron.usd import read_mechanism
+
+pytestmark = pytest.mark.slow
+
+
+@pytest.fixture(scope="module")
+def file(made_once: MadeOnce) -> Path:
+    folder = drawn("vertical", made_once)
+
+    def fill(out: Path) -> None:
+        out.mkdir()
+        with without_pages():
+            build("skid_steer", folder / "skid_steer.step", out / "out", sheets=(folder / "specifications.pdf",))
+
+    return made_once("skid_steer_built", fill) / "out" / "skid_steer.usda"
+
+
+@pytest.mark.parametrize(
+    ("engine", "payload", "actuators"),
+    [("mujoco", 0.0, None), ("mujoco", 1300.0, None), ("newton", 0.0, ["bucket"]), ("physx", 0.0, None)],
+)
+def test_full_strokes(file: Path, engine: str, payload: float, actuators: list[str] | None) -> None:
+    in_engines.need(engine)
+    import_engine(engine)  # before a stage opens: its schemas
+    assert rated_payload(read_mechanism(file)).mass == pytest.approx(1300.0)
+    result = simulate(file, engine=engine, payload_kg=payload, actuators=actuators)
+    assert result.completed and result.branches_kept
+    assert not result.findings, result.findings
+    assert result.pin_error < {"mujoco": 5e-5, "newton": 5e-5, "physx": 2.5e-4}[engine]
+    assert all(a.final_error_percent < 1.0 for a in result.actuators)
+
+
+@pytest.mark.parametrize("engine", ["mujoco", "physx"])
+def test_it_drives_and_turns_with_its_two_sides(file: Path, engine: str) -> None:
+    """Tyres that stand behind each other scrub: it turns by less than the wheels roll, and no figure is a finding."""
+    in_engines.need(engine)
+    import_engine(engine)
+    result = drive(file, engine=engine)
+    assert result.creep < 1e-3 and abs(result.sunk) < 0.005
+    assert result.distance == 5.0 and result.scrubs
+    assert result.forward == pytest.approx(5.0, rel=0.005)
+    assert result.backward == pytest.approx(5.0, rel=0.005)
+    assert result.sideways < 0.02
+    assert result.turning_radius is None and result.spin_geometry == pytest.approx(math.radians(45.0))
+    assert result.spin is not None and math.radians(9.0) < result.spin < math.radians(45.0)
+    assert not list(driving_findings(result))
+
+
+def test_it_lifts_what_it_is_rated_for(file: Path) -> None:
+    figures = {f.test.name: f for f in run_tests(file, engine="mujoco")}
+    tipping = figures["Tipping Load"]
+    assert tipping.engine_value == pytest.approx(tipping.statics_value, rel=0.02)
+    assert 2.0 * 1300.0 < tipping.engine_value < 2.5 * 1300.0
+    assert figures["Breakout Force"].engine_value == pytest.approx(figures["Breakout Force"].statics_value, rel=0.05)
+    assert figures["Rated Operating Capacity"].arrived
+    assert not figures["Two and a Half Times the Rated Operating Capacity"].arrived
