@@ -9,7 +9,16 @@ from pathlib import Path
 import numpy as np
 
 from yellowiron import cad, kinematics, library, specs
-from yellowiron.alignment import align, decide, declared_roles, of_drawn, read_alignment, read_values, to_scale
+from yellowiron.alignment import (
+    align,
+    decide,
+    declared_roles,
+    of_drawn,
+    read_alignment,
+    read_values,
+    to_scale,
+    twin_role,
+)
 from yellowiron.mechanism import (
     ComparedJoint,
     build_mechanism,
@@ -107,8 +116,9 @@ def find_roles(
     decisions: Decisions = UNDECIDED,
 ) -> tuple[Assembly, Alignment]:
     """Roles for the parts of a CAD model, and the model whose parts they are: scaled where the sheet's overall length
-    asks for it; where bodies are missing, or every mesh may be a whole one, taken apart, if that finds most of what is
-    missing. `earlier` is an alignment file whose edits hold; `decisions` go before them."""
+    asks for it; left and right hydraulic cylinders in one mesh apart, where they were taken for one of the two; where
+    bodies are missing, or every mesh may be a whole one, taken apart, if that finds most of what is missing. `earlier` is
+    an alignment file whose edits hold; `decisions` go before them."""
 
     def found(model: Assembly) -> Alignment:
         edits = read_alignment(earlier, model, template) if earlier is not None else None
@@ -122,6 +132,11 @@ def find_roles(
 
     assembly = to_scale(assembly, template, specifications)
     alignment = found(assembly)
+    twins = cad.twins_apart(assembly)
+    both = {part.id for part in assembly.parts} - {part.id for part in twins.parts}
+    # What is left and right in one mesh was taken for one of the two.
+    if any(part.part in both and twin_role(part.body or "") is not None for part in alignment.parts):
+        assembly, alignment = twins, found(twins)
     moving = {part.body for part in alignment.parts}
     merged = alignment.missing and len(assembly.parts) < 2 * len(moving)
     apart = kept("apart", lambda: _apart(assembly), assembly) if merged or hidden(alignment) else None

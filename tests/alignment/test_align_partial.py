@@ -18,7 +18,7 @@ from yellowiron.alignment.assignment.collision import colliders
 from yellowiron.alignment.assignment.cp_sat import JOINT_WEIGHT, MISSING_WEIGHT, Solution, without_islands
 from yellowiron.alignment.assignment.directions import direction_classes, linkages_of, never_together
 from yellowiron.alignment.features.contacts import SharedAxis
-from yellowiron.alignment.fusion import reading
+from yellowiron.alignment.fusion.played import drawn_bodies
 from yellowiron.alignment.structure.clusters import Hinge, Structure
 from yellowiron.library import load_template
 from yellowiron.mechanism import build_mechanism
@@ -123,10 +123,8 @@ def test_a_part_called_a_collision_mesh_is_one_only_where_other_parts_are() -> N
 def test_a_body_of_a_pin_alone_is_not_drawn(excavator: Template) -> None:
     """A boom of 0.4 kg between two frames of half a ton broke the engine."""
     areas = [0.5, 0.4 * excavator.usual["arm"].area, 0.01 * excavator.usual["boom"].area]
-    evidence: Any = SimpleNamespace(
-        pieces=[SimpleNamespace(area=a) for a in (*areas, 1.0 - sum(areas))], leading=(0, 1, 2)
-    )
-    found = reading._drawn(evidence, ("undercarriage", "arm", "boom"), np.array([0, 1, 2]), excavator)
+    pieces: Any = [SimpleNamespace(area=area) for area in areas]
+    found = drawn_bodies(pieces, np.array([0, 1, 2]), ("undercarriage", "arm", "boom"), excavator, 1.0)
     assert found == {"undercarriage", "arm"}
 
 

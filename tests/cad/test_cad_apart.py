@@ -10,9 +10,9 @@ import pytest
 import trimesh
 
 from kit.machines.solids import box, lathe, place, tube
-from yellowiron.cad import taken_apart
+from yellowiron.cad import taken_apart, twins_apart
 from yellowiron.cad.mesh.assembly import Occurrence, assemble
-from yellowiron.model.assembly import Assembly, Part
+from yellowiron.model.assembly import Assembly, DeclaredJoint, Part
 from yellowiron.model.geometry import Mesh
 
 
@@ -109,3 +109,41 @@ def test_one_part_that_is_far_away_is_damaged_and_all_that_are_have_another_unit
     assert [f.code for f in found.findings if f.code in ("CAD003", "CAD004")] == (
         ["CAD003"] if left == 3 else ["CAD004"]
     )
+
+
+def halves(mesh: Mesh) -> Mesh:
+    """A mesh and its mirror image, 1 m to the other side of x = 0."""
+    points = mesh.points * np.array([-1.0, 1.0, 1.0])
+    return merged(moved(mesh, 0.5, 0.0, 0.0), moved(Mesh(points, mesh.triangles[:, ::-1]), -0.5, 0.0, 0.0))
+
+
+def barrel_and_rod() -> tuple[Mesh, Mesh]:
+    """A barrel along z with its eye to one side, and the rod that comes out of it."""
+    barrel = merged(tube("barrel", 0.06, 0.0, 0.6).mesh, moved(box("eye", 0.1, 0.1, 0.1).mesh, 0.02, 0.0, -0.06))
+    return barrel, moved(tube("rod", 0.03, 0.0, 0.5).mesh, 0.0, 0.0, 0.45)
+
+
+def test_cylinders_to_the_left_and_to_the_right_come_apart() -> None:
+    """Mirrored in the modelling tool: both barrels are one mesh, both rods another one."""
+    barrel, rod = barrel_and_rod()
+    block = box("block", 0.4, 0.4, 0.1).mesh
+    found = twins_apart(assembly_of(block, halves(barrel), halves(rod), merged(block, moved(block, 1.0, 0.0, 0.0))))
+    assert [p.id for p in found.parts] == ["m0", "m1/1", "m1/2", "m2/1", "m2/2", "m3"]
+    sides = {p.id: float(found.points_of(p)[:, 0].mean()) for p in found.parts if "/" in p.id}
+    assert sorted(np.sign(x) for x in sides.values()) == [-1.0, -1.0, 1.0, 1.0]
+    assert all(abs(abs(x) - 0.5) < 0.05 for x in sides.values())
+    (said,) = (f.message for f in found.findings if f.code == "CAD013")
+    assert "left and the right" in said
+
+
+def test_bars_that_are_no_cylinders_stay_together() -> None:
+    """Two rails have no rods in line with them; plates have no bars; what the file itself moves is one body."""
+    barrel, rod = barrel_and_rod()
+    rails = assembly_of(halves(barrel), box("block", 0.4, 0.4, 0.1).mesh)
+    assert twins_apart(rails) is rails
+    aside = assembly_of(halves(barrel), moved(halves(rod), 0.0, 0.3, 0.0))
+    assert twins_apart(aside) is aside
+    both = assembly_of(halves(barrel), halves(rod))
+    slide = DeclaredJoint("slide", "prismatic", ("m0", "m1"), (0.0, 0.0, 0.0), (0.0, 0.0, 1.0))
+    driven = replace(both, joints=(slide,))
+    assert twins_apart(driven) is driven

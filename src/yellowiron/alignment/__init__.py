@@ -15,6 +15,7 @@ axis is estimated · `ALN026` to `ALN028`: see `files.decisions` · `ALN029` one
 """
 
 from yellowiron.alignment.assignment.unit_scale import to_scale
+from yellowiron.alignment.assignment.weights import twin_role
 from yellowiron.alignment.discovery.discover import discover
 from yellowiron.alignment.discovery.robot import declared_roles, discover_declared
 from yellowiron.alignment.files.alignment_json import (
@@ -45,5 +46,6 @@ __all__ = [
     "read_values",
     "said_in",
     "to_scale",
+    "twin_role",
     "write_alignment",
 ]

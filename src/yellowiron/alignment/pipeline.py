@@ -113,10 +113,11 @@ def align(
     machine = _without(machine, fittings)
     plain = without_tracks(template)
     up = _upright(tracks)
+    rows = tuple(solids_of(tracking)[i] for i in tracked)
 
     @functools.cache
     def look(contact: float) -> Observation:
-        return replace(observe(machine, plain, contact), up=up)
+        return replace(observe(machine, plain, contact), up=up, rows=rows)
 
     search = Search(look, plain, specifications, choices or {}, edited)
     answer, observation, scores = search.run()
@@ -155,9 +156,9 @@ def align(
     by_id = {observation.solids[i].part.id: place for i, place in places.items()}
     whole = as_drawn(choose(template, answer.choices), set(answer.solution.body_of.values()))
     if tracks and frame is not None:
-        rows = track_places(tracks, tracked, frame.matrix, whole)
+        on_track = track_places(tracks, tracked, frame.matrix, whole)
         solids = solids_of(_without(tracking, fittings))
-        by_id |= on_tracks(by_id, rows, solids, Touch(solids, answer.contact * observation.size)) | rows
+        by_id |= on_tracks(by_id, on_track, solids, Touch(solids, answer.contact * observation.size)) | on_track
     if fittings:
         solids = solids_of(tracking)
         by_id |= sitting(by_id, fittings, solids, Touch(solids, answer.contact * observation.size))

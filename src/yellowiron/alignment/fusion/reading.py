@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import networkx
@@ -13,9 +13,11 @@ from yellowiron.alignment.assignment.answer import Answer, Judged
 from yellowiron.alignment.assignment.cp_sat import MISSING_WEIGHT, Solution
 from yellowiron.alignment.assignment.directions import ALIKE, NOT_ACROSS, linkages_of
 from yellowiron.alignment.assignment.weights import twin_role
+from yellowiron.alignment.features.solids import size_of
 from yellowiron.alignment.fusion.bonds import Bond, bonds_of, out_of_line
 from yellowiron.alignment.fusion.judge import SWEEPS, Field, against, field_of, labelled, leads, score_of, weighed
 from yellowiron.alignment.fusion.pieces import Piece, leading, pieces_of
+from yellowiron.alignment.fusion.played import drawn_bodies, lost, missing_bodies
 from yellowiron.alignment.fusion.stance import Stance, stance_of
 from yellowiron.alignment.fusion.votes import (
     BARS,
@@ -29,7 +31,7 @@ from yellowiron.alignment.fusion.votes import (
 )
 from yellowiron.alignment.fusion.weights import weights
 from yellowiron.alignment.structure.clusters import Hinge, Structure, labelled_structure
-from yellowiron.alignment.structure.observation import Observation
+from yellowiron.alignment.structure.observation import Observation, slewing_joints
 from yellowiron.model.geometry import Floats
 from yellowiron.model.template import JointTemplate, Template, as_drawn, choose
 
@@ -41,10 +43,6 @@ PARTS = (1, 2)
 """What begins so many joints from the root may be all that is drawn …"""
 PART = 60.0
 """… if that explains it better by so much."""
-MISSING = 60.0
-"""What a variant loses for every body of its own that nothing plays."""
-SLIGHT = 0.03
-"""Of a body's usual share of the surface: with less it is not drawn, and what was taken for it is a pin or a lug."""
 NEARLY = 2
 """A machine is nearly whole if no more bodies are missing between those that are there."""
 EXPLAINED = {0: 1.0, 1: 1.0, 2: 0.5}
@@ -85,7 +83,8 @@ class _Best:
 class Evidence:
     """What a machine is judged by: its pieces, which of them can be what a body mainly is (`leading`), all bonds, how
     far names are trusted, how the machine stands, what the names say of each solid, what the contacts gave, what a
-    person said, and which pieces are bars in bores: pins, if they are not halves of hydraulic cylinders."""
+    person said, which pieces are bars in bores: pins, if they are not halves of hydraulic cylinders, and the `surface`
+    of all that is drawn, tracks too, m²."""
 
     pieces: tuple[Piece, ...]
     leading: tuple[int, ...]
@@ -96,6 +95,7 @@ class Evidence:
     answer: Answer
     edited: Mapping[int, str]
     pins: frozenset[int]
+    surface: float
 
     @property
     def between(self) -> list[Bond]:
@@ -105,7 +105,9 @@ class Evidence:
 
     def votes(self, template: Template) -> Votes:
         """What speaks for every piece and body of a template with its variants decided."""
-        votes = votes_of(self.pieces, template, self.scores, self.trust, self.answer, self.stance, self.edited)
+        votes = votes_of(
+            self.pieces, template, self.scores, self.trust, self.answer, self.stance, self.edited, self.surface
+        )
         halves = {r.name for r in template.roles if r.kind in BARS}
         return [
             {body: what for body, what in mine.items() if k not in self.pins or body in halves}
@@ -134,16 +136,21 @@ def evidence_of(
 ) -> Evidence:
     """Everything that is known before anything is judged; the arguments are those of `fused`."""
     directions = [np.asarray(axis.direction) for axis in observation.evidence[0].axes] if observation.evidence else []
-    stance = stance_of(observation.solids, observation.size, directions)
+    drawn = (*observation.solids, *observation.rows)
+    stance = stance_of(drawn, size_of(drawn), directions)
     pieces = pieces_of(observation, frozenset(i for i, said in enumerate(scores) if said) | frozenset(edited))
     bonds = tuple(bonds_of(observation, pieces, answer.structure, stance))
-    trust = trust_in_names(pieces, bonds, scores, choose(template, {}))
+    called = [
+        frozenset((s.part.path, s.part.name) for i in p.members for s in (observation.solids[i],)) for p in pieces
+    ]
+    trust = trust_in_names(pieces, bonds, scores, choose(template, {}), called)
     leads = tuple(leading(pieces, observation.size, clearly_named(pieces, scores) if trust > 0.0 else {}))
     bars = observation.evidence[-1].fasteners if observation.evidence else frozenset()
     pins = frozenset(
         k for k, p in enumerate(pieces) if not p.kind and p.members <= bars and not p.members & edited.keys()
     )
-    return Evidence(pieces, leads, bonds, trust, stance, scores, answer, edited, pins)
+    surface = sum(s.surface for s in drawn) or 1.0
+    return Evidence(pieces, leads, bonds, trust, stance, scores, answer, edited, pins, surface)
 
 
 def fused(
@@ -171,16 +178,18 @@ def fused(
         field = last.field if last is not None else _field(evidence, votes, resolved)
         labels, score = labelled(field, sweeps=sweeps, tries=tries)
         played = _drawn(evidence, field.bodies, labels, resolved)
-        score -= MISSING * len(_missing(resolved, played))
+        score -= lost(resolved, played)
         found = _Best(score, chosen, resolved, field, labels, votes)
         # A longer annealing may end beside what a shorter one had found.
         found_so_far[evidence, id(resolved)] = max(last or found, found, key=lambda b: b.score)
         return found_so_far[evidence, id(resolved)]
 
     machines = [(chosen, choose(template, chosen)) for chosen in variants]
-    # Which end is the front is a guess so far, and whether all of a machine is drawn.
+    # Which end is the front is a guess so far, and whether all of a machine is drawn; what has tracks has a root.
     ways = [
-        s for way in (evidence.stance, evidence.stance.turned()) for s in (way, *_as_parts(way, evidence, template))
+        part
+        for way in (evidence.stance, evidence.stance.turned())
+        for part in (way, *(() if observation.rows else _as_parts(way, evidence, template)))
     ]
     seen = [replace(evidence, stance=way) for way in ways]
     evidence = max(seen, key=lambda e: tried(*machines[0], e, GLANCE).score - PART * (e.stance.drawn < 1.0))
@@ -219,7 +228,7 @@ def _score_of_contacts(answer: Answer, evidence: Evidence) -> float:
         counts = np.bincount([solved.get(i, none) for i in evidence.pieces[k].members], minlength=none + 1)
         labels[n] = int(np.argmax(counts))
     played = _drawn(evidence, field.bodies, labels, template)
-    return score_of(field, labels) - MISSING * len(_missing(template, played))
+    return score_of(field, labels) - lost(template, played)
 
 
 def _as_parts(stance: Stance, evidence: Evidence, template: Template) -> list[Stance]:
@@ -251,13 +260,7 @@ def _field(evidence: Evidence, votes: Votes, resolved: Template) -> Field:
 
 
 def _drawn(evidence: Evidence, bodies: Sequence[str], labels: np.ndarray, template: Template) -> set[str]:
-    """The bodies that pieces are of, those left out whose pieces are pins and lugs beside what the body usually is."""
-    total = sum(p.area for p in evidence.pieces) or 1.0
-    area: dict[str, float] = {}
-    for k, n in zip(evidence.leading, labels.tolist(), strict=True):
-        if n < len(bodies):
-            area[bodies[n]] = area.get(bodies[n], 0.0) + evidence.pieces[k].area / total
-    return {b for b, share in area.items() if b not in template.usual or share >= SLIGHT * template.usual[b].area}
+    return drawn_bodies([evidence.pieces[k] for k in evidence.leading], labels, bodies, template, evidence.surface)
 
 
 def _between_found(best: _Best, evidence: Evidence) -> set[int]:
@@ -266,7 +269,7 @@ def _between_found(best: _Best, evidence: Evidence) -> set[int]:
     bodies, template = best.field.bodies, best.template
     body_of = {k: bodies[n] for k, n in zip(evidence.leading, best.labels, strict=True) if n < len(bodies)}
     played, apart = set(body_of.values()), joints_apart(template)
-    missing = [m for m in _missing(template, played) if sum(apart.get((m, b), 9) == 1 for b in played) > 1]
+    missing = [m for m in missing_bodies(template, played) if sum(apart.get((m, b), 9) == 1 for b in played) > 1]
     beside: dict[int, set[str]] = {}
     for bond in evidence.bonds if len(missing) <= NEARLY else ():
         for own, other in ((bond.a, bond.b), (bond.b, bond.a)):
@@ -281,14 +284,6 @@ def _between_found(best: _Best, evidence: Evidence) -> set[int]:
     }
 
 
-def _missing(template: Template, played: Collection[str]) -> list[str]:
-    """The bodies that nothing plays and that tell against a variant: where no hydraulic cylinder is drawn at all, none
-    of theirs do."""
-    drawn = any(template.role(b).kind in BARS for b in played)
-    wanted = [r for r in template.roles if r.rigid and not r.optional and r.name not in played]
-    return [r.name for r in wanted if drawn or r.kind not in BARS]
-
-
 def _all_root(pieces: Sequence[Piece], template: Template) -> dict[int, Judged]:
     """A machine of which nothing could be told stands as one thing on its root: doubtful, but it can be looked at."""
     words = f"no body could be told from another: all of it stands as {template.root}"
@@ -296,19 +291,25 @@ def _all_root(pieces: Sequence[Piece], template: Template) -> dict[int, Judged]:
 
 
 def trust_in_names(
-    pieces: Sequence[Piece], bonds: Sequence[Bond], scores: Sequence[Mapping[str, float]], template: Template
+    pieces: Sequence[Piece],
+    bonds: Sequence[Bond],
+    scores: Sequence[Mapping[str, float]],
+    template: Template,
+    called: Sequence[frozenset[tuple[tuple[str, ...], str]]],
 ) -> float:
     """How far a machine's names are to be believed, 0 to 1: neighbours should be one body, or two that a joint joins,
     much more often than any two pieces are (the chance taken off, as in Cohen's kappa); two joints count
-    half."""
+    half. Pieces that are `called` the same in one place (solids of one mesh) agree whatever the name is worth."""
     apart = joints_apart(template)
     said = clearly_named(pieces, scores)
 
     def explained(a: int, b: int) -> float:
         return EXPLAINED.get(apart.get((said[a], said[b]), 99), 0.0)
 
-    near = [explained(b.a, b.b) for b in bonds if b.beside and b.a in said and b.b in said]
-    every = [explained(a, b) for a, b in itertools.combinations(sorted(said), 2)]
+    near = [
+        explained(b.a, b.b) for b in bonds if b.beside and b.a in said and b.b in said and not called[b.a] & called[b.b]
+    ]
+    every = [explained(a, b) for a, b in itertools.combinations(sorted(said), 2) if not called[a] & called[b]]
     if not near or min(every) == 1.0:
         return 1.0
     chance = float(np.mean(every))
@@ -449,11 +450,14 @@ def _solution(structure: Structure, body_of: Mapping[int, str], best: _Best, sta
     """The joints that exact axes are there for, in a direction that they may have: of several between two bodies the
     one that most pins run through."""
     linkage_of, frames = linkages_of(best.template)
+    slewing = slewing_joints(best.template)
 
     def may_be(joint: JointTemplate, hinge: Hinge) -> bool:
-        cosine = abs(float(structure.axes[hinge.axis].direction @ stance.left))
+        _, across, upright = np.abs(stance.rotation @ structure.axes[hinge.axis].direction)
+        if joint.name in slewing:
+            return bool(upright > ALIKE)
         turned = linkage_of.get(joint.name) in frames
-        return joint.name not in linkage_of or (cosine < NOT_ACROSS if turned else cosine > ALIKE)
+        return joint.name not in linkage_of or bool(across < NOT_ACROSS if turned else across > ALIKE)
 
     hinge_of: dict[str, int] = {}
     slide_of: dict[str, int] = {}

@@ -46,12 +46,12 @@ def votes_of(
     answer: Answer,
     stance: Stance,
     edited: Mapping[int, str],
+    total: float,
 ) -> Votes:
     """What speaks for every body a piece could be. `scores`: by solid, what its names say; `trust` in them, 0 to 1;
     `answer`: what the contacts alone gave; `stance`: how the machine stands; `edited`: solid → the body that a person
-    gave it."""
+    gave it; `total`: the machine's surface, m²."""
     kinds = {r.name: r.kind for r in template.roles if r.rigid}
-    total = sum(p.area for p in pieces) or 1.0
     largest = max((p.area for p in pieces), default=1.0)
     solved = _solved(answer)
     apart = joints_apart(template)

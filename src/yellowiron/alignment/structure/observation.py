@@ -33,8 +33,8 @@ class Observation:
     """What geometry shows, before any role: the solids, flat contacts and `near` pairs of them, hydraulic cylinders,
     wheels, sections in each other (`nests`), pairs of solids of which one is the other's child in
     the scene's tree (`branches`), what the contacts can mean (`evidence`: the usual reading first, then, if
-    it differs, the one with slewing bearings), what asks for distances (`touch`), the machine's size in metres, and the
-    upright where it is known. CAD frame."""
+    it differs, the one with slewing bearings), what asks for distances (`touch`), the machine's size in metres, the
+    upright where it is known, and the solids of its tracks (`rows`), which the others are without. CAD frame."""
 
     solids: tuple[Solid, ...]
     flats: list[Flat]
@@ -47,6 +47,7 @@ class Observation:
     up: Floats | None = None
     nests: tuple[Nest, ...] = ()
     branches: tuple[tuple[int, int], ...] = ()
+    rows: tuple[Solid, ...] = ()
 
 
 @remembered

@@ -1,15 +1,17 @@
-"""Merged meshes taken apart: a machine that was exported as one mesh, or a mesh for every colour; and a hydraulic
-cylinder whose barrel and rod are one solid, cut where the rod comes out."""
+"""Merged meshes taken apart: a machine that was exported as one mesh, or a mesh for every colour; hydraulic cylinders
+to the left and to the right that are one mesh; and one whose barrel and rod are one solid, cut where the rod comes
+out."""
 
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable
+import itertools
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 
-from yellowiron.cad.mesh import copies, measures
+from yellowiron.cad.mesh import copies, measures, shells
 from yellowiron.cad.mesh.assembly import pieces, shape_of
 from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.finding import Finding
@@ -25,6 +27,12 @@ WIDE = 6.0
 """… and is no further to one side than this many radii of the barrel."""
 Eyes = tuple[Floats, Floats]
 """Centres and unit directions, (n, 3) each."""
+ALIKE = 0.02
+"""Mirror images differ by less than this share of their size."""
+LONG = 0.35
+"""The bar of a hydraulic cylinder is more than this share of its length, with its eye."""
+IN_LINE = 0.999
+"""Barrel and rod are parallel to 2.6°, by its cosine."""
 THIN, THICK = 0.2, 0.95
 """A rod's radius over its barrel's, least and most."""
 
@@ -36,7 +44,44 @@ def taken_apart(assembly: Assembly) -> Assembly:
     first = {part.shape: part for part in reversed(assembly.parts)}
     eyes = _eyes(assembly)
     found = {key: _solids(assembly.shapes[key], _moved(eyes, part.transform)) for key, part in sorted(first.items())}
-    found = {key: meshes for key, meshes in found.items() if len(meshes) > 1}
+    words = "hold several solids each, or a barrel with its rod: taken apart"
+    return _divided(assembly, {key: meshes for key, meshes in found.items() if len(meshes) > 1}, words)
+
+
+def twins_apart(assembly: Assembly) -> Assembly:
+    """The assembly with a part for each of two barrels of hydraulic cylinders that are one mesh, the left and the right
+    one, that nothing joins; and for each of their rods, which are another one. The rest stays as it is, and all of a
+    model whose file says what moves on what."""
+    if assembly.joints:
+        return assembly
+    first = {part.shape: part for part in reversed(assembly.parts)}
+    twins = {key: found for key in sorted(first) if (found := _twins(assembly.shapes[key])) is not None}
+    lines = {key: _lines(bars, first[key].transform) for key, (bars, _) in twins.items()}
+    paired = {key: meshes for key, (_, meshes) in twins.items() if any(
+        other != key and _in_line(lines[key], lines[other]) for other in twins
+    )}  # fmt: skip
+    return _divided(assembly, paired, "hold the left and the right half of hydraulic cylinders: taken apart")
+
+
+def _lines(bars: Sequence[CylinderFeature], transform: Floats) -> Floats:
+    """(n, 2, 3) centre and unit direction of bars, CAD frame."""
+    centers = np.array([c.center for c in bars]) @ transform[:3, :3].T + transform[:3, 3]
+    directions = np.array([c.direction for c in bars]) @ transform[:3, :3].T
+    return np.stack([centers, directions / np.linalg.norm(directions, axis=1)[:, None]], axis=1)
+
+
+def _in_line(some: Floats, others: Floats) -> bool:
+    """Whether each of some lines (n, 2, 3) is one of the others, as far as barrels and rods are drawn in line."""
+    delta = others[None, :, 0] - some[:, None, 0]
+    away = delta - np.einsum("ijk,ik->ij", delta, some[:, 1])[..., None] * some[:, None, 1]
+    between = float(np.linalg.norm(some[0, 0] - some[-1, 0]))
+    near = np.linalg.norm(away, axis=2) < ALIKE * between
+    return bool((near & (np.abs(some[:, 1] @ others[:, 1].T) > IN_LINE)).any(axis=1).all())
+
+
+def _divided(assembly: Assembly, found: Mapping[str, list[Mesh]], words: str) -> Assembly:
+    """The assembly with the parts of some shapes replaced by these meshes; `words` say why. The same object if there
+    are none."""
     if not found:
         return assembly
     order = [(key, mesh) for key, meshes in found.items() for mesh in meshes]
@@ -59,9 +104,57 @@ def taken_apart(assembly: Assembly) -> Assembly:
             id, path = f"{part.id}/{number}", (*part.path, part.name)
             parts.append(replace(part, id=id, path=path, shape=key, transform=part.transform @ moved))
     count = sum(part.shape in found for part in assembly.parts)
-    words = f"{count} parts hold several solids each, or a barrel with its rod: taken apart, the model has {len(parts)}"
-    finding = Finding("CAD013", "info", assembly.name, words, "Export every part as an object of its own.")
+    finding = Finding(
+        "CAD013",
+        "info",
+        assembly.name,
+        f"{count} parts {words}, the model has {len(parts)}",
+        "Export every part as an object of its own.",
+    )
     return replace(assembly, parts=tuple(parts), shapes=shapes, findings=(*assembly.findings, finding))
+
+
+def _twins(shape: Shape) -> tuple[tuple[CylinderFeature, ...], list[Mesh]] | None:
+    """The two bars of a shape that is a bar and its mirror image, and the meshes of what belongs to each; None
+    otherwise."""
+    bars = [c for c in shape.cylinders if c.arc > ROUND and c.length > SLENDER * c.radius]
+    pairs = [pair for pair in itertools.combinations(bars, 2) if _side_by_side(*pair)]
+    if shape.exact or not pairs:
+        return None
+    number = shells.solids(shape.mesh)
+    corners = shape.mesh.points[shape.mesh.triangles]
+    size = float(np.linalg.norm(np.ptp(corners.reshape(-1, 3), axis=0)))
+    for one, other in pairs:
+        middle = 0.5 * (np.array(one.center) + np.array(other.center))
+        normal = np.array(other.center) - middle
+        normal /= np.linalg.norm(normal)
+        side = (corners - middle) @ normal
+        low, high = (np.full(int(number.max()) + 1, sign * np.inf) for sign in (1.0, -1.0))
+        np.minimum.at(low, number, side.min(axis=1))
+        np.maximum.at(high, number, side.max(axis=1))
+        if ((low < 0.0) & (high > 0.0)).any():
+            continue
+        beyond = side.mean(axis=1) > 0.0
+        near, far = corners[~beyond].reshape(-1, 3), corners[beyond].reshape(-1, 3)
+        far = far - 2.0 * np.outer((far - middle) @ normal, normal)
+        ends = [np.abs(end(near, axis=0) - end(far, axis=0)).max() for end in (np.min, np.max)]
+        length = float(np.ptp(near @ np.array(one.direction)))
+        if max(ends) < ALIKE * size and one.length > LONG * length:
+            return (one, other), [measures.chosen(shape.mesh, np.flatnonzero(rows)) for rows in (~beyond, beyond)]
+    return None
+
+
+def _side_by_side(one: CylinderFeature, other: CylinderFeature) -> bool:
+    """Whether two cylinders are equal, parallel, beside each other and not one in the other."""
+    apart = np.array(other.center) - np.array(one.center)
+    along = abs(float(apart @ np.array(one.direction)))
+    return (
+        abs(one.radius - other.radius) < ALIKE * one.radius
+        and abs(one.length - other.length) < ALIKE * one.length
+        and abs(float(np.dot(one.direction, other.direction))) > 0.9999
+        and along < ALIKE * one.length
+        and float(np.linalg.norm(apart)) > one.radius + other.radius
+    )
 
 
 def _eyes(assembly: Assembly) -> Eyes:

@@ -1,0 +1,53 @@
+"""Which bodies of a variant a labelling plays, and what the variant loses by the others."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+
+import numpy as np
+
+from yellowiron.alignment.fusion.pieces import LARGE, Piece
+from yellowiron.alignment.fusion.votes import BARS
+from yellowiron.model.template import Template
+
+MISSING = 60.0
+"""What a variant loses for every body of its own that nothing plays …"""
+MORE = 10.0
+"""… and for every body that it has: what a simpler machine explains as well is the simpler one."""
+SLIGHT = 0.03
+"""Of a body's usual share of the surface: with less it is not drawn, and what was taken for it is a pin or a lug."""
+
+
+def drawn_bodies(
+    pieces: Sequence[Piece], labels: np.ndarray, bodies: Sequence[str], template: Template, surface: float
+) -> set[str]:
+    """The bodies that pieces are of (`labels`: (pieces,) numbers of `bodies`, or one more for none), those left out
+    whose pieces are pins and lugs beside what the body usually is. `surface`: the machine's, m²."""
+    share = dict.fromkeys(bodies, 0.0)
+    for piece, n in zip(pieces, labels.tolist(), strict=True):
+        if n < len(bodies):
+            share[bodies[n]] += piece.area / surface
+    usual = template.usual
+    return {b for b, s in share.items() if s > 0.0 and (b not in usual or s >= SLIGHT * usual[b].area)}
+
+
+def missing_bodies(template: Template, played: Collection[str]) -> list[str]:
+    """The bodies that nothing plays and that tell against a variant: where no hydraulic cylinder is drawn at all, none
+    of theirs do."""
+    drawn = any(template.role(b).kind in BARS for b in played)
+    wanted = [r for r in template.roles if r.rigid and not r.optional and r.name not in played]
+    return [r.name for r in wanted if drawn or r.kind not in BARS]
+
+
+def lost(template: Template, played: Collection[str]) -> float:
+    """What a variant loses, by the bodies that it has and those of them that are `played`. Links may be too small for
+    a leading piece: they are not missed."""
+    bodies = {r.name for r in template.roles if r.rigid and not r.optional}
+    missed = [b for b in missing_bodies(template, played) if not _slight(b, template)]
+    return MISSING * len(missed) + MORE * len(bodies)
+
+
+def _slight(body: str, template: Template) -> bool:
+    """Whether a body is usually so small that no leading piece may be of it."""
+    small = body in template.usual and template.usual[body].area < 2.0 * LARGE
+    return small and template.role(body).kind not in BARS

@@ -1,0 +1,71 @@
+"""What decides between the variants of a type, and how far names are believed, where contacts find no machine."""
+
+from __future__ import annotations
+
+import itertools
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from yellowiron.alignment.fusion.bonds import Bond
+from yellowiron.alignment.fusion.played import MISSING, MORE, lost
+from yellowiron.alignment.fusion.reading import _solution, trust_in_names
+from yellowiron.alignment.fusion.stance import Stance
+from yellowiron.alignment.structure.clusters import Cluster, Hinge, Structure
+from yellowiron.library import load_template
+from yellowiron.model.template import Template, choose
+
+
+@pytest.fixture(scope="module")
+def open_template() -> Template:
+    return load_template("excavator")
+
+
+def test_of_two_variants_that_explain_as_much_the_simpler_one_is_taken(open_template: Template) -> None:
+    mono = choose(open_template, {"boom_cylinders": "twin", "boom_type": "mono"})
+    two = choose(open_template, {"boom_cylinders": "twin", "boom_type": "two_piece"})
+    bodies = {r.name for r in mono.roles if r.rigid}
+    more = {r.name for r in two.roles if r.rigid and not r.optional} - bodies
+    assert lost(two, bodies | more) - lost(mono, bodies) == pytest.approx(MORE * len(more))
+    assert len(more) == 3
+    assert lost(two, bodies) - lost(mono, bodies) == pytest.approx((MORE + MISSING) * len(more))
+
+
+def test_links_are_not_missed(open_template: Template) -> None:
+    """They may be too small for a leading piece."""
+    twin = choose(open_template, {"boom_cylinders": "twin", "boom_type": "mono"})
+    bodies = {r.name for r in twin.roles if r.rigid}
+    assert lost(twin, bodies - {"tipping_link", "bucket_link"}) == lost(twin, bodies)
+    assert lost(twin, bodies - {"bucket", "arm"}) - lost(twin, bodies) == pytest.approx(2 * MISSING)
+
+
+def test_solids_of_one_mesh_do_not_make_its_name_true(open_template: Template) -> None:
+    """A mesh called arm that holds the boom and the upperstructure, taken apart: its solids touch, and agree."""
+    pieces: Any = [SimpleNamespace(members=frozenset({k})) for k in range(10)]
+    scores = [{"arm": 1.0}] * 5 + [{"undercarriage": 1.0}] * 5
+    within = [(a, b) for a, b in itertools.combinations(range(10), 2) if (a < 5) == (b < 5)]
+    beside = [*within, *((k, 5 + (k + more) % 5) for k in range(5) for more in (0, 1))]
+    bonds = [Bond(a, b, {"beside": 1.0}, True, False, False) for a, b in beside]
+    template = choose(open_template, {})
+    apart = [frozenset({((), str(k))}) for k in range(10)]
+    meshes = [frozenset({((), "arm" if k < 5 else "base")}) for k in range(10)]
+    assert trust_in_names(pieces, bonds, scores, template, apart) > 0.0
+    assert trust_in_names(pieces, bonds, scores, template, meshes) == 0.0
+
+
+@pytest.mark.parametrize(("direction", "found"), [((0.0, 0.0, 1.0), True), ((0.0, 0.0, -1.0), True),
+                                                  ((0.7, 0.0, 0.7), False), ((0.0, 1.0, 0.0), False)])  # fmt: skip
+def test_what_slews_turns_about_the_upright(
+    open_template: Template, direction: tuple[float, float, float], found: bool
+) -> None:
+    """A tilted pin of the blade had been taken for the slewing bearing."""
+    template = choose(open_template, {})
+    clusters = (Cluster(frozenset({0})), Cluster(frozenset({1})))
+    axis: Any = SimpleNamespace(direction=np.array(direction) / np.linalg.norm(direction))
+    structure = Structure(clusters, (Hinge(0, 1, 0, (2,)),), axes=(axis,))
+    best: Any = SimpleNamespace(template=template, score=0.0)
+    stance = Stance(np.eye(3), np.zeros(3), 1.0, 1.0)
+    solution = _solution(structure, {0: "undercarriage", 1: "upperstructure"}, best, stance)
+    assert ("undercarriage2upperstructure_joint" in solution.hinge_of) == found
