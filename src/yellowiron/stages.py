@@ -117,8 +117,8 @@ def find_roles(
 ) -> tuple[Assembly, Alignment]:
     """Roles for the parts of a CAD model, and the model whose parts they are: scaled where the sheet's overall length
     asks for it; left and right hydraulic cylinders in one mesh apart, where they were taken for one of the two; where
-    bodies are missing, or every mesh may be a whole one, taken apart, if that finds most of what is missing. `earlier` is
-    an alignment file whose edits hold; `decisions` go before them."""
+    bodies are missing, or every mesh may be a whole one, taken apart, if that finds most of what is missing. `earlier`
+    is an alignment file whose edits hold; `decisions` go before them."""
 
     def found(model: Assembly) -> Alignment:
         edits = read_alignment(earlier, model, template) if earlier is not None else None
