@@ -199,8 +199,18 @@ def test_a_cylinder_may_be_called_after_the_arm_it_stands_on(excavator: Template
     named = [*said, {"bucket_cylinder_barrel": 0.8}]
     assert borrowed(named, excavator) == named
     loader = choose(load_template("wheel_loader"), {})
-    steering = [{"steering_cylinder_barrel_l": 0.9}]
-    assert borrowed(steering, loader) == steering
+    (steering,) = borrowed([{"steering_cylinder_barrel_l": 0.9}], loader)
+    assert steering.keys() == {"steering_cylinder_barrel_l", "steering_cylinder_barrel_r"}
+
+
+def test_what_is_called_the_left_one_may_be_the_right_one() -> None:
+    """A loader whose four wheels had their sides exchanged was read with its front behind: 17 % of its surface."""
+    loader = choose(load_template("wheel_loader"), {})
+    said = [{"front_wheel_l": 1.0}, {"front_wheel_r": 1.0}, {"bucket": 0.8}]
+    left, right, bucket = borrowed(said, loader)
+    assert left == {"front_wheel_l": 1.0, "front_wheel_r": LENT}
+    assert right == {"front_wheel_r": 1.0, "front_wheel_l": LENT}
+    assert bucket == said[2]
 
 
 def test_small_pieces_play_what_nothing_large_is_named_for() -> None:

@@ -8,6 +8,7 @@ import networkx
 import numpy as np
 
 from yellowiron.alignment.assignment.answer import Answer, held_share
+from yellowiron.alignment.assignment.weights import twin_role
 from yellowiron.alignment.fusion.pieces import Piece
 from yellowiron.alignment.fusion.stance import Stance
 from yellowiron.model.template import Template, Usual
@@ -108,7 +109,8 @@ def clearly_named(pieces: Sequence[Piece], scores: Sequence[Mapping[str, float]]
 def borrowed(saids: list[dict[str, float]], template: Template) -> list[dict[str, float]]:
     """What names say, where a body that no name speaks of clearly borrows those of a neighbour of its kind: of two arms
     both called arm, one is the boom; a cylinder is as often called after the arm it stands on as after the one it
-    moves; and where no name tells barrels, what is called a piston may be all of a cylinder."""
+    moves; where no name tells barrels, what is called a piston may be all of a cylinder; and the left one may be the
+    right one."""
     spoken = {body for said in saids for body, score in said.items() if score >= CLEARLY}
     lent = {own: {(other, LENT) for other in others} for own, others in _lent_by_cylinders(spoken, template).items()}
     for own, others in _lent_by_arms(spoken, template).items():
@@ -118,13 +120,15 @@ def borrowed(saids: list[dict[str, float]], template: Template) -> list[dict[str
     for own, half in _rods(template).items():
         if "barrel" not in told:
             lent.setdefault(own, set()).add((half, LENT))
+    # Which side is the left is as often said from before the machine as from its seat.
+    for own in (b for b in kinds if twin_role(b) in kinds):
+        lent.setdefault(own, set()).add((str(twin_role(own)), LENT))
     return [
-        {
-            **said,
-            **{
-                own: max(said.get(own, 0.0), *(part * said.get(other, 0.0) for other, part in sorted(others)))
-                for own, others in lent.items()
-            },
+        said
+        | {
+            own: max(said.get(own, 0.0), *(part * said.get(other, 0.0) for other, part in sorted(others)))
+            for own, others in lent.items()
+            if said.keys() & {own, *(other for other, _ in others)}
         }
         for said in saids
     ]
