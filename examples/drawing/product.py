@@ -185,7 +185,8 @@ def write_step(root: Assembly, path: Path, *, cad: gp_Trsf) -> None:
     shapes.UpdateAssemblies()
     XCAFDoc_ShapeTool.SetAutoNaming_s(False)
     messenger = Message.DefaultMessenger_s()
-    messenger.RemovePrinters(messenger.Printers().First().DynamicType())
+    if not messenger.Printers().IsEmpty():  # once a process
+        messenger.RemovePrinters(messenger.Printers().First().DynamicType())
     writer = STEPCAFControl_Writer()
     Interface_Static.SetCVal_s("write.step.schema", "AP214IS")
     Interface_Static.SetCVal_s("write.step.unit", "MM")
