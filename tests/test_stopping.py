@@ -1,5 +1,6 @@
 """A run that is told to end takes away what it made, whenever it is told."""
 
+import contextlib
 import os
 import signal
 import subprocess
@@ -17,7 +18,7 @@ from pathlib import Path
 from yellowiron.support import output, stopping
 
 stopping.listen()
-target, wanted = Path(sys.argv[1]), int(sys.argv[2])
+target, wanted, sent = Path(sys.argv[1]), int(sys.argv[2]), int(sys.argv[3])
 seen = 0
 OURS = ("output.py", "staging.py", "stopping.py", "contextlib.py")
 
@@ -26,7 +27,7 @@ def trace(frame, event, arg):
     if event == "line" and frame.f_code.co_filename.endswith(OURS):
         seen += 1
         if seen == wanted:
-            signal.raise_signal(signal.SIGTERM)
+            signal.raise_signal(sent)
             signal.raise_signal(signal.SIGHUP)
     return trace
 
@@ -40,19 +41,22 @@ print(seen)
 
 
 @pytest.mark.slow
-def test_told_at_any_line(tmp_path: Path) -> None:
+@pytest.mark.parametrize("sent", [signal.SIGTERM, signal.SIGINT])
+def test_told_at_any_line(tmp_path: Path, sent: signal.Signals) -> None:
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(p for p in sys.path if p)}
     command = [sys.executable, "-c", _RUN]
     target = tmp_path / "base" / "out" / "machine"
-    first = subprocess.run([*command, target, "0"], env=environment, capture_output=True, text=True, check=True)
+    whole = [*command, target, "0", str(int(sent))]
+    first = subprocess.run(whole, env=environment, capture_output=True, text=True, check=True)
     lines = int(first.stdout)
     assert lines > 100 and (target / "file").read_text() == "whole"
-    for wanted in range(1, lines + 1, 7):
+    for wanted in range(1, lines + 1, 11):
         place = tmp_path / str(wanted) / "out" / "machine"
-        ended = subprocess.run([*command, place, str(wanted)], env=environment, capture_output=True, text=True)
-        assert ended.returncode == 128 + signal.SIGTERM, (wanted, ended.stderr)
-        whole = (place / "file").is_file() and not list(place.parent.glob(".yellowiron-*"))
-        assert whole or not (tmp_path / str(wanted)).exists(), wanted
+        words = [*command, place, str(wanted), str(int(sent))]
+        ended = subprocess.run(words, env=environment, capture_output=True, text=True)
+        assert ended.returncode == 128 + sent, (wanted, ended.stderr)
+        kept = (place / "file").is_file() and not list(place.parent.glob(".yellowiron-*"))
+        assert kept or not (tmp_path / str(wanted)).exists(), wanted
 
 
 def test_another_thread_holds_no_signal_back(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -74,3 +78,18 @@ def test_another_thread_holds_no_signal_back(monkeypatch: pytest.MonkeyPatch) ->
     done.set()
     worker.join()
     assert stopping._depth == 0
+
+
+@pytest.mark.parametrize("sent", [signal.SIGINT, signal.SIGTERM])
+def test_only_ctrl_c_is_how_a_watch_ends(monkeypatch: pytest.MonkeyPatch, sent: signal.Signals) -> None:
+    monkeypatch.setattr(stopping, "_asked", [])
+    monkeypatch.setattr(stopping, "_raised", [])
+    left = pytest.raises(SystemExit) if sent != signal.SIGINT else contextlib.nullcontext()
+    with left, stopping.until_interrupted():
+        stopping._ask(sent, None)
+    assert stopping._asked == ([] if sent == signal.SIGINT else [sent])
+
+
+def test_a_program_that_ends_itself_is_not_held_up() -> None:
+    with pytest.raises(SystemExit, match="3"), stopping.until_interrupted():
+        sys.exit(3)

@@ -31,6 +31,8 @@ _LIBRARIES = (
     "mujoco", "ortools.sat.python.cp_model", "pxr.Usd", "pxr.UsdPhysics", "scipy.optimize", "scipy.spatial",
     "yellowiron.kinematics.completion", "yellowiron.kinematics.measuring.measurement", "yellowiron.usd.write",
 )  # fmt: skip
+_LOADED_S = 10.0
+"""Seconds by which all of these are loaded, on a slow machine."""
 
 Given = ParamSpec("Given")
 Found = TypeVar("Found")
@@ -51,12 +53,16 @@ def read_model(cad_file: Path, *, mirror: bool = False) -> Assembly:
 
     def make() -> Assembly:
         # A child reads; what comes next needs libraries that take a second or two to load.
-        loading = threading.Thread(target=lambda: [importlib.import_module(name) for name in _LIBRARIES])
+        loading = threading.Thread(target=lambda: [importlib.import_module(n) for n in _LIBRARIES], daemon=True)
         loading.start()
         try:
-            return cad.read_cad(cad_file)
-        finally:
-            loading.join()
+            model = cad.read_cad(cad_file)
+        except BaseException:
+            # One that is interrupted while it loads may keep Python's lock, which the others then wait for in vain.
+            loading.join(_LOADED_S)
+            raise
+        loading.join()
+        return model
 
     files = cad.files_of(cad_file) if stages_are_kept() else None
     model = make() if files is None else kept("models", make, str(cad_file), files=files)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import datetime
 from collections.abc import Callable, Sequence
 from dataclasses import asdict
@@ -26,6 +25,7 @@ from yellowiron.cli.options import (
     reads_sheets,
 )
 from yellowiron.cli.telling import answer, progress_shown, tell
+from yellowiron.support import stopping
 
 
 @command(app)
@@ -98,7 +98,7 @@ def _watched(once: Callable[[], int], inputs: Sequence[Path], kept: Path) -> int
     from yellowiron.report import terminal
 
     code = 0
-    with contextlib.suppress(KeyboardInterrupt):
+    with stopping.until_interrupted():
         while True:
             before = stamps(inputs)
             try:

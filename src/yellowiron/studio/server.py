@@ -32,6 +32,7 @@ from yellowiron.studio.operations import words
 from yellowiron.studio.questions import questions
 from yellowiron.studio.scene import Scene
 from yellowiron.studio.session import Session, State
+from yellowiron.support import stopping
 from yellowiron.support.text import to_json
 
 try:
@@ -81,8 +82,7 @@ def serve(session: Session, *, port: int = 0, ready: Callable[[str], None] = lam
     studio = application(session, token=token, port=chosen)
     settings = uvicorn.Config(studio, log_level="error", access_log=False, timeout_graceful_shutdown=1)
     ready(f"http://127.0.0.1:{chosen}/?token={token}")
-    # Interrupted is how a server ends.
-    with contextlib.suppress(KeyboardInterrupt):
+    with stopping.until_interrupted():
         uvicorn.Server(settings).run(sockets=[listening])
 
 

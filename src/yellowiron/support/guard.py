@@ -19,7 +19,7 @@ from pkgutil import resolve_name
 from typing import IO, Any, NoReturn, cast
 
 from yellowiron.model.errors import YellowironError
-from yellowiron.support import isolated, limits, plugins
+from yellowiron.support import isolated, limits, plugins, stopping
 from yellowiron.support.files import answers
 
 _CRASH_HINT = "The file is damaged, or made to break its reader; open it in its own program and export it again."
@@ -65,7 +65,8 @@ def run_guarded(
     imports from the installation alone (`yellowiron.support.isolated`).
     """
     limits.require_supported_platform()
-    with tempfile.TemporaryDirectory(prefix="yellowiron-") as folder:
+    # A signal amid a start would keep Python's lock for imports, and leave a child that nobody attends.
+    with stopping.shielded(), tempfile.TemporaryDirectory(prefix="yellowiron-") as folder:
         call, answer = Path(folder, "call"), Path(folder, "answer")
         life, told = os.pipe()
         with os.fdopen(life, "rb", buffering=0) as lives:
@@ -82,7 +83,8 @@ def run_guarded(
                 )
             with child:
                 try:
-                    noise = _attend(child, lives, timeout_s, resident_mb, progress)
+                    with stopping.exposed():
+                        noise = _attend(child, lives, timeout_s, resident_mb, progress)
                 except _GreedyError as greedy:
                     raise error(
                         f"{wording.who} needs more than {resident_mb} MB of memory for this file and was stopped",

@@ -14,9 +14,9 @@ _depth = 0
 
 
 def listen() -> list[int]:
-    """From now on a termination, or a closed terminal, leaves by `SystemExit`: once, so that nothing that is taken away
-    on the way out is left half. What nohup has told to stay stays. The list has the signals that came."""
-    for number in (signal.SIGTERM, signal.SIGHUP):
+    """From now on a termination, a closed terminal, or Ctrl-C leaves by `SystemExit`: once, so that nothing that is
+    taken away on the way out is left half. What nohup has told to stay stays. The list has the signals that came."""
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         if signal.getsignal(number) != signal.SIG_IGN:
             signal.signal(number, _ask)
     return _asked
@@ -51,6 +51,20 @@ def exposed() -> Iterator[None]:
         yield
     finally:
         _depth += 1
+
+
+@contextmanager
+def until_interrupted() -> Iterator[None]:
+    """What is meant to go on until Ctrl-C ends it: that is no failure."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        pass
+    except SystemExit:
+        if _asked[:1] != [signal.SIGINT]:
+            raise
+        _asked.clear()
+        _raised.clear()
 
 
 def _hears() -> bool:

@@ -583,17 +583,22 @@ class Studio {
 
   #take(index) {
     const row = this.found[index];
-    by("finder").close();
+    this.#shut();
     row?.take();
   }
 
+  #shut() {
+    by("finder").close();
+    by("find").blur(); // else it keeps the focus until the next frame, and the next key is lost in it
+  }
+
   #findKey(event) {
-    if (event.key === "Escape") (event.preventDefault(), by("finder").close()); // else the first one only empties the field
+    if (event.key === "Escape") (event.preventDefault(), this.#shut()); // else the first one only empties the field
     if (event.key === "Enter") {
       event.preventDefault();
       const numbers = this.found.map((row) => row.number).filter(Boolean);
       if (!event.shiftKey || !numbers.length) return this.#take(this.row);
-      by("finder").close();
+      this.#shut();
       return this.#select(numbers);
     }
     const way = { ArrowDown: 1, ArrowUp: -1 }[event.key];
