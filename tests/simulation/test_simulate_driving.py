@@ -88,11 +88,6 @@ def test_a_crawler_drives_and_turns_on_the_spot(tmp_path: Path) -> None:
     assert not list(driving_findings(dataclasses.replace(result, swing=math.radians(90.5))))
     crooked = dataclasses.replace(result, spin=math.radians(30.0), swing=math.radians(92.0))
     assert [f.where for f in driving_findings(crooked)] == ["turn on the spot", "swing"]
-    # Four tyres scrub: a fifth of what wheels would that do not slip is enough, less is not.
-    scrubbing = dataclasses.replace(result, scrubs=True, spin=math.radians(10.0), swing=None)
-    assert not list(driving_findings(scrubbing))
-    stuck = dataclasses.replace(scrubbing, spin=math.radians(8.0))
-    assert [f.where for f in driving_findings(stuck)] == ["turn on the spot"]
 
 
 def test_a_course_goes_all_the_way_and_never_too_fast() -> None:

@@ -49,18 +49,21 @@ def test_full_strokes(file: Path, engine: str, payload: float, actuators: list[s
 
 @pytest.mark.parametrize("engine", ["mujoco", "physx"])
 def test_it_drives_and_turns_with_its_two_sides(file: Path, engine: str) -> None:
-    """Tyres that stand behind each other scrub: it turns by less than the wheels roll, and no figure is a finding."""
+    """Tyres that stand behind each other scrub: by friction alone it turns by 27° of 45°. Rigid ones in engines turn
+    less, and that is told."""
     in_engines.need(engine)
     import_engine(engine)
     result = drive(file, engine=engine)
     assert result.creep < 1e-3 and abs(result.sunk) < 0.005
-    assert result.distance == 5.0 and result.scrubs
+    assert result.distance == 5.0
     assert result.forward == pytest.approx(5.0, rel=0.005)
     assert result.backward == pytest.approx(5.0, rel=0.005)
     assert result.sideways < 0.02
-    assert result.turning_radius is None and result.spin_geometry == pytest.approx(math.radians(45.0))
-    assert result.spin is not None and math.radians(9.0) < result.spin < math.radians(45.0)
-    assert not list(driving_findings(result))
+    base, tread = 1.22682, 1.5238
+    friction = math.radians(45.0) / (1.0 + (base / tread) ** 2)
+    assert result.turning_radius is None and result.spin_geometry == pytest.approx(friction, rel=0.01)
+    assert result.spin is not None and math.radians(9.0) < result.spin < friction
+    assert [f.where for f in driving_findings(result)] == ["turn on the spot"]
 
 
 def test_it_lifts_what_it_is_rated_for(file: Path) -> None:

@@ -140,9 +140,8 @@ def evidence_of(
     stance = stance_of(drawn, size_of(drawn), directions)
     pieces = pieces_of(observation, frozenset(i for i, said in enumerate(scores) if said) | frozenset(edited))
     bonds = tuple(bonds_of(observation, pieces, answer.structure, stance))
-    called = [
-        frozenset((s.part.path, s.part.name) for i in p.members for s in (observation.solids[i],)) for p in pieces
-    ]
+    parts = [[observation.solids[i].part for i in sorted(piece.members)] for piece in pieces]
+    called = [frozenset((part.path, part.name) for part in mine) for mine in parts]
     trust = trust_in_names(pieces, bonds, scores, choose(template, {}), called)
     leads = tuple(leading(pieces, observation.size, clearly_named(pieces, scores) if trust > 0.0 else {}))
     bars = observation.evidence[-1].fasteners if observation.evidence else frozenset()

@@ -31,6 +31,8 @@ ALIKE = 0.02
 """Mirror images differ by less than this share of their size."""
 LONG = 0.35
 """The bar of a hydraulic cylinder is more than this share of its length, with its eye."""
+MOST_BARS = 40
+"""A mesh of more bars than these is more than two halves of hydraulic cylinders."""
 IN_LINE = 0.999
 """Barrel and rod are parallel to 2.6°, by its cosine."""
 THIN, THICK = 0.2, 0.95
@@ -118,8 +120,10 @@ def _twins(shape: Shape) -> tuple[tuple[CylinderFeature, ...], list[Mesh]] | Non
     """The two bars of a shape that is a bar and its mirror image, and the meshes of what belongs to each; None
     otherwise."""
     bars = [c for c in shape.cylinders if c.arc > ROUND and c.length > SLENDER * c.radius]
+    if shape.exact or len(bars) > MOST_BARS:
+        return None
     pairs = [pair for pair in itertools.combinations(bars, 2) if _side_by_side(*pair)]
-    if shape.exact or not pairs:
+    if not pairs:
         return None
     number = shells.solids(shape.mesh)
     corners = shape.mesh.points[shape.mesh.triangles]

@@ -18,9 +18,6 @@ DISTANCE_BAR, RADIUS_BAR, LIFTED = 0.03, 0.05, 0.02
 """Shares by which a distance and the turning radius may be off, and metres that a wheel may rise."""
 SPIN_BAR, SWING_BAR = 0.1 * SPIN, math.radians(1.0)
 """Radians by which a turn on the spot and a swing may be off."""
-SCRUBBED = 0.2
-"""A machine on four tyres turns on the spot by at least this share of what tyres would that do not slip: they scrub
-sideways, and rigid ones more than rubber."""
 
 
 @dataclass(frozen=True)
@@ -28,10 +25,10 @@ class DrivingResult:
     """Metres, radians, seconds. `sunk` and `creep`: how far the root came down and its speed after settling. Travel is
     the root's; `turning_radius` is that of the outermost wheel's middle, `geometry_radius` where the axles' lines meet
     at the measured lock. `spin`: the turn on the spot of a machine that steers by its two sides' speeds, against
-    `spin_geometry`, that of wheels which do not slip; tracks do, and `scrubs` says that two tyres a side do. `swing`:
-    by how much the slewing body's heading, seen from the ground, changed, against what its motor was told.
-    `axle_angle`: the free axle's coordinate with one wheel on a block, `axle_geometry` what block and tread make of it;
-    `highest_wheel`: the most that a wheel ever rose from what it stood on. None: not driven."""
+    `spin_geometry`, that of wheels which slip no more than they must (`tracked.spin`); tracks slip. `swing`: by how
+    much the slewing body's heading, seen from the ground, changed, against what its motor was told. `axle_angle`: the
+    free axle's coordinate with one wheel on a block, `axle_geometry` what block and tread make of it; `highest_wheel`:
+    the most that a wheel ever rose from what it stood on. None: not driven."""
 
     engine: str
     dt: float
@@ -52,7 +49,6 @@ class DrivingResult:
     axle_angle: float | None = None
     axle_geometry: float | None = None
     highest_wheel: float | None = None
-    scrubs: bool = False
 
 
 def driving_document(result: DrivingResult) -> dict[str, Any]:
@@ -98,7 +94,7 @@ def driving_findings(result: DrivingResult) -> Iterator[Finding]:
             words = f"{value:.3f} m against {wanted:.3f} m, more than {100.0 * bar:g} % off"
             yield Finding("SIM009", "warning", what, words, "Check wheels, their torque and the ground's friction.")
     for what, turned, meant, bar in (
-        ("turn on the spot", result.spin, result.spin_geometry, (1.0 - SCRUBBED) * SPIN if result.scrubs else SPIN_BAR),
+        ("turn on the spot", result.spin, result.spin_geometry, SPIN_BAR),
         ("swing", result.swing, result.swing_geometry, SWING_BAR),
     ):
         if turned is not None and meant is not None and not abs(turned - meant) <= bar:

@@ -1,4 +1,5 @@
-"""What a machine does that steers by its two sides' speeds: it turns on the spot, and its slewing body swings."""
+"""What a machine does that steers by its two sides' speeds, on tracks or tyres: it turns on the spot, and its slewing
+body swings."""
 
 from __future__ import annotations
 
@@ -25,9 +26,12 @@ _REST = 1.0
 def spin(
     engine: Engine, mechanism: Mechanism, both: Sequence[Sequence[DrivenWheel]], top: float, timestep: float
 ) -> dict[str, float]:
-    """The two sides against each other at up to `top` (m/s): how far the root turned to the left.
+    """The two sides against each other at up to `top` (m/s): how far the root turned to the left, and how far it would
+    if its wheels slipped no more than they must, radians.
 
-    It gains speed as fast as `SPARE` of what motors and ground give can turn the machine as drawn.
+    It gains speed as fast as `SPARE` of what motors and ground give can turn the machine as drawn. Two tyres behind
+    each other cannot roll about the middle between them: by Coulomb friction, alike under all four, the moments of what
+    they push along and across balance at 1 / (1 + (wheelbase / tread)²) of the turn that they are told.
     """
     left, right = both
     half = 0.5 * float(np.mean([w.middle[1] for w in left]) - np.mean([w.middle[1] for w in right]))
@@ -37,7 +41,14 @@ def spin(
     turned = 0.0
     for speed in (*course(SPIN, top / half, limit, timestep).tolist(), *_rest(timestep)):
         turned += _turned(engine, {joint: rim * speed * half for joint, rim in rims.items()}, root)
-    return {"spin": turned, "spin_geometry": SPIN}
+    base = float(np.mean([np.ptp([w.middle[0] for w in side]) for side in both])) if on_tyres(both) else 0.0
+    return {"spin": turned, "spin_geometry": SPIN / (1.0 + (0.5 * base / half) ** 2)}
+
+
+def on_tyres(both: Sequence[Sequence[DrivenWheel]]) -> bool:
+    """Whether a machine stands on two driven wheels a side, as a skid steer does, and not on tracks, which have one
+    sprocket or a row of wheels."""
+    return all(len(side) == 2 for side in both)
 
 
 def swing(

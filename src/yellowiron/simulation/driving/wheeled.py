@@ -135,11 +135,11 @@ class _Trip:
             engine.step()
         return float(np.linalg.norm(poses(engine)[1][self._root] - before)) / self.timestep
 
-    def straight(self) -> dict[str, float | bool | None]:
+    def straight(self) -> dict[str, float | None]:
         """Settling, forward, back, and the turn."""
         engine = self._load()
         distance, speed = DISTANCE, SPEED
-        if self._sides and not self._on_tyres():
+        if self._sides and not tracked.on_tyres(self._sides):
             distance, speed = tracked.DISTANCE, top_speed(self.wheels, SPEED)
         try:
             creep = self._rest(engine, _SETTLE)
@@ -161,14 +161,8 @@ class _Trip:
             "backward": float(np.linalg.norm((back - ahead)[:2])),
             "sideways": float(max(abs(ahead[1] - rest[1]), abs(back[1] - rest[1]))),
             "distance": distance,
-            "scrubs": bool(self._sides) and self._on_tyres(),
             **turn,
         }
-
-    def _on_tyres(self) -> bool:
-        """Whether a machine that steers by its sides' speeds stands on two wheels a side, as a skid steer does, and not
-        on tracks, which have one sprocket or a row of wheels."""
-        return all(len(side) == 2 for side in self._sides)
 
     # ---- turning ----------------------------------------------------------------------------------------------------
     def _steering(self) -> Motion | None:
