@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -14,8 +14,10 @@ from yellowiron.alignment import (
     decide,
     declared_roles,
     of_drawn,
+    parts_in,
     read_alignment,
     read_values,
+    said_in,
     to_scale,
     twin_role,
 )
@@ -118,7 +120,8 @@ def find_roles(
     """Roles for the parts of a CAD model, and the model whose parts they are: scaled where the sheet's overall length
     asks for it; left and right hydraulic cylinders in one mesh apart, where they were taken for one of the two; where
     bodies are missing, or every mesh may be a whole one, taken apart, if that finds most of what is missing. `earlier`
-    is an alignment file whose edits hold; `decisions` go before them."""
+    is an alignment file whose edits hold, and whose parts are the model's as long as a person decides on them;
+    `decisions` go before them."""
 
     def found(model: Assembly) -> Alignment:
         edits = read_alignment(earlier, model, template) if earlier is not None else None
@@ -131,6 +134,10 @@ def find_roles(
         return sum(name in alignment.missing for name in bodies)
 
     assembly = to_scale(assembly, template, specifications)
+    if earlier is not None and (decisions != UNDECIDED or said_in(earlier, template)):
+        meant = _known_by(parts_in(earlier), assembly)
+        if meant is not None:
+            return meant, _of_drawn(found(meant), meant, template)
     alignment = found(assembly)
     twins = cad.twins_apart(assembly)
     both = {part.id for part in assembly.parts} - {part.id for part in twins.parts}
@@ -139,7 +146,7 @@ def find_roles(
         assembly, alignment = twins, found(twins)
     moving = {part.body for part in alignment.parts}
     merged = alignment.missing and len(assembly.parts) < 2 * len(moving)
-    apart = kept("apart", lambda: _apart(assembly), assembly) if merged or hidden(alignment) else None
+    apart = _apart(assembly) if merged or hidden(alignment) else None
     if apart is not None:
         other = found(apart)
         # Bodies in crumbs answer to more roles, wrongly: where few bodies were missing, pins must be found as well.
@@ -149,10 +156,27 @@ def find_roles(
     return assembly, _of_drawn(alignment, assembly, template)
 
 
+def _known_by(parts: frozenset[str], drawn: Assembly) -> Assembly | None:
+    """The model, as drawn or taken apart, that has exactly these parts; None where none has."""
+    return next((model for model in _ways(drawn) if parts == {part.id for part in model.parts}), None)
+
+
+def _ways(drawn: Assembly) -> Iterator[Assembly]:
+    """The model as drawn, and as `find_roles` may take it apart."""
+    yield drawn
+    twins = cad.twins_apart(drawn)
+    yield twins
+    yield from filter(None, (_apart(model) for model in (drawn, twins)))
+
+
 def _apart(assembly: Assembly) -> Assembly | None:
     """The model with its merged meshes taken apart; None where there are none."""
-    apart = cad.taken_apart(assembly)
-    return None if apart is assembly else apart
+
+    def make() -> Assembly | None:
+        apart = cad.taken_apart(assembly)
+        return None if apart is assembly else apart
+
+    return kept("apart", make, assembly)
 
 
 def roles_of(

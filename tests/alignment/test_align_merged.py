@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,10 +13,10 @@ from kit.machines.defects import drawn
 from kit.machines.excavators import excavator
 from kit.machines.synthetic import Machine, disguise, loader
 from yellowiron import stages
-from yellowiron.alignment import align
+from yellowiron.alignment import align, write_alignment
 from yellowiron.cad.mesh.assembly import Occurrence, assemble
 from yellowiron.library import load_template
-from yellowiron.model.alignment import Alignment
+from yellowiron.model.alignment import Alignment, Decisions, Signature
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.geometry import Mesh
 from yellowiron.model.specification import Specifications
@@ -60,6 +61,27 @@ def wrong(machine: Machine, kind: str, merged: str, seed: int) -> list[str]:
 @pytest.mark.parametrize("merged", ["one", pytest.param("body", marks=pytest.mark.slow)])
 def test_loader_merged(merged: str) -> None:
     assert wrong(loader(1001), "wheel_loader", merged, 1001) == []
+
+
+def test_decisions_on_parts_of_a_model_that_was_taken_apart_hold(tmp_path: Path) -> None:
+    """The file's parts are the model's, though one that is read anew has a single part."""
+    machine, template, file = loader(1001), load_template("wheel_loader"), tmp_path / "alignment.json"
+    assembly, _, _ = disguise(machine, 1001)
+    merged = meshed(assembly, [[part.id for part in assembly.parts]])
+    found, alignment = find_roles(merged, template, Specifications())
+    assert len(found.parts) > 1 == len(merged.parts)
+    write_alignment(alignment, found, file)
+    boom = next(p.part for p in alignment.parts if p.body == "boom")
+    signature = Signature("Ada", "2026-11-26", "seen")
+    yes = Decisions((), (boom,), (), signature)
+    model, confirmed = find_roles(merged, template, Specifications(), earlier=file, decisions=yes)
+    assert [part.id for part in model.parts] == [part.id for part in found.parts]
+    assert {p.part: p.signature for p in confirmed.parts if p.source == "confirmed"} == {boom: signature}
+    # What was said stays said when the same model is read again.
+    write_alignment(confirmed, model, file)
+    _, again = find_roles(merged, template, Specifications(), earlier=file)
+    assert [p.part for p in again.parts if p.source == "confirmed"] == [boom]
+    assert not [f for f in again.findings if f.rule in ("ALN012", "ALN013")]
 
 
 @pytest.mark.slow

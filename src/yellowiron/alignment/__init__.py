@@ -19,6 +19,7 @@ from yellowiron.alignment.assignment.weights import twin_role
 from yellowiron.alignment.discovery.discover import discover
 from yellowiron.alignment.discovery.robot import declared_roles, discover_declared
 from yellowiron.alignment.files.alignment_json import (
+    parts_in,
     read_alignment,
     read_joints,
     read_values,
@@ -41,6 +42,7 @@ __all__ = [
     "explain",
     "of_drawn",
     "parse_rules",
+    "parts_in",
     "read_alignment",
     "read_joints",
     "read_values",

@@ -161,6 +161,12 @@ def read_alignment(path: str | Path, assembly: Assembly, template: Template) -> 
     )
 
 
+def parts_in(path: str | Path) -> frozenset[str]:
+    """The ids of the parts that an alignment file speaks of. `AlignmentError` for a file that is none."""
+    entries = _load(Path(path))["parts"]
+    return frozenset(str(entry["part"]) for entry in entries if isinstance(entry, Mapping) and "part" in entry)
+
+
 def said_in(path: str | Path, template: Template) -> dict[str, Any]:
     """What a person says in an alignment file, as plain data, without what was found: two files of which this is the
     same lead to the same alignment. `AlignmentError` for a file that is none."""
@@ -172,10 +178,12 @@ def said_in(path: str | Path, template: Template) -> dict[str, Any]:
             key: entry.get(key) for key in ("part", "role", "solved", "by", "date", "why")
         }} for entry in entries if _is_edit(entry)
     ]  # fmt: skip
-    # Parts are found again among all those that there were.
-    prints = [[entry["part"], entry.get("shape"), entry.get("place")] for entry in entries] if edits else []
     kept = {key: document.get(key) for key in ("equipment_type", "rules", "joints", "values")}
-    return {**kept, "edits": edits, "prints": prints} if edits or any(list(kept.values())[1:]) else {}
+    if not edits and not any(list(kept.values())[1:]):
+        return {}
+    # Parts are found again among all those that there were, and say how the model was taken apart.
+    prints = [[entry["part"], entry.get("shape"), entry.get("place")] for entry in entries]
+    return {**kept, "edits": edits, "prints": prints}
 
 
 def read_joints(path: str | Path) -> dict[str, Mapping[str, object]]:
