@@ -123,7 +123,8 @@ def read_sheet(path: Path) -> Sheet:
 def proven(statements: Sequence[Statement], page: Page) -> list[Statement]:
     """The statements, each with whether the words of its quote stand together on their page: side by side on a line,
     or one after the other in the file's own text. The file's order alone says little: many write all labels first."""
-    whole = "\n".join([_squeezed(page.text), *(_squeezed(_printed(line)) for line in lines_of(page.words))])
+    lines = [text for line in lines_of(page.words) for text in (_printed(line), line.text)]
+    whole = "\n".join(map(_squeezed, (page.text, *lines)))
     return [
         s if all(_squeezed(part) in whole for part in s.quote.split(" … ")) else replace(s, proven=False)
         for s in statements

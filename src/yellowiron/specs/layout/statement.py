@@ -138,8 +138,8 @@ GRAVITATIONAL = re.compile(r"(?<=[^\s{｛])\s?[{｛][^{}｛｝]*[}｝]")
 """The same in gravitational units, as Japanese sheets print it behind the SI one: "kN{kgf}", "200{20,400}"."""
 _AT_SPEED = re.compile(r"(\S+?)\s?[/@]\s?(?:min\s?[-⁻]\s?[1¹]|r/min|rpm|1/min|U/min|tr/min)", re.IGNORECASE)
 """A power or torque over the speed that it is given at: "kW/min-1" for "175/2,000"."""
-_AT_RPM = re.compile(r"(?<=[\w)])\s*@\s*\d[\d.,]*\s?(?:rpm|r/min|min-1|U/min|tr/min)$", re.IGNORECASE)
-"""The speed at which the numbers of a column or row hold: "kW (hp) @ 2100 rpm"."""
+_AT_RPM = re.compile(r"(?<=[\w)])\s*@\s*(?:\d[\d.,]*\s?)?(?:rpm|r/min|min-1|U/min|tr/min)$", re.IGNORECASE)
+"""The speed at which the numbers of a column or row hold: "kW (hp) @ 2100 rpm", "kW (hp) @ rpm"."""
 _UNIT_PAIR = re.compile(r"(\S*[^\s(/\[|])\s*[(/\[|]\s*([^()\[\]]+?)\s*[)\]]?")
 _KEY = re.compile(
     r"[(\[]?(?:[a-zα-ω]\d{0,2}(?:/[a-zα-ω]\d{0,2})+|[α-ω]|"
@@ -158,6 +158,11 @@ def ascending(keys: Sequence[str]) -> bool:
     """Whether the numbers of an outline go up: "1.1", "1.2", "2.1"."""
     numbers = [[int(n) for n in re.findall(r"\d+", key)] for key in keys]
     return all(a < b for a, b in pairwise(numbers))
+
+
+def counting(keys: Sequence[str]) -> bool:
+    """Whether numbers go up one by one: they count the rows beside them."""
+    return all(int(b) - int(a) == 1 for a, b in pairwise(keys)) if all(map(str.isdigit, keys)) else False
 
 
 @functools.lru_cache(maxsize=65536)

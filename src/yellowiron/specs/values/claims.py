@@ -13,7 +13,7 @@ from yellowiron.specs.language.numbers import Reading, read
 from yellowiron.specs.language.quantities import FEET_DASH, FEET_INCHES, Quantity, same
 from yellowiron.specs.language.vocabulary import tokens
 from yellowiron.specs.layout.statement import COUNTED, GRAVITATIONAL, Statement
-from yellowiron.specs.values.enumerations import COUNTED_PARTS, alternatives, enumerated
+from yellowiron.specs.values.enumerations import COUNTED_PARTS, alternatives, enumerated, opposed
 
 _TIMES = re.compile(r"(?<![\d.,])([2-9])\s*[x×](?![\w])|[x×]\s*([2-9])(?![\d.,])", re.IGNORECASE)
 
@@ -54,7 +54,8 @@ _PULLS = {"force", "pull"}
 
 def _as_force(claim: Claim) -> Claim | None:
     """A mass that a label calls a force or a pull, as the force that its weight is: "Line pull: 5,860 kg"."""
-    if claim.quantity.dimension != "mass" or not _PULLS & {*tokens(claim.words), *tokens(claim.head)}:
+    words = {t for text in (claim.words, claim.head, *claim.statement.context[-1:]) for t in tokens(text)}
+    if claim.quantity.dimension != "mass" or not _PULLS & words:
         return None
     own, other = (q and replace(q, unit=_FORCES.get(q.unit.rstrip("s.").casefold(), ""))
                   for q in (claim.quantity, claim.partner))  # fmt: skip
@@ -212,7 +213,8 @@ def _expand(statement: Statement, style: DecimalStyle) -> Iterator[Claim]:
         kept.append(reading)
     labels = _labels_of_each(text, label, readings, kept)
     for reading, own in zip(kept, labels, strict=True):
-        yield from _claims_of_reading(statement, own, reading)
+        for one in own:
+            yield from _claims_of_reading(statement, one, reading)
 
 
 def _at_radius(statement: Statement, label: str, readings: Sequence[Reading]) -> Iterator[Claim]:
@@ -226,15 +228,19 @@ def _at_radius(statement: Statement, label: str, readings: Sequence[Reading]) ->
             yield _checked(Claim(statement, f"{label} radius", " ".join(statement.column), quantity, partner))
 
 
-def _labels_of_each(text: str, label: str, readings: Sequence[Reading], kept: Sequence[Reading]) -> list[str]:
-    """The label of each reading: parts of one that names alternatives, for numbers with slashes between them."""
-    whole = [label] * len(kept)
-    if len(kept) < 2 or len(kept) != len(readings) or any(len(r.numbers) != 1 or r.partner for r in kept):
+def _labels_of_each(text: str, label: str, readings: Sequence[Reading], kept: Sequence[Reading]) -> list[list[str]]:
+    """The labels of each reading: one part of a label that names alternatives for each of numbers with slashes between
+    them, all parts and the whole for a number that is the only one."""
+    whole = [[label]] * len(kept)
+    if not kept or len(kept) != len(readings) or any(len(r.numbers) != 1 or len(r.partner) > 1 for r in kept):
         return whole
-    between = [text[a.numbers[0].end : b.numbers[0].start] for a, b in pairwise(kept)]
-    if not all(re.fullmatch(r"[^\W\d()]*\s*[/／]\s*", part.strip()) for part in between):
+    if len(kept) == 1:
+        return [[label, *opposed(label)]]
+    ends = [max(q.end for q in (*r.numbers, *r.partner)) for r in kept]
+    between = [text[end : r.numbers[0].start] for end, r in zip(ends, kept[1:], strict=False)]
+    if not all(re.fullmatch(r"[^\W\d()]*\)?\s*[/／]\s*", part.strip()) for part in between):
         return whole
-    return alternatives(label, len(kept)) or whole
+    return [[own] for own in alternatives(label, len(kept))] or whole
 
 
 def spelled_out(text: str, unit: str) -> tuple[str, str]:
@@ -250,6 +256,10 @@ def spelled_out(text: str, unit: str) -> tuple[str, str]:
             return f"({re.sub(FEET_DASH, _feet_and_inches, words)})"
         return f"({words} {second})" if read(words) else match.group(0)
 
+    listed = re.fullmatch(r"([\d.,]+)\s?([/x×])\s?([\d.,]+)\s?\(([\d.,]+)\s?\2\s?([\d.,]+)\)", text)
+    if listed and second != FEET_INCHES:  # "37.8/38.4 (960/975)"
+        a, sign, b, c, d = listed.groups()
+        return f"{a} ({c} {second}) {sign} {b} ({d} {second})", first
     apart = re.fullmatch(r"(.*\d\S*)\s*(?:[/|]|\[)\s*([^\[\]/|()]*\d[^\[\]/|()]*)\]?", text)
     if apart and "(" not in text and len(read(apart.group(1))) == len(read(apart.group(2))) == 1:
         text = f"{apart.group(1)} ({apart.group(2)})"

@@ -10,8 +10,9 @@ from yellowiron.model.specification import Candidate, Evidence, Specification
 from yellowiron.model.template import Wanted
 from yellowiron.specs.language.decimal_style import DecimalStyle
 from yellowiron.specs.language.numbers import read
-from yellowiron.specs.language.quantities import Quantity
+from yellowiron.specs.language.quantities import Quantity, same
 from yellowiron.specs.language.vocabulary import tokens
+from yellowiron.specs.layout.statement import words_beside_numbers
 from yellowiron.specs.values.claims import Claim, configured_by, split_phrases, without_case
 from yellowiron.specs.values.matching import Match
 from yellowiron.specs.values.requested import check_hint, hint_for, usual
@@ -44,7 +45,7 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
     bucket"; a value of the column will do: "4.2 m3")."""
     if not matches:
         return missing(wanted)
-    chosen = _configured(matches, sheets, config)
+    chosen = _without_charts(_configured(matches, sheets, config))
     groups = _groups(wanted, chosen)
     said = None
     if len(groups) > 1:
@@ -63,6 +64,8 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
         doubt = doubt or "its words do not stand together in the page's text"
     if _is_broken_off(top.claim.statement.label):
         doubt = doubt or "its label goes on elsewhere"
+    if any(map(_is_measures, top.claim.statement.column)):
+        doubt = doubt or "measures of a drawing stand over it"
     if top.claim.ranged:
         doubt = doubt or "the sheet prints a range"
     value = quantity.si_value
@@ -84,6 +87,12 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
 def _is_broken_off(label: str) -> bool:
     """Whether a label ends in the middle: behind a comma or a plus, or in brackets that are not closed."""
     return re.search(r"[,，、+]$|\w[-/]$", label.rstrip()) is not None or label.count("(") > label.count(")")
+
+
+def _is_measures(head: str) -> bool:
+    """Whether a head is several quantities and no words, which name no column."""
+    readings = read(head)
+    return len(readings) > 1 and not words_beside_numbers(head, readings)
 
 
 def name_printed(found: Match) -> str:
@@ -183,6 +192,24 @@ def _configured(matches: Sequence[Match], sheets: Sheets, config: str) -> list[M
                 m for m, own in zip(kept, heads, strict=True) if words in own or not any(words < head for head in own)
             ]
     return kept
+
+
+_CHARTED = 4
+"""So many values under one head on a page, each for a row of its own, are a chart: one load for each radius."""
+
+
+def _without_charts(matches: Sequence[Match]) -> list[Match]:
+    """The matches without those of charts in which one stands that a row of its own gives: a chart goes through the
+    conditions, the row says what the machine is called by."""
+    headed = [m for m in matches if m.by_head]
+    pages = [[m for m in headed if m.claim.statement.page == page] for page in {m.claim.statement.page for m in headed}]
+    charted = [m for own in pages if len({m.claim.quantity.si_value for m in own}) >= _CHARTED for m in own]
+    plain = [m for m in matches if not m.by_head]
+    if len({m.claim.quantity.si_value for m in plain}) != 1:
+        return list(matches)
+    called = plain[0].claim.quantity
+    among = any(same(called, m.claim.quantity) for m in charted)
+    return [m for m in matches if not among or not any(m is one for one in charted)]
 
 
 def _near_best(matches: Sequence[Match]) -> list[Match]:

@@ -7,7 +7,11 @@ import re
 from yellowiron.specs.language.vocabulary import OPPOSITES, tokens
 from yellowiron.specs.layout.statement import joined
 
-_CROSS = re.compile(r"\s+[x×✕*/]\s+|\s*[×✕]\s*|\s+(?:and|und|et|y)\s+(?=stroke|rod|Hub|course|carrera)", re.IGNORECASE)
+_CROSS = re.compile(
+    r"\s+[x×✕*/]\s+|\s*[×✕]\s*|\s+(?:&|and|und|et|y)\s+"
+    r"(?=stroke|rod|Hub|course|carrera|width|thickness|length|height)",
+    re.IGNORECASE,
+)
 COUNTED_PARTS = re.compile(
     r"(?:\b(?:number|no\.?|quantity|qty\.?) of (?:cylinders?|units)\b|\bAnzahl(?: der)? \w+\b|\bnombre de \w+\b|"
     r"\bnúmero de \w+\b|\b(?:number|no\.|qty\.?|quantity|anzahl|nombre|número|n[º°])(?=\s*[-–—x×])|"
@@ -15,9 +19,8 @@ COUNTED_PARTS = re.compile(
     re.IGNORECASE,
 )
 _LWH, _SEL = ("length", "width", "height"), ("thickness", "width", "length")
-_SIZES = dict.fromkeys(("LWH", "LBH", "LlH", "LAH", "LAhA", "LAnAl", "lwh", "lbh", "长宽高", "長幅高"), _LWH) | {
-    "sel": _SEL
-}
+_SIZES = dict.fromkeys(("LBH", "LlH", "LAH", "LAhA", "LAnAl", "lbh", "长宽高", "長幅高"), _LWH) | {"sel": _SEL}
+_INITIALS = {"l": "length", "w": "width", "h": "height", "t": "thickness"}
 _FORK_SIZES = re.compile(r"(?<!\S)s\s?/\s?e\s?/\s?l(?!\S)")
 """What makers call length × width × height, and VDI 2198 a fork's measures."""
 _NAME = r"(?:(?:length|longueur|longitud|di[aá]m\w+|diamètre) (?:of|de|du|del) \S+|\S+(?:\s+(?:diameter|dia\.?))?)"
@@ -41,9 +44,9 @@ def enumerated(label: str, count: int) -> list[str]:
     last = re.match(rf"^({_NAME})(.*)$", parts[-1])
     suffix = last.group(2).strip() if last else ""
     parts[-1] = last.group(1) if last else parts[-1]
-    if sizes := _SIZES.get("".join([name, *parts[1:]])):
-        name, parts = sizes[0], list(sizes)
     names = [name, *parts[1:]]
+    initials = [_INITIALS.get(n.casefold(), "") for n in names]
+    names = list(_SIZES.get("".join(names), initials if all(initials) else names))
     if any("stroke" in tokens(n) for n in names):  # "diameter × stroke" of a cylinder
         names = ["bore" if tokens(n) == ("diameter",) else n for n in names]
     return [" ".join(f"{prefix} {n} {suffix}".split()) for n in names]
@@ -63,9 +66,19 @@ def alternatives(label: str, count: int) -> list[str]:
             symbols = all(re.fullmatch(r"[α-ωa-z]\d{0,2}", part) for part in parts) and "".join(parts) not in _LETTERS
             if len(parts) != count or symbols or not all(re.search(r"[^\W\d]", part) for part in parts):
                 continue
+            if tokens(parts[-1]) == ("empty",) and tokens(parts[0]) == ("maximum",):
+                parts[0] = "loaded"  # "full/empty"
             names = _LETTERS.get("".join(parts), _with_shared(parts))
             return [f"{label[: match.start(1)]}{name}{label[match.end(1) :]}" for name in names]
     return []
+
+
+def opposed(label: str) -> list[str]:
+    """The labels of one number that holds for two opposites, both of which its label names: "Track front/rear"; [] for
+    other labels."""
+    first, second = (frozenset(tokens(own)) for own in alternatives(label, 2) or ("", ""))
+    apart = any(OPPOSITES.get(word, frozenset()) & (second - first) for word in first - second)
+    return alternatives(label, 2) if apart else []
 
 
 def _with_shared(parts: list[str]) -> list[str]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import itertools
+import re
 from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass, field, replace
 
@@ -189,7 +190,8 @@ class _Asked:
 
 @dataclass(frozen=True)
 class _Said:
-    """A claim's words, cut once. `naming` are the heads that name properties and not configurations."""
+    """A claim's words, cut once. `naming` are the heads that name properties and not configurations, `standard` the
+    label's words for the standard equipment, with which any value holds."""
 
     label: frozenset[str]
     head: frozenset[str]
@@ -198,6 +200,7 @@ class _Said:
     naming: tuple[frozenset[str], ...]
     text: str
     ends: tuple[frozenset[str], ...]
+    standard: frozenset[str]
 
     @property
     def context(self) -> frozenset[str]:
@@ -255,7 +258,11 @@ def _cut(words: str, head: str, column: tuple[str, ...], context: tuple[str, ...
         naming=tuple(frozenset(tokens(h)) for h in heads),
         text=" ".join([words, *heads]).casefold(),
         ends=ends(label) or (),
+        standard=frozenset(t for tail in _STANDARD.findall(label) for t in tokens(tail)),
     )
+
+
+_STANDARD = re.compile(r"\b(?:with|mit|avec|con)\s+(?:std\b|standard|est[aá]ndar|serien)[^,;:/]*$", re.IGNORECASE)
 
 
 def match_one(wanted: Wanted, claim: Claim, among: Sequence[Wanted] = ()) -> Match | None:
@@ -278,7 +285,7 @@ def _match(asked_for: _Asked, claim: Claim, said: _Said) -> Match | None:
         asked_for,
         claim,
         said.text,
-        [label, *said.naming, *above, *([] if supported or section <= GENERAL else [section])],
+        [label - said.standard, *said.naming, *above, *([] if supported or section <= GENERAL else [section])],
     ):
         return None
     circuits = label.union(*said.naming) | context | section
@@ -292,8 +299,9 @@ def _match(asked_for: _Asked, claim: Claim, said: _Said) -> Match | None:
     # A word of the value's own name makes the label mean nothing else.
     left = {t for t in primary - explained - _EXTREME - asked_for.name if not _is_number(t)}
     left = {t for t in left if t not in NEUTRAL or _is_telling(t, asked_for, explained | left, claim, said, KNOWN)}
-    if not from_head:
-        left -= _WHOLE
+    left -= said.standard | (frozenset() if from_head else _WHOLE)
+    if _is_translated(asked_for, claim):
+        left &= KNOWN | TELLING
     known = frozenset() if borrowed else KNOWN  # a heading that must help names other properties too
     rest = {t for t in left if _is_telling(t, asked_for, explained | left, claim, said, known)}
     worded = frozenset[str]().union(*(words for words in said.naming if not any(map(_is_number, words))))
@@ -369,6 +377,12 @@ def _is_telling(
     if word in HARMLESS or word in NEUTRAL or (word not in KNOWN and _opens_sentence(word, asked_for, claim)):
         return False
     return not (word in known and word in asked_for.words)
+
+
+def _is_translated(asked_for: _Asked, claim: Claim) -> bool:
+    """Whether a label says a phrase of a value in several languages: what nothing is known of are further ones."""
+    order = tokens(claim.words)
+    return any(len(words) > 1 and all(order.count(w) > 1 for w in words) for _, words in asked_for.phrases)
 
 
 def _opens_sentence(word: str, asked_for: _Asked, claim: Claim) -> bool:

@@ -18,6 +18,7 @@ from yellowiron.specs.layout.statement import (
     Statement,
     TextPiece,
     ascending,
+    counting,
     is_key,
     is_unit,
     lists_items,
@@ -53,11 +54,10 @@ def read_grid(
     """The statements of a table: a value's label is the words to its left, its column the heads above; `above` are
     heads that stand over the table, outside of it."""
     found: list[Statement] = []
-    grid = _without_keys(grid)
+    grid = _with_names_carried(_without_keys(grid))
     heads = _head_rows(page, grid)
     naming = frozenset(heads)
     titles = _titles(grid)
-    facts = _facts(grid)
     over_rows: tuple[str, ...] = ()
     circuit: tuple[str, ...] = ()
     carried: list[Cell] = []
@@ -80,9 +80,9 @@ def read_grid(
                 circuit = ()
             elif len(filled) == 1 and filled[0].columns[0] == 0:
                 over_rows, circuit = (filled[0].text,), ()
-            elif index in facts or _are_sentences(filled[1:]):
+            elif _are_sentences(filled[1:]):
                 circuit = (filled[0].text,) if {"pump", *CIRCUITS} & set(tokens(filled[0].text)) else ()
-            elif not (filled and filled[0].columns[0] == 0 and _heads_none(grid, filled, heads if found else [])):
+            elif not _heads_none(grid, filled, heads, below=bool(found)):
                 heads.append(index)
             continue
         if len(filled) == 1 and filled[0].columns[0] == 0 and not is_unit(filled[0].text.lstrip("0123456789.,± ")):
@@ -143,27 +143,18 @@ def _are_sentences(cells: Sequence[Cell]) -> bool:
     return bool(cells) and all(len(c.text.split()) > _LONGEST_HEAD or c.text.endswith(".") for c in cells)
 
 
-def _heads_none(grid: TableGrid, filled: Sequence[Cell], heads: Sequence[int]) -> bool:
-    """Whether a row of words, a label first, says nothing of its columns: as `names_no_columns`; or it is set like the
-    rows of values, under some of them, and rows that stand out (`heads`) head the table."""
+def _heads_none(grid: TableGrid, filled: Sequence[Cell], heads: Sequence[int], *, below: bool) -> bool:
+    """Whether a row of words, a label first, says nothing of its columns: as `names_no_columns`; or it is in the only
+    column of values and no model, or set like the rows of values, under some of them (`below`), and rows that stand
+    out (`heads`) head the table."""
     named = [[c for c in _row_cells(grid, head) if c.lines] for head in heads]
     apart = any(all(map(_is_bold, row)) or names_models(row[0].text) for row in named if row)
-    return names_no_columns([c.text for c in filled]) or (apart and not all(map(_is_bold, filled)))
-
-
-def _facts(grid: TableGrid) -> frozenset[int]:
-    """The rows of words that head nothing in a table with one value to a row: several, one after the other, each a
-    label beside the only other column ("Make | …", "Model | …"), or under values."""
-    rows = [[c for c in _row_cells(grid, row) if c.lines] for row in range(grid.rows)]
-    valued = [len(_values_of(filled)) for filled in rows]
-    if max(valued, default=0) > 1:
-        return frozenset()
-    worded = {
-        row
-        for row, filled in enumerate(rows)
-        if len(filled) == 2 and not valued[row] and filled[0].columns[0] == 0 and not all(map(_is_bold, filled))
-    }
-    return frozenset(row for row in worded if {row - 1, row + 1} & worded or any(valued[:row]))
+    first = min((c.columns[0] for c in grid.cells if looks_like_value(c.text)), default=1)
+    labels, cells = [c.text for c in filled if c.columns[0] < first], [c.text for c in filled if c.columns[0] >= first]
+    single = first == grid.columns - 1 and not names_models(" ".join(labels))
+    plain = (single or (below and apart)) and not all(map(_is_bold, filled))
+    none = plain or names_no_columns([" ".join(labels), *cells])
+    return bool(labels) and none and not any(map(is_unit, cells))
 
 
 def _values_of(filled: Sequence[Cell]) -> list[Cell]:
@@ -219,8 +210,9 @@ def _without_keys(grid: TableGrid) -> TableGrid:
         few = len(own) // MANY
         if len(own) < 3 or len(own) < len(cells) - 1 or twice > (0 if numbers else few) or all(map(is_unit, texts)):
             continue
-        if numbers and not (ascending(texts) and all(_begins(grid, c) for c in own)
-                            and all(_worded(grid, c) for c in own)):  # fmt: skip
+        counted = len(own) >= MANY and counting(texts)
+        placed = counted or all(_begins(grid, c) for c in own)
+        if numbers and not (placed and ascending(texts) and all(_worded(grid, c, counted=counted) for c in own)):
             continue
         keys.update(c for c in own if not _LISTED.fullmatch(c.text))  # "s/e/l" says what its three values are
     return grid.emptied(keys) if keys else grid
@@ -232,10 +224,39 @@ def _begins(grid: TableGrid, key: Cell) -> bool:
     return not any(c is not None and c.lines and c.rows == key.rows for c in left)
 
 
-def _worded(grid: TableGrid, key: Cell) -> bool:
-    """Whether the cell right of a number holds a label: words, and no unit."""
-    beside = grid.at(key.rows[0], key.columns[1])
-    return beside is not None and bool(beside.lines) and not (is_unit(beside.text) or looks_like_value(beside.text))
+def _worded(grid: TableGrid, key: Cell, *, counted: bool) -> bool:
+    """Whether what stands next right of a number is a label; where the numbers count the rows, it may stand left."""
+    cells = [c for c in _row_cells(grid, key.rows[0]) if c.lines]
+    at = cells.index(key)
+    return any(map(_is_label, [*cells[at + 1 : at + 2], *(cells[at - 1 : at] if counted else [])]))
+
+
+def _is_label(cell: Cell) -> bool:
+    return bool(cell.lines) and not (is_unit(cell.text) or looks_like_value(cell.text))
+
+
+def _with_names_carried(grid: TableGrid) -> TableGrid:
+    """The table with the cells of a name over rows that leave it out, and say only what they say of it ("Forks |
+    Width" over " | Length"), as if they spanned those rows: where no cell of the column is drawn over several."""
+    cells = {(c.rows[0], c.columns[0]): c for c in grid.cells}
+    for column in range(grid.columns - 2):
+        words = [c.text for (_, at), c in cells.items() if at in (column, column + 1)]
+        drawn = any(c.rows[1] - c.rows[0] > 1 for (_, at), c in cells.items() if at == column)
+        if drawn or any(looks_like_value(text) or is_unit(text) for text in words):
+            continue
+        name: Cell | None = None
+        for row in range(grid.rows):
+            own, beside = cells.get((row, column)), cells.get((row, column + 1))
+            single = own is not None and own.columns[1] == column + 1
+            if own is None or not single or beside is None or not _is_label(beside):
+                name = None
+            elif own.lines:
+                name = own
+            elif name is not None and any(looks_like_value(c.text) for c in _row_cells(grid, row)):
+                name = replace(name, rows=(name.rows[0], own.rows[1]), box=(*name.box[:3], own.box[3]))
+                cells[name.rows[0], column] = name
+                del cells[row, column]
+    return replace(grid, cells=tuple(cells.values()))
 
 
 def _titles(grid: TableGrid) -> dict[int, str]:
@@ -408,7 +429,7 @@ def _label_and_groups(grid: TableGrid, value: Cell, labels: Sequence[Cell]) -> t
     """The cells that are a value's sub-headings, its label, and the unit in that."""
     names = [c for c in labels if not _is_key(c.text)]
     # cells that span more rows than the value are the sub-headings of theirs
-    groups = [c for c in names[:-1] if c.rows[1] - c.rows[0] > value.rows[1] - value.rows[0] or _is_group(grid, c)]
+    groups = [c for c in names[:-1] if c.rows[1] - c.rows[0] > value.rows[1] - value.rows[0]]
     label, own_unit = _label_of([c for c in names if not any(c is g for g in groups)])
     label, label_unit = unit_in_label(without_key(label))
     return groups, label, own_unit or label_unit
@@ -441,12 +462,6 @@ MANY = 6
 """So many letters in a column make it one of symbols."""
 _SYMBOL = re.compile(r"[A-Z][a-z]{1,2}\d?")
 _LISTED = re.compile(r"[^\W\d]\s?[/／×x]\s?[^\W\d]+\s?[/／×x]\s?[^\W\d]")
-
-
-def _is_group(grid: TableGrid, cell: Cell) -> bool:
-    """Whether a cell stands in a column whose cells span several rows each: a group that has one row only."""
-    column = [c for c in grid.cells if c.columns == cell.columns and c.lines]
-    return any(c.rows[1] - c.rows[0] > 1 for c in column) and not any(looks_like_value(c.text) for c in column)
 
 
 def _is_key(text: str) -> bool:
