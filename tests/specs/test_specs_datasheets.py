@@ -12,9 +12,12 @@ from specs_layouts import canvas, lattice, put
 from yellowiron.library import load_template
 from yellowiron.model.specification import Specification
 from yellowiron.specs import extract
-from yellowiron.specs.layout.statement import Statement, counting, is_unit
+from yellowiron.specs.language.numbers import read
+from yellowiron.specs.language.vocabulary import tokens
+from yellowiron.specs.layout.statement import Statement, counting, is_unit, looks_like_value
 from yellowiron.specs.values.claims import claims_of, spelled_out
 from yellowiron.specs.values.enumerations import alternatives, enumerated, opposed
+from yellowiron.specs.values.matching import match_one
 
 WIDTHS = (90, 24, 120, 40, 80, 80)
 
@@ -158,3 +161,34 @@ def test_words_of_further_languages_are_not_left_over(tmp_path: Path) -> None:
     c.save()
     found = said(tmp_path / "a.pdf", "mobile_crane")
     assert settled(found, "Boom Length Extended") == {"Boom Length Extended": ("ok", 38.3)}
+
+
+def test_a_plus_is_no_word_between_two_values(tmp_path: Path) -> None:
+    c = canvas(tmp_path / "a.pdf")
+    put(c, 40, 700, "Boom luffing angle range (min. / max.)")
+    put(c, 300, 700, "-4° / +78°")
+    c.save()
+    found = said(tmp_path / "a.pdf", "mobile_crane")
+    assert settled(found, "Boom Angle Minimum", "Boom Angle Maximum") == {
+        "Boom Angle Minimum": ("ok", pytest.approx(math.radians(-4))),
+        "Boom Angle Maximum": ("ok", pytest.approx(math.radians(78))),
+    }
+
+
+def test_signs_of_both_ways_begin_a_value_and_degrees_are_words_in_capitals() -> None:
+    assert looks_like_value("+/- 10.5 Grados")
+    assert [(q.unit, q.sign) for r in read("+/- 10.5 Grados") for q in r.numbers] == [("Grados", "±")]
+
+
+@pytest.mark.parametrize(("words", "settled_so"), [("of the hydraulic cylinder,", True), ("of the jib,", False)])
+def test_what_opens_a_sentence_tells_only_of_what_has_such_a_value(words: str, settled_so: bool) -> None:
+    crane = {w.name: w for w in load_template("mobile_crane", sheet_only=True).wanted}
+    label = f"By means {words} provides boom elevation from"
+    one = Statement(1, 1, label, "-3° to 80°", (0, 0, 1, 1), "", section="Boom", running=True)
+    matches = [match_one(crane["Boom Angle Maximum"], c, list(crane.values())) for c in claims_of([one], "point")]
+    assert any(m is not None and not m.rest for m in matches) == settled_so
+
+
+def test_an_expression_that_opens_with_an_abbreviation_needs_it() -> None:
+    assert "auxiliary" in tokens("Aux. double acting flow")
+    assert "auxiliary" not in tokens("One double acting cylinder")

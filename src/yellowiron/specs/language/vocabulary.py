@@ -100,7 +100,8 @@ def _lexicon() -> tuple[dict[tuple[str, ...], tuple[str, ...]], dict[tuple[str, 
             for spelling in spellings.split(" | "):
                 whole = _key(spelling)
                 bare = tuple(w for w in whole if w not in _STOP)
-                if len(bare) < len(whole) and len(bare) < 2:
+                opens = language == "english" and whole[0] in _STOP  # "aux double acting": no filler in English
+                if len(bare) < len(whole) and (len(bare) < 2 or opens):
                     hanging[whole] = words
                 elif bare:
                     others[bare] = words

@@ -264,7 +264,7 @@ def kind_of(piece: TextPiece) -> str:
 _VALUE_START = re.compile(
     r"^(?:(?:appr(?:ox)?\.?|approximately|about|abt\.?|circa|ca?\.|ca|etwa|env(?:iron)?\.?|aprox(?:imadamente)?\.?|"
     r"max(?:imum|imal)?\.?|min(?:imum|imal)?\.?|up to|bis(?: zu)?|jusqu'à|hasta|[约約]|およそ|大约|最大|最小|最高)\s*)*"
-    r"[(\[]?\s*[<>≤≥~≈±Øø⌀+\-–−]*\s*(?:[\d½¼¾⅛⅜⅝⅞]|[.,]\d)",
+    r"[(\[]?\s*(?:\+/[-–−]|[<>≤≥~≈±Øø⌀+\-–−])*\s*(?:[\d½¼¾⅛⅜⅝⅞]|[.,]\d)",
     re.IGNORECASE,
 )
 _NOT_A_VALUE = re.compile(

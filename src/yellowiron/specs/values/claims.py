@@ -238,7 +238,7 @@ def _labels_of_each(text: str, label: str, readings: Sequence[Reading], kept: Se
         return [[label, *opposed(label)]]
     ends = [max(q.end for q in (*r.numbers, *r.partner)) for r in kept]
     between = [text[end : r.numbers[0].start] for end, r in zip(ends, kept[1:], strict=False)]
-    if not all(re.fullmatch(r"[^\W\d()]*\)?\s*[/／]\s*", part.strip()) for part in between):
+    if not all(re.fullmatch(r"[^\W\d()]*\)?\s*[/／]\s*[+]?", part.strip()) for part in between):
         return whole
     return [[own] for own in alternatives(label, len(kept))] or whole
 

@@ -374,7 +374,8 @@ def _is_telling(
     for other, phrase in asked_for.others.get(word, ()) if word not in asked_for.words else ():
         if phrase <= words and not _forbidden(other, claim, said.text, [said.label, *said.naming, *said.contexts]):
             return True
-    if word in HARMLESS or word in NEUTRAL or (word not in KNOWN and _opens_sentence(word, asked_for, claim)):
+    foreign = word not in KNOWN or word not in {*asked_for.words, *asked_for.others}  # no cylinder has an angle
+    if word in HARMLESS or word in NEUTRAL or (foreign and _opens_sentence(word, asked_for, claim)):
         return False
     return not (word in known and word in asked_for.words)
 
