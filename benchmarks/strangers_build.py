@@ -218,7 +218,7 @@ def build_model(name: str, mirror: Path, models: Path, blender: str | None) -> d
 def held_back() -> set[str]:
     """The models that nobody may look at yet."""
     files = {f.stem: f.read_text(encoding="utf-8") for f in LABELS.glob("*.json")}
-    return {name for name, text in files.items() if json.loads(text)["held_back"]}
+    return {name for name, text in files.items() if json.loads(text).get("held_back")}
 
 
 def build_apdecky(name: str, mirror: Path, models: Path, _: str | None) -> dict[str, Any]:

@@ -118,8 +118,9 @@ def find_roles(
     decisions: Decisions = UNDECIDED,
 ) -> tuple[Assembly, Alignment]:
     """Roles for the parts of a CAD model, and the model whose parts they are: scaled where the sheet's overall length
-    asks for it; left and right hydraulic cylinders in one mesh apart, where they were taken for one of the two; where
-    bodies are missing, or every mesh may be a whole one, taken apart, if that finds most of what is missing. `earlier`
+    asks for it; left and right hydraulic cylinders in one mesh apart, where they were taken for one of the two; those
+    that are drawn into other meshes taken out, where bodies are missing, if that finds some; where bodies are missing,
+    or every mesh may be a whole one, taken apart, if that finds most of what is missing. `earlier`
     is an alignment file whose edits hold, and whose parts are the model's as long as a person decides on them;
     `decisions` go before them."""
 
@@ -133,6 +134,9 @@ def find_roles(
         bodies = [role.name for role in template.roles if role.rigid and role.name != template.root]
         return sum(name in alignment.missing for name in bodies)
 
+    def halves(alignment: Alignment) -> int:
+        return sum(role.name in alignment.missing for role in template.roles if role.kind in ("barrel", "rod"))
+
     assembly = to_scale(assembly, template, specifications)
     if earlier is not None and (decisions != UNDECIDED or said_in(earlier, template)):
         meant = _known_by(parts_in(earlier), assembly)
@@ -144,6 +148,11 @@ def find_roles(
     # What is left and right in one mesh was taken for one of the two.
     if any(part.part in both and twin_role(part.body or "") is not None for part in alignment.parts):
         assembly, alignment = twins, found(twins)
+    model, best = assembly, alignment
+    rams = cad.rams_apart(assembly) if halves(alignment) else assembly
+    # A barrel and its rod at least.
+    if rams is not assembly and halves(other := found(rams)) + 2 <= halves(alignment):
+        model, best = rams, other
     moving = {part.body for part in alignment.parts}
     merged = alignment.missing and len(assembly.parts) < 2 * len(moving)
     apart = _apart(assembly) if merged or hidden(alignment) else None
@@ -151,9 +160,10 @@ def find_roles(
         other = found(apart)
         # Bodies in crumbs answer to more roles, wrongly: where few bodies were missing, pins must be found as well.
         most = hidden(alignment) > len(moving) and hidden(other) < 0.5 * hidden(alignment)
-        if most or len(other.missing) < 0.5 * len(alignment.missing):
-            return apart, _of_drawn(other, apart, template)
-    return assembly, _of_drawn(alignment, assembly, template)
+        better = best is alignment or hidden(other) < hidden(best)
+        if better and (most or len(other.missing) < 0.5 * len(alignment.missing)):
+            model, best = apart, other
+    return model, _of_drawn(best, model, template)
 
 
 def _known_by(parts: frozenset[str], drawn: Assembly) -> Assembly | None:
@@ -164,9 +174,11 @@ def _known_by(parts: frozenset[str], drawn: Assembly) -> Assembly | None:
 def _ways(drawn: Assembly) -> Iterator[Assembly]:
     """The model as drawn, and as `find_roles` may take it apart."""
     yield drawn
-    twins = cad.twins_apart(drawn)
-    yield twins
-    yield from filter(None, (_apart(model) for model in (drawn, twins)))
+    for model in (drawn, cad.twins_apart(drawn)):
+        yield model
+        yield cad.rams_apart(model)
+        if (apart := _apart(model)) is not None:
+            yield apart
 
 
 def _apart(assembly: Assembly) -> Assembly | None:

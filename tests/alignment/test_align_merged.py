@@ -91,6 +91,28 @@ def test_excavators_merged(merged: str, seed: int) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("seed", [1003, 1005])
+def test_cylinders_drawn_into_their_arms_are_taken_out(seed: int) -> None:
+    """An artist's mesh for what stands on one pin: the boom with its cylinders and the arm's, the arm with the
+    bucket's."""
+    assembly, truth, _ = disguise(excavator(seed), seed)
+    groups: dict[str, list[str]] = {}
+    for part in assembly.parts:
+        body = truth[part.id][1]
+        carrier = {"boom_": "boom", "arm_c": "boom", "arm_p": "boom", "bucket_c": "arm", "bucket_p": "arm"}
+        groups.setdefault(next((c for start, c in carrier.items() if body.startswith(start)), body), []).append(part.id)
+    merged = meshed(assembly, list(groups.values()))
+    found, alignment = find_roles(merged, load_template("excavator"), Specifications())
+    # Their barrels and rods are parts, and little else is.
+    assert len(merged.parts) + 6 <= len(found.parts) < 3 * len(merged.parts)
+    owner = owners(assembly, found)
+    halves = {"arm_cylinder_barrel", "arm_piston_rod", "bucket_cylinder_barrel", "bucket_piston_rod"}
+    assert halves <= {p.body for p in alignment.parts}
+    told = [(p.body, truth[owner[p.part]][1]) for p in alignment.parts if truth[owner[p.part]][1]]
+    assert all(body == true for body, true in told if body in halves or true in halves), told
+
+
+@pytest.mark.slow
 def test_bodies_without_pins_are_not_taken_apart() -> None:
     """Nothing is gained by it: their roles are missing all the same."""
     machine = loader(1002)

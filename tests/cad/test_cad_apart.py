@@ -10,7 +10,7 @@ import pytest
 import trimesh
 
 from kit.machines.solids import box, lathe, place, tube
-from yellowiron.cad import taken_apart, twins_apart
+from yellowiron.cad import rams_apart, taken_apart, twins_apart
 from yellowiron.cad.mesh.assembly import Occurrence, assemble
 from yellowiron.model.assembly import Assembly, DeclaredJoint, Part
 from yellowiron.model.geometry import Mesh
@@ -147,3 +147,50 @@ def test_bars_that_are_no_cylinders_stay_together() -> None:
     slide = DeclaredJoint("slide", "prismatic", ("m0", "m1"), (0.0, 0.0, 0.0), (0.0, 0.0, 1.0))
     driven = replace(both, joints=(slide,))
     assert twins_apart(driven) is driven
+
+
+def rest_and_rams(*meshes: Mesh) -> list[tuple[float, float]]:
+    """(low, high) along z of the parts of one mesh once its hydraulic cylinders are taken out."""
+    found = rams_apart(assembly_of(merged(*meshes)))
+    boxes = [(found.points_of(p)[:, 2].min(), found.points_of(p)[:, 2].max()) for p in found.parts]
+    return [(round(float(low), 3), round(float(high), 3)) for low, high in boxes]
+
+
+def plain(count: int = 16) -> Mesh:
+    """A barrel with a collar, and its rod, along z as one solid without eyes: the rod comes out at z = 0.7."""
+    profile = [(0, 0), (0.06, 0), (0.06, 0.6), (0.07, 0.6), (0.07, 0.7), (0.03, 0.7), (0.03, 1.2), (0, 1.2)]
+    bar = turned(profile, count)
+    return Mesh(np.asarray(bar.vertices, dtype=np.float64), np.asarray(bar.faces, dtype=np.int32))
+
+
+def test_hydraulic_cylinders_are_taken_out_of_the_mesh_that_they_are_drawn_into() -> None:
+    """In one solid or in two; what is left stays one part, whose bars are no cylinders."""
+    boom = merged(box("boom", 0.5, 4.0, 0.5).mesh, moved(tube("pin", 0.05, 0.0, 0.9).mesh, 0.0, 1.5, -0.2))
+    whole = rest_and_rams(boom)
+    assert len(whole) == 1
+    one = rest_and_rams(boom, moved(plain(), 1.0, 0.0, 0.0), moved(plain(), -1.0, 0.0, 0.0))
+    assert one == [*whole, (0.0, 0.7), (0.7, 1.2), (0.0, 0.7), (0.7, 1.2)]
+    barrel, rod = barrel_and_rod()
+    two = rest_and_rams(boom, moved(barrel, 1.0, 0.0, 0.0), moved(rod, 1.0, 0.0, 0.0))
+    assert len(two) == 3 and set(two[1:]) == {(0.0, 0.6), (0.45, 0.95)}
+
+
+def test_a_mesh_that_is_a_cylinder_comes_apart() -> None:
+    assert rest_and_rams(plain()) == [(0.0, 0.7), (0.7, 1.2)]
+    assert [p.id for p in rams_apart(assembly_of(plain())).parts] == ["m0/1", "m0/2"]
+
+
+@pytest.mark.parametrize(
+    "profile",
+    [
+        # A pin with a step, and an axle that is thin at both ends.
+        [(0, 0), (0.06, 0), (0.06, 0.2), (0.03, 0.2), (0.03, 0.3), (0, 0.3)],
+        [(0, -0.6), (0.03, -0.6), (0.03, 0), (0.06, 0), (0.06, 0.6), (0.03, 0.6), (0.03, 1.2), (0, 1.2)],
+    ],
+)
+def test_pins_and_axles_are_no_cylinders(profile: list[tuple[float, float]]) -> None:
+    bar = turned(profile, 16)
+    mesh = Mesh(np.asarray(bar.vertices, dtype=np.float64), np.asarray(bar.faces, dtype=np.int32))
+    for whole in (assembly_of(mesh), assembly_of(box("block", 0.4, 0.4, 0.1).mesh, mesh)):
+        assert rams_apart(whole) is whole
+        assert taken_apart(whole) is whole

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -51,6 +52,9 @@ BELIEVED = 0.45
 """Names that explain less than this share of what they could of who is beside whom are not believed at all."""
 TRUSTED = 0.7
 """… and from this share on, wholly."""
+OF_SOLID, OF_BAR = 0.5, 0.1
+"""What the name of a mesh counts for one of its solids, and for a bar: in twenty models of strangers three quarters of
+the solids are what their mesh is called, but only half of the bars, which may be its hydraulic cylinders."""
 TELLING = ("name", "said")
 GROUND = 30.0
 """By so much names (or a person) speak more for a body than for any other where they tell which it is. Contacts that
@@ -82,14 +86,15 @@ class _Best:
 @dataclass(frozen=True, eq=False)
 class Evidence:
     """What a machine is judged by: its pieces, which of them can be what a body mainly is (`leading`), all bonds, how
-    far names are trusted, how the machine stands, what the names say of each solid, what the contacts gave, what a
-    person said, which pieces are bars in bores: pins, if they are not halves of hydraulic cylinders, and the `surface`
-    of all that is drawn, tracks too, m²."""
+    far names are trusted, which pieces share theirs with others (solids of one mesh), how the machine stands, what the
+    names say of each solid, what the contacts gave, what a person said, which pieces are bars in bores: pins, if they
+    are not halves of hydraulic cylinders, and the `surface` of all that is drawn, tracks too, m²."""
 
     pieces: tuple[Piece, ...]
     leading: tuple[int, ...]
     bonds: tuple[Bond, ...]
     trust: float
+    shared: frozenset[int]
     stance: Stance
     scores: Sequence[Mapping[str, float]]
     answer: Answer
@@ -105,9 +110,11 @@ class Evidence:
 
     def votes(self, template: Template) -> Votes:
         """What speaks for every piece and body of a template with its variants decided."""
-        votes = votes_of(
-            self.pieces, template, self.scores, self.trust, self.answer, self.stance, self.edited, self.surface
-        )
+        trust = [
+            self.trust * (1.0 if k not in self.shared else OF_BAR if piece.slender else OF_SOLID)
+            for k, piece in enumerate(self.pieces)
+        ]
+        votes = votes_of(self.pieces, template, self.scores, trust, self.answer, self.stance, self.edited, self.surface)
         halves = {r.name for r in template.roles if r.kind in BARS}
         return [
             {body: what for body, what in mine.items() if k not in self.pins or body in halves}
@@ -148,8 +155,10 @@ def evidence_of(
     pins = frozenset(
         k for k, p in enumerate(pieces) if not p.kind and p.members <= bars and not p.members & edited.keys()
     )
+    borne = Counter(name for names in called for name in names)
+    shared = frozenset(k for k, names in enumerate(called) if any(borne[name] > 1 for name in names))
     surface = sum(s.surface for s in drawn) or 1.0
-    return Evidence(pieces, leads, bonds, trust, stance, scores, answer, edited, pins, surface)
+    return Evidence(pieces, leads, bonds, trust, shared, stance, scores, answer, edited, pins, surface)
 
 
 def fused(

@@ -43,15 +43,15 @@ def votes_of(
     pieces: Sequence[Piece],
     template: Template,
     scores: Sequence[Mapping[str, float]],
-    trust: float,
+    trust: Sequence[float],
     answer: Answer,
     stance: Stance,
     edited: Mapping[int, str],
     total: float,
 ) -> Votes:
-    """What speaks for every body a piece could be. `scores`: by solid, what its names say; `trust` in them, 0 to 1;
-    `answer`: what the contacts alone gave; `stance`: how the machine stands; `edited`: solid → the body that a person
-    gave it; `total`: the machine's surface, m²."""
+    """What speaks for every body a piece could be. `scores`: by solid, what its names say; `trust` in them, by piece,
+    0 to 1; `answer`: what the contacts alone gave; `stance`: how the machine stands; `edited`: solid → the body that a
+    person gave it; `total`: the machine's surface, m²."""
     kinds = {r.name: r.kind for r in template.roles if r.rigid}
     largest = max((p.area for p in pieces), default=1.0)
     solved = _solved(answer)
@@ -62,7 +62,7 @@ def votes_of(
         for body in {b for i in piece.members for b in solved.get(i, ())}:
             areas[body] = areas.get(body, 0.0) + piece.area
     votes: Votes = []
-    for piece, said in zip(pieces, saids, strict=True):
+    for piece, said, worth in zip(pieces, saids, trust, strict=True):
         mine: dict[str, Features] = {}
         told = {edited[i] for i in piece.members if i in edited}
         meant = {kinds[b] for b, score in said.items() if score > 0.0 and b in kinds}
@@ -73,11 +73,11 @@ def votes_of(
                 continue
             if meant and meant <= set(BARS) and kind not in BARS and not told:
                 # Its names speak of hydraulic cylinders alone, if not of which.
-                shape = {**shape, "unlike": max(trust * max(said.values()), shape.get("unlike", 0.0))}
+                shape = {**shape, "unlike": max(worth * max(said.values()), shape.get("unlike", 0.0))}
             contact = max((solved[i].get(body, 0.0) for i in piece.members if i in solved), default=0.0)
             # All of a cluster is one guess of the contacts, and counts once.
             contact *= piece.area / areas.get(body, piece.area)
-            found = {"name": trust * name, "contacts": contact, "said": float(body in told), **shape}
+            found = {"name": worth * name, "contacts": contact, "said": float(body in told), **shape}
             if body in template.usual:
                 depth = apart.get((template.root, body), 0)
                 found |= _unusual(piece, template.usual[body], stance.drawn * piece.area / total, stance, depth)

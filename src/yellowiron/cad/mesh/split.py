@@ -1,6 +1,6 @@
 """Merged meshes taken apart: a machine that was exported as one mesh, or a mesh for every colour; hydraulic cylinders
-to the left and to the right that are one mesh; and one whose barrel and rod are one solid, cut where the rod comes
-out."""
+to the left and to the right that are one mesh; those that are drawn into other meshes; and one whose barrel and rod are
+one solid, cut where the rod comes out."""
 
 from __future__ import annotations
 
@@ -25,6 +25,11 @@ EYE = 0.6 * np.pi
 """Radians around: an eye goes further …"""
 WIDE = 6.0
 """… and is no further to one side than this many radii of the barrel."""
+ASIDE, COLLAR = 0.15, 3.0
+"""In radii of the barrel: a rod is no further beside its axis, and comes out no further from its end, where the wiper
+may have a collar."""
+PLAIN = 5.0
+"""What is nothing but a barrel and a rod is so many radii long, each of them."""
 Eyes = tuple[Floats, Floats]
 """Centres and unit directions, (n, 3) each."""
 ALIKE = 0.02
@@ -79,6 +84,84 @@ def _in_line(some: Floats, others: Floats) -> bool:
     between = float(np.linalg.norm(some[0, 0] - some[-1, 0]))
     near = np.linalg.norm(away, axis=2) < ALIKE * between
     return bool((near & (np.abs(some[:, 1] @ others[:, 1].T) > IN_LINE)).any(axis=1).all())
+
+
+def rams_apart(assembly: Assembly) -> Assembly:
+    """The assembly with a part for each barrel and each rod of the hydraulic cylinders that are drawn into other
+    meshes, as a boom's are into the boom; what is left of such a mesh is one part if it is most of it. The same object
+    if there are none, or the file says what moves on what."""
+    if assembly.joints:
+        return assembly
+    first = {part.shape: part for part in reversed(assembly.parts)}
+    eyes = _eyes(assembly)
+    found = {
+        key: meshes
+        for key, part in sorted(first.items())
+        if (meshes := _rams(assembly.shapes[key], _moved(eyes, part.transform)))
+    }
+    return _divided(assembly, found, "hold hydraulic cylinders beside other things: these taken out")
+
+
+def _rams(shape: Shape, eyes: Callable[[], Eyes]) -> list[Mesh]:
+    """What is left of a mesh without its hydraulic cylinders, and their barrels and rods; none where it has none."""
+    bars = [c for c in shape.cylinders if not c.inner and c.arc > ROUND and c.length > SHORT * c.radius]
+    if shape.exact or not 1 < len(bars) <= MOST_BARS:
+        return []
+    number = shells.solids(shape.mesh)
+    solids = {n: measures.chosen(shape.mesh, np.flatnonzero(number == n)) for n in range(int(number.max()) + 1)}
+    large = {n: float(np.linalg.norm(np.ptp(mesh.points, axis=0))) for n, mesh in solids.items()}
+    own: dict[int, list[CylinderFeature]] = {}
+    for bar in bars:
+        around = [
+            n for n, mesh in solids.items() if large[n] > 0.99 * bar.length and _within((bar,), mesh, 0.1 * bar.radius)
+        ]
+        if around:
+            own.setdefault(min(around, key=lambda n: (large[n], n)), []).append(bar)
+    halves: dict[int, list[Mesh]] = {}
+    for n, mine in sorted(own.items()):
+        cut = _cut(solids[n], tuple(mine), eyes, exact=False)
+        if len(cut) == 2:
+            halves[n] = cut
+    sole: dict[int, CylinderFeature] = {}
+    for n, mine in sorted(own.items()):
+        if n not in halves and (only := _sole(solids[n], mine)) is not None:
+            sole[n] = only
+    for a, b in itertools.permutations(sole, 2):
+        if a not in halves and b not in halves and _comes_out(sole[a], sole[b]):
+            halves |= {a: [solids[a]], b: [solids[b]]}
+    if not halves:
+        return []
+    rest = [n for n in solids if n not in halves]
+    area = {n: measures.area_properties(mesh)[0] for n, mesh in solids.items()}
+    found = list(itertools.chain(*halves.values()))
+    if sum(area[n] for n in rest) < sum(area[n] for n in halves):
+        return [*(solids[n] for n in rest), *found]
+    return [measures.chosen(shape.mesh, np.flatnonzero(np.isin(number, rest))), *found]
+
+
+def _sole(mesh: Mesh, bars: Sequence[CylinderFeature]) -> CylinderFeature | None:
+    """The longest bar of a solid, if it is what the solid mainly is."""
+    bar = max(bars, key=lambda c: c.length)
+    offset = mesh.points - np.array(bar.center)
+    along = offset @ np.array(bar.direction)
+    aside = np.linalg.norm(offset - along[:, None] * np.array(bar.direction), axis=1)
+    long = bar.length > max(PLAIN * bar.radius, LONG * float(np.ptp(along)))
+    return bar if long and float(aside.max()) < COLLAR * bar.radius else None
+
+
+def _comes_out(thick: CylinderFeature, thin: CylinderFeature) -> bool:
+    """Whether a rod comes out of a barrel, each a solid: in line, thinner, its root in the barrel or at its end."""
+    if not THIN * thick.radius < thin.radius < THICK * thick.radius:
+        return False
+    axis = np.array(thick.direction)
+    across = np.array(thin.center) - np.array(thick.center)
+    ahead = float(across @ axis)
+    if abs(float(axis @ np.array(thin.direction))) < IN_LINE:
+        return False
+    if float(np.linalg.norm(across - ahead * axis)) > 2.0 * ASIDE * thick.radius:
+        return False
+    root, end = abs(ahead) - 0.5 * thin.length, abs(ahead) + 0.5 * thin.length
+    return root < 0.5 * thick.length + COLLAR * thick.radius and end > 0.5 * thick.length + thick.radius
 
 
 def _divided(assembly: Assembly, found: Mapping[str, list[Mesh]], words: str) -> Assembly:
@@ -190,14 +273,14 @@ def _solids(shape: Shape, eyes: Callable[[], Eyes]) -> list[Mesh]:
     cut = []
     for mesh in found:
         bars = shape.cylinders if len(found) == 1 else _within(shape.cylinders, mesh)
-        cut += _cut(mesh, bars, eyes)
+        cut += _cut(mesh, bars, eyes, exact=shape.exact)
     return cut
 
 
-def _within(cylinders: tuple[CylinderFeature, ...], mesh: Mesh) -> tuple[CylinderFeature, ...]:
-    """The cylinders whose both ends are in a mesh's box."""
+def _within(cylinders: tuple[CylinderFeature, ...], mesh: Mesh, by: float = 0.0) -> tuple[CylinderFeature, ...]:
+    """The cylinders whose both ends are in a mesh's box, or no further from it than `by`."""
     low, high = measures.bounds(mesh)
-    slack = 1e-3 * float(np.linalg.norm(high - low))
+    slack = by + 1e-3 * float(np.linalg.norm(high - low))
     inside = []
     for one in cylinders:
         ends = np.array(one.point) + np.outer((one.lower, one.upper), one.direction)
@@ -206,12 +289,12 @@ def _within(cylinders: tuple[CylinderFeature, ...], mesh: Mesh) -> tuple[Cylinde
     return tuple(inside)
 
 
-def _cut(mesh: Mesh, bars: tuple[CylinderFeature, ...], eyes: Callable[[], Eyes]) -> list[Mesh]:
+def _cut(mesh: Mesh, bars: tuple[CylinderFeature, ...], eyes: Callable[[], Eyes], *, exact: bool) -> list[Mesh]:
     """A mesh, or two where it is a barrel with its rod: cut at the step between two bars in line that have an eye
-    beyond each of them, and closed with flat ends."""
+    beyond each of them, or are long and all that the mesh of an artist is, and closed with flat ends."""
     for thick, thin in ((a, b) for a in bars for b in bars):
-        place = _step(thick, thin, eyes)
-        if place is None:
+        place = _step(thick, thin)
+        if place is None or not ((not exact and _is_plain(mesh, thick, thin)) or _hangs(thick, thin, *place, eyes())):
             continue
         point, direction = place
         beyond = ((mesh.points - point) @ direction)[mesh.triangles].mean(axis=1) > 0.0
@@ -220,7 +303,7 @@ def _cut(mesh: Mesh, bars: tuple[CylinderFeature, ...], eyes: Callable[[], Eyes]
     return [mesh]
 
 
-def _step(thick: CylinderFeature, thin: CylinderFeature, eyes: Callable[[], Eyes]) -> tuple[Floats, Floats] | None:
+def _step(thick: CylinderFeature, thin: CylinderFeature) -> tuple[Floats, Floats] | None:
     """Where a rod comes out of its barrel, and the direction in which it does; None where two cylinders are no ram."""
     if thick.inner or thin.inner or not THIN * thick.radius < thin.radius < THICK * thick.radius:
         return None
@@ -231,13 +314,34 @@ def _step(thick: CylinderFeature, thin: CylinderFeature, eyes: Callable[[], Eyes
     ahead = float(across @ axis)
     if abs(float(axis @ np.array(thin.direction))) < 0.9999:
         return None
-    if float(np.linalg.norm(across - ahead * axis)) > 0.05 * thick.radius:
+    if float(np.linalg.norm(across - ahead * axis)) > ASIDE * thick.radius:
         return None
     axis, ahead = (axis, ahead) if ahead > 0.0 else (-axis, -ahead)
-    root, end = ahead - 0.5 * thin.length, ahead + 0.5 * thin.length
-    if not -0.1 * thick.radius < root - 0.5 * thick.length < 1.5 * thick.radius:
+    root = ahead - 0.5 * thin.length
+    if not -0.1 * thick.radius < root - 0.5 * thick.length < COLLAR * thick.radius:
         return None
-    centers, directions = eyes()
+    return start + (root + 1e-6 * thick.radius) * axis, axis
+
+
+def _is_plain(mesh: Mesh, thick: CylinderFeature, thin: CylinderFeature) -> bool:
+    """Whether a mesh is a barrel with its rod and nothing else: both long, neither end a thinner one's. Pins and shafts
+    with a step are shorter, or have steps at both ends."""
+    if thick.length < PLAIN * thick.radius or thin.length < PLAIN * thin.radius:
+        return False
+    offset = mesh.points - np.array(thick.center)
+    along = offset @ np.array(thick.direction)
+    aside = np.linalg.norm(offset - along[:, None] * np.array(thick.direction), axis=1)
+    return bool(np.ptp(along) < thick.length + thin.length + 2.0 * COLLAR * thick.radius) and bool(
+        aside.max() < 1.5 * thick.radius
+    )
+
+
+def _hangs(thick: CylinderFeature, thin: CylinderFeature, step: Floats, axis: Floats, eyes: Eyes) -> bool:
+    """Whether there is an eye across the axis at each end of a barrel and a rod, which comes out at `step`."""
+    start = np.array(thick.center)
+    root = float((step - start) @ axis)
+    end = root + thin.length
+    centers, directions = eyes
     across_it = np.abs(directions @ axis) < 0.02
     offset = centers[across_it] - start
     offset -= np.einsum("ij,ij->i", offset, directions[across_it])[:, None] * directions[across_it]
@@ -247,8 +351,7 @@ def _step(thick: CylinderFeature, thin: CylinderFeature, eyes: Callable[[], Eyes
     crossing = along[(off < thick.radius) & (aside < WIDE * thick.radius)]
     reach = 6.0 * thick.radius
     behind = any(-0.5 * thick.length - reach < a < 0.0 for a in crossing)
-    beyond = any(end - reach < a < end + reach and a > root for a in crossing)
-    return (start + (root + 1e-6 * thick.radius) * axis, axis) if behind and beyond else None
+    return behind and any(end - reach < a < end + reach and a > root for a in crossing)
 
 
 def _closed(mesh: Mesh, rows: np.ndarray[tuple[int], np.dtype[np.bool_]]) -> Mesh:
