@@ -53,7 +53,9 @@ def test_told_at_any_line(tmp_path: Path, sent: signal.Signals) -> None:
     for wanted in range(1, lines + 1, 11):
         place = tmp_path / str(wanted) / "out" / "machine"
         words = [*command, place, str(wanted), str(int(sent))]
-        ended = subprocess.run(words, env=environment, capture_output=True, text=True)
+        # Tests that run in the background would hand their deafness to Ctrl-C on.
+        ended = subprocess.run(words, env=environment, capture_output=True, text=True,
+                               preexec_fn=lambda: signal.signal(sent, signal.SIG_DFL))  # fmt: skip
         assert ended.returncode == 128 + sent, (wanted, ended.stderr)
         kept = (place / "file").is_file() and not list(place.parent.glob(".yellowiron-*"))
         assert kept or not (tmp_path / str(wanted)).exists(), wanted
