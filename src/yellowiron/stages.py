@@ -119,10 +119,10 @@ def find_roles(
 ) -> tuple[Assembly, Alignment]:
     """Roles for the parts of a CAD model, and the model whose parts they are: scaled where the sheet's overall length
     asks for it; left and right hydraulic cylinders in one mesh apart, where they were taken for one of the two; those
-    that are drawn into other meshes taken out, where bodies are missing, if that finds some; where bodies are missing,
-    or every mesh may be a whole one, taken apart, if that finds most of what is missing. `earlier`
-    is an alignment file whose edits hold, and whose parts are the model's as long as a person decides on them;
-    `decisions` go before them."""
+    that are drawn into other meshes taken out, where that finds a barrel and a rod that were missing; where bodies are
+    missing, or every mesh may be a whole one, taken apart, if that finds most of what is missing. `earlier` is an
+    alignment file whose edits hold, and whose parts are the model's as long as a person decides on them; `decisions`
+    go before them."""
 
     def found(model: Assembly) -> Alignment:
         edits = read_alignment(earlier, model, template) if earlier is not None else None
@@ -135,6 +135,7 @@ def find_roles(
         return sum(name in alignment.missing for name in bodies)
 
     def halves(alignment: Alignment) -> int:
+        """How many barrels and rods are missing."""
         return sum(role.name in alignment.missing for role in template.roles if role.kind in ("barrel", "rod"))
 
     assembly = to_scale(assembly, template, specifications)
@@ -173,7 +174,6 @@ def _known_by(parts: frozenset[str], drawn: Assembly) -> Assembly | None:
 
 def _ways(drawn: Assembly) -> Iterator[Assembly]:
     """The model as drawn, and as `find_roles` may take it apart."""
-    yield drawn
     for model in (drawn, cad.twins_apart(drawn)):
         yield model
         yield cad.rams_apart(model)

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from yellowiron.alignment.fusion import reading
 from yellowiron.alignment.fusion.bonds import Bond
 from yellowiron.alignment.fusion.played import MISSING, MORE, lost
 from yellowiron.alignment.fusion.reading import _solution, trust_in_names
@@ -69,3 +70,24 @@ def test_what_slews_turns_about_the_upright(
     stance = Stance(np.eye(3), np.zeros(3), 1.0, 1.0)
     solution = _solution(structure, {0: "undercarriage", 1: "upperstructure"}, best, stance)
     assert ("undercarriage2upperstructure_joint" in solution.hinge_of) == found
+
+
+def test_the_name_of_a_mesh_counts_less_for_its_solids_and_least_for_its_bars(
+    open_template: Template, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A cylinder that is drawn into the boom's mesh is called boom."""
+    heard: list[float] = []
+
+    def told(pieces: Any, template: Any, scores: Any, trust: list[float], *_: Any) -> list[dict[str, Any]]:
+        heard.extend(trust)
+        return [{} for _ in pieces]
+
+    monkeypatch.setattr(reading, "votes_of", told)
+    pieces: Any = [SimpleNamespace(slender=slender) for slender in (False, False, True, True)]
+    rest: Any = dict.fromkeys(("stance", "scores", "answer", "edited", "surface"))
+    evidence = reading.Evidence(
+        pieces=pieces, leading=(), bonds=(), trust=0.8, shared=frozenset({1, 3}), pins=frozenset(), **rest
+    )
+    evidence.votes(choose(open_template, {}))
+    assert heard == pytest.approx([0.8, 0.8 * reading.OF_SOLID, 0.8, 0.8 * reading.OF_BAR])
+    assert reading.OF_BAR < reading.OF_SOLID < 1.0

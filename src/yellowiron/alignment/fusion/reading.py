@@ -53,8 +53,8 @@ BELIEVED = 0.45
 TRUSTED = 0.7
 """… and from this share on, wholly."""
 OF_SOLID, OF_BAR = 0.5, 0.1
-"""What the name of a mesh counts for one of its solids, and for a bar: in twenty models of strangers three quarters of
-the solids are what their mesh is called, but only half of the bars, which may be its hydraulic cylinders."""
+"""What the name of a mesh counts for one of its solids, and for a bar: in 23 models of strangers 68 % of 2980 solids
+are what their mesh is called, but only 41 % of 234 bars, which may be its hydraulic cylinders."""
 TELLING = ("name", "said")
 GROUND = 30.0
 """By so much names (or a person) speak more for a body than for any other where they tell which it is. Contacts that

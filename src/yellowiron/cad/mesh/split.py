@@ -30,6 +30,10 @@ ASIDE, COLLAR = 0.15, 3.0
 may have a collar."""
 PLAIN = 5.0
 """What is nothing but a barrel and a rod is so many radii long, each of them."""
+FLUSH = 1.5
+"""… and nothing of it is further from its axis than so many radii of the barrel."""
+FITTED = 0.1
+"""The ends of a fitted bar are in its solid's box but for this share of its radius."""
 Eyes = tuple[Floats, Floats]
 """Centres and unit directions, (n, 3) each."""
 ALIKE = 0.02
@@ -107,61 +111,56 @@ def _rams(shape: Shape, eyes: Callable[[], Eyes]) -> list[Mesh]:
     bars = [c for c in shape.cylinders if not c.inner and c.arc > ROUND and c.length > SHORT * c.radius]
     if shape.exact or not 1 < len(bars) <= MOST_BARS:
         return []
-    number = shells.solids(shape.mesh)
-    solids = {n: measures.chosen(shape.mesh, np.flatnonzero(number == n)) for n in range(int(number.max()) + 1)}
-    large = {n: float(np.linalg.norm(np.ptp(mesh.points, axis=0))) for n, mesh in solids.items()}
-    own: dict[int, list[CylinderFeature]] = {}
-    for bar in bars:
-        around = [
-            n for n, mesh in solids.items() if large[n] > 0.99 * bar.length and _within((bar,), mesh, 0.1 * bar.radius)
-        ]
-        if around:
-            own.setdefault(min(around, key=lambda n: (large[n], n)), []).append(bar)
-    halves: dict[int, list[Mesh]] = {}
-    for n, mine in sorted(own.items()):
-        cut = _cut(solids[n], tuple(mine), eyes, exact=False)
-        if len(cut) == 2:
-            halves[n] = cut
-    sole: dict[int, CylinderFeature] = {}
-    for n, mine in sorted(own.items()):
-        if n not in halves and (only := _sole(solids[n], mine)) is not None:
-            sole[n] = only
+    solids = pieces(shape.mesh)
+    own = _bars_of(solids, bars)
+    halves = {n: cut for n, mine in own.items() if len(cut := _cut(solids[n], tuple(mine), eyes, exact=False)) == 2}
+    sole = {n: bar for n, mine in own.items() if n not in halves and (bar := _sole(solids[n], mine)) is not None}
     for a, b in itertools.permutations(sole, 2):
         if a not in halves and b not in halves and _comes_out(sole[a], sole[b]):
             halves |= {a: [solids[a]], b: [solids[b]]}
     if not halves:
         return []
-    rest = [n for n in solids if n not in halves]
-    area = {n: measures.area_properties(mesh)[0] for n, mesh in solids.items()}
     found = list(itertools.chain(*halves.values()))
-    if sum(area[n] for n in rest) < sum(area[n] for n in halves):
-        return [*(solids[n] for n in rest), *found]
-    return [measures.chosen(shape.mesh, np.flatnonzero(np.isin(number, rest))), *found]
+    area = measures.area_properties
+    if sum(area(solids[n])[0] for n in halves) > 0.5 * area(shape.mesh)[0]:
+        return [*(solid for n, solid in enumerate(solids) if n not in halves), *found]
+    rest = ~np.isin(shells.solids(shape.mesh), sorted(halves))
+    return [measures.chosen(shape.mesh, np.flatnonzero(rest)), *found]
+
+
+def _bars_of(solids: Sequence[Mesh], bars: Sequence[CylinderFeature]) -> dict[int, list[CylinderFeature]]:
+    """Solid → its bars: a bar is of the smallest solid that reaches from one of its ends to the other."""
+    size = [float(np.linalg.norm(np.ptp(mesh.points, axis=0))) for mesh in solids]
+    own: dict[int, list[CylinderFeature]] = {}
+    for bar in bars:
+        around = [n for n, mesh in enumerate(solids) if _within((bar,), mesh, FITTED * bar.radius)]
+        if around:
+            own.setdefault(min(around, key=lambda n: (size[n], n)), []).append(bar)
+    return dict(sorted(own.items()))
 
 
 def _sole(mesh: Mesh, bars: Sequence[CylinderFeature]) -> CylinderFeature | None:
     """The longest bar of a solid, if it is what the solid mainly is."""
     bar = max(bars, key=lambda c: c.length)
-    offset = mesh.points - np.array(bar.center)
-    along = offset @ np.array(bar.direction)
-    aside = np.linalg.norm(offset - along[:, None] * np.array(bar.direction), axis=1)
+    along, aside = _about(bar, mesh)
     long = bar.length > max(PLAIN * bar.radius, LONG * float(np.ptp(along)))
     return bar if long and float(aside.max()) < COLLAR * bar.radius else None
 
 
+def _about(bar: CylinderFeature, mesh: Mesh) -> tuple[Floats, Floats]:
+    """(n,) where a mesh's points are along a bar's axis, from its middle, and how far from it, in the mesh's unit."""
+    offset = mesh.points - np.array(bar.center)
+    along = offset @ np.array(bar.direction)
+    return along, np.linalg.norm(offset - along[:, None] * np.array(bar.direction), axis=1)
+
+
 def _comes_out(thick: CylinderFeature, thin: CylinderFeature) -> bool:
     """Whether a rod comes out of a barrel, each a solid: in line, thinner, its root in the barrel or at its end."""
-    if not THIN * thick.radius < thin.radius < THICK * thick.radius:
+    ahead = _ahead(thick, thin, cosine=IN_LINE, aside=2.0 * ASIDE)
+    if ahead is None:
         return False
-    axis = np.array(thick.direction)
-    across = np.array(thin.center) - np.array(thick.center)
-    ahead = float(across @ axis)
-    if abs(float(axis @ np.array(thin.direction))) < IN_LINE:
-        return False
-    if float(np.linalg.norm(across - ahead * axis)) > 2.0 * ASIDE * thick.radius:
-        return False
-    root, end = abs(ahead) - 0.5 * thin.length, abs(ahead) + 0.5 * thin.length
-    return root < 0.5 * thick.length + COLLAR * thick.radius and end > 0.5 * thick.length + thick.radius
+    end, root = 0.5 * thick.length, ahead[1]
+    return root < end + COLLAR * thick.radius and root + thin.length > end + thick.radius
 
 
 def _divided(assembly: Assembly, found: Mapping[str, list[Mesh]], words: str) -> Assembly:
@@ -305,35 +304,40 @@ def _cut(mesh: Mesh, bars: tuple[CylinderFeature, ...], eyes: Callable[[], Eyes]
 
 def _step(thick: CylinderFeature, thin: CylinderFeature) -> tuple[Floats, Floats] | None:
     """Where a rod comes out of its barrel, and the direction in which it does; None where two cylinders are no ram."""
-    if thick.inner or thin.inner or not THIN * thick.radius < thin.radius < THICK * thick.radius:
+    if thick.inner or thin.inner:
         return None
     if min(thick.arc, thin.arc) < ROUND or thick.length < SLENDER * thick.radius or thin.length < SHORT * thin.radius:
         return None
-    axis, start = np.array(thick.direction), np.array(thick.center)
-    across = np.array(thin.center) - start
+    ahead = _ahead(thick, thin, cosine=0.9999, aside=ASIDE)
+    if ahead is None or not -0.1 * thick.radius < ahead[1] - 0.5 * thick.length < COLLAR * thick.radius:
+        return None
+    axis, root = ahead
+    return np.array(thick.center) + (root + 1e-6 * thick.radius) * axis, axis
+
+
+def _ahead(
+    thick: CylinderFeature, thin: CylinderFeature, *, cosine: float, aside: float
+) -> tuple[Floats, float] | None:
+    """The direction in which a rod comes out of its barrel, and how far its root is from the barrel's middle, in the
+    features' unit; None for two whose radii are no barrel's and rod's, whose axes differ by more than an angle of this
+    `cosine`, or where the rod is further beside the barrel's axis than so many of its radii."""
+    axis, across = np.array(thick.direction), np.array(thin.center) - np.array(thick.center)
     ahead = float(across @ axis)
-    if abs(float(axis @ np.array(thin.direction))) < 0.9999:
+    if not THIN * thick.radius < thin.radius < THICK * thick.radius or abs(float(axis @ thin.direction)) < cosine:
         return None
-    if float(np.linalg.norm(across - ahead * axis)) > ASIDE * thick.radius:
+    if float(np.linalg.norm(across - ahead * axis)) > aside * thick.radius:
         return None
-    axis, ahead = (axis, ahead) if ahead > 0.0 else (-axis, -ahead)
-    root = ahead - 0.5 * thin.length
-    if not -0.1 * thick.radius < root - 0.5 * thick.length < COLLAR * thick.radius:
-        return None
-    return start + (root + 1e-6 * thick.radius) * axis, axis
+    return (axis if ahead > 0.0 else -axis), abs(ahead) - 0.5 * thin.length
 
 
 def _is_plain(mesh: Mesh, thick: CylinderFeature, thin: CylinderFeature) -> bool:
-    """Whether a mesh is a barrel with its rod and nothing else: both long, neither end a thinner one's. Pins and shafts
-    with a step are shorter, or have steps at both ends."""
+    """Whether a mesh is a barrel with its rod and nothing else: both long, no third bar beyond either end. Pins and
+    shafts with a step are shorter, or have steps at both ends."""
     if thick.length < PLAIN * thick.radius or thin.length < PLAIN * thin.radius:
         return False
-    offset = mesh.points - np.array(thick.center)
-    along = offset @ np.array(thick.direction)
-    aside = np.linalg.norm(offset - along[:, None] * np.array(thick.direction), axis=1)
-    return bool(np.ptp(along) < thick.length + thin.length + 2.0 * COLLAR * thick.radius) and bool(
-        aside.max() < 1.5 * thick.radius
-    )
+    along, aside = _about(thick, mesh)
+    most = thick.length + thin.length + 2.0 * COLLAR * thick.radius
+    return bool(np.ptp(along) < most and aside.max() < FLUSH * thick.radius)
 
 
 def _hangs(thick: CylinderFeature, thin: CylinderFeature, step: Floats, axis: Floats, eyes: Eyes) -> bool:
