@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import sys
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 
+import strangers_models
 from kit.machines.damages import EXTRA, base, damaged
 from kit.machines.mixed import one_mesh
 from kit.machines.synthetic import Machine
@@ -21,10 +20,6 @@ from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.geometry import Mesh, Shape
 from yellowiron.model.mechanism import Mechanism
 from yellowiron.model.specification import Specifications
-
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "benchmarks"))
-
-import strangers_models
 
 LOADER = load_template("wheel_loader")
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import collections
 import importlib
-import sys
 from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
@@ -32,9 +31,7 @@ EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 
 
 def module(machine: str, name: str) -> ModuleType:
-    """A module of an example's package, which is imported from the examples' folder."""
-    if str(EXAMPLES) not in sys.path:
-        sys.path.insert(0, str(EXAMPLES))
+    """A module of an example's package."""
     return importlib.import_module(f"{machine}.{name}")
 
 

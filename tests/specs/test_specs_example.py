@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import importlib.util
+import importlib
 import math
 import re
 import statistics
@@ -96,14 +96,9 @@ def sheet(request: pytest.FixtureRequest) -> Path:
 
 
 @pytest.fixture(scope="module")
-def printed(sheet: Path) -> ModuleType:
+def printed() -> ModuleType:
     """The example's values.py."""
-    spec = importlib.util.spec_from_file_location("wheel_loader_values", sheet.parent / "values.py")
-    assert spec is not None and spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[spec.name] = module
-    spec.loader.exec_module(module)
-    return module
+    return importlib.import_module("wheel_loader.values")
 
 
 @pytest.fixture(scope="module")

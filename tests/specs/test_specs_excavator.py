@@ -3,7 +3,7 @@ configurations; every value is read back, and what the sheet does not print is m
 
 from __future__ import annotations
 
-import importlib.util
+import importlib
 import subprocess
 import sys
 from dataclasses import replace
@@ -101,14 +101,9 @@ def sheet(root: Path) -> Path:
 
 
 @pytest.fixture(scope="module")
-def printed(sheet: Path) -> ModuleType:
+def printed() -> ModuleType:
     """The example's values.py."""
-    spec = importlib.util.spec_from_file_location("excavator_values", sheet.parent / "values.py")
-    assert spec is not None and spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[spec.name] = module
-    spec.loader.exec_module(module)
-    return module
+    return importlib.import_module("excavator.values")
 
 
 @pytest.fixture(scope="module")

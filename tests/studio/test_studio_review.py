@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import random
-import sys
 import threading
 import time
 from collections.abc import Iterator
@@ -13,6 +12,8 @@ from typing import Any
 
 import pytest
 
+import strangers_models as strangers
+from kit.scoring import true_bodies
 from yellowiron.studio import Session, Setup
 
 pytest.importorskip("starlette", reason="the extra 'studio' is not installed")
@@ -25,13 +26,9 @@ UNDONE = 20
 
 @pytest.fixture(params=["with", "without"])
 def review(
-    request: pytest.FixtureRequest, root: Path, shared_data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    request: pytest.FixtureRequest, shared_data: Path, tmp_path: Path
 ) -> Iterator[tuple[Session, dict[str, tuple[str, ...]], dict[str, str]]]:
     """A session of the machine, with names or without; part → bodies that it may be of; what was decided before."""
-    monkeypatch.setattr(sys, "path", [str(root / "benchmarks"), *sys.path])
-    import strangers_models as strangers
-    from kit.scoring import true_bodies
-
     model = next(m for m in strangers.models([shared_data]) if m.name == "zx120")
     scene = strangers.scene_of(model, names=request.param)
     assert model.cad is not None
