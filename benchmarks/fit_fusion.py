@@ -37,7 +37,8 @@ from kit.machines.damages import DAMAGES  # noqa: E402
 from kit.scene import Scene, scene  # noqa: E402
 from yellowiron.alignment import pipeline  # noqa: E402
 from yellowiron.alignment.fusion import reading  # noqa: E402
-from yellowiron.alignment.fusion.judge import field_of, labelled, score_of  # noqa: E402
+from yellowiron.alignment.fusion.annealing import labelled  # noqa: E402
+from yellowiron.alignment.fusion.judge import field_of, score_of  # noqa: E402
 from yellowiron.alignment.fusion.weights import weights  # noqa: E402
 from yellowiron.library import load_template  # noqa: E402
 from yellowiron.model.errors import YellowironError  # noqa: E402

@@ -1,6 +1,6 @@
 """Where the bodies of a type usually are, and how large: `usual.json` of its template, from the machines we can draw.
 
-    python benchmarks/fit_usual.py [--first SEED] [--count N] [--only KIND]
+    python benchmarks/fit_usual.py [--first SEED] [--count N] [--only TYPE]
 
 From the repository's root. For every body: the box that the middle 90 % of its surface takes (forward, left, up, in
 machine sizes, as `alignment.fusion.stance` finds the frame), over all machines; its length and its share of the surface
@@ -22,10 +22,12 @@ sys.path[:0] = [str(ROOT / "src"), str(ROOT / "tests")]
 from kit.machines.defects import drawn  # noqa: E402
 from kit.machines.synthetic import disguise  # noqa: E402
 from yellowiron.alignment.features.solids import size_of, solids_of  # noqa: E402
-from yellowiron.alignment.fusion.stance import stance_of, surface_points  # noqa: E402
+from yellowiron.alignment.features.wheels import wheels_of  # noqa: E402
+from yellowiron.alignment.fusion.stance import on_wheels, stance_of, surface_points  # noqa: E402
 from yellowiron.library import load_template  # noqa: E402
 
-TYPES = {"loader": "wheel_loader", "excavator": "excavator", "skid_steer": "skid_steer"}
+TYPES = {"wheel_loader": ("loader",), "excavator": ("excavator", "mini"), "skid_steer": ("skid_steer",)}
+"""Type → kinds of machines that we draw of it; a body is measured on the first kind that has it."""
 KEPT = 0.05
 """This share of a body's surface is left out at either end of its box."""
 
@@ -36,7 +38,8 @@ def seen(kind: str, seed: int) -> dict[str, tuple[np.ndarray, float, float]]:
     assembly, truth, back = disguise(machine, seed, rotate=False)
     solids = solids_of(assembly)
     size = size_of(solids)
-    stance = stance_of(solids, size)
+    wheels = wheels_of(solids, len([b for _, b in truth.values() if "wheel" in (b or "")]), set(), 1e-3 * size)
+    stance = on_wheels(stance_of(solids, size), wheels)
     if np.abs(stance.rotation @ back[:3, :3].T - np.eye(3)).max() > 0.3:
         return {}
     groups: dict[str, list] = {}
@@ -56,15 +59,18 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--count", type=int, default=40)
-    parser.add_argument("--only", choices=sorted(TYPES), help="a kind of machine; without it all of them")
+    parser.add_argument("--only", choices=sorted(TYPES), help="a type; without it all of them")
     given = parser.parse_args()
-    for kind, name in TYPES.items():
-        if given.only not in (None, kind):
+    for name, kinds in TYPES.items():
+        if given.only not in (None, name):
             continue
         bodies: dict[str, list] = {}
-        for seed in range(given.first, given.first + given.count):
-            for body, what in seen(kind, seed).items():
-                bodies.setdefault(body, []).append(what)
+        for kind in kinds:
+            own: dict[str, list] = {}
+            for seed in range(given.first, given.first + given.count):
+                for body, what in seen(kind, seed).items():
+                    own.setdefault(body, []).append(what)
+            bodies = own | bodies
         table = {}
         known = {r.name for r in load_template(name).roles if r.rigid and not r.many}
         for body, whats in sorted(b for b in bodies.items() if b[0] in known):

@@ -17,8 +17,9 @@ from kit.scene import scene
 from yellowiron.alignment import align
 from yellowiron.alignment.assignment.answer import Answer
 from yellowiron.alignment.features.solids import size_of, solids_of
+from yellowiron.alignment.fusion.annealing import Annealing, against, labelled, leads
 from yellowiron.alignment.fusion.bonds import ENOUGH, Bond, _together, out_of_line
-from yellowiron.alignment.fusion.judge import Annealing, against, field_of, labelled, leads, score_of
+from yellowiron.alignment.fusion.judge import field_of, score_of
 from yellowiron.alignment.fusion.pieces import Piece, leading
 from yellowiron.alignment.fusion.reading import CONTRARY
 from yellowiron.alignment.fusion.stance import Stance, stance_of
@@ -93,10 +94,14 @@ def test_conditionals_are_differences_of_the_score(excavator: Template, seed: in
     field = field_of(votes, bonds, template, weights())
     labels = rng.choice(len(field.bodies), size=6)
     labels = np.array([n if field.bodies[n] in bodies else len(field.bodies) for n in labels], dtype=np.int64)
-    state = Annealing(field, labels)
+    others = rng.permuted(labels)
+    state = Annealing(field, np.array([others, labels]))
     piece = int(rng.integers(6))
-    found = state.conditional(piece)
-    state.put(piece, int(labels[piece]))
+    for p in rng.permutation(6).tolist():  # what comes and goes is counted right
+        state.conditional(p)
+        state.put(p, state.labels[:, p])
+    found = state.conditional(piece)[1]
+    state.put(piece, state.labels[:, piece])
     for one in range(len(field.bodies) + 1):
         if field.unary[piece, one] < -1e5:
             continue

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from yellowiron.alignment.features.solids import Cyl, Solid, coaxial, size_of
 from yellowiron.alignment.tolerances import SAME_DIRECTION
 from yellowiron.model.geometry import Floats
+from yellowiron.support.vectors import unit
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,6 +26,14 @@ class Wheel:
 
 LEAST = 0.025
 """The least radius of a wheel, in sizes of the whole."""
+CENTRED = 0.2
+"""The middle of a rim or a tyre is this near to the wheel's axis, in radii of its ring, …"""
+SQUARE = 0.1
+"""… and its height and length differ by no more than this share."""
+TREAD = 2.2
+"""A tyre is no more than so much larger than the ring of its rim."""
+WIDER = 1.3
+"""What is of a wheel is no more than so much wider than its ring."""
 
 
 def wheels_of(solids: tuple[Solid, ...], count: int, taken: set[int], tolerance: float) -> list[Wheel]:
@@ -62,18 +71,33 @@ def _same_place(wheel: Wheel, axis: Cyl, centre: Floats) -> bool:
 
 
 def _with_coaxial_parts(wheel: Wheel, solids: tuple[Solid, ...], taken: set[int], tolerance: float) -> Wheel:
-    """Everything round about the wheel's axis that is mostly between its sides."""
+    """Everything round about the wheel's axis that is mostly between its sides; and what is about it, as high as it is
+    long, and wholly between them: rims of spokes, hubs with their bolts, a tyre whose tread is not round."""
     axis = solids[wheel.tyre].axis
     assert axis is not None
     members = set(wheel.members)
-    half = 0.5 * wheel.width
+    half, radius = 0.5 * wheel.width, wheel.radius
     for s in solids:
-        if s.axis is None or s.index in taken or s.index in members or s.reach > 1.01 * wheel.radius:
-            continue
-        if not coaxial(s.axis, axis, 0.05, tolerance):
+        if s.index in taken or s.index in members:
             continue
         low, high = s.span(wheel.center, wheel.direction)
-        inside = min(high, 1.15 * half) - max(low, -1.15 * half)
-        if inside > 0.5 * (high - low):
+        if s.axis is not None and s.reach <= 1.01 * wheel.radius and coaxial(s.axis, axis, 0.05, tolerance):
+            if min(high, 1.15 * half) - max(low, -1.15 * half) > 0.5 * (high - low):
+                members.add(s.index)
+        elif max(high, -low) <= WIDER * half and (reach := _reach_about(wheel, s)) is not None:
             members.add(s.index)
-    return Wheel(frozenset(members), wheel.tyre, wheel.center, wheel.direction, wheel.radius, wheel.width)
+            radius = max(radius, reach)
+    return replace(wheel, members=frozenset(members), radius=radius)
+
+
+def _reach_about(wheel: Wheel, solid: Solid) -> float | None:
+    """How far a solid reaches from a wheel's axis, metres; None where it is not about it, or farther than a tyre."""
+    delta = solid.points - wheel.center
+    across = delta - np.outer(delta @ wheel.direction, wheel.direction)
+    first = unit(np.cross(wheel.direction, np.eye(3)[int(np.argmin(np.abs(wheel.direction)))]))
+    flat = across @ np.array([first, np.cross(wheel.direction, first)]).T
+    low, high = flat.min(axis=0), flat.max(axis=0)
+    about = np.abs(0.5 * (low + high)).max() < CENTRED * wheel.radius
+    square = np.ptp(high - low) < SQUARE * (high - low).max()
+    reach = float(np.linalg.norm(flat, axis=1).max())
+    return reach if about and square and reach < TREAD * wheel.radius else None

@@ -15,11 +15,12 @@ from yellowiron.alignment.assignment.cp_sat import MISSING_WEIGHT, Solution
 from yellowiron.alignment.assignment.directions import ALIKE, NOT_ACROSS, linkages_of
 from yellowiron.alignment.assignment.weights import twin_role
 from yellowiron.alignment.features.solids import size_of
+from yellowiron.alignment.fusion.annealing import CHAINS, SWEEPS, against, labelled, leads
 from yellowiron.alignment.fusion.bonds import Bond, bonds_of, out_of_line
-from yellowiron.alignment.fusion.judge import SWEEPS, Field, against, field_of, labelled, leads, score_of, weighed
+from yellowiron.alignment.fusion.judge import Field, field_of, score_of, weighed
 from yellowiron.alignment.fusion.pieces import Piece, leading, pieces_of
 from yellowiron.alignment.fusion.played import drawn_bodies, lost, missing_bodies
-from yellowiron.alignment.fusion.stance import Stance, stance_of
+from yellowiron.alignment.fusion.stance import WHEELS, Stance, on_wheels, stance_of
 from yellowiron.alignment.fusion.votes import (
     BARS,
     CLEARLY,
@@ -36,10 +37,10 @@ from yellowiron.alignment.structure.observation import Observation, slewing_join
 from yellowiron.model.geometry import Floats
 from yellowiron.model.template import JointTemplate, Template, as_drawn, choose
 
-GLANCE, LIKELY = SWEEPS // 2, 4
-"""So many sweeps tell which variants are the likeliest, and so many of these are judged with all."""
-TRIES = 4
-"""One annealing in three ends beside the best labelling."""
+GLANCE, FEW, LIKELY = SWEEPS // 2, 4, 4
+"""So many sweeps of few chains tell which variants are the likeliest, and so many of these are judged with all."""
+MANY = 32
+"""So many chains settle the variant that was chosen."""
 PARTS = (1, 2)
 """What begins so many joints from the root may be all that is drawn …"""
 PART = 60.0
@@ -144,7 +145,7 @@ def evidence_of(
     """Everything that is known before anything is judged; the arguments are those of `fused`."""
     directions = [np.asarray(axis.direction) for axis in observation.evidence[0].axes] if observation.evidence else []
     drawn = (*observation.solids, *observation.rows)
-    stance = stance_of(drawn, size_of(drawn), directions)
+    stance = on_wheels(stance_of(drawn, size_of(drawn), directions), observation.wheels)
     pieces = pieces_of(observation, frozenset(i for i, said in enumerate(scores) if said) | frozenset(edited))
     bonds = tuple(bonds_of(observation, pieces, answer.structure, stance))
     parts = [[observation.solids[i].part for i in sorted(piece.members)] for piece in pieces]
@@ -179,12 +180,12 @@ def fused(
     found_so_far: dict[tuple[Evidence, int], _Best] = {}
 
     def tried(
-        chosen: dict[str, str], resolved: Template, evidence: Evidence, sweeps: int = SWEEPS, tries: int = 1
+        chosen: dict[str, str], resolved: Template, evidence: Evidence, sweeps: int = SWEEPS, chains: int = CHAINS
     ) -> _Best:
         last = found_so_far.get((evidence, id(resolved)))
         votes = last.votes if last is not None else evidence.votes(resolved)
         field = last.field if last is not None else _field(evidence, votes, resolved)
-        labels, score = labelled(field, sweeps=sweeps, tries=tries)
+        labels, score = labelled(field, sweeps=sweeps, chains=chains)
         played = _drawn(evidence, field.bodies, labels, resolved)
         score -= lost(resolved, played)
         found = _Best(score, chosen, resolved, field, labels, votes)
@@ -193,23 +194,25 @@ def fused(
         return found_so_far[evidence, id(resolved)]
 
     machines = [(chosen, choose(template, chosen)) for chosen in variants]
-    # Which end is the front is a guess so far, and whether all of a machine is drawn; what has tracks has a root.
+    # Which end is the front is a guess so far, and whether all of a machine is drawn; what has tracks, or wheels to
+    # stand on, has a root.
+    stands = bool(observation.rows) or len(observation.wheels) >= WHEELS
     ways = [
         part
         for way in (evidence.stance, evidence.stance.turned())
-        for part in (way, *(() if observation.rows else _as_parts(way, evidence, template)))
+        for part in (way, *(() if stands else _as_parts(way, evidence, template)))
     ]
     seen = [replace(evidence, stance=way) for way in ways]
-    evidence = max(seen, key=lambda e: tried(*machines[0], e, GLANCE).score - PART * (e.stance.drawn < 1.0))
-    glanced = sorted((tried(*machine, evidence, GLANCE) for machine in machines), key=lambda b: -b.score)
+    evidence = max(seen, key=lambda e: tried(*machines[0], e, GLANCE, FEW).score - PART * (e.stance.drawn < 1.0))
+    glanced = sorted((tried(*machine, evidence, GLANCE, FEW) for machine in machines), key=lambda b: -b.score)
     likely = [tried(b.choices, b.template, evidence) for b in glanced[:LIKELY]]
     bare = [(b, as_drawn(b.template, b.played)) for b in likely]
     likely += [tried(b.choices, drawn, evidence) for b, drawn in bare if drawn is not b.template]
     best = max(likely, key=lambda b: b.score)
-    best = tried(best.choices, best.template, evidence, tries=TRIES)
+    best = tried(best.choices, best.template, evidence, chains=MANY)
     if more := _between_found(best, evidence):
         wider = replace(evidence, leading=tuple(sorted({*evidence.leading, *more})))
-        found = tried(best.choices, best.template, wider, tries=TRIES)
+        found = tried(best.choices, best.template, wider, chains=MANY)
         evidence, best = (wider, found) if found.score > best.score else (evidence, best)
     contacts = max(_score_of_contacts(answer, replace(evidence, stance=way)) for way in ways)
     pieces, trust = evidence.pieces, evidence.trust
@@ -349,7 +352,7 @@ def _judged(best: _Best, evidence: Evidence) -> dict[int, Judged]:
     field = field_of(votes, bonds, best.template, weights(), out_of_line(pieces))
     field = replace(field, exact=np.zeros_like(field.exact), played=np.zeros_like(field.played))
     start = np.array([label_of.get(k, none) for k in range(len(pieces))], dtype=np.int64)
-    labels, _ = labelled(field, start, sweeps=0)
+    labels, _ = labelled(field, start, sweeps=0, chains=1)
     lead, second = leads(best.field, best.labels)
     lead_all, second_all = leads(field, labels)
     contrary = against(best.field, best.labels, _told([best.votes[k] for k in chief], bodies))

@@ -13,6 +13,7 @@ import numpy as np
 from scipy.spatial import ConvexHull, cKDTree
 
 from yellowiron.alignment.features.solids import Solid
+from yellowiron.alignment.features.wheels import Wheel
 from yellowiron.alignment.tolerances import SAME_DIRECTION
 from yellowiron.model.geometry import Floats
 from yellowiron.support.vectors import unit
@@ -32,6 +33,10 @@ ROUNDS = 8
 """So often a guess of the plane of symmetry is mended."""
 CELL = 0.02
 """The ground is divided into cells of this share of the machine's size."""
+OUTER = 0.6
+"""What a machine stands on is farther than this share of its stand's half width from the middle."""
+WHEELS = 4
+"""So many wheels tell where a machine stands."""
 UPRIGHT = 2.0
 """How much more the file's z or y is believed to be up than another direction that is as good a stand."""
 LEVELS = (0.0, 0.03, 0.06, 0.09, 0.12, 0.15, 0.18)
@@ -96,8 +101,28 @@ def stance_of(solids: Sequence[Solid], size: float, hinges: Sequence[Floats] = (
     stands = [_stand(points, left, up, size, h) for h in LEVELS]
     level = next(h for h, stand in zip(LEVELS, stands, strict=True) if stand >= HALF * max(stands))
     standing = points[np.abs(points @ up - (points @ up).min() - level * size) < SOLE * size]
+    # A bucket may be as low: tracks are farther out than it is.
+    aside = np.abs(standing @ left - 0.5 * ((standing @ left).min() + (standing @ left).max()))
+    standing = standing[aside > OUTER * aside.max()]
     middle = 0.5 * (standing.min(axis=0) + standing.max(axis=0))
     return Stance(np.array([forward, left, up]), middle, size, likeness)
+
+
+def on_wheels(stance: Stance, wheels: Sequence[Wheel]) -> Stance:
+    """The same with its origin in the middle of four wheels or more, on the ground that they stand on: a bucket on the
+    ground stands there too, but not always. As it was where fewer were found, or they do not stand on one plane."""
+    if len(wheels) < WHEELS or min(abs(float(w.direction @ stance.left)) for w in wheels) < SAME_DIRECTION:
+        return stance
+    forward, left, up = stance.rotation
+    soles = np.array([w.center - w.radius * up for w in wheels])
+    radii = np.array([w.radius for w in wheels])
+    heights = soles @ up
+    if np.ptp(heights) > 2.0 * SOLE * stance.size:
+        return stance
+    run, across = soles @ forward, soles @ left
+    ahead = 0.5 * ((run - radii).min() + (run + radii).max())
+    middle = ahead * forward + 0.5 * (across.min() + across.max()) * left + float(heights.mean()) * up
+    return replace(stance, origin=middle)
 
 
 def surface_points(solids: Sequence[Solid], count: int = POINTS) -> Floats:

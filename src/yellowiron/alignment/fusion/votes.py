@@ -30,7 +30,7 @@ MOST = 7.0
 """Nor so many nats of a piece: strangers draw machines as we did not."""
 NINETY = 3.29
 """A box of 90 % is so many standard deviations wide."""
-PLACE, LENGTH, AREA = np.array([0.05, 0.05, 0.03]), 0.35, 0.8
+PLACE, LENGTH, AREA = np.array([0.12, 0.05, 0.06]), 0.35, 0.8
 """Deviations beyond those of the machines that were measured: forward, left and up in machine sizes; of the logarithms
 of length and area."""
 FURTHER = np.array([0.03, 0.01, 0.03])
@@ -74,9 +74,17 @@ def votes_of(
             if meant and meant <= set(BARS) and kind not in BARS and not told:
                 # Its names speak of hydraulic cylinders alone, if not of which.
                 shape = {**shape, "unlike": max(worth * max(said.values()), shape.get("unlike", 0.0))}
-            contact = max((solved[i].get(body, 0.0) for i in piece.members if i in solved), default=0.0)
-            # All of a cluster is one guess of the contacts, and counts once.
-            contact *= piece.area / areas.get(body, piece.area)
+            # Contacts see two sides, but not which is the left: where a piece lies, and its names, tell that. All of a
+            # cluster is one guess of theirs, and counts once.
+            contact = max(
+                (
+                    solved[i][side] * piece.area / areas[side]
+                    for i in piece.members & solved.keys()
+                    for side in (body, twin_role(body))
+                    if side in solved[i]
+                ),
+                default=0.0,
+            )
             found = {"name": worth * name, "contacts": contact, "said": float(body in told), **shape}
             if body in template.usual:
                 depth = apart.get((template.root, body), 0)
