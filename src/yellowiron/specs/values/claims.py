@@ -113,8 +113,8 @@ def _metric_readings(bare: Quantity, imperial: Quantity) -> list[Quantity]:
 
 
 def _with_units(claims: Sequence[Claim]) -> list[Claim]:
-    """A number without a unit beside its imperial counterpart ("3,595 | 11'10\"") has the metric unit in which the two
-    agree; where they agree in none, the imperial one is in doubt."""
+    """A number without a unit beside its imperial counterpart ("3,595 | 11'10\""; in one cell "3,595 (11'10\")") has the
+    metric unit in which the two agree; where they agree in none, the imperial one is in doubt."""
     found = list(claims)
     for index, claim in enumerate(claims):
         if claim.quantity.printed is None or claim.quantity.printed.system != "imperial" or claim.partner is not None:
@@ -125,7 +125,7 @@ def _with_units(claims: Sequence[Claim]) -> list[Claim]:
             if claims[i].statement.row == claim.statement.row and claims[i].words == claim.words
         ]
         others = [i for i in row if i != index]
-        bare = [i for i in others if not claims[i].quantity.unit and claims[i].statement is not claim.statement]
+        bare = [i for i in others if not claims[i].quantity.unit and _are_apart(claims[i], claim)]
         if len(bare) != 1 or len(others) != 1:
             continue
         quantity = claims[bare[0]].quantity
@@ -136,6 +136,12 @@ def _with_units(claims: Sequence[Claim]) -> list[Claim]:
             why = f"the sheet prints '{quantity.text}' beside '{claim.quantity.text}', and not in which unit"
             found[index] = replace(claim, doubt=claim.doubt or why)
     return found
+
+
+def _are_apart(bare: Claim, claim: Claim) -> bool:
+    """Whether two numbers stand in two cells, or the second one of a cell in brackets right behind the first."""
+    between = bare.statement.text[bare.quantity.end : claim.quantity.start]
+    return bare.statement is not claim.statement or between.strip() in ("(", "[", "（")
 
 
 def configured(claims: Sequence[Claim], config: str) -> list[Claim]:
