@@ -77,18 +77,20 @@ BARE_UNITS = {
 
 
 def _in_one_unit(claims: Sequence[Claim]) -> list[Claim]:
-    """Two numbers of one cell under an imperial unit ("858 33.8" under "in"): the first is metric, in the unit in which
-    the two agree; where they agree in none, both are in doubt."""
+    """Two numbers of one cell under an imperial unit ("858 33.8" under "in"), or the second with one in brackets
+    ("3,275 (10'9\")"): the first is metric, in the unit in which the two agree; where they agree in none, both are in
+    doubt."""
     found: list[Claim | None] = list(claims)
     for index, (first, second) in enumerate(pairwise(claims)):
         printed = second.quantity.printed
-        if first.statement is not second.statement or not first.statement.unit or first.words != second.words:
+        if first.statement is not second.statement or first.words != second.words:
             continue
         alone = sum(c.statement is first.statement for c in claims[max(0, index - 2) : index + 4]) == 2
         if not alone or printed is None or printed.system != "imperial" or first.partner or second.partner:
             continue
         text = spelled_out(first.statement.text, first.statement.unit)[0]
-        if text[first.quantity.end : second.quantity.start].strip(" ("):
+        between = text[first.quantity.end : second.quantity.start].strip()
+        if between not in ("", "(") or not (first.statement.unit or between):
             continue
         own = first.quantity.printed
         metric = _metric_readings(first.quantity, second.quantity)
@@ -113,8 +115,8 @@ def _metric_readings(bare: Quantity, imperial: Quantity) -> list[Quantity]:
 
 
 def _with_units(claims: Sequence[Claim]) -> list[Claim]:
-    """A number without a unit beside its imperial counterpart ("3,595 | 11'10\""; in one cell "3,595 (11'10\")") has the
-    metric unit in which the two agree; where they agree in none, the imperial one is in doubt."""
+    """A number without a unit beside its imperial counterpart ("3,595 | 11'10\"") has the metric unit in which the two
+    agree; where they agree in none, the imperial one is in doubt."""
     found = list(claims)
     for index, claim in enumerate(claims):
         if claim.quantity.printed is None or claim.quantity.printed.system != "imperial" or claim.partner is not None:
@@ -125,7 +127,7 @@ def _with_units(claims: Sequence[Claim]) -> list[Claim]:
             if claims[i].statement.row == claim.statement.row and claims[i].words == claim.words
         ]
         others = [i for i in row if i != index]
-        bare = [i for i in others if not claims[i].quantity.unit and _are_apart(claims[i], claim)]
+        bare = [i for i in others if not claims[i].quantity.unit and claims[i].statement is not claim.statement]
         if len(bare) != 1 or len(others) != 1:
             continue
         quantity = claims[bare[0]].quantity
@@ -136,12 +138,6 @@ def _with_units(claims: Sequence[Claim]) -> list[Claim]:
             why = f"the sheet prints '{quantity.text}' beside '{claim.quantity.text}', and not in which unit"
             found[index] = replace(claim, doubt=claim.doubt or why)
     return found
-
-
-def _are_apart(bare: Claim, claim: Claim) -> bool:
-    """Whether two numbers stand in two cells, or the second one of a cell in brackets right behind the first."""
-    between = bare.statement.text[bare.quantity.end : claim.quantity.start]
-    return bare.statement is not claim.statement or between.strip() in ("(", "[", "（")
 
 
 def configured(claims: Sequence[Claim], config: str) -> list[Claim]:
