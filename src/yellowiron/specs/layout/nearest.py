@@ -29,8 +29,8 @@ from yellowiron.specs.layout.statement import (
 from yellowiron.specs.pages.strokes import Box
 from yellowiron.specs.pages.words import Page
 
-Side = Literal["left", "above", "below"]
-"""Where a label stands, seen from its value."""
+Side = Literal["left", "above", "below", "cell"]
+"""Where a label stands, seen from its value; `cell`: where the layout's rules say."""
 _CLOSE = 1.3
 """A label stands over or under its value within this times the type size; so do the lines of one label."""
 _MOST_LINES = {"above": 3, "below": 2}

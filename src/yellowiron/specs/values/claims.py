@@ -48,18 +48,26 @@ def claims_of(statements: Sequence[Statement], style: DecimalStyle) -> list[Clai
     return [*joined, *(force for claim in joined if (force := _as_force(claim)))]
 
 
-_FORCES = {"kg": "kgf", "lb": "lbf"}
+_FORCES = {"kilogram": "kgf", "pound": "lbf", "kilonewton*meter": "kN"}
+"""Units that sheets print for a force, and the force that is meant."""
 _PULLS = {"force", "pull"}
 
 
 def _as_force(claim: Claim) -> Claim | None:
-    """A mass that a label calls a force or a pull, as the force that its weight is: "Line pull: 5,860 kg"."""
+    """A mass that a label calls a force or a pull, as the force that its weight is ("Line pull: 5,860 kg"); a torque, as
+    the force whose unit is meant ("Breakout force: 247 kNm"), for a person to look at."""
     words = {t for text in (claim.words, claim.head, *claim.statement.context[-1:]) for t in tokens(text)}
-    if claim.quantity.dimension != "mass" or not _PULLS & words:
+    own = _force(claim.quantity)
+    if own is None or not _PULLS & words:
         return None
-    own, other = (q and replace(q, unit=_FORCES.get(q.unit.rstrip("s.").casefold(), ""))
-                  for q in (claim.quantity, claim.partner))  # fmt: skip
-    return replace(claim, quantity=own, partner=other) if own and own.unit else None
+    slip = claim.quantity.dimension == "torque"
+    doubt = f"the sheet prints '{claim.quantity.unit}' for a force" if slip else claim.doubt
+    return replace(claim, quantity=own, partner=claim.partner and _force(claim.partner), doubt=doubt)
+
+
+def _force(quantity: Quantity) -> Quantity | None:
+    unit = _FORCES.get(quantity.printed.name) if quantity.printed else None
+    return replace(quantity, unit=unit) if unit else None
 
 
 BARE_UNITS = {

@@ -25,7 +25,12 @@ from yellowiron.specs.values.tolerances import DOUBTFUL, SURE
 from yellowiron.support.units import SI_UNIT
 
 _UNITS = {**BARE_UNITS, "angle": ("°",), "time": ("s",)}
-_SIDES: tuple[Side, ...] = ("left", "above", "below")
+_SIDES: tuple[Side, ...] = ("left", "above", "below", "cell")
+_SAID_BY_UNIT = {
+    "angular_speed": "speed", "flow": "flow", "force": "force", "length": "length", "mass": "weight", "power": "power",
+    "pressure": "pressure", "speed": "speed", "time": "time",
+}  # fmt: skip
+"""What a unit says of its number, though the label leaves it out: "Dipper 880 mm" is a length."""
 _NEARBY = 0.4
 """Confidence of a value that only the nearest words name: less than of a doubtful one whose layout was understood."""
 
@@ -47,7 +52,7 @@ def second_reading(
     if not any(own for own, _ in near):
         return dict(values)
     asked = {w.name: w for w in wanted if w.in_label_of is None}
-    taken = [seen for value in values.values() if value.status != "missing" for seen in _seen(value)]
+    taken = [(seen, value) for one in values.values() if one.status != "missing" for seen, value in _seen(one)]
     found = dict(values)
     readings, chosen = _undisputed(list(asked.values()), near, config)
     for name, one in readings["left"].items():
@@ -55,14 +60,16 @@ def second_reading(
         if values[name].status == "ok" and quantity.unit_printed and _differs(values[name], quantity):
             found[name] = _doubted(values[name], one, quantity, sheets)
     for reading in sorted(readings.values(), key=len, reverse=True):  # stable: left before above before below
+        listed = reading is readings["cell"]  # a cell may list the values of several names
         for name, one in reading.items():
-            evidence = evidence_of(one, sheets)
+            evidence, own = evidence_of(one, sheets), _value(one)
             settles = reading is readings["left"] and name in chosen and _is_offered(values[name], one)
             if found[name].status == "conflict" and settles:
                 found[name] = _to_review(asked[name], one, settled(asked[name], one.claim)[0], sheets)
-            if found[name].status == "missing" and not any(_is_there(evidence, seen) for seen in taken):
+            used = any(_is_there(evidence, seen) and not (listed and value != own) for seen, value in taken)
+            if found[name].status == "missing" and not used:
                 found[name] = _to_review(asked[name], one, settled(asked[name], one.claim)[0], sheets)
-                taken.append(evidence)
+                taken.append((evidence, own))
     return found
 
 
@@ -77,7 +84,7 @@ def _undisputed(
         claim
         for own, style in near
         for side in _SIDES
-        for claim in _in_any_unit(claims_of([n.statement for n in own if n.side == side], style))
+        for claim in _filled_in(claims_of([n.statement for n in own if n.side == side], style), side)
     ]
     found: dict[Side, dict[str, Match]] = {side: {} for side in _SIDES}
     chosen: set[str] = set()
@@ -110,12 +117,14 @@ def _is_sure(found: Match) -> bool:
     return found.score >= SURE and not found.rest and not found.claim.doubt and usual(found.wanted, _value(found))
 
 
-def _in_any_unit(claims: Sequence[Claim]) -> list[Claim]:
-    """The claims, those of bare numbers in every unit that a sheet may leave unsaid: what is usual tells them apart."""
+def _filled_in(claims: Sequence[Claim], side: Side) -> list[Claim]:
+    """The claims, those of bare numbers in every unit that a sheet may leave unsaid: what is usual tells them apart;
+    those of the layout's cells with what their unit says."""
     found: list[Claim] = []
     for claim in claims:
-        found.append(claim)
-        if not claim.quantity.unit and not claim.quantity.sign:
+        unsaid = _SAID_BY_UNIT.get(claim.quantity.dimension) if side == "cell" else None
+        found.append(replace(claim, words=f"{claim.words} {unsaid}") if unsaid else claim)
+        if not claim.quantity.unit and not claim.quantity.sign and (side != "cell" or claim.quantity.value >= 10.0):
             units = [unit for group in _UNITS.values() for unit in group]
             found += [replace(claim, quantity=replace(claim.quantity, unit=unit)) for unit in units]
     return found
@@ -146,8 +155,8 @@ def _inside(box: Box, outer: Box) -> bool:
     return outer[0] <= x <= outer[2] and outer[1] <= y <= outer[3]
 
 
-def _seen(value: Specification) -> list[Evidence]:
-    return [one for one in (value.evidence, *(c.evidence for c in value.candidates)) if one is not None]
+def _seen(value: Specification) -> list[tuple[Evidence, float | None]]:
+    return [(one.evidence, one.value) for one in (value, *value.candidates) if one.evidence is not None]
 
 
 def _to_review(wanted: Wanted, one: Match, quantity: Quantity, sheets: Sheets) -> Specification:
