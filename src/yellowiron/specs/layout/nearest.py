@@ -6,6 +6,7 @@ has no say where the rules have one; `second` says what it is good for.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
@@ -29,8 +30,12 @@ from yellowiron.specs.layout.statement import (
 from yellowiron.specs.pages.strokes import Box
 from yellowiron.specs.pages.words import Page
 
-Side = Literal["left", "above", "below", "cell"]
+Side = Literal["left", "above", "below", "behind", "cell"]
 """Where a label stands, seen from its value; `cell`: where the layout's rules say."""
+_COUNTS = {word: str(2 + n) for n, word in enumerate("two three four five six seven eight nine ten".split())}  # noqa: SIM905
+_COUNTED = re.compile(rf"(?<![\w-])({'|'.join(_COUNTS)}|\d)[-–\s]([a-z]+)(?!\w)([^\d,;.:()]*)", re.IGNORECASE)
+_BRAND = re.compile(r"\S*[A-Z]{3}\S*")
+"""How many parts a thing has, as an adjective: "four-section full power boom", "4 section". The plural counts others."""
 _CLOSE = 1.3
 """A label stands over or under its value within this times the type size; so do the lines of one label."""
 _MOST_LINES = {"above": 3, "below": 2}
@@ -74,7 +79,9 @@ def nearest_of(page: Page) -> tuple[Near, ...]:
     alone = [t for t in texts if t.alone]
     heads = [p for line in lines for p in line.pieces if _may_head(p)]
     boxes = [p.box for p in heads]
-    found: list[Near] = []
+    found = [_counted(page.number, row, p, match, _heading(line.pieces[:1], headings))
+             for row, line in enumerate(lines) for p in line.pieces
+             for match in _COUNTED.finditer(p.bare) if not match.group(2).endswith("s")]  # fmt: skip
     first = (page.number + 1) * 1_000_000  # rows of their own, apart from those of the layout's statements
     for row, line in enumerate(lines):
         for index, value in enumerate(line.pieces):
@@ -104,6 +111,14 @@ def nearest_of(page: Page) -> tuple[Near, ...]:
                 )
                 found.append(Near(side, _named(statement, label, headings), over))
     return tuple(found)
+
+
+def _counted(page: int, row: int, piece: TextPiece, match: re.Match[str], heading: str) -> Near:
+    """A number of parts that a text says of a thing."""
+    count, label = match.group(1).casefold(), f"{match.group(2)}{_BRAND.sub('', match.group(3))}"
+    quote = f"{heading} … {piece.text}" if heading else piece.text
+    statement = Statement(page, row, label, _COUNTS.get(count, count), piece.box, quote, section=heading, x0=piece.x0)
+    return Near("behind", statement)
 
 
 def _may_head(piece: TextPiece) -> bool:

@@ -14,6 +14,7 @@ from yellowiron.model.specification import Candidate, Evidence, Specification
 from yellowiron.model.template import Wanted
 from yellowiron.specs.language.decimal_style import DecimalStyle
 from yellowiron.specs.language.quantities import Quantity
+from yellowiron.specs.language.vocabulary import KNOWN, TELLING
 from yellowiron.specs.layout.nearest import Near, Side
 from yellowiron.specs.layout.statement import Statement
 from yellowiron.specs.pages.strokes import Box
@@ -25,7 +26,7 @@ from yellowiron.specs.values.tolerances import DOUBTFUL, SURE
 from yellowiron.support.units import SI_UNIT
 
 _UNITS = {**BARE_UNITS, "angle": ("°",), "time": ("s",)}
-_SIDES: tuple[Side, ...] = ("left", "above", "below", "cell")
+_SIDES: tuple[Side, ...] = ("left", "above", "below", "behind", "cell")
 _SAID_BY_UNIT = {
     "angular_speed": "speed", "flow": "flow", "force": "force", "length": "length", "mass": "weight", "power": "power",
     "pressure": "pressure", "speed": "speed", "time": "time",
@@ -90,7 +91,7 @@ def _undisputed(
     chosen: set[str] = set()
     for name, matches in match(claims, asked).items():
         for side in _SIDES:
-            sure = [m for m in matches if place_of[m.claim.statement].side == side and _is_sure(m)]
+            sure = [m for m in matches if place_of[m.claim.statement].side == side and _is_sure(m, side)]
             if meant and _differ(sure):
                 sure = [m for m in sure if _stands_under(place_of[m.claim.statement], meant)]
                 chosen.update([name] if side == "left" else [])
@@ -113,8 +114,11 @@ def _is_offered(value: Specification, one: Match) -> bool:
     return any(abs(c.value - _value(one)) <= 1e-9 * abs(c.value) for c in value.candidates)
 
 
-def _is_sure(found: Match) -> bool:
-    return found.score >= SURE and not found.rest and not found.claim.doubt and usual(found.wanted, _value(found))
+def _is_sure(found: Match, side: Side) -> bool:
+    """Whether the words speak of the value and of nothing else; behind a count, a name may stand between them."""
+    rest = {word for word in found.rest if side != "behind" or word in KNOWN | TELLING}
+    clear = not rest and (found.score >= SURE or side == "behind")
+    return clear and not found.claim.doubt and usual(found.wanted, _value(found))
 
 
 def _filled_in(claims: Sequence[Claim], side: Side) -> list[Claim]:
