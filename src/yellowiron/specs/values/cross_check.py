@@ -22,6 +22,7 @@ from yellowiron.specs.values.claims import BARE_UNITS, Claim, claims_of, phrases
 from yellowiron.specs.values.decision import Sheets, evidence_of, name_printed, printed, settled
 from yellowiron.specs.values.matching import Match, match
 from yellowiron.specs.values.requested import check_hint, usual
+from yellowiron.specs.values.series import extremes
 from yellowiron.specs.values.tolerances import DOUBTFUL, SURE
 from yellowiron.support.units import SI_UNIT
 
@@ -61,7 +62,7 @@ def second_reading(
         if values[name].status == "ok" and quantity.unit_printed and _differs(values[name], quantity):
             found[name] = _doubted(values[name], one, quantity, sheets)
     for reading in sorted(readings.values(), key=len, reverse=True):  # stable: left before above before below
-        listed = reading is readings["cell"]  # a cell may list the values of several names
+        listed = reading in (readings["cell"], readings["behind"])  # a cell may give the values of several names
         for name, one in reading.items():
             evidence, own = evidence_of(one, sheets), _value(one)
             settles = reading is readings["left"] and name in chosen and _is_offered(values[name], one)
@@ -95,6 +96,7 @@ def _undisputed(
             if meant and _differ(sure):
                 sure = [m for m in sure if _stands_under(place_of[m.claim.statement], meant)]
                 chosen.update([name] if side == "left" else [])
+            sure = extremes(sure, _value) if _differ(sure) else sure
             if sure and not _differ(sure):
                 found[side][name] = sure[0]
     return found, chosen
