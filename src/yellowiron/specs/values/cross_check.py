@@ -1,6 +1,7 @@
 """What a plain reading of the pages (`nearest`) adds to the rules: values that they missed, and doubts.
 
-A value that only this reading finds is to be reviewed; one that the rules hold to be undisputed, but whose words stand
+It also reads the rules' own cells with what they leave unsaid: a unit, or the word that a unit says. A value that only
+this reading finds is to be reviewed; one that the rules hold to be undisputed, but whose words stand
 beside another value, too.
 """
 
@@ -14,7 +15,7 @@ from yellowiron.model.specification import Candidate, Evidence, Specification
 from yellowiron.model.template import Wanted
 from yellowiron.specs.language.decimal_style import DecimalStyle
 from yellowiron.specs.language.quantities import Quantity
-from yellowiron.specs.language.vocabulary import KNOWN, TELLING
+from yellowiron.specs.language.vocabulary import KNOWN, TELLING, tokens
 from yellowiron.specs.layout.nearest import Near, Side
 from yellowiron.specs.layout.statement import Statement
 from yellowiron.specs.pages.strokes import Box
@@ -61,16 +62,16 @@ def second_reading(
         quantity, _ = settled(asked[name], one.claim)
         if values[name].status == "ok" and quantity.unit_printed and _differs(values[name], quantity):
             found[name] = _doubted(values[name], one, quantity, sheets)
-    for reading in sorted(readings.values(), key=len, reverse=True):  # stable: left before above before below
-        listed = reading in (readings["cell"], readings["behind"])  # a cell may give the values of several names
+    for side, reading in sorted(readings.items(), key=lambda own: len(own[1]), reverse=True):  # stable: left, above, …
+        listed = side in ("cell", "behind")  # a cell may give the values of several names
         for name, one in reading.items():
             evidence, own = evidence_of(one, sheets), _value(one)
-            settles = reading is readings["left"] and name in chosen and _is_offered(values[name], one)
+            settles = side == "left" and name in chosen and _is_offered(values[name], one)
             if found[name].status == "conflict" and settles:
-                found[name] = _to_review(asked[name], one, settled(asked[name], one.claim)[0], sheets)
+                found[name] = _to_review(one, side, sheets)
             used = any(_is_there(evidence, seen) and not (listed and value != own) for seen, value in taken)
             if found[name].status == "missing" and not used:
-                found[name] = _to_review(asked[name], one, settled(asked[name], one.claim)[0], sheets)
+                found[name] = _to_review(one, side, sheets)
                 taken.append((evidence, own))
     return found
 
@@ -120,6 +121,10 @@ def _is_sure(found: Match, side: Side) -> bool:
     """Whether the words speak of the value and of nothing else; behind a count, a name may stand between them."""
     rest = {word for word in found.rest if side != "behind" or word in KNOWN | TELLING}
     clear = not rest and (found.score >= SURE or side == "behind")
+    if side == "cell":  # more must be said than what the unit says
+        statement = found.claim.statement
+        words = {t for text in (statement.label, *statement.column, *statement.context) for t in tokens(text)}
+        clear = clear and bool(words & set(tokens(found.phrase)) - {_SAID_BY_UNIT.get(found.wanted.dimension)})
     return clear and not found.claim.doubt and usual(found.wanted, _value(found))
 
 
@@ -165,7 +170,15 @@ def _seen(value: Specification) -> list[tuple[Evidence, float | None]]:
     return [(one.evidence, one.value) for one in (value, *value.candidates) if one.evidence is not None]
 
 
-def _to_review(wanted: Wanted, one: Match, quantity: Quantity, sheets: Sheets) -> Specification:
+def _to_review(one: Match, side: Side, sheets: Sheets) -> Specification:
+    wanted, (quantity, _) = one.wanted, settled(one.wanted, one.claim)
+    why = f"the layout was not understood there; the words nearest to it are '{name_printed(one)}'"
+    if side == "behind":
+        why = f"'{one.claim.statement.label}' is what the sheet says {quantity.text} of"
+    elif side == "cell" and not one.claim.statement.unit and not quantity.text.strip("0123456789., "):
+        why = f"the sheet prints no unit for '{quantity.text}': in {quantity.unit} it would be usual"
+    elif side == "cell":
+        why = f"that '{name_printed(one)}' is a {wanted.dimension.replace('_', ' ')}, only its unit says"
     return Specification(
         name=wanted.name,
         value=quantity.si_value,
@@ -174,7 +187,7 @@ def _to_review(wanted: Wanted, one: Match, quantity: Quantity, sheets: Sheets) -
         evidence=evidence_of(one, sheets),
         text=printed(quantity),
         confidence=_NEARBY,
-        reason=f"the layout was not understood there; the words nearest to it are '{name_printed(one)}'",
+        reason=why,
         hint=check_hint(wanted.name),
         candidates=(_candidate(wanted, one, quantity, sheets),),
     )

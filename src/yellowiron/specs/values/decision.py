@@ -202,16 +202,18 @@ def _configured(matches: Sequence[Match], sheets: Sheets, config: str) -> list[M
 
 
 _CHARTED = 4
-"""So many values under one head, each for a row of its own, are a chart: one load for each radius."""
+"""So many values under one head, or under heads on a page, are a chart: one load for each radius."""
 
 
 def _without_charts(matches: Sequence[Match]) -> list[Match]:
     """The matches without those of charts in which one stands that a row of its own gives: a chart goes through the
     conditions, the row says what the machine is called by."""
     headed = [m for m in matches if m.by_head]
-    columns = {m.claim.statement.column for m in headed}
-    charts = [[m for m in headed if m.claim.statement.column == column] for column in columns]
-    charted = [m for own in charts if len({m.claim.quantity.si_value for m in own}) >= _CHARTED for m in own]
+    charts: dict[object, list[Match]] = {}
+    for one in headed:
+        for place in (one.claim.statement.page, one.claim.statement.column):
+            charts.setdefault(place, []).append(one)
+    charted = [m for own in charts.values() if len({m.claim.quantity.si_value for m in own}) >= _CHARTED for m in own]
     plain = [m for m in matches if not m.by_head]
     if len({m.claim.quantity.si_value for m in plain}) != 1:
         return list(matches)
