@@ -33,7 +33,9 @@ from yellowiron.specs.pages.words import Page
 Side = Literal["left", "above", "below", "behind", "cell"]
 """Where a label stands, seen from its value; `cell`: where the layout's rules say."""
 _COUNTS = {word: str(2 + n) for n, word in enumerate("two three four five six seven eight nine ten".split())}  # noqa: SIM905
-_COUNTED = re.compile(rf"(?<![\w-])({'|'.join(_COUNTS)}|\d)[-–\s]([a-z]+)(?!\w)([^\d,;.:()]*)", re.IGNORECASE)
+_COUNTED = re.compile(
+    rf"(?<![\w.,-])({'|'.join(_COUNTS)}|\d)[-–\s]([a-z]{{4,}})(?!\w)([^\d,;.:()]*)", re.IGNORECASE
+)
 _BRAND = re.compile(r"\S*[A-Z]{3}\S*")
 """How many parts a thing has, as an adjective: "four-section full power boom", "4 section". The plural counts others."""
 _CLOSE = 1.3

@@ -70,7 +70,7 @@ def second_reading(
             if found[name].status == "conflict" and settles:
                 found[name] = _to_review(one, side, sheets)
             used = any(_is_there(evidence, seen) and not (listed and value != own) for seen, value in taken)
-            if found[name].status == "missing" and not used:
+            if not used and (found[name].status == "missing" or _cannot_be(asked[name], found[name])):
                 found[name] = _to_review(one, side, sheets)
                 taken.append((evidence, own))
     return found
@@ -101,6 +101,11 @@ def _undisputed(
             if sure and not _differ(sure):
                 found[side][name] = sure[0]
     return found, chosen
+
+
+def _cannot_be(wanted: Wanted, value: Specification) -> bool:
+    """Whether what the rules bring for review lies out of the wanted value's range."""
+    return value.status == "review" and value.value is not None and not usual(wanted, value.value)
 
 
 def _differ(matches: Sequence[Match]) -> bool:
