@@ -319,7 +319,8 @@ def _claims_of_reading(statement: Statement, label: str, reading: Reading) -> It
             ranged = False  # "0 - 5 km/h" says how much it is at most
             continue
         other = reading.partner[index] if index < len(reading.partner) else partner
-        doubt = f"the sheet counts {several} of them: {COUNTED_TOGETHER}" if several > 1 else ""
+        named = several > 1 and reading.count != several  # "2 x 123 l/min" says it with the number
+        doubt = f"the sheet counts {several} of them: {COUNTED_TOGETHER}" if named else ""
         if several > 1:
             quantity, other = _times(quantity, several), other and _times(other, several)
         low = ranged and index == 0

@@ -31,7 +31,7 @@ _UNITS = {**BARE_UNITS, "angle": ("°",), "time": ("s",)}
 _SIDES: tuple[Side, ...] = ("left", "above", "below", "behind", "cell")
 _SAID_BY_UNIT = {
     "angular_speed": "speed", "flow": "flow", "force": "force", "length": "length", "mass": "weight", "power": "power",
-    "pressure": "pressure", "speed": "speed", "time": "time",
+    "pressure": "pressure", "time": "time",
 }  # fmt: skip
 """What a unit says of its number, though the label leaves it out: "Dipper 880 mm" is a length."""
 _NEARBY = 0.4
@@ -81,7 +81,7 @@ def _undisputed(
 ) -> tuple[dict[Side, dict[str, Match]], AbstractSet[str]]:
     """By side, the wanted values of which the words there give one, and only one, that is usual; those of them at the
     left for which the configuration had to choose."""
-    place_of = {n.statement: n for own, _ in near for n in own}
+    place_of = {id(n.statement): n for own, _ in near for n in own}
     meant = phrases_in(config)
     claims = [
         claim
@@ -93,9 +93,9 @@ def _undisputed(
     chosen: set[str] = set()
     for name, matches in match(claims, asked).items():
         for side in _SIDES:
-            sure = [m for m in matches if place_of[m.claim.statement].side == side and _is_sure(m, side)]
+            sure = [m for m in matches if place_of[id(m.claim.statement)].side == side and _is_sure(m, side)]
             if meant and _differ(sure):
-                sure = [m for m in sure if _stands_under(place_of[m.claim.statement], meant)]
+                sure = [m for m in sure if _stands_under(place_of[id(m.claim.statement)], meant)]
                 chosen.update([name] if side == "left" else [])
             sure = extremes(sure, _value) if _differ(sure) else sure
             if sure and not _differ(sure):
@@ -126,10 +126,12 @@ def _is_sure(found: Match, side: Side) -> bool:
     """Whether the words speak of the value and of nothing else; behind a count, a name may stand between them."""
     rest = {word for word in found.rest if side != "behind" or word in KNOWN | TELLING}
     clear = not rest and (found.score >= SURE or side == "behind")
-    if side == "cell":  # more must be said than what the unit says
-        statement = found.claim.statement
-        words = {t for text in (statement.label, *statement.column, *statement.context) for t in tokens(text)}
-        clear = clear and bool(words & set(tokens(found.phrase)) - {_SAID_BY_UNIT.get(found.wanted.dimension)})
+    unsaid = _SAID_BY_UNIT.get(found.wanted.dimension)
+    if side == "cell" and unsaid in tokens(found.claim.words) and unsaid not in tokens(found.claim.statement.label):
+        statement, phrase = found.claim.statement, set(tokens(found.phrase)) - {unsaid}
+        label = set(tokens(statement.label)) if statement.label else {t for h in statement.column for t in tokens(h)}
+        headed = bool(statement.label) and any(KNOWN & set(tokens(h)) for h in (*statement.column, *statement.context))
+        clear = clear and not headed and (label <= phrase or (statement.running and bool(label & phrase)))
     return clear and not found.claim.doubt and usual(found.wanted, _value(found))
 
 
