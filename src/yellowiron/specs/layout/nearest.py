@@ -7,7 +7,7 @@ has no say where the rules have one; `second` says what it is good for.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -30,8 +30,13 @@ from yellowiron.specs.layout.statement import (
 from yellowiron.specs.pages.strokes import Box
 from yellowiron.specs.pages.words import Page
 
-Side = Literal["left", "above", "below", "behind", "cell"]
-"""Where a label stands, seen from its value; `cell`: where the layout's rules say."""
+Side = Literal["left", "above", "below", "behind", "item", "cell"]
+"""Where a label stands, seen from its value; `behind` a count and before an `item` in the same piece of text; `cell`:
+where the layout's rules say."""
+_ITEM = re.compile(
+    r"(?<!\S)([A-ZÀ-Ý][^:：\d;|]{3,50})[:：]\s*((?:[<>±Øø]\s*)*\d[^:：;|]*?)[.;|]?(?=\s+[A-ZÀ-Ý][^:：\d;|]{3,50}[:：]|$)"
+)
+"""A name and its value among others in a line: "Type: Planetary Ratio: 23.68:1 Rear oscillation: ± 12°"."""
 _COUNTS = {word: str(2 + n) for n, word in enumerate("two three four five six seven eight nine ten".split())}  # noqa: SIM905
 _COUNTED = re.compile(
     rf"(?<![\w.,-])({'|'.join(_COUNTS)}|\d)[-–\s]([a-z]{{4,}})(?!\w)([^\d,;.:()]*)", re.IGNORECASE
@@ -81,9 +86,11 @@ def nearest_of(page: Page) -> tuple[Near, ...]:
     alone = [t for t in texts if t.alone]
     heads = [p for line in lines for p in line.pieces if _may_head(p)]
     boxes = [p.box for p in heads]
-    found = [_counted(page.number, row, p, match, _heading(line.pieces[:1], headings))
-             for row, line in enumerate(lines) for p in line.pieces
-             for match in _COUNTED.finditer(p.bare) if not match.group(2).endswith("s")]  # fmt: skip
+    found: list[Near] = []
+    for row, line in enumerate(lines):
+        for piece in line.pieces:
+            heading = _heading(line.pieces[:1], headings) if _COUNTED.search(piece.bare) or ":" in piece.bare else ""
+            found += _within(page.number, row, piece, heading)
     first = (page.number + 1) * 1_000_000  # rows of their own, apart from those of the layout's statements
     for row, line in enumerate(lines):
         for index, value in enumerate(line.pieces):
@@ -115,12 +122,16 @@ def nearest_of(page: Page) -> tuple[Near, ...]:
     return tuple(found)
 
 
-def _counted(page: int, row: int, piece: TextPiece, match: re.Match[str], heading: str) -> Near:
-    """A number of parts that a text says of a thing."""
-    count, label = match.group(1).casefold(), f"{match.group(2)}{_BRAND.sub('', match.group(3))}"
+def _within(page: int, row: int, piece: TextPiece, heading: str) -> Iterator[Near]:
+    """What a piece of text says by itself: how many parts a thing has, and values behind names and colons."""
     quote = f"{heading} … {piece.text}" if heading else piece.text
-    statement = Statement(page, row, label, _COUNTS.get(count, count), piece.box, quote, section=heading, x0=piece.x0)
-    return Near("behind", statement)
+    said = Statement(page, row, "", "", piece.box, quote, section=heading, x0=piece.x0)
+    for match in _COUNTED.finditer(piece.bare):
+        if not match.group(2).endswith("s"):
+            count, label = match.group(1).casefold(), f"{match.group(2)}{_BRAND.sub('', match.group(3))}"
+            yield Near("behind", replace(said, label=label, text=_COUNTS.get(count, count)))
+    for match in _ITEM.finditer(piece.bare):
+        yield Near("item", replace(said, label=match.group(1), text=match.group(2)))
 
 
 def _may_head(piece: TextPiece) -> bool:

@@ -28,7 +28,7 @@ from yellowiron.specs.values.tolerances import DOUBTFUL, SURE
 from yellowiron.support.units import SI_UNIT
 
 _UNITS = {**BARE_UNITS, "angle": ("°",), "time": ("s",)}
-_SIDES: tuple[Side, ...] = ("left", "above", "below", "behind", "cell")
+_SIDES: tuple[Side, ...] = ("left", "above", "below", "behind", "item", "cell")
 _SAID_BY_UNIT = {
     "angular_speed": "speed", "flow": "flow", "force": "force", "length": "length", "mass": "weight", "power": "power",
     "pressure": "pressure", "time": "time",
@@ -63,7 +63,7 @@ def second_reading(
         if values[name].status == "ok" and quantity.unit_printed and _differs(values[name], quantity):
             found[name] = _doubted(values[name], one, quantity, sheets)
     for side, reading in sorted(readings.items(), key=lambda own: len(own[1]), reverse=True):  # stable: left, above, …
-        listed = side in ("cell", "behind")  # a cell may give the values of several names
+        listed = side in ("cell", "behind", "item")  # a cell may give the values of several names
         for name, one in reading.items():
             evidence, own = evidence_of(one, sheets), _value(one)
             settles = side == "left" and name in chosen and _is_offered(values[name], one)
