@@ -38,11 +38,9 @@ _ITEM = re.compile(
 )
 """A name and its value among others in a line: "Type: Planetary Ratio: 23.68:1 Rear oscillation: ± 12°"."""
 _COUNTS = {word: str(2 + n) for n, word in enumerate("two three four five six seven eight nine ten".split())}  # noqa: SIM905
-_COUNTED = re.compile(
-    rf"(?<![\w.,-])({'|'.join(_COUNTS)}|\d)[-–\s]([a-z]{{4,}})(?!\w)([^\d,;.:()]*)", re.IGNORECASE
-)
+_COUNTED = re.compile(rf"(?<![\w.,-])({'|'.join(_COUNTS)}|\d)[-–\s]([a-z]{{4,}})(?!\w)([^\d,;.:()]*)", re.IGNORECASE)
 _BRAND = re.compile(r"\S*[A-Z]{3}\S*")
-"""How many parts a thing has, as an adjective: "four-section full power boom", "4 section". The plural counts others."""
+"""How many parts a thing has, as an adjective: "four-section full power boom", "4 section"; a plural counts others."""
 _CLOSE = 1.3
 """A label stands over or under its value within this times the type size; so do the lines of one label."""
 _MOST_LINES = {"above": 3, "below": 2}

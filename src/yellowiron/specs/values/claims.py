@@ -54,8 +54,8 @@ _PULLS = {"force", "pull"}
 
 
 def _as_force(claim: Claim) -> Claim | None:
-    """A mass that a label calls a force or a pull, as the force that its weight is ("Line pull: 5,860 kg"); a torque, as
-    the force whose unit is meant ("Breakout force: 247 kNm"), for a person to look at."""
+    """A mass that a label calls a force or a pull, as the force that its weight is ("Line pull: 5,860 kg"); a torque,
+    as the force whose unit is meant ("Breakout force: 247 kNm"), for a person to look at."""
     words = {t for text in (claim.words, claim.head, *claim.statement.context[-1:]) for t in tokens(text)}
     own = _force(claim.quantity)
     if own is None or not _PULLS & words:

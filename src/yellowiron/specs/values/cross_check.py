@@ -174,7 +174,8 @@ def _inside(box: Box, outer: Box) -> bool:
 
 
 def _seen(value: Specification) -> list[tuple[Evidence, float | None]]:
-    return [(one.evidence, one.value) for one in (value, *value.candidates) if one.evidence is not None]
+    own = [(value.evidence, value.value), *((c.evidence, c.value) for c in value.candidates)]
+    return [(evidence, number) for evidence, number in own if evidence is not None]
 
 
 def _to_review(one: Match, side: Side, sheets: Sheets) -> Specification:

@@ -177,9 +177,9 @@ def read_paragraph(page: int, lines: Sequence[TextLine], first_row: int, section
 
 def _behind(text: str) -> str:
     """The words right behind a quantity, up to the end of the thought: "four section, full power boom"."""
-    return re.split(r"[\d;.(]|,(?=.*\d)|\s(?:with|and|for|on|in|at|of|consisting|mit|und|für|avec|et|pour|con|y|para)\b", text)[
-        0
-    ].strip(" )")
+    return re.split(
+        r"[\d;.(]|,(?=.*\d)|\s(?:with|and|for|on|in|at|of|consisting|mit|und|für|avec|et|pour|con|y|para)\b", text
+    )[0].strip(" )")
 
 
 def _opened(text: str) -> int:
