@@ -22,6 +22,7 @@ from yellowiron.specs.layout.statement import (
     is_unit,
     joined,
     kind_of,
+    split_inline,
     unit_in_label,
     unit_of_heading,
     without_key,
@@ -87,8 +88,8 @@ def nearest_of(page: Page) -> tuple[Near, ...]:
     found: list[Near] = []
     for row, line in enumerate(lines):
         for piece in line.pieces:
-            heading = _heading(line.pieces[:1], headings) if _COUNTED.search(piece.bare) or ":" in piece.bare else ""
-            found += _within(page.number, row, piece, heading)
+            if any(map(str.isdigit, piece.bare)) or _COUNTED.search(piece.bare):
+                found += _within(page.number, row, piece, _heading(line.pieces[:1], headings))
     first = (page.number + 1) * 1_000_000  # rows of their own, apart from those of the layout's statements
     for row, line in enumerate(lines):
         for index, value in enumerate(line.pieces):
@@ -121,15 +122,16 @@ def nearest_of(page: Page) -> tuple[Near, ...]:
 
 
 def _within(page: int, row: int, piece: TextPiece, heading: str) -> Iterator[Near]:
-    """What a piece of text says by itself: how many parts a thing has, and values behind names and colons."""
+    """What a piece of text says by itself: how many parts a thing has, and values behind their names."""
     quote = f"{heading} … {piece.text}" if heading else piece.text
     said = Statement(page, row, "", "", piece.box, quote, section=heading, x0=piece.x0)
     for match in _COUNTED.finditer(piece.bare):
         if not match.group(2).endswith("s"):
             count, label = match.group(1).casefold(), f"{match.group(2)}{_BRAND.sub('', match.group(3))}"
             yield Near("behind", replace(said, label=label, text=_COUNTS.get(count, count)))
-    for match in _ITEM.finditer(piece.bare):
-        yield Near("item", replace(said, label=match.group(1), text=match.group(2)))
+    inline = split_inline(piece.bare)
+    for label, text in [match.groups() for match in _ITEM.finditer(piece.bare)] or [inline] * bool(inline[0]):
+        yield Near("item", replace(said, label=label, text=text))
 
 
 def _may_head(piece: TextPiece) -> bool:
