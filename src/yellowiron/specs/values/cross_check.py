@@ -131,7 +131,9 @@ def _is_sure(found: Match, side: Side) -> bool:
         statement, phrase = found.claim.statement, set(tokens(found.phrase)) - {unsaid}
         label = set(tokens(statement.label)) if statement.label else {t for h in statement.column for t in tokens(h)}
         headed = bool(statement.label) and any(KNOWN & set(tokens(h)) for h in (*statement.column, *statement.context))
-        clear = clear and not headed and (label <= phrase or (statement.running and bool(label & phrase)))
+        clear = (
+            clear and not headed and bool(label) and (label <= phrase or (statement.running and bool(label & phrase)))
+        )
     return clear and not found.claim.doubt and usual(found.wanted, _value(found))
 
 

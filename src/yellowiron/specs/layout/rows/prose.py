@@ -112,7 +112,8 @@ def _ends(text: str) -> list[int]:
     for match in _END.finditer(text):
         if match.group(0) == "." and _ABBREVIATION.search(text[max(0, match.start() - 8) : match.start()]):
             following = text[match.end() :].lstrip()[:1]
-            if following and not (following.isupper() and re.search(r"\d\s*\w+$", text[: match.start()])):
+            measured = re.search(r"\d\s*(?:\w\.)*\w+$", text[: match.start()])  # "1.7 r.p.m."
+            if not (measured and (following.isupper() or not following)):
                 continue
         found.append(match.end())
     return found
@@ -169,9 +170,9 @@ def read_paragraph(page: int, lines: Sequence[TextLine], first_row: int, section
                     x0=boxes[0][0],
                     running=True,
                 )
-                before = edge
-            if told or reading.condition:
-                edge = stop
+                before, edge = edge, stop
+            elif reading.condition:
+                before, edge = edge, stop
             first_row += 1
 
 
