@@ -73,8 +73,10 @@ def _is_running(lines: Sequence[TextLine]) -> bool:
     number = re.search(r"\d", text)
     ends = _ends(text)
     inside = [e for e in ends if number and number.start() < e < len(text.rstrip())]
+    if inside or len(lines) == 1 or not ends:
+        return bool(inside)
     goes_on = all(line.pieces[0].words[0].text[0].islower() for line in lines[1:])  # "38 – 115 ft", "full power boom."
-    return bool(inside) or (len(lines) > 1 and len(ends) >= 1 and (len(text) > 60 or goes_on))
+    return len(text) > 60 or (goes_on and ends[-1] == len(text.rstrip()))
 
 
 def _breaks_a_quantity(above: TextLine, below: TextLine) -> bool:
@@ -171,7 +173,7 @@ def read_paragraph(page: int, lines: Sequence[TextLine], first_row: int, section
                     running=True,
                 )
                 before, edge = edge, stop
-            elif reading.condition:
+            elif reading.condition and sentence[stop : stop + 1] == " ":  # "for 360° continuous swing", not "at 45°,"
                 before, edge = edge, stop
             first_row += 1
 
