@@ -28,7 +28,10 @@ from yellowiron.specs.values.tolerances import DOUBTFUL, SURE
 from yellowiron.support.units import SI_UNIT
 
 _UNITS = {**BARE_UNITS, "angle": ("°",), "time": ("s",)}
-_SIDES: tuple[Side, ...] = ("left", "above", "below", "behind", "item", "cell")
+_AROUND: tuple[Side, ...] = ("left", "above", "below")
+_WITHIN: tuple[Side, ...] = ("behind", "item", "cell")
+"""What speaks only where the words around a value do not."""
+_SIDES = (*_AROUND, *_WITHIN)
 _SAID_BY_UNIT = {
     "angular_speed": "speed", "flow": "flow", "force": "force", "length": "length", "mass": "weight", "power": "power",
     "pressure": "pressure", "time": "time",
@@ -48,9 +51,9 @@ def second_reading(
     """The values with those that the words nearest to a value name, and doubts where they name another one.
 
     On each side of the values the words speak for themselves: the side with the most matches first, as that is how the
-    pages print their labels; a value counts once. Where one label has several values, `config` chooses the one that
-    stands under its name, also out of a conflict of the rules. `near`: what each file prints, with how it writes
-    decimals.
+    pages print their labels, and what is said within a text last; a value counts once. Where one label has several
+    values, `config` chooses the one that stands under its name, also out of a conflict of the rules. `near`: what each
+    file prints, with how it writes decimals.
     """
     if not any(own for own, _ in near):
         return dict(values)
@@ -62,15 +65,16 @@ def second_reading(
         quantity, _ = settled(asked[name], one.claim)
         if values[name].status == "ok" and quantity.unit_printed and _differs(values[name], quantity):
             found[name] = _doubted(values[name], one, quantity, sheets)
-    for side, reading in sorted(readings.items(), key=lambda own: len(own[1]), reverse=True):  # stable: left, above, …
-        listed = side in ("cell", "behind", "item")  # a cell may give the values of several names
-        for name, one in reading.items():
+    around = sorted(_AROUND, key=lambda side: len(readings[side]), reverse=True)  # stable: left, above, below
+    for side in (*around, *_WITHIN):
+        listed = side in _WITHIN  # a cell may give the values of several names
+        for name, one in readings[side].items():
             evidence, own = evidence_of(one, sheets), _value(one)
             settles = side == "left" and name in chosen and _is_offered(values[name], one)
             if found[name].status == "conflict" and settles:
                 found[name] = _to_review(one, side, sheets)
             used = any(_is_there(evidence, seen) and not (listed and value != own) for seen, value in taken)
-            if not used and (found[name].status == "missing" or _cannot_be(asked[name], found[name])):
+            if not used and (found[name].status == "missing" or _is_nothing(asked[name], found[name])):
                 found[name] = _to_review(one, side, sheets)
                 taken.append((evidence, own))
     return found
@@ -103,9 +107,9 @@ def _undisputed(
     return found, chosen
 
 
-def _cannot_be(wanted: Wanted, value: Specification) -> bool:
-    """Whether what the rules bring for review lies out of the wanted value's range."""
-    return value.status == "review" and value.value is not None and not usual(wanted, value.value)
+def _is_nothing(wanted: Wanted, value: Specification) -> bool:
+    """Whether what the rules bring for review says of a thing that there is none: a travel speed of 0 mph."""
+    return value.status == "review" and value.value == 0.0 and not usual(wanted, 0.0)
 
 
 def _differ(matches: Sequence[Match]) -> bool:
