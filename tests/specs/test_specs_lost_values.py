@@ -173,3 +173,17 @@ def test_running_text_that_opens_with_a_value_or_says_at(lines: tuple[str, ...],
 
     (paragraph,) = paragraphs_of([line(text, 100.0 + 10 * n) for n, text in enumerate(lines)])
     assert (label, value) in [(s.label, s.text) for s in read_paragraph(1, paragraph, 0, "Boom")]
+
+
+def test_what_a_cell_says_in_itself_gives_way_to_the_words_around_a_value() -> None:
+    asked = template(wanted("Arm Length", "length"))
+    cell, beside = said("Arm", "880 mm"), Near("left", said("Arm length", "1,690 mm", row=3))
+    found = from_sheets(asked, [Sheet("a.pdf", 1, (cell,), (), "point", near=(beside,))]).values["Arm Length"]
+    assert (found.status, found.value) == ("review", pytest.approx(1.69))
+
+
+def test_a_speed_of_nothing_gives_way_to_one_that_can_be() -> None:
+    asked = template(wanted("Maximum Travel Speed", "speed", "travel speed", minimum=1.0, maximum=40.0))
+    cell, beside = said("Travel speed", "0 mph"), Near("left", said("Travel speed", "65 mph", row=3))
+    found = from_sheets(asked, [Sheet("a.pdf", 1, (cell,), (), "point", near=(beside,))]).values["Maximum Travel Speed"]
+    assert (found.status, found.value) == ("review", pytest.approx(29.0576))
