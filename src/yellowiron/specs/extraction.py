@@ -204,6 +204,7 @@ def _claimed(sheets: Sequence[Sheet], config: str) -> _Claimed:
         kept = {claim.statement for claim in meant}
         others = [claim.statement for claim in every if claim.statement not in kept]
         own = [n for n in sheet.near if not any(stands_in(n.statement, s) for s in others)]
+        own += [Near("cell", statement) for statement in dict.fromkeys(c.statement for c in meant)]
         near.append(([n for n in own if n.statement.page not in sheet.recognised], sheet.style))
         near_recognised.append(([n for n in own if n.statement.page in sheet.recognised], sheet.style))
     return _Claimed(printed, recognised, near, near_recognised)

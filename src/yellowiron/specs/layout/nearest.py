@@ -6,7 +6,8 @@ has no say where the rules have one; `second` says what it is good for.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+import re
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -21,6 +22,7 @@ from yellowiron.specs.layout.statement import (
     is_unit,
     joined,
     kind_of,
+    split_inline,
     unit_in_label,
     unit_of_heading,
     without_key,
@@ -29,8 +31,17 @@ from yellowiron.specs.layout.statement import (
 from yellowiron.specs.pages.strokes import Box
 from yellowiron.specs.pages.words import Page
 
-Side = Literal["left", "above", "below"]
-"""Where a label stands, seen from its value."""
+Side = Literal["left", "above", "below", "behind", "item", "cell"]
+"""Where a label stands, seen from its value; `behind` a count and before an `item` in the same piece of text; `cell`:
+where the layout's rules say."""
+_ITEM = re.compile(
+    r"(?<!\S)([A-ZÀ-Ý][^:：\d;|]{3,50})[:：]\s*((?:[<>±Øø]\s*)*\d[^:：;|]*?)[.;|]?(?=\s+[A-ZÀ-Ý][^:：\d;|]{3,50}[:：]|$)"
+)
+"""A name and its value among others in a line: "Type: Planetary Ratio: 23.68:1 Rear oscillation: ± 12°"."""
+_COUNTS = {word: str(2 + n) for n, word in enumerate("two three four five six seven eight nine ten".split())}  # noqa: SIM905
+_COUNTED = re.compile(rf"(?<![\w.,-])({'|'.join(_COUNTS)}|\d)[-–\s]([a-z]{{4,}})(?!\w)([^\d,;.:()]*)", re.IGNORECASE)
+_BRAND = re.compile(r"\S*[A-Z]{3}\S*")
+"""How many parts a thing has, as an adjective: "four-section full power boom", "4 section"; a plural counts others."""
 _CLOSE = 1.3
 """A label stands over or under its value within this times the type size; so do the lines of one label."""
 _MOST_LINES = {"above": 3, "below": 2}
@@ -75,6 +86,10 @@ def nearest_of(page: Page) -> tuple[Near, ...]:
     heads = [p for line in lines for p in line.pieces if _may_head(p)]
     boxes = [p.box for p in heads]
     found: list[Near] = []
+    for row, line in enumerate(lines):
+        for piece in line.pieces:
+            if any(map(str.isdigit, piece.bare)) or _COUNTED.search(piece.bare):
+                found += _within(page.number, row, piece, _heading(line.pieces[:1], headings))
     first = (page.number + 1) * 1_000_000  # rows of their own, apart from those of the layout's statements
     for row, line in enumerate(lines):
         for index, value in enumerate(line.pieces):
@@ -104,6 +119,19 @@ def nearest_of(page: Page) -> tuple[Near, ...]:
                 )
                 found.append(Near(side, _named(statement, label, headings), over))
     return tuple(found)
+
+
+def _within(page: int, row: int, piece: TextPiece, heading: str) -> Iterator[Near]:
+    """What a piece of text says by itself: how many parts a thing has, and values behind their names."""
+    quote = f"{heading} … {piece.text}" if heading else piece.text
+    said = Statement(page, row, "", "", piece.box, quote, section=heading, x0=piece.x0)
+    for match in _COUNTED.finditer(piece.bare):
+        if not match.group(2).endswith("s"):
+            count, label = match.group(1).casefold(), f"{match.group(2)}{_BRAND.sub('', match.group(3))}"
+            yield Near("behind", replace(said, label=label, text=_COUNTS.get(count, count)))
+    inline = split_inline(piece.bare)
+    for label, text in [match.groups() for match in _ITEM.finditer(piece.bare)] or [inline] * bool(inline[0]):
+        yield Near("item", replace(said, label=label, text=text))
 
 
 def _may_head(piece: TextPiece) -> bool:

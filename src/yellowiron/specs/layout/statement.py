@@ -272,9 +272,15 @@ _NOT_A_VALUE = re.compile(
 )
 
 
+_DESIGNED = re.compile(r"^(?=[^Øø⌀φΦ]*\d)[^a-zØø⌀φΦぁ-ヺ㐀-鿿]*[Øø⌀φΦ]\s?\d")
+"""A diameter behind a designation: "IWRC 6×WS(26) φ10mm×129m"."""
+
+
 @functools.lru_cache(maxsize=65536)
 def looks_like_value(text: str) -> bool:
     """Whether a piece of text is a value rather than a label: it begins with a number and is mostly numbers."""
+    if _DESIGNED.match(text):
+        return True
     if not _VALUE_START.match(text) or _NOT_A_VALUE.match(text):
         return False
     readings = read(text)

@@ -48,18 +48,26 @@ def claims_of(statements: Sequence[Statement], style: DecimalStyle) -> list[Clai
     return [*joined, *(force for claim in joined if (force := _as_force(claim)))]
 
 
-_FORCES = {"kg": "kgf", "lb": "lbf"}
+_FORCES = {"kilogram": "kgf", "pound": "lbf", "kilonewton*meter": "kN"}
+"""Units that sheets print for a force, and the force that is meant."""
 _PULLS = {"force", "pull"}
 
 
 def _as_force(claim: Claim) -> Claim | None:
-    """A mass that a label calls a force or a pull, as the force that its weight is: "Line pull: 5,860 kg"."""
+    """A mass that a label calls a force or a pull, as the force that its weight is ("Line pull: 5,860 kg"); a torque,
+    as the force whose unit is meant ("Breakout force: 247 kNm"), for a person to look at."""
     words = {t for text in (claim.words, claim.head, *claim.statement.context[-1:]) for t in tokens(text)}
-    if claim.quantity.dimension != "mass" or not _PULLS & words:
+    own = _force(claim.quantity)
+    if own is None or not _PULLS & words:
         return None
-    own, other = (q and replace(q, unit=_FORCES.get(q.unit.rstrip("s.").casefold(), ""))
-                  for q in (claim.quantity, claim.partner))  # fmt: skip
-    return replace(claim, quantity=own, partner=other) if own and own.unit else None
+    slip = claim.quantity.dimension == "torque"
+    doubt = f"the sheet prints '{claim.quantity.unit}' for a force" if slip else claim.doubt
+    return replace(claim, quantity=own, partner=claim.partner and _force(claim.partner), doubt=doubt)
+
+
+def _force(quantity: Quantity) -> Quantity | None:
+    unit = _FORCES.get(quantity.printed.name) if quantity.printed else None
+    return replace(quantity, unit=unit) if unit else None
 
 
 BARE_UNITS = {
@@ -77,18 +85,20 @@ BARE_UNITS = {
 
 
 def _in_one_unit(claims: Sequence[Claim]) -> list[Claim]:
-    """Two numbers of one cell under an imperial unit ("858 33.8" under "in"): the first is metric, in the unit in which
-    the two agree; where they agree in none, both are in doubt."""
+    """Two numbers of one cell under an imperial unit ("858 33.8" under "in"), or the second with one in brackets
+    ("3,275 (10'9\")"): the first is metric, in the unit in which the two agree; where they agree in none, both are in
+    doubt."""
     found: list[Claim | None] = list(claims)
     for index, (first, second) in enumerate(pairwise(claims)):
         printed = second.quantity.printed
-        if first.statement is not second.statement or not first.statement.unit or first.words != second.words:
+        if first.statement is not second.statement or first.words != second.words:
             continue
         alone = sum(c.statement is first.statement for c in claims[max(0, index - 2) : index + 4]) == 2
         if not alone or printed is None or printed.system != "imperial" or first.partner or second.partner:
             continue
         text = spelled_out(first.statement.text, first.statement.unit)[0]
-        if text[first.quantity.end : second.quantity.start].strip(" ("):
+        between = text[first.quantity.end : second.quantity.start].strip()
+        if between not in ("", "(") or not (first.statement.unit or between):
             continue
         own = first.quantity.printed
         metric = _metric_readings(first.quantity, second.quantity)
@@ -309,7 +319,8 @@ def _claims_of_reading(statement: Statement, label: str, reading: Reading) -> It
             ranged = False  # "0 - 5 km/h" says how much it is at most
             continue
         other = reading.partner[index] if index < len(reading.partner) else partner
-        doubt = f"the sheet counts {several} of them: {COUNTED_TOGETHER}" if several > 1 else ""
+        named = several > 1 and reading.count != several  # "2 x 123 l/min" says it with the number
+        doubt = f"the sheet counts {several} of them: {COUNTED_TOGETHER}" if named else ""
         if several > 1:
             quantity, other = _times(quantity, several), other and _times(other, several)
         low = ranged and index == 0

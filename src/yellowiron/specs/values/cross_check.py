@@ -1,6 +1,7 @@
 """What a plain reading of the pages (`nearest`) adds to the rules: values that they missed, and doubts.
 
-A value that only this reading finds is to be reviewed; one that the rules hold to be undisputed, but whose words stand
+It also reads the rules' own cells with what they leave unsaid: a unit, or the word that a unit says. A value that only
+this reading finds is to be reviewed; one that the rules hold to be undisputed, but whose words stand
 beside another value, too.
 """
 
@@ -14,6 +15,7 @@ from yellowiron.model.specification import Candidate, Evidence, Specification
 from yellowiron.model.template import Wanted
 from yellowiron.specs.language.decimal_style import DecimalStyle
 from yellowiron.specs.language.quantities import Quantity
+from yellowiron.specs.language.vocabulary import KNOWN, TELLING, tokens
 from yellowiron.specs.layout.nearest import Near, Side
 from yellowiron.specs.layout.statement import Statement
 from yellowiron.specs.pages.strokes import Box
@@ -21,11 +23,20 @@ from yellowiron.specs.values.claims import BARE_UNITS, Claim, claims_of, phrases
 from yellowiron.specs.values.decision import Sheets, evidence_of, name_printed, printed, settled
 from yellowiron.specs.values.matching import Match, match
 from yellowiron.specs.values.requested import check_hint, usual
+from yellowiron.specs.values.series import extremes
 from yellowiron.specs.values.tolerances import DOUBTFUL, SURE
 from yellowiron.support.units import SI_UNIT
 
 _UNITS = {**BARE_UNITS, "angle": ("°",), "time": ("s",)}
-_SIDES: tuple[Side, ...] = ("left", "above", "below")
+_AROUND: tuple[Side, ...] = ("left", "above", "below")
+_WITHIN: tuple[Side, ...] = ("behind", "item", "cell")
+"""What speaks only where the words around a value do not."""
+_SIDES = (*_AROUND, *_WITHIN)
+_SAID_BY_UNIT = {
+    "angular_speed": "speed", "flow": "flow", "force": "force", "length": "length", "mass": "weight", "power": "power",
+    "pressure": "pressure", "time": "time",
+}  # fmt: skip
+"""What a unit says of its number, though the label leaves it out: "Dipper 880 mm" is a length."""
 _NEARBY = 0.4
 """Confidence of a value that only the nearest words name: less than of a doubtful one whose layout was understood."""
 
@@ -40,29 +51,32 @@ def second_reading(
     """The values with those that the words nearest to a value name, and doubts where they name another one.
 
     On each side of the values the words speak for themselves: the side with the most matches first, as that is how the
-    pages print their labels; a value counts once. Where one label has several values, `config` chooses the one that
-    stands under its name, also out of a conflict of the rules. `near`: what each file prints, with how it writes
-    decimals.
+    pages print their labels, and what is said within a text last; a value counts once. Where one label has several
+    values, `config` chooses the one that stands under its name, also out of a conflict of the rules. `near`: what each
+    file prints, with how it writes decimals.
     """
     if not any(own for own, _ in near):
         return dict(values)
     asked = {w.name: w for w in wanted if w.in_label_of is None}
-    taken = [seen for value in values.values() if value.status != "missing" for seen in _seen(value)]
+    taken = [(seen, value) for one in values.values() if one.status != "missing" for seen, value in _seen(one)]
     found = dict(values)
     readings, chosen = _undisputed(list(asked.values()), near, config)
     for name, one in readings["left"].items():
         quantity, _ = settled(asked[name], one.claim)
         if values[name].status == "ok" and quantity.unit_printed and _differs(values[name], quantity):
             found[name] = _doubted(values[name], one, quantity, sheets)
-    for reading in sorted(readings.values(), key=len, reverse=True):  # stable: left before above before below
-        for name, one in reading.items():
-            evidence = evidence_of(one, sheets)
-            settles = reading is readings["left"] and name in chosen and _is_offered(values[name], one)
+    around = sorted(_AROUND, key=lambda side: len(readings[side]), reverse=True)  # stable: left, above, below
+    for side in (*around, *_WITHIN):
+        listed = side in _WITHIN  # a cell may give the values of several names
+        for name, one in readings[side].items():
+            evidence, own = evidence_of(one, sheets), _value(one)
+            settles = side == "left" and name in chosen and _is_offered(values[name], one)
             if found[name].status == "conflict" and settles:
-                found[name] = _to_review(asked[name], one, settled(asked[name], one.claim)[0], sheets)
-            if found[name].status == "missing" and not any(_is_there(evidence, seen) for seen in taken):
-                found[name] = _to_review(asked[name], one, settled(asked[name], one.claim)[0], sheets)
-                taken.append(evidence)
+                found[name] = _to_review(one, side, sheets)
+            used = any(_is_there(evidence, seen) and not (listed and value != own) for seen, value in taken)
+            if not used and (found[name].status == "missing" or _is_nothing(asked[name], found[name])):
+                found[name] = _to_review(one, side, sheets)
+                taken.append((evidence, own))
     return found
 
 
@@ -71,25 +85,31 @@ def _undisputed(
 ) -> tuple[dict[Side, dict[str, Match]], AbstractSet[str]]:
     """By side, the wanted values of which the words there give one, and only one, that is usual; those of them at the
     left for which the configuration had to choose."""
-    place_of = {n.statement: n for own, _ in near for n in own}
+    place_of = {id(n.statement): n for own, _ in near for n in own}
     meant = phrases_in(config)
     claims = [
         claim
         for own, style in near
         for side in _SIDES
-        for claim in _in_any_unit(claims_of([n.statement for n in own if n.side == side], style))
+        for claim in _filled_in(claims_of([n.statement for n in own if n.side == side], style), side)
     ]
     found: dict[Side, dict[str, Match]] = {side: {} for side in _SIDES}
     chosen: set[str] = set()
     for name, matches in match(claims, asked).items():
         for side in _SIDES:
-            sure = [m for m in matches if place_of[m.claim.statement].side == side and _is_sure(m)]
+            sure = [m for m in matches if place_of[id(m.claim.statement)].side == side and _is_sure(m, side)]
             if meant and _differ(sure):
-                sure = [m for m in sure if _stands_under(place_of[m.claim.statement], meant)]
+                sure = [m for m in sure if _stands_under(place_of[id(m.claim.statement)], meant)]
                 chosen.update([name] if side == "left" else [])
+            sure = extremes(sure, _value) if _differ(sure) else sure
             if sure and not _differ(sure):
                 found[side][name] = sure[0]
     return found, chosen
+
+
+def _is_nothing(wanted: Wanted, value: Specification) -> bool:
+    """Whether what the rules bring for review says of a thing that there is none: a travel speed of 0 mph."""
+    return value.status == "review" and value.value == 0.0 and not usual(wanted, 0.0)
 
 
 def _differ(matches: Sequence[Match]) -> bool:
@@ -106,16 +126,29 @@ def _is_offered(value: Specification, one: Match) -> bool:
     return any(abs(c.value - _value(one)) <= 1e-9 * abs(c.value) for c in value.candidates)
 
 
-def _is_sure(found: Match) -> bool:
-    return found.score >= SURE and not found.rest and not found.claim.doubt and usual(found.wanted, _value(found))
+def _is_sure(found: Match, side: Side) -> bool:
+    """Whether the words speak of the value and of nothing else; behind a count, a name may stand between them."""
+    rest = {word for word in found.rest if side != "behind" or word in KNOWN | TELLING}
+    clear = not rest and (found.score >= SURE or side == "behind")
+    unsaid = _SAID_BY_UNIT.get(found.wanted.dimension)
+    if side == "cell" and unsaid in tokens(found.claim.words) and unsaid not in tokens(found.claim.statement.label):
+        statement, phrase = found.claim.statement, set(tokens(found.phrase)) - {unsaid}
+        label = set(tokens(statement.label)) if statement.label else {t for h in statement.column for t in tokens(h)}
+        headed = bool(statement.label) and any(KNOWN & set(tokens(h)) for h in (*statement.column, *statement.context))
+        clear = (
+            clear and not headed and bool(label) and (label <= phrase or (statement.running and bool(label & phrase)))
+        )
+    return clear and not found.claim.doubt and usual(found.wanted, _value(found))
 
 
-def _in_any_unit(claims: Sequence[Claim]) -> list[Claim]:
-    """The claims, those of bare numbers in every unit that a sheet may leave unsaid: what is usual tells them apart."""
+def _filled_in(claims: Sequence[Claim], side: Side) -> list[Claim]:
+    """The claims, those of bare numbers in every unit that a sheet may leave unsaid: what is usual tells them apart;
+    those of the layout's cells with what their unit says."""
     found: list[Claim] = []
     for claim in claims:
-        found.append(claim)
-        if not claim.quantity.unit and not claim.quantity.sign:
+        unsaid = _SAID_BY_UNIT.get(claim.quantity.dimension) if side == "cell" else None
+        found.append(replace(claim, words=f"{claim.words} {unsaid}") if unsaid else claim)
+        if not claim.quantity.unit and not claim.quantity.sign and (side != "cell" or claim.quantity.value >= 10.0):
             units = [unit for group in _UNITS.values() for unit in group]
             found += [replace(claim, quantity=replace(claim.quantity, unit=unit)) for unit in units]
     return found
@@ -146,11 +179,20 @@ def _inside(box: Box, outer: Box) -> bool:
     return outer[0] <= x <= outer[2] and outer[1] <= y <= outer[3]
 
 
-def _seen(value: Specification) -> list[Evidence]:
-    return [one for one in (value.evidence, *(c.evidence for c in value.candidates)) if one is not None]
+def _seen(value: Specification) -> list[tuple[Evidence, float | None]]:
+    own = [(value.evidence, value.value), *((c.evidence, c.value) for c in value.candidates)]
+    return [(evidence, number) for evidence, number in own if evidence is not None]
 
 
-def _to_review(wanted: Wanted, one: Match, quantity: Quantity, sheets: Sheets) -> Specification:
+def _to_review(one: Match, side: Side, sheets: Sheets) -> Specification:
+    wanted, (quantity, _) = one.wanted, settled(one.wanted, one.claim)
+    why = f"the layout was not understood there; the words nearest to it are '{name_printed(one)}'"
+    if side == "behind":
+        why = f"'{one.claim.statement.label}' is what the sheet says {quantity.text} of"
+    elif side == "cell" and not one.claim.statement.unit and not quantity.text.strip("0123456789., "):
+        why = f"the sheet prints no unit for '{quantity.text}': in {quantity.unit} it would be usual"
+    elif side == "cell":
+        why = f"that '{name_printed(one)}' is a {wanted.dimension.replace('_', ' ')}, only its unit says"
     return Specification(
         name=wanted.name,
         value=quantity.si_value,
@@ -159,7 +201,7 @@ def _to_review(wanted: Wanted, one: Match, quantity: Quantity, sheets: Sheets) -
         evidence=evidence_of(one, sheets),
         text=printed(quantity),
         confidence=_NEARBY,
-        reason=f"the layout was not understood there; the words nearest to it are '{name_printed(one)}'",
+        reason=why,
         hint=check_hint(wanted.name),
         candidates=(_candidate(wanted, one, quantity, sheets),),
     )

@@ -16,6 +16,7 @@ from yellowiron.specs.layout.statement import words_beside_numbers
 from yellowiron.specs.values.claims import Claim, configured_by, split_phrases, without_case
 from yellowiron.specs.values.matching import Match
 from yellowiron.specs.values.requested import check_hint, hint_for, usual
+from yellowiron.specs.values.series import extremes
 from yellowiron.specs.values.stated_configuration import Stated
 from yellowiron.specs.values.tolerances import DOUBTFUL, SURE
 from yellowiron.support.units import SI_UNIT
@@ -47,12 +48,16 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
         return missing(wanted)
     chosen = _without_charts(_configured(matches, sheets, config))
     groups = _groups(wanted, chosen)
-    said = None
+    said, counted = None, 0
     if len(groups) > 1:
         said, chosen = _as_stated(wanted, chosen, sheets)
         groups = _groups(wanted, chosen)
     if len(groups) > 1:
-        return _conflict(wanted, groups, sheets, config)
+        every = [m for group in groups for m in group]
+        greatest = extremes(every, lambda m: settled(wanted, m.claim)[0].si_value)
+        if not greatest or not all(same(greatest[0].claim.quantity, m.claim.quantity) for m in greatest):
+            return _conflict(wanted, groups, sheets, config)
+        groups, counted = [greatest], len(groups)
     group = groups[0]
     top = max(group, key=_preference)
     quantity, doubt = settled(wanted, top.claim)
@@ -66,6 +71,8 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
         doubt = doubt or "its label goes on elsewhere"
     if any(map(_is_measures, top.claim.statement.column)):
         doubt = doubt or "measures of a drawing stand over it"
+    if counted:
+        doubt = doubt or f"the rows count {counted} values up or down, of which this is the last"
     if top.claim.ranged:
         doubt = doubt or "the sheet prints a range"
     value = quantity.si_value
@@ -195,20 +202,25 @@ def _configured(matches: Sequence[Match], sheets: Sheets, config: str) -> list[M
 
 
 _CHARTED = 4
-"""So many values under one head on a page, each for a row of its own, are a chart: one load for each radius."""
+"""So many values under one head, or under heads on a page, are a chart: one load for each radius."""
 
 
 def _without_charts(matches: Sequence[Match]) -> list[Match]:
     """The matches without those of charts in which one stands that a row of its own gives: a chart goes through the
     conditions, the row says what the machine is called by."""
     headed = [m for m in matches if m.by_head]
-    pages = [[m for m in headed if m.claim.statement.page == page] for page in {m.claim.statement.page for m in headed}]
-    charted = [m for own in pages if len({m.claim.quantity.si_value for m in own}) >= _CHARTED for m in own]
+    charts: dict[object, list[Match]] = {}
+    for one in headed:
+        for place in (one.claim.statement.page, one.claim.statement.column):
+            charts.setdefault(place, []).append(one)
+    charted = [m for own in charts.values() if len({m.claim.quantity.si_value for m in own}) >= _CHARTED for m in own]
     plain = [m for m in matches if not m.by_head]
     if len({m.claim.quantity.si_value for m in plain}) != 1:
         return list(matches)
     called = plain[0].claim.quantity
-    among = any(same(called, m.claim.quantity) for m in charted)
+    beyond = plain[0].by_label and all(m.claim.quantity.si_value < called.si_value for m in charted)
+    greatest = beyond and "maximum" in tokens(plain[0].claim.words)  # the chart ends before it
+    among = greatest or any(same(called, m.claim.quantity) for m in charted)
     return [m for m in matches if not among or not any(m is one for one in charted)]
 
 

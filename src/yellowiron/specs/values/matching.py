@@ -248,6 +248,8 @@ def _said(claim: Claim) -> _Said:
 def _cut(words: str, head: str, column: tuple[str, ...], context: tuple[str, ...], section: str) -> _Said:
     heads = [h for h in column if not _names_configuration(h)]
     label = words
+    if context and _LEADS.search(context[-1]) and not tokens(words):  # in several languages over its value
+        label, context = " ".join(context), ()
     if context and tokens(whole := f"{context[-1]} {label}") != tokens(context[-1]) + tokens(label):
         label, context = whole, context[:-1]  # an expression goes on from the line above: "rod" over "diameter"
     return _Said(
@@ -262,7 +264,8 @@ def _cut(words: str, head: str, column: tuple[str, ...], context: tuple[str, ...
     )
 
 
-_STANDARD = re.compile(r"\b(?:with|mit|avec|con)\s+(?:std\b|standard|est[aá]ndar|serien)[^,;:/]*$", re.IGNORECASE)
+_LEADS = re.compile(r"[:：]\s*$")
+_STANDARD = re.compile(r"\b(?:with|mit|avec|con)\s+(?:std\b|standard|basic|est[aá]ndar|serien)[^,;:/]*$", re.IGNORECASE)
 
 
 def match_one(wanted: Wanted, claim: Claim, among: Sequence[Wanted] = ()) -> Match | None:

@@ -73,7 +73,10 @@ def _is_running(lines: Sequence[TextLine]) -> bool:
     number = re.search(r"\d", text)
     ends = _ends(text)
     inside = [e for e in ends if number and number.start() < e < len(text.rstrip())]
-    return bool(inside) or (len(lines) > 1 and len(text) > 60 and len(ends) >= 1)
+    if inside or len(lines) == 1 or not ends:
+        return bool(inside)
+    goes_on = all(line.pieces[0].words[0].text[0].islower() for line in lines[1:])  # "38 – 115 ft", "full power boom."
+    return len(text) > 60 or (goes_on and ends[-1] == len(text.rstrip()))
 
 
 def _breaks_a_quantity(above: TextLine, below: TextLine) -> bool:
@@ -111,7 +114,8 @@ def _ends(text: str) -> list[int]:
     for match in _END.finditer(text):
         if match.group(0) == "." and _ABBREVIATION.search(text[max(0, match.start() - 8) : match.start()]):
             following = text[match.end() :].lstrip()[:1]
-            if not (following.isupper() and re.search(r"\d\s*\w+$", text[: match.start()])):
+            measured = re.search(r"\d\s*(?:\w\.)*\w+$", text[: match.start()])  # "1.7 r.p.m."
+            if not (measured and (following.isupper() or not following)):
                 continue
         found.append(match.end())
     return found
@@ -120,6 +124,8 @@ def _ends(text: str) -> list[int]:
 def read_paragraph(page: int, lines: Sequence[TextLine], first_row: int, section: str) -> Iterator[Statement]:
     """The statements of a paragraph: for each quantity of a sentence the words before it, back to the one before."""
     text, places = _text_of(lines)
+    firsts = {id(line.pieces[0].words[0]) for line in lines[1:]}
+    items = [at for at, _, word in places if id(word) in firsts and word.text[0].isupper()]
     start = 0
     for end in [*_ends(text), len(text)]:
         sentence = text[start:end]
@@ -142,13 +148,14 @@ def read_paragraph(page: int, lines: Sequence[TextLine], first_row: int, section
             elif owner and label and re.match(r"[\s)]*[,，、]", sentence[edge:begin]):
                 label = f"{owner} {label}"
             opens = not label and not edge and bool(section)  # under a heading, its name may stand behind a value
-            label = label or (_behind(sentence[stop:]) if opens else "")
+            own = min((at for at in items if at > offset + stop), default=end) - offset  # a list's next item
+            label = label or (_behind(sentence[stop:own]) if opens else "")
             if label and (said := re.match(r"[\s)]*\(([^()\d]+)\)", sentence[stop:])):  # "298 kW (gross)"
                 label = f"{label} {said.group(1)}"
             told = bool(label) or (opens and not offset)
             if (
                 told
-                and not reading.condition
+                and (not reading.condition or quantities[0].dimension == "angular_speed")  # "smooth swing at 2 rpm"
                 and not _CIRCUMSTANCE.search(sentence[:begin])
                 and len(label.split()) <= _LONGEST
             ):
@@ -166,14 +173,16 @@ def read_paragraph(page: int, lines: Sequence[TextLine], first_row: int, section
                     running=True,
                 )
                 before, edge = edge, stop
+            elif reading.condition and sentence[stop : stop + 1] == " ":  # "for 360° continuous swing", not "at 45°,"
+                before, edge = edge, stop
             first_row += 1
 
 
 def _behind(text: str) -> str:
-    """The words right behind a quantity, up to the end of the thought: "four section full power boom"."""
-    return re.split(r"[\d,;.(]|\s(?:with|and|for|on|in|at|of|consisting|mit|und|für|avec|et|pour|con|y|para)\b", text)[
-        0
-    ].strip(" )")
+    """The words right behind a quantity, up to the end of the thought: "four section, full power boom"."""
+    return re.split(
+        r"[\d;.(]|,(?=.*\d)|\s(?:with|and|for|on|in|at|of|consisting|mit|und|für|avec|et|pour|con|y|para)\b", text
+    )[0].strip(" )")
 
 
 def _opened(text: str) -> int:

@@ -1,0 +1,51 @@
+"""Values that a sheet counts: a speed for each gear, a pull for each layer of rope. The greatest is the maximum."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from itertools import pairwise
+
+from yellowiron.specs.language.vocabulary import tokens
+from yellowiron.specs.values.matching import Match
+
+_ORDINAL = re.compile(r"(\d{1,2})(?:st|nd|rd|th|er|era|ere|eme|da|ra|ta|to|do|o|a|e)?")
+_LEAST_COUNTED = 3
+
+
+def extremes(matches: Sequence[Match], value: Callable[[Match], float]) -> list[Match]:
+    """Of values that the rows of each column count one by one, and that rise or fall with the count, the greatest where
+    a maximum is meant, the least where a minimum is; [] where the matches are anything else. `value`: in SI."""
+    columns: dict[tuple[object, ...], dict[int, list[Match]]] = {}
+    for one in matches:
+        count = _count(one)
+        if count is None:
+            return []
+        statement = one.claim.statement
+        place = (statement.sheet, statement.page, statement.column, statement.section)
+        columns.setdefault(place, {}).setdefault(count, []).append(one)
+    meant = _meant(matches)
+    found: list[Match] = []
+    for rows in columns.values():
+        values = [[value(m) for m in rows[count]] for count in sorted(rows)]
+        rises = all(max(a) < min(b) for a, b in pairwise(values))
+        falls = all(min(a) > max(b) for a, b in pairwise(values))
+        if meant is None or len(rows) < _LEAST_COUNTED or not (rises or falls):
+            return []
+        found += rows[max(rows) if rises == (meant == "maximum") else min(rows)]
+    return found
+
+
+def _meant(matches: Sequence[Match]) -> str | None:
+    """Which extreme a value's name or the words of each of its matches say; None where none or both."""
+    said = [{*tokens(m.wanted.name), *tokens(m.claim.words), *tokens(m.claim.head)} for m in matches]
+    meant = [word for word in ("maximum", "minimum") if all(word in words for words in said)]
+    return meant[0] if len(meant) == 1 else None
+
+
+def _count(found: Match) -> int | None:
+    """The number that a row counts with, in its label or as its name; None where there is none, or several."""
+    statement = found.claim.statement
+    words = [w for text in (found.claim.words, *statement.variant) for w in tokens(text)]
+    counts = [int(m.group(1)) for w in words if (m := _ORDINAL.fullmatch(w))]
+    return counts[0] if len(counts) == 1 else None
