@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -50,6 +50,34 @@ class CadFrame:
         """A direction of the machine's frame as a unit vector of the CAD frame."""
         n = np.array(a, dtype=float)
         return [round(float(c), 9) + 0.0 for c in self.rotation.T @ (n / np.linalg.norm(n))]
+
+
+Y: Triple = (0.0, 1.0, 0.0)
+
+
+@dataclass(slots=True)
+class Joints:
+    """The joints of a machine by name, as a truth has them. Points and axes are given in the machine's frame
+    (millimetres); pitch axes point to the left, upright ones up, slides outwards."""
+
+    frame: CadFrame
+    found: dict[str, dict[str, Any]] = field(default_factory=dict)
+
+    def pivot(self, a: str, b: str, at: Triple, axis: Triple = Y, name: str = "") -> None:
+        """`b` turns on `a`."""
+        self._add("revolute", a, b, at, axis, name)
+
+    def cylinder(self, name: str, side: str, ends: tuple[str, str], start: Triple, end: Triple, axis: Triple) -> None:
+        """A cylinder with its two pivots along `axis`: the barrel's on the first of `ends`, the rod's on the second."""
+        barrel, piston = f"{name}_cylinder_barrel{side}", f"{name}_piston_rod{side}"
+        self.pivot(ends[0], barrel, start, axis)
+        self.pivot(ends[1], piston, end, axis)
+        along = np.array(end) - np.array(start)
+        self._add("prismatic", barrel, piston, start, (float(along[0]), float(along[1]), float(along[2])))
+
+    def _add(self, kind: str, a: str, b: str, at: Triple, axis: Triple, name: str = "") -> None:
+        entry = {"type": kind, "body0": a, "body1": b, "anchor": self.frame.point(at), "axis": self.frame.axis(axis)}
+        self.found[name or f"{a}2{b}_joint"] = entry
 
 
 def value_rows(
