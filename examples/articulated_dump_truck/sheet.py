@@ -51,7 +51,6 @@ def _page(c: Canvas) -> None:
     y = heading(c, MARGIN, top, "Engine", HALF)
     y = value_lines(c, MARGIN, y, (
         ("Gross power, SAE J1995", v.GROSS_POWER), ("Net power, SAE J1349", v.NET_POWER),
-        ("Engine power, ISO 14396", v.ENGINE_POWER),
     ), _cells)  # fmt: skip
     y = heading(c, MARGIN, y, "Weights", HALF)
     y = value_lines(c, MARGIN, y, (("Rated payload", v.PAYLOAD), ("Empty weight", v.EMPTY_WEIGHT)), _cells)

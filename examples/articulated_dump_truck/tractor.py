@@ -11,19 +11,19 @@ from OCP.TopoDS import TopoDS_Shape
 
 from drawing.hardware import fit_pin
 from drawing.product import AMBER, BLACK, GLASS, GREY, RED, YELLOW, Assembly, Colour, Part, add_pair
-from drawing.solids import Y, Z, bored, box, cut, fuse, plate, rod, sheet_box, turned
+from drawing.solids import Z, bored, box, cut, fuse, moved, plate, rod, sheet_box, shift
 
 from . import values as v
 from .layout import FRONT_X, NOSE, RADIUS, STEER_Z, bumper_low, solve_steering
-from .trailer import HITCH_PLATES, PIN_ARTICULATION, PIN_STEER, SPINDLE, STEER_EARS
+from .trailer import HITCH_PLATES, PIN_ARTICULATION, PIN_STEER, SPINDLE, STEER_EARS, housing
 
 BODY = "front_frame"
 BULKHEAD = 430.0
 """Where the rails begin."""
 RAIL = (520.0, 580.0, 1080.0, 1420.0)
 """Inside, outside, underside, top."""
-AXLE = 150.0
-"""Radius of the front axle's tube; its top lies under the rails."""
+AXLE = 135.0
+"""Radius of the front axle's tube."""
 DECK = 1850.0
 
 
@@ -58,12 +58,10 @@ def draw_frame(hardware: Assembly) -> Assembly:
 def draw_axle() -> Assembly:
     """The front axle, which is fast on the rails, with its spindles."""
     tree, half = Assembly("FRONT AXLE ASSY"), v.FRONT_TREAD.value / 2
-    ball = RADIUS - v.GROUND_CLEARANCE.value
-    left = [(half + 60, 0), (half + 60, SPINDLE), (half - 230, SPINDLE), (half - 230, AXLE), (300, AXLE), (250, ball)]
-    profile = [*left, *[(-s, q) for s, q in reversed(left)]]
-    tree.add(Part("AXLE HOUSING FRT", turned(profile, (FRONT_X, 0, RADIUS)), GREY), BODY)
-    pad = box(FRONT_X - 140, FRONT_X + 140, 500, 600, RADIUS + 60, RAIL[2])
-    add_pair(tree, "AXLE PAD", cut(pad, rod((FRONT_X, 0, RADIUS), Y, AXLE, 900)), BODY, GREY)
+    left = [(half + 60, 0), (half + 60, SPINDLE), (half - 230, SPINDLE), (half - 230, AXLE)]
+    profile = housing(left, AXLE, half - 300)
+    pads = [box(FRONT_X - 140, FRONT_X + 140, y, y + 100, RADIUS, RAIL[2]) for y in (500.0, -600.0)]
+    tree.add(Part("AXLE HOUSING FRT", fuse(moved(profile, shift(FRONT_X, 0, RADIUS)), *pads), GREY), BODY)
     return tree
 
 

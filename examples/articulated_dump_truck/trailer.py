@@ -10,7 +10,7 @@ from OCP.TopoDS import TopoDS_Shape
 
 from drawing.hardware import CLEARANCE, bush, fit_pin
 from drawing.product import GREY, RED, STEEL, Assembly, Part, add_pair
-from drawing.solids import X, Y, Z, bored, box, cut, fuse, plate, ring, rod, shift, turn, turned
+from drawing.solids import X, Y, Z, bored, box, cut, fuse, mirrored, moved, plate, ring, rod, shift, turn, turned
 
 from . import values as v
 from .layout import BOGIE_X, HINGE, HOIST_Y, MIDDLE_X, RADIUS, REAR_X, ROLL_Z, STEER_Z, solve_hoist, solve_steering
@@ -56,8 +56,8 @@ def draw_rear_frame(hardware: Assembly) -> Assembly:
     """Tube, rails, brackets of the bogie and of the hoist cylinders, axle middles, the body's hinge."""
     tree, body = Assembly("REAR FRAME ASSY"), "rear_frame"
     inside, outside, low, high = RAIL
-    tree.add(Part("HITCH TUBE", ring((-900, 0, ROLL_Z), X, JOURNAL, 160, 440)), body)
-    tree.add(Part("RR BULKHEAD", box(-940, -900, -outside, outside, 930, 1500)), body)
+    head = fuse(box(-940, -900, -outside, outside, 930, 1500), rod((-900, 0, ROLL_Z), X, JOURNAL, 440))
+    tree.add(Part("FRAME HEAD", bored(head, X, ((0, 0, ROLL_Z), 160.0))), body)
     hx, hz = HINGE
     side = plate(
         [(-940, low, 0), (-940, high, 0), (hx + 280, high, 0), (hx, hz, 140), (hx, low, 0)], "xz", inside, outside
@@ -99,15 +99,22 @@ def _bogie_bracket() -> TopoDS_Shape:
     return bored(shape, Y, ((BOGIE_X, 0, RADIUS), PIN_BOGIE / 2))
 
 
+def housing(left: list[tuple[float, float]], tube: float, hollow: float) -> TopoDS_Shape:
+    """An axle's hollow housing about the origin along y: `left` is its profile from the left end inwards, to where it
+    is a tube of that radius; hollow so far from the middle."""
+    ball, wall = RADIUS - v.GROUND_CLEARANCE.value, 25.0
+    left = [*left, (230.0, tube), (170.0, ball)]
+    inside = [(hollow, 0.0), (hollow, tube - wall), (220.0, tube - wall), (160.0, ball - wall)]
+    outer, inner = (turned([*half, *[(-s, q) for s, q in reversed(half)]]) for half in (left, inside))
+    return cut(outer, inner)
+
+
 def _axle_middle(tree: Assembly, name: str, x: float, body: str) -> None:
-    """An axle's differential with short tubes, held by pads under the rails."""
+    """An axle's differential with short tubes, its pads under the rails."""
     inside, outside, low, _ = RAIL
-    ball = RADIUS - v.GROUND_CLEARANCE.value
-    left = [(outside, 0.0), (outside, 120.0), (300.0, 120.0), (250.0, ball)]
-    shape = turned([*left, *[(-s, q) for s, q in reversed(left)]], (x, 0, RADIUS))
-    tree.add(Part(f"AXLE CASE {name}", shape, GREY), body)
-    pad = cut(box(x - 120, x + 120, inside, outside, RADIUS + 50, low), rod((x, 0, RADIUS), Y, 120, 900))
-    add_pair(tree, f"AXLE PAD {name}", pad, body, GREY)
+    case = moved(housing([(outside, 0.0), (outside, 120.0)], 120.0, outside - 30), shift(x, 0, RADIUS))
+    pads = [box(x - 120, x + 120, y, y + outside - inside, RADIUS, low) for y in (inside, -outside)]
+    tree.add(Part(f"AXLE CASE {name}", fuse(case, *pads), GREY), body)
 
 
 def draw_bogie() -> Assembly:
@@ -115,13 +122,11 @@ def draw_bogie() -> Assembly:
     tree, half = Assembly("BOGIE"), v.BOGIE_SPACING.value / 2
     end = v.REAR_TREAD.value / 2 + 60
     outline = [(BOGIE_X - half, RADIUS, 150.0), (BOGIE_X + half, RADIUS, 150.0), (BOGIE_X, RADIUS + 30, 200.0)]
-    beam = bored(plate(outline, "xz", *BEAM), Y, ((BOGIE_X, 0, RADIUS), PIN_BOGIE / 2 + CLEARANCE))
-    for letter, sign in (("l", 1.0), ("r", -1.0)):
-        body = f"bogie_beam_{letter}"
-        flip = turn(Z, 180.0, (BOGIE_X, 0, 0))
-        tree.add(Part(f"BOGIE BEAM {letter.upper()}H", beam), body, at=None if sign > 0 else flip)
-        for x in (MIDDLE_X, REAR_X):
-            flange, neck = rod((0, BEAM[1], 0), Y, 170, 50), rod((0, BEAM[1], 0), Y, SPINDLE, end - BEAM[1])
-            at = shift(x, 0, RADIUS) if sign > 0 else shift(x, 0, RADIUS).Multiplied(turn(Z, 180.0))
-            tree.add(Part("HUB SPINDLE", fuse(flange, neck), GREY), body, at=at)
+    beam = plate(outline, "xz", *BEAM)
+    for x in (MIDDLE_X, REAR_X):
+        flange, neck = rod((x, BEAM[1], RADIUS), Y, 140, 50), rod((x, BEAM[1], RADIUS), Y, SPINDLE, end - BEAM[1])
+        beam = fuse(beam, flange, neck)
+    beam = bored(beam, Y, ((BOGIE_X, 0, RADIUS), PIN_BOGIE / 2 + CLEARANCE))
+    for letter, shape in (("l", beam), ("r", mirrored(beam))):
+        tree.add(Part(f"BOGIE BEAM {letter.upper()}H", shape), f"bogie_beam_{letter}")
     return tree

@@ -174,8 +174,11 @@ def _reach(quantity: Mapping[str, Any], posed: Posed) -> float:
 
 
 def _joint_angle(quantity: Mapping[str, Any], posed: Posed) -> float:
-    """A joint's coordinate from the straight machine, cut joints included."""
+    """A joint's coordinate from the straight machine, cut joints included, or from that after the steps `above`."""
     joint = _joint(quantity.get("joint"), posed)
+    if "above" in quantity:
+        below = posed.after(quantity["above"])
+        return posed.chain.coordinate(posed.state, joint.name) - posed.chain.coordinate(below, joint.name)
     return posed.chain.coordinate(posed.state, joint.name) - posed.straight(joint.name)
 
 
