@@ -33,7 +33,7 @@ def cylinders() -> dict[str, Cylinder]:
     return {
         "steering": Cylinder(
             "STRG CYL", v.STEER_BORE.value, v.STEER_ROD.value, v.STEER_STROKE.value, v.STEER_CLOSED.value,
-            solve_steering().length(0.0), outside=145, pin=PIN_STEER, eye=50, eye_width=80, base=105, cap=32,
+            solve_steering().length(0.0), outside=155, pin=PIN_STEER, eye=50, eye_width=80, base=105, cap=32,
             piston=65, gland=80, port=14.0,
         ),
         "hoist": Cylinder(

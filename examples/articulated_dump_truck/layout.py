@@ -79,7 +79,7 @@ def solve_hoist() -> Hoist:
 @functools.cache
 def solve_steering() -> Steering:
     """Barrels on the tractor, rods on the hitch; the same on every call."""
-    return steering_between(1000.0, -250.0, LOCK, v.STEER_CLOSED.value, v.STEER_STROKE.value)
+    return steering_between(1060.0, -150.0, LOCK, v.STEER_CLOSED.value, v.STEER_STROKE.value)
 
 
 def head_top() -> float:

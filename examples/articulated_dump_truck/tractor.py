@@ -20,7 +20,7 @@ from .trailer import HITCH_PLATES, PIN_ARTICULATION, PIN_STEER, SPINDLE, STEER_E
 BODY = "front_frame"
 BULKHEAD = 430.0
 """Where the rails begin."""
-RAIL = (520.0, 580.0, 1080.0, 1420.0)
+RAIL = (570.0, 630.0, 1080.0, 1420.0)
 """Inside, outside, underside, top."""
 AXLE = 135.0
 """Radius of the front axle's tube."""
@@ -33,7 +33,7 @@ def draw_frame(hardware: Assembly) -> Assembly:
     inside, outside, low, high = RAIL
     add_pair(tree, "FRONT RAIL", box(BULKHEAD, 3950, inside, outside, low, high), BODY)
     wall = box(BULKHEAD, BULKHEAD + 40, -inside, inside, 860, 1590)
-    tree.add(Part("BULKHEAD", cut(wall, box(0, 1000, -500, 500, 1120, 1345))), BODY)
+    tree.add(Part("BULKHEAD", cut(wall, box(0, 1000, -555, 555, 1120, 1345))), BODY)
     for z in (low + 40.0, high - 80.0):
         tree.add(Part("X-MEMBER FRT", box(3880, 3920, -inside, inside, z, z + 40)), BODY)
     for z0, z1 in HITCH_PLATES:
@@ -60,7 +60,7 @@ def draw_axle() -> Assembly:
     tree, half = Assembly("FRONT AXLE ASSY"), v.FRONT_TREAD.value / 2
     left = [(half + 60, 0), (half + 60, SPINDLE), (half - 230, SPINDLE), (half - 230, AXLE)]
     profile = housing(left, AXLE, half - 300)
-    pads = [box(FRONT_X - 140, FRONT_X + 140, y, y + 100, RADIUS, RAIL[2]) for y in (500.0, -600.0)]
+    pads = [box(FRONT_X - 140, FRONT_X + 140, y, y + 100, RADIUS, RAIL[2]) for y in (530.0, -630.0)]
     tree.add(Part("AXLE HOUSING FRT", fuse(moved(profile, shift(FRONT_X, 0, RADIUS)), *pads), GREY), BODY)
     return tree
 
@@ -81,7 +81,7 @@ def draw_power() -> Assembly:
     put("HOOD", cut(hood, box(4000, 4100, -600, 600, 1950, 2500)), YELLOW)
     put("GRILLE", box(4054, 4060, -600, 600, 1950, 2500), BLACK)
     put("EXHAUST STACK", rod((2700, -560, 2650), Z, 80, 700), BLACK)
-    for name, low, high, colour in (("FUEL TANK", 580.0, 900.0, BLACK), ("HYDRAULIC TANK", -900.0, -580.0, GREY)):
+    for name, low, high, colour in (("FUEL TANK", RAIL[1], 900.0, BLACK), ("HYDRAULIC TANK", -900.0, -RAIL[1], GREY)):
         put(name, sheet_box(2050, 2950, low, high, 850, 1380, 8.0), colour)
     return tree
 

@@ -49,16 +49,16 @@ LOWER_TIME = Value("Body lower time", 7.6, "s")
 HOIST_BORE = Value("Hoist cylinder bore", 200, "mm")
 HOIST_ROD = Value("Hoist cylinder rod diameter", 120, "mm")
 HOIST_STROKE = Value("Hoist cylinder stroke", 1_470, "mm")
-STEER_BORE = Value("Steering cylinder bore", 120, "mm")
-STEER_ROD = Value("Steering cylinder rod diameter", 70, "mm")
-STEER_STROKE = Value("Steering cylinder stroke", 455, "mm")
+STEER_BORE = Value("Steering cylinder bore", 130, "mm")
+STEER_ROD = Value("Steering cylinder rod diameter", 75, "mm")
+STEER_STROKE = Value("Steering cylinder stroke", 550, "mm")
 PRESSURE = Value("Body hoist relief pressure", 20.0, "MPa")
 FLOW = Value("Hoist pump flow", 465, "L/min")
 
 # ---- ours: how things are drawn; a sheet does not print these --------
 TYRE_WIDTH = Value("Tire width", 740, "mm")
 HOIST_CLOSED = Value("Hoist cylinder closed length", 2_125, "mm")
-STEER_CLOSED = Value("Steering cylinder closed length", 965, "mm")
+STEER_CLOSED = Value("Steering cylinder closed length", 912, "mm")
 
 TYRE_SIZE = "29.5R25"
 PUBLISHED: tuple[Value, ...] = tuple(x for x in list(globals().values()) if isinstance(x, Value) and x.published)
