@@ -44,7 +44,7 @@ def draw_frame(hardware: Assembly) -> Assembly:
         fit_pin(hardware, at, PIN_ARTICULATION, length, BODY, "articulation_pin", upright=True, keep=(1.0,), turned=-90)
     px, py = solve_steering().P
     for name, start in STEER_EARS:
-        ear = plate([(px, py, 52), (px + 110, inside, 0), (px - 110, inside, 0)], "xy", start, start + 30)
+        ear = plate([(px, py, 52), (px + 140, inside, 0), (px - 20, inside, 0)], "xy", start, start + 30)
         add_pair(tree, f"STRG BRKT {name}", bored(ear, Z, ((px, py, 0), PIN_STEER / 2)), BODY)
     for letter, sign in (("l", 1.0), ("r", -1.0)):
         role = f"steering_cylinder_barrel_{letter}_pin"
