@@ -25,7 +25,10 @@ from yellowiron.alignment.features.solids import size_of, solids_of  # noqa: E40
 from yellowiron.alignment.fusion.stance import stance_of, surface_points  # noqa: E402
 from yellowiron.library import load_template  # noqa: E402
 
-TYPES = {"loader": "wheel_loader", "excavator": "excavator", "skid_steer": "skid_steer"}
+TYPES = {
+    "loader": "wheel_loader", "excavator": "excavator", "skid_steer": "skid_steer",
+    "articulated_truck": "articulated_dump_truck",
+}  # fmt: skip
 KEPT = 0.05
 """This share of a body's surface is left out at either end of its box."""
 

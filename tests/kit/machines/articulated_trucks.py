@@ -144,8 +144,8 @@ class ArticulatedTruck(Drawer):
         for side, letter in SIDES:
             self.side_plate("rear rail", body, side * y, rail, "H")
             self.across("dump_body_pin", body, self.P["H"], side, y - 2.6 * t - self.gap, y + 2.6 * t + self.gap)
-            self.block("hoist bracket", body, *_beside(side, (cx / s + 0.12, cx / s + 0.17), half, 0.8, (0.88, 1.3)))
-            x = cx + 0.12 * s + e
+            self.block("hoist bracket", body, *_beside(side, (cx / s + 0.17, cx / s + 0.22), half, 0.8, (0.88, 1.3)))
+            x = cx + 0.17 * s + e
             ear = around((cx, cz, wide), (x, 0.9 * s, 0), (x, 1.15 * s, 0))
             d = self.eye_w / 2 + self.gap + t / 2
             for yy in (self.y_hoist - d, self.y_hoist + d):

@@ -11,6 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from kit.machines import solids as align_solids
+from kit.machines.articulated_trucks import articulated_truck
 from kit.machines.crawler import merged
 from kit.machines.excavators import Features, excavator
 from kit.machines.skid_steers import skid_steer
@@ -36,6 +37,8 @@ def drawn(kind: str, seed: int, *, segments: int = 32, hollow: bool = True) -> M
             return loader(seed, embedded=embedded, stop=stop, hoses=hoses, links=links)
         if kind == "skid_steer":
             return skid_steer(seed, embedded=embedded)
+        if kind == "articulated_truck":
+            return articulated_truck(seed, embedded=embedded)
         if kind == "mini":
             swinging = Features("single", swing=True, blade=seed % 3, tipping=("plates", "welded")[seed % 2])
             return excavator(seed, swinging, embedded=embedded)

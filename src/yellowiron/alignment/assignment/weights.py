@@ -158,17 +158,16 @@ def side_weights(
         middle = np.mean([0.5 * (s.low + s.high) for s in members], axis=0)
         return np.asarray(frame.matrix[:3, :3] @ middle + frame.matrix[:3, 3], dtype=np.float64)
 
-    alike = interchangeable(template)
-    for names in alike:
+    alike = {names | {twin_role(name) or name for name in names} for names in interchangeable(template)}
+    for names in sorted(alike, key=sorted):
         there = {name: place(cluster_of[name]) for name in names if name in cluster_of}
         middle = np.mean(list(there.values()), axis=0) if there else np.zeros(3)
         foremost = min((_END.findall(name)[0] for name in names), key=_ORDER.index)
-        both = len({side for name in names for side in _SIDE.findall(name)}) > 1
         for found, at in there.items():
             ahead, leftward = (bool(at[axis] > middle[axis]) for axis in (0, 1))
             for name in names:
                 ends, sides = _END.findall(name), _SIDE.findall(name)
-                fits = (ends[0] == foremost) == ahead and (not both or not sides or (sides[0] == "l") == leftward)
+                fits = (ends[0] == foremost) == ahead and (not sides or (sides[0] == "l") == leftward)
                 where = (cluster_of[found], name)
                 sided[where] = sided.get(where, 0) + (SIDE_WEIGHT if fits else -SIDE_WEIGHT)
 
