@@ -56,7 +56,7 @@ def draw_rear_frame(hardware: Assembly) -> Assembly:
     """Tube, rails, brackets of the bogie and of the hoist cylinders, axle middles, the body's hinge."""
     tree, body = Assembly("REAR FRAME ASSY"), "rear_frame"
     inside, outside, low, high = RAIL
-    head = fuse(box(-940, -900, -outside, outside, 930, 1500), rod((-900, 0, ROLL_Z), X, JOURNAL, 440))
+    head = fuse(box(-940, -900, -outside, outside, 930, 1430), rod((-900, 0, ROLL_Z), X, JOURNAL, 440))
     tree.add(Part("FRAME HEAD", bored(head, X, ((0, 0, ROLL_Z), 160.0))), body)
     hx, hz = HINGE
     side = plate(
