@@ -11,7 +11,7 @@ from __future__ import annotations
 from drawing.values import Value
 
 FACTS = "Caterpillar, 740 GC technical specifications (manualmachine.com/cat/740gc/17904591-specifications)"
-DEALER = "cashmanequipment.com/compare, 740 GC"
+DEALER = "cashmanequipment.com/compare, 740 GC bare chassis, standard wheel base"
 MAKE, MODEL = "Caterpillar", "740 GC"
 INCH = 25.4
 
