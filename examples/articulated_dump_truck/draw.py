@@ -8,17 +8,14 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from drawing.cylinders import Cylinder, draw_cylinder
+from drawing.cylinders import Cylinder, draw_cylinder, put_pair
 from drawing.files import run, write_example
-from drawing.hardware import placed
-from drawing.planar import direction
-from drawing.product import Assembly, Use
-from drawing.solids import X, frame, turn
+from drawing.product import Assembly
 from drawing.wheels import WheelSizes, draw_wheel, put_wheels
 
 from . import values as v
 from .dump_body import draw_body
-from .layout import HOIST_Y, RADIUS, STEER_Z, carry, solve_hoist, solve_steering
+from .layout import HOIST_Y, RADIUS, STEER_Z, TIPPER, solve_hoist, solve_steering
 from .sheet import write
 from .tractor import draw_axle, draw_cab, draw_frame, draw_power
 from .trailer import HOIST_EYE, PIN_HOIST, PIN_STEER, SPINDLE, draw_bogie, draw_hitch, draw_rear_frame
@@ -52,16 +49,10 @@ def raised() -> float:
 def draw_cylinders() -> Assembly:
     """The four cylinders, in one assembly as a parts book has them."""
     tree, sizes, steering, hoist = Assembly("HYDRAULIC CYLINDERS"), cylinders(), solve_steering(), solve_hoist()
-    steer, lift = draw_cylinder(sizes["steering"]), draw_cylinder(sizes["hoist"])
-    along, up = steering.Q - steering.P, carry(raised(), hoist.D) - hoist.C
-    for letter, sign in (("l", 1.0), ("r", -1.0)):
-        # Drawn with its pins along y, which stand upright here.
-        start = (float(steering.P[0]), sign * float(steering.P[1]), STEER_Z)
-        flat = frame(start, (along[0], sign * along[1], 0.0), (0.0, 0.0, 1.0)).Multiplied(turn(X, 90.0))
-        beside = placed((float(hoist.C[0]), sign * HOIST_Y, float(hoist.C[1])), direction(up))
-        for name, child, at in (("steering", steer, flat), ("hoist", lift, beside)):
-            halves = {"barrel": f"{name}_cylinder_barrel_{letter}", "rod": f"{name}_piston_rod_{letter}"}
-            tree.uses.append(Use(child, at, names=halves))
+    p, q = ((float(at[0]), float(at[1]), STEER_Z) for at in (steering.P, steering.Q))
+    c, d = ((float(at[0]), HOIST_Y, float(at[1])) for at in (hoist.C, TIPPER.carry(raised(), hoist.D)))
+    put_pair(tree, draw_cylinder(sizes["steering"]), "steering", p, q)
+    put_pair(tree, draw_cylinder(sizes["hoist"]), "hoist", c, d)
     return tree
 
 

@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-import math
-
-from OCP.gp import gp_Trsf
-
 from drawing.hardware import CLEARANCE, fit_pin
 from drawing.product import GREY, YELLOW, Assembly, Colour, Part, add_pair
-from drawing.solids import Y, bored, box, moved, plate, turn
+from drawing.solids import Y, bored, box, plate
 
 from . import values as v
-from .layout import FLOOR, HEAD_X, HINGE, HOIST_Y, TAIL, carry, head_top, solve_hoist, tail_low
+from .layout import FLOOR, HEAD_TOP, HEAD_X, HOIST_Y, TAIL, TAIL_LOW, TIPPER, solve_hoist
 from .trailer import HOIST_EARS, PIN_BODY, PIN_HOIST, RAIL
 
 BODY = "dump_body"
@@ -21,15 +17,10 @@ INNER = v.BODY_WIDTH.value / 2 - RIB - SHEET
 """Half of the width inside."""
 
 
-def carried(raised: float) -> gp_Trsf:
-    """Where the lowered body goes when it is raised (radians)."""
-    return turn(Y, -math.degrees(raised), (float(HINGE[0]), 0.0, float(HINGE[1])))
-
-
 def draw_body(raised: float, hardware: Assembly) -> Assembly:
     """Floor, sides, headboard, ribs and rails; beneath it sills, the hinge's ears, lugs of the hoist cylinders."""
-    lowered, (hx, hz), (dx, dz) = Assembly("DUMP BODY"), HINGE, solve_hoist().D
-    tail, top = tail_low(), v.LOADING_HEIGHT.value
+    lowered, (hx, hz), (dx, dz) = Assembly("DUMP BODY"), TIPPER.hinge, solve_hoist().D
+    tail, top = TAIL_LOW, v.LOADING_HEIGHT.value
 
     def put(name: str, low: float, high: float, outline: list[tuple[float, float]], colour: Colour = YELLOW) -> None:
         lowered.add(Part(name, plate([(x, z, 0.0) for x, z in outline], "xz", low, high), colour), BODY)
@@ -44,7 +35,7 @@ def draw_body(raised: float, hardware: Assembly) -> Assembly:
         rib = box(x - 60, x, INNER + SHEET, INNER + SHEET + RIB, FLOOR, top - 60)
         add_pair(lowered, "BODY RIB", rib, BODY)
     add_pair(lowered, "TOP RAIL", box(hx, HEAD_X, INNER + SHEET, INNER + SHEET + RIB, top - 60, top), BODY)
-    head = head_top()
+    head = HEAD_TOP
     put("HEADBOARD", -INNER, INNER, [(HEAD_X - SHEET, FLOOR + SHEET), (HEAD_X, FLOOR + SHEET), (HEAD_X, head),
                                      (HEAD_X - SHEET, head)])  # fmt: skip
     inside, outside, _, high = RAIL
@@ -58,12 +49,8 @@ def draw_body(raised: float, hardware: Assembly) -> Assembly:
     for name, (low, end) in zip(("IN", "OUT"), HOIST_EARS, strict=True):
         lug = plate([(dx, dz, 75), (dx + 120, FLOOR, 0), (dx - 120, FLOOR, 0)], "xz", low, end)
         add_pair(lowered, f"HOIST LUG {name}", bored(lug, Y, ((dx, 0, dz), PIN_HOIST / 2)), BODY)
-    tree, at = Assembly(lowered.name), carried(raised)
-    for use in lowered.uses:
-        part = use.child
-        assert isinstance(part, Part)
-        tree.add(Part(part.name, moved(part.shape, at), part.colour), BODY)
-    x, z = (float(c) for c in carry(raised, solve_hoist().D))
+    tree = TIPPER.raise_parts(lowered, raised)
+    x, z = (float(c) for c in TIPPER.carry(raised, solve_hoist().D))
     half = HOIST_EARS[1][1] + 10 - HOIST_Y
     for letter, y in (("l", HOIST_Y), ("r", -HOIST_Y)):
         fit_pin(hardware, (x, y - half, z), PIN_HOIST, 2 * half, BODY, f"hoist_piston_rod_{letter}_pin")

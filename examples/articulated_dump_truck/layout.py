@@ -8,13 +8,12 @@ from __future__ import annotations
 
 import functools
 import math
-from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import brentq, least_squares
 
 from drawing.articulation import Steering, steering_between
-from drawing.planar import Point, direction, rot, vec
+from drawing.planar import direction, vec
+from drawing.tipper import Hoist, Tipper, fitted_hoist
 
 from . import values as v
 
@@ -30,68 +29,27 @@ NOSE = FRONT_X + v.FRONT_OVERHANG.value
 TAIL = NOSE - v.LENGTH.value
 ROLL_Z, STEER_Z = 1215.0, 1230.0
 """Heights of the axis that the rear frame rolls about, and of the steering cylinders."""
-HINGE = vec(-4900.0, 1500.0)
-"""The body's pivot."""
+TIPPER = Tipper(vec(-4900.0, 1500.0), math.radians(v.DUMP_ANGLE.value))
 FLOOR, HEAD_X = 1985.0, -350.0
 """Underside of the body's floor; its foremost point."""
+HEAD_TOP, TAIL_LOW = (
+    TIPPER.lowered(x, value.value) for x, value in ((HEAD_X, v.RAISED_HEIGHT), (TAIL, v.DUMP_CLEARANCE))
+)
+"""Heights of the headboard and of the tail's underside on the lowered body: what its heights when raised take."""
 HOIST_Y = 620.0
-_HOIST_Z = (1000.0, 1890.0)
-"""Heights of the hoist cylinders' pins, on the frame and on the lowered body."""
-DUMP = math.radians(v.DUMP_ANGLE.value)
-
-
-def carry(raised: float, point: Point) -> Point:
-    """Where a point of the lowered body is when it is raised."""
-    return HINGE + rot(raised, point - HINGE)
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Hoist:
-    """A hoist cylinder's pins: C on the frame, D on the lowered body."""
-
-    C: Point
-    D: Point
-
-    def length(self, raised: float) -> float:
-        """Of the cylinder."""
-        return float(np.hypot(*(carry(raised, self.D) - self.C)))
-
-    def raised(self, length: float) -> float:
-        """The body's angle at a length of the cylinder."""
-        return float(brentq(lambda a: self.length(a) - length, -0.01, DUMP + 0.01, xtol=1e-14))
 
 
 @functools.cache
 def solve_hoist() -> Hoist:
     """Pins for which the stroke gives the dump angle; the same on every call."""
-    low, high = _HOIST_Z
-    closed, stroke = v.HOIST_CLOSED.value, v.HOIST_STROKE.value
-
-    def pins(x: Point) -> Hoist:
-        return Hoist(vec(x[0], low), vec(x[1], high))
-
-    def missed(x: Point) -> Point:
-        return np.array([pins(x).length(0.0) - closed, pins(x).length(DUMP) - closed - stroke])
-
-    return pins(least_squares(missed, [-1750.0, -3660.0], xtol=1e-15, ftol=1e-15, gtol=1e-15).x)
+    near = vec(-1750.0, 1000.0), vec(-3660.0, 1890.0)
+    return fitted_hoist(TIPPER, near, v.HOIST_CLOSED.value, v.HOIST_STROKE.value)
 
 
 @functools.cache
 def solve_steering() -> Steering:
     """Barrels on the tractor, rods on the hitch; the same on every call."""
     return steering_between(1060.0, -150.0, LOCK, v.STEER_CLOSED.value, v.STEER_STROKE.value)
-
-
-def head_top() -> float:
-    """Height of the headboard: what the raised body's height takes."""
-    over = v.RAISED_HEIGHT.value - HINGE[1] - (HEAD_X - HINGE[0]) * math.sin(DUMP)
-    return float(HINGE[1] + over / math.cos(DUMP))
-
-
-def tail_low() -> float:
-    """Height of the lowered tail's underside: what the clearance under the raised one takes."""
-    under = v.DUMP_CLEARANCE.value - HINGE[1] - (TAIL - HINGE[0]) * math.sin(DUMP)
-    return float(HINGE[1] + under / math.cos(DUMP))
 
 
 def bumper_low() -> float:
@@ -109,7 +67,7 @@ def measured() -> dict[str, float]:
     axle = vec(FRONT_X * math.cos(lock), FRONT_X * math.sin(lock))
     inwards = vec(-math.sin(lock), math.cos(lock))
     radius = (axle[0] - BOGIE_X) / -inwards[0]
-    corner, tail = (carry(raised, vec(x, z)) for x, z in ((HEAD_X, head_top()), (TAIL, tail_low())))
+    corner, tail = (TIPPER.carry(raised, vec(x, z)) for x, z in ((HEAD_X, HEAD_TOP), (TAIL, TAIL_LOW)))
     nose = vec(NOSE - FRONT_X, bumper_low() - RADIUS)
     return {
         v.TURNING_RADIUS.name: float(radius) + (v.FRONT_TREAD.value + v.TYRE_WIDTH.value) / 2,

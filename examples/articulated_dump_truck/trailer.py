@@ -13,7 +13,7 @@ from drawing.product import GREY, RED, STEEL, Assembly, Part, add_pair
 from drawing.solids import X, Y, Z, bored, box, cut, fuse, mirrored, moved, plate, ring, rod, shift, turn, turned
 
 from . import values as v
-from .layout import BOGIE_X, HINGE, HOIST_Y, MIDDLE_X, RADIUS, REAR_X, ROLL_Z, STEER_Z, solve_hoist, solve_steering
+from .layout import BOGIE_X, HOIST_Y, MIDDLE_X, RADIUS, REAR_X, ROLL_Z, STEER_Z, TIPPER, solve_hoist, solve_steering
 
 PIN_ARTICULATION, PIN_STEER, PIN_HOIST, PIN_BODY, PIN_BOGIE = 110.0, 50.0, 90.0, 100.0, 160.0
 SPINDLE = 95.0
@@ -58,7 +58,7 @@ def draw_rear_frame(hardware: Assembly) -> Assembly:
     inside, outside, low, high = RAIL
     head = fuse(box(-940, -900, -outside, outside, 930, 1430), rod((-900, 0, ROLL_Z), X, JOURNAL, 440))
     tree.add(Part("FRAME HEAD", bored(head, X, ((0, 0, ROLL_Z), 160.0))), body)
-    hx, hz = HINGE
+    hx, hz = TIPPER.hinge
     side = plate(
         [(-940, low, 0), (-940, high, 0), (hx + 280, high, 0), (hx, hz, 140), (hx, low, 0)], "xz", inside, outside
     )

@@ -13,18 +13,16 @@ from drawing.truth import CadFrame, Joints, Y, value_rows
 from drawing.wheels import wheel_places
 
 from . import values as v
-from .dump_body import carried
 from .layout import (
     BOGIE_X,
     FRONT_X,
-    HINGE,
     HOIST_Y,
     MIDDLE_X,
     RADIUS,
     REAR_X,
     ROLL_Z,
     STEER_Z,
-    carry,
+    TIPPER,
     measured,
     solve_hoist,
     solve_steering,
@@ -44,8 +42,8 @@ def joints(raised: float) -> dict[str, dict[str, Any]]:
     found, steering, hoist = Joints(FRAME), solve_steering(), solve_hoist()
     found.pivot("front_frame", "hitch", (0, 0, STEER_Z), Z)
     found.pivot("hitch", "rear_frame", (0, 0, ROLL_Z), X)
-    found.pivot("rear_frame", "dump_body", (float(HINGE[0]), 0, float(HINGE[1])))
-    rod = carry(raised, hoist.D)
+    found.pivot("rear_frame", "dump_body", (float(TIPPER.hinge[0]), 0, float(TIPPER.hinge[1])))
+    rod = TIPPER.carry(raised, hoist.D)
     for letter, sign in (("l", 1.0), ("r", -1.0)):
         beam = f"bogie_beam_{letter}"
         found.pivot("rear_frame", beam, (BOGIE_X, 0, RADIUS))
@@ -68,8 +66,8 @@ def drawn_values(root: Assembly, raised: float) -> dict[str, float]:
 
     tractor, tyres = extent(of("front_frame")), extent([x for x in leaves if x.part.name.startswith("TYRE")])
     body = of("dump_body")
-    lowered = carried(raised).Inverted()
-    up = carried(np.radians(v.DUMP_ANGLE.value)).Multiplied(lowered)
+    lowered = TIPPER.carried(raised).Inverted()
+    up = TIPPER.carried(TIPPER.dump).Multiplied(lowered)
     low, high = extent(body, lowered), extent(body, up)
     walls = extent([leaf for leaf in body if leaf.part.name.startswith("BODY SIDE")], lowered)
 

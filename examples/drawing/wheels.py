@@ -59,6 +59,25 @@ def draw_wheel(w: WheelSizes) -> Assembly:
     return tree
 
 
+def draw_dual(w: WheelSizes, apart: float) -> Assembly:
+    """Two tyres on their rims, their middles `apart`, on one hub; bodies are tagged "wheel", the tyres' role "tyre"."""
+    tree, single = Assembly(f"DUAL WHEEL ASSY {w.name}"), draw_wheel(w)
+    tyre, (half, b) = single.uses[0].child, (w.width / 2, w.bead)
+    edge, lip = 0.74 * half, 0.8 * half
+    ends = [(-lip, b), (-lip, b + 34), (-edge, b + 34), (-edge, b)]
+    profile = [*ends, *[(-s, r) for s, r in reversed(ends)], (lip, b - 18), (-lip, b - 18)]
+    rim = Part("DUAL RIM", turned(profile), YELLOW)
+    for y in (apart / 2, -apart / 2):
+        tree.add(tyre, "wheel", "tyre", shift(0, y, 0))
+        tree.add(rim, "wheel", at=shift(0, y, 0))
+    out, long, s = apart / 2 + edge, 0.62 * apart, w.spindle
+    drum = [(long, s + CLEARANCE), (long, s + 60), (40.0, s + 60), (40.0, b - 50), (out, b - 50), (out, b - 18)]
+    tree.add(Part("DUAL HUB", turned([*drum, *[(-y, r) for y, r in reversed(drum)]]), GREY), "wheel")
+    cap = turned([(long, 0.0), (long, s + 50), (long + 60, s + 20), (long + 60, 0.0)])
+    tree.add(Part("PLANET COVER", cap, YELLOW), "wheel")
+    return tree
+
+
 def wheel_places(treads: Mapping[str, tuple[float, float]], height: float) -> dict[str, tuple[float, float, float]]:
     """`<end>_wheel_<side>` → the wheel's middle, of (x, tread) by end."""
     return {

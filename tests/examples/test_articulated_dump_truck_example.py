@@ -54,7 +54,7 @@ def test_the_layout_meets_what_is_printed(layout: ModuleType, values: ModuleType
 def test_cylinders_keep_off_their_dead_points(layout: ModuleType) -> None:
     steering, hoist = layout.solve_steering(), layout.solve_hoist()
     assert min(steering.lever(angle) for angle in np.linspace(-layout.LOCK, layout.LOCK, 21)) > 200.0
-    lengths = [hoist.length(raised) for raised in np.linspace(0.0, layout.DUMP, 41)]
+    lengths = [hoist.length(raised) for raised in np.linspace(0.0, layout.TIPPER.dump, 41)]
     assert min(np.diff(lengths)) > 0.5 * (lengths[-1] - lengths[0]) / 40
 
 
@@ -78,9 +78,9 @@ def test_bodies_do_not_meet_as_drawn_nor_at_the_ends(layout: ModuleType, made_on
         m[:3, 3] = np.array(at) - m[:3, :3] @ np.array(at)
         return np.linalg.inv(frame) @ m @ frame
 
-    hinge = (float(layout.HINGE[0]), 0.0, float(layout.HINGE[1]))
+    hinge = (float(layout.TIPPER.hinge[0]), 0.0, float(layout.TIPPER.hinge[1]))
     drawn = module(TYPE, "draw").raised()
-    for steer, raised in ((0.0, drawn), (layout.LOCK, 0.0), (-layout.LOCK, 0.0), (0.0, layout.DUMP)):
+    for steer, raised in ((0.0, drawn), (layout.LOCK, 0.0), (-layout.LOCK, 0.0), (0.0, layout.TIPPER.dump)):
         bend = turned((0.0, 0.0, 1.0), steer, (0.0, 0.0, 0.0))
         tip = turned((0.0, 1.0, 0.0), drawn - raised, hinge)
         moves = [(bend if behind else np.eye(4)) @ (tip if body == "dump_body" else np.eye(4))
