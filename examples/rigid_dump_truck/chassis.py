@@ -17,7 +17,7 @@ RAIL = (270.0, 350.0, 1250.0, 1600.0)
 PIN_BODY, PIN_HOIST, PIN_KING, PIN_TIE, PIN_STEER = 110.0, 90.0, 130.0, 50.0, 50.0
 SPINDLE, REAR_SPINDLE = 110.0, 150.0
 """Radii of what front and rear wheels turn on."""
-HOIST_EARS = ((HOIST_Y - 90.0, HOIST_Y - 62.0), (HOIST_Y + 62.0, HOIST_Y + 90.0))
+HOIST_EARS = ((HOIST_Y - 115.0, HOIST_Y - 85.0), (HOIST_Y + 85.0, HOIST_Y + 115.0))
 EYE = (940.0, 1210.0)
 """Heights of the axle's eyes about the kingpins."""
 FORK = ((880.0, 930.0), (1220.0, 1270.0))

@@ -35,7 +35,7 @@ def cylinders() -> dict[str, Cylinder]:
         "hoist": Cylinder(
             "HOIST CYL", v.HOIST_BORE.value, v.HOIST_ROD.value, v.HOIST_STROKE.value, v.HOIST_CLOSED.value,
             v.HOIST_CLOSED.value + HOISTED * v.HOIST_STROKE.value, outside=320, pin=PIN_HOIST, eye=90,
-            eye_width=110, base=170, cap=45, piston=110, gland=130, port=14.0,
+            eye_width=160, base=170, cap=45, piston=110, gland=130, port=14.0,
         ),
     }  # fmt: skip
 

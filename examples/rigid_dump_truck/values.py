@@ -51,7 +51,7 @@ HOIST_STROKE = Value("Hoist cylinder stroke", 1_300, "mm")
 STEER_BORE = Value("Steering cylinder bore", 120, "mm")
 STEER_ROD = Value("Steering cylinder rod diameter", 65, "mm")
 STEER_STROKE = Value("Steering cylinder stroke", 260, "mm")
-PRESSURE = Value("Body hoist relief pressure", 20.0, "MPa")
+PRESSURE = Value("Body hoist relief pressure", 22.0, "MPa")
 FLOW = Value("Hoist pump flow", 985, "L/min")
 TOP_SPEED = Value("Top speed", 67.5, "km/h")
 

@@ -20,7 +20,7 @@ from yellowiron.simulation.commands import SHARE, Motion, motions, travel
 from yellowiron.simulation.driving import tracked
 from yellowiron.simulation.driving.result import BLOCK_HEIGHT, DISTANCE, DrivingResult
 from yellowiron.simulation.driving.turning import turning_centre
-from yellowiron.simulation.driving.wheel import DrivenWheel, driven_wheels, sides, top_speed
+from yellowiron.simulation.driving.wheel import DrivenWheel, driven_wheels, free_wheels, sides, top_speed
 from yellowiron.simulation.engine import Engine, Setup, coordinates, poses, tell
 from yellowiron.simulation.ground import Block, standing_bodies
 from yellowiron.simulation.loads import paces
@@ -69,12 +69,13 @@ class _Trip:
     wheels: tuple[DrivenWheel, ...] = field(init=False)
 
     def __post_init__(self) -> None:
-        self.wheels = driven_wheels(self.mechanism)
+        driven = driven_wheels(self.mechanism)
+        self.wheels = (*driven, *free_wheels(self.mechanism))
         self.chain = ClosedChain(self.mechanism)
         names = [body.name for body in self.mechanism.bodies]
         self._root = names.index(self.mechanism.root)
         self._steer = self._steering()
-        self._sides = () if self._steer is not None else sides(self.wheels)
+        self._sides = () if self._steer is not None else sides(driven)
         self._origin = np.asarray(self.mechanism.body(self.mechanism.root).origin)
 
     def _load(self, *blocks: Block) -> Engine:
@@ -99,7 +100,9 @@ class _Trip:
     def _speeds(self, speed: float, factors: Mapping[str, float] | None = None) -> dict[str, float]:
         """Wheel targets, rad/s, for a speed of the machine's middle in m/s."""
         share = factors or {}
-        return {w.joint.name: w.sign * speed * share.get(w.joint.name, 1.0) / w.radius for w in self.wheels}
+        return {
+            w.joint.name: w.sign * speed * share.get(w.joint.name, 1.0) / w.radius for w in self.wheels if w.actuator
+        }
 
     def _middles(self, poses: tuple[Floats, Floats]) -> Floats:
         """The wheels' middles (n, 3) in the world."""
