@@ -29,7 +29,7 @@ def cylinders() -> dict[str, Cylinder]:
     return {
         "steering": Cylinder(
             "STRG CYL", v.STEER_BORE.value, v.STEER_ROD.value, v.STEER_STROKE.value, v.STEER_CLOSED.value,
-            solve_steering().length(0.0), outside=142, pin=PIN_STEER, eye=50, eye_width=70, base=105, cap=30,
+            solve_steering().length(0.0), outside=174, pin=PIN_STEER, eye=50, eye_width=70, base=105, cap=30,
             piston=60, gland=75, port=14.0,
         ),
         "hoist": Cylinder(
