@@ -27,7 +27,7 @@ from yellowiron.library import load_template  # noqa: E402
 
 TYPES = {
     "loader": "wheel_loader", "excavator": "excavator", "skid_steer": "skid_steer",
-    "articulated_truck": "articulated_dump_truck",
+    "articulated_truck": "articulated_dump_truck", "rigid_truck": "rigid_dump_truck",
 }  # fmt: skip
 KEPT = 0.05
 """This share of a body's surface is left out at either end of its box."""

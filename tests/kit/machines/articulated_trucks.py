@@ -48,11 +48,7 @@ class ArticulatedTruck(Drawer):
         self.SP = [np.array([*p[:2], self.z_steer]) for p in self.SP]  # type: ignore[assignment]
         hinge = np.array([self.P["H"][0], 0.0, self.P["H"][1]])
         self.rear = turn_z(self.steer)
-        c, n = math.cos(self.raised), math.sin(self.raised)
-        up = np.eye(4)
-        up[[0, 0, 2, 2], [0, 2, 0, 2]] = c, -n, n, c
-        up[:3, 3] = hinge - up[:3, :3] @ hinge
-        self.body = self.rear @ up
+        self.body = self.rear @ self.raising(hinge)
         self.tractor()
         self.m.pose = self.rear
         self.hitch()
@@ -63,6 +59,14 @@ class ArticulatedTruck(Drawer):
         self.m.pose = np.eye(4)
         self.cylinders()
         return self.m
+
+    def raising(self, hinge: Array) -> Array:
+        """(4, 4) that raises the lowered body."""
+        c, n = math.cos(self.raised), math.sin(self.raised)
+        up = np.eye(4)
+        up[[0, 0, 2, 2], [0, 2, 0, 2]] = c, -n, n, c
+        up[:3, 3] = hinge - up[:3, :3] @ hinge
+        return up
 
     # ---- the tractor ----
     def tractor(self) -> None:
@@ -77,8 +81,8 @@ class ArticulatedTruck(Drawer):
                          (p[0] + 0.16 * s, side * (inner + e), 0))  # fmt: skip
             self.upright_lugs("steering lug", body, p, lug)
             self.upright(f"steering_cylinder_barrel_{letter}_pin", body, p, self.eye_w / 2 + self.gap + 0.6 * t)
-            self.block("fuel tank", body, *_beside(side, (2.0, 2.9), (y + t / 2) / s, 0.86, (0.9, 1.4)))
-            self.block("engine mount", body, *_beside(side, (2.5, 2.7), 0.42, inner / s, (1.25, 1.35)))
+            self.block("fuel tank", body, *beside(side, (2.0, 2.9), (y + t / 2) / s, 0.86, (0.9, 1.4)))
+            self.block("engine mount", body, *beside(side, (2.5, 2.7), 0.42, inner / s, (1.25, 1.35)))
             self.stub(f"front_wheel_{letter}", body, side, self.front_x, 0.66 * s, 1.2)
         half = (inner + e) / s
         self.block("bulkhead low", body, (0.43, -half, 0.86), (0.47, half, 1.12))
@@ -130,7 +134,7 @@ class ArticulatedTruck(Drawer):
 
     def rear_frame(self) -> None:
         s, t, e, m, body, y = self.s, self.t, self.e, self.m, "rear_frame", self.y_rail
-        low, high, (hx, hz), (cx, cz) = self.low, self.high, self.P["H"], self.P["C"]
+        low, high, (hx, hz) = self.low, self.high, self.P["H"]
         wide, half, inner = 2.2 * self.pin_r, (y + t / 2) / s, (y - t / 2 + e) / s
         head = box("head", 0.05 * s, 2 * half * s, 0.7 * s)
         bar = tube("roll_tube", self.roll_r, 0.8 * self.roll_r, 0.47 * s)
@@ -141,10 +145,19 @@ class ArticulatedTruck(Drawer):
         else:
             m.add("head", body, body, merged("frame_head", (head, at[0]), (bar, at[1])), np.eye(4))
         rail = around((-0.95 * s + e, low, 0), (-0.95 * s + e, high, 0), (hx, hz, wide), (hx, low, 0))
-        for side, letter in SIDES:
+        for side, _ in SIDES:
             self.side_plate("rear rail", body, side * y, rail, "H")
             self.across("dump_body_pin", body, self.P["H"], side, y - 2.6 * t - self.gap, y + 2.6 * t + self.gap)
-            self.block("hoist bracket", body, *_beside(side, (cx / s + 0.17, cx / s + 0.22), half, 0.8, (0.88, 1.3)))
+        self.hoist_brackets(body)
+        for x in (-1.3, -2.4, hx / s + 0.2):
+            self.block("cross member", body, (x, -inner, 1.15), (x + 0.05, inner, 1.38))
+
+    def hoist_brackets(self, body: str) -> None:
+        """Ears of the hoist cylinders beside the rails, with their pins."""
+        s, t, e, (cx, cz), wide = self.s, self.t, self.e, self.P["C"], 2.2 * self.pin_r
+        half = (self.y_rail + t / 2) / s
+        for side, letter in SIDES:
+            self.block("hoist bracket", body, *beside(side, (cx / s + 0.17, cx / s + 0.22), half, 0.8, (0.88, 1.3)))
             x = cx + 0.17 * s + e
             ear = around((cx, cz, wide), (x, 0.9 * s, 0), (x, 1.15 * s, 0))
             d = self.eye_w / 2 + self.gap + t / 2
@@ -152,8 +165,6 @@ class ArticulatedTruck(Drawer):
                 self.side_plate("hoist ear", body, side * yy, ear, "C")
             role = f"hoist_cylinder_barrel_{letter}_pin"
             self.across(role, body, self.P["C"], side, self.y_hoist - d - t, self.y_hoist + d + t)
-        for x in (-1.3, -2.4, hx / s + 0.2):
-            self.block("cross member", body, (x, -inner, 1.15), (x + 0.05, inner, 1.38))
 
     def bogie(self) -> None:
         s, t, e, y, r = self.s, self.t, self.e, self.y_rail, 1.5 * self.pin_r
@@ -193,8 +204,8 @@ class ArticulatedTruck(Drawer):
         self.block("headboard", body, (-0.5, -half, 2.0 + t / s), (-0.45, half, top + 0.25))
         d = self.eye_w / 2 + self.gap + t / 2
         for side, letter in SIDES:
-            self.block("side", body, *_beside(side, (tail, -0.45), half, half + 0.03, (2.0, top)))
-            self.block("sill", body, *_beside(side, (-4.2, -0.7), y / s - 0.04, y / s + 0.04, (1.7, 2.0)))
+            self.block("side", body, *beside(side, (tail, -0.45), half, half + 0.03, (2.0, top)))
+            self.block("sill", body, *beside(side, (-4.2, -0.7), y / s - 0.04, y / s + 0.04, (1.7, 2.0)))
             ear = around((hx, hz, wide), (hx + 0.35 * s, floor + e, 0), (hx - 0.25 * s, floor + e, 0))
             for yy in (y - t - self.gap, y + t + self.gap):
                 self.side_plate("hinge ear", body, side * yy, ear, "H")
@@ -205,7 +216,7 @@ class ArticulatedTruck(Drawer):
             self.across(role, body, self.P["D"], side, self.y_hoist - d - t, self.y_hoist + d + t)
             for k in range(4):
                 x = -0.9 - 1.1 * k
-                self.block("rib", body, *_beside(side, (x - 0.08, x), half + 0.03, half + 0.08, (2.05, top - 0.1)))
+                self.block("rib", body, *beside(side, (x - 0.08, x), half + 0.03, half + 0.08, (2.05, top - 0.1)))
 
     # ---- pieces ----
     def upright(self, role: str, body: str, at: Array, half: float) -> None:
@@ -234,7 +245,7 @@ class ArticulatedTruck(Drawer):
             self.cylinder(f"hoist {letter}", *names, moved(self.rear, c), moved(self.body, d), across, 0.075 * self.s)
 
 
-def _beside(
+def beside(
     side: int, x: tuple[float, float], inner: float, outer: float, z: tuple[float, float]
 ) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
     """Low and high corner of a block on a side."""
