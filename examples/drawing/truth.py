@@ -10,6 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 from OCP.gp import gp_Ax3, gp_Dir, gp_Pnt, gp_Trsf
 
+from .cylinders import Cylinder
+from .product import Assembly, occurrences
 from .values import Value
 
 Triple = tuple[float, float, float]
@@ -78,6 +80,36 @@ class Joints:
     def _add(self, kind: str, a: str, b: str, at: Triple, axis: Triple, name: str = "") -> None:
         entry = {"type": kind, "body0": a, "body1": b, "anchor": self.frame.point(at), "axis": self.frame.axis(axis)}
         self.found[name or f"{a}2{b}_joint"] = entry
+
+
+def twin_slides(cylinders: Mapping[str, Cylinder]) -> dict[str, dict[str, float]]:
+    """What the truth says of the slides of cylinders that are there on the left and on the right, by joint."""
+    return {
+        f"{name}_cylinder_barrel_{letter}2{name}_piston_rod_{letter}_joint": cylinder.slide()
+        for name, cylinder in cylinders.items()
+        for letter in "lr"
+    }
+
+
+def document(
+    frame: CadFrame,
+    root: Assembly,
+    joints: Mapping[str, Any],
+    cylinders: Mapping[str, Any],
+    values: Mapping[str, Any],
+    **more: Any,
+) -> dict[str, Any]:
+    """The document written as `truth.json`."""
+    return {
+        "about": "CAD frame, metres. A part's key is its product names from the root joined by '/', in tree "
+        "order; the second of two equal keys ends in '#2', the third in '#3'.",
+        "frame": frame.matrix(),
+        **more,
+        "joints": joints,
+        "parts": {leaf.path: {"body": leaf.body, "role": leaf.role} for leaf in occurrences(root)},
+        "cylinders": cylinders,
+        "values": values,
+    }
 
 
 def value_rows(

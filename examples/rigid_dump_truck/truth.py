@@ -11,7 +11,7 @@ import numpy as np
 from drawing.cylinders import Cylinder
 from drawing.planar import vec
 from drawing.product import Assembly, extent, occurrences
-from drawing.truth import CadFrame, Joints, Y, value_rows
+from drawing.truth import CadFrame, Joints, Y, document, twin_slides, value_rows
 from drawing.wheels import wheel_places
 
 from . import values as v
@@ -108,16 +108,5 @@ def drawn_values(root: Assembly, raised: float) -> dict[str, float]:
 
 def truth(root: Assembly, raised: float, drawn: dict[str, Cylinder]) -> dict[str, Any]:
     """The document written as `truth.json`."""
-    return {
-        "about": "CAD frame, metres. A part's key is its product names from the root joined by '/', in tree "
-        "order; the second of two equal keys ends in '#2', the third in '#3'.",
-        "frame": FRAME.matrix(),
-        "joints": joints(raised),
-        "parts": {leaf.path: {"body": leaf.body, "role": leaf.role} for leaf in occurrences(root)},
-        "cylinders": {
-            f"{name}_cylinder_barrel_{letter}2{name}_piston_rod_{letter}_joint": cylinder.slide()
-            for name, cylinder in drawn.items()
-            for letter in "lr"
-        },
-        "values": value_rows((*v.PUBLISHED, *v.EXAMPLE), measured(), drawn_values(root, raised)),
-    }
+    values = value_rows((*v.PUBLISHED, *v.EXAMPLE), measured(), drawn_values(root, raised))
+    return document(FRAME, root, joints(raised), twin_slides(drawn), values)
