@@ -26,7 +26,10 @@ from yellowiron.alignment.features.wheels import wheels_of  # noqa: E402
 from yellowiron.alignment.fusion.stance import on_wheels, stance_of, surface_points  # noqa: E402
 from yellowiron.library import load_template  # noqa: E402
 
-TYPES = {"wheel_loader": ("loader",), "excavator": ("excavator", "mini"), "skid_steer": ("skid_steer",)}
+TYPES = {
+    "wheel_loader": ("loader",), "excavator": ("excavator", "mini"), "skid_steer": ("skid_steer",),
+    "articulated_dump_truck": ("articulated_truck",), "rigid_dump_truck": ("rigid_truck",),
+}  # fmt: skip
 """Type → kinds of machines that we draw of it; a body is measured on the first kind that has it."""
 KEPT = 0.05
 """This share of a body's surface is left out at either end of its box."""

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 
 from OCP.TopoDS import TopoDS_Shape
 
-from .product import CHROME, GREY, STEEL, YELLOW, Assembly, Colour, Part
-from .solids import X, Y, Z, bored, box, cut, fuse, plate, ring, rod, shift
+from .product import CHROME, GREY, STEEL, YELLOW, Assembly, Colour, Part, Use
+from .solids import Vector, X, Y, Z, bored, box, cut, frame, fuse, plate, ring, rod, shift, turn
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,6 +111,18 @@ def draw_cylinder(c: Cylinder, pin_fast_in_rod: bool = False) -> Assembly:
         at=shift(c.drawn),
     )
     return tree
+
+
+def put_pair(tree: Assembly, cylinder: Assembly, name: str, start: Vector, end: Vector) -> None:
+    """A drawn cylinder on the left, from its barrel's pin to its rod's, and its mirror image's place on the right; its
+    pins are level where it lies in a plane y, else upright."""
+    for letter, sign in (("l", 1.0), ("r", -1.0)):
+        along = (end[0] - start[0], sign * (end[1] - start[1]), end[2] - start[2])
+        upright = start[1] != end[1]
+        at = frame((start[0], sign * start[1], start[2]), along, Z if upright else (-along[2], 0.0, along[0]))
+        at = at.Multiplied(turn(X, 90.0)) if upright else at  # it is drawn with its pins along y
+        halves = {"barrel": f"{name}_cylinder_barrel_{letter}", "rod": f"{name}_piston_rod_{letter}"}
+        tree.uses.append(Use(cylinder, at, names=halves))
 
 
 @dataclass(frozen=True, slots=True)

@@ -35,7 +35,7 @@ from OCP.TopLoc import TopLoc_Location
 from OCP.TopoDS import TopoDS, TopoDS_Shape
 from OCP.XCAFDoc import XCAFDoc_ColorType, XCAFDoc_DocumentTool, XCAFDoc_ShapeTool
 
-from .solids import moved
+from .solids import mirrored, moved
 
 Colour = tuple[float, float, float]
 YELLOW: Colour = (0.98, 0.72, 0.07)
@@ -82,6 +82,12 @@ class Assembly:
     def add(self, child: Part | Assembly, body: str = "", role: str = "", at: gp_Trsf | None = None) -> None:
         """One more occurrence; the role is the body's own unless given."""
         self.uses.append(Use(child, at, body, role or body))
+
+
+def add_pair(tree: Assembly, name: str, shape: TopoDS_Shape, body: str, colour: Colour = YELLOW) -> None:
+    """A part drawn on the left, and its mirror image on the right."""
+    tree.add(Part(f"{name} LH", shape, colour), body)
+    tree.add(Part(f"{name} RH", mirrored(shape), colour), body)
 
 
 @dataclass(frozen=True)

@@ -91,6 +91,12 @@ def box(x0: float, x1: float, y0: float, y1: float, z0: float, z1: float) -> Top
     return plate([(x0, y0, 0), (x1, y0, 0), (x1, y1, 0), (x0, y1, 0)], "xy", z0, z1)
 
 
+def sheet_box(x0: float, x1: float, y0: float, y1: float, z0: float, z1: float, wall: float) -> TopoDS_Shape:
+    """A closed sheet box."""
+    inner = box(x0 + wall, x1 - wall, y0 + wall, y1 - wall, z0 + wall, z1 - wall)
+    return cut(box(x0, x1, y0, y1, z0, z1), inner)
+
+
 def turned(profile: Sequence[tuple[float, float]], origin: Vector = (0, 0, 0), axis: Vector = Y) -> TopoDS_Shape:
     """A solid of revolution; the profile is a closed polygon of (position along the axis, radius)."""
     a = gp_Dir(*axis)

@@ -5,11 +5,11 @@ from __future__ import annotations
 from OCP.TopoDS import TopoDS_Shape
 
 from drawing.product import BLACK, GLASS, GREY, YELLOW, Assembly, Colour, Part
-from drawing.solids import X, Z, box, cut, fuse, plate, rod, shift
+from drawing.solids import X, Z, box, cut, fuse, plate, rod, sheet_box, shift
 
 from . import values as v
 from .undercarriage import inset
-from .upper import BODY, DECK, HALF, sheet_box
+from .upper import BODY, DECK, HALF
 
 LEFT, RIGHT = HALF - 12, 458.0
 WALL = 14.0

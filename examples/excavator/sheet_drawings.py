@@ -8,8 +8,9 @@ from collections.abc import Sequence
 from reportlab.lib.colors import HexColor, white
 from reportlab.pdfgen.canvas import Canvas
 
+from drawing.sheet_print import BOLD, INK, LINE, MIST, TEAL, say
+
 from . import values as v
-from .sheet_print import BOLD, INK, LINE, MIST, TEAL, say
 
 PAINT = HexColor("#d8b45a")
 Point = tuple[float, float]

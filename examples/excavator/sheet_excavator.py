@@ -14,11 +14,7 @@ from pathlib import Path
 from reportlab.lib.pagesizes import A4, landscape
 from reportlab.pdfgen.canvas import Canvas
 
-from drawing.values import Value
-
-from . import values as v
-from .sheet_drawings import ranges, transport
-from .sheet_print import (
+from drawing.sheet_print import (
     BOLD,
     ITALIC,
     TEAL,
@@ -41,6 +37,10 @@ from .sheet_print import (
     speed,
     torque,
 )
+from drawing.values import Value
+
+from . import values as v
+from .sheet_drawings import ranges, transport
 
 WIDTH, HEIGHT = A4
 MARGIN = 42.0

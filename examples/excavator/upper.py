@@ -14,7 +14,25 @@ from scipy.optimize import brentq
 from drawing.digger import Linkage
 from drawing.hardware import bolt, fit_pin
 from drawing.product import BLACK, GREY, RED, STEEL, YELLOW, Assembly, Colour, Part
-from drawing.solids import X, Y, Z, bored, box, cut, fuse, mirrored, pipe, plate, prism, ring, rod, shift, turn, turned
+from drawing.solids import (
+    X,
+    Y,
+    Z,
+    bored,
+    box,
+    cut,
+    fuse,
+    mirrored,
+    pipe,
+    plate,
+    prism,
+    ring,
+    rod,
+    sheet_box,
+    shift,
+    turn,
+    turned,
+)
 
 from . import values as v
 from .equipment import PIN_A, PIN_C
@@ -35,12 +53,6 @@ HOOD = 2080.0
 def _pair(tree: Assembly, name: str, shape: TopoDS_Shape, colour: Colour = YELLOW) -> None:
     tree.add(Part(f"{name} LH", shape, colour), BODY)
     tree.add(Part(f"{name} RH", mirrored(shape), colour), BODY)
-
-
-def sheet_box(x0: float, x1: float, y0: float, y1: float, z0: float, z1: float, wall: float) -> TopoDS_Shape:
-    """A closed sheet box."""
-    inner = box(x0 + wall, x1 - wall, y0 + wall, y1 - wall, z0 + wall, z1 - wall)
-    return cut(box(x0, x1, y0, y1, z0, z1), inner)
 
 
 def draw_frame(k: Linkage, hardware: Assembly) -> Assembly:

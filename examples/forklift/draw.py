@@ -6,18 +6,16 @@ time. The values it is drawn to are in `values.py`. `draw_machine(Mast("triplex"
 
 from __future__ import annotations
 
-import json
-import logging
 import math
-import sys
 from pathlib import Path
 
 import numpy as np
 from scipy.optimize import brentq
 
 from drawing.cylinders import Cylinder, draw_cylinder
+from drawing.files import run, write_example
 from drawing.hardware import placed
-from drawing.product import Assembly, Use, write_step
+from drawing.product import Assembly, Use
 from drawing.solids import Z, shift, turn
 
 from . import values as v
@@ -99,12 +97,9 @@ def main(folder: Path, mast: Mast | None = None) -> None:
     """Writes both files into `folder`."""
     mast = mast or Mast()
     root = draw_machine(mast)
-    write_step(root, folder / "forklift.step", cad=FRAME.to_cad())
     document = truth(root, mast, tilt_pin(mast), TILT_ANCHOR, tilt_cylinder(mast))
-    (folder / "truth.json").write_text(json.dumps(document, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
-    logging.getLogger(__name__).info("%d parts", len(document["parts"]))
+    write_example(folder, "forklift", root, FRAME, document)
 
 
 if __name__ == "__main__":
-    logging.basicConfig(level=logging.INFO, format="%(message)s")
-    main(Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).parent)
+    run(main, __file__)

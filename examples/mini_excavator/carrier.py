@@ -14,9 +14,8 @@ from drawing.digger import Linkage
 from drawing.hardware import CLEARANCE, fit_pin, placed
 from drawing.planar import rot, vec
 from drawing.product import BLACK, GREY, STEEL, YELLOW, Assembly, Colour, Part
-from drawing.solids import Y, Z, bored, box, cut, fuse, mirrored, moved, plate, prism, ring, rod, shift, turn
+from drawing.solids import Y, Z, bored, box, cut, fuse, mirrored, moved, plate, prism, ring, rod, sheet_box, shift, turn
 from excavator.undercarriage import hollow
-from excavator.upper import sheet_box
 
 from . import values as v
 from .equipment import PIN

@@ -9,18 +9,16 @@ made of the file.
 from __future__ import annotations
 
 import functools
-import json
-import logging
-import sys
 from pathlib import Path
 
 from OCP.gp import gp_Trsf
 
 from drawing.cylinders import Cylinder, draw_cylinder
 from drawing.digger import Linkage, Pose
+from drawing.files import run, write_example
 from drawing.hardware import placed
 from drawing.planar import Point, direction
-from drawing.product import Assembly, Use, write_step
+from drawing.product import Assembly, Use
 from drawing.solids import frame
 
 from . import values as v
@@ -111,13 +109,8 @@ def draw_machine() -> Assembly:
 def main(folder: Path) -> None:
     """Writes the three files into `folder`."""
     root = draw_machine()
-    write_step(root, folder / "mini_excavator.step", cad=FRAME.to_cad())
-    document = truth(root, *drawn_pose(), cylinders())
-    (folder / "truth.json").write_text(json.dumps(document, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
-    write(folder / "specifications.pdf")
-    logging.getLogger(__name__).info("%d parts", len(document["parts"]))
+    write_example(folder, "mini_excavator", root, FRAME, truth(root, *drawn_pose(), cylinders()), write)
 
 
 if __name__ == "__main__":
-    logging.basicConfig(level=logging.INFO, format="%(message)s")
-    main(Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).parent)
+    run(main, __file__)

@@ -4,52 +4,48 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from reportlab.lib.pagesizes import A4
 from reportlab.pdfgen.canvas import Canvas
 
-from drawing.values import Value
-from excavator.sheet_print import (
-    BOLD,
-    TEAL,
+from drawing.sheet_print import (
+    FULL,
+    HALF,
+    HEIGHT,
+    MARGIN,
+    SECOND,
     Cell,
     Line,
+    cylinder_table,
     flow,
     grid,
-    grouped,
     heading,
     length,
     lines,
     mass,
+    opening,
     pressure,
-    prose,
-    say,
     short,
     speed,
     torque,
+    value_lines,
+    write_pages,
 )
+from drawing.values import Value
 
 from . import values as v
 
-WIDTH, HEIGHT = A4
-MARGIN = 42.0
-HALF = (WIDTH - 2 * MARGIN - 26) / 2
 TITLE = "Example mini excavator, 8008 CTS class"
 SOURCE = (
     f"Published values are those of the {v.BROCHURE} (880 mm dipper, tracks and blade retracted). Dimensions after "
     "ISO 6746-1, working ranges after ISO 7135. Not a publication of the maker."
 )
-MARKED = 'Figures marked "example value" were chosen for this example: plausible for the class, published by nobody.'
 
 
-def _lengths(c: Canvas, x: float, y: float, rows: tuple[tuple[str, Value], ...]) -> float:
-    return lines(c, x, y, [Line(label, length(o.value), ours=not o.published) for label, o in rows], HALF)
+def _lengths(value: Value) -> tuple[str, ...]:
+    return length(value.value)
 
 
 def _first(c: Canvas) -> None:
-    say(c, MARGIN, HEIGHT - 60, TITLE, size=20, font=BOLD, ink=TEAL)
-    y = prose(c, MARGIN, HEIGHT - 80, SOURCE, WIDTH - 2 * MARGIN, size=8)
-    y = prose(c, MARGIN, y, MARKED, WIDTH - 2 * MARGIN, size=8) - 12
-    x, top = MARGIN, y
+    x, top = MARGIN, opening(c, TITLE, SOURCE)
     y = heading(c, x, top, "Engine and weight", HALF)
     rows = (
         Line("Gross power, ISO 14396", (f"{v.GROSS_POWER.value} kW", "12.1 hp")),
@@ -74,16 +70,16 @@ def _first(c: Canvas) -> None:
         Line("Track shoes, each side", (f"{v.SHOES.value:.0f}",), ours=True),
     )
     lines(c, x, y, rows, HALF)
-    x = MARGIN + HALF + 26
+    x = SECOND
     y = heading(c, x, top, "Dimensions", HALF)
-    y = _lengths(c, x, y, (
+    y = value_lines(c, x, y, (
         ("Overall height (to top of canopy)", v.CANOPY_HEIGHT), ("Overall width", v.OVERALL_WIDTH),
         ("Width of upper structure", v.UPPER_WIDTH), ("Tail swing radius", v.TAIL_RADIUS),
         ("Kingpost clearance", v.KINGPOST_CLEARANCE), ("Track length on ground", v.TRACK_ON_GROUND),
         ("Track length", v.TRACK_LENGTH), ("Track gauge", v.TRACK_GAUGE), ("Shoe width", v.SHOE_WIDTH),
         ("Ground clearance (minimum)", v.GROUND_CLEARANCE), ("Blade width", v.BLADE_WIDTH),
         ("Blade height", v.BLADE_HEIGHT),
-    ))  # fmt: skip
+    ), _lengths)  # fmt: skip
     y = heading(c, x, y, "Working equipment", HALF)
     rows = (
         Line("Boom length", length(v.BOOM_LENGTH.value), ours=True),
@@ -96,7 +92,7 @@ def _first(c: Canvas) -> None:
 
 
 def _second(c: Canvas) -> None:
-    y = heading(c, MARGIN, HEIGHT - 60, "Working ranges", WIDTH - 2 * MARGIN)
+    y = heading(c, MARGIN, HEIGHT - 60, "Working ranges", FULL)
     rows = [[Cell(("",), head=True), Cell(("Working range",), head=True, align="l"), Cell(("880 mm arm",), head=True)]]
     for key, label, value in (
         ("K", "Boom swing right", v.SWING_RIGHT),
@@ -112,23 +108,17 @@ def _second(c: Canvas) -> None:
     ):
         words = f"{value.value:.0f}°" if value.unit == "deg" else " / ".join(length(value.value))
         rows.append([Cell((key,)), Cell((label,), align="l"), Cell((words,))])
-    y = grid(c, MARGIN, y, (30, 260, WIDTH - 2 * MARGIN - 290), rows, 20) - 30
-    y = heading(c, MARGIN, y, "Hydraulic cylinders", WIDTH - 2 * MARGIN)
-    heads = ("Cylinder", "No.", "Stroke", "Bore", "Rod dia.")
-    rows = [[Cell((name,), head=True, mark=name in heads[2:]) for name in heads]]
-    for name in ("Boom", "Arm", "Bucket", "Boom swing", "Blade"):
+    y = grid(c, MARGIN, y, (30, 260, FULL - 290), rows, 20) - 30
+    y = heading(c, MARGIN, y, "Hydraulic cylinders", FULL)
+    names = ("Boom", "Arm", "Bucket", "Boom swing", "Blade")
+
+    def sizes(name: str) -> tuple[Value, Value, Value]:
         key = name.split()[-1].upper()
-        cells = [f"{grouped(getattr(v, f'{key}_{what}').value)} mm" for what in ("STROKE", "BORE", "ROD")]
-        rows.append([Cell((name,), align="l"), Cell(("1",)), *(Cell((words,)) for words in cells)])
-    grid(c, MARGIN, y, [(WIDTH - 2 * MARGIN) / 5] * 5, rows, 21)
+        return getattr(v, f"{key}_STROKE"), getattr(v, f"{key}_BORE"), getattr(v, f"{key}_ROD")
+
+    cylinder_table(c, MARGIN, y, FULL, [(name, 1, sizes(name)) for name in names])
 
 
 def write(path: Path) -> None:
     """Writes the sheet."""
-    c = Canvas(str(path), pagesize=A4, invariant=1, pageCompression=0)
-    c.setTitle(f"{TITLE}: technical data")
-    c.setAuthor("yellowiron examples")
-    for page in (_first, _second):
-        page(c)
-        c.showPage()
-    c.save()
+    write_pages(path, TITLE, _first, _second)

@@ -8,8 +8,7 @@ from OCP.TopoDS import TopoDS_Shape
 
 from drawing.hardware import bolt
 from drawing.product import AMBER, BLACK, GLASS, GREY, RED, STEEL, YELLOW, Assembly, Colour, Part
-from drawing.solids import Y, Z, bored, box, cut, fuse, mirrored, plate, ring, rod, shift, turned
-from excavator.upper import sheet_box
+from drawing.solids import Y, Z, bored, box, cut, fuse, mirrored, plate, ring, rod, sheet_box, shift, turned
 
 from . import values as v
 from .equipment import ARM_END, ARM_Y, LINK_PIN, LINK_Y, PIN, Outline, twins

@@ -7,16 +7,14 @@ one pivot instead of two links a side.
 
 from __future__ import annotations
 
-import json
-import logging
-import sys
 from pathlib import Path
 
 from drawing.cylinders import Cylinder, draw_cylinder
+from drawing.files import run, write_example
 from drawing.hardware import placed
 from drawing.planar import direction, rot
-from drawing.product import Assembly, Use, write_step
-from drawing.solids import Z, shift, turn
+from drawing.product import Assembly, Use
+from drawing.wheels import put_wheels, wheel_places
 
 from . import values as v
 from .chassis import WHEEL_Y, draw_cab, draw_engine, draw_frame, draw_wheel
@@ -74,12 +72,8 @@ def draw_machine(path: LiftPath = "vertical") -> Assembly:
     k = solve(path)
     lifted, tilted = pose(k)
     hardware, root, wheels = Assembly("PINS"), Assembly("SKID STEER GA"), Assembly("WHEELS")
-    wheel = draw_wheel()
-    for end, x in (("front", AXLE_X), ("rear", -AXLE_X)):
-        for letter, y in (("l", WHEEL_Y), ("r", -WHEEL_Y)):
-            at = shift(x, y, RADIUS) if y > 0 else shift(x, y, RADIUS).Multiplied(turn(Z, 180.0))
-            names = {"wheel": f"{end}_wheel_{letter}", "tyre": f"{end}_tyre_{letter}"}
-            wheels.uses.append(Use(wheel, at, names=names))
+    treads = {"front": (AXLE_X, 2 * WHEEL_Y), "rear": (-AXLE_X, 2 * WHEEL_Y)}
+    put_wheels(wheels, draw_wheel(), wheel_places(treads, RADIUS))
     loader = Assembly("LOADER")
     loader.add(draw_arms(k, lifted, hardware))
     if path == "vertical":
@@ -93,13 +87,8 @@ def draw_machine(path: LiftPath = "vertical") -> Assembly:
 def main(folder: Path, path: LiftPath = "vertical") -> None:
     """Writes the three files into `folder`."""
     root, k = draw_machine(path), solve(path)
-    write_step(root, folder / "skid_steer.step", cad=FRAME.to_cad())
-    document = truth(root, k, pose(k), cylinders(k))
-    (folder / "truth.json").write_text(json.dumps(document, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
-    write(folder / "specifications.pdf")
-    logging.getLogger(__name__).info("%d parts", len(document["parts"]))
+    write_example(folder, "skid_steer", root, FRAME, truth(root, k, pose(k), cylinders(k)), write)
 
 
 if __name__ == "__main__":
-    logging.basicConfig(level=logging.INFO, format="%(message)s")
-    main(Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).parent)
+    run(main, __file__)

@@ -11,7 +11,7 @@ import numpy as np
 from drawing.cylinders import Cylinder
 from drawing.planar import Point, rot
 from drawing.product import Assembly, extent, farthest, occurrences
-from drawing.truth import CadFrame, value_rows
+from drawing.truth import CadFrame, document, twin_slides, value_rows
 
 from . import values as v
 from .chassis import WHEEL_Y
@@ -100,18 +100,6 @@ def drawn_values(root: Assembly, k: Linkage, pose: tuple[float, float]) -> dict[
 
 def truth(root: Assembly, k: Linkage, pose: tuple[float, float], drawn: dict[str, Cylinder]) -> dict[str, Any]:
     """The document written as `truth.json`."""
-    slides = {
-        f"{name}_cylinder_barrel_{letter}2{name}_piston_rod_{letter}_joint": cylinder.slide()
-        for name, cylinder in drawn.items()
-        for letter in "lr"
-    }
-    return {
-        "about": "CAD frame, metres. A part's key is its product names from the root joined by '/', in tree "
-        "order; the second of two equal keys ends in '#2', the third in '#3'.",
-        "frame": FRAME.matrix(),
-        "lift_path": "radial" if len(k.links) == 1 else "vertical",
-        "joints": joints(k, pose),
-        "parts": {leaf.path: {"body": leaf.body, "role": leaf.role} for leaf in occurrences(root)},
-        "cylinders": slides,
-        "values": value_rows((*v.PUBLISHED, *v.EXAMPLE), measured(k), drawn_values(root, k, pose)),
-    }
+    values = value_rows((*v.PUBLISHED, *v.EXAMPLE), measured(k), drawn_values(root, k, pose))
+    path = "radial" if len(k.links) == 1 else "vertical"
+    return document(FRAME, root, joints(k, pose), twin_slides(drawn), values, lift_path=path)

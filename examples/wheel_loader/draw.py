@@ -7,17 +7,16 @@ is later made of the file.
 
 from __future__ import annotations
 
-import json
-import logging
-import sys
 from pathlib import Path
 
 from OCP.gp import gp_Trsf
 
+from drawing.articulation import Steering
 from drawing.cylinders import Cylinder, draw_cylinder
+from drawing.files import run, write_example
 from drawing.hardware import placed
 from drawing.planar import direction
-from drawing.product import GREY, Assembly, Use, write_step
+from drawing.product import GREY, Assembly, Use
 from drawing.solids import X, Z, frame, shift, turn
 
 from . import values as v
@@ -33,7 +32,7 @@ from .frames import (
     draw_rear_frame,
 )
 from .front_end import draw_boom, draw_bucket, draw_link, draw_rocker, heel_x
-from .linkage import Linkage, Pose, Steering, solve, solve_steering
+from .linkage import Linkage, Pose, solve, solve_steering
 from .superstructure import draw_cab, draw_hood, draw_power_train, draw_sides
 from .truth import FRAME, truth
 from .wheels import draw_front_axle, draw_rear_axle, draw_wheel
@@ -184,14 +183,11 @@ def draw_machine() -> Assembly:
 def main(folder: Path) -> None:
     """Writes both files into `folder`."""
     root = draw_machine()
-    write_step(root, folder / "wheel_loader.step", cad=FRAME.to_cad())
     k, pose, s = drawn_pose()
     cylinders = {"lift": lift_cylinder(), "tilt": tilt_cylinder(), "steer": steering_cylinder(s.length(0.0))}
     document = truth(root, k, pose, s, cylinders, STEER_Z, LIFT_Y)
-    (folder / "truth.json").write_text(json.dumps(document, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
-    logging.getLogger(__name__).info("%d parts", len(document["parts"]))
+    write_example(folder, "wheel_loader", root, FRAME, document)
 
 
 if __name__ == "__main__":
-    logging.basicConfig(level=logging.INFO, format="%(message)s")
-    main(Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).parent)
+    run(main, __file__)

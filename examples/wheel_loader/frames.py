@@ -8,13 +8,14 @@ from __future__ import annotations
 
 from OCP.TopoDS import TopoDS_Shape
 
+from drawing.articulation import Steering
 from drawing.hardware import bolt, bush, fit_pin
 from drawing.product import BLACK, GREY, STEEL, YELLOW, Assembly, Colour, Part
 from drawing.solids import X, Y, Z, bored, box, cut, fuse, mirrored, pipe, plate, ring, rod, shift, turn
 
 from . import values as v
 from .front_end import PIN_A
-from .linkage import Linkage, Steering
+from .linkage import Linkage
 
 HINGES = ((690.0, 770.0), (1350.0, 1430.0))
 """Heights of the front frame's lower and upper tongue."""

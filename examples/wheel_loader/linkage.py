@@ -19,6 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import brentq, least_squares
 
+from drawing.articulation import Steering, steering_between
 from drawing.planar import Point, direction, meet, rot, sine, vec
 
 from . import values as v
@@ -235,33 +236,8 @@ def solve() -> Linkage:
 
 
 # ---- steering --------
-@dataclass(frozen=True, slots=True)
-class Steering:
-    """Left steering cylinder seen from above (x forward, y left): P on the rear frame, Q on the front frame,
-    both in the straight machine; the right one is its mirror image."""
-
-    P: Point
-    Q: Point
-
-    def length(self, angle: float) -> float:
-        """Length of the left cylinder at a steering angle (radians, left positive)."""
-        return float(np.hypot(*(rot(angle, self.Q) - self.P)))
-
-    def lever(self, angle: float) -> float:
-        """Lever arm of the left cylinder about the articulation axis, millimetres."""
-        q = rot(angle, self.Q)
-        return float(abs(self.P[0] * q[1] - self.P[1] * q[0]) / np.hypot(*(q - self.P)))
-
-
 @functools.cache
 def solve_steering(p_x: float = -500.0, q_x: float = 520.0) -> Steering:
     """Pins at the given distances from the articulation, such that one cylinder is closed and the other open
     at full lock."""
-    lock, closed = math.radians(v.STEER_ANGLE.value), v.STEER_CLOSED.value
-
-    def residual(y: Point) -> Point:
-        s = Steering(vec(p_x, y[0]), vec(q_x, y[1]))
-        return np.array([s.length(lock) - closed, s.length(-lock) - closed - v.STEER_STROKE.value])
-
-    y = least_squares(residual, [300.0, 350.0], xtol=1e-15, ftol=1e-15, gtol=1e-15).x
-    return Steering(vec(p_x, y[0]), vec(q_x, y[1]))
+    return steering_between(p_x, q_x, math.radians(v.STEER_ANGLE.value), v.STEER_CLOSED.value, v.STEER_STROKE.value)

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from OCP.gp import gp_Trsf
 from scipy.optimize import brentq
 
+from drawing.articulation import Steering
 from drawing.cylinders import Cylinder
 from drawing.hardware import placed
 from drawing.product import Assembly, Occurrence, extent, occurrences
@@ -28,7 +29,6 @@ from .linkage import (
     TYRE_RADIUS,
     Linkage,
     Pose,
-    Steering,
 )
 
 Array = NDArray[np.float64]
@@ -111,12 +111,6 @@ def measured(k: Linkage, s: Steering) -> dict[str, float]:
     level = k.pose(ground, k.tilt_for_angle(ground, 0.0))
     dump = k.pose(LIFT_MAX, k.tilt_for_angle(LIFT_MAX, math.radians(-45.0)))
     low = k.pose(LIFT_MIN, k.tilt_for_angle(LIFT_MIN, 0.0))
-    closed, open_ = v.STEER_CLOSED.value, v.STEER_CLOSED.value + v.STEER_STROKE.value
-
-    def lock(length: float) -> float:
-        """Steering angle at which the left cylinder has this length."""
-        return float(brentq(lambda angle: s.length(angle) - length, -0.9, 0.9, xtol=1e-12))
-
     return {
         v.HINGE_HEIGHT_MAX.name: float(dump.B[1]),
         v.DUMP_CLEARANCE.name: float(dump.T[1]),
@@ -126,7 +120,7 @@ def measured(k: Linkage, s: Steering) -> dict[str, float]:
         v.RACK_BACK_MAX.name: degrees(k.pose(LIFT_MAX, TILT_MAX).bucket_angle),
         v.DUMP_ANGLE_MAX.name: -degrees(k.pose(LIFT_MAX, TILT_MIN).bucket_angle),
         v.DIG_DEPTH.name: -float(low.T[1]),
-        v.STEER_ANGLE.name: degrees(min(lock(closed), -lock(open_))),
+        v.STEER_ANGLE.name: degrees(s.lock(v.STEER_CLOSED.value, v.STEER_STROKE.value)),
     }
 
 

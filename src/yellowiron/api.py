@@ -169,7 +169,7 @@ def simulate(
     *,
     engine: str = "mujoco",
     test: Literal["strokes", "drive", "hydraulics", "all"] = "strokes",
-    base: Literal["fixed", "floating"] = "fixed",
+    base: Literal["fixed", "floating"] | None = None,
     payload: float | str = 0.0,
     dt: float | None = None,
     progress: Progress = lambda words: None,

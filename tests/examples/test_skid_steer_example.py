@@ -19,16 +19,13 @@ from OCP.GProp import GProp_GProps
 
 from kit.builds import MadeOnce, without_pages
 from kit.machines.defects import on_triangles
+from kit.machines.drawn_examples import assert_as_drawn, assert_measured, assert_recognised, drawn_example
 from kit.machines.forklifts import truth_of
-from kit.machines.skid_example import drawn
 from yellowiron import library, specs
 from yellowiron.alignment.pipeline import align
 from yellowiron.cad import read_cad
 from yellowiron.kinematics import ClosedChain
 from yellowiron.pipeline import Machine, build
-
-PERCENT, DEGREES = 0.3, 0.2
-"""Bars of what is published."""
 
 
 @pytest.fixture(scope="module")
@@ -106,7 +103,7 @@ def test_bodies_do_not_meet_wherever_the_arms_are(path: str, linkage: ModuleType
 
 @pytest.mark.slow
 def test_the_drawing_has_the_sheet_s_values(made_once: MadeOnce) -> None:
-    rows = truth_of(drawn("vertical", made_once))["values"]
+    rows = truth_of(drawn_example("skid_steer", made_once, "vertical"))["values"]
     assert sum("drawn" in row for row in rows.values()) >= 8
     for name, row in rows.items():
         assert row.get("drawn", row["target"]) == pytest.approx(row["target"], abs=0.01), name
@@ -114,7 +111,7 @@ def test_the_drawing_has_the_sheet_s_values(made_once: MadeOnce) -> None:
 
 @pytest.mark.slow
 def test_every_value_is_read_off_the_sheet(values: ModuleType, made_once: MadeOnce) -> None:
-    sheet = drawn("vertical", made_once) / "specifications.pdf"
+    sheet = drawn_example("skid_steer", made_once, "vertical") / "specifications.pdf"
     found = specs.extract(library.load_template("skid_steer"), [sheet])
     known = {s.name: s for s in found if s.status == "ok"}
     assert {s.status for s in found} == {"ok", "missing"}
@@ -147,7 +144,7 @@ class Built:
 
 @pytest.fixture(scope="module", params=["named", "nameless"])
 def built(request: pytest.FixtureRequest, made_once: MadeOnce, tmp_path_factory: pytest.TempPathFactory) -> Built:
-    folder = drawn("vertical", made_once)
+    folder = drawn_example("skid_steer", made_once, "vertical")
     cad = folder / "skid_steer.step" if request.param == "named" else folder / "nameless" / "skid_steer.step"
     with without_pages():
         machine = build("skid_steer", cad, tmp_path_factory.mktemp("skid"), sheets=[folder / "specifications.pdf"])
@@ -166,33 +163,12 @@ def test_it_is_ready(built: Built) -> None:
 
 @pytest.mark.slow
 def test_every_value_is_measured(built: Built) -> None:
-    compared = [m for m in built.machine.measurements if m.spec is not None]
-    assert len(compared) == 15
-    for m in compared:
-        assert m.model is not None and m.spec is not None and m.role != "calibrated", m.name
-        if m.unit == "rad":
-            assert np.degrees(m.model) == pytest.approx(np.degrees(m.spec), abs=DEGREES), m.name
-        else:
-            assert m.model == pytest.approx(m.spec, rel=0.01 * PERCENT), m.name
+    assert_measured(built.machine, 15)
 
 
 @pytest.mark.slow
 def test_joints_and_cylinders_are_as_they_are_drawn(built: Built) -> None:
-    frame, mechanism = built.machine.alignment.frame, built.machine.mechanism
-    assert {j.name for j in mechanism.joints} == set(built.truth["joints"])
-    for name, true in built.truth["joints"].items():
-        joint = mechanism.joint(name)
-        axis = frame[:3, :3] @ np.array(true["axis"])
-        assert joint.type == true["type"] and np.linalg.norm(np.cross(axis, joint.axis)) < 1e-6, name
-        apart = frame[:3, :3] @ np.array(true["anchor"]) + frame[:3, 3] - np.array(joint.anchor)
-        if joint.type == "revolute":
-            assert np.linalg.norm(np.cross(axis, apart)) < 1e-5, name
-        else:
-            assert np.dot(axis, joint.axis) > 0.0, name
-    for slide, true in built.truth["cylinders"].items():
-        found = next(c for c in mechanism.cylinders if c.slide == slide)
-        assert found.bore == pytest.approx(true["bore"]) and found.stroke == pytest.approx(true["stroke"])
-        assert found.closed_length == pytest.approx(true["closed_length"], abs=1e-6)
+    assert_as_drawn(built.machine, built.truth)
 
 
 @pytest.mark.slow
@@ -213,22 +189,20 @@ def test_the_links_carry_the_arms_as_they_were_solved(built: Built, linkage: Mod
      ("radial", "nameless", "exact"), ("radial", "nameless", "triangles")],
 )  # fmt: skip
 def test_every_part_is_in_its_body(path: str, names: str, surfaces: str, made_once: MadeOnce) -> None:
-    folder = drawn(path, made_once)
+    folder = drawn_example("skid_steer", made_once, path)
     assembly = read_cad(folder / names / "skid_steer.step")
     if surfaces == "triangles":
         assembly = replace(assembly, shapes=on_triangles(assembly.shapes))
     template = library.load_template("skid_steer")
     found = align(assembly, template, specs.extract(template, [folder / "specifications.pdf"]))
     assert found.choices["lift_path"] == path
-    for part, (place, true) in zip(found.parts, truth_of(folder)["parts"].items(), strict=True):
-        assert part.body == true["body"], place
-    assert not found.to_review
+    assert_recognised(found, truth_of(folder))
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("names", ["", "nameless"])
 def test_radial_lift_builds_too(names: str, made_once: MadeOnce, tmp_path: Path) -> None:
-    folder = drawn("radial", made_once)
+    folder = drawn_example("skid_steer", made_once, "radial")
     with without_pages():
         machine = build("skid_steer", folder / names / "skid_steer.step", tmp_path / "out")
     mobility = machine.mechanism.mobility

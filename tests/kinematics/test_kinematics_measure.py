@@ -42,6 +42,12 @@ TEMPLATES = [
     ),
     template("steering", {"kind": "joint_angle", "joint": "articulation"}, {"set": {"steering": "max"}}),
     template("right", {"kind": "joint_angle", "joint": "articulation", "factor": -1}, {"set": {"steering": "min"}}),
+    template(
+        "lock to lock",
+        {"kind": "joint_angle", "joint": "articulation", "above": [{"set": {"steering": "min"}}]},
+        {"set": {"steering": "max"}},
+    ),
+    template("turn", {"kind": "turning_radius"}, {"set": {"steering": "max"}}),
     template("yaw", {"kind": "yaw", "joint": "boom_pin"}, {"set": {"steering": "max"}}),
     template("front", {"kind": "extent", "axis": "x", "of": "max", "bodies": ["bucket"], "zone": {"x": [0.9, 1]}}),
     template("wheelbase", {"kind": "distance", "joints": ["front_wheel_l_joint", "rear_wheel_l_joint"], "axis": "x"}),
@@ -93,6 +99,8 @@ def expected(z, travel) -> dict[str, float]:
         "rack back low": pitch(z.pose(ground, z.tilt + t1)),
         "steering": 0.6,
         "right": 0.6,
+        "lock to lock": 1.2,
+        "turn": 1.7 * (math.cos(0.6) + 1.0) / math.sin(0.6) + 1.0 + 0.24,  # the tyres are 480 mm wide
         "yaw": 0.6,
         "front": max(z.pose(z.lift, z.tilt)[pin][0] for pin in "TBJ"),
         "wheelbase": 3.4,
@@ -176,6 +184,14 @@ def test_a_stroke_without_length_is_told_and_does_not_crash(mechanism, at):
     values = {m.name: m for m in measure(found)}
     assert values["low"].model is None and "no stroke between its ends" in values["low"].reason
     assert values["wheelbase"].model == pytest.approx(3.4)
+
+
+def test_a_machine_that_goes_straight_has_no_turning_radius(mechanism):
+    straight = with_measurements(
+        mechanism, [template("turn", {"kind": "turning_radius"}, {"set": {"steering": "straight"}})], {}
+    )
+    found = measure(straight)[0]
+    assert found.model is None and found.reason == "the machine's wheels are not steered"
 
 
 def test_roles_and_status(mechanism):

@@ -9,9 +9,8 @@ from pathlib import Path
 import in_engines
 import pytest
 
-from kit.builds import MadeOnce, without_pages
-from kit.machines.skid_example import drawn
-from yellowiron.pipeline import build
+from kit.builds import MadeOnce
+from kit.machines.drawn_examples import built_example
 from yellowiron.simulation import drive, rated_payload, run_tests, simulate
 from yellowiron.simulation.driving.result import driving_findings
 from yellowiron.simulation.registry import import_engine
@@ -22,14 +21,7 @@ pytestmark = pytest.mark.slow
 
 @pytest.fixture(scope="module")
 def file(made_once: MadeOnce) -> Path:
-    folder = drawn("vertical", made_once)
-
-    def fill(out: Path) -> None:
-        out.mkdir()
-        with without_pages():
-            build("skid_steer", folder / "skid_steer.step", out / "out", sheets=(folder / "specifications.pdf",))
-
-    return made_once("skid_steer_built", fill) / "out" / "skid_steer.usda"
+    return built_example("skid_steer", made_once, "vertical")
 
 
 @pytest.mark.parametrize(

@@ -75,8 +75,9 @@ def simulate(
     machine: Annotated[Path, typer.Argument(metavar="FILE.usd", help="A machine that build wrote.")],
     engine: Annotated[str, typer.Option("--engine", help="mujoco, physx or newton.")],
     base: Annotated[
-        Literal["fixed", "floating"], typer.Option("--base", help="In the air, or on the ground.")
-    ] = "fixed",
+        Literal["fixed", "floating"] | None,
+        typer.Option("--base", help="In the air, or on the ground (default: in the air, if it would not turn over)."),
+    ] = None,
     payload: Annotated[str, typer.Option("--payload", help="Load in the bucket: kg, or 'rated'.")] = "0",
     test: Annotated[
         Literal["strokes", "drive", "hydraulics", "all"],

@@ -353,16 +353,20 @@ def holds(when: Choices, chosen: Mapping[str, str]) -> bool:
     return all(chosen.get(name) in allowed for name, allowed in when.items())
 
 
+def _chosen(role: Role, chosen: Mapping[str, str]) -> Role:
+    """A role under the choices. One that is no body under them, and of which no geometry is expected, may be absent."""
+    welded = role.rigid and not holds(role.rigid_when, chosen)
+    absent = welded and not role.kind and not role.many
+    rigid, optional = role.rigid and not welded, role.optional or absent
+    return replace(role, when={}, rigid_when={}, rigid=rigid, optional=optional)
+
+
 def choose(template: Template, choices: Mapping[str, str]) -> Template:
     """The template with its variants decided: only the entries that exist under `choices` (defaults elsewhere)
     remain."""
     chosen = {**template.default_choices(), **choices}
 
-    roles = tuple(
-        replace(r, when={}, rigid_when={}, rigid=r.rigid and holds(r.rigid_when, chosen))
-        for r in template.roles
-        if holds(r.when, chosen)
-    )
+    roles = tuple(_chosen(r, chosen) for r in template.roles if holds(r.when, chosen))
     joints = tuple(
         replace(j, when={}, drive_when={}, drive=j.drive if holds(j.drive_when, chosen) else None)
         for j in template.joints

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
@@ -13,6 +14,9 @@ TOUCHING = 0.02
 """Metres: a body that comes this near to the ground as drawn stands on it."""
 UPRIGHT = 0.9
 """Least vertical part of a unit axis about which a body slews."""
+
+ALONG = 0.9
+"""Least part along x of a unit axis about which a body rolls."""
 
 GROUND_FRICTION = 0.7
 """Of ground and blocks; the ground in the exported MJCF has the same."""
@@ -48,6 +52,16 @@ class Block:
         ramp = (0.5 * self.length + self.run - np.abs(x - self.middle[0])) / self.run
         inside = np.abs(y - self.middle[1]) <= 0.5 * self.width
         return np.asarray(np.where(inside, self.height * np.clip(ramp, 0.0, 1.0), 0.0), dtype=np.float64)
+
+
+def usual_base(mechanism: Mechanism) -> Literal["fixed", "floating"]:
+    """In the air, or on the ground for a machine of which a part rolls freely about its long axis, as an articulated
+    truck's trailer does: with nothing under its wheels it would turn over."""
+    rolls = any(
+        j.free and j.drive is None and j.type == "revolute" and j.lower is None and abs(j.axis[0]) > ALONG
+        for j in mechanism.joints
+    )
+    return "floating" if rolls else "fixed"
 
 
 def standing_bodies(mechanism: Mechanism) -> tuple[str, ...]:

@@ -37,7 +37,7 @@ def examine(
     *,
     engine: str,
     test: Suite = "all",
-    base: Base = "fixed",
+    base: Base | None = None,
     payload: RatedPayload | None = None,
     dt: float | None = None,
     progress: Callable[[str], None] = lambda words: None,
@@ -79,7 +79,7 @@ def patience() -> float:
 
 
 def examined(
-    usd_path: str | Path, engine: str, test: Suite, base: Base, payload: RatedPayload | None, dt: float | None
+    usd_path: str | Path, engine: str, test: Suite, base: Base | None, payload: RatedPayload | None, dt: float | None
 ) -> tuple[dict[str, Any], tuple[Sweep, ...]]:
     """`examine` in this process."""
     progress = beat

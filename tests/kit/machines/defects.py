@@ -11,8 +11,10 @@ from dataclasses import replace
 import numpy as np
 
 from kit.machines import solids as align_solids
+from kit.machines.articulated_trucks import articulated_truck
 from kit.machines.crawler import merged
 from kit.machines.excavators import Features, excavator
+from kit.machines.rigid_trucks import rigid_truck
 from kit.machines.skid_steers import skid_steer
 from kit.machines.solids import Array, bolt, place
 from kit.machines.synthetic import Machine, loader
@@ -36,6 +38,10 @@ def drawn(kind: str, seed: int, *, segments: int = 32, hollow: bool = True) -> M
             return loader(seed, embedded=embedded, stop=stop, hoses=hoses, links=links)
         if kind == "skid_steer":
             return skid_steer(seed, embedded=embedded)
+        if kind == "articulated_truck":
+            return articulated_truck(seed, embedded=embedded)
+        if kind == "rigid_truck":
+            return rigid_truck(seed, embedded=embedded)
         if kind == "mini":
             swinging = Features("single", swing=True, blade=seed % 3, tipping=("plates", "welded")[seed % 2])
             return excavator(seed, swinging, embedded=embedded)

@@ -89,18 +89,6 @@ class SkidSteer(Drawer):
         """Where a pin of the lowered arms is."""
         return np.asarray((self.arms @ np.array([self.low[pin][0], 0.0, self.low[pin][1], 1.0]))[[0, 2]])
 
-    # ---- pieces ----
-    def block(self, name: str, body: str, low: tuple[float, float, float], high: tuple[float, float, float]) -> None:
-        """An axis-parallel block between two corners, in machine sizes."""
-        a, b = self.s * np.array(low), self.s * np.array(high)
-        x, y, z = b - a
-        self.m.add(name, body, body, box(f"{name}_{x:.4f}_{y:.4f}_{z:.4f}", x, y, z), place(0.5 * (a + b), Z, X))
-
-    def across(self, role: str, body: str, at: Array, side: int, start: float, end: float) -> None:
-        """A pin along y on one side."""
-        low, high = sorted((side * start, side * end))
-        self.pin(role, body, np.array([at[0], low, at[1]]), np.array([at[0], high, at[1]]))
-
     # ---- groups ----
     def draw(self) -> Machine:
         self.y_cyl = self.y_side + self.t / 2 + 0.002 * self.s + self.eye_w / 2
@@ -148,19 +136,7 @@ class SkidSteer(Drawer):
                 self.m.add("M16", body, body, bolt("tail_bolt", 0.009 * s, 0.05 * s), place(start, -X))
         for end, x in (("front", L), ("rear", -L)):
             for side, letter in ((1, "l"), (-1, "r")):
-                self.stub(f"{end}_wheel_{letter}", side, x)
-
-    def stub(self, wheel: str, side: int, x: float) -> None:
-        """An axle's half on the side plate: a square flange, a tube, and the wheel that turns on its end."""
-        s, m, body = self.s, self.m, "chassis"
-        face, reach, thick = self.y_side + self.t / 2 - self.e, self.tread / 2 - 0.22 * s, 0.03 * s
-        centre = np.array([x, 0.0, self.tyre_r])
-        flange = box("flange", 0.22 * s, 0.22 * s, thick)
-        m.add("axle flange", body, body, flange, place(centre + side * (face + thick / 2) * Y, side * Y, X))
-        start = face + thick - self.e
-        housing = tube("axle_tube", 0.08 * s, 0.03 * s, reach - start)
-        m.add("axle tube", body, body, housing, place(centre + side * start * Y, side * Y))
-        self.wheel(wheel, body, side, centre + side * self.tread / 2 * Y, reach)
+                self.stub(f"{end}_wheel_{letter}", "chassis", side, x, self.y_side + self.t / 2 - self.e)
 
     def lift_links(self) -> None:
         if self.path == "radial":

@@ -267,6 +267,29 @@ class Drawer:
             )
         self.m.pose = kept
 
+    def block(self, name: str, body: str, low: tuple[float, float, float], high: tuple[float, float, float]) -> None:
+        """An axis-parallel block between two corners, in machine sizes."""
+        a, b = self.s * np.array(low), self.s * np.array(high)
+        x, y, z = b - a
+        self.m.add(name, body, body, box(f"{name}_{x:.4f}_{y:.4f}_{z:.4f}", x, y, z), place(0.5 * (a + b), Z, X))
+
+    def across(self, role: str, body: str, at: Array, side: int, start: float, end: float) -> None:
+        """A pin along y on one side."""
+        low, high = sorted((side * start, side * end))
+        self.pin(role, body, np.array([at[0], low, at[1]]), np.array([at[0], high, at[1]]))
+
+    def stub(self, wheel: str, body: str, side: int, x: float, face: float, scale: float = 1.0) -> None:
+        """An axle's half on a face: a square flange, a tube, and the wheel that turns on its end."""
+        s, m, out = scale * self.s, self.m, side * Y
+        reach, thick = self.tread / 2 - 0.22 * s, 0.03 * s
+        centre = np.array([x, 0.0, self.tyre_r])
+        flange = box("flange", 0.22 * s, 0.22 * s, thick)
+        m.add("axle flange", body, body, flange, place(centre + (face + thick / 2) * out, out, X))
+        start = face + thick - self.e
+        housing = tube("axle_tube", 0.08 * s, 0.03 * s, reach - start)
+        m.add("axle tube", body, body, housing, place(centre + start * out, out))
+        self.wheel(wheel, body, side, centre + self.tread / 2 * out, reach)
+
     # ---- groups ----
     def draw(self) -> Machine:
         self.eye_w = 0.22 * self.s

@@ -140,7 +140,8 @@ def _stand_alike(wheels: list[Wheel], normal: Floats) -> bool:
 
 
 def _swing(scene: _Scene, flat: Floats | None) -> str | None:
-    """The root's joint about the vertical: the one along the wheels' plane's normal, else the one to another frame."""
+    """The root's joint about the vertical: the one along the wheels' plane's normal, else the one to another frame. No
+    knuckle's, of which there is one on either side."""
     template, axes, kinds = scene.template, scene.axes, scene.kinds
     best: tuple[float, str] | None = None
     for name in sorted(axes):
@@ -149,7 +150,7 @@ def _swing(scene: _Scene, flat: Floats | None) -> str | None:
         if template.root not in bodies:
             continue
         other = bodies[1] if bodies[0] == template.root else bodies[0]
-        if other is None or kinds[other] in ("barrel", "rod", "wheel"):
+        if other is None or kinds[other] in ("barrel", "rod", "wheel") or template.role(other).side:
             continue
         score = abs(float(axes[name].direction @ flat)) if flat is not None else float(kinds[other] == "frame")
         if score > 0.8 and (best is None or score > best[0]):

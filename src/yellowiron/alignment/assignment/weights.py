@@ -31,7 +31,9 @@ AS_GOOD = 0.1
 TRUSTING = 6
 """So many parts must contradict their names as clearly as if so many more agreed: names are mostly right."""
 _SIDE = re.compile(r"(?<=_)([lr])(?=_|$)")
-_END = re.compile(r"(?:^|(?<=_))(front|rear)(?=_|$)")
+_END = re.compile(r"(?:^|(?<=_))(front|middle|rear)(?=_|$)")
+_ORDER = ("front", "middle", "rear")
+"""The words of `_END` as they stand behind each other."""
 
 
 def name_weights(
@@ -122,8 +124,8 @@ def twin_role(name: str) -> str | None:
 
 
 def interchangeable(template: Template) -> list[frozenset[str]]:
-    """Groups of bodies whose names differ in front, rear, left and right alone and which hang on the same bodies by
-    joints of one type: a machine's four wheels on one chassis. Only where they stand tells which is which."""
+    """Groups of bodies whose names differ in front, middle, rear, left, right alone and which hang on the same bodies
+    by joints of one type: a machine's four wheels on one chassis. Only where they stand tells which is which."""
     rigid = [r.name for r in template.roles if r.rigid]
     joined: dict[str, list[tuple[str, str]]] = {name: [] for name in rigid}
     for joint in template.joints:
@@ -156,15 +158,16 @@ def side_weights(
         middle = np.mean([0.5 * (s.low + s.high) for s in members], axis=0)
         return np.asarray(frame.matrix[:3, :3] @ middle + frame.matrix[:3, 3], dtype=np.float64)
 
-    alike = interchangeable(template)
-    for names in alike:
+    alike = {names | {twin_role(name) or name for name in names} for names in interchangeable(template)}
+    for names in sorted(alike, key=sorted):
         there = {name: place(cluster_of[name]) for name in names if name in cluster_of}
         middle = np.mean(list(there.values()), axis=0) if there else np.zeros(3)
+        foremost = min((_END.findall(name)[0] for name in names), key=_ORDER.index)
         for found, at in there.items():
             ahead, leftward = (bool(at[axis] > middle[axis]) for axis in (0, 1))
             for name in names:
                 ends, sides = _END.findall(name), _SIDE.findall(name)
-                fits = (ends[0] == "front") == ahead and (not sides or (sides[0] == "l") == leftward)
+                fits = (ends[0] == foremost) == ahead and (not sides or (sides[0] == "l") == leftward)
                 where = (cluster_of[found], name)
                 sided[where] = sided.get(where, 0) + (SIDE_WEIGHT if fits else -SIDE_WEIGHT)
 

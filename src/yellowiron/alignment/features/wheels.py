@@ -34,6 +34,8 @@ TREAD = 2.2
 """A tyre is no more than so much larger than the ring of its rim."""
 WIDER = 1.3
 """What is of a wheel is no more than so much wider than its ring."""
+ASIDE, BESIDE = 0.02, 1.6
+"""Twin tyres are this near to one axis, in radii, and this near to each other, in widths between their middles."""
 
 
 def wheels_of(solids: tuple[Solid, ...], count: int, taken: set[int], tolerance: float) -> list[Wheel]:
@@ -58,7 +60,26 @@ def wheels_of(solids: tuple[Solid, ...], count: int, taken: set[int], tolerance:
             break
         found.append(Wheel(frozenset({s.index}), s.index, centre, s.axis.direction, s.reach, width))
     equal = [w for w in found if any(v is not w and abs(v.radius - w.radius) < 0.02 * w.radius for v in found)]
+    if len(equal) > count:
+        equal = _twin_tyres(equal)
     return [_with_coaxial_parts(w, solids, taken, tolerance) for w in equal[:count]] if len(equal) >= 2 else []
+
+
+def _twin_tyres(wheels: list[Wheel]) -> list[Wheel]:
+    """Two tyres side by side on one axle are one wheel, where there are more of them than wheels."""
+    joined: list[Wheel] = []
+    for wheel in wheels:
+        for k, other in enumerate(joined):
+            along = float((wheel.center - other.center) @ other.direction)
+            across = float(np.linalg.norm(wheel.center - other.center - along * other.direction))
+            if across < ASIDE * other.radius and abs(along) < BESIDE * other.width and len(other.members) == 1:
+                centre, width = 0.5 * (wheel.center + other.center), abs(along) + 0.5 * (wheel.width + other.width)
+                both = wheel.members | other.members
+                joined[k] = Wheel(both, other.tyre, centre, other.direction, other.radius, width)
+                break
+        else:
+            joined.append(wheel)
+    return joined
 
 
 def _same_place(wheel: Wheel, axis: Cyl, centre: Floats) -> bool:

@@ -17,6 +17,10 @@ from yellowiron.model.mechanism import Body, Joint, Mechanism, Site
 _AXES = {"x": 0, "y": 1, "z": 2}
 _ON_EDGE = 1e-9
 """Metres: a zone's edge is in it, however its place is rounded."""
+_PARALLEL = 1e-4
+"""Axles whose cosine is this near to 1 (0.8°) are parallel."""
+_TYRE = 0.7
+"""What is farther out than this share of a wheel's radius is its tyre: a hub may stand out beside it."""
 
 
 class Unmeasurable(Exception):  # noqa: N818 - it ends one measurement with a reason, it is no error of the program
@@ -170,8 +174,11 @@ def _reach(quantity: Mapping[str, Any], posed: Posed) -> float:
 
 
 def _joint_angle(quantity: Mapping[str, Any], posed: Posed) -> float:
-    """A joint's coordinate from the straight machine, cut joints included."""
+    """A joint's coordinate from the straight machine, cut joints included, or from that after the steps `above`."""
     joint = _joint(quantity.get("joint"), posed)
+    if "above" in quantity:
+        below = posed.after(quantity["above"])
+        return posed.chain.coordinate(posed.state, joint.name) - posed.chain.coordinate(below, joint.name)
     return posed.chain.coordinate(posed.state, joint.name) - posed.straight(joint.name)
 
 
@@ -288,6 +295,26 @@ def _tyre_diameter(quantity: Mapping[str, Any], posed: Posed) -> float:
     return 2.0 * max(radii)
 
 
+def _turning_radius(quantity: Mapping[str, Any], posed: Posed) -> float:
+    """From the middle of the turn to the outer side of the outermost tyre, seen from above. The middle is where the
+    wheels' axes come nearest to each other (least squares): of two parallel axles of a bogie counts the line midway."""
+    places, axes, halves = [], [], []
+    for joint, radius in posed.rolling:
+        axis = posed.direction(joint.body0, joint.axis)[:2]
+        hull = np.asarray(posed.mechanism.body(joint.body1).hull, dtype=np.float64) - np.array(joint.anchor)
+        along = hull @ np.array(joint.axis)
+        tyre = np.linalg.norm(hull, axis=1) ** 2 - along**2 > (_TYRE * radius) ** 2
+        places.append(posed.point(joint.body0, joint.anchor)[:2])
+        axes.append(axis / np.linalg.norm(axis))
+        halves.append(float(np.abs(along[tyre]).max()))
+    if not axes or min(abs(float(a @ axes[0])) for a in axes) > 1.0 - _PARALLEL:
+        raise Unmeasurable("the machine's wheels are not steered")
+    normals = np.column_stack([-np.array(axes)[:, 1], np.array(axes)[:, 0]])
+    centre = np.linalg.lstsq(normals, np.sum(normals * np.array(places), axis=1), rcond=None)[0]
+    sides = [p + sign * h * a for p, a, h in zip(places, axes, halves, strict=True) for sign in (1.0, -1.0)]
+    return float(np.linalg.norm(np.array(sides) - centre, axis=1).max())
+
+
 _KINDS: Mapping[str, Callable[[Mapping[str, Any], Posed], float]] = {
     "height": _height,
     "rise": _rise,
@@ -302,5 +329,6 @@ _KINDS: Mapping[str, Callable[[Mapping[str, Any], Posed], float]] = {
     "approach_angle": _approach_angle,
     "overhang": _overhang,
     "tyre_diameter": _tyre_diameter,
+    "turning_radius": _turning_radius,
 }
 KINDS = tuple(_KINDS)

@@ -31,6 +31,8 @@ from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
 from yellowiron.model.template import CylinderTemplate, JointTemplate, Template
 
+TWIN_TYRE = 0.99
+"""What reaches this share of a wheel's radius is its other tyre."""
 RAM = ("barrel", "rod")
 """Kinds of the halves of a cylinder."""
 WHEELS = ("wheel", "sprocket", "idler", "roller", "carrier")
@@ -267,10 +269,11 @@ def _end_pivot(body: str, slide: tuple[str, str], pivots: Mapping[str, JointFram
 
 
 def _wheel_middle(placement: Placement, wheel: str, line: Axis) -> Floats:
-    """Where a wheel's axis meets its mid-plane: the middle of the part that reaches farthest from the axis."""
-    rows = placement.rows_of_body(wheel)
-    tyre = max(rows, key=lambda row: float(line.distance(placement.points(row)).max()))
-    along = line.along(placement.points(tyre))
+    """Where a wheel's axis meets its mid-plane: the middle of the part that reaches farthest from the axis, or of the
+    two of twin tyres."""
+    reach = {row: float(line.distance(placement.points(row)).max()) for row in placement.rows_of_body(wheel)}
+    tyres = [row for row, far in reach.items() if far > TWIN_TYRE * max(reach.values())]
+    along = np.concatenate([line.along(placement.points(row)) for row in tyres])
     return line.at(float(0.5 * (along.min() + along.max())))
 
 

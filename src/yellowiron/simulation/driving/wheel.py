@@ -13,11 +13,15 @@ from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Joint, Mechanism, chained
 from yellowiron.simulation.ground import standing_bodies
 
+_LEVEL = 0.9
+"""Least part across the machine of a wheel's unit axis."""
+
 
 @dataclass(frozen=True, eq=False)
 class DrivenWheel:
     """A driven wheel: its joint, its body's place among the bodies, middle and unit axis (machine frame, drawn pose),
-    radius and half its width, and the sign of its joint in the actuator's positive sense."""
+    radius and half its width, and the sign of its joint in the actuator's positive sense ("" where nothing drives
+    it)."""
 
     joint: Joint
     body: int
@@ -32,32 +36,47 @@ class DrivenWheel:
 def driven_wheels(mechanism: Mechanism) -> tuple[DrivenWheel, ...]:
     """The wheels that motors drive, on the ground in the drawn pose.
 
-    `YellowironError` where there are fewer than three, but for one on either side with a motor of its own: what has
-    none (a crane) does not drive.
+    `YellowironError` where there are fewer than three wheels, but for one on either side with a motor of its own: what
+    has none (a crane) does not drive.
     """
-    number = {body.name: index for index, body in enumerate(mechanism.bodies)}
     standing = standing_bodies(mechanism)
-    found = []
-    for actuator in mechanism.actuators:
-        for entry in actuator.joints if actuator.kind == "motor" else ():
-            joint = mechanism.joint(entry.joint)
-            if joint.drive is None or joint.drive.kind != "velocity" or joint.body1 not in standing:
-                continue
-            axis = np.asarray(joint.axis, dtype=np.float64)
-            offset = np.asarray(mechanism.body(joint.body1).hull) - np.asarray(joint.anchor)
-            along = offset @ axis
-            reach = float(np.linalg.norm(offset - np.outer(along, axis), axis=1).max())
-            radius = pitch_radius(mechanism, joint) or reach
-            half, center = 0.5 * float(np.ptp(along)), 0.5 * (float(along.min()) + float(along.max()))
-            middle = np.asarray(joint.anchor) + center * axis
-            found.append(DrivenWheel(joint, number[joint.body1], middle, axis, radius, half, entry.sign, actuator.name))
-    if len(found) < 3 and not sides(found):
+    found = [
+        _wheel(mechanism, mechanism.joint(entry.joint), entry.sign, actuator.name)
+        for actuator in mechanism.actuators
+        for entry in (actuator.joints if actuator.kind == "motor" else ())
+        if (drive := mechanism.joint(entry.joint).drive) is not None and drive.kind == "velocity"
+        and mechanism.joint(entry.joint).body1 in standing
+    ]  # fmt: skip
+    if not found or (len(found) + len(free_wheels(mechanism)) < 3 and not sides(found)):
         raise YellowironError(
             "The machine has no driven wheels to drive on",
             where=mechanism.name,
             hint="Driving needs a motor actuator whose joints lead to wheels on the ground.",
         )
     return tuple(found)
+
+
+def free_wheels(mechanism: Mechanism) -> tuple[DrivenWheel, ...]:
+    """The wheels that nothing drives, on the ground in the drawn pose."""
+    standing = standing_bodies(mechanism)
+    return tuple(
+        _wheel(mechanism, joint, 1, "")
+        for joint in mechanism.joints
+        if joint.type == "revolute" and joint.free and joint.drive is None and not joint.cut
+        and joint.lower is None and joint.upper is None
+        and joint.body1 in standing and abs(joint.axis[1]) > _LEVEL
+    )  # fmt: skip
+
+
+def _wheel(mechanism: Mechanism, joint: Joint, sign: int, actuator: str) -> DrivenWheel:
+    axis = np.asarray(joint.axis, dtype=np.float64)
+    offset = np.asarray(mechanism.body(joint.body1).hull) - np.asarray(joint.anchor)
+    along = offset @ axis
+    reach = float(np.linalg.norm(offset - np.outer(along, axis), axis=1).max())
+    radius = (pitch_radius(mechanism, joint) or reach) if actuator else reach
+    half, center = 0.5 * float(np.ptp(along)), 0.5 * (float(along.min()) + float(along.max()))
+    number = next(k for k, body in enumerate(mechanism.bodies) if body.name == joint.body1)
+    return DrivenWheel(joint, number, np.asarray(joint.anchor) + center * axis, axis, radius, half, sign, actuator)
 
 
 def sides(found: Sequence[DrivenWheel]) -> tuple[tuple[DrivenWheel, ...], ...]:

@@ -19,7 +19,8 @@ from yellowiron.model.mechanism import Body, Joint, Mechanism
 from yellowiron.simulation.commands import SHARE, Motion, motions, travel
 from yellowiron.simulation.driving import tracked
 from yellowiron.simulation.driving.result import BLOCK_HEIGHT, DISTANCE, DrivingResult
-from yellowiron.simulation.driving.wheel import DrivenWheel, driven_wheels, sides, top_speed
+from yellowiron.simulation.driving.turning import turning_centre
+from yellowiron.simulation.driving.wheel import DrivenWheel, driven_wheels, free_wheels, sides, top_speed
 from yellowiron.simulation.engine import Engine, Setup, coordinates, poses, tell
 from yellowiron.simulation.ground import Block, standing_bodies
 from yellowiron.simulation.loads import paces
@@ -68,12 +69,13 @@ class _Trip:
     wheels: tuple[DrivenWheel, ...] = field(init=False)
 
     def __post_init__(self) -> None:
-        self.wheels = driven_wheels(self.mechanism)
+        driven = driven_wheels(self.mechanism)
+        self.wheels = (*driven, *free_wheels(self.mechanism))
         self.chain = ClosedChain(self.mechanism)
         names = [body.name for body in self.mechanism.bodies]
         self._root = names.index(self.mechanism.root)
         self._steer = self._steering()
-        self._sides = () if self._steer is not None else sides(self.wheels)
+        self._sides = () if self._steer is not None else sides(driven)
         self._origin = np.asarray(self.mechanism.body(self.mechanism.root).origin)
 
     def _load(self, *blocks: Block) -> Engine:
@@ -98,7 +100,9 @@ class _Trip:
     def _speeds(self, speed: float, factors: Mapping[str, float] | None = None) -> dict[str, float]:
         """Wheel targets, rad/s, for a speed of the machine's middle in m/s."""
         share = factors or {}
-        return {w.joint.name: w.sign * speed * share.get(w.joint.name, 1.0) / w.radius for w in self.wheels}
+        return {
+            w.joint.name: w.sign * speed * share.get(w.joint.name, 1.0) / w.radius for w in self.wheels if w.actuator
+        }
 
     def _middles(self, poses: tuple[Floats, Floats]) -> Floats:
         """The wheels' middles (n, 3) in the world."""
@@ -185,14 +189,12 @@ class _Trip:
         return self.chain.displacement(state, wheel.joint.body0)
 
     def _circles(self, coordinates: Mapping[str, float]) -> Floats:
-        """Radius of each wheel's middle about the point where all axles' lines (seen from above) come nearest."""
+        """Radius of each wheel's middle about the middle of the turn, seen from above."""
         given = {n: v for n, v in coordinates.items() if not any(n == w.joint.name for w in self.wheels)}
         state, _ = self.chain.reach(given)
         places = np.array([(self._apply(state, w) @ np.append(w.middle, 1.0))[:2] for w in self.wheels])
         axes = np.array([a[:2] / np.linalg.norm(a[:2]) for a in self._axes(state)])
-        normals = np.column_stack([-axes[:, 1], axes[:, 0]])
-        center, *_ = np.linalg.lstsq(normals, np.sum(normals * places, axis=1), rcond=None)
-        return np.asarray(np.linalg.norm(places - center, axis=1))
+        return np.asarray(np.linalg.norm(places - turning_centre(places, axes), axis=1))
 
     def _turn(self, engine: Engine) -> dict[str, float | None]:
         motion = self._steer
@@ -238,7 +240,8 @@ class _Trip:
 
     # ---- the block --------------------------------------------------------------------------------------------------
     def _axle(self) -> tuple[Joint, list[int]] | None:
-        """A free, undriven joint whose body carries a pair of wheels, and their places in `wheels`."""
+        """A free, undriven joint whose body carries a pair of wheels (an axle, a beam of a bogie), and their places in
+        `wheels`."""
         for joint in self.mechanism.joints:
             if joint.free and joint.drive is None and joint.type == "revolute":
                 pair = [i for i, w in enumerate(self.wheels) if w.joint.body0 == joint.body1]
@@ -252,7 +255,7 @@ class _Trip:
         if found is None:
             return {}
         joint, pair = found
-        climbing = max((self.wheels[i] for i in pair), key=lambda w: float(w.middle[1]))
+        climbing = max((self.wheels[i] for i in pair), key=lambda w: (round(float(w.middle[1]), 3), float(w.middle[0])))
         run = _RUN * BLOCK_HEIGHT
         start = float(climbing.middle[0]) + climbing.radius + _ROOM
         ahead = [w for w in self.wheels if w.middle[0] > climbing.middle[0] and w.middle[1] * climbing.middle[1] > 0]
@@ -271,12 +274,20 @@ class _Trip:
         finally:
             engine.close()
         one, other = (self.wheels[i].middle for i in pair)
-        tread = float(np.linalg.norm((one - other)[1:]))
+        tread = float(np.linalg.norm(np.cross(one - other, joint.axis)))
         return {
             "axle_angle": abs(axle),
-            "axle_geometry": math.asin(BLOCK_HEIGHT / tread),
+            "axle_geometry": math.asin(BLOCK_HEIGHT / tread) + self._pitch(joint, pair),
             "highest_wheel": max(0.0, float(self._lift(np.array(record), block).max())),
         }
+
+    def _pitch(self, joint: Joint, pair: list[int]) -> float:
+        """How far what carries a beam of a bogie pitches when one of the beam's wheels stands on the block: the beam's
+        pivot rises by half of its height, the middle between the beams by a quarter, the other wheels not at all."""
+        spread = float(np.ptp([self.wheels[i].middle[0] for i in pair]))
+        away = [abs(float(w.middle[0]) - joint.anchor[0]) for w in self.wheels]
+        others = [distance for distance in away if distance > spread]
+        return 0.25 * BLOCK_HEIGHT / float(np.mean(others)) if spread > 0.0 and others else 0.0
 
     def _lift(self, record: Floats, block: Block) -> Floats:
         """Height (steps, wheels) of every wheel, a leaning cylinder, over the place where it would just stand."""

@@ -20,7 +20,7 @@ from yellowiron.simulation.commands import Motion, Phase, motions, phases
 from yellowiron.simulation.driving.rolling import rolling
 from yellowiron.simulation.driving.wheel import DrivenWheel, driven_wheels
 from yellowiron.simulation.engine import Base, Engine, Readings, Setup
-from yellowiron.simulation.ground import standing_bodies
+from yellowiron.simulation.ground import standing_bodies, usual_base
 from yellowiron.simulation.loads import carried, paces
 from yellowiron.simulation.payload import with_payload
 from yellowiron.simulation.registry import find_engine, import_engine, load_engine
@@ -28,6 +28,7 @@ from yellowiron.simulation.strokes.comparison import Agreement, Comparison, Wors
 from yellowiron.simulation.strokes.held import held_machine
 from yellowiron.simulation.strokes.recording import record
 from yellowiron.simulation.strokes.result import ActuatorResult, BranchResult, PhaseResult, SimulationResult
+from yellowiron.usd import read_mechanism
 
 FINAL_BAR = 0.01
 """A cylinder ends within this share of its stroke from its target; a motor within ten times that of its speed."""
@@ -50,7 +51,7 @@ def simulate(
     usd_path: str | Path,
     *,
     engine: str,
-    base: Base = "fixed",
+    base: Base | None = None,
     payload_kg: float = 0.0,
     payload_source: str = "",
     dt: float | None = None,
@@ -60,15 +61,17 @@ def simulate(
     """Drives every actuator of a machine alone and all together in an engine, and holds every body's pose at every
     step against the closed-chain kinematics at the strokes the engine measures.
 
-    `base`: `fixed` (in the air) or `floating` (on the ground, on its wheels or tracks); `dt` in seconds (default: the
-    engine's); `actuators`: only these. Findings SIM001 … SIM005 say what fell short of the engine's bars.
+    `base`: `fixed` (in the air) or `floating` (on the ground, on its wheels or tracks), by default `usual_base`; `dt`
+    in seconds (default: the engine's); `actuators`: only these. Findings SIM001 … SIM005 say what fell short of the
+    engine's bars.
     Raises `YellowironError` for an unknown engine or actuator, an engine that is not installed, and an unusable file.
     """
     entry = find_engine(engine)
-    if base not in ("fixed", "floating"):
+    if base not in (None, "fixed", "floating"):
         raise YellowironError(f"There is no base '{base}'", where="--base", hint="A base is fixed or floating.")
     step = entry.timestep if dt is None else dt
     check_timestep(step)
+    base = base or usual_base(read_mechanism(usd_path))
     if not 0.0 <= payload_kg < math.inf:
         raise YellowironError(
             "The payload must be 0 kg or more", where=f"--payload {payload_kg:g}", hint="Write 5000, 5.5 t, or rated."

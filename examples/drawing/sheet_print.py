@@ -1,14 +1,23 @@
-"""How the excavator's sheet prints: numbers in both systems, words, headings, rows, and grids with merged cells."""
+"""How the examples' sheets print: numbers in both systems, words, headings, rows, grids with merged cells, pages."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 from reportlab.lib.colors import Color, HexColor
+from reportlab.lib.pagesizes import A4
 from reportlab.pdfbase.pdfmetrics import stringWidth
 from reportlab.pdfgen.canvas import Canvas
 
+from .values import Value
+
+WIDTH, HEIGHT = A4
+MARGIN = 42.0
+FULL = WIDTH - 2 * MARGIN
+HALF, SECOND = (FULL - 26) / 2, MARGIN + (FULL - 26) / 2 + 26
+"""Of a page in two columns: a column's width, and where the second begins."""
 INK, TEAL, MIST, LINE = (HexColor(c) for c in ("#20262b", "#0f5c66", "#e6eff0", "#8fa3a8"))
 REGULAR, BOLD, ITALIC = "Times-Roman", "Times-Bold", "Times-Italic"
 MARK = "example value"
@@ -197,3 +206,45 @@ def _cell(c: Canvas, x0: float, y0: float, x1: float, y1: float, cell: Cell) -> 
             say(c, (x0 + x1) / 2, y, MARK, size=5.2, font=ITALIC, ink=TEAL, align="c")
         else:
             say(c, x0 + 5, y, MARK, size=5.2, font=ITALIC, ink=TEAL)
+
+
+# ---- sheets ---------------------------------------------------------------------------------------------------------
+OURS = 'Figures marked "example value" were chosen for this example: plausible for the class, published by nobody.'
+
+
+def opening(c: Canvas, title: str, source: str) -> float:
+    """The head of a sheet: its title, where its values are from, what is ours; returns the first heading's line."""
+    say(c, MARGIN, HEIGHT - 60, title, size=20, font=BOLD, ink=TEAL)
+    y = prose(c, MARGIN, HEIGHT - 80, source, FULL, size=8)
+    return prose(c, MARGIN, y, OURS, FULL, size=8) - 12
+
+
+def value_lines(
+    c: Canvas, x: float, y: float, rows: Iterable[tuple[str, Value]], cells: Callable[[Value], tuple[str, ...]]
+) -> float:
+    """Rows of values in a column, marked where they are ours; returns the next heading's line."""
+    return lines(c, x, y, [Line(label, cells(o), ours=not o.published) for label, o in rows], HALF)
+
+
+def cylinder_table(
+    c: Canvas, x: float, y: float, width: float, rows: Iterable[tuple[str, int, tuple[Value, Value, Value]]]
+) -> float:
+    """The hydraulic cylinders, name, number, (stroke, bore, rod diameter) each, all of them ours; returns the table's
+    bottom."""
+    heads = ("Cylinder", "No.", "Stroke", "Bore", "Rod dia.")
+    table = [[Cell((head,), head=True, mark=head in heads[2:]) for head in heads]]
+    for name, number, sizes in rows:
+        words = [f"{grouped(size.value)} mm" for size in sizes]
+        table.append([Cell((name,), align="l"), Cell((str(number),)), *(Cell((word,)) for word in words)])
+    return grid(c, x, y, [width / 5] * 5, table, 21)
+
+
+def write_pages(path: Path, title: str, *pages: Callable[[Canvas], None]) -> None:
+    """Writes a sheet; the same bytes every time."""
+    c = Canvas(str(path), pagesize=A4, invariant=1, pageCompression=0)
+    c.setTitle(f"{title}: technical data")
+    c.setAuthor("yellowiron examples")
+    for page in pages:
+        page(c)
+        c.showPage()
+    c.save()

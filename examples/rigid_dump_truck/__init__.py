@@ -1,0 +1,1 @@
+"""The example rigid dump truck: of the Cat 773F class."""

@@ -1,0 +1,134 @@
+"""The rigid dump truck example: its layout meets what its sheet prints, it is drawn so, and it builds to a machine that
+is ready, with and without names, from surfaces and from triangles."""
+
+from __future__ import annotations
+
+import itertools
+import json
+from dataclasses import dataclass, replace
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+import pytest
+from example_file import gaps, module, read_step, solids_of
+
+from kit.builds import MadeOnce, without_pages
+from kit.machines.defects import on_triangles
+from kit.machines.drawn_examples import assert_as_drawn, assert_measured, assert_recognised, drawn_example
+from kit.machines.forklifts import truth_of
+from yellowiron import library, specs
+from yellowiron.alignment.pipeline import align
+from yellowiron.cad import read_cad
+from yellowiron.pipeline import Machine, build
+
+TYPE = "rigid_dump_truck"
+
+
+@pytest.fixture(scope="module")
+def values() -> ModuleType:
+    return module(TYPE, "values")
+
+
+# ---- layout and drawing --------
+def test_values_are_either_published_or_ours(values: ModuleType) -> None:
+    names = [value.name for value in (*values.PUBLISHED, *values.EXAMPLE, *values.DRAWN_ONLY)]
+    assert len(names) == len(set(names))
+    assert len(values.PUBLISHED) == 15 and all(value.source and value.location for value in values.PUBLISHED)
+
+
+def test_the_layout_meets_what_is_printed(values: ModuleType) -> None:
+    known = {value.name: value.value for value in (*values.PUBLISHED, *values.EXAMPLE)}
+    got = module(TYPE, "truth").measured()
+    assert {values.RAISED_HEIGHT.name, values.DUMP_CLEARANCE.name, values.STEER_STROKE.name} <= set(got)
+    for name, value in got.items():
+        assert value == pytest.approx(known[name], abs=1e-6), name
+
+
+def test_the_inner_wheel_turns_farther() -> None:
+    layout = module(TYPE, "layout")
+    assert np.degrees(layout.outer(layout.LOCK)) == pytest.approx(30.9, abs=0.1)
+
+
+@pytest.mark.slow
+def test_bodies_do_not_meet_as_drawn(made_once: MadeOnce) -> None:
+    folder = drawn_example(TYPE, made_once)
+    parts, leaves = truth_of(folder)["parts"], read_step(folder / f"{TYPE}.step")
+    met = [
+        (leaves[i].path, leaves[j].path)
+        for (i, j), gap in gaps(solids_of(leaves), [np.eye(4)] * len(leaves), 0.01).items()
+        if parts[leaves[i].path]["body"] != parts[leaves[j].path]["body"] and gap == 0.0
+    ]
+    assert met == []
+
+
+@pytest.mark.slow
+def test_the_drawing_has_the_sheet_s_values(made_once: MadeOnce) -> None:
+    rows = truth_of(drawn_example(TYPE, made_once))["values"]
+    assert sum("drawn" in row for row in rows.values()) >= 14
+    for name, row in rows.items():
+        assert row.get("drawn", row["target"]) == pytest.approx(row["target"], abs=0.01), name
+
+
+@pytest.mark.slow
+def test_every_value_is_read_off_the_sheet(values: ModuleType, made_once: MadeOnce) -> None:
+    found = specs.extract(library.load_template(TYPE), [drawn_example(TYPE, made_once) / "specifications.pdf"])
+    known = {s.name: s for s in found if s.status == "ok"}
+    assert {s.status for s in found} == {"ok", "missing"}
+    names = {
+        "Overall Length": values.LENGTH, "Body Length Overall": values.BODY_LENGTH, "Overall Height": values.HEIGHT,
+        "Front Canopy Height": values.CANOPY_HEIGHT, "Body Raised Height": values.RAISED_HEIGHT,
+        "Loading Height": values.LOADING_HEIGHT, "Dump Clearance": values.DUMP_CLEARANCE,
+        "Overall Width": values.TYRES_WIDTH, "Canopy Width": values.CANOPY_WIDTH,
+        "Body Width Outside": values.BODY_WIDTH, "Front Tread": values.FRONT_TREAD, "Rear Tread": values.REAR_TREAD,
+        "Wheelbase": values.WHEELBASE, "Rear Overhang": values.REAR_OVERHANG, "Tyre Diameter": values.TYRE_DIAMETER,
+        "Rear Axle Clearance": values.AXLE_CLEARANCE, "Hoist Cylinder Stroke": values.HOIST_STROKE,
+        "Steering Cylinder Stroke": values.STEER_STROKE,
+    }  # fmt: skip
+    for name, value in names.items():
+        assert known[name].value == pytest.approx(value.value / 1000.0, rel=1e-4), name
+        assert known[name].example is not value.published, name
+    assert known["Rated Payload"].value == values.PAYLOAD.value and known["Rated Payload"].example
+
+
+# ---- the machine --------
+@dataclass(frozen=True)
+class Built:
+    machine: Machine
+    truth: dict[str, Any]
+
+
+@pytest.fixture(scope="module", params=["named", "nameless"])
+def built(request: pytest.FixtureRequest, made_once: MadeOnce, tmp_path_factory: pytest.TempPathFactory) -> Built:
+    folder = drawn_example(TYPE, made_once)
+    cad = folder / ("" if request.param == "named" else "nameless") / f"{TYPE}.step"
+    with without_pages():
+        machine = build(TYPE, cad, tmp_path_factory.mktemp("truck"), sheets=[folder / "specifications.pdf"])
+    return Built(machine, truth_of(folder))
+
+
+@pytest.mark.slow
+def test_it_is_ready(built: Built) -> None:
+    report = json.loads((built.machine.folder / "report.json").read_text(encoding="utf-8"))
+    assert [f for f in report["findings"] if f["severity"] != "info"] == []
+    mobility = built.machine.mechanism.mobility
+    assert mobility is not None and (mobility.computed, mobility.expected) == (6, 6)
+    assert {a.name for a in built.machine.mechanism.actuators} == {"steering", "hoist", "drive"}
+
+
+@pytest.mark.slow
+def test_what_is_measured_and_drawn_is_what_is_meant(built: Built) -> None:
+    assert_measured(built.machine, 17)
+    assert_as_drawn(built.machine, built.truth)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("names", "surfaces"), itertools.product(["", "nameless"], ["exact", "triangles"]))
+def test_every_part_is_in_its_body(names: str, surfaces: str, made_once: MadeOnce) -> None:
+    folder = drawn_example(TYPE, made_once)
+    assembly = read_cad(folder / names / f"{TYPE}.step")
+    if surfaces == "triangles":
+        assembly = replace(assembly, shapes=on_triangles(assembly.shapes))
+    template = library.load_template(TYPE)
+    found = align(assembly, template, specs.extract(template, [folder / "specifications.pdf"]))
+    assert_recognised(found, truth_of(folder))
