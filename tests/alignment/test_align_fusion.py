@@ -156,9 +156,9 @@ def test_a_part_of_a_machine_stands_where_that_part_usually_is(seed: int) -> Non
     low = rng.uniform(-0.3, 0.2, 3)
     high = low + rng.uniform(0.05, 0.5, 3)
     rotation = Rotation.random(rng=seed).as_matrix()
-    part = Stance(rotation, np.zeros(3), 7.0, 1.0).as_part(points, low, high, 0.25)
+    part = Stance(rotation, np.zeros(3), 7.0, 1.0).as_part(points, low, high, 0.25, {"arm"})
     places = part.place(points)
-    assert part.drawn == 0.25
+    assert (part.drawn, part.absent) == (0.25, {"arm"})
     assert 0.5 * (places.min(axis=0) + places.max(axis=0)) == pytest.approx(0.5 * (low + high), abs=1e-9)
     assert np.linalg.norm(np.ptp(places, axis=0)) == pytest.approx(np.linalg.norm(high - low), rel=1e-9)
 

@@ -20,7 +20,7 @@ from yellowiron.alignment.fusion.bonds import Bond, bonds_of, out_of_line
 from yellowiron.alignment.fusion.judge import Field, field_of, score_of, weighed
 from yellowiron.alignment.fusion.pieces import Piece, leading, pieces_of
 from yellowiron.alignment.fusion.played import drawn_bodies, lost, missing_bodies
-from yellowiron.alignment.fusion.stance import WHEELS, Stance, on_wheels, stance_of
+from yellowiron.alignment.fusion.stance import Stance, on_wheels, stance_of
 from yellowiron.alignment.fusion.votes import (
     BARS,
     CLEARLY,
@@ -117,8 +117,9 @@ class Evidence:
         ]
         votes = votes_of(self.pieces, template, self.scores, trust, self.answer, self.stance, self.edited, self.surface)
         halves = {r.name for r in template.roles if r.kind in BARS}
+        absent = self.stance.absent - set(self.edited.values())
         return [
-            {body: what for body, what in mine.items() if k not in self.pins or body in halves}
+            {body: what for body, what in mine.items() if body not in absent and (k not in self.pins or body in halves)}
             for k, mine in enumerate(votes)
         ]
 
@@ -196,7 +197,7 @@ def fused(
     machines = [(chosen, choose(template, chosen)) for chosen in variants]
     # Which end is the front is a guess so far, and whether all of a machine is drawn; what has tracks, or wheels to
     # stand on, has a root.
-    stands = bool(observation.rows) or len(observation.wheels) >= WHEELS
+    stands = bool(observation.rows) or evidence.stance.wheeled
     ways = [
         part
         for way in (evidence.stance, evidence.stance.turned())
@@ -252,6 +253,7 @@ def _as_parts(stance: Stance, evidence: Evidence, template: Template) -> list[St
     points = np.concatenate([p.samples for p in evidence.pieces]) if evidence.pieces else np.zeros((0, 3))
     said = clearly_named(evidence.pieces, evidence.scores) if evidence.trust > 0.0 else {}
     nearest = min((depths[b] for b in said.values() if b in depths), default=len(depths))
+    rigid = {r.name for r in resolved.roles if r.rigid}
     found = []
     for depth in (d for d in PARTS if d <= nearest):
         far = networkx.Graph([pair for pair in ends if min(depths.get(b, 0) for b in pair) >= depth])
@@ -260,7 +262,7 @@ def _as_parts(stance: Stance, evidence: Evidence, template: Template) -> list[St
         usual = [resolved.usual[b] for b in sorted(bodies) if b in resolved.usual]
         if usual and len(points):
             low, high = np.min([u.low for u in usual], axis=0), np.max([u.high for u in usual], axis=0)
-            found.append(stance.as_part(points, low, high, sum(u.area for u in usual) / total))
+            found.append(stance.as_part(points, low, high, sum(u.area for u in usual) / total, rigid - bodies))
     return found
 
 
@@ -372,7 +374,9 @@ def _judged(best: _Best, evidence: Evidence) -> dict[int, Judged]:
                 continue
         vote = best.votes[k][body]
         words = _words(body, margin, bodies[other] if other < none else None, vote)
-        grounded = not doubted and _grounded(body, best.votes[k], named(piece, evidence.scores), evidence.trust)
+        # What a mesh is called is true of no more than two of three of its solids.
+        own = k not in evidence.shared or "said" in vote
+        grounded = own and not doubted and _grounded(body, best.votes[k], named(piece, evidence.scores), evidence.trust)
         for i in piece.members:
             found[i] = Judged(body, margin, bodies[other] if other < none else None, words, grounded)
     return found

@@ -6,7 +6,7 @@ front of what they stand on. Each is read off the surface as it is, whatever it 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -35,8 +35,8 @@ CELL = 0.02
 """The ground is divided into cells of this share of the machine's size."""
 OUTER = 0.6
 """What a machine stands on is farther than this share of its stand's half width from the middle."""
-WHEELS = 4
-"""So many wheels tell where a machine stands."""
+WHEELS, BASE = 4, 0.1
+"""So many wheels tell where a machine stands, if they are so far from each other, along and across, in sizes."""
 UPRIGHT = 2.0
 """How much more the file's z or y is believed to be up than another direction that is as good a stand."""
 LEVELS = (0.0, 0.03, 0.06, 0.09, 0.12, 0.15, 0.18)
@@ -50,13 +50,16 @@ LYING = 0.05
 @dataclass(frozen=True, eq=False)
 class Stance:
     """`rotation` (3, 3): rows forward, left, up, in the CAD frame; `origin` (3,) on the ground, in the middle of what
-    the machine stands on; `size` metres; `likeness` 0 to 1, how alike left and right are."""
+    the machine stands on; `size` metres; `likeness` 0 to 1, how alike left and right are; `wheeled`: whether it stands
+    on wheels that were found. Where only a part of a machine is `drawn`, `absent` bodies are not in it."""
 
     rotation: Floats
     origin: Floats
     size: float
     likeness: float
     drawn: float = 1.0
+    wheeled: bool = False
+    absent: frozenset[str] = frozenset()
 
     @property
     def left(self) -> Floats:
@@ -67,14 +70,14 @@ class Stance:
         """The same with its front behind."""
         return replace(self, rotation=self.rotation * np.array([[-1.0], [-1.0], [1.0]]))
 
-    def as_part(self, points: Floats, low: Floats, high: Floats, drawn: float) -> Stance:
+    def as_part(self, points: Floats, low: Floats, high: Floats, drawn: float, absent: Collection[str]) -> Stance:
         """The same if what is drawn (`points` (n, 3) all over it) is the part of a machine that is usually between
-        `low` and `high` (3,), in machine sizes, and has so much of its surface."""
+        `low` and `high` (3,), in machine sizes, has so much of its surface, and is without the `absent` bodies."""
         own = points @ self.rotation.T
         ends = np.array([own.min(axis=0), own.max(axis=0)])
         size = float(np.linalg.norm(ends[1] - ends[0]) / np.linalg.norm(high - low))
         middle = self.rotation.T @ (ends.mean(axis=0) - 0.5 * (low + high) * size)
-        return replace(self, origin=middle, size=size, drawn=drawn)
+        return replace(self, origin=middle, size=size, drawn=drawn, absent=frozenset(absent))
 
     def matrix(self) -> Floats:
         """(4, 4) from CAD metres to the machine's frame."""
@@ -114,15 +117,15 @@ def on_wheels(stance: Stance, wheels: Sequence[Wheel]) -> Stance:
     if len(wheels) < WHEELS or min(abs(float(w.direction @ stance.left)) for w in wheels) < SAME_DIRECTION:
         return stance
     forward, left, up = stance.rotation
-    soles = np.array([w.center - w.radius * up for w in wheels])
     radii = np.array([w.radius for w in wheels])
-    heights = soles @ up
-    if np.ptp(heights) > 2.0 * SOLE * stance.size:
+    soles = np.array([w.center for w in wheels]) - radii[:, None] * up
+    run, across, heights = soles @ forward, soles @ left, soles @ up
+    base = min(float(np.ptp(run)), float(np.ptp(across)))
+    if np.ptp(heights) > 2.0 * SOLE * stance.size or base < BASE * stance.size:
         return stance
-    run, across = soles @ forward, soles @ left
     ahead = 0.5 * ((run - radii).min() + (run + radii).max())
     middle = ahead * forward + 0.5 * (across.min() + across.max()) * left + float(heights.mean()) * up
-    return replace(stance, origin=middle)
+    return replace(stance, origin=middle, wheeled=True)
 
 
 def surface_points(solids: Sequence[Solid], count: int = POINTS) -> Floats:

@@ -30,10 +30,10 @@ MOST = 7.0
 """Nor so many nats of a piece: strangers draw machines as we did not."""
 NINETY = 3.29
 """A box of 90 % is so many standard deviations wide."""
-PLACE, LENGTH, AREA = np.array([0.12, 0.05, 0.06]), 0.35, 0.8
+PLACE, LENGTH, AREA = np.array([0.05, 0.05, 0.03]), 0.35, 0.8
 """Deviations beyond those of the machines that were measured: forward, left and up in machine sizes; of the logarithms
 of length and area."""
-FURTHER = np.array([0.03, 0.01, 0.03])
+FURTHER = np.array([0.05, 0.01, 0.05])
 """How much further a body may be with every joint between it and the root: arms are drawn in any pose."""
 LENT = 0.85
 """What a name counts for a body next to the one it names, where nothing bears the neighbour's own name."""
