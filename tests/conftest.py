@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from hypothesis import settings
 
 from kit.builds import MadeOnce, read_once, reading_once, script, without_pages
 from yellowiron.model.assembly import Assembly
@@ -31,6 +32,11 @@ BROWSER_FLAGS = (
     "--ignore-gpu-blocklist", "--disable-quic", "--no-first-run", "--disable-background-networking",
     "--disable-component-update", "--disable-sync",
 )  # fmt: skip
+
+
+# A busy machine is slow now and then: no test fails by time.
+settings.register_profile("timeless", deadline=None)
+settings.load_profile("timeless")
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
