@@ -80,14 +80,17 @@ def test_the_name_of_a_mesh_counts_less_for_its_solids_and_least_for_its_bars(
 
     def told(pieces: Any, template: Any, scores: Any, trust: list[float], *_: Any) -> list[dict[str, Any]]:
         heard.extend(trust)
-        return [{} for _ in pieces]
+        return [{"boom": {}, "undercarriage": {}} for _ in pieces]
 
     monkeypatch.setattr(reading, "votes_of", told)
     pieces: Any = [SimpleNamespace(slender=slender) for slender in (False, False, True, True)]
-    rest: Any = dict.fromkeys(("stance", "scores", "answer", "edited", "surface"))
+    rest: Any = dict.fromkeys(("scores", "answer", "surface"))
+    part = Stance(np.eye(3), np.zeros(3), 1.0, 1.0, absent=frozenset({"undercarriage"}))
     evidence = reading.Evidence(
-        pieces=pieces, leading=(), bonds=(), trust=0.8, shared=frozenset({1, 3}), pins=frozenset(), **rest
-    )
-    evidence.votes(choose(open_template, {}))
+        pieces=pieces, leading=(), bonds=(), trust=0.8, shared=frozenset({1, 3}), pins=frozenset(), stance=part, edited={},
+        **rest,
+    )  # fmt: skip
+    votes = evidence.votes(choose(open_template, {}))
+    assert votes == [{"boom": {}}] * 4  # what is not drawn is nothing's
     assert heard == pytest.approx([0.8, 0.8 * reading.OF_SOLID, 0.8, 0.8 * reading.OF_BAR])
     assert reading.OF_BAR < reading.OF_SOLID < 1.0
