@@ -87,8 +87,8 @@ def test_the_name_of_a_mesh_counts_less_for_its_solids_and_least_for_its_bars(
     rest: Any = dict.fromkeys(("scores", "answer", "surface"))
     part = Stance(np.eye(3), np.zeros(3), 1.0, 1.0, absent=frozenset({"undercarriage"}))
     evidence = reading.Evidence(
-        pieces=pieces, leading=(), bonds=(), trust=0.8, shared=frozenset({1, 3}), pins=frozenset(), stance=part, edited={},
-        **rest,
+        pieces=pieces, leading=(), bonds=(), trust=0.8, shared=frozenset({1, 3}), pins=frozenset(),
+        stance=part, edited={}, **rest,
     )  # fmt: skip
     votes = evidence.votes(choose(open_template, {}))
     assert votes == [{"boom": {}}] * 4  # what is not drawn is nothing's
