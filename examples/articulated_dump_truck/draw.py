@@ -8,14 +8,15 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from drawing.cylinders import Cylinder, draw_cylinder, put_pair
+from drawing.cylinders import Cylinder, draw_pairs
 from drawing.files import run, write_example
 from drawing.product import Assembly
+from drawing.solids import Vector
 from drawing.wheels import WheelSizes, draw_wheel, put_wheels
 
 from . import values as v
 from .dump_body import draw_body
-from .layout import HOIST_Y, RADIUS, STEER_Z, TIPPER, solve_hoist, solve_steering
+from .layout import HOIST_Y, RADIUS, STEER_Z, solve_hoist, solve_steering
 from .sheet import write
 from .tractor import draw_axle, draw_cab, draw_frame, draw_power
 from .trailer import HOIST_EYE, PIN_HOIST, PIN_STEER, SPINDLE, draw_bogie, draw_hitch, draw_rear_frame
@@ -46,14 +47,10 @@ def raised() -> float:
     return solve_hoist().raised(cylinders()["hoist"].drawn)
 
 
-def draw_cylinders() -> Assembly:
-    """The four cylinders, in one assembly as a parts book has them."""
-    tree, sizes, steering, hoist = Assembly("HYDRAULIC CYLINDERS"), cylinders(), solve_steering(), solve_hoist()
-    p, q = ((float(at[0]), float(at[1]), STEER_Z) for at in (steering.P, steering.Q))
-    c, d = ((float(at[0]), HOIST_Y, float(at[1])) for at in (hoist.C, TIPPER.carry(raised(), hoist.D)))
-    put_pair(tree, draw_cylinder(sizes["steering"]), "steering", p, q)
-    put_pair(tree, draw_cylinder(sizes["hoist"]), "hoist", c, d)
-    return tree
+def pins() -> dict[str, tuple[Vector, Vector]]:
+    """Where the left cylinders hang, barrel and rod."""
+    p, q = ((float(at[0]), float(at[1]), STEER_Z) for at in (solve_steering().P, solve_steering().Q))
+    return {"steering": (p, q), "hoist": solve_hoist().pins(raised(), HOIST_Y)}
 
 
 def draw_machine() -> Assembly:
@@ -67,7 +64,7 @@ def draw_machine() -> Assembly:
     for child in (draw_rear_frame(hardware), draw_bogie()):
         trailer.add(child)
     body = draw_body(raised(), hardware)
-    for child in (tractor, draw_hitch(hardware), trailer, body, wheels, draw_cylinders(), hardware):
+    for child in (tractor, draw_hitch(hardware), trailer, body, wheels, draw_pairs(cylinders(), pins()), hardware):
         root.add(child)
     return root
 

@@ -12,18 +12,12 @@ from drawing.sheet_print import (
     SECOND,
     Line,
     cylinder_table,
-    flow,
     heading,
-    length,
     lines,
-    mass,
     opening,
-    pressure,
-    speed,
     value_lines,
     write_pages,
 )
-from drawing.values import Value
 
 from . import values as v
 
@@ -34,36 +28,24 @@ SOURCE = (
 )
 
 
-def _cells(value: Value) -> tuple[str, ...]:
-    number = value.value
-    shown = {
-        "mm": length, "kg": mass, "km/h": speed, "MPa": pressure, "L/min": flow,
-        "kW": lambda kw: (f"{kw:.0f} kW", f"{kw / 0.7457:.0f} hp"),
-        "m3": lambda m3: (f"{m3:.1f} m³", f"{m3 / 0.764555:.1f} yd³"),
-        "deg": lambda deg: (f"{deg:.0f}°",),
-        "s": lambda s: (f"{s:.1f} s",),
-    }  # fmt: skip
-    return shown[value.unit](number)
-
-
 def _page(c: Canvas) -> None:
     top = opening(c, TITLE, SOURCE)
     y = heading(c, MARGIN, top, "Engine", HALF)
     y = value_lines(c, MARGIN, y, (
         ("Gross power, SAE J1995", v.GROSS_POWER), ("Net power, SAE J1349", v.NET_POWER),
-    ), _cells)  # fmt: skip
+    ))  # fmt: skip
     y = heading(c, MARGIN, y, "Weights", HALF)
-    y = value_lines(c, MARGIN, y, (("Rated payload", v.PAYLOAD), ("Empty weight", v.EMPTY_WEIGHT)), _cells)
+    y = value_lines(c, MARGIN, y, (("Rated payload", v.PAYLOAD), ("Empty weight", v.EMPTY_WEIGHT)))
     y = heading(c, MARGIN, y, "Body capacities", HALF)
-    y = value_lines(c, MARGIN, y, (("Heaped SAE 2:1", v.HEAPED), ("Struck", v.STRUCK)), _cells)
+    y = value_lines(c, MARGIN, y, (("Heaped SAE 2:1", v.HEAPED), ("Struck", v.STRUCK)))
     y = heading(c, MARGIN, y, "Transmission", HALF)
     rows = (("Maximum speed, forward", v.TOP_SPEED), ("Maximum speed, reverse", v.REVERSE_SPEED))
-    y = value_lines(c, MARGIN, y, rows, _cells)
+    y = value_lines(c, MARGIN, y, rows)
     y = heading(c, MARGIN, y, "Body hoist", HALF)
     y = value_lines(c, MARGIN, y, (
         ("Body dump angle", v.DUMP_ANGLE), ("Body raise time", v.RAISE_TIME), ("Body lower time", v.LOWER_TIME),
         ("Hoist pump flow", v.FLOW), ("Body hoist relief pressure", v.PRESSURE),
-    ), _cells)  # fmt: skip
+    ))  # fmt: skip
     y = heading(c, MARGIN, y, "Hydraulic cylinders", HALF)
     cylinder_table(c, MARGIN, y, HALF, (
         ("Hoist", 2, (v.HOIST_STROKE, v.HOIST_BORE, v.HOIST_ROD)),
@@ -78,11 +60,11 @@ def _page(c: Canvas) -> None:
         ("Tire diameter", v.TYRE_DIAMETER), ("Loading height", v.LOADING_HEIGHT),
         ("Overall height, body raised", v.RAISED_HEIGHT), ("Dump clearance", v.DUMP_CLEARANCE),
         ("Outside body width", v.BODY_WIDTH),
-    ), _cells)  # fmt: skip
+    ))  # fmt: skip
     y = heading(c, SECOND, y, "Steering", HALF)
     y = value_lines(c, SECOND, y, (
         ("Articulation angle, left/right", v.ARTICULATION), ("Turning radius, outside tires", v.TURNING_RADIUS),
-    ), _cells)  # fmt: skip
+    ))  # fmt: skip
     lines(c, SECOND, y, (Line("Tires", (v.TYRE_SIZE,)),), HALF)
 
 

@@ -8,7 +8,7 @@ Lengths and heights are unladen, straight ahead, with the body lowered unless th
 
 from __future__ import annotations
 
-from drawing.values import Value
+from drawing.values import Value, sorted_values
 
 FACTS = "Caterpillar, 740 GC technical specifications (manualmachine.com/cat/740gc/17904591-specifications)"
 DEALER = "cashmanequipment.com/compare, 740 GC bare chassis, standard wheel base"
@@ -61,10 +61,5 @@ HOIST_CLOSED = Value("Hoist cylinder closed length", 2_125, "mm")
 STEER_CLOSED = Value("Steering cylinder closed length", 912, "mm")
 
 TYRE_SIZE = "29.5R25"
-PUBLISHED: tuple[Value, ...] = tuple(x for x in list(globals().values()) if isinstance(x, Value) and x.published)
-"""Every published value, in the order above."""
 DRAWN_ONLY: tuple[Value, ...] = (TYRE_WIDTH, HOIST_CLOSED, STEER_CLOSED)
-EXAMPLE: tuple[Value, ...] = tuple(
-    x for x in list(globals().values()) if isinstance(x, Value) and not x.published and x not in DRAWN_ONLY
-)
-"""Every value of ours that a sheet prints, in the order above."""
+PUBLISHED, EXAMPLE = sorted_values(globals(), DRAWN_ONLY)

@@ -7,6 +7,7 @@ travel is the stroke.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from OCP.TopoDS import TopoDS_Shape
@@ -123,6 +124,14 @@ def put_pair(tree: Assembly, cylinder: Assembly, name: str, start: Vector, end: 
         at = at.Multiplied(turn(X, 90.0)) if upright else at  # it is drawn with its pins along y
         halves = {"barrel": f"{name}_cylinder_barrel_{letter}", "rod": f"{name}_piston_rod_{letter}"}
         tree.uses.append(Use(cylinder, at, names=halves))
+
+
+def draw_pairs(sizes: Mapping[str, Cylinder], pins: Mapping[str, tuple[Vector, Vector]]) -> Assembly:
+    """Pairs of cylinders in one assembly, as a parts book has them; `pins`: of each pair's left barrel and rod."""
+    tree = Assembly("HYDRAULIC CYLINDERS")
+    for name, (start, end) in pins.items():
+        put_pair(tree, draw_cylinder(sizes[name]), name, start, end)
+    return tree
 
 
 @dataclass(frozen=True, slots=True)

@@ -81,6 +81,20 @@ def litres(n: float) -> tuple[str, str]:
     return f"{grouped(n)} L", f"{n / 3.785411784:.1f} U.S. gal"
 
 
+def cells(value: Value) -> tuple[str, ...]:
+    """A value as the cells of a row, by its unit."""
+    return _CELLS[value.unit](value.value)
+
+
+_CELLS: dict[str, Callable[[float], tuple[str, ...]]] = {
+    "mm": length, "kg": mass, "kN": force, "MPa": pressure, "L/min": flow, "km/h": speed, "kNm": torque, "L": litres,
+    "kW": lambda kw: (f"{kw:.0f} kW", f"{kw / 0.7457:.0f} hp"),
+    "m3": lambda m3: (f"{m3:.1f} m³", f"{m3 / 0.764555:.1f} yd³"),
+    "deg": lambda deg: (f"{deg:.0f}°",),
+    "s": lambda s: (f"{s:.1f} s",),
+}  # fmt: skip
+
+
 # ---- words ---------------------------------------------------------------------------------------------------------
 def say(
     c: Canvas,
@@ -220,10 +234,10 @@ def opening(c: Canvas, title: str, source: str) -> float:
 
 
 def value_lines(
-    c: Canvas, x: float, y: float, rows: Iterable[tuple[str, Value]], cells: Callable[[Value], tuple[str, ...]]
+    c: Canvas, x: float, y: float, rows: Iterable[tuple[str, Value]], shown: Callable[[Value], tuple[str, ...]] = cells
 ) -> float:
-    """Rows of values in a column, marked where they are ours; returns the next heading's line."""
-    return lines(c, x, y, [Line(label, cells(o), ours=not o.published) for label, o in rows], HALF)
+    """Rows of values in a column, as they are `shown`, marked where they are ours; returns the next heading's line."""
+    return lines(c, x, y, [Line(label, shown(o), ours=not o.published) for label, o in rows], HALF)
 
 
 def cylinder_table(

@@ -12,7 +12,7 @@ from scipy.optimize import brentq, least_squares
 
 from .planar import Point, rot, vec
 from .product import Assembly, Part
-from .solids import Y, moved, turn
+from .solids import Vector, Y, moved, turn
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -56,6 +56,11 @@ class Hoist:
     def length(self, raised: float) -> float:
         """Of the cylinder."""
         return float(np.hypot(*(self.tipper.carry(raised, self.D) - self.C)))
+
+    def pins(self, raised: float, y: float) -> tuple[Vector, Vector]:
+        """Where a cylinder at `y` hangs on the frame and on the raised body."""
+        d = self.tipper.carry(raised, self.D)
+        return (float(self.C[0]), y, float(self.C[1])), (float(d[0]), y, float(d[1]))
 
     def raised(self, length: float) -> float:
         """The body's angle at a length of the cylinder."""

@@ -25,7 +25,7 @@ level on its grousers:
 
 from __future__ import annotations
 
-from drawing.values import Value
+from drawing.values import Value, sorted_values
 
 BROCHURE = "KOMATSU-PC210LC11-BR02-0225-V2"
 """Document the published values are cited from."""
@@ -115,10 +115,5 @@ LINK_PITCH = Value("Track link pitch", 190.0, "mm")
 
 MAKE, MODEL = "Komatsu", "PC210LC-11"
 
-PUBLISHED: tuple[Value, ...] = tuple(v for v in list(globals().values()) if isinstance(v, Value) and v.published)
-"""Every published value, in the order above."""
 DRAWN_ONLY: tuple[Value, ...] = (BOOM_CLOSED, ARM_CLOSED, BUCKET_CLOSED, LINK_PITCH)
-EXAMPLE: tuple[Value, ...] = tuple(
-    v for v in list(globals().values()) if isinstance(v, Value) and not v.published and v not in DRAWN_ONLY
-)
-"""Every value of ours that a sheet prints, in the order above."""
+PUBLISHED, EXAMPLE = sorted_values(globals(), DRAWN_ONLY)

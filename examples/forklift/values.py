@@ -12,7 +12,7 @@ Lengths are millimetres, angles degrees, masses kilograms, pressures MPa, flows 
 
 from __future__ import annotations
 
-from drawing.values import Value
+from drawing.values import Value, sorted_values
 
 MANUAL = "FD70N workshop manual, part 3, page 11-1"
 REVIEW = "tradeplantequipment.com.au, review 1412"
@@ -71,11 +71,4 @@ FREE_ROD = Value("Free lift cylinder rod diameter", 90, "mm")
 TYRE_SIZE = "8.25-15-12PR"
 MAKE, MODEL = "Mitsubishi", "FD70N"
 OTHER_MASTS = (FREE_BORE, FREE_STROKE, SECOND_STROKE, FREE_ROD)
-PUBLISHED: tuple[Value, ...] = tuple(
-    v for v in list(globals().values()) if isinstance(v, Value) and v.published and v not in OTHER_MASTS
-)
-"""Every published value, in the order above."""
-EXAMPLE: tuple[Value, ...] = tuple(
-    v for v in list(globals().values()) if isinstance(v, Value) and not v.published and v not in OTHER_MASTS
-)
-"""Every value of ours that the sheet prints, in the order above."""
+PUBLISHED, EXAMPLE = sorted_values(globals(), OTHER_MASTS)

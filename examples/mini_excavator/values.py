@@ -11,7 +11,7 @@ and as long.
 
 from __future__ import annotations
 
-from drawing.values import Value
+from drawing.values import Value, sorted_values
 
 BROCHURE = "JCB 8008/8010 CTS micro excavators, brochure, pages 5 and 6"
 MAKE, MODEL = "JCB", "8008 CTS"
@@ -83,10 +83,5 @@ BOOM_CLOSED = Value("Boom cylinder closed length", 620, "mm")
 ARM_CLOSED = Value("Arm cylinder closed length", 600, "mm")
 BUCKET_CLOSED = Value("Bucket cylinder closed length", 510, "mm")
 
-PUBLISHED: tuple[Value, ...] = tuple(x for x in list(globals().values()) if isinstance(x, Value) and x.published)
-"""Every published value, in the order above."""
 DRAWN_ONLY: tuple[Value, ...] = (BOOM_CLOSED, ARM_CLOSED, BUCKET_CLOSED)
-EXAMPLE: tuple[Value, ...] = tuple(
-    x for x in list(globals().values()) if isinstance(x, Value) and not x.published and x not in DRAWN_ONLY
-)
-"""Every value of ours that a sheet prints, in the order above."""
+PUBLISHED, EXAMPLE = sorted_values(globals(), DRAWN_ONLY)

@@ -8,7 +8,7 @@ Lengths and heights are unladen, straight ahead, with the body lowered unless th
 
 from __future__ import annotations
 
-from drawing.values import Value
+from drawing.values import Value, sorted_values
 
 FACTS = "Caterpillar, 773F brochure (123docz.net/document/3441674)"
 MAKE, MODEL = "Caterpillar", "773F"
@@ -61,10 +61,5 @@ HOIST_CLOSED = Value("Hoist cylinder closed length", 1_900, "mm")
 STEER_CLOSED = Value("Steering cylinder closed length", 725, "mm")
 
 TYRE_SIZE = "24.00R35"
-PUBLISHED: tuple[Value, ...] = tuple(x for x in list(globals().values()) if isinstance(x, Value) and x.published)
-"""Every published value, in the order above."""
 DRAWN_ONLY: tuple[Value, ...] = (TYRE_WIDTH, HOIST_CLOSED, STEER_CLOSED)
-EXAMPLE: tuple[Value, ...] = tuple(
-    x for x in list(globals().values()) if isinstance(x, Value) and not x.published and x not in DRAWN_ONLY
-)
-"""Every value of ours that a sheet prints, in the order above."""
+PUBLISHED, EXAMPLE = sorted_values(globals(), DRAWN_ONLY)

@@ -10,7 +10,7 @@ angle with the arms raised and the bucket dumped.
 
 from __future__ import annotations
 
-from drawing.values import Value
+from drawing.values import Value, sorted_values
 
 FACTS = "EXO equipment atlas, bobcat-s76-2, facts published by the manufacturer (BOBCAT-S76-2-NA-PRODUCT)"
 MAKE, MODEL = "Bobcat", "S76"
@@ -57,10 +57,5 @@ BUCKET_VOLUME = Value("Bucket capacity, heaped", 0.5, "m3")
 TYRE_WIDTH = Value("Tyre width", 305, "mm")
 TILT_CLOSED = Value("Tilt cylinder closed length", 600, "mm")
 
-PUBLISHED: tuple[Value, ...] = tuple(x for x in list(globals().values()) if isinstance(x, Value) and x.published)
-"""Every published value, in the order above."""
 DRAWN_ONLY: tuple[Value, ...] = (TYRE_WIDTH, TILT_CLOSED)
-EXAMPLE: tuple[Value, ...] = tuple(
-    x for x in list(globals().values()) if isinstance(x, Value) and not x.published and x not in DRAWN_ONLY
-)
-"""Every value of ours that a sheet prints, in the order above."""
+PUBLISHED, EXAMPLE = sorted_values(globals(), DRAWN_ONLY)

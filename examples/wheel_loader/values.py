@@ -16,26 +16,10 @@ floor's underside.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from drawing.values import Value, sorted_values
 
 BROCHURE = "KOM-WA47510-AESS942-0225"
 """Document the published values are cited from."""
-
-
-@dataclass(frozen=True, slots=True)
-class Value:
-    """One value of the sheet; `source` names the maker's fact, and is None for a value of our own."""
-
-    name: str
-    value: float
-    unit: str
-    source: str | None = None
-    location: str = ""
-
-    @property
-    def published(self) -> bool:
-        """True when the maker prints it; False for an example value."""
-        return self.source is not None
 
 
 def _published(name: str, value: float, unit: str, location: str) -> Value:
@@ -114,10 +98,5 @@ STEER_CLOSED = Value("Steering cylinder closed length", 745.0, "mm")
 TYRE_SIZE = "26.5R25"
 MAKE, MODEL = "Komatsu", "WA475-10"
 
-PUBLISHED: tuple[Value, ...] = tuple(v for v in list(globals().values()) if isinstance(v, Value) and v.published)
-"""Every published value, in the order above."""
 DRAWN_ONLY: tuple[Value, ...] = (LIFT_CLOSED, TILT_CLOSED, STEER_CLOSED)
-EXAMPLE: tuple[Value, ...] = tuple(
-    v for v in list(globals().values()) if isinstance(v, Value) and not v.published and v not in DRAWN_ONLY
-)
-"""Every value of ours that a sheet prints, in the order above."""
+PUBLISHED, EXAMPLE = sorted_values(globals(), DRAWN_ONLY)

@@ -4,24 +4,31 @@ machine that is ready, with and without names, from surfaces and from triangles.
 from __future__ import annotations
 
 import itertools
-import json
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from types import ModuleType
-from typing import Any
 
 import numpy as np
 import pytest
 from example_file import gaps, module, read_step, solids_of
 
-from kit.builds import MadeOnce, without_pages
+from kit.builds import MadeOnce
 from kit.machines.defects import on_triangles
-from kit.machines.drawn_examples import assert_as_drawn, assert_measured, assert_recognised, drawn_example
+from kit.machines.drawn_examples import (
+    Built,
+    assert_as_drawn,
+    assert_drawn_to,
+    assert_measured,
+    assert_read,
+    assert_ready,
+    assert_recognised,
+    build_example,
+    drawn_example,
+)
 from kit.machines.forklifts import truth_of
 from yellowiron import library, specs
 from yellowiron.alignment.pipeline import align
 from yellowiron.cad import read_cad
-from yellowiron.pipeline import Machine, build
 
 TYPE = "articulated_dump_truck"
 
@@ -97,18 +104,11 @@ def test_bodies_do_not_meet_as_drawn_nor_at_the_ends(layout: ModuleType, made_on
 
 @pytest.mark.slow
 def test_the_drawing_has_the_sheet_s_values(made_once: MadeOnce) -> None:
-    rows = truth_of(drawn_example(TYPE, made_once))["values"]
-    assert sum("drawn" in row for row in rows.values()) >= 11
-    for name, row in rows.items():
-        assert row.get("drawn", row["target"]) == pytest.approx(row["target"], abs=0.01), name
+    assert_drawn_to(truth_of(drawn_example(TYPE, made_once)), 11)
 
 
 @pytest.mark.slow
 def test_every_value_is_read_off_the_sheet(values: ModuleType, made_once: MadeOnce) -> None:
-    sheet = drawn_example(TYPE, made_once) / "specifications.pdf"
-    found = specs.extract(library.load_template(TYPE), [sheet])
-    known = {s.name: s for s in found if s.status == "ok"}
-    assert {s.status for s in found} == {"ok", "missing"}
     names = {
         "Overall Length": values.LENGTH, "Overall Width": values.OVERALL_WIDTH, "Overall Height": values.HEIGHT,
         "Body Raised Height": values.RAISED_HEIGHT, "Loading Height": values.LOADING_HEIGHT,
@@ -121,9 +121,7 @@ def test_every_value_is_read_off_the_sheet(values: ModuleType, made_once: MadeOn
         "Hoist Cylinder Stroke": values.HOIST_STROKE, "Steering Cylinder Bore": values.STEER_BORE,
         "Steering Cylinder Rod Diameter": values.STEER_ROD, "Steering Cylinder Stroke": values.STEER_STROKE,
     }  # fmt: skip
-    for name, value in names.items():
-        assert known[name].value == pytest.approx(value.value / 1000.0, rel=1e-4), name
-        assert known[name].example is not value.published, name
+    known = assert_read(TYPE, drawn_example(TYPE, made_once) / "specifications.pdf", names, rel=1e-4)
     for name, value in (("Articulation Angle", values.ARTICULATION), ("Body Dump Angle", values.DUMP_ANGLE),
                         ("Approach Angle", values.APPROACH_ANGLE)):  # fmt: skip
         assert known[name].value == pytest.approx(math.radians(value.value)), name
@@ -132,28 +130,15 @@ def test_every_value_is_read_off_the_sheet(values: ModuleType, made_once: MadeOn
 
 
 # ---- the machine --------
-@dataclass(frozen=True)
-class Built:
-    machine: Machine
-    truth: dict[str, Any]
-
-
-@pytest.fixture(scope="module", params=["named", "nameless"])
+@pytest.fixture(scope="module", params=[True, False], ids=["named", "nameless"])
 def built(request: pytest.FixtureRequest, made_once: MadeOnce, tmp_path_factory: pytest.TempPathFactory) -> Built:
-    folder = drawn_example(TYPE, made_once)
-    cad = folder / ("" if request.param == "named" else "nameless") / f"{TYPE}.step"
-    with without_pages():
-        machine = build(TYPE, cad, tmp_path_factory.mktemp("truck"), sheets=[folder / "specifications.pdf"])
-    return Built(machine, truth_of(folder))
+    drawing, out = drawn_example(TYPE, made_once), tmp_path_factory.mktemp(TYPE)
+    return build_example(TYPE, drawing, out, named=request.param)
 
 
 @pytest.mark.slow
 def test_it_is_ready(built: Built) -> None:
-    report = json.loads((built.machine.folder / "report.json").read_text(encoding="utf-8"))
-    assert [f for f in report["findings"] if f["severity"] != "info"] == []
-    mobility = built.machine.mechanism.mobility
-    assert mobility is not None and (mobility.computed, mobility.expected) == (11, 11)
-    assert {a.name for a in built.machine.mechanism.actuators} == {"steering", "hoist", "drive"}
+    assert_ready(built, 11, {"steering", "hoist", "drive"})
     assert built.machine.alignment.choices == {"bogie": "beams"}
 
 

@@ -3,13 +3,10 @@ with every kind of mast."""
 
 from __future__ import annotations
 
-import json
 import subprocess
 import sys
-from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
-from typing import Any
 
 import numpy as np
 import pytest
@@ -17,11 +14,10 @@ from example_drawn import differences
 from example_file import EXAMPLES, module
 
 from kit.builds import MadeOnce, without_pages
+from kit.machines.drawn_examples import Built, assert_read, assert_ready, build_example
 from kit.machines.forklifts import drawn, truth_of
-from yellowiron import library, specs
 from yellowiron.kinematics import ClosedChain
-from yellowiron.model.mechanism import Mechanism
-from yellowiron.pipeline import Machine, build
+from yellowiron.pipeline import build
 
 FOLDER = EXAMPLES / "forklift"
 
@@ -48,10 +44,6 @@ def test_the_sheet_is_written_the_same_again(tmp_path: Path) -> None:
 
 
 def test_every_value_is_read_off_the_sheet(values: ModuleType) -> None:
-    template = library.load_template("forklift")
-    found = specs.extract(template, [FOLDER / "specifications.pdf"])
-    known = {s.name: s for s in found if s.status == "ok"}
-    assert {s.status for s in found} == {"ok", "missing"}
     names = {
         "Lift Cylinder Bore": values.LIFT_BORE, "Lift Cylinder Stroke": values.LIFT_STROKE,
         "Lift Cylinder Rod Diameter": values.LIFT_ROD, "Tilt Cylinder Bore": values.TILT_BORE,
@@ -65,10 +57,7 @@ def test_every_value_is_read_off_the_sheet(values: ModuleType) -> None:
         "Front Tread": values.FRONT_TREAD, "Rear Tread": values.REAR_TREAD, "Tyre Diameter": values.TYRE_DIAMETER,
         "Ground Clearance Below Mast": values.MAST_CLEARANCE,
     }  # fmt: skip
-    for name, value in names.items():
-        got = known[name]
-        assert got.value == pytest.approx(value.value / 1000.0), name
-        assert got.example is not value.published, name
+    known = assert_read("forklift", FOLDER / "specifications.pdf", names)
     assert np.degrees(known["Mast Tilt Forward"].value or 0.0) == pytest.approx(values.TILT_FORWARD.value)
     assert np.degrees(known["Mast Tilt Backward"].value or 0.0) == pytest.approx(values.TILT_BACKWARD.value)
     assert known["Rated Capacity"].value == values.RATED_CAPACITY.value
@@ -76,33 +65,15 @@ def test_every_value_is_read_off_the_sheet(values: ModuleType) -> None:
 
 
 # ---- the machine --------
-@dataclass(frozen=True)
-class Built:
-    machine: Machine
-    truth: dict[str, Any]
-
-    @property
-    def mechanism(self) -> Mechanism:
-        return self.machine.mechanism
-
-
-@pytest.fixture(scope="module", params=["named", "nameless"])
+@pytest.fixture(scope="module", params=[True, False], ids=["named", "nameless"])
 def built(request: pytest.FixtureRequest, made_once: MadeOnce, tmp_path_factory: pytest.TempPathFactory) -> Built:
-    folder = drawn("simplex", made_once)
-    cad = folder / "forklift.step" if request.param == "named" else folder / "nameless" / "forklift.step"
-    out = tmp_path_factory.mktemp("forklift")
-    with without_pages():
-        machine = build("forklift", cad, out, sheets=[FOLDER / "specifications.pdf"])
-    return Built(machine, truth_of(folder))
+    drawing, out = drawn("simplex", made_once), tmp_path_factory.mktemp("forklift")
+    return build_example("forklift", drawing, out, named=request.param, sheet=FOLDER / "specifications.pdf")
 
 
 @pytest.mark.slow
 def test_it_is_ready(built: Built) -> None:
-    report = json.loads((built.machine.folder / "report.json").read_text(encoding="utf-8"))
-    assert [f for f in report["findings"] if f["severity"] != "info"] == []
-    mobility = built.mechanism.mobility
-    assert mobility is not None and (mobility.computed, mobility.expected) == (8, 8)
-    assert {a.name for a in built.mechanism.actuators} == {"lift", "tilt", "steering", "drive"}
+    assert_ready(built, 8, {"lift", "tilt", "steering", "drive"})
 
 
 @pytest.mark.slow

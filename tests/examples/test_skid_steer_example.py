@@ -4,11 +4,9 @@ is ready, with and without names, from surfaces and from triangles."""
 from __future__ import annotations
 
 import itertools
-import json
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
-from typing import Any
 
 import numpy as np
 import pytest
@@ -19,13 +17,23 @@ from OCP.GProp import GProp_GProps
 
 from kit.builds import MadeOnce, without_pages
 from kit.machines.defects import on_triangles
-from kit.machines.drawn_examples import assert_as_drawn, assert_measured, assert_recognised, drawn_example
+from kit.machines.drawn_examples import (
+    Built,
+    assert_as_drawn,
+    assert_drawn_to,
+    assert_measured,
+    assert_read,
+    assert_ready,
+    assert_recognised,
+    build_example,
+    drawn_example,
+)
 from kit.machines.forklifts import truth_of
 from yellowiron import library, specs
 from yellowiron.alignment.pipeline import align
 from yellowiron.cad import read_cad
 from yellowiron.kinematics import ClosedChain
-from yellowiron.pipeline import Machine, build
+from yellowiron.pipeline import build
 
 
 @pytest.fixture(scope="module")
@@ -103,18 +111,11 @@ def test_bodies_do_not_meet_wherever_the_arms_are(path: str, linkage: ModuleType
 
 @pytest.mark.slow
 def test_the_drawing_has_the_sheet_s_values(made_once: MadeOnce) -> None:
-    rows = truth_of(drawn_example("skid_steer", made_once, "vertical"))["values"]
-    assert sum("drawn" in row for row in rows.values()) >= 8
-    for name, row in rows.items():
-        assert row.get("drawn", row["target"]) == pytest.approx(row["target"], abs=0.01), name
+    assert_drawn_to(truth_of(drawn_example("skid_steer", made_once, "vertical")), 8)
 
 
 @pytest.mark.slow
 def test_every_value_is_read_off_the_sheet(values: ModuleType, made_once: MadeOnce) -> None:
-    sheet = drawn_example("skid_steer", made_once, "vertical") / "specifications.pdf"
-    found = specs.extract(library.load_template("skid_steer"), [sheet])
-    known = {s.name: s for s in found if s.status == "ok"}
-    assert {s.status for s in found} == {"ok", "missing"}
     names = {
         "Length with Bucket": values.LENGTH, "Length Without Attachment": values.BARE_LENGTH,
         "Overall Width": values.OVERALL_WIDTH, "Bucket Width": values.BUCKET_WIDTH, "Overall Height": values.HEIGHT,
@@ -127,37 +128,24 @@ def test_every_value_is_read_off_the_sheet(values: ModuleType, made_once: MadeOn
         "Tilt Cylinder Bore": values.TILT_BORE, "Tilt Cylinder Rod Diameter": values.TILT_ROD,
         "Tilt Cylinder Stroke": values.TILT_STROKE,
     }  # fmt: skip
-    for name, value in names.items():
-        assert known[name].value == pytest.approx(value.value / 1000.0, rel=1e-4), name
-        assert known[name].example is not value.published, name
+    known = assert_read(
+        "skid_steer", drawn_example("skid_steer", made_once, "vertical") / "specifications.pdf", names, rel=1e-4
+    )
     assert known["Operating Weight"].value == pytest.approx(values.OPERATING_WEIGHT.value, abs=0.5)
     assert known["Rated Operating Capacity"].value == values.CAPACITY.value
     assert known["Main Relief Pressure"].value == pytest.approx(1e6 * values.PRESSURE.value)
 
 
 # ---- the machine --------
-@dataclass(frozen=True)
-class Built:
-    machine: Machine
-    truth: dict[str, Any]
-
-
-@pytest.fixture(scope="module", params=["named", "nameless"])
+@pytest.fixture(scope="module", params=[True, False], ids=["named", "nameless"])
 def built(request: pytest.FixtureRequest, made_once: MadeOnce, tmp_path_factory: pytest.TempPathFactory) -> Built:
-    folder = drawn_example("skid_steer", made_once, "vertical")
-    cad = folder / "skid_steer.step" if request.param == "named" else folder / "nameless" / "skid_steer.step"
-    with without_pages():
-        machine = build("skid_steer", cad, tmp_path_factory.mktemp("skid"), sheets=[folder / "specifications.pdf"])
-    return Built(machine, truth_of(folder))
+    drawing, out = drawn_example("skid_steer", made_once, "vertical"), tmp_path_factory.mktemp("skid_steer")
+    return build_example("skid_steer", drawing, out, named=request.param)
 
 
 @pytest.mark.slow
 def test_it_is_ready(built: Built) -> None:
-    report = json.loads((built.machine.folder / "report.json").read_text(encoding="utf-8"))
-    assert [f for f in report["findings"] if f["severity"] != "info"] == []
-    mobility = built.machine.mechanism.mobility
-    assert mobility is not None and (mobility.computed, mobility.expected) == (6, 6)
-    assert {a.name for a in built.machine.mechanism.actuators} == {"boom", "bucket", "drive_left", "drive_right"}
+    assert_ready(built, 6, {"boom", "bucket", "drive_left", "drive_right"})
     assert built.machine.alignment.choices == {"lift_path": "vertical", "tilt_cylinders": "twin"}
 
 
@@ -185,9 +173,14 @@ def test_the_links_carry_the_arms_as_they_were_solved(built: Built, linkage: Mod
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("path", "names", "surfaces"),
-    [("vertical", "", "triangles"), ("vertical", "nameless", "triangles"), ("radial", "", "exact"),
-     ("radial", "nameless", "exact"), ("radial", "nameless", "triangles")],
-)  # fmt: skip
+    [
+        ("vertical", "", "triangles"),
+        ("vertical", "nameless", "triangles"),
+        ("radial", "", "exact"),
+        ("radial", "nameless", "exact"),
+        ("radial", "nameless", "triangles"),
+    ],
+)
 def test_every_part_is_in_its_body(path: str, names: str, surfaces: str, made_once: MadeOnce) -> None:
     folder = drawn_example("skid_steer", made_once, path)
     assembly = read_cad(folder / names / "skid_steer.step")

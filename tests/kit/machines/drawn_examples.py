@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import json
 import subprocess
 import sys
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -12,8 +14,12 @@ import numpy as np
 import pytest
 
 from kit.builds import MadeOnce, without_pages
+from kit.machines.forklifts import truth_of
 from kit.machines.nameless import write_nameless
+from yellowiron import library, specs
 from yellowiron.model.alignment import Alignment
+from yellowiron.model.mechanism import Mechanism
+from yellowiron.model.specification import Specification
 from yellowiron.pipeline import Machine, build
 
 EXAMPLES = Path(__file__).resolve().parents[3] / "examples"
@@ -46,6 +52,57 @@ def built_example(name: str, made_once: MadeOnce, *arguments: str) -> Path:
             build(name, folder / f"{name}.step", out / "out", sheets=(folder / "specifications.pdf",))
 
     return made_once("_".join([name, *arguments, "built"]), fill) / "out" / f"{name}.usda"
+
+
+@dataclass(frozen=True)
+class Built:
+    """A machine that was built of an example, and the truth of its drawing."""
+
+    machine: Machine
+    truth: dict[str, Any]
+
+    @property
+    def mechanism(self) -> Mechanism:
+        return self.machine.mechanism
+
+
+def build_example(name: str, drawing: Path, out: Path, *, named: bool, sheet: Path | None = None) -> Built:
+    """An example built into a folder from its `drawing` (`drawn_example`), with names or without, and its sheet."""
+    cad = drawing / ("" if named else "nameless") / f"{name}.step"
+    with without_pages():
+        machine = build(name, cad, out, sheets=[sheet or drawing / "specifications.pdf"])
+    return Built(machine, truth_of(drawing))
+
+
+def assert_ready(built: Built, mobility: int, actuators: Collection[str]) -> None:
+    """Nothing is left to do, and the machine moves as many ways as it should."""
+    report = json.loads((built.machine.folder / "report.json").read_text(encoding="utf-8"))
+    assert [f for f in report["findings"] if f["severity"] != "info"] == []
+    found = built.mechanism.mobility
+    assert found is not None and (found.computed, found.expected) == (mobility, mobility)
+    assert {a.name for a in built.mechanism.actuators} == set(actuators)
+
+
+def assert_drawn_to(truth: Mapping[str, Any], least: int) -> None:
+    """At least so many of the sheet's values are in the drawing, to 0.01 mm."""
+    rows = truth["values"]
+    assert sum("drawn" in row for row in rows.values()) >= least
+    for name, row in rows.items():
+        assert row.get("drawn", row["target"]) == pytest.approx(row["target"], abs=0.01), name
+
+
+def assert_read(
+    template: str, sheet: Path, lengths: Mapping[str, Any], *, rel: float = 1e-6
+) -> dict[str, Specification]:
+    """A sheet gives these `lengths` (`Value`s, millimetres), to a share `rel`, and says whose they are, and nothing of
+    it is in doubt. Returns all that it gives."""
+    found = specs.extract(library.load_template(template), [sheet])
+    assert {s.status for s in found} == {"ok", "missing"}
+    known = {s.name: s for s in found if s.status == "ok"}
+    for name, value in lengths.items():
+        assert known[name].value == pytest.approx(value.value / 1000.0, rel=rel), name
+        assert known[name].example is not value.published, name
+    return known
 
 
 def assert_measured(machine: Machine, count: int) -> None:
