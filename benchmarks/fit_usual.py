@@ -35,14 +35,14 @@ KEPT = 0.05
 """This share of a body's surface is left out at either end of its box."""
 
 
-def seen(kind: str, seed: int) -> dict[str, tuple[np.ndarray, float, float]]:
-    """Body → points of its surface in the machine's frame and in sizes, its length, its share of the surface."""
+def seen(kind: str, seed: int, wheels: int) -> dict[str, tuple[np.ndarray, float, float]]:
+    """Body → points of its surface in the machine's frame and in sizes, its length, its share of the surface. The type
+    has so many `wheels` at most."""
     machine = drawn(kind, seed)
     assembly, truth, back = disguise(machine, seed, rotate=False)
     solids = solids_of(assembly)
     size = size_of(solids)
-    wheels = wheels_of(solids, len([b for _, b in truth.values() if "wheel" in (b or "")]), set(), 1e-3 * size)
-    stance = on_wheels(stance_of(solids, size), wheels)
+    stance = on_wheels(stance_of(solids, size), wheels_of(solids, wheels, set(), 1e-3 * size))
     if np.abs(stance.rotation @ back[:3, :3].T - np.eye(3)).max() > 0.3:
         return {}
     groups: dict[str, list] = {}
@@ -68,14 +68,16 @@ def main() -> None:
         if given.only not in (None, name):
             continue
         bodies: dict[str, list] = {}
+        roles = load_template(name).roles
+        wheels = sum(r.kind == "wheel" and r.rigid for r in roles)
         for kind in kinds:
             own: dict[str, list] = {}
             for seed in range(given.first, given.first + given.count):
-                for body, what in seen(kind, seed).items():
+                for body, what in seen(kind, seed, wheels).items():
                     own.setdefault(body, []).append(what)
             bodies = own | bodies
         table = {}
-        known = {r.name for r in load_template(name).roles if r.rigid and not r.many}
+        known = {r.name for r in roles if r.rigid and not r.many}
         for body, whats in sorted(b for b in bodies.items() if b[0] in known):
             points = np.concatenate([w[0] for w in whats])
             low, high = np.quantile(points, [KEPT, 1 - KEPT], axis=0)

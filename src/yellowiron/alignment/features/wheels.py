@@ -62,7 +62,7 @@ def wheels_of(solids: tuple[Solid, ...], count: int, taken: set[int], tolerance:
     equal = [w for w in found if any(v is not w and abs(v.radius - w.radius) < 0.02 * w.radius for v in found)]
     if len(equal) > count:
         equal = _twin_tyres(equal)
-    return [_with_coaxial_parts(w, solids, taken, tolerance) for w in equal[:count]] if len(equal) >= 2 else []
+    return [_with_all_about(w, solids, taken, tolerance) for w in equal[:count]] if len(equal) >= 2 else []
 
 
 def _twin_tyres(wheels: list[Wheel]) -> list[Wheel]:
@@ -91,7 +91,7 @@ def _same_place(wheel: Wheel, axis: Cyl, centre: Floats) -> bool:
     return off < 0.1 * wheel.radius and along < wheel.width
 
 
-def _with_coaxial_parts(wheel: Wheel, solids: tuple[Solid, ...], taken: set[int], tolerance: float) -> Wheel:
+def _with_all_about(wheel: Wheel, solids: tuple[Solid, ...], taken: set[int], tolerance: float) -> Wheel:
     """Everything round about the wheel's axis that is mostly between its sides; and what is about it, as high as it is
     long, and wholly between them: rims of spokes, hubs with their bolts, a tyre whose tread is not round."""
     axis = solids[wheel.tyre].axis

@@ -12,14 +12,14 @@ import numpy as np
 from yellowiron.kinematics import ClosedChain
 from yellowiron.model.geometry import Floats
 from yellowiron.simulation.commands import Motion, sampled
-from yellowiron.simulation.driving.wheel import DrivenWheel
+from yellowiron.simulation.driving.wheel import GroundWheel
 
 _LEAST = 1e-6
 
 
 def rolling(
     chain: ClosedChain,
-    wheels: Sequence[DrivenWheel],
+    wheels: Sequence[GroundWheel],
     moves: Sequence[Motion],
     targets: Mapping[str, Floats],
     timestep: float,

@@ -12,7 +12,7 @@ from yellowiron.kinematics import ClosedChain
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import GRAVITY, Mechanism
 from yellowiron.simulation.commands import motions
-from yellowiron.simulation.driving.wheel import DrivenWheel
+from yellowiron.simulation.driving.wheel import GroundWheel
 from yellowiron.simulation.engine import Engine, poses, tell
 from yellowiron.simulation.ground import GROUND_FRICTION, UPRIGHT
 from yellowiron.simulation.loads import SPARE, paces
@@ -24,7 +24,7 @@ _REST = 1.0
 
 
 def spin(
-    engine: Engine, mechanism: Mechanism, both: Sequence[Sequence[DrivenWheel]], top: float, timestep: float
+    engine: Engine, mechanism: Mechanism, both: Sequence[Sequence[GroundWheel]], top: float, timestep: float
 ) -> dict[str, float]:
     """The two sides against each other at up to `top` (m/s): how far the root turned to the left, and how far it would
     if its wheels slipped no more than they must, radians.
@@ -45,14 +45,14 @@ def spin(
     return {"spin": turned, "spin_geometry": SPIN / (1.0 + (0.5 * base / half) ** 2)}
 
 
-def on_tyres(both: Sequence[Sequence[DrivenWheel]]) -> bool:
+def on_tyres(both: Sequence[Sequence[GroundWheel]]) -> bool:
     """Whether a machine stands on two driven wheels a side, as a skid steer does, and not on tracks, which have one
     sprocket or a row of wheels."""
     return all(len(side) == 2 for side in both)
 
 
 def swing(
-    engine: Engine, chain: ClosedChain, mechanism: Mechanism, found: Sequence[DrivenWheel], timestep: float
+    engine: Engine, chain: ClosedChain, mechanism: Mechanism, found: Sequence[GroundWheel], timestep: float
 ) -> dict[str, float]:
     """The body that a motor turns about the vertical, to the left; nothing where there is none."""
     driving = {w.joint.name for w in found}
@@ -93,7 +93,7 @@ def _turned(engine: Engine, targets: Mapping[str, float], body: int) -> float:
     return math.atan2(across[1, 0], across[0, 0])
 
 
-def _push(mechanism: Mechanism, found: Sequence[DrivenWheel]) -> float:
+def _push(mechanism: Mechanism, found: Sequence[GroundWheel]) -> float:
     """Newtons with which the wheels together can push: their motors', at most the ground's friction."""
     forces = [w.joint.drive.max_force / w.radius for w in found if w.joint.drive is not None]
     return min(sum(forces), GROUND_FRICTION * GRAVITY * sum(body.mass for body in mechanism.bodies))

@@ -18,10 +18,10 @@ _LEVEL = 0.9
 
 
 @dataclass(frozen=True, eq=False)
-class DrivenWheel:
-    """A driven wheel: its joint, its body's place among the bodies, middle and unit axis (machine frame, drawn pose),
-    radius and half its width, and the sign of its joint in the actuator's positive sense ("" where nothing drives
-    it)."""
+class GroundWheel:
+    """A wheel on the ground: its joint, its body's place among the bodies, middle and unit axis (machine frame, drawn
+    pose), radius and half its width (metres), the sign of its joint in the actuator's positive sense, and the
+    `actuator`, "" where nothing drives it."""
 
     joint: Joint
     body: int
@@ -33,7 +33,7 @@ class DrivenWheel:
     actuator: str
 
 
-def driven_wheels(mechanism: Mechanism) -> tuple[DrivenWheel, ...]:
+def driven_wheels(mechanism: Mechanism) -> tuple[GroundWheel, ...]:
     """The wheels that motors drive, on the ground in the drawn pose.
 
     `YellowironError` where there are fewer than three wheels, but for one on either side with a motor of its own: what
@@ -56,7 +56,7 @@ def driven_wheels(mechanism: Mechanism) -> tuple[DrivenWheel, ...]:
     return tuple(found)
 
 
-def free_wheels(mechanism: Mechanism) -> tuple[DrivenWheel, ...]:
+def free_wheels(mechanism: Mechanism) -> tuple[GroundWheel, ...]:
     """The wheels that nothing drives, on the ground in the drawn pose."""
     standing = standing_bodies(mechanism)
     return tuple(
@@ -68,7 +68,7 @@ def free_wheels(mechanism: Mechanism) -> tuple[DrivenWheel, ...]:
     )  # fmt: skip
 
 
-def _wheel(mechanism: Mechanism, joint: Joint, sign: int, actuator: str) -> DrivenWheel:
+def _wheel(mechanism: Mechanism, joint: Joint, sign: int, actuator: str) -> GroundWheel:
     axis = np.asarray(joint.axis, dtype=np.float64)
     offset = np.asarray(mechanism.body(joint.body1).hull) - np.asarray(joint.anchor)
     along = offset @ axis
@@ -76,10 +76,10 @@ def _wheel(mechanism: Mechanism, joint: Joint, sign: int, actuator: str) -> Driv
     radius = (pitch_radius(mechanism, joint) or reach) if actuator else reach
     half, center = 0.5 * float(np.ptp(along)), 0.5 * (float(along.min()) + float(along.max()))
     number = next(k for k, body in enumerate(mechanism.bodies) if body.name == joint.body1)
-    return DrivenWheel(joint, number, np.asarray(joint.anchor) + center * axis, axis, radius, half, sign, actuator)
+    return GroundWheel(joint, number, np.asarray(joint.anchor) + center * axis, axis, radius, half, sign, actuator)
 
 
-def sides(found: Sequence[DrivenWheel]) -> tuple[tuple[DrivenWheel, ...], ...]:
+def sides(found: Sequence[GroundWheel]) -> tuple[tuple[GroundWheel, ...], ...]:
     """The wheels of the left and of the right where each side has an actuator of its own, else none."""
     each = [tuple(w for w in found if w.actuator == name) for name in dict.fromkeys(w.actuator for w in found)]
     places = [float(np.mean([w.middle[1] for w in side])) for side in each]
@@ -99,7 +99,7 @@ def pitch_radius(mechanism: Mechanism, sprocket: Joint) -> float | None:
     return float(np.linalg.norm(np.cross(pins - anchor, axis), axis=1).min())
 
 
-def top_speed(found: Sequence[DrivenWheel], otherwise: float) -> float:
+def top_speed(found: Sequence[GroundWheel], otherwise: float) -> float:
     """Speed at the ground of the slowest wheel's motor, m/s."""
     speeds = [w.joint.drive.max_velocity * w.radius for w in found if w.joint.drive is not None]
     return min(speed if math.isfinite(speed) else otherwise for speed in speeds)

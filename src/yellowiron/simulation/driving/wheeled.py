@@ -20,7 +20,7 @@ from yellowiron.simulation.commands import SHARE, Motion, motions, travel
 from yellowiron.simulation.driving import tracked
 from yellowiron.simulation.driving.result import BLOCK_HEIGHT, DISTANCE, DrivingResult
 from yellowiron.simulation.driving.turning import turning_centre
-from yellowiron.simulation.driving.wheel import DrivenWheel, driven_wheels, free_wheels, sides, top_speed
+from yellowiron.simulation.driving.wheel import GroundWheel, driven_wheels, free_wheels, sides, top_speed
 from yellowiron.simulation.engine import Engine, Setup, coordinates, poses, tell
 from yellowiron.simulation.ground import Block, standing_bodies
 from yellowiron.simulation.loads import paces
@@ -66,7 +66,7 @@ class _Trip:
     heavier: tuple[Body, ...]
     timestep: float
     chain: ClosedChain = field(init=False)
-    wheels: tuple[DrivenWheel, ...] = field(init=False)
+    wheels: tuple[GroundWheel, ...] = field(init=False)
 
     def __post_init__(self) -> None:
         driven = driven_wheels(self.mechanism)
@@ -185,7 +185,7 @@ class _Trip:
     def _axes(self, state: Any) -> list[Floats]:
         return [self._apply(state, w)[:3, :3] @ w.axis for w in self.wheels]
 
-    def _apply(self, state: Any, wheel: DrivenWheel) -> Floats:
+    def _apply(self, state: Any, wheel: GroundWheel) -> Floats:
         return self.chain.displacement(state, wheel.joint.body0)
 
     def _circles(self, coordinates: Mapping[str, float]) -> Floats:

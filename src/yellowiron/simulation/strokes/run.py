@@ -18,7 +18,7 @@ from yellowiron.model.mechanism import Mechanism
 from yellowiron.model.sweep import Sweep
 from yellowiron.simulation.commands import Motion, Phase, motions, phases
 from yellowiron.simulation.driving.rolling import rolling
-from yellowiron.simulation.driving.wheel import DrivenWheel, driven_wheels
+from yellowiron.simulation.driving.wheel import GroundWheel, driven_wheels
 from yellowiron.simulation.engine import Base, Engine, Readings, Setup
 from yellowiron.simulation.ground import standing_bodies, usual_base
 from yellowiron.simulation.loads import carried, paces
@@ -121,7 +121,7 @@ def play(engine: Engine, joints: Sequence[str], rows: Floats) -> Readings:
     return engine.read(states)
 
 
-def _wheels(mechanism: Mechanism) -> tuple[DrivenWheel, ...]:
+def _wheels(mechanism: Mechanism) -> tuple[GroundWheel, ...]:
     with contextlib.suppress(YellowironError):  # tracks, feet
         return driven_wheels(mechanism)
     return ()
@@ -145,7 +145,7 @@ class _Run:
     comparison: Comparison
     moves: tuple[Motion, ...]
     timestep: float
-    wheels: tuple[DrivenWheel, ...] = ()
+    wheels: tuple[GroundWheel, ...] = ()
     seen: dict[str, _DriveRecord] = field(default_factory=dict)
     done: list[tuple[Phase, Agreement]] = field(default_factory=list)
     sweeps: list[Sweep] = field(default_factory=list)

@@ -49,7 +49,7 @@ kilopascal        |1000.0               |pressure     |metric  |kPa
 bar               |100000.0             |pressure     |metric  |bars?
 kgf/centimeter**2 |98066.5              |pressure     |metric  |[kK]gf? ?/ ?cm(?:2|²)
 psi               |6894.7572931683635   |pressure     |imperial|psi|p\\.s\\.i\\.?|lbf?/in(?:2|²)
-liter/minute|1.666666666666667e-05|flow|metric|(?:[lL]|ltr\\.?|lit[ers]+)/m(?:in\\.?)?|l\\.?p\\.?m\\.?|LPM|[lL] ?min-1
+liter/minute|1.666666666666667e-5|flow|metric|(?:[lL]|ltr\\.?|lit[er]{2}s?)/m(?:in\\.?)?|l\\.?p\\.?m\\.?|LPM|[lL] ?min-1
 gallon/minute|6.309019639999999e-05|flow|imperial|(?:US |U\\.S\\. )?gal(?:lons?)?\\.?/min\\.?|g\\.?p\\.?m\\.?|GPM|USgpm
 meter**3          |1.0                  |volume       |metric  |m(?:3|³)|cu\\.? ?m
 liter             |0.0010000000000000002|volume       |metric  |l|L|ltr|lit(?:er|re)s?|litros?
