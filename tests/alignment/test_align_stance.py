@@ -120,3 +120,10 @@ def test_a_cylinder_and_its_twin_change_sides_together() -> None:
     found, score = labelled(field, wrong, sweeps=0, chains=1)
     assert found.tolist() == right.tolist()
     assert score == pytest.approx(score_of(field, right))
+
+
+def test_what_has_no_width_stands_somewhere() -> None:
+    """A sheet in the plane of its own symmetry: nothing of it is to either side."""
+    sheet = box(2.0, 0.0, 1.0)
+    stance = stance_of(solids((sheet, (0.0, 0.0, 0.5))), 2.2)
+    assert np.isfinite(stance.origin).all() and np.isfinite(stance.rotation).all()

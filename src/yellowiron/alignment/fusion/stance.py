@@ -106,7 +106,7 @@ def stance_of(solids: Sequence[Solid], size: float, hinges: Sequence[Floats] = (
     standing = points[np.abs(points @ up - (points @ up).min() - level * size) < SOLE * size]
     # A bucket may be as low: tracks are farther out than it is.
     aside = np.abs(standing @ left - 0.5 * ((standing @ left).min() + (standing @ left).max()))
-    standing = standing[aside > OUTER * aside.max()]
+    standing = standing[aside >= OUTER * aside.max()]  # all of it, where it has no width
     middle = 0.5 * (standing.min(axis=0) + standing.max(axis=0))
     return Stance(np.array([forward, left, up]), middle, size, likeness)
 
