@@ -11,9 +11,10 @@ import pytest
 
 from yellowiron.alignment.fusion import reading
 from yellowiron.alignment.fusion.bonds import Bond
-from yellowiron.alignment.fusion.played import MISSING, MORE, lost
+from yellowiron.alignment.fusion.played import lacks
 from yellowiron.alignment.fusion.reading import _solution, trust_in_names
 from yellowiron.alignment.fusion.stance import Stance
+from yellowiron.alignment.fusion.weights import weights
 from yellowiron.alignment.structure.clusters import Cluster, Hinge, Structure
 from yellowiron.library import load_template
 from yellowiron.model.template import Template, choose
@@ -29,17 +30,29 @@ def test_of_two_variants_that_explain_as_much_the_simpler_one_is_taken(open_temp
     two = choose(open_template, {"boom_cylinders": "twin", "boom_type": "two_piece"})
     bodies = {r.name for r in mono.roles if r.rigid}
     more = {r.name for r in two.roles if r.rigid and not r.optional} - bodies
-    assert lost(two, bodies | more) - lost(mono, bodies) == pytest.approx(MORE * len(more))
     assert len(more) == 3
-    assert lost(two, bodies) - lost(mono, bodies) == pytest.approx((MORE + MISSING) * len(more))
+    assert lacks(two, bodies | more)["more"] - lacks(mono, bodies)["more"] == len(more)
+    assert lacks(two, bodies | more)["missing"] == lacks(mono, bodies)["missing"] == 0
+    assert lacks(two, bodies)["missing"] == len(more)
+    assert weights()["more"] < 0 and weights()["missing"] < 0
 
 
 def test_links_are_not_missed(open_template: Template) -> None:
     """They may be too small for a leading piece."""
     twin = choose(open_template, {"boom_cylinders": "twin", "boom_type": "mono"})
     bodies = {r.name for r in twin.roles if r.rigid}
-    assert lost(twin, bodies - {"tipping_link", "bucket_link"}) == lost(twin, bodies)
-    assert lost(twin, bodies - {"bucket", "arm"}) - lost(twin, bodies) == pytest.approx(2 * MISSING)
+    assert lacks(twin, bodies - {"tipping_link", "bucket_link"}) == lacks(twin, bodies)
+    assert lacks(twin, bodies - {"bucket", "arm"})["missing"] == 2
+
+
+def test_a_part_of_a_machine_misses_nothing_that_is_not_of_it(open_template: Template) -> None:
+    twin = choose(open_template, {"boom_cylinders": "twin", "boom_type": "mono"})
+    bodies = {r.name for r in twin.roles if r.rigid}
+    carrier = {"undercarriage", "upperstructure"}
+    whole, part = lacks(twin, bodies - carrier), lacks(twin, bodies - carrier, carrier)
+    assert (whole["missing"], part["missing"]) == (2, 0)
+    assert whole["more"] - part["more"] == 2
+    assert (whole["part"], part["part"]) == (0, 1)
 
 
 def test_solids_of_one_mesh_do_not_make_its_name_true(open_template: Template) -> None:

@@ -7,13 +7,9 @@ from collections.abc import Collection, Sequence
 import numpy as np
 
 from yellowiron.alignment.fusion.pieces import LARGE, Piece
-from yellowiron.alignment.fusion.votes import BARS
+from yellowiron.alignment.fusion.votes import BARS, Features
 from yellowiron.model.template import Template
 
-MISSING = 60.0
-"""What a variant loses for every body of its own that nothing plays …"""
-MORE = 10.0
-"""… and for every body that it has: what a simpler machine explains as well is the simpler one."""
 SLIGHT = 0.03
 """Of a body's usual share of the surface: with less it is not drawn, and what was taken for it is a pin or a lug."""
 
@@ -39,12 +35,13 @@ def missing_bodies(template: Template, played: Collection[str]) -> list[str]:
     return [r.name for r in wanted if drawn or r.kind not in BARS]
 
 
-def lost(template: Template, played: Collection[str]) -> float:
-    """What a variant loses, by the bodies that it has and those of them that are `played`. Links may be too small for
-    a leading piece: they are not missed."""
-    bodies = {r.name for r in template.roles if r.rigid and not r.optional}
-    missed = [b for b in missing_bodies(template, played) if not _slight(b, template)]
-    return MISSING * len(missed) + MORE * len(bodies)
+def lacks(template: Template, played: Collection[str], absent: Collection[str] = ()) -> Features:
+    """What speaks against a variant: every body that it has (`more`: what a simpler machine explains as well is the
+    simpler one), and every one of them that is not `played` (`missing`). Links may be too small for a leading piece:
+    they are not missed; nor are the `absent` bodies, which a part of a machine lacks (`part`)."""
+    bodies = {r.name for r in template.roles if r.rigid and not r.optional} - set(absent)
+    missed = [b for b in missing_bodies(template, played) if b in bodies and not _slight(b, template)]
+    return {"missing": len(missed), "more": len(bodies), "part": float(bool(absent))}
 
 
 def _slight(body: str, template: Template) -> bool:

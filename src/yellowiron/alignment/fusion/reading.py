@@ -19,7 +19,7 @@ from yellowiron.alignment.fusion.annealing import CHAINS, SWEEPS, against, label
 from yellowiron.alignment.fusion.bonds import Bond, bonds_of, out_of_line
 from yellowiron.alignment.fusion.judge import Field, field_of, score_of, weighed
 from yellowiron.alignment.fusion.pieces import Piece, leading, pieces_of
-from yellowiron.alignment.fusion.played import drawn_bodies, lost, missing_bodies
+from yellowiron.alignment.fusion.played import drawn_bodies, lacks, missing_bodies
 from yellowiron.alignment.fusion.stance import Stance, on_wheels, stance_of
 from yellowiron.alignment.fusion.votes import (
     BARS,
@@ -42,9 +42,7 @@ GLANCE, FEW, LIKELY = SWEEPS // 2, 4, 4
 MANY = 32
 """So many chains settle the variant that was chosen."""
 PARTS = (1, 2)
-"""What begins so many joints from the root may be all that is drawn …"""
-PART = 60.0
-"""… if that explains it better by so much."""
+"""What begins so many joints from the root may be all that is drawn."""
 NEARLY = 2
 """A machine is nearly whole if no more bodies are missing between those that are there."""
 EXPLAINED = {0: 1.0, 1: 1.0, 2: 0.5}
@@ -187,24 +185,15 @@ def fused(
         votes = last.votes if last is not None else evidence.votes(resolved)
         field = last.field if last is not None else _field(evidence, votes, resolved)
         labels, score = labelled(field, sweeps=sweeps, chains=chains)
-        played = _drawn(evidence, field.bodies, labels, resolved)
-        score -= lost(resolved, played)
+        score += _lacking(evidence, field.bodies, labels, resolved)
         found = _Best(score, chosen, resolved, field, labels, votes)
         # A longer annealing may end beside what a shorter one had found.
         found_so_far[evidence, id(resolved)] = max(last or found, found, key=lambda b: b.score)
         return found_so_far[evidence, id(resolved)]
 
     machines = [(chosen, choose(template, chosen)) for chosen in variants]
-    # Which end is the front is a guess so far, and whether all of a machine is drawn; what has tracks, or wheels to
-    # stand on, has a root.
-    stands = bool(observation.rows) or evidence.stance.wheeled
-    ways = [
-        part
-        for way in (evidence.stance, evidence.stance.turned())
-        for part in (way, *(() if stands else _as_parts(way, evidence, template)))
-    ]
-    seen = [replace(evidence, stance=way) for way in ways]
-    evidence = max(seen, key=lambda e: tried(*machines[0], e, GLANCE, FEW).score - PART * (e.stance.drawn < 1.0))
+    ways = ways_of(evidence, template, bool(observation.rows))
+    evidence = max(ways, key=lambda e: tried(*machines[0], e, GLANCE, FEW).score)
     glanced = sorted((tried(*machine, evidence, GLANCE, FEW) for machine in machines), key=lambda b: -b.score)
     likely = [tried(b.choices, b.template, evidence) for b in glanced[:LIKELY]]
     bare = [(b, as_drawn(b.template, b.played)) for b in likely]
@@ -215,7 +204,7 @@ def fused(
         wider = replace(evidence, leading=tuple(sorted({*evidence.leading, *more})))
         found = tried(best.choices, best.template, wider, chains=MANY)
         evidence, best = (wider, found) if found.score > best.score else (evidence, best)
-    contacts = max(_score_of_contacts(answer, replace(evidence, stance=way)) for way in ways)
+    contacts = max(_score_of_contacts(answer, way) for way in ways)
     pieces, trust = evidence.pieces, evidence.trust
     judged = _judged(best, evidence)
     judged = {i: what for i, what in judged.items() if not _is_pin(i, what, observation, best.template)}
@@ -239,8 +228,24 @@ def _score_of_contacts(answer: Answer, evidence: Evidence) -> float:
     for n, k in enumerate(evidence.leading):
         counts = np.bincount([solved.get(i, none) for i in evidence.pieces[k].members], minlength=none + 1)
         labels[n] = int(np.argmax(counts))
-    played = _drawn(evidence, field.bodies, labels, template)
-    return score_of(field, labels) - lost(template, played)
+    return score_of(field, labels) + _lacking(evidence, field.bodies, labels, template)
+
+
+def _lacking(evidence: Evidence, bodies: Sequence[str], labels: np.ndarray, template: Template) -> float:
+    """What a labelling loses by what the variant has and nothing plays."""
+    played = _drawn(evidence, bodies, labels, template)
+    return weighed(lacks(template, played, evidence.stance.absent), weights())
+
+
+def ways_of(evidence: Evidence, template: Template, tracked: bool) -> list[Evidence]:
+    """How the machine may stand: which end is the front is a guess so far, and whether all of it is drawn. What has
+    tracks (`tracked`), or wheels to stand on, has a root."""
+    whole = tracked or evidence.stance.wheeled
+    return [
+        replace(evidence, stance=stance)
+        for way in (evidence.stance, evidence.stance.turned())
+        for stance in (way, *(() if whole else _as_parts(way, evidence, template)))
+    ]
 
 
 def _as_parts(stance: Stance, evidence: Evidence, template: Template) -> list[Stance]:
