@@ -115,7 +115,7 @@ def find_roles(
 
 
 solve = _keeping("mechanisms", stages.solve)
-measure = _keeping("measurements", kinematics.measure)
+measure = _keeping("measurements", kinematics.measure_and_pose)
 
 
 def write(
@@ -155,19 +155,19 @@ def page(
     mechanism: Mechanism,
     assembly: Assembly,
     alignment: Alignment,
+    poses: Mapping[str, Mapping[str, Floats]],
     sweeps: Mapping[str, tuple[Sweep, ...]],
     sheets: Sequence[Path],
     specifications: Specifications,
 ) -> str:
-    """`report.page`, with its poses and the pages of its sheets."""
+    """`report.page`, with the pages of its sheets."""
 
     def make() -> str:
         with ThreadPoolExecutor(1) as pool:
             pages = pool.submit(specs.page_pictures, sheets, specifications)
-            poses, tables = kinematics.key_poses(mechanism), kinematics.pose_tables(mechanism)
             return report.page(
                 document, mechanism, assembly, alignment,
-                poses=poses, tables=tables, sweeps=sweeps, sheets=pages.result,
+                poses=poses, tables=lambda: kinematics.pose_tables(mechanism), sweeps=sweeps, sheets=pages.result,
             )  # fmt: skip
 
-    return kept("pages", make, document, mechanism, assembly, alignment, sweeps, files=sheets)
+    return kept("pages", make, document, mechanism, assembly, alignment, poses, sweeps, files=sheets)

@@ -153,7 +153,7 @@ def build(
                 alignment = second_opinion(alignment, assembly, template, opinion, progress=progress)
 
         with clock.stage("measure", "Measuring the machine against its sheet"):
-            measurements = memory.measure(mechanism)
+            measurements, poses = memory.measure(mechanism)
 
         with clock.stage("write", "Writing and checking USD"):
             textures = [*data.folders, template.folder]
@@ -184,7 +184,7 @@ def build(
             write_alignment(alignment, assembly, folder / "alignment.json")
             if page:
                 text = memory.page(
-                    document, mechanism, assembly, alignment, sweeps, [Path(s) for s in sheets], specifications
+                    document, mechanism, assembly, alignment, poses, sweeps, [Path(s) for s in sheets], specifications
                 )
                 (folder / "report.html").write_text(text, encoding="utf-8")
             report.write_document({

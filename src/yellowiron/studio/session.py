@@ -21,6 +21,7 @@ from yellowiron.model.alignment import (
 )
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import MechanismError
+from yellowiron.model.geometry import Floats
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import Template, choose
 from yellowiron.stages import Solved, roles_of, solve
@@ -40,8 +41,8 @@ _OWN = ("edited", "confirmed")
 class State:
     """What the decisions so far come to. `version` counts states, `said` the decisions that it knows of; `aligned` is
     the alignment as it is kept, of `aligned_model`, before the sheet moves an axis or the machine is started; `solved`
-    is None where no mechanism can be made of it, and `failed` says why; `document` is the report's, empty without a
-    mechanism."""
+    is None where no mechanism can be made of it, and `failed` says why; `document` is the report's and `poses` are
+    those that its measurements take (`kinematics.key_poses`), empty without a mechanism."""
 
     version: int
     said: int
@@ -54,6 +55,7 @@ class State:
     solved: Solved | None = None
     failed: str = ""
     document: Mapping[str, Any] = field(default_factory=dict)
+    poses: Mapping[str, Mapping[str, Floats]] = field(default_factory=dict)
 
 
 class Session:
@@ -252,14 +254,14 @@ class Session:
             solved = solve(template, self.assembly, alignment, specifications, data, choices)
         except MechanismError as error:
             return replace(bare, failed=str(error))
+        measurements, poses = kinematics.measure_and_pose(solved.mechanism)
         document = report.report_document(report.BuildFacts(
-            solved.mechanism, solved.template, solved.alignment, solved.specifications,
-            kinematics.measure(solved.mechanism),
+            solved.mechanism, solved.template, solved.alignment, solved.specifications, measurements,
             findings=(*self.assembly.findings, *data.findings), declared=solved.compared,
         ))  # fmt: skip
         return replace(
             bare, template=solved.template, assembly=solved.assembly, alignment=solved.alignment,
-            specifications=solved.specifications, solved=solved, document=document,
+            specifications=solved.specifications, solved=solved, document=document, poses=poses,
         )  # fmt: skip
 
     def _documents(self, joints: Mapping[str, Mapping[str, object]]) -> tuple[library.Documents, Template]:
