@@ -160,12 +160,15 @@ def _measured(mechanism: Mechanism, site: Site | None, moment: Moment) -> str:
 
 
 def _shown(mechanism: Mechanism, work: Sequence[Moment]) -> tuple[Site | None, list[Moment]]:
-    """The site that goes up and down most, and the work of the actuators that move it most."""
+    """The site that goes up and down most, of those that are measured if any are, and the work of the actuators that
+    move it most."""
 
     def travel(site: Site, name: str = "") -> float:
         return float(np.ptp([_height(site, moment.poses) for moment in work if name in ("", moment.actuator)]))
 
-    best = max(mechanism.sites, key=travel) if work and mechanism.sites else None
+    measured = {m.quantity.get("site") for m in mechanism.measurements}
+    sites = [site for site in mechanism.sites if site.name in measured] or mechanism.sites
+    best = max(sites, key=travel) if work and sites else None
     names = list(dict.fromkeys(moment.actuator for moment in work))
     order = sorted(names, key=lambda name: -travel(best, name)) if best is not None else names
     return best, [moment for name in order[:_STROKES] for moment in work if moment.actuator == name]

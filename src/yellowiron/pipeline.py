@@ -157,7 +157,7 @@ def build(
 
         with clock.stage("write", "Writing and checking USD"):
             textures = [*data.folders, template.folder]
-            checked = memory.write(mechanism, assembly, alignment.frame, folder, textures=textures)
+            checked, usd_counts = memory.write(mechanism, assembly, alignment.frame, folder, textures=textures)
             written = folder / f"{mechanism.name}.usda"
 
         simulation, sweeps = {}, {}
@@ -173,7 +173,7 @@ def build(
                     *library.lint(chosen).findings, *assembly.findings, *data.findings,
                     *declared_findings(compared, assembly.name), *checked,
                 ),
-                usd_counts=usd.count_joints(written),
+                usd_counts=usd_counts,
                 levers=memory.levers(mechanism),
                 simulation=simulation, declared=compared,
             ))  # fmt: skip

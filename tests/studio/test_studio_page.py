@@ -224,12 +224,43 @@ def test_parts_nobody_asks_about_are_found_by_keys(page: tuple[Any, list[str]]) 
     opened.keyboard.press("Shift+Enter")
     assert selected() == [p for p in paths if f"{assembly}/".lower() in p.lower()]
     assert len(selected()) > 1
+    # One more beside them.
+    other = next(p for p in paths if f"{assembly}/".lower() not in p.lower())
+    before = selected()
+    opened.keyboard.press("s")
+    opened.keyboard.type(other)
+    opened.keyboard.press("Alt+Enter")
+    assert selected() == [*before, other]
     opened.keyboard.press("s")
     opened.keyboard.type("no such part")
-    assert "No part of that name" in opened.locator("#found").inner_text()
+    assert "No part or joint of that name" in opened.locator("#found").inner_text()
     opened.keyboard.press("Escape")
     opened.keyboard.press("Escape")
     assert selected() == []
+    assert errors == []
+
+
+def test_joints_are_chosen_by_keys(page: tuple[Any, list[str]], session: Session) -> None:
+    """By name, and by a mark in the picture that has the focus: its Enter is no answer to what is asked."""
+    opened, errors = page
+    joint = opened.evaluate("yellowiron.state.joints[3]")
+    said = session.said
+    opened.keyboard.press("Escape")
+    opened.keyboard.press("s")
+    opened.keyboard.type(joint["title"])
+    opened.keyboard.press("Enter")
+    assert opened.evaluate("yellowiron.picked") == joint["name"]
+    assert opened.locator("#card h2").inner_text() == joint["title"]
+    opened.keyboard.press("Escape")
+    assert opened.evaluate("yellowiron.picked") is None
+    opened.evaluate("(yellowiron.viewer.showJoints = true, yellowiron.viewer.draw(1))")
+    mark = opened.locator(f"g.v-joint[aria-label*=' {joint['name']} ']")
+    mark.focus()
+    opened.keyboard.press("Enter")
+    assert opened.evaluate("yellowiron.picked") == joint["name"]
+    opened.evaluate("(yellowiron.viewer.showJoints = false, yellowiron.viewer.draw(1))")
+    opened.keyboard.press("Escape")
+    assert session.said == said
     assert errors == []
 
 

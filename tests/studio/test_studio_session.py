@@ -189,7 +189,7 @@ def test_a_state_that_cannot_be_made_ends_nothing(
         raise ZeroDivisionError("nobody foresaw this")
 
     with monkeypatch.context() as patched:
-        patched.setattr(kinematics, "measure", broken)
+        patched.setattr(kinematics, "measure_and_pose", broken)
         session.do(session.read({"kind": "confirm", "parts": {part: "boom"}}))
         assert "nobody foresaw this" in session.settled(60.0).failed
     session.do(session.read({"kind": "confirm", "parts": {part: "boom"}}))
