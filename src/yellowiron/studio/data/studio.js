@@ -346,6 +346,10 @@ class Studio {
   #card() {
     const { question, state } = this;
     const card = by("card");
+    // What a person is writing in stays, whatever becomes known meanwhile.
+    const about = this.joint?.name ?? (this.selection.size ? [...this.selection].join() : question?.key);
+    if (about === this.about && card.contains(document.activeElement) && document.activeElement.matches("input, select")) return;
+    this.about = about;
     const picked = [...this.selection].map((number) => this.viewer.model.parts[number - 1]);
     card.className = picked.length ? "picked" : question ? "" : "done";
     const answers = element("ol", { class: "answers" });
