@@ -122,6 +122,7 @@ def build(
         documents=[Path(d) for d in documents], settings=settings, opinion=opinion,
     )  # fmt: skip
     template, given, choices = inputs.template, inputs.given, inputs.choices
+    own = library.own_template(equipment_type)
     earlier = _earlier(alignment_file, out / "alignment.json")
     by_hand = (earlier, read_joints(earlier)) if earlier is not None else None
     with output_folder(out) as folder:
@@ -188,7 +189,7 @@ def build(
                 )
                 (folder / "report.html").write_text(text, encoding="utf-8")
             report.write_document({
-                "equipment_type": _place(equipment_type) if Path(equipment_type).is_dir() else str(equipment_type),
+                "equipment_type": str(equipment_type) if own is None else _place(own),
                 "cad": _place(cad_file), "specs": [_place(s) for s in sheets], "data": [_place(d) for d in documents],
                 "set": list(settings), "config": config, **({"mirror": True} if mirror else {}),
             }, folder / "inputs.json")  # fmt: skip

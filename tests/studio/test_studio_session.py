@@ -265,3 +265,14 @@ def test_values_as_a_person_writes_them() -> None:
     assert in_words(0.7853981633974483, "rad") == "45 deg"
     assert in_words(3.5e7, "Pa") == "35 MPa"
     assert in_words(0.5, "1") == "0.5"
+
+
+@pytest.mark.slow
+def test_a_folder_that_has_a_types_name_is_not_taken_for_a_template(
+    cad_read_once: None, no_pages: None, example: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Machines are often built into a folder of their type's name."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "wheel_loader").mkdir()
+    build("wheel_loader", example / "wheel_loader.step", "out")
+    assert read_setup(Path("out")).equipment_type == "wheel_loader"
