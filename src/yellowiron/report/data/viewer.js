@@ -19,6 +19,8 @@ function element(tag, attributes = {}, ...children) {
   const made = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) {
     if (name.startsWith("on")) made.addEventListener(name.slice(2), value);
+    // What a role says is "true" or "false"; other attributes are there or not.
+    else if (name.startsWith("aria-") && value != null) made.setAttribute(name, String(value));
     else if (value !== false && value != null) made.setAttribute(name, value === true ? "" : value);
   }
   made.append(...children.filter((child) => child != null));
