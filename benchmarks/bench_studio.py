@@ -1,7 +1,7 @@
 """What a review in the studio costs a person: real models with labels, answered by one who knows the truth.
 
     python benchmarks/bench_studio.py [--models DIR:…] [--only NAME,…] [--names with,without] [--most N]
-                                      [--undo N --seed S] | --parts N,…
+                                      [--undo N --seed S] | --parts N,… [--example NAME]
 
 The one who answers takes the first question that is about parts. Where all of them are right he says yes; where all are
 wrong in the same way, the body that they are of; else he picks out those that are wrong, body by body, which costs a
@@ -12,8 +12,9 @@ Values are not asked. With `--undo`, every part but N random ones was decided as
 of what the program makes of those. The alternative is what the same person would do without the page: one entry of
 alignment.json for every wrong part, found by its name, a full run after each ten.
 
-With `--parts` no model is reviewed: the example loader, grown by bolts to so many parts, takes nine decisions, and
-what is printed is how long each took to its machine, in seconds solving and packing: the least and the median.
+With `--parts` no model is reviewed: the example loader (or another `--example`), grown by bolts to so many parts, takes
+nine decisions, and what is printed is how long each took to its machine, in seconds solving and packing: the least and
+the median.
 """
 
 from __future__ import annotations
@@ -40,7 +41,7 @@ from yellowiron.studio.questions import Question, questions  # noqa: E402
 from yellowiron.studio.scene import Scene  # noqa: E402
 
 SECONDS = 4.0
-EXAMPLE = ROOT / "examples" / "wheel_loader"
+EXAMPLES = ROOT / "examples"
 
 
 class Person:
@@ -119,12 +120,12 @@ def _row(model, names, most, scene, session, undo, seed) -> str:  # type: ignore
     )
 
 
-def speed(parts: int) -> str:
+def speed(parts: int, example: str) -> str:
     """One size's row."""
     with tempfile.TemporaryDirectory() as folder:
-        source, sheet = EXAMPLE / "wheel_loader.step", EXAMPLE / "specifications.pdf"
+        source, sheet = EXAMPLES / example / f"{example}.step", EXAMPLES / example / "specifications.pdf"
         grown = resize(source, Path(folder, "grown.step"), parts) if parts else source
-        session = Session(Setup("wheel_loader", grown, Path(folder, "out"), sheets=(sheet,)))
+        session = Session(Setup(example, grown, Path(folder, "out"), sheets=(sheet,)))
         try:
             scene = Scene(session.assembly)
             played = [p for p in session.settled(300.0).aligned.parts if p.role]
@@ -154,11 +155,12 @@ def main() -> None:
     parser.add_argument("--undo", type=int, default=0, help="parts whose decision is undone")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--parts", default="", help="sizes, 0: the example as it is")
+    parser.add_argument("--example", default="wheel_loader", help="of which the sizes are")
     given = parser.parse_args()
     if given.parts:
         print(f"{'':14s} {'solving s: least, median':>17s}  {'packing s: least, median':>17s}")
         for parts in given.parts.split(","):
-            print(speed(int(parts)), flush=True)
+            print(speed(int(parts), given.example), flush=True)
         return
     folders = [Path(p) for p in given.models.split(":") if p]
     only = {n for n in given.only.split(",") if n}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 from pathlib import Path
 from typing import Any
@@ -40,8 +41,14 @@ def test_what_it_shows(machine: Any, small: None, example: Path, tmp_path: Path)
     turning = sum(joint.type != "fixed" for joint in machine.mechanism.joints)
     assert f"{turning} joints on their pins" in captions
     assert any(c.startswith("Lift Cylinder Stroke: ") and "page 2 of specifications.pdf" in c for c in captions)
-    heights = [float(c.split()[-3]) for c in captions if c.startswith("Boom ")]
-    assert max(heights) - min(heights) > 2.0
+    worked = [c for c in captions if c.startswith(("Boom ", "Bucket ", "Steering "))]
+    assert len(worked) == 3 * 3 * 2 and all("MuJoCo, " in c for c in worked)
+    told = [re.search(r"(\d+) mm out.* ([\d.]+) m (high|deep), at .*° .* ([\d.]+) s$", c) for c in worked[:6]]
+    strokes, heights, ways, seconds = zip(*(t.groups() for t in told if t is not None), strict=True)
+    assert ways == ("high", "deep", *["high"] * 4)
+    for values, most in ((strokes, 700.0), (heights, 4.0)):
+        assert max(map(float, values)) - min(map(float, values)) > most
+    assert len(seconds) == 6 and [float(s) for s in seconds] == sorted(float(s) for s in seconds)
     assert frames[0].shot.apart > 0.0 == frames[-1].shot.apart
     # Without a sheet nothing is read.
     assert not any("Stroke" in f.caption for f in film._frames(machine, drawn, []))
@@ -57,6 +64,22 @@ def test_what_it_shows(machine: Any, small: None, example: Path, tmp_path: Path)
     assert colored[0] < 0.1 * colored[1]
     again = made(machine, tmp_path / "again.gif", sheets=[sheet])
     assert again.read_bytes() == target.read_bytes()
+
+
+def test_where_no_engine_does_it_the_kinematics_does(
+    machine: Any, small: None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refused(*_: object, **__: object) -> None:
+        raise YellowironError("The engine is on strike", where="here")
+
+    monkeypatch.setattr(film.simulation, "watch", refused)
+    drawn = film.machine_triangles(machine.mechanism, machine.assembly, np.asarray(machine.alignment.frame))
+    told: list[str] = []
+    worked = [f for f in film._frames(machine, drawn, [], told.append) if f.caption.endswith("by kinematics")]
+    assert any("kinematics" in words and "on strike" in words for words in told)
+    heights = [float(f.caption.split(" m high")[0].split()[-1]) for f in worked
+               if f.caption.startswith("Boom ") and " m high" in f.caption]  # fmt: skip
+    assert len(worked) == 3 * 3 * 2 and max(heights) - min(heights) > 1.0
 
 
 def test_what_it_refuses(machine: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

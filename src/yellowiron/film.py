@@ -1,5 +1,5 @@
 """A film of a few seconds: a CAD model's parts come together as bodies, joints light up on their pins, a value goes
-from the sheet to its cylinder, and the machine works.
+from the sheet to its cylinder, and the machine works in an engine.
 
 Every frame is drawn as the report's pictures are, so the same machine gives the same bytes (of a WebP or GIF; what
 encodes MP4 is the user's own program).
@@ -21,14 +21,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from yellowiron import kinematics, specs
+from yellowiron import kinematics, simulation, specs
 from yellowiron.model.errors import MechanismError, OutputError, YellowironError
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Cylinder, Mechanism, Site
 from yellowiron.model.specification import Specification, fold
+from yellowiron.report.html.drawing import MOST
 from yellowiron.report.html.pictures import Camera, DrawnTriangles, look_at, machine_triangles, outline, posed, render
-from yellowiron.report.words import titled
-from yellowiron.support.guard import run_guarded
+from yellowiron.report.html.simulation import engine_name
+from yellowiron.report.words import signed, titled
 from yellowiron.support.output import output_file
 
 if TYPE_CHECKING:
@@ -51,8 +52,9 @@ _APART = 0.5
 """How far apart the parts begin, as a share of their distance from the middle."""
 _GREY = np.array([0.42, 0.43, 0.45], dtype=np.float32)
 _INK, _IRON, _PAPER = (29, 29, 27), (224, 160, 0), (250, 249, 245)
-_MOST = 4
-"""Processes."""
+_STROKES = 3
+"""Actuators that are shown at work: those that move the most."""
+_ENGINE = "mujoco"
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,7 +65,18 @@ class Shot:
     camera: Camera
     apart: float = 0.0
     mix: float = 1.0
-    poses: dict[str, Floats] | None = None
+    poses: Mapping[str, Floats] | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Moment:
+    """The machine at work: bodies in `poses` (4, 4 displacements), the share (0 … 1) of its stroke at which its
+    actuator is, and how many seconds of an engine's time it has worked for, None where the kinematics moved it."""
+
+    actuator: str
+    poses: Mapping[str, Floats]
+    share: float
+    seconds: float | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,7 +103,7 @@ def film(
         if not len(drawn.triangles):
             raise YellowironError("The machine has nothing to show", where=str(out), hint="Look at its report.")
         progress("Moving the machine")
-        frames = list(_frames(machine, drawn, sheets))
+        frames = list(_frames(machine, drawn, sheets, progress))
         progress("Drawing the film")
         pictures = _drawn(drawn, drawn.by_body(machine.mechanism), [frame.shot for frame in frames])
         progress("Writing the film")
@@ -98,12 +111,18 @@ def film(
     return out
 
 
-def _frames(machine: Machine, drawn: DrawnTriangles, sheets: Sequence[Path]) -> Iterator[Frame]:
+def _frames(
+    machine: Machine,
+    drawn: DrawnTriangles,
+    sheets: Sequence[Path],
+    progress: Callable[[str], None] = lambda words: None,
+) -> Iterator[Frame]:
     mechanism, assembly = machine.mechanism, machine.assembly
-    site, work = _shown(mechanism, list(_work(mechanism)))
-    points = np.concatenate([outline(mechanism), *(outline(mechanism, poses) for _, poses in work[::4])])
+    site, work = _shown(mechanism, _work(machine, progress))
+    points = np.concatenate([outline(mechanism), *(outline(mechanism, moment.poses) for moment in work[::4])])
     still = look_at(points, azimuth=-0.9, elevation=0.24, width=SIZE[0], height=SIZE[1] - _BAND)
     still = replace(still, height=SIZE[1])
+    drawn_there = Shot(still)
     for k in range(count := round(_COMING * RATE)):
         share = _eased(k / (count - 1))
         yield Frame(Shot(still, _APART * (1.0 - share), share), f"{len(assembly.parts)} parts of a CAD model")
@@ -111,13 +130,10 @@ def _frames(machine: Machine, drawn: DrawnTriangles, sheets: Sequence[Path]) -> 
     spots = still.project(anchors[np.argsort(anchors[:, 0])]) if len(anchors) else np.zeros((0, 2))
     for k in range(count := round(_LIGHTING * RATE)):
         lit = spots[: math.ceil(len(spots) * (k + 1) / count)]
-        yield Frame(Shot(still), f"{len(lit)} joints on their pins", _spots(lit))
-    yield from _read(machine, still, sheets)
-    for name, poses in work:
-        caption = titled(name)
-        if site is not None:
-            caption += f"     {titled(site.name)} {_height(site, poses):.2f} m high"
-        yield Frame(Shot(still, poses=poses), caption)
+        yield Frame(drawn_there, f"{len(lit)} joints on their pins", _spots(lit))
+    yield from _read(machine, drawn_there, sheets)
+    for moment in work:
+        yield Frame(Shot(still, poses=moment.poses), _measured(mechanism, site, moment))
 
 
 def _height(site: Site, poses: Mapping[str, Floats]) -> float:
@@ -125,21 +141,55 @@ def _height(site: Site, poses: Mapping[str, Floats]) -> float:
     return float((poses[site.body] @ (*site.position, 1.0))[2])
 
 
-def _shown(mechanism: Mechanism, work: list[tuple[str, dict[str, Floats]]]) -> tuple[Site | None, list[Any]]:
-    """The site that goes up and down most, and the work with what moves it most first."""
-    if not work or not mechanism.sites:
-        return None, work
+def _measured(mechanism: Mechanism, site: Site | None, moment: Moment) -> str:
+    """What is told of a moment: stroke, height, tilt, and whose work it is."""
+    actuator = next(a for a in mechanism.actuators if a.name == moment.actuator)
+    slide = mechanism.joint(actuator.joints[0].joint)
+    words = [titled(moment.actuator)]
+    if slide.type == "prismatic" and slide.lower is not None and slide.upper is not None:
+        words.append(f"{1e3 * moment.share * (slide.upper - slide.lower):.0f} mm out")
+    if site is not None:
+        height = _height(site, moment.poses)
+        words.append(f"{titled(site.name)} {abs(height):.2f} m {'high' if height >= 0.0 else 'deep'}")
+        if site.name in {m.quantity.get("site") for m in mechanism.measurements if m.quantity.get("kind") == "angle"}:
+            x, y, z = moment.poses[site.body][:3, :3] @ site.x_axis
+            along = math.copysign(math.hypot(x, y), x)
+            words[-1] += f", at {signed(math.degrees(math.atan2(z, along)), 0, '°')}"
+    words.append("by kinematics" if moment.seconds is None else f"{engine_name(_ENGINE)}, {moment.seconds:.1f} s")
+    return "     ".join(words)
+
+
+def _shown(mechanism: Mechanism, work: Sequence[Moment]) -> tuple[Site | None, list[Moment]]:
+    """The site that goes up and down most, of those that are measured if any are, and the work of the actuators that
+    move it most."""
 
     def travel(site: Site, name: str = "") -> float:
-        return float(np.ptp([_height(site, poses) for actuator, poses in work if name in ("", actuator)]))
+        return float(np.ptp([_height(site, moment.poses) for moment in work if name in ("", moment.actuator)]))
 
-    best = max(mechanism.sites, key=travel)
-    order = sorted(dict.fromkeys(name for name, _ in work), key=lambda name: -travel(best, name))
-    return best, [step for name in order for step in work if step[0] == name]
+    measured = {m.quantity.get("site") for m in mechanism.measurements}
+    sites = [site for site in mechanism.sites if site.name in measured] or mechanism.sites
+    best = max(sites, key=travel) if work and sites else None
+    names = list(dict.fromkeys(moment.actuator for moment in work))
+    order = sorted(names, key=lambda name: -travel(best, name)) if best is not None else names
+    return best, [moment for name in order[:_STROKES] for moment in work if moment.actuator == name]
 
 
-def _work(mechanism: Mechanism) -> Iterator[tuple[str, dict[str, Floats]]]:
-    """The machine working: each cylinder actuator in turn to one end of its stroke, to the other, and back."""
+def _work(machine: Machine, progress: Callable[[str], None]) -> list[Moment]:
+    """The machine at work in an engine: each cylinder actuator in turn to both ends of its stroke, and back. Where that
+    engine does not do it, by its kinematics."""
+    names = [a.name for a in machine.mechanism.actuators if a.kind == "cylinder"]
+    steps = max(2, round(_STEP * RATE / 3))
+    shares = [_eased(k / steps) for k in range(1, steps + 1)]
+    try:
+        seen = simulation.watch(machine.usd, engine=_ENGINE, actuators=names, shares=shares, progress=progress)
+    except YellowironError as error:
+        progress(f"Moving the machine by its kinematics: {error.message}")
+        return list(_moved(machine.mechanism, shares))
+    return [Moment(name, at.poses, at.share or 0.0, at.time) for name, each in seen.items() for at in each]
+
+
+def _moved(mechanism: Mechanism, shares: Sequence[float]) -> Iterator[Moment]:
+    """The same by closed-chain kinematics."""
     chain = kinematics.ClosedChain(mechanism)
     state = chain.drawn
     for actuator in mechanism.actuators:
@@ -147,19 +197,18 @@ def _work(mechanism: Mechanism) -> Iterator[tuple[str, dict[str, Floats]]]:
         if actuator.kind != "cylinder" or joint.lower is None or joint.upper is None:
             continue
         span = joint.upper - joint.lower
-        stops = [0.0, joint.upper - 0.05 * span, joint.lower + 0.05 * span, 0.0]
-        steps = max(2, round(_STEP * RATE / 3))
+        stops = [0.0, joint.lower + 0.02 * span, joint.upper - 0.02 * span, 0.0]
         for begin, end in itertools.pairwise(stops):
-            for k in range(1, steps + 1):
-                target = begin + (end - begin) * _eased(k / steps)
+            for share in shares:
+                target = begin + (end - begin) * share
                 try:
                     state, _ = chain.reach({joint.name: target}, start=state)
                 except MechanismError:
                     continue
-                yield actuator.name, chain.pose(state)
+                yield Moment(actuator.name, chain.pose(state), (target - joint.lower) / (span or 1.0))
 
 
-def _read(machine: Machine, camera: Camera, sheets: Sequence[Path]) -> Iterator[Frame]:
+def _read(machine: Machine, shot: Shot, sheets: Sequence[Path]) -> Iterator[Frame]:
     """A value's way from its box on the sheet to the cylinder that it is of."""
     known = _from_sheet(machine)
     if known is None or not sheets:
@@ -186,10 +235,10 @@ def _read(machine: Machine, camera: Camera, sheets: Sequence[Path]) -> Iterator[
     place = (SIZE[0] - width - 16, 16)
     start = (place[0] + (x0 + x1) / 2 - left, place[1] + bottom - above)
     pins = [machine.mechanism.joint(name).anchor for name in cylinder.pins or (cylinder.slide,)]
-    end = camera.project(np.array(pins, dtype=np.float64)).mean(axis=0)
+    end = shot.camera.project(np.array(pins, dtype=np.float64)).mean(axis=0)
     for k in range(count := round(_READING * RATE)):
         caption = f"{value.name}: {value.text}     page {evidence.page} of {evidence.file}"
-        yield Frame(Shot(camera), caption, _line(piece, place, start, end, _eased(min(1.0, 2.0 * k / count))))
+        yield Frame(shot, caption, _line(piece, place, start, end, _eased(min(1.0, 2.0 * k / count))))
 
 
 def _from_sheet(machine: Machine) -> tuple[Cylinder, Specification] | None:
@@ -248,40 +297,35 @@ def _finished(frame: Frame, picture: Floats) -> Image:
 
 
 def _drawn(drawn: DrawnTriangles, colors: Any, shots: Sequence[Shot]) -> list[Any]:
-    """Every shot as an array (rows, columns, 3), drawn by several processes."""
-    bare = replace(drawn, colors=colors)
-    count = max(1, min(os.cpu_count() or 1, _MOST))
-    with ThreadPoolExecutor(count) as pool:
-        shares = [list(shots[k::count]) for k in range(count)]
-        asked = [pool.submit(run_guarded, f"{__name__}:draw_shots", bare, share, where="film") for share in shares]
-        done = [share.result() for share in asked]
-    return [done[k % count][k // count] for k in range(len(shots))]
-
-
-def draw_shots(drawn: DrawnTriangles, shots: Sequence[Shot]) -> list[Any]:
-    """Shots of a machine whose triangles have their bodies' colours."""
+    """Every shot as an array (rows, columns, 3), of triangles in their bodies' colours, drawn side by side."""
     middle = 0.5 * (drawn.box[0] + drawn.box[1])
     sums = np.zeros((int(drawn.parts.max()) + 1, 4))
     middles = drawn.points[drawn.triangles].mean(axis=1)
     np.add.at(sums, drawn.parts, np.concatenate([middles, np.ones((len(drawn.parts), 1))], axis=1))
     outwards = (sums[:, :3] / np.maximum(sums[:, 3:], 1.0) - middle).astype(np.float32)
     outwards[:, 2] = np.abs(outwards[:, 2])
-    pictures = []
-    for shot in shots:
-        moved = posed(drawn, shot.poses or {})
+    away = outwards[drawn.parts[drawn.owners]]
+
+    def one(shot: Shot) -> Any:
         if shot.apart:
-            away = outwards[moved.parts[moved.owners]]
-            moved = replace(moved, points=moved.points + np.float32(shot.apart) * away)
+            shown = replace(drawn, points=drawn.points + np.float32(shot.apart) * away)
+        else:
+            shown = posed(drawn, shot.poses) if shot.poses else drawn
         share = np.float32(shot.mix)
-        pictures.append(np.asarray(render(moved, shot.camera, colors=(1 - share) * _GREY + share * drawn.colors)))
-    return pictures
+        return np.asarray(render(shown, shot.camera, colors=(1 - share) * _GREY + share * colors))
+
+    # Built once, before several ask for it.
+    assert drawn.pieces and drawn.bodies
+    with ThreadPoolExecutor(max(1, min(os.cpu_count() or 1, MOST))) as pool:
+        asked = {id(shot): pool.submit(one, shot) for shot in {id(shot): shot for shot in shots}.values()}
+        return [asked[id(shot)].result() for shot in shots]
 
 
 def _write(file: Path, frames: Sequence[Image]) -> None:
     if file.suffix.lower() == ".mp4":
         _encode(file, frames)
         return
-    more: dict[str, Any] = {"quality": 72, "method": 4} if file.suffix.lower() == ".webp" else {"optimize": False}
+    more: dict[str, Any] = {"quality": 64, "method": 4} if file.suffix.lower() == ".webp" else {"optimize": False}
     try:
         frames[0].save(file, save_all=True, append_images=frames[1:], duration=round(1000 / RATE), loop=0, **more)
     except OSError as error:

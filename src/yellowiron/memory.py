@@ -21,7 +21,7 @@ from yellowiron.model.alignment import Alignment
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
-from yellowiron.model.mechanism import Mechanism
+from yellowiron.model.mechanism import Measurement, Mechanism
 from yellowiron.model.specification import Specifications
 from yellowiron.model.sweep import Sweep
 from yellowiron.model.template import Template
@@ -115,32 +115,36 @@ def find_roles(
 
 
 solve = _keeping("mechanisms", stages.solve)
-measure = _keeping("measurements", kinematics.measure)
+
+
+def measure(mechanism: Mechanism) -> tuple[tuple[Measurement, ...], dict[str, dict[str, Floats]]]:
+    """`kinematics.measure_and_pose`, whose libraries are loaded where it is needed."""
+    return kept("measurements", lambda: kinematics.measure_and_pose(mechanism), mechanism)
 
 
 def write(
     mechanism: Mechanism, assembly: Assembly, frame: Floats, folder: Path, *, textures: Sequence[str]
-) -> tuple[Finding, ...]:
-    """Writes the machine into an empty folder and checks it: what the rules found. `textures`: folders in which those
-    that materials name are looked for."""
+) -> tuple[tuple[Finding, ...], dict[str, int]]:
+    """Writes the machine into an empty folder and checks it: what the rules found, and `usd.count_joints`. `textures`:
+    folders in which those that materials name are looked for."""
 
-    def make() -> tuple[dict[str, bytes], tuple[Finding, ...]]:
+    def make() -> tuple[dict[str, bytes], tuple[tuple[Finding, ...], dict[str, int]]]:
         usd.write_machine(
             mechanism, assembly, folder, name=mechanism.name, frame=frame,
             texture_folders=[Path(place) for place in textures],
         )  # fmt: skip
         files = {str(f.relative_to(folder)): f.read_bytes() for f in sorted(folder.rglob("*")) if f.is_file()}
-        return files, checks.check(folder / "scene.usda")
+        return files, (checks.check(folder / "scene.usda"), usd.count_joints(folder / f"{mechanism.name}.usda"))
 
     if any(material.texture for material in mechanism.materials.values()):
         return make()[1]
-    files, findings = kept("machines", make, mechanism, assembly, frame)
+    files, found = kept("machines", make, mechanism, assembly, frame)
     for name, content in files.items():
         place = folder / name
         if not place.exists():
             place.parent.mkdir(parents=True, exist_ok=True)
             place.write_bytes(content)
-    return findings
+    return found
 
 
 def levers(mechanism: Mechanism) -> dict[str, Any]:
@@ -155,19 +159,19 @@ def page(
     mechanism: Mechanism,
     assembly: Assembly,
     alignment: Alignment,
+    poses: Mapping[str, Mapping[str, Floats]],
     sweeps: Mapping[str, tuple[Sweep, ...]],
     sheets: Sequence[Path],
     specifications: Specifications,
 ) -> str:
-    """`report.page`, with its poses and the pages of its sheets."""
+    """`report.page`, with the pages of its sheets."""
 
     def make() -> str:
         with ThreadPoolExecutor(1) as pool:
             pages = pool.submit(specs.page_pictures, sheets, specifications)
-            poses, tables = kinematics.key_poses(mechanism), kinematics.pose_tables(mechanism)
             return report.page(
                 document, mechanism, assembly, alignment,
-                poses=poses, tables=tables, sweeps=sweeps, sheets=pages.result,
+                poses=poses, tables=lambda: kinematics.pose_tables(mechanism), sweeps=sweeps, sheets=pages.result,
             )  # fmt: skip
 
-    return kept("pages", make, document, mechanism, assembly, alignment, sweeps, files=sheets)
+    return kept("pages", make, document, mechanism, assembly, alignment, poses, sweeps, files=sheets)

@@ -122,6 +122,7 @@ def build(
         documents=[Path(d) for d in documents], settings=settings, opinion=opinion,
     )  # fmt: skip
     template, given, choices = inputs.template, inputs.given, inputs.choices
+    own = library.own_template(equipment_type)
     earlier = _earlier(alignment_file, out / "alignment.json")
     by_hand = (earlier, read_joints(earlier)) if earlier is not None else None
     with output_folder(out) as folder:
@@ -153,11 +154,11 @@ def build(
                 alignment = second_opinion(alignment, assembly, template, opinion, progress=progress)
 
         with clock.stage("measure", "Measuring the machine against its sheet"):
-            measurements = memory.measure(mechanism)
+            measurements, poses = memory.measure(mechanism)
 
         with clock.stage("write", "Writing and checking USD"):
             textures = [*data.folders, template.folder]
-            checked = memory.write(mechanism, assembly, alignment.frame, folder, textures=textures)
+            checked, usd_counts = memory.write(mechanism, assembly, alignment.frame, folder, textures=textures)
             written = folder / f"{mechanism.name}.usda"
 
         simulation, sweeps = {}, {}
@@ -173,7 +174,7 @@ def build(
                     *library.lint(chosen).findings, *assembly.findings, *data.findings,
                     *declared_findings(compared, assembly.name), *checked,
                 ),
-                usd_counts=usd.count_joints(written),
+                usd_counts=usd_counts,
                 levers=memory.levers(mechanism),
                 simulation=simulation, declared=compared,
             ))  # fmt: skip
@@ -184,11 +185,11 @@ def build(
             write_alignment(alignment, assembly, folder / "alignment.json")
             if page:
                 text = memory.page(
-                    document, mechanism, assembly, alignment, sweeps, [Path(s) for s in sheets], specifications
+                    document, mechanism, assembly, alignment, poses, sweeps, [Path(s) for s in sheets], specifications
                 )
                 (folder / "report.html").write_text(text, encoding="utf-8")
             report.write_document({
-                "equipment_type": _place(equipment_type) if Path(equipment_type).is_dir() else str(equipment_type),
+                "equipment_type": str(equipment_type) if own is None else _place(own),
                 "cad": _place(cad_file), "specs": [_place(s) for s in sheets], "data": [_place(d) for d in documents],
                 "set": list(settings), "config": config, **({"mirror": True} if mirror else {}),
             }, folder / "inputs.json")  # fmt: skip

@@ -11,6 +11,7 @@ from planar_zbar import direction, length, meet, point, side, turned, wrapped
 from yellowiron.kinematics import ClosedChain, complete, lever_table, measure
 from yellowiron.kinematics.completion import FREQUENCY
 from yellowiron.kinematics.measuring.quantities import wheels
+from yellowiron.kinematics.strength import carried
 from yellowiron.model.mechanism import Actuator, ActuatorJoint, Body, Cylinder, Drive, Joint, Loop, Mechanism, Site
 from yellowiron.model.template import MeasurementTemplate
 
@@ -113,6 +114,19 @@ def test_loops_along_a_chain_are_solved_apart_and_completed():
     ]
     assert seen == pytest.approx(np.quantile(masses, 0.95), rel=0.15)
     assert wheels(done) == ()
+
+
+def test_a_load_is_as_heavy_to_a_drive_as_it_is_fast():
+    """Against the way that the site makes over a little of the coordinate's."""
+    chain, step = ClosedChain(crane()), 1e-4
+    load = Site("hook", "arm", (T[0], 0.0, T[1]))
+    for targets in ({"boom_ram": 0.3, "arm_ram": -0.2}, {"boom_ram": -0.2, "arm_ram": 0.35}):
+        state = chain.solve(targets)
+        for ram in targets:
+            ends = [chain.solve({ram: targets[ram] + way}, start=state) for way in (-step, step)]
+            low, high = ((chain.displacement(end, "arm") @ [*load.position, 1.0])[:3] for end in ends)
+            speed = np.linalg.norm(high - low) / (2.0 * step)
+            assert carried(chain, state, ram, load, 500.0) == pytest.approx(500.0 * speed**2, rel=1e-5)
 
 
 def test_measures_without_wheels():

@@ -62,3 +62,13 @@ def test_an_installed_package_without_the_folder_it_names(
     with pytest.raises(YellowironError, match=r"cannot be (found|loaded)") as caught:
         library.list_templates()
     assert caught.value.where == f"acme (yellowiron.templates: acme = {value})"
+
+
+def test_a_users_own_template_is_told_from_a_type_of_its_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("wheel_loader").mkdir()
+    assert library.own_template("wheel_loader") is None and library.own_template("Wheel Loader") is None
+    assert library.own_template("./wheel_loader") is not None
+    assert library.own_template(tmp_path / "wheel_loader") == tmp_path / "wheel_loader"
+    with pytest.raises(YellowironError):
+        library.own_template("no_such_type")

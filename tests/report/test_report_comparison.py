@@ -51,6 +51,13 @@ def test_what_differs_is_said_once(document: Any) -> None:
     assert "2 joints" in console.file.getvalue()
 
 
+def test_a_rods_speed_is_in_metres_a_second(document: Any) -> None:
+    other = copy.deepcopy(document)
+    other["cylinders"][0]["speed"] = 0.125
+    (found,) = differences(document, other)
+    assert found.name.endswith(" speed") and found.after == "0.125 m/s"
+
+
 def test_joints_that_are_there_but_once_or_turned(document: Any) -> None:
     other = copy.deepcopy(document)
     first = other["joints"].pop(0)

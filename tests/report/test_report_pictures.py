@@ -12,7 +12,8 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from PIL import Image
 
-from yellowiron.report.html.pictures import DrawnTriangles, encode, look_at, render
+from yellowiron.report.html.pictures import DrawnTriangles, encode, look_at, posed, render
+from yellowiron.report.html.rays import blocked, first, piece_of
 
 
 def triangles_of(*meshes: trimesh.Trimesh, colors: list[tuple[float, float, float]]) -> DrawnTriangles:
@@ -75,3 +76,46 @@ def test_what_is_drawn_finer_at_edges_alone_is_as_fine_as_a_picture_twice_the_si
     whole = render(two_boxes, twice, supersample=1).resize((320, 200), Image.Resampling.BOX)
     apart = np.abs(ours - np.asarray(whole, dtype=int)).max(axis=2)
     assert apart.mean() < 0.3 and (apart > 24).mean() < 2e-3
+
+
+def in_spans(drawn: DrawnTriangles) -> DrawnTriangles:
+    """Each of the two boxes is a body."""
+    middle = len(drawn.triangles) // 2
+    return replace(drawn, spans={"left": (0, middle), "right": (middle, 2 * middle)})
+
+
+def test_a_machine_in_a_pose_is_drawn_as_if_it_were_built_there(two_boxes: DrawnTriangles) -> None:
+    turn = trimesh.transformations.euler_matrix(0.3, -0.2, 0.5)
+    turn[:3, 3] = (0.4, -0.7, 1.1)
+    moved = posed(in_spans(two_boxes), {"left": turn})
+    assert len(moved.pieces) == 2
+    camera = look_at(moved.points.astype(np.float64), width=320, height=200)
+    pieces, whole = (np.asarray(render(one, camera), dtype=int) for one in (moved, replace(moved, placed=())))
+    apart = np.abs(pieces - whole).max(axis=2)
+    assert (whole != whole[0, 0]).any()
+    # Rounding may show at an edge.
+    assert (apart > 8).mean() < 1e-3
+
+
+@settings(max_examples=30, deadline=None)
+@given(st.integers(0, 2**32 - 1))
+def test_pieces_are_met_wherever_they_are(seed: int) -> None:
+    """What is left out because it does not come near a piece would not have met it."""
+    random = np.random.default_rng(seed)
+    points = random.normal(size=(60, 3)).astype(np.float32)
+    triangles = np.arange(60, dtype=np.int32).reshape(20, 3)
+    place = trimesh.transformations.random_rotation_matrix(random.random(3))
+    place[:3, 3] = random.normal(size=3)
+    numbers = [np.arange(8, dtype=np.int32), np.arange(8, 20, dtype=np.int32)]
+    pieces = [piece_of(points, triangles, own).at(place) for own in numbers]
+    there = (points @ place[:3, :3].T + place[:3, 3]).astype(np.float32)
+    eye = random.normal(size=3) * random.choice([0.5, 4.0])
+    ways = random.normal(size=(3, 500)).astype(np.float32)
+    ways /= np.linalg.norm(ways, axis=0)
+    ours, theirs = first(pieces, eye, ways), first([piece_of(there, triangles)], eye, ways)
+    assert (ours.triangle != theirs.triangle).mean() < 0.01
+    both = (ours.triangle == theirs.triangle) & (ours.triangle >= 0)
+    assert np.allclose(ours.distance[both], theirs.distance[both], rtol=1e-3)
+    starts = random.normal(size=(3, 500)).astype(np.float32)
+    dark, meant = (blocked(one, starts, ways[:, 0]) for one in (pieces, [piece_of(there, triangles)]))
+    assert (dark != meant).mean() < 0.01

@@ -101,7 +101,7 @@ def made(crawler: tuple[Mechanism, Assembly, Alignment]) -> str:
     template = Template("crawler", "", "undercarriage", (Role("undercarriage", None, True),), ())
     document = report_document(BuildFacts(mechanism, template, alignment, Specifications({})))
     tables = PoseTables(tuple(joint.name for joint in mechanism.joints), ())
-    return page(document, mechanism, assembly, alignment, tables=tables)
+    return page(document, mechanism, assembly, alignment, tables=lambda: tables)
 
 
 @pytest.mark.slow

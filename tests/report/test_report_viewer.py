@@ -140,6 +140,19 @@ def test_the_smallest_parts_are_left_out_of_too_large_a_machine(press: Any, monk
     assert header["leftOut"] == 2
 
 
+def test_a_page_stays_small(press: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    mechanism, assembly, alignment, tables = press
+    whole = viewer(mechanism, assembly, alignment, tables).data
+    monkeypatch.setattr(module, "MOST_BYTES", len(whole) - 40)
+    less = viewer(mechanism, assembly, alignment, tables).data
+    header, _ = unpacked(less)
+    assert len(less) < len(whole) and 0 < header["leftOut"] < 3
+    # One shape is always seen.
+    monkeypatch.setattr(module, "MOST_BYTES", 1)
+    header, _ = unpacked(viewer(mechanism, assembly, alignment, tables).data)
+    assert len(header["parts"]) == 1
+
+
 def test_the_script_closes_no_tag_and_asks_for_nothing(press: Any) -> None:
     made = viewer(*press)
     assert "</" not in made.script and "</" not in made.style

@@ -15,10 +15,11 @@ from yellowiron.kinematics import ClosedChain, State
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Mechanism
-from yellowiron.simulation import rated_payload, simulate, simulation_document
+from yellowiron.simulation import rated_payload, simulate, simulation_document, watch
 from yellowiron.simulation import registry as engines
 from yellowiron.simulation.engine import Base, Readings, Setup
 from yellowiron.simulation.registry import EngineEntry
+from yellowiron.simulation.strokes.watched import watched
 
 
 class Puppet:
@@ -248,3 +249,38 @@ def test_a_sweep_is_kept_to_be_looked_at(usd_file: Path, mechanism: Mechanism, p
         stroke = float(relative[:3, 3] @ np.asarray(joint.axis))
         solved = chain.pose(chain.solve({joint.name: stroke}))
         assert np.abs(snapshot.poses["boom"] - solved["boom"]).max() < 1e-6
+
+
+def test_work_to_be_looked_at_is_the_engines(usd_file: Path, mechanism: Mechanism) -> None:
+    """Moments of each way, down, up and back, where the kinematics has them at MuJoCo's strokes."""
+    shares = (0.25, 0.5, 1.0)
+    (name,) = (a.name for a in mechanism.actuators if a.kind == "cylinder")
+    seen = watch(usd_file, engine="mujoco", actuators=[name], shares=shares)[name]
+    assert len(seen) == 9 and [s.time for s in seen] == sorted({s.time for s in seen})
+    slide = mechanism.joint(mechanism.actuators[[a.name for a in mechanism.actuators].index(name)].joints[0].joint)
+    assert slide.lower is not None and slide.upper is not None
+    drawn = -slide.lower / (slide.upper - slide.lower)
+    down, up, back = ([s.share for s in seen[k : k + 3]] for k in (0, 3, 6))
+    # Of the way, less what the machine lags behind its targets.
+    assert down == pytest.approx([drawn + (0.02 - drawn) * s for s in shares], abs=0.03)
+    assert up == pytest.approx([0.02 + 0.96 * s for s in shares], abs=0.03)
+    assert back == pytest.approx([0.98 + (drawn - 0.98) * s for s in shares], abs=0.03)
+    chain = ClosedChain(mechanism)
+    for snapshot in seen:
+        assert snapshot.share is not None
+        at = slide.lower + snapshot.share * (slide.upper - slide.lower)
+        poses = chain.pose(chain.solve({slide.name: at}))
+        for body, pose in snapshot.poses.items():
+            assert np.abs(pose - poses[body]).max() < 1e-4, body
+
+
+def test_work_that_breaks_down_is_an_error(usd_file: Path, puppet: Callable[..., None]) -> None:
+    def burst(count: int, coordinates: Floats, rotations: Floats, origins: Floats) -> None:
+        if count > 150:
+            origins[:] = np.nan
+
+    puppet(burst)
+    with pytest.raises(YellowironError, match="breaks down in motion"):
+        watched(usd_file, "puppet", ["boom"], (0.5, 1.0))
+    puppet()
+    assert len(watched(usd_file, "puppet", ["boom"], (0.5, 1.0))["boom"]) == 6

@@ -217,6 +217,11 @@ def test_parts_nobody_asks_about_are_found_by_keys(page: tuple[Any, list[str]]) 
     opened.keyboard.press("Shift+N")
     opened.keyboard.press("Shift+N")
     assert selected() == [paths[4]]
+    # One more beside it.
+    opened.keyboard.press("s")
+    opened.keyboard.type(paths[9])
+    opened.keyboard.press("Alt+Enter")
+    assert selected() == [paths[4], paths[9]]
     # What is listed for an assembly is all that is in it.
     assembly = paths[5].split("/")[0]
     opened.keyboard.press("s")
@@ -226,10 +231,108 @@ def test_parts_nobody_asks_about_are_found_by_keys(page: tuple[Any, list[str]]) 
     assert len(selected()) > 1
     opened.keyboard.press("s")
     opened.keyboard.type("no such part")
-    assert "No part of that name" in opened.locator("#found").inner_text()
+    assert "No part or joint of that name" in opened.locator("#found").inner_text()
     opened.keyboard.press("Escape")
     opened.keyboard.press("Escape")
     assert selected() == []
+    assert errors == []
+
+
+def test_the_other_keys_do_what_they_say(page: tuple[Any, list[str]], session: Session) -> None:
+    """M, I, F, X, a number, B: with a part selected, and with a value asked."""
+    opened, errors = page
+
+    def solved() -> None:
+        until(lambda: bool(opened.evaluate("yellowiron.state.solved === yellowiron.state.said && !yellowiron.waiting")))
+
+    hidden = "yellowiron.viewer.model.parts.filter(p => p.hidden).length"
+    part = next(p.part for p in session.settled(60).aligned.parts if p.role == "bucket")
+    opened.keyboard.press("Escape")
+    # The question that is asked, and the row that Enter takes, are seen.
+    assert opened.locator("#queue [aria-current=true]").count() == 1
+    opened.keyboard.press("s")
+    opened.keyboard.type(part)
+    assert opened.locator("#found [aria-selected=true]").inner_text() == part
+    opened.keyboard.press("Enter")
+    opened.keyboard.press("m")
+    assert opened.evaluate("yellowiron.mirror")
+    assert opened.locator("button[aria-pressed=true]", has_text="other side").count() == 1
+    opened.keyboard.press("m")
+    assert not opened.evaluate("yellowiron.mirror")
+    before = opened.evaluate(hidden)
+    opened.keyboard.press("i")
+    assert opened.evaluate(hidden) == opened.evaluate("yellowiron.viewer.model.parts.length") - 1
+    opened.keyboard.press("i")
+    assert opened.evaluate(hidden) == before
+    opened.evaluate("yellowiron.viewer.reset()")
+    far = opened.evaluate("JSON.stringify(yellowiron.viewer.camera)")
+    opened.keyboard.press("f")
+    until(lambda: opened.evaluate("JSON.stringify(yellowiron.viewer.camera)") != far)
+    opened.keyboard.press("x")
+    solved()
+    assert {p.part: p.role for p in session.settled(60).aligned.parts}[part] is None
+    opened.keyboard.press("u")
+    solved()
+    assert {p.part: p.role for p in session.settled(60).aligned.parts}[part] == "bucket"
+    name = opened.locator("#card h2").inner_text().removesuffix("?")
+    assert session.state.specifications.number(name) is None
+    opened.keyboard.press("1")
+    solved()
+    assert session.settled(60).specifications.number(name) is not None
+    opened.keyboard.press("u")
+    solved()
+    begun: list[str] = []
+
+    def answer(route: Any) -> None:
+        begun.append(route.request.url)
+        route.fulfill(json=opened_state)
+
+    opened_state = opened.evaluate("yellowiron.state")
+    opened.route("**/build", answer)
+    opened.keyboard.press("b")
+    until(lambda: bool(begun) and opened.locator("#building").is_visible())
+    opened.unroute("**/build")
+    opened.keyboard.press("Escape")
+    assert errors == []
+
+
+def test_what_is_being_written_stays(page: tuple[Any, list[str]]) -> None:
+    """A state that comes while a person writes a value does not take the field away."""
+    opened, errors = page
+    opened.keyboard.press("Escape")
+    field = opened.locator("#card input")
+    field.fill("73")
+    opened.evaluate("yellowiron.load()")
+    opened.evaluate("yellowiron.show()")
+    opened.keyboard.type("5 mm")
+    assert field.input_value() == "735 mm"
+    opened.keyboard.press("Escape")
+    opened.evaluate("yellowiron.show()")
+    assert field.input_value() == ""
+    assert errors == []
+
+
+def test_joints_are_chosen_by_keys(page: tuple[Any, list[str]], session: Session) -> None:
+    """By name, and by a mark in the picture that has the focus: its Enter is no answer to what is asked."""
+    opened, errors = page
+    joint = opened.evaluate("yellowiron.state.joints[3]")
+    said = session.said
+    opened.keyboard.press("Escape")
+    opened.keyboard.press("s")
+    opened.keyboard.type(joint["title"])
+    opened.keyboard.press("Enter")
+    assert opened.evaluate("yellowiron.picked") == joint["name"]
+    assert opened.locator("#card h2").inner_text() == joint["title"]
+    opened.keyboard.press("Escape")
+    assert opened.evaluate("yellowiron.picked") is None
+    opened.evaluate("(yellowiron.viewer.showJoints = true, yellowiron.viewer.draw(1))")
+    mark = opened.locator(f"g.v-joint[aria-label*=' {joint['name']} ']")
+    mark.focus()
+    opened.keyboard.press("Enter")
+    assert opened.evaluate("yellowiron.picked") == joint["name"]
+    opened.evaluate("(yellowiron.viewer.showJoints = false, yellowiron.viewer.draw(1))")
+    opened.keyboard.press("Escape")
+    assert session.said == said
     assert errors == []
 
 

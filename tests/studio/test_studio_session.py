@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import threading
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -15,6 +16,7 @@ from yellowiron.model.errors import YellowironError
 from yellowiron.opinion.doubts import boxes_of
 from yellowiron.pipeline import build
 from yellowiron.studio import Session, Setup, read_setup
+from yellowiron.studio import session as studio_session
 from yellowiron.studio.joints import joints_of
 from yellowiron.studio.operations import words
 from yellowiron.studio.questions import in_words, questions
@@ -177,21 +179,45 @@ def test_a_joint_by_hand_is_kept_taken_back_and_built(open_studio: Callable[[], 
 
 
 @pytest.mark.slow
+def test_the_machine_is_there_before_it_is_measured(
+    open_studio: Callable[[], Session], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    session = open_studio()
+    first = session.measured(60.0)
+    assert first.document["measurements"] and first.poses
+    part = next(p.part for p in first.aligned.parts if p.role == "boom")
+    may, measure = threading.Event(), studio_session.measured_of
+    monkeypatch.setattr(studio_session, "measured_of", lambda mechanism: (may.wait(60.0), measure(mechanism))[1])
+    # What says that something is right leaves the machine as it was measured.
+    session.do(session.read({"kind": "confirm", "parts": {part: "boom"}}))
+    same = session.settled(60.0)
+    assert same.measured and same.document["measurements"] == first.document["measurements"]
+    session.do(session.read({"kind": "value", "name": "Lift Cylinder Stroke", "text": "700 mm"}))
+    shown = session.settled(60.0)
+    assert shown.solved is not None and not shown.measured and shown.document["measurements"] == []
+    may.set()
+    known = session.measured(60.0)
+    assert known.version > shown.version and known.solved is shown.solved
+    assert known.document["measurements"] and known.poses
+
+
+@pytest.mark.slow
 def test_a_state_that_cannot_be_made_ends_nothing(
     open_studio: Callable[[], Session], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from yellowiron import kinematics
-
     session = open_studio()
     part = next(p.part for p in session.state.aligned.parts if p.role == "boom")
 
-    def broken(mechanism: object) -> None:
+    def broken(*_: object) -> None:
         raise ZeroDivisionError("nobody foresaw this")
 
-    with monkeypatch.context() as patched:
-        patched.setattr(kinematics, "measure", broken)
-        session.do(session.read({"kind": "confirm", "parts": {part: "boom"}}))
-        assert "nobody foresaw this" in session.settled(60.0).failed
+    for place in ("yellowiron.studio.session.solve", "yellowiron.studio.session.measured_of"):
+        with monkeypatch.context() as patched:
+            patched.setattr(place, broken)
+            session.do(session.read({"kind": "role", "parts": {part: "front_frame"}}))
+            assert "nobody foresaw this" in session.measured(60.0).failed
+        session.undo()
+        assert session.measured(60.0).failed == ""
     session.do(session.read({"kind": "confirm", "parts": {part: "boom"}}))
     assert session.settled(60.0).failed == ""
     assert {p.part: p.source for p in session.state.aligned.parts}[part] == "confirmed"
@@ -239,3 +265,14 @@ def test_values_as_a_person_writes_them() -> None:
     assert in_words(0.7853981633974483, "rad") == "45 deg"
     assert in_words(3.5e7, "Pa") == "35 MPa"
     assert in_words(0.5, "1") == "0.5"
+
+
+@pytest.mark.slow
+def test_a_folder_that_has_a_types_name_is_not_taken_for_a_template(
+    cad_read_once: None, no_pages: None, example: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Machines are often built into a folder of their type's name."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "wheel_loader").mkdir()
+    build("wheel_loader", example / "wheel_loader.step", "out")
+    assert read_setup(Path("out")).equipment_type == "wheel_loader"

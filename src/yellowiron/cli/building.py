@@ -62,6 +62,7 @@ def build(
         from yellowiron.simulation import installed_engines
 
         engines = installed_engines()
+    from yellowiron import library
     from yellowiron.inputs import checked_inputs
     from yellowiron.report import build_summary
 
@@ -80,13 +81,8 @@ def build(
         return 1 if reasons else 0
 
     kept = alignment or out / "alignment.json"
-    inputs = [
-        cad,
-        *(specs or ()),
-        *(data or ()),
-        kept,
-        *([Path(equipment_type)] if Path(equipment_type).is_dir() else ()),
-    ]
+    own = library.own_template(equipment_type) if watch else None
+    inputs = [cad, *(specs or ()), *(data or ()), kept, *([own] if own is not None else ())]
     raise typer.Exit(_watched(once, inputs, kept) if watch else once())
 
 

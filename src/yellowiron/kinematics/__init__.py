@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from yellowiron.kinematics.levers import lever_table
     from yellowiron.kinematics.measuring.axis_placement import OpenAxis, PlacedAxes, place_axes
     from yellowiron.kinematics.measuring.calibration import calibrate
-    from yellowiron.kinematics.measuring.measurement import key_poses, measure
+    from yellowiron.kinematics.measuring.measurement import key_poses, measure, measure_and_pose
     from yellowiron.kinematics.poses import pose_tables
     from yellowiron.kinematics.solver.branches import branch_pivots, branch_sine
     from yellowiron.kinematics.solver.chain import ClosedChain, KinematicsError, State
@@ -63,6 +63,7 @@ __all__ = [
     "legal_start",
     "lever_table",
     "measure",
+    "measure_and_pose",
     "place_axes",
     "pose_tables",
     "started",
@@ -88,6 +89,7 @@ __getattr__, __dir__ = lazy_names(
         "legal_start": "start",
         "lever_table": "levers",
         "measure": "measuring.measurement",
+        "measure_and_pose": "measuring.measurement",
         "place_axes": "measuring.axis_placement",
         "pose_tables": "poses",
         "started": "start",

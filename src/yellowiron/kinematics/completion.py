@@ -276,11 +276,8 @@ def _branches(mechanism: Mechanism, grids: list[PoseGrid], placed: list[tuple[Fl
 
 
 def _gains(mechanism: Mechanism, grids: list[PoseGrid], work: _Work, *, ringed: bool) -> None:
-    masses = _seen_masses(work.chain, grids)
-    laden: dict[str, float] = {}
-    if (load := rated_load(mechanism)) is not None:
-        seen = _seen_masses(work.chain, grids, load)
-        laden = {name: mass for name, mass in seen.items() if mass > MOSTLY_LOAD * masses[name]}
+    masses, loaded = _seen_masses(work.chain, grids, rated_load(mechanism))
+    laden = {name: mass for name, mass in loaded.items() if mass > MOSTLY_LOAD * masses[name]}
     for joint in mechanism.joints:
         drive = work.joints[joint.name].drive
         if drive is None or joint.name not in work.chain.independent:
@@ -364,20 +361,28 @@ def _velocity_gain(drive: Drive, joint: Joint, work: _Work, ringed: bool) -> Dri
     )
 
 
-def _seen_masses(chain: ClosedChain, grids: list[PoseGrid], load: tuple[Site, float] | None = None) -> dict[str, float]:
+def _seen_masses(
+    chain: ClosedChain, grids: list[PoseGrid], load: tuple[Site, float] | None
+) -> tuple[dict[str, float], dict[str, float]]:
     """Driver → the mass it sees in all but the rarest poses of its own component and of the others (a steering cylinder
     turns a raised or outstretched boom too). The rarest are left out: at full lock a short lever makes it ten times the
-    usual mass, and gains for that saturate and buzz everywhere else. `load`: a mass (kg) at a site, counted too."""
+    usual mass, and gains for that saturate and buzz everywhere else. Then the same with a `load`, a mass (kg) at a
+    site; nothing without one."""
     seen: dict[str, list[float]] = {}
+    laden: dict[str, list[float]] = {}
     for component, grid in zip(chain.components(), grids, strict=True):
         others = [pose for other in grids if other is not grid for pose in _spread(other.states, _OTHERS)]
         for state in _spread(grid.states, _OWN) if others else grid.states:
             for pose in [chain.combined(state, component, other) for other in others] or [state]:
                 for name in grid.drivers:
                     mass = chain.effective_mass(pose, name)
-                    mass += carried(chain, pose, name, *load) if load is not None else 0.0
                     seen.setdefault(name, []).append(mass)
-    return {name: float(np.quantile(masses, _USUAL)) for name, masses in seen.items()}
+                    if load is not None:
+                        laden.setdefault(name, []).append(mass + carried(chain, pose, name, *load))
+    empty, full = (
+        {name: float(np.quantile(masses, _USUAL)) for name, masses in each.items()} for each in (seen, laden)
+    )
+    return empty, full
 
 
 def _spread(states: Sequence[State], most: int) -> Sequence[State]:

@@ -55,12 +55,12 @@ def rated_load(mechanism: Mechanism) -> tuple[Site, float] | None:
 
 
 def carried(chain: ClosedChain, state: State, joint: str, site: Site, mass: float) -> float:
-    """What a mass (kg) at a site adds to the mass (kg, kg·m²) that a joint's drive sees; 0 where the linkage locks."""
-    ends, apart = beside(chain, state, joint)
-    if not apart > 0.0:
+    """What a mass (kg) at a site adds to the mass (kg, kg·m²) that a joint's drive sees; 0 at a dead point."""
+    try:
+        velocity = chain.point_velocity(state, joint, site.body, np.array(site.position))
+    except np.linalg.LinAlgError:
         return 0.0
-    at = [chain.displacement(end, site.body) @ np.array([*site.position, 1.0]) for end in ends]
-    return float(mass * np.sum(((at[1] - at[0])[:3] / apart) ** 2))
+    return float(mass * velocity @ velocity)
 
 
 def strong_enough(chain: ClosedChain, grids: list[PoseGrid], joints: dict[str, Joint]) -> tuple[Finding, ...]:

@@ -18,7 +18,7 @@ from yellowiron.library.notation.validated_json import template_schema
 from yellowiron.library.proposal.likeness import Likeness, likeness
 from yellowiron.library.proposal.propose import propose
 from yellowiron.library.show import tree
-from yellowiron.library.type_folders import is_sheet_only, list_templates
+from yellowiron.library.type_folders import is_sheet_only, list_templates, own_template
 from yellowiron.library.user_documents import (
     Documents,
     apply_joints,
@@ -44,6 +44,7 @@ __all__ = [
     "list_templates",
     "load_documents",
     "load_template",
+    "own_template",
     "propose",
     "template_schema",
     "tree",

@@ -96,6 +96,13 @@ def find_template(type_or_folder: str | Path) -> Path:
     )
 
 
+def own_template(type_or_folder: str | Path) -> Path | None:
+    """The user's own template folder (or lone joint template) that is meant; None where it is an installed type, even
+    if something here has its name. `TemplateError` as in `find_template`."""
+    found = find_template(type_or_folder)
+    return None if found in type_folders().values() else found
+
+
 def documents_in(folder: Path) -> dict[str, Path]:
     """The folder's documents by kind. A lone file that is named otherwise is its joint template."""
     files = sorted(p for p in folder.iterdir() if p.is_file() and p.suffix.lower() == ".json")

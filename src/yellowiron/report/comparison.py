@@ -67,7 +67,10 @@ def _measured(document: Mapping[str, Any]) -> dict[str, str]:
 
 def _cylinders(document: Mapping[str, Any]) -> dict[str, str]:
     return {
-        f"{cylinder['name']} {key.replace('_', ' ')}": shown(cylinder[key], unit)
+        # Nobody reads a rod's speed in km/h.
+        f"{cylinder['name']} {key.replace('_', ' ')}": (
+            f"{cylinder[key]:.4g} m/s" if unit == "m/s" else shown(cylinder[key], unit)
+        )
         for cylinder in document["cylinders"]
         for key, unit in _CYLINDER.items()
         if cylinder[key] is not None

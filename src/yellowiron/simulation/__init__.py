@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     from yellowiron.simulation.registry import ENGINES, installed_engines
     from yellowiron.simulation.strokes.result import SimulationResult, simulation_document
     from yellowiron.simulation.strokes.run import simulate
-    from yellowiron.simulation.suite import examine
+    from yellowiron.simulation.suite import examine, watch
 
 __all__ = [
     "ENGINES",
@@ -59,6 +59,7 @@ __all__ = [
     "run_tests",
     "simulate",
     "simulation_document",
+    "watch",
 ]
 
 __getattr__, __dir__ = lazy_names(
@@ -80,5 +81,6 @@ __getattr__, __dir__ = lazy_names(
         "run_tests": "machine_tests.hydraulics",
         "simulate": "strokes.run",
         "simulation_document": "strokes.result",
+        "watch": "suite",
     },
 )

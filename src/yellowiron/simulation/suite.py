@@ -12,7 +12,7 @@ from typing import Any, Literal
 from yellowiron import usd
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.finding import Finding
-from yellowiron.model.sweep import Sweep
+from yellowiron.model.sweep import Snapshot, Sweep
 from yellowiron.simulation.driving.result import driving_document, driving_findings
 from yellowiron.simulation.driving.wheel import driven_wheels
 from yellowiron.simulation.driving.wheeled import drive
@@ -50,9 +50,30 @@ def examine(
     """
     if dt is not None:
         check_timestep(dt)
-    made: tuple[dict[str, Any], tuple[Sweep, ...]] = run_guarded(
-        "yellowiron.simulation.suite:examined",
-        usd_path, engine, test, base, payload, dt,
+    made: tuple[dict[str, Any], tuple[Sweep, ...]] = _apart(
+        "suite:examined", engine, usd_path, engine, test, base, payload, dt, progress=progress
+    )
+    return made
+
+
+def watch(
+    usd_path: str | Path,
+    *,
+    engine: str,
+    actuators: Sequence[str],
+    shares: Sequence[float],
+    progress: Callable[[str], None] = lambda words: None,
+) -> dict[str, tuple[Snapshot, ...]]:
+    """`strokes.watched.watched`, as `examine`: in a child process."""
+    made: dict[str, tuple[Snapshot, ...]] = _apart(
+        "strokes.watched:watched", engine, usd_path, engine, list(actuators), list(shares), progress=progress
+    )
+    return made
+
+
+def _apart(target: str, engine: str, usd_path: str | Path, *args: Any, progress: Callable[[str], None]) -> Any:
+    return run_guarded(
+        f"yellowiron.simulation.{target}", usd_path, *args,
         where=str(usd_path),
         timeout_s=patience(),
         memory_mb=None,  # engines reserve address space that they never use: PhysX 3.8 GB for 0.4
@@ -63,7 +84,6 @@ def examine(
         ),
         progress=progress,
     )  # fmt: skip
-    return made
 
 
 def patience() -> float:

@@ -163,6 +163,7 @@ def _of_machine(name: str, state: State) -> tuple[list[Candidate], tuple[str, ..
         if np.isfinite(cylinder.stroke) and cylinder.stroke > 0.0:
             text = in_words(cylinder.stroke, "m")
             source = cylinder.sources.get("stroke", "").replace("geometry: ", "in the CAD model, ")
+            source = source.removesuffix(f", {text}")
             found.setdefault(text, Candidate(text, f"{text}: {source}" if source else text))
         if np.isfinite(cylinder.drawn_length):
             known.append(f"{titled(cylinder.name)}: pins {1e3 * cylinder.drawn_length:.0f} mm apart as drawn.")

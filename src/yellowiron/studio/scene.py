@@ -60,9 +60,7 @@ class Scene:
     def _mechanism(self, state: State, binary: Binary) -> dict[str, Any]:
         if state.solved is not None:
             mechanism = state.solved.mechanism
-            return machine_entry(
-                mechanism, kinematics.pose_tables(mechanism), binary, poses=kinematics.key_poses(mechanism)
-            )
+            return machine_entry(mechanism, kinematics.pose_tables(mechanism), binary, poses=state.poses)
         bodies = sorted({a.body for a in state.alignment.parts if a.body})
         hues = np.linspace(0.0, 2.0 * np.pi, len(bodies), endpoint=False)
         shades = [[int(150 + 80 * np.cos(h + k)) for k in (0.0, 2.1, 4.2)] for h in hues]

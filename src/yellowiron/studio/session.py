@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from yellowiron import kinematics, library, memory, report, specs
+from yellowiron import library, memory, report, specs
 from yellowiron.alignment import decide, read_alignment, write_alignment
 from yellowiron.inputs import checked_inputs
 from yellowiron.model.alignment import (
@@ -21,6 +21,8 @@ from yellowiron.model.alignment import (
 )
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import MechanismError
+from yellowiron.model.geometry import Floats
+from yellowiron.model.mechanism import Measurement, Mechanism
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import Template, choose
 from yellowiron.stages import Solved, roles_of, solve
@@ -28,6 +30,8 @@ from yellowiron.studio.journal import FILE, Journal
 from yellowiron.studio.operations import SIGNED, Operation, from_entry
 from yellowiron.studio.setup import Setup
 from yellowiron.studio.twins import twins_of
+from yellowiron.support.caching.content import content_of
+from yellowiron.support.guard import run_guarded
 from yellowiron.support.output import output_file, output_folder
 
 _IDLE = 2.0
@@ -36,12 +40,17 @@ _OWN = ("edited", "confirmed")
 """Sources of a part's own decision; a pattern's and a document's are not the studio's to change."""
 
 
+Measured = tuple[tuple[Measurement, ...], Mapping[str, Mapping[str, Floats]]]
+"""What `kinematics.measure_and_pose` finds."""
+
+
 @dataclass(frozen=True, eq=False)
 class State:
     """What the decisions so far come to. `version` counts states, `said` the decisions that it knows of; `aligned` is
     the alignment as it is kept, of `aligned_model`, before the sheet moves an axis or the machine is started; `solved`
-    is None where no mechanism can be made of it, and `failed` says why; `document` is the report's, empty without a
-    mechanism."""
+    is None where no mechanism can be made of it, and `failed` says why; `document` is the report's, of `facts`, and
+    `poses` are those that measurements take (`kinematics.key_poses`); they are empty without a mechanism, and lack what
+    is measured until `measured`, which may take seconds: the machine is shown before."""
 
     version: int
     said: int
@@ -54,6 +63,17 @@ class State:
     solved: Solved | None = None
     failed: str = ""
     document: Mapping[str, Any] = field(default_factory=dict)
+    poses: Mapping[str, Mapping[str, Floats]] = field(default_factory=dict)
+    facts: report.BuildFacts | None = None
+    measured: bool = True
+
+    def with_measured(self, measured: Measured, *, version: int) -> State:
+        """The state with what was measured of its mechanism."""
+        if self.facts is None:
+            return self
+        facts = replace(self.facts, measurements=measured[0])
+        document = report.report_document(facts)
+        return replace(self, version=version, document=document, poses=measured[1], facts=facts, measured=True)
 
 
 class Session:
@@ -78,6 +98,7 @@ class Session:
         self._version = self._said = 0
         self._closed = False
         self._fixed: Mapping[str, str] = {}
+        self._known: tuple[bytes, Measured] | None = None
         self._file = setup.out / "alignment.json"
         earlier = self._file if self._file.exists() else None
         inputs = checked_inputs(
@@ -113,8 +134,8 @@ class Session:
         if not self._continues():
             self._journal.begin(_snapshot(_own(self._edits), self._edits.values, self._edits.joints))
         self.state = self._solved({})
-        self._worker = threading.Thread(target=self._work, daemon=True)
-        self._worker.start()
+        for work in (self._work, self._measure):
+            threading.Thread(target=work, daemon=True).start()
 
     @property
     def template(self) -> Template:
@@ -157,6 +178,12 @@ class Session:
         """The state that knows all that was said, when it is there, or after `timeout` seconds the last one."""
         with self._heard:
             self._heard.wait_for(lambda: self.state.said == self._said, timeout)
+            return self.state
+
+    def measured(self, timeout: float | None = None) -> State:
+        """`settled`, when it is measured too."""
+        with self._heard:
+            self._heard.wait_for(lambda: self.state.said == self._said and self.state.measured, timeout)
             return self.state
 
     def close(self) -> None:
@@ -222,9 +249,35 @@ class Session:
         try:
             return self._solved(fixed)
         except Exception as error:  # noqa: BLE001 - one state that cannot be made must not end the studio
-            self._version += 1
             failed = f"The machine of these decisions cannot be made ({type(error).__name__}: {error})"
-            return replace(self.state, version=self._version, said=said, failed=failed)
+            return replace(self.state, version=self._next(), said=said, failed=failed)
+
+    def _next(self) -> int:
+        with self._heard:
+            self._version += 1
+            return self._version
+
+    def _measure(self) -> None:
+        """Measures the machine of the last state, as long as the session is open."""
+        while True:
+            with self._heard:
+                self._heard.wait_for(lambda: self._closed or not self.state.measured)
+                if self._closed:
+                    return
+                state = self.state
+            assert state.solved is not None
+            try:
+                found = measured_of(state.solved.mechanism)
+                done = state.with_measured(found, version=self._next())
+                known: tuple[bytes, Measured] | None = (content_of(state.solved.mechanism), found)
+            except Exception as error:  # noqa: BLE001 - as of a state
+                failed = f"This machine cannot be measured ({type(error).__name__}: {error})"
+                done, known = replace(state, version=self._next(), failed=failed, measured=True), self._known
+            with self._heard:
+                self._known = known
+                if self.state is state:
+                    self.state = done
+                    self._heard.notify_all()
 
     def _solved(self, fixed: Mapping[str, str]) -> State:
         """What the decisions come to, the variants in `fixed` as they were but for those that a person's role needs."""
@@ -246,21 +299,24 @@ class Session:
         alignment = alignment.suggested({part: asked[part] for part in alignment.to_review if part in asked})
         self._fixed = dict(alignment.choices)
         chosen = choose(template, {**alignment.choices, **choices})
-        self._version += 1
-        bare = State(self._version, said, chosen, self.assembly, alignment, specifications, alignment, self.assembly)
+        bare = State(self._next(), said, chosen, self.assembly, alignment, specifications, alignment, self.assembly)
         try:
             solved = solve(template, self.assembly, alignment, specifications, data, choices)
         except MechanismError as error:
             return replace(bare, failed=str(error))
-        document = report.report_document(report.BuildFacts(
+        facts = report.BuildFacts(
             solved.mechanism, solved.template, solved.alignment, solved.specifications,
-            kinematics.measure(solved.mechanism),
             findings=(*self.assembly.findings, *data.findings), declared=solved.compared,
-        ))  # fmt: skip
-        return replace(
-            bare, template=solved.template, assembly=solved.assembly, alignment=solved.alignment,
-            specifications=solved.specifications, solved=solved, document=document,
         )  # fmt: skip
+        state = replace(
+            bare, template=solved.template, assembly=solved.assembly, alignment=solved.alignment,
+            specifications=solved.specifications, solved=solved, document=report.report_document(facts), facts=facts,
+            measured=False,
+        )  # fmt: skip
+        # Most decisions say that something is right, and leave the machine as it is.
+        known = self._known
+        same = known is not None and known[0] == content_of(solved.mechanism)
+        return state.with_measured(known[1], version=state.version) if known is not None and same else state
 
     def _documents(self, joints: Mapping[str, Mapping[str, object]]) -> tuple[library.Documents, Template]:
         """The user's documents and what is said of joints here, with the template that they make. `YellowironError` for
@@ -282,6 +338,12 @@ class Session:
         behind = not self._file.exists() or self._file.stat().st_mtime_ns < self._journal.written_ns
         known = self._journal.passed if behind else [self._journal.in_force]
         return any(_snapshot(*_after(base, operations)) == now for operations in known)
+
+
+def measured_of(mechanism: Mechanism) -> Measured:
+    """`memory.measure` in a process of its own, so that what is decided meanwhile does not wait for it."""
+    found: Measured = run_guarded("yellowiron.memory:measure", mechanism, where=mechanism.name)
+    return found
 
 
 def _other_side(role: object, template: Template) -> object:

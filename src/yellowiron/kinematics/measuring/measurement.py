@@ -44,10 +44,16 @@ def calibrating(mechanism: Mechanism) -> frozenset[str]:
     return frozenset(names)
 
 
-def key_poses(mechanism: Mechanism, *, count: int = _POSES) -> dict[str, dict[str, Floats]]:
+def measure_and_pose(mechanism: Mechanism) -> tuple[tuple[Measurement, ...], dict[str, dict[str, Floats]]]:
+    """`measure` and `key_poses`, whose poses are the same: found once."""
+    bench = Bench(mechanism)
+    return measure(mechanism, bench=bench), key_poses(mechanism, bench=bench)
+
+
+def key_poses(mechanism: Mechanism, *, count: int = _POSES, bench: Bench | None = None) -> dict[str, dict[str, Floats]]:
     """Caption → body → (4, 4) displacement from the drawn pose: of the poses that the measurements take, those that
     differ most; the caption is the first measurement made there."""
-    bench = Bench(mechanism)
+    bench = bench if bench is not None else Bench(mechanism)
     found: list[tuple[str, State, Floats]] = []
     for template in mechanism.measurements:
         try:

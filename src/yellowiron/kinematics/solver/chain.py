@@ -437,6 +437,15 @@ class ClosedChain:
         mujoco.mj_mulM(self._model, self._data, momentum, velocity)
         return float(velocity @ momentum)
 
+    def point_velocity(self, state: State, joint: str, body: str, point: Floats) -> Floats:
+        """Velocity (3,) of a body's point (drawn machine coordinates) per unit velocity of an independent coordinate,
+        the others and the root held."""
+        velocity = self.tangent(state, joint)
+        jacobian = np.zeros((3, self._model.nv))
+        there = self._displacement(body) @ np.append(point, 1.0)
+        mujoco.mj_jac(self._model, self._data, jacobian, None, there[:3], self._body.bodies[body])
+        return np.asarray(jacobian @ velocity)
+
     def raised_mass(self, state: State, joint: str) -> float:
         """How fast the bodies' mass rises per unit velocity of an independent coordinate, the root held upright:
         Σ m·dz, kg·m per metre or radian. Times gravity, it is the force that holds the weight."""

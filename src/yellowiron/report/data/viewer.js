@@ -19,6 +19,8 @@ function element(tag, attributes = {}, ...children) {
   const made = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) {
     if (name.startsWith("on")) made.addEventListener(name.slice(2), value);
+    // What a role says is "true" or "false"; other attributes are there or not.
+    else if (name.startsWith("aria-") && value != null) made.setAttribute(name, String(value));
     else if (value !== false && value != null) made.setAttribute(name, value === true ? "" : value);
   }
   made.append(...children.filter((child) => child != null));
@@ -52,12 +54,14 @@ function boxOf(points) {
 }
 
 class Viewer {
-  /** `pages` are more tabs of the panel, `[name, element]`; `onchoose(number, event)` takes the place of the card. */
-  constructor(root, model, { pages = [], onchoose = null } = {}) {
+  /** `pages` are more tabs of the panel, `[name, element]`; `onchoose(number, event)` takes the place of the card,
+   * `onjoint(name)` hears of a joint whose mark is clicked or entered. */
+  constructor(root, model, { pages = [], onchoose = null, onjoint = null } = {}) {
     this.root = root;
     this.model = model;
     this.pages = pages;
     this.onchoose = onchoose;
+    this.onjoint = onjoint;
     this.lit = null;
     this.given = {};
     this.byBody = false;
@@ -685,8 +689,9 @@ class Viewer {
   }
 
   /** A group that tells what it is under the pointer, when clicked, and when it has the focus: `at` says where, and
-   * `told` what; `shapes` are its children, by name. */
-  #mark(key, kind, shapes, at, told) {
+   * `told` what; `shapes` are its children, by name. With the name of a `joint` it also chooses that, where a page has
+   * something to say of joints (`onjoint`). */
+  #mark(key, kind, shapes, at, told, joint = null) {
     const mark = this.kept.get(key) ?? { shapes: shapes(), group: svg("g", { class: kind, tabindex: 0, role: "img" }) };
     if (!mark.group.parentNode) {
       const tell = () => this.#tell(mark.told(), ...mark.at);
@@ -694,13 +699,15 @@ class Viewer {
       for (const event of ["pointerenter", "click", "focus"]) mark.group.addEventListener(event, tell);
       for (const event of ["pointerleave", "blur"]) mark.group.addEventListener(event, hush);
       mark.group.addEventListener("keydown", (event) => {
-        if (event.key === "Enter" || event.key === " ") (event.preventDefault(), tell());
+        // Such a key is the mark's alone, no answer to a page's question.
+        if (event.key === "Enter" || event.key === " ") (event.preventDefault(), event.stopPropagation(), tell(), mark.act());
         else if (event.key === "Escape") hush();
       });
+      mark.group.addEventListener("click", () => mark.act());
       mark.group.append(...Object.values(mark.shapes));
       this.overlay.append(mark.group);
     }
-    Object.assign(mark, { at, told });
+    Object.assign(mark, { at, told, act: () => joint && this.onjoint?.(joint) });
     mark.group.setAttribute("aria-label", told());
     if (mark.group === document.activeElement && !this.tip.hidden) this.#tell(told(), ...at);
     this.marks.set(key, mark);
@@ -740,7 +747,7 @@ class Viewer {
     const told = () => (joint ? `${joint.name} · ${joint.type}` : "The axis that was pointed at");
     const { line, spot, head } = this.#mark(`axis ${index} ${kind}`, kind, () => ({
       line: svg("line"), spot: svg("circle", { r: 5 }), head: svg("circle", { r: 3 }),
-    }), m, told);
+    }), m, told, joint?.name);
     change(line, { x1: a[0], y1: a[1], x2: b[0], y2: b[1] });
     change(spot, { cx: m[0], cy: m[1] });
     change(head, { cx: a[0], cy: a[1] });
@@ -765,7 +772,7 @@ class Viewer {
       const slides = joint.type === "prismatic";
       const { line, spot } = this.#mark(`joint ${index}`, `v-joint v-${joint.type}${joint.cut ? " v-cut" : ""}`, () => ({
         line: svg("line"), spot: slides ? svg("rect", { width: 9, height: 9 }) : svg("circle", { r: 5 }),
-      }), m, told);
+      }), m, told, joint.name);
       change(line, { x1: a[0], y1: a[1], x2: b[0], y2: b[1] });
       change(spot, slides ? { x: m[0] - 4.5, y: m[1] - 4.5 } : { cx: m[0], cy: m[1] });
     }

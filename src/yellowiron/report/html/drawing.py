@@ -1,25 +1,20 @@
-"""All pictures of a page: drawn side by side in processes of their own where that is worth their start."""
+"""All pictures of a page, drawn side by side."""
 
 from __future__ import annotations
 
 import os
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
-from yellowiron.model.errors import YellowironError
 from yellowiron.model.geometry import Floats
-from yellowiron.report.html.pictures import Camera, DrawnTriangles, Singles, data_uri, posed, render
+from yellowiron.report.html.pictures import Camera, DrawnTriangles, data_uri, posed, render
+from yellowiron.report.html.rays import Singles
 from yellowiron.support.caching.content import content_of
 from yellowiron.support.caching.disk import kept_each
-from yellowiron.support.guard import run_guarded
 
-_MOST = 4
-"""Processes."""
-_WORTH = 400_000
-"""Rays: what is drawn while a process starts, and while this one does what is to be done meanwhile."""
-_BUILDING = 3.0
-"""Rays as costly as one triangle in its place for rays: a machine in another pose is built anew."""
+MOST = 4
+"""Threads that draw: Embree and numpy let each other go on."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,7 +30,7 @@ class Picture:
 def draw(
     drawn: DrawnTriangles, pictures: Mapping[str, Picture], *, meanwhile: Callable[[], None] = lambda: None
 ) -> dict[str, str]:
-    """The pictures of some triangles by name, each as a data URI. The same, however many processes draw them, and
+    """The pictures of some triangles by name, each as a data URI. The same, however many threads draw them, and
     whether they were drawn before. `meanwhile` is done once, while others draw."""
     machine = content_of([drawn.points, drawn.triangles, drawn.normals, drawn.colors, drawn.parts])
     given = {name: [machine, drawn.spans if one.poses else None, one] for name, one in pictures.items()}
@@ -51,44 +46,18 @@ def draw(
 
 
 def _draw(drawn: DrawnTriangles, pictures: Mapping[str, Picture], meanwhile: Callable[[], None]) -> dict[str, str]:
-    costs = {name: _cost(drawn, picture) for name, picture in pictures.items()}
-    count = max(1, min(os.cpu_count() or 1, _MOST, len(pictures), int(sum(costs.values()) / _WORTH)))
-    shares: list[dict[str, Picture]] = [{} for _ in range(count)]
-    loads = [float(_WORTH)] * count
-    for name in sorted(pictures, key=lambda name: -costs[name]):
-        place = loads.index(min(loads))
-        shares[place][name] = pictures[name]
-        loads[place] += costs[name]
-    with ThreadPoolExecutor(count) as pool:
-        others = [pool.submit(_elsewhere, drawn, share) for share in shares[1:] if share]
+    moved = any(one.poses is not None for one in pictures.values())
+    with ThreadPoolExecutor(max(1, min(os.cpu_count() or 1, MOST))) as pool:
+        # Built once; pictures, which are asked for later, wait for it.
+        whole, bodies = pool.submit(lambda: drawn.pieces), pool.submit(lambda: drawn.bodies if moved else None)
+
+        def picture(one: Picture) -> str:
+            (whole if one.poses is None else bodies).result()
+            shown = drawn if one.poses is None else posed(drawn, one.poses)
+            return data_uri(render(shown, one.camera, colors=one.colors))
+
+        # Those that only need what is built first.
+        order = sorted(pictures, key=lambda name: pictures[name].poses is not None)
+        asked = {name: pool.submit(picture, pictures[name]) for name in order}
         meanwhile()
-        done = draw_here(drawn, shares[0])
-        for other in others:
-            done |= other.result()
-    return done
-
-
-def draw_here(drawn: DrawnTriangles, pictures: Mapping[str, Picture]) -> dict[str, str]:
-    """The pictures, one after the other."""
-    return {
-        name: data_uri(
-            render(posed(drawn, one.poses) if one.poses is not None else drawn, one.camera, colors=one.colors)
-        )
-        for name, one in pictures.items()
-    }
-
-
-def _elsewhere(drawn: DrawnTriangles, pictures: Mapping[str, Picture]) -> dict[str, str]:
-    bare = replace(drawn)  # without what was computed of it
-    try:
-        done: dict[str, str] = run_guarded(f"{__name__}:draw_here", bare, pictures, where="report.html")
-    except YellowironError:
-        # A machine on which no process can be started has time.
-        return draw_here(drawn, pictures)
-    return done
-
-
-def _cost(drawn: DrawnTriangles, picture: Picture) -> float:
-    """Rays, and what is as costly."""
-    rays = float(picture.camera.width * picture.camera.height)
-    return rays if picture.poses is None else rays + _BUILDING * len(drawn.triangles)
+        return {name: asked[name].result() for name in pictures}

@@ -45,12 +45,13 @@ def page(
     alignment: Alignment,
     *,
     poses: Poses | None = None,
-    tables: PoseTables | None = None,
+    tables: Callable[[], PoseTables] | None = None,
     sweeps: Sweeps | None = None,
     sheets: Callable[[], Sequence[SheetPage]] = tuple,
 ) -> str:
-    """The page as text; with `tables` it has a 3D view to move the machine in, with `sweeps` what engines did with it,
-    with `sheets`, asked last, the pages of which values were read. Deterministic: no time, no path of this machine."""
+    """The page as text; with `tables`, asked while pictures are drawn, it has a 3D view to move the machine in, with
+    `sweeps` what engines did with it, with `sheets`, asked last, the pages of which values were read. Deterministic:
+    no time, no path of this machine."""
     import jinja2
 
     environment = jinja2.Environment(autoescape=True, trim_blocks=True, undefined=jinja2.StrictUndefined)
@@ -72,7 +73,7 @@ def page(
 
     def meanwhile() -> None:
         made["template"] = environment.from_string(source)
-        made["viewer"] = viewer(mechanism, assembly, alignment, tables, poses=poses) if tables is not None else None
+        made["viewer"] = viewer(mechanism, assembly, alignment, tables(), poses=poses) if tables is not None else None
 
     pictures = draw(drawn, {
         "machine": Picture(seen.machine),

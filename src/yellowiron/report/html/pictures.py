@@ -13,7 +13,6 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,10 +21,8 @@ from PIL import Image
 from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Mechanism
+from yellowiron.report.html.rays import Piece, Pieces, Singles, blocked, dot, first, piece_of
 from yellowiron.report.rows import in_rows
-
-Singles = NDArray[np.float32]
-"""A picture needs no more: a micrometre at ten metres."""
 
 _SUN = (np.array([0.35, -0.70, 1.0]) / math.sqrt(0.35**2 + 0.70**2 + 1.0)).astype(np.float32)
 _SKY = np.array([0.85, 0.89, 0.93], dtype=np.float32)
@@ -52,7 +49,7 @@ _DISPLAY = (255.0 * np.linspace(0.0, 1.0, 65536) ** (1.0 / 2.2) + 0.5).astype(np
 class DrawnTriangles:
     """Triangles to draw: points (n, 3) in metres, the numbers (m, 3) of each triangle's, corner normals (m, 3, 3),
     colours (m, 3), part numbers (m,). `spans`: body → its first triangle and the one after its last. Triangles of
-    several parts share no point."""
+    several parts share no point. `placed`: the pieces of a machine in another pose (`posed`)."""
 
     points: Singles
     triangles: NDArray[np.int32]
@@ -60,6 +57,7 @@ class DrawnTriangles:
     colors: Singles
     parts: NDArray[np.int32]
     spans: Mapping[str, tuple[int, int]] = field(default_factory=dict)
+    placed: Pieces = ()
 
     @cached_property
     def owners(self) -> NDArray[np.intp]:
@@ -69,14 +67,17 @@ class DrawnTriangles:
         return owners
 
     @cached_property
-    def scene(self) -> Any:
-        """Embree's, for rays; every picture of the same triangles asks it."""
-        from embreex import rtcore_scene
-        from embreex.mesh_construction import TriangleMesh
+    def pieces(self) -> Pieces:
+        """What rays meet; every picture of the same triangles asks it."""
+        return self.placed or (piece_of(self.points, self.triangles),)
 
-        scene = rtcore_scene.EmbreeScene()
-        TriangleMesh(scene, self.points, self.triangles)
-        return scene
+    @cached_property
+    def bodies(self) -> dict[str, Piece]:
+        """Body → what rays meet of it, wherever it is; every pose of the same triangles asks it."""
+        return {
+            name: piece_of(self.points, self.triangles, np.arange(start, end, dtype=np.int32))
+            for name, (start, end) in self.spans.items() if start < end
+        }  # fmt: skip
 
     @cached_property
     def box(self) -> tuple[Singles, Singles]:
@@ -94,15 +95,6 @@ class DrawnTriangles:
         below = corners - corners[:, 2:] / _SUN[2] * _SUN
         both = np.concatenate([corners, below])[:, :2]
         return np.array([both.min(axis=0), both.max(axis=0)])
-
-    def frame_in(self, camera: Camera) -> tuple[Floats, Floats]:
-        """The left upper and the right lower corner, in pixels, of what a camera sees the machine in."""
-        corners = np.array(list(itertools.product(*zip(*self.box, strict=True))), dtype=np.float64)
-        depth = (corners - camera.eye) @ camera.forward
-        if (depth <= 0.0).any():  # the camera is inside
-            return np.full(2, -np.inf), np.full(2, np.inf)
-        places = camera.project(corners)
-        return places.min(axis=0) - 1.0, places.max(axis=0) + 1.0
 
     def by_body(self, mechanism: Mechanism) -> Singles:
         """Colours (m, 3) that tell the bodies apart, a counted row of them alike."""
@@ -206,13 +198,14 @@ def part_triangles(
 def posed(drawn: DrawnTriangles, poses: Mapping[str, Floats]) -> DrawnTriangles:
     """A machine's triangles with its bodies moved: body → (4, 4) displacement."""
     points, normals = drawn.points.copy(), drawn.normals.copy()
-    for name, (first, last) in drawn.spans.items():
-        if name in poses and not np.array_equal(poses[name], np.eye(4)):
+    for name, (start, end) in drawn.spans.items():
+        if name in poses and start < end and not np.array_equal(poses[name], np.eye(4)):
             turn, way = poses[name][:3, :3].astype(np.float32), poses[name][:3, 3].astype(np.float32)
-            own = (drawn.owners >= first) & (drawn.owners < last)
+            own = (drawn.owners >= start) & (drawn.owners < end)
             points[own] = points[own] @ turn.T + way
-            normals[first:last] = normals[first:last] @ turn.T
-    return replace(drawn, points=points, normals=normals)
+            normals[start:end] = normals[start:end] @ turn.T
+    placed = tuple(piece.at(poses.get(name)) for name, piece in drawn.bodies.items())
+    return replace(drawn, points=points, normals=normals, placed=placed)
 
 
 def look_at(
@@ -270,17 +263,17 @@ def render(
     bands = [
         _seen(drawn, own, camera, np.tile(across, len(r)), np.repeat(r.astype(np.float32) + 0.5, width)) for r in rows
     ]
-    whole = _Samples(*(np.concatenate(one) for one in zip(*((s.color, s.normal, s.label) for s in bands), strict=True)))
+    whole = _joined(bands)
     rough = np.flatnonzero(_rough(whole, width, height))
     pixels = _displayed(whole.color)
     if len(rough):
-        pixels[rough] = _fine(drawn, own, camera, whole, rough, max(supersample, 1))
-    return Image.fromarray(pixels.reshape(height, width, 3))
+        pixels[:, rough] = _fine(drawn, own, camera, whole, rough, max(supersample, 1))
+    return Image.fromarray(np.ascontiguousarray(pixels.T).reshape(height, width, 3))
 
 
 @dataclass(frozen=True, eq=False)
 class _Samples:
-    """What some rays meet: linear colours (n, 3), normals (n, 3), zero where it is the sky, and the numbers (n,) of the
+    """What some rays meet: linear colours (3, n), normals (3, n), zero where it is the sky, and the numbers (n,) of the
     parts, -1 where it is none."""
 
     color: Singles
@@ -290,11 +283,16 @@ class _Samples:
 
 def _seen(drawn: DrawnTriangles, own: Singles, camera: Camera, x: Singles, y: Singles) -> _Samples:
     """What is seen at places (n,) of a picture, in pixels."""
-    (left, top), (right, bottom) = drawn.frame_in(camera)
-    inside = (x > left) & (x < right) & (y > top) & (y < bottom)
-    color, normal, face = _shade(drawn, own, camera.eye.astype(np.float32), _rays(camera, x, y), inside)
+    color, normal, face = _shade(drawn, own, camera.eye, _rays(camera, x, y))
     label = np.where(face >= 0, drawn.parts[np.maximum(face, 0)] if len(drawn.parts) else -1, -1)
     return _Samples(color, normal, label.astype(np.int32))
+
+
+def _joined(samples: Sequence[_Samples]) -> _Samples:
+    return _Samples(
+        np.concatenate([s.color for s in samples], axis=1), np.concatenate([s.normal for s in samples], axis=1),
+        np.concatenate([s.label for s in samples]),
+    )  # fmt: skip
 
 
 def _displayed(color: Singles) -> NDArray[np.uint8]:
@@ -304,11 +302,11 @@ def _displayed(color: Singles) -> NDArray[np.uint8]:
 def _rough(samples: _Samples, width: int, height: int) -> NDArray[np.bool_]:
     """Pixels (height × width,) that differ from one beside them: in part, in direction, or, at a shadow, in light."""
     label = samples.label.reshape(height, width)
-    normal, light = samples.normal.reshape(height, width, 3), (samples.color @ _THIRDS).reshape(height, width)
+    normal, light = samples.normal.reshape(3, height, width), dot(samples.color, _THIRDS).reshape(height, width)
     rough = np.zeros((height, width), dtype=bool)
     for here, there in _BESIDE:
         apart = label[here] != label[there]
-        apart |= np.einsum("ijk,ijk->ij", normal[here], normal[there]) < _CREASE
+        apart |= dot(normal[:, here[0], here[1]], normal[:, there[0], there[1]]) < _CREASE
         apart &= (label[here] >= 0) | (label[there] >= 0)
         apart |= np.abs(light[here] - light[there]) > _SHADE
         rough[here] |= apart
@@ -319,7 +317,7 @@ def _rough(samples: _Samples, width: int, height: int) -> NDArray[np.bool_]:
 def _fine(
     drawn: DrawnTriangles, own: Singles, camera: Camera, whole: _Samples, rough: NDArray[np.intp], times: int
 ) -> NDArray[np.uint8]:
-    """The `rough` pixels (n,) of a picture anew, as display values (n, 3): each the middle of `times` × `times`, with
+    """The `rough` pixels (n,) of a picture anew, as display values (3, n): each the middle of `times` × `times`, with
     the lines between them."""
     inside = (np.arange(times, dtype=np.float32) + np.float32(0.5)) / np.float32(times)
     down, across = (axis.reshape(-1) for axis in np.meshgrid(inside, inside, indexing="ij"))
@@ -332,78 +330,80 @@ def _fine(
             (row[:, None].astype(np.float32) + down).reshape(-1),
         )
         chunks.append(_seen(drawn, own, camera, x, y))
-    fine = _Samples(*(np.concatenate(one) for one in zip(*((s.color, s.normal, s.label) for s in chunks), strict=True)))
+    fine = _joined(chunks)
     # Where a sample's right and lower neighbours are: among the fine ones, else the pixel's only one behind them.
     first = np.full(camera.width * camera.height, -1)
     first[rough] = np.arange(len(rough)) * count
     row, column = (np.repeat(one, count) for one in np.divmod(rough, camera.width))
     inner_row, inner_column = (np.tile(one.reshape(-1), len(rough)) for one in np.indices((times, times)))
-    label, normal = np.concatenate([fine.label, whole.label]), np.concatenate([fine.normal, whole.normal])
+    label = np.concatenate([fine.label, whole.label])
+    normal = np.concatenate([fine.normal, whole.normal], axis=1)
     line = np.zeros(len(fine.label), dtype=bool)
     for step_row, step_column in ((1, 0), (0, 1)):
         r, c = row * times + inner_row + step_row, column * times + inner_column + step_column
         there = (r < camera.height * times) & (c < camera.width * times)
         pixel = np.where(there, r // times * camera.width + c // times, 0)
         at = np.where(first[pixel] >= 0, first[pixel] + r % times * times + c % times, len(fine.label) + pixel)
-        crease = (np.einsum("ij,ij->i", fine.normal, normal[at]) < _CREASE) & (fine.label >= 0) & (label[at] >= 0)
+        crease = (dot(fine.normal, normal[:, at]) < _CREASE) & (fine.label >= 0) & (label[at] >= 0)
         line |= there & ((fine.label != label[at]) | crease)
-    color = fine.color
-    color[line] *= 0.2
-    shown = _displayed(color).reshape(len(rough), count, 3).astype(np.uint32)
-    return np.asarray((shown.sum(axis=1) + count // 2) // count).astype(np.uint8)
+    color = fine.color * np.where(line, np.float32(0.2), np.float32(1.0))
+    shown = _displayed(color).reshape(3, len(rough), count).astype(np.uint32)
+    return np.asarray((shown.sum(axis=2) + count // 2) // count).astype(np.uint8)
 
 
 def _rays(camera: Camera, x: Singles, y: Singles) -> Singles:
-    """Unit directions (n, 3) through places (n,) of a picture, in pixels."""
+    """Unit directions (3, n) through places (n,) of a picture, in pixels."""
     scale = np.float32(camera.scale)
     across, up = (x - np.float32(camera.width / 2)) / scale, (np.float32(camera.height / 2) - y) / scale
     along, right, above = (v.astype(np.float32) for v in (camera.forward, camera.right, camera.up))
-    directions = along + across[:, None] * right + up[:, None] * above
-    return np.asarray(directions / np.sqrt(np.einsum("ij,ij->i", directions, directions))[:, None])
+    directions = np.stack([along[k] + across * right[k] + up * above[k] for k in range(3)])
+    directions /= np.sqrt(dot(directions, directions))
+    return directions
 
 
 def _shade(
-    drawn: DrawnTriangles, own: Singles, eye: Singles, directions: Singles, inside: NDArray[np.bool_]
+    drawn: DrawnTriangles, own: Singles, eye: Floats, directions: Singles
 ) -> tuple[Singles, Singles, NDArray[np.int32]]:
-    """What each ray (n, 3) meets: a part, which only those `inside` (n,) may, else the ground, else the sky. Linear
-    colours (n, 3), normals (n, 3) and triangles (n,), -1 where it is none."""
-    face = np.full(len(directions), -1, dtype=np.int32)
-    asked = np.flatnonzero(inside)
-    hit = drawn.scene.run(np.broadcast_to(eye, (len(asked), 3)).copy(), directions[asked], output=True)
-    face[asked] = hit["primID"]
-    color, normals = np.tile(_SKY, (len(directions), 1)), np.zeros_like(directions)
-    limits = drawn.shadow
-
-    def light(points: Singles, facing: Singles) -> Singles:
-        sun = np.clip(facing @ _SUN, 0.0, 1.0)
-        # What is turned away from the sun is dark without asking, and what is far from the machine is lit.
-        near = ((points[:, :2] >= limits[0]) & (points[:, :2] <= limits[1])).all(axis=1)
-        asked = np.flatnonzero((sun > 0.0) & near)
-        if len(asked):
-            start = points[asked] + facing[asked] * np.float32(2e-3)
-            towards = np.broadcast_to(_SUN, start.shape).copy()
-            sun[asked[drawn.scene.run(start, towards, query="OCCLUDED") >= 0]] = 0.0
-        return np.asarray(0.34 + 0.12 * facing[:, 2] + 0.62 * sun)[:, None]
-
-    met_by = np.flatnonzero(hit["primID"] >= 0)
-    seen = asked[met_by]
+    """What each ray (3, n) meets: a part, else the ground, else the sky. Linear colours (3, n), normals (3, n) and
+    triangles (n,), -1 where it is none."""
+    start = eye.astype(np.float32)[:, None]
+    hits = first(drawn.pieces, eye, directions)
+    face = hits.triangle
+    color, normals = np.repeat(_SKY[:, None], len(face), axis=1), np.zeros_like(directions)
+    seen = np.flatnonzero(face >= 0)
     if len(seen):
-        u, v, met, rays = hit["u"][met_by, None], hit["v"][met_by, None], face[seen], directions[seen]
-        corner = drawn.normals[met]
-        normal = (1 - u - v) * corner[:, 0] + u * corner[:, 1] + v * corner[:, 2]
-        normal /= np.maximum(np.sqrt(np.einsum("ij,ij->i", normal, normal)), 1e-12)[:, None]
-        normal *= np.where(np.einsum("ij,ij->i", normal, rays) > 0, np.float32(-1.0), np.float32(1.0))[:, None]
-        normals[seen] = normal
-        color[seen] = own[met] * light(eye + rays * hit["tfar"][met_by, None], normal)
-    ground = np.flatnonzero((face < 0) & (directions[:, 2] < 0))
+        u, v, met, rays = hits.u[seen], hits.v[seen], face[seen], directions[:, seen]
+        corner, rest = drawn.normals[met], 1 - u - v
+        normal = np.stack([rest * corner[:, 0, k] + u * corner[:, 1, k] + v * corner[:, 2, k] for k in range(3)])
+        normal /= np.maximum(np.sqrt(dot(normal, normal)), np.float32(1e-12))
+        normal *= np.where(dot(normal, rays) > 0, np.float32(-1.0), np.float32(1.0))
+        normals[:, seen] = normal
+        color[:, seen] = own[met].T * _light(drawn, start + rays * hits.distance[seen], normal)
+    ground = np.flatnonzero((face < 0) & (directions[2] < 0))
     if len(ground):
-        normals[ground] = _UP
-        points = eye - directions[ground] * (eye[2] / directions[ground, 2:])
+        normals[2, ground] = 1.0
+        down = directions[:, ground]
+        points = start - down * (start[2] / down[2])
         # The ground fades into the sky, so that it has no edge.
         middle, reach = _extent(drawn)
-        fade = np.clip(np.linalg.norm(points[:, :2] - middle, axis=1) / reach, 0.0, 1.0)[:, None] ** 2
-        color[ground] = _GROUND * light(points, normals[ground]) * (1 - fade) + _SKY * fade
+        apart = np.sqrt((points[0] - middle[0]) ** 2 + (points[1] - middle[1]) ** 2)
+        fade = np.clip(apart / reach, 0.0, 1.0) ** 2
+        lit = _light(drawn, points, np.broadcast_to(_UP[:, None], points.shape)) * (1 - fade)
+        color[:, ground] = _GROUND[:, None] * lit + _SKY[:, None] * fade
     return color, normals, face
+
+
+def _light(drawn: DrawnTriangles, points: Singles, facing: Singles) -> Singles:
+    """How much light (n,) there is at points (3, n) that face somewhere (3, n)."""
+    (left, near), (right, far) = drawn.shadow
+    sun = np.clip(dot(facing, _SUN), 0.0, 1.0)
+    # What is turned away from the sun is dark without asking, and what is far from the machine is lit.
+    inside = (points[0] >= left) & (points[0] <= right) & (points[1] >= near) & (points[1] <= far)
+    asked = np.flatnonzero((sun > 0.0) & inside)
+    if len(asked):
+        dark = blocked(drawn.pieces, points[:, asked] + facing[:, asked] * np.float32(2e-3), _SUN)
+        sun[asked[dark]] = 0.0
+    return np.asarray(np.float32(0.34) + np.float32(0.12) * facing[2] + np.float32(0.62) * sun)
 
 
 def encode(image: Image.Image, *, quality: int = 82) -> bytes:

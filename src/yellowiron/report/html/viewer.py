@@ -24,7 +24,9 @@ from yellowiron.report.rows import in_rows
 from yellowiron.report.words import titled
 
 MOST_TRIANGLES = 700_000
-"""Distinct triangles that keep a page under 8 MB; the smallest shapes beyond are not drawn, and the view says so."""
+"""Distinct triangles; the smallest shapes beyond are not drawn, and the view says so."""
+MOST_BYTES = 2_600_000
+"""Of the packed machine, which keeps a page under 5 MB; what is more goes in the same way."""
 _SCRIPTS = ("viewer_pose.js", "viewer_draw.js", "viewer.js", "viewer_page.js")
 _STYLES = ("viewer.css",)
 
@@ -48,13 +50,33 @@ def viewer(
 ) -> Viewer | None:
     """The 3D view of a machine, None where it has nothing to see. `poses` (caption → body → (4, 4) displacement) become
     buttons that set the sliders."""
+    most, before = MOST_TRIANGLES, MOST_TRIANGLES + 1
+    while (made := _packed(mechanism, assembly, alignment, tables, poses or {}, most=most)) is not None:
+        data, drawn = made
+        # The largest shape is drawn however large it is.
+        if len(data) <= MOST_BYTES or drawn >= before:
+            return Viewer(data, asset(*_SCRIPTS), asset(*_STYLES))
+        most, before = min(int(0.95 * drawn * MOST_BYTES / len(data)), drawn - 1), drawn
+    return None
+
+
+def _packed(
+    mechanism: Mechanism,
+    assembly: Assembly,
+    alignment: Alignment,
+    tables: PoseTables,
+    poses: Mapping[str, Mapping[str, Floats]],
+    *,
+    most: int,
+) -> tuple[str, int] | None:
+    """A machine as base64, and how many distinct triangles are drawn of it; `most` is their budget."""
     binary = Binary()
     frame = np.asarray(alignment.frame, dtype=np.float64)
     assigned = {a.part: a for a in alignment.parts}
     review = set(alignment.to_review)
     by_id = {p.id: p for p in assembly.parts}
     wanted = [(index, bp, by_id[bp.part]) for index, body in enumerate(mechanism.bodies) for bp in body.parts]
-    numbers = largest(assembly, list(dict.fromkeys(part.shape for _, _, part in wanted)), most=MOST_TRIANGLES)
+    numbers = largest(assembly, list(dict.fromkeys(part.shape for _, _, part in wanted)), most=most)
     parts = [
         {
             **drawn_part(part, assembly, frame, numbers[part.shape]),
@@ -73,8 +95,8 @@ def viewer(
         "shapes": shapes,
         "leftOut": len(wanted) - len(parts),
     }
-    data = base64.b64encode(packed(header, binary)).decode("ascii")
-    return Viewer(data, asset(*_SCRIPTS), asset(*_STYLES))
+    drawn = sum(len(assembly.shapes[key].mesh.triangles) for key in numbers)
+    return base64.b64encode(packed(header, binary)).decode("ascii"), drawn
 
 
 def asset(*names: str) -> str:

@@ -46,7 +46,7 @@ def record(
             if motion.joint in phase.targets
         ),
         snapshots=tuple(
-            Snapshot((step + 1) * timestep, share, _poses(mechanism, rotations[step], origins[step]))
+            Snapshot((step + 1) * timestep, share, poses_of(mechanism, rotations[step], origins[step]))
             for step, share in _steps(phase, moves, measured[:count])
         ),
     )
@@ -61,7 +61,7 @@ def _worst(values: Floats, starts: NDArray[np.int64]) -> Floats:
 
 def _trace(motion: Motion, targets: Floats, values: Floats, ends: NDArray[np.int64], timestep: float) -> Trace:
     if motion.position:
-        return Trace(motion.joint, "position", _share(motion, targets[ends]), _share(motion, values[ends]))
+        return Trace(motion.joint, "position", share_of(motion, targets[ends]), share_of(motion, values[ends]))
     # A speed between two kept times, against the mean target between them.
     begins = np.concatenate([[0], ends[:-1]]) if len(ends) else ends
     gone = np.maximum(ends - begins, 1)
@@ -70,7 +70,7 @@ def _trace(motion: Motion, targets: Floats, values: Floats, ends: NDArray[np.int
     return Trace(motion.joint, "velocity", wanted, (values[ends] - values[begins]) / (gone * timestep))
 
 
-def _share(motion: Motion, values: Floats) -> Floats:
+def share_of(motion: Motion, values: Floats) -> Floats:
     """Of the whole stroke; the ends that it is sent to lie inside by equal shares."""
     middle = 0.5 * (motion.low + motion.high)
     return 0.5 + (values - middle) / motion.stroke if motion.stroke else np.zeros(len(values))
@@ -82,7 +82,7 @@ def _steps(phase: Phase, moves: Sequence[Motion], measured: Floats) -> list[tupl
         return []
     first, last = phase.holds[0], phase.holds[1]
     shares = [
-        _share(motion, measured[first : last + 1, column])
+        share_of(motion, measured[first : last + 1, column])
         for column, motion in enumerate(moves)
         if motion.joint in phase.targets and motion.position
     ]
@@ -93,7 +93,8 @@ def _steps(phase: Phase, moves: Sequence[Motion], measured: Floats) -> list[tupl
     return [(first + at, float(way[at])) for at in (int(np.abs(way - share).argmin()) for share in wanted)]
 
 
-def _poses(mechanism: Mechanism, rotations: Floats, origins: Floats) -> dict[str, Floats]:
+def poses_of(mechanism: Mechanism, rotations: Floats, origins: Floats) -> dict[str, Floats]:
+    """Body → (4, 4) displacement from the drawn pose, of rotations (bodies, 3, 3) and origins (bodies, 3)."""
     poses = {}
     for index, body in enumerate(mechanism.bodies):
         pose = np.eye(4)

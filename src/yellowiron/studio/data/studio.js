@@ -4,7 +4,7 @@ const token = new URLSearchParams(location.search).get("token") ?? "";
 const by = (id) => document.getElementById(id);
 const KEYS = [
   ["⏎", "Yes"], ["1 – 9", "Instead: the numbered answer"], ["X", "No part of the machine"], ["/", "Find any role"],
-  ["S", "Find parts by name; ⇧⏎ takes all that are listed"], ["N, ⇧N", "The next part of the file, the one before"],
+  ["S", "Find parts and joints by name; ⇧⏎ takes all parts that are listed, Alt⏎ adds one to what is selected"], ["N, ⇧N", "The next part of the file, the one before"],
   ["J, K", "Next question, the one before"], ["U, ⇧U", "Undo, redo"], ["A", "Take in the assembly around what is selected"],
   ["M", "The same on the other side"], ["P", "Point at a joint's axis: a bore; two round things or points; three points of a circle; Alt: an edge"],
   ["R", "A slide the other way round"], ["[, ]", "The joint's lower and upper stop where it is now"],
@@ -346,6 +346,10 @@ class Studio {
   #card() {
     const { question, state } = this;
     const card = by("card");
+    // What a person is writing in stays, whatever becomes known meanwhile.
+    const about = this.joint?.name ?? (this.selection.size ? [...this.selection].join() : question?.key);
+    if (about === this.about && card.contains(document.activeElement) && document.activeElement.matches("input, select")) return;
+    this.about = about;
     const picked = [...this.selection].map((number) => this.viewer.model.parts[number - 1]);
     card.className = picked.length ? "picked" : question ? "" : "done";
     const answers = element("ol", { class: "answers" });
@@ -526,11 +530,13 @@ class Studio {
     this.#finder("Role of these parts", rows, "No role of that name. A part without one of its own, such as a cab, has its body's.");
   }
 
-  /** Finds parts by their names and those of their assemblies. */
+  /** Finds parts by their names and those of their assemblies, and joints. */
   search() {
-    const rows = this.viewer.model.parts.filter((part) => !part.hidden)
+    const parts = this.viewer.model.parts.filter((part) => !part.hidden)
       .map((part) => ({ words: part.path, name: part.path.split("/").at(-1), number: part.number, take: () => this.#select([part.number]) }));
-    this.#finder("Name of a part or assembly", rows, "No part of that name.");
+    const joints = this.state.joints
+      .map((joint) => ({ words: `${joint.title} · joint`, name: joint.name, take: () => this.choosesJoint(joint.name) }));
+    this.#finder("Name of a part, an assembly or a joint", [...parts, ...joints], "No part or joint of that name.");
   }
 
   /** Selects the next part of the file (1), or the one before (-1). */
@@ -596,10 +602,10 @@ class Studio {
     if (event.key === "Escape") (event.preventDefault(), this.#shut()); // else the first one only empties the field
     if (event.key === "Enter") {
       event.preventDefault();
-      const numbers = this.found.map((row) => row.number).filter(Boolean);
-      if (!event.shiftKey || !numbers.length) return this.#take(this.row);
+      const numbers = (event.altKey ? [this.found[this.row]] : this.found).map((row) => row?.number).filter(Boolean);
+      if (!(event.shiftKey || event.altKey) || !numbers.length) return this.#take(this.row);
       this.#shut();
-      return this.#select(numbers);
+      return this.#select(event.altKey ? [...this.selection, ...numbers] : numbers);
     }
     const way = { ArrowDown: 1, ArrowUp: -1 }[event.key];
     if (!way || !this.found.length) return;
@@ -634,6 +640,7 @@ try {
   const viewer = new Viewer(by("viewer"), Object.assign(model, { shapes: shapes.shapes, leftOut: shapes.leftOut }), {
     pages: [["Joints", page("joints")], ["Values", page("values")], ["History", page("history")]],
     onchoose: (number, event) => studio?.choose(number, event),
+    onjoint: (name) => studio && !studio.aim && studio.choosesJoint(name),
   });
   studio = new Studio(viewer, model.version);
   studio.numbers = new Map(model.parts.map((part) => [part.path, part.number]));
