@@ -59,8 +59,14 @@ MARGIN = 15.0
 """A right labelling should score this much more for every piece that a wrong one has wrong."""
 SOFT = 3.0
 """The greatest of several slacks is taken softly, over so many points."""
+SCALE = "name"
+"""What this counts stays as it is: what a lead is worth is measured by it (`reading`)."""
 FIXED = ("said",)
 POSITIVE = ("name", "contacts", "said", "seen", "beside", "joined", "near", "exact")
+MOSTLY = 0.7
+"""A piece is of a body if so much of its surface is nearest to that body's; what it touches is as near here and there."""
+OWN = 2.0
+"""A right labelling gives a piece its body, unless none is better by so many margins: small things go by contact."""
 RIVALS = 3
 """So many variants are kept beside the right one, those that a glance likes best."""
 Weights = dict[str, float]
@@ -122,7 +128,8 @@ def problems_of(name: str, given: Scene) -> list[Problem]:
     resolved = [choose(template, c) for c in variants]
     best = max(resolved, key=lambda t: _fitting(t, there))
     areas = [evidence.pieces[k].area for k in evidence.leading]
-    problem = Problem(name, [Way(e, as_drawn(best, there), False) for e in ways], areas, right)
+    drawn = as_drawn(best, there)
+    problem = Problem(name, [Way(e, drawn, False) for e in ways], areas, right)
     # Which end is the front is the judge's guess; what it is to learn from is the right one.
     scored = [_best_of(way, _votes(way), problem, dict(weights()), right=True)[1] for way in problem.ways]
     true = replace(problem.ways[int(np.argmax(scored))], right=True)
@@ -136,13 +143,12 @@ def _right_of(evidence: reading.Evidence, given: Scene, template: Template) -> l
     """The bodies that are right of each leading piece; none where nobody knows, or the type lacks it."""
     truth = given.truth
     tree, known = cKDTree(truth.points), {r.name for r in template.roles if r.rigid}
-    bodies = [tuple(body.split("|")) for _, body in truth.labels]
     right = []
     for k in evidence.leading:
         near = truth.label[tree.query(evidence.pieces[k].samples)[1]]
-        label, count = Counter(near.tolist()).most_common(1)[0]
-        told = count > 0.9 * len(near) and set(bodies[label]) <= known  # what the type lacks may be anywhere
-        right.append(frozenset(bodies[label]) if told else frozenset())
+        bodies, count = Counter(truth.labels[n][1] for n in near.tolist()).most_common(1)[0]
+        told = count > MOSTLY * len(near) and set(bodies.split("|")) <= known  # what the type lacks may be anywhere
+        right.append(frozenset(bodies.split("|")) if told else frozenset())
     return right
 
 
@@ -181,12 +187,12 @@ def _best_of(
     posed = []
     for mine, true in zip(votes, problem.right, strict=True):
         if right and true:
-            posed.append({b: {**f, "said": 1.0} for b, f in mine.items() if b in true})
+            posed.append({b: {**f, "said": 1.0} for b, f in mine.items() if b in true})  # or of none
         elif margin and true:
             posed.append({b: f if b in true else {**f, "margin": 1.0} for b, f in mine.items()})
         else:
             posed.append(mine)
-    given = _field(way, posed, {**known, "margin": margin})
+    given = _field(way, posed, {**known, "margin": margin, "said": OWN * MARGIN})
     few: dict[str, int] = {"sweeps": reading.GLANCE, "chains": reading.FEW} if fast else {}
     labels, score = labelled(given, **few)
     return labels, score + weighed(_lacks(way, labels, given.bodies), known), given
@@ -262,7 +268,10 @@ def settled(posed: Sequence[Posed], start: Weights, names: Sequence[str], loyal:
             slope = slope + scale * (share[:-1] @ gap) / (MARGIN * count * len(gaps))
         return total, slope
 
-    bounds = [((1.0 - f) / s if n in POSITIVE else None, None) for n, f, s in zip(names, first, scale, strict=True)]
+    bounds = [
+        (0.0, 0.0) if n == SCALE else ((1.0 - f) / s if n in POSITIVE else None, None)
+        for n, f, s in zip(names, first, scale, strict=True)
+    ]
     found = minimize(cost, np.zeros(len(names)), jac=True, method="L-BFGS-B", bounds=bounds)
     return start | {n: round(float(v), 2) for n, v in zip(names, first + scale * found.x, strict=True)}
 
