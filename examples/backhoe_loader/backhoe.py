@@ -2,7 +2,7 @@
 to pin, z up) and put where the linkage has it, behind the machine. Millimetres.
 
 Lateral layout, from the middle: cylinder eyes within 34, their lugs 38-56; dipper 75, extension 79-89, its nose and the
-bucket link 92; tipping links 96-112, bucket ears 96-116; boom 110, the post's plates 116-136.
+bucket link 95; tipping links 96-112, bucket ears 96-116; boom 110, the post's plates 116-136.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from drawing.digger import Linkage, Pose
 from drawing.hardware import CLEARANCE, fit_pin, placed
 from drawing.planar import Point, direction
 from drawing.product import GREY, STEEL, YELLOW, Assembly, Colour, Part
-from drawing.solids import Y, Z, bored, box, cut, mirrored, moved, plate, ring, shift, turn
+from drawing.solids import Y, Z, bored, box, cut, mirrored, moved, outline, plate, ring, shift, turn
 
 from . import values as v
 from .chassis import PIN_POST, PIN_SWING
@@ -93,11 +93,17 @@ def draw_boom(k: Linkage, pose: Pose, hardware: Assembly) -> Assembly:
         plate([(x, z, r - WEB) for x, z, r in BOOM_OUTLINE], "xz", -inside - 1, inside + 1),
         box(-400, 86, -400, 400, -400, 400), box(BOOM - 230, BOOM + 400, -400, 400, -400, 400),
     )  # fmt: skip
-    tree.add(Part("BOOM FLANGES", moved(band, at), YELLOW), body)
+    middle = [(-400.0, 0.0), (0.0, 0.0), (1254.0, 280.0), (BOOM, 0.0), (BOOM + 400, 0.0)]
+    above, below = [(BOOM + 400, 1800.0), (-400.0, 1800.0)], [(BOOM + 400, -1800.0), (-400.0, -1800.0)]
+    for name, away in (("TOP", [*below[::-1], *middle[::-1]]), ("BOTTOM", [*middle, *above])):
+        half = cut(band, plate([(x, z, 0.0) for x, z in away], "xz", -400, 400))
+        tree.add(Part(f"BOOM {name} FLANGE", moved(half, at), YELLOW), body)
     hub = ring((0, -BOOM_Y, 0), Y, 70, PIN / 2 + CLEARANCE, 2 * BOOM_Y)
     tree.add(Part("BOOM FOOT BOSS", moved(hub, at), YELLOW), body)
-    _both(tree, "BOOM CYL LUG", _lug(dx, dz, 50, (dx + 100, dz + 190), (dx - 90, dz + 190)), at, body)
-    _both(tree, "DIPPER CYL LUG", _lug(mx, mz, 50, (mx - 110, mz - 150), (mx + 60, mz - 150)), at, body)
+    _both(tree, "BOOM CYL LUG", _lug(dx, dz, 50, (dx + 110, dz + 260), (dx - 110, dz + 260)), at, body)
+    _both(tree, "BOOM CYL BLOCK", box(dx - 70, dx + 70, 56, inside, dz + 190, dz + 250), at, body)
+    _both(tree, "DIPPER CYL LUG", _lug(mx, mz, 50, (mx - 120, mz - 220), (mx + 80, mz - 220)), at, body)
+    _both(tree, "DIPPER CYL BLOCK", box(mx - 80, mx + 50, 56, inside, mz - 210, mz - 150), at, body)
     for pin, half, role in (
         (pose.D, 60, "boom_piston_rod_pin"), (pose.M, 60, "dipper_cylinder_barrel_pin"), (pose.B, 116, "dipper_pin"),
     ):  # fmt: skip
@@ -117,13 +123,14 @@ def draw_dipper(k: Linkage, pose: Pose, hardware: Assembly) -> Assembly:
     tree, at, body = Assembly("DIPPER"), out(pose.B, pose.arm_angle), "dipper"
     (px, pz), (half, high) = k.P, BEAM
     barrel = v.DIPPER_LENGTH.value - ROD_PIN - v.EXTENSION_CLOSED.value
-    beam = cut(box(40, BEAM_END, -half, half, -high, high), box(39, BEAM_END + 1, -half + WALL, half - WALL, 10 - high, high - 10))
-    beam = bored(beam, Y, ((0, 0, 0), HUB - 1), ((barrel, 0, 0), 20.0))
+    beam = box(HUB + 4, BEAM_END, -half, half, -high, high)
+    beam = cut(beam, box(HUB + 3, BEAM_END + 1, -half + WALL, half - WALL, WALL - high, high - WALL))
+    beam = bored(beam, Y, ((barrel, 0, 0), 20.0))
     tree.add(Part("DIPPER BEAM", moved(beam, at), YELLOW), body)
-    hub = ring((0, -half - 17, 0), Y, HUB, PIN / 2 + CLEARANCE, 2 * half + 34)
+    hub = ring((0, -half, 0), Y, HUB, PIN / 2 + CLEARANCE, 2 * half)
     tree.add(Part("DIPPER HUB", moved(hub, at), YELLOW), body)
-    tail = plate([(px, pz, 58), (0, 0, HUB + 6)], "xz", half, half + 16)
-    tail = bored(tail, Y, ((0, 0, 0), HUB), ((px, 0, pz), PIN / 2))
+    tail = plate([(px, pz, 58), (0, 0, HUB + 4), (TUBE_START - 30, -80, 0), (TUBE_START - 30, 80, 0)], "xz", half, half + 16)
+    tail = bored(tail, Y, ((0, 0, 0), 50.0), ((px, 0, pz), PIN / 2))
     _both(tree, "DIPPER TAIL PL", tail, at, body)
     _both(tree, "ROD BOSS", ring((px, 38, pz), Y, 52, PIN / 2, half - 38), at, body)
     _pin(hardware, pose.P, PIN, 95, body, "dipper_piston_rod_pin")
@@ -138,14 +145,17 @@ def draw_extension(k: Linkage, pose: Pose, hardware: Assembly) -> Assembly:
     (ex, ez), (gx, gz), (half, high), far = k.E, k.G, TUBE, k.arm
     start = TUBE_START + far - v.DIPPER_LENGTH.value
     tube = cut(
-        box(start, far - 60, -half - WALL, half + WALL, -high - WALL, high + WALL),
+        box(start, far - 62, -half - WALL, half + WALL, -high - WALL, high + WALL),
         box(start - 1, far - 150, -half, half, -high, high),
     )
     rod_at = far - ROD_PIN
-    tube = bored(tube, Y, ((rod_at, 0, 0), 20.0), ((gx, 0, gz), 46.0), ((far, 0, 0), 62.0))
+    tube = bored(tube, Y, ((rod_at, 0, 0), 20.0), ((gx, 0, gz), 46.0))
     tree.add(Part("EXTENSION TUBE", moved(tube, at), YELLOW), body)
-    for name, x, z, r, size in (("NOSE", far, 0.0, 62.0, SMALL), ("TIPPING LINK", gx, gz, 46.0, SMALL)):
-        boss = ring((x, -92, z), Y, r, size / 2, 184)
+    nose = plate([(far - 300, -90, 0), (far, 0, 62), (far - 300, 90, 0)], "xz", half + WALL, 95)
+    nose = bored(nose, Y, ((far, 0, 0), SMALL / 2), ((gx, 0, gz), 46.0))
+    _both(tree, "NOSE PL", nose, at, body)
+    for name, x, z, r, long in (("NOSE", far, 0.0, 62.0, half + WALL), ("TIPPING LINK", gx, gz, 46.0, 95.0)):
+        boss = ring((x, -long, z), Y, r, SMALL / 2, 2 * long)
         tree.add(Part(f"{name} BOSS", moved(boss, at), YELLOW), body)
     lug = plate([(ex, ez, 44), (ex - 120, high + WALL, 0), (ex + 70, high + WALL, 0)], "xz", 36, 52)
     _both(tree, "BUCKET CYL LUG", bored(lug, Y, ((ex, 0, ez), SMALL / 2)), at, body)
@@ -167,7 +177,7 @@ def draw_links(k: Linkage, pose: Pose, hardware: Assembly) -> Assembly:
     flat = bored(plate([(0, 0, 44), (k.tipping, 0, 44)], "xz", 96, 112), Y, ((0, 0, 0), hole), ((k.tipping, 0, 0), hole))
     _both(tree, "TIPPING LINK", flat, at, "tipping_link")
     at, n = out(pose.H, direction(pose.J - pose.H)), k.link
-    bar = bored(plate([(0, 0, 42), (n, 0, 44)], "xz", 40, 62), Y, ((0, 0, 0), hole), ((n, 0, 0), hole))
+    bar = bored(plate([(0, 0, 42), (n, 0, 56)], "xz", 40, 62), Y, ((0, 0, 0), hole), ((n, 0, 0), 44.0))
     _both(tree, "BUCKET LINK BAR", bar, at, "bucket_link")
     eye = ring((n, -92, 0), Y, 44, hole, 184)
     tree.add(Part("BUCKET LINK EYE", moved(eye, at), YELLOW), "bucket_link")
@@ -194,17 +204,23 @@ def draw_bucket(k: Linkage, pose: Pose, hardware: Assembly) -> Assembly:
 
     heel, back, top = floor(430.0, HEEL), (187.0, 280.0), (60.0, 67.0)
     outer: Outline = [(*floor(TOOTH + 100), 0), (*heel, HEEL), (*back, BACK), (*top, 0)]
-    cave: Outline = [(*floor(TOOTH, SKIN), 0), (*heel, HEEL - SKIN), (*back, BACK - SKIN), (top[0] + 24, top[1] - 14, 0)]
+    roof = outline(outer)[-2]
+    (sx, sz), (ex, ez) = roof[-1], roof[0]
+    (ax, az), (bx, bz) = ((sx + s * (ex - sx), sz + s * (ez - sz)) for s in (0.1, 0.9))
+    far = math.hypot(bx - ax, bz - az)
+    along = ((bx - ax) / far, (bz - az) / far)
+    below = (top[0] - 130 * along[0] + SKIN * along[1], top[1] - 130 * along[1] - SKIN * along[0])
+    cave: Outline = [(*floor(TOOTH - 200, SKIN), 0), (*heel, HEEL - SKIN), (*back, BACK - SKIN), (*below, 0)]
     put("HOE BUCKET WRAPPER", cut(plate(outer, "xz", -inner, inner), plate(cave, "xz", -inner - 1, inner + 1)))
     _both(tree, "HOE BUCKET SIDE", plate([(*floor(TOOTH + 14), 0), *outer[1:]], "xz", inner, half), at, body)
     lip = [floor(TOOTH), floor(TOOTH + 100), floor(TOOTH + 100, 20.0), floor(TOOTH, 20.0)]
-    put("HOE BUCKET EDGE", plate([(x, z, 0.0) for x, z in lip], "xz", -half, half), GREY, "backhoe_cutting_edge")
+    put("HOE BUCKET EDGE", plate([(x, z, 0.0) for x, z in lip], "xz", -inner, inner), GREY, "backhoe_cutting_edge")
     corners = [floor(0.0), floor(TOOTH), floor(TOOTH, 26.0), floor(0.0, 5.0)]
     tooth = Part("HOE BUCKET TOOTH", plate([(x, z, 0.0) for x, z in corners], "xz", -24, 24), STEEL)
     for i in range(5):
         tree.add(tooth, body, at=at.Multiplied(shift(0, (i - 2) * (2 * half - 70) / 4, 0)))
     jx, jz = k.J
-    ear: Outline = [(0, 0, 50), (top[0] + 16, top[1] + 44, 0), (back[0] - 100, back[1] + 50, 0), (jx, jz, 46)]
+    ear: Outline = [(0, 0, 50), (ax, az, 0), (bx, bz, 0), (jx, jz, 46)]
     shape = bored(plate(ear, "xz", 96, 116), Y, ((0, 0, 0), SMALL / 2 + CLEARANCE), ((jx, 0, jz), SMALL / 2))
     _both(tree, "HOE BUCKET EAR", shape, at, body)
     _pin(hardware, pose.J, SMALL, 120, body, "bucket_link_pin")

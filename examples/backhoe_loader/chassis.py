@@ -11,7 +11,7 @@ from OCP.TopoDS import TopoDS_Shape
 from drawing.hardware import CLEARANCE, fit_pin
 from drawing.planar import rot, vec
 from drawing.product import BLACK, GLASS, GREY, YELLOW, Assembly, Colour, Part, add_pair
-from drawing.solids import X, Y, Z, bored, box, cut, fuse, mirrored, moved, plate, ring, rod, sheet_box, shift, turned
+from drawing.solids import X, Y, Z, bored, box, cut, fuse, mirrored, moved, plate, rod, sheet_box, shift, turned
 from drawing.steer_axle import PIN_OSCILLATION
 
 from . import values as v
@@ -63,12 +63,12 @@ def draw_frame(hardware: Assembly) -> Assembly:
     add_pair(tree, "LIFT CYL PL", bored(plate(inner, "xz", 234, 260), Y, holes[1]), BODY)
     beam = sheet_box(1180, 1300, -TOWERS[0][0], TOWERS[0][0], 1390, 1490, 14.0)
     tree.add(Part("TOWER X-MEMBER", beam), BODY)
-    lug = bored(plate([(ex, ez, 62), (1300, 1490, 0), (1300, 1390, 0)], "xz", 42, 70), Y, ((ex, 0, ez), PIN_TILT / 2))
+    lug = bored(plate([(ex, ez, 62), (1300, 1490, 0), (1300, 1390, 0)], "xz", 56, 82), Y, ((ex, 0, ez), PIN_TILT / 2))
     add_pair(tree, "TILT CYL LUG", lug, BODY)
     for name, x in (("FRT", FRONT_X + 100), ("RR", FRONT_X - 140)):
         hanger = fuse(box(x, x + 40, -100, 100, AXLE_Z - 60, high), box(x, x + 40, -inside, inside, high - 60, high))
         tree.add(Part(f"AXLE HANGER {name}", bored(hanger, X, ((0, 0, AXLE_Z), PIN_OSCILLATION / 2))), BODY)
-    fit_pin(hardware, (ex, -75, ez), PIN_TILT, 150, BODY, "loader_bucket_cylinder_barrel_pin")
+    fit_pin(hardware, (ex, -88, ez), PIN_TILT, 176, BODY, "loader_bucket_cylinder_barrel_pin")
     for letter, sign in (("l", 1.0), ("r", -1.0)):
         for role, x, z, size, start, end in (
             ("loader_arm_pin", ax, az, PIN_ARM, 370.0, 482.0),
@@ -154,11 +154,11 @@ def draw_top() -> Assembly:
     reach = v.REAR_TREAD.value / 2 + 60
     axle = turned([(-reach, 0), (-reach, REAR_SPINDLE), (-600, REAR_SPINDLE), (-600, 95), (-160, 110), (-110, 190),
                    (110, 190), (160, 110), (600, 95), (600, REAR_SPINDLE), (reach, REAR_SPINDLE), (reach, 0)])  # fmt: skip
-    put("REAR AXLE", moved(axle, shift(0, 0, REAR_RADIUS)), GREY)
-    add_pair(tree, "AXLE PAD", box(-90, 90, inside, outside, REAR_RADIUS + 60, high + 40), BODY, GREY)
-    put("ENGINE", sheet_box(1350, 2050, -200, 200, high, 1250, 20.0), GREY)
-    put("TRANSMISSION", sheet_box(350, 1100, -200, 200, low + 30, 1000, 20.0), GREY)
-    put("RADIATOR", box(2080, 2150, -210, 210, high, 1280), BLACK)
+    pads = [box(-90, 90, y, y + 40, -80, 20) for y in (outside, -outside - 40)]
+    put("REAR AXLE", moved(fuse(axle, *pads), shift(0, 0, REAR_RADIUS)), GREY)
+    put("ENGINE", sheet_box(1350, 2050, -inside, inside, high - 90, 1250, 20.0), GREY)
+    put("TRANSMISSION", sheet_box(350, 1100, -inside, inside, low + 30, 1000, 20.0), GREY)
+    put("RADIATOR", box(2080, 2150, -inside, inside, high - 60, 1280), BLACK)
     hood = cut(box(1330, 2190, -250, 250, high, 1330), box(1329, 2184, -242, 242, high - 1, 1322))
     put("ENGINE HOOD", hood)
     put("FUEL TANK", sheet_box(-250, 700, -600, -outside, 700, 1050, 5.0), BLACK)
@@ -175,7 +175,7 @@ def draw_top() -> Assembly:
     put("SEAT BASE", sheet_box(-250, 250, -250, 250, 1080, 1450, 5.0), GREY)
     put("SEAT", fuse(box(-260, 240, -240, 240, 1450, 1560), box(-340, -240, -240, 240, 1450, 2150)), BLACK)
     put("STEERING COLUMN", rod((520, 0, 1080), Z, 40, 780), BLACK)
-    put("STEERING WHEEL", ring((520, 0, 1860), Z, 200, 175, 25), BLACK)
+    put("STEERING WHEEL", rod((520, 0, 1860), Z, 200, 25), BLACK)
     put("EXHAUST", rod((1500, 180, 1330), Z, 45, 900), BLACK)
     return tree
 

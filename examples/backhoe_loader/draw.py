@@ -51,7 +51,7 @@ SHARES = {
 """How far out the cylinders are drawn: neither end of a stroke, both buckets clear of the ground, straight ahead."""
 _SIZES: dict[str, tuple[str, str, tuple[float, ...]]] = {
     "loader_lift": ("LOADER LIFT CYL", "LIFT", (108, 55, 44, 56, 85, 28, 50, 60)),
-    "loader_bucket": ("LOADER BUCKET CYL", "TILT", (102, 60, 48, 72, 92, 30, 55, 65)),
+    "loader_bucket": ("LOADER BUCKET CYL", "TILT", (102, 60, 48, 80, 92, 30, 55, 65)),
     "boom": ("BOOM CYL", "BOOM", (140, 70, 50, 68, 95, 30, 60, 70)),
     "dipper": ("DIPPER CYL", "DIPPER", (120, 70, 48, 68, 95, 30, 55, 65)),
     "extension": ("EXTENSION CYL", "EXTENSION", (76, 40, 34, 56, 60, 20, 40, 50)),

@@ -14,7 +14,7 @@ from drawing.hardware import CLEARANCE, fit_pin, placed
 from drawing.loader import Linkage, Pose
 from drawing.planar import Point, direction
 from drawing.product import STEEL, YELLOW, Assembly, Colour, Part
-from drawing.solids import Y, bored, box, cut, fuse, mirrored, moved, plate, ring
+from drawing.solids import Y, bored, box, cut, mirrored, moved, plate, ring
 
 from . import values as v
 from .chassis import ARM_Y, LIFT_Y, PIN_ARM, PIN_LIFT, PIN_TILT
@@ -85,26 +85,27 @@ def draw_bucket(k: Linkage, pose: Pose, hardware: Assembly) -> Assembly:
     """The loader bucket with its ears, level in its own frame."""
     tree, at, body = Assembly("LOADER BUCKET"), _at(pose.B, pose.bucket_angle), "loader_bucket"
     (jx, jz), (edge, floor), half = k.J, k.T, v.SHOVEL_WIDTH.value / 2
-    inner, back, top = half - CHEEK, 70.0, 640.0
+    inner, back, top = half - CHEEK, 100.0, 640.0
 
     def put(name: str, shape: TopoDS_Shape, colour: Colour = YELLOW, role: str = "") -> None:
         tree.add(Part(name, moved(shape, at), colour), body, role)
 
     heel: tuple[float, float, float] = (back + 150, floor + 150, 150)
     outer: Outline = [heel, (edge - 150, floor, 0), (back + 120, top, 0), (back, 430, 0)]
-    cave: Outline = [(*heel[:2], 150 - SKIN), (edge - 150, floor + SKIN, 0), (back + 120, top, 0), (back + SKIN, 430, 0)]
+    cave: Outline = [(*heel[:2], 150 - SKIN), (edge, floor + SKIN, 0), (edge, top + 84, 0), (back + 178, top + 84, 0)]
+    cave.append((back + SKIN, 430, 0))
     put("BUCKET WRAPPER", cut(plate(outer, "xz", -inner, inner), plate(cave, "xz", -inner - 1, inner + 1)))
-    cheek: Outline = [heel, (edge - 150, floor, 0), (edge - 100, floor + 24, 0), *outer[2:]]
+    cheek: Outline = [heel, (edge - 60, floor, 0), (edge - 60, floor + 24, 0), *outer[2:]]
     for name, low, high in (("LH", inner, half), ("RH", -half, -inner)):
         put(f"BUCKET SIDE {name}", plate(cheek, "xz", low, high))
     lip: Outline = [(edge - 150, floor, 0), (edge, floor, 0), (edge - 36, floor + 24, 0), (edge - 150, floor + 24, 0)]
-    put("BUCKET EDGE", plate(lip, "xz", -half, half), STEEL, "loader_cutting_edge")
+    put("BUCKET EDGE", plate(lip, "xz", -inner, inner), STEEL, "loader_cutting_edge")
     for name, (low, high) in zip(("IN", "OUT"), EARS, strict=True):
-        ear = plate([(0, 0, 62), (back + 12, floor + 120, 0), (back + 12, 190, 0)], "xz", low, high)
+        ear = plate([(0, 0, 62), (back, -35, 0), (back, 190, 0)], "xz", low, high)
         _both(tree, f"BUCKET EAR {name}", bored(ear, Y, ((0, 0, 0), PIN_BUCKET / 2)), at, body)
-    lug = plate([(jx, jz, 50), (back + 6, jz - 130, 0), (back + 6, jz + 150, 0)], "xz", 44, 72)
+    lug = plate([(jx, jz, 50), (back, jz - 130, 0), (back, jz + 150, 0)], "xz", 44, 72)
     _both(tree, "LINK LUG", bored(lug, Y, ((jx, 0, jz), PIN_LINK / 2)), at, body)
-    put("BACK STIFFENER", fuse(box(back - 24, back + 4, -inner + 60, -120, 300, 360), box(back - 24, back + 4, 120, inner - 60, 300, 360)))
+    _both(tree, "BACK STIFFENER", box(back - 24, back, 120, inner - 60, 300, 360), at, body)
     _twins(hardware, pose.B, PIN_BUCKET, EARS[0][0] - 5, EARS[1][1] + 5, body, "loader_bucket_pin")
     fit_pin(hardware, (float(pose.J[0]), -76, float(pose.J[1])), PIN_LINK, 152, body, "loader_link_bucket_pin")
     return tree
