@@ -45,7 +45,7 @@ from .sheet import write
 from .truth import FRAME, truth
 
 SHARES = {
-    "loader_lift": 0.22, "loader_bucket": 0.6, "boom": 0.62, "dipper": 0.4, "extension": 0.3, "backhoe_bucket": 0.62,
+    "loader_lift": 0.22, "loader_bucket": 0.6, "boom": 0.9, "dipper": 0.5, "extension": 0.2, "backhoe_bucket": 0.6,
     "stabilizer": 0.15,
 }  # fmt: skip
 """How far out the cylinders are drawn: neither end of a stroke, both buckets clear of the ground, straight ahead."""
