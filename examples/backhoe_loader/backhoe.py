@@ -1,5 +1,5 @@
-"""Swing post, boom, dipper with its extension, bucket links and bucket: each drawn in its own frame (x outwards from pin
-to pin, z up) and put where the linkage has it, behind the machine. Millimetres.
+"""Swing post, boom, dipper with its extension, bucket links and bucket: each drawn in its own frame (x outwards from
+pin to pin, z up) and put where the linkage has it, behind the machine. Millimetres.
 
 Lateral layout, from the middle: cylinder eyes within 34, their lugs 38-56; dipper 75, extension 79-89, its nose and the
 bucket link 95; tipping links 96-112, bucket ears 96-116; boom 110, the post's plates 116-136.
@@ -129,7 +129,9 @@ def draw_dipper(k: Linkage, pose: Pose, hardware: Assembly) -> Assembly:
     tree.add(Part("DIPPER BEAM", moved(beam, at), YELLOW), body)
     hub = ring((0, -half, 0), Y, HUB, PIN / 2 + CLEARANCE, 2 * half)
     tree.add(Part("DIPPER HUB", moved(hub, at), YELLOW), body)
-    tail = plate([(px, pz, 58), (0, 0, HUB + 4), (TUBE_START - 30, -80, 0), (TUBE_START - 30, 80, 0)], "xz", half, half + 16)
+    tail = plate(
+        [(px, pz, 58), (0, 0, HUB + 4), (TUBE_START - 30, -80, 0), (TUBE_START - 30, 80, 0)], "xz", half, half + 16
+    )
     tail = bored(tail, Y, ((0, 0, 0), 50.0), ((px, 0, pz), PIN / 2))
     _both(tree, "DIPPER TAIL PL", tail, at, body)
     _both(tree, "ROD BOSS", ring((px, 38, pz), Y, 52, PIN / 2, half - 38), at, body)
@@ -174,7 +176,9 @@ def draw_links(k: Linkage, pose: Pose, hardware: Assembly) -> Assembly:
     """Two flat tipping links outside the nose; the bucket link inside them."""
     tree, hole = Assembly("BUCKET LINKAGE"), SMALL / 2 + CLEARANCE
     at = out(pose.G, direction(pose.H - pose.G))
-    flat = bored(plate([(0, 0, 44), (k.tipping, 0, 44)], "xz", 96, 112), Y, ((0, 0, 0), hole), ((k.tipping, 0, 0), hole))
+    flat = bored(
+        plate([(0, 0, 44), (k.tipping, 0, 44)], "xz", 96, 112), Y, ((0, 0, 0), hole), ((k.tipping, 0, 0), hole)
+    )
     _both(tree, "TIPPING LINK", flat, at, "tipping_link")
     at, n = out(pose.H, direction(pose.J - pose.H)), k.link
     bar = bored(plate([(0, 0, 42), (n, 0, 56)], "xz", 40, 62), Y, ((0, 0, 0), hole), ((n, 0, 0), 44.0))

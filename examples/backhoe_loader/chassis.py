@@ -152,8 +152,8 @@ def draw_top() -> Assembly:
         tree.add(Part(name, shape, colour), BODY)
 
     reach = v.REAR_TREAD.value / 2 + 60
-    axle = turned([(-reach, 0), (-reach, REAR_SPINDLE), (-600, REAR_SPINDLE), (-600, 95), (-160, 110), (-110, 190),
-                   (110, 190), (160, 110), (600, 95), (600, REAR_SPINDLE), (reach, REAR_SPINDLE), (reach, 0)])  # fmt: skip
+    half = [(110, 190), (160, 110), (600, 95), (600, REAR_SPINDLE), (reach, REAR_SPINDLE), (reach, 0)]
+    axle = turned([*half, *[(-y, r) for y, r in reversed(half)]])
     pads = [box(-90, 90, y, y + 40, -80, 20) for y in (outside, -outside - 40)]
     put("REAR AXLE", moved(fuse(axle, *pads), shift(0, 0, REAR_RADIUS)), GREY)
     put("ENGINE", sheet_box(1350, 2050, -inside, inside, high - 90, 1250, 20.0), GREY)
@@ -171,11 +171,14 @@ def draw_top() -> Assembly:
         put(f"CAB SIDE {name}", wall, BLACK)
         put(f"SIDE GLASS {name}", plate(pane, "xz", y + 7, y + 13), GLASS)
     put("CAB ROOF", sheet_box(-760, 840, -620, 620, top - 60, top, 5.0))
-    put("FRONT GLASS", plate([(858, 1080, 0), (864, 1080, 0), (786, top - 60, 0), (780, top - 60, 0)], "xz", -580, 580), GLASS)
+    put(
+        "FRONT GLASS",
+        plate([(858, 1080, 0), (864, 1080, 0), (786, top - 60, 0), (780, top - 60, 0)], "xz", -580, 580),
+        GLASS,
+    )
     put("SEAT BASE", sheet_box(-250, 250, -250, 250, 1080, 1450, 5.0), GREY)
     put("SEAT", fuse(box(-260, 240, -240, 240, 1450, 1560), box(-340, -240, -240, 240, 1450, 2150)), BLACK)
     put("STEERING COLUMN", rod((520, 0, 1080), Z, 40, 780), BLACK)
     put("STEERING WHEEL", rod((520, 0, 1860), Z, 200, 25), BLACK)
     put("EXHAUST", rod((1500, 180, 1330), Z, 45, 900), BLACK)
     return tree
-

@@ -124,11 +124,17 @@ def draw_cylinders(d: Drawn) -> Assembly:
     e = d.shovel.E
     put("loader_bucket", placed((float(e[0]), 0.0, float(e[1])), direction(d.arms.F - e)))
     for name, start, end in (
-        ("boom", hoe.C, pose.D), ("dipper", pose.M, pose.P), ("extension", *d.extension), ("backhoe_bucket", pose.E, pose.H),
+        ("boom", hoe.C, pose.D), ("dipper", pose.M, pose.P), ("extension", *d.extension),
+        ("backhoe_bucket", pose.E, pose.H),
     ):  # fmt: skip
         put(name, out(start, direction(end - start)))
     swing = solve_swing()
-    put_pair(tree, made["swing"], "swing", *((SWING_X + float(p[0]), float(p[1]), SWING_Z) for p in (swing.barrel, swing.rod(0.0))))
+    put_pair(
+        tree,
+        made["swing"],
+        "swing",
+        *((SWING_X + float(p[0]), float(p[1]), SWING_Z) for p in (swing.barrel, swing.rod(0.0))),
+    )
     leg, x = solve_stabiliser(), sum(LEG_X) / 2
     (by, bz), (qy, qz) = leg.barrel, leg.rod(d.leg)
     for letter, sign in (("l", 1.0), ("r", -1.0)):

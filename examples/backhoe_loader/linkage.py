@@ -31,9 +31,7 @@ DEPTH = 190.0
 EDGE = vec(math.sqrt(2) * (v.HINGE_HEIGHT.value - v.DUMP_HEIGHT.value) - DEPTH, -DEPTH)
 ARMS = vec(1000.0, 1560.0)
 """The arms' pins on the chassis."""
-TOP = vec(
-    FRONT_X + FRONT_RADIUS + v.DUMP_REACH.value - float(rot(math.radians(-45.0), EDGE)[0]), v.HINGE_HEIGHT.value
-)
+TOP = vec(FRONT_X + FRONT_RADIUS + v.DUMP_REACH.value - float(rot(math.radians(-45.0), EDGE)[0]), v.HINGE_HEIGHT.value)
 """The hinge with the arms raised."""
 LIFTS = v.LIFT_CLOSED.value, v.LIFT_CLOSED.value + v.LIFT_STROKE.value
 TILTS = v.TILT_CLOSED.value, v.TILT_CLOSED.value + v.TILT_STROKE.value

@@ -47,7 +47,11 @@ def draw_arms(k: Linkage, pose: Pose, hardware: Assembly) -> Assembly:
     tree, at, body = Assembly("LOADER ARMS"), _at(k.A, pose.boom_angle), "loader_arm"
     (dx, dz), (gx, gz), far = k.D, k.G, k.boom
     arm: Outline = [(0, 0, 95), (dx, dz, 80), (far, 0, 70), (1950, 340, 105), (1450, 310, 110)]
-    holes = [((0, 0, 0), PIN_ARM / 2 + CLEARANCE), ((far, 0, 0), PIN_BUCKET / 2 + CLEARANCE), ((dx, 0, dz), PIN_LIFT / 2)]
+    holes = [
+        ((0, 0, 0), PIN_ARM / 2 + CLEARANCE),
+        ((far, 0, 0), PIN_BUCKET / 2 + CLEARANCE),
+        ((dx, 0, dz), PIN_LIFT / 2),
+    ]
     shape = bored(plate(arm, "xz", *ARM_Y), Y, *holes, ((TUBE[0], 0, TUBE[1]), TUBE[2]))
     _both(tree, "LOADER ARM", shape, at, body)
     tube = ring((TUBE[0], -ARM_Y[1], TUBE[1]), Y, TUBE[2], TUBE[2] - 12, 2 * ARM_Y[1])
@@ -109,4 +113,3 @@ def draw_bucket(k: Linkage, pose: Pose, hardware: Assembly) -> Assembly:
     _twins(hardware, pose.B, PIN_BUCKET, EARS[0][0] - 5, EARS[1][1] + 5, body, "loader_bucket_pin")
     fit_pin(hardware, (float(pose.J[0]), -76, float(pose.J[1])), PIN_LINK, 152, body, "loader_link_bucket_pin")
     return tree
-

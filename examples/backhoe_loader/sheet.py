@@ -26,8 +26,8 @@ from . import values as v
 
 TITLE = f"Example backhoe loader, {v.MODEL} class"
 SOURCE = (
-    f"Published values are those of the {v.MAKE} {v.MODEL}: {v.FACTS}; working ranges of the backhoe with its dipper drawn "
-    "out. Dimensions after ISO 8812. Not a publication of the maker."
+    f"Published values are those of the {v.MAKE} {v.MODEL}: {v.FACTS}; working ranges of the backhoe with its dipper "
+    "drawn out. Dimensions after ISO 8812. Not a publication of the maker."
 )
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from drawing.cylinders import Cylinder
-from drawing.planar import Point, direction, rot
+from drawing.planar import Point, rot
 from drawing.product import Assembly, extent, occurrences
 from drawing.truth import CadFrame, Joints, document, twin_slides, value_rows
 from drawing.wheels import wheel_places

@@ -1,7 +1,7 @@
 """The values the example backhoe loader is drawn to.
 
-* `PUBLISHED`: printed for the JCB 3CX with an extending dipper, which is drawn out for its working ranges; `location` is
-  where.
+* `PUBLISHED`: printed for the JCB 3CX with an extending dipper, which is drawn out for its working ranges; `location`
+  is where.
 * `EXAMPLE`: ours, plausible for the class; a sheet prints them as "example value".
 
 The maker's machine has a backhoe that shifts sideways and stands on upright legs; this one turns about a fixed pivot in
@@ -14,8 +14,7 @@ from __future__ import annotations
 from drawing.values import Value, sorted_values
 
 FACTS = (
-    "JCB 3CX 2007, features and technical specifications (bhw.123linux.com), and JCB 3CX dimensions "
-    "(synergyrentals.ae)"
+    "JCB 3CX 2007, features and technical specifications (bhw.123linux.com), and JCB 3CX dimensions (synergyrentals.ae)"
 )
 MAKE, MODEL = "JCB", "3CX"
 GRAVITY = 9.80665

@@ -1,4 +1,4 @@
-"""A loader's planar linkage: arms, and a bucket that one tilt cylinder moves by a rocker on the arms and a link (Z-bar).
+"""A loader's planar linkage: arms, and a bucket that a tilt cylinder moves by a rocker on the arms and a link (Z-bar).
 
 In millimetres and in the plane y = 0: x forward, z up from the ground. Angles are radians, counter-clockwise seen from
 the machine's right side turned so that x points right and z up (a raised boom is positive). Bucket angle: 0 = floor

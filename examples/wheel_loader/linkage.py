@@ -18,7 +18,6 @@ from scipy.optimize import least_squares
 
 from drawing import loader
 from drawing.articulation import Steering, steering_between
-from drawing.loader import Pose
 from drawing.planar import Point, direction, rot, vec
 
 from . import values as v
