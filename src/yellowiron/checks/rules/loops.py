@@ -83,7 +83,7 @@ def locked(view: View) -> Remarks:
     "A pivot is missing or an axis is wrong; if it is meant to hold still, make it a fixed joint.",
 )
 def still(view: View) -> Remarks:
-    """A joint of a loop cannot move."""
+    """A joint of a loop cannot move, nor is it a pivot of a cylinder beside the slide of two sections."""
     for island in view.islands:
         motion = island.motion
         if motion is None or _skewed(island):
