@@ -154,7 +154,7 @@ def draw_top() -> Assembly:
     reach = v.REAR_TREAD.value / 2 + 60
     half = [(110, 190), (160, 110), (600, 95), (600, REAR_SPINDLE), (reach, REAR_SPINDLE), (reach, 0)]
     axle = turned([*half, *[(-y, r) for y, r in reversed(half)]])
-    pads = [box(-90, 90, y, y + 40, -80, 20) for y in (outside, -outside - 40)]
+    pads = [box(-160, 160, y, y + 40, -112, 42) for y in (outside, -outside - 40)]
     put("REAR AXLE", moved(fuse(axle, *pads), shift(0, 0, REAR_RADIUS)), GREY)
     put("ENGINE", sheet_box(1350, 2050, -inside, inside, high - 90, 1250, 20.0), GREY)
     put("TRANSMISSION", sheet_box(350, 1100, -inside, inside, low + 30, 1000, 20.0), GREY)

@@ -55,7 +55,8 @@ def _first(c: Canvas) -> None:
         ("Dipper digging force", v.DIPPER_FORCE),
     ))  # fmt: skip
     y = heading(c, SECOND, y, "Weight and engine", HALF)
-    y = value_lines(c, SECOND, y, (("Operating weight", v.WEIGHT), ("Engine power", v.POWER)))
+    y = value_lines(c, SECOND, y, (("Operating weight", v.WEIGHT),)) + 8
+    y = lines(c, SECOND, y, (Line("Engine power", (f"{v.POWER.value} kW", f"{v.POWER.value / 0.7457:.0f} hp")),), HALF)
     y = heading(c, SECOND, y, "Transmission and steering", HALF)
     y = value_lines(c, SECOND, y, (("Maximum travel speed", v.SPEED), ("Steering angle", v.STEER_ANGLE)))
     y = heading(c, SECOND, y, "Hydraulic system", HALF)

@@ -91,7 +91,7 @@ def test_every_value_is_read_off_the_sheet(values: ModuleType, made_once: MadeOn
     names = {
         "Wheelbase": values.WHEELBASE, "Swing Pivot to Rear Axle": values.SLEW_TO_AXLE,
         "Stabilizer Feet Clearance": values.FEET_CLEARANCE, "Kingpost Clearance": values.KINGPOST_CLEARANCE,
-        "Overall Height": values.CAB_HEIGHT, "Rear Frame Width": values.FRAME_WIDTH,
+        "Cab Height": values.CAB_HEIGHT, "Rear Frame Width": values.FRAME_WIDTH,
         "Loader Bucket Width": values.SHOVEL_WIDTH, "Maximum Digging Depth": values.DIG_DEPTH,
         "Maximum Reach at Ground Line": values.GROUND_REACH, "Backhoe Loading Height": values.LOADING_HEIGHT,
         "Loader Dump Height": values.DUMP_HEIGHT, "Loader Hinge Pin Height": values.HINGE_HEIGHT,
