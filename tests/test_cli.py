@@ -42,10 +42,10 @@ def test_a_copy_says_where_it_is(capsys: pytest.CaptureFixture[str], tmp_path: P
 
 
 def test_a_copy_that_has_no_joints_is_not_promised_to_build(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
-    assert not app(["templates", "copy", "backhoe_loader", str(tmp_path / "mine")], standalone_mode=False)
+    assert not app(["templates", "copy", "mobile_crane", str(tmp_path / "mine")], standalone_mode=False)
     said = capsys.readouterr().out
     assert "build with it" not in said and "yellowiron extract" in said
-    code, copied = _asked(capsys, "templates", "copy", "backhoe_loader", tmp_path / "other")
+    code, copied = _asked(capsys, "templates", "copy", "mobile_crane", tmp_path / "other")
     assert code == 0 and copied["sheet_only"] is True
 
 

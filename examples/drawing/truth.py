@@ -77,6 +77,10 @@ class Joints:
         along = np.array(end) - np.array(start)
         self._add("prismatic", barrel, piston, start, (float(along[0]), float(along[1]), float(along[2])))
 
+    def slide(self, a: str, b: str, at: Triple, axis: Triple) -> None:
+        """`b` slides on `a`, outwards along the axis."""
+        self._add("prismatic", a, b, at, axis)
+
     def _add(self, kind: str, a: str, b: str, at: Triple, axis: Triple, name: str = "") -> None:
         entry = {"type": kind, "body0": a, "body1": b, "anchor": self.frame.point(at), "axis": self.frame.axis(axis)}
         self.found[name or f"{a}2{b}_joint"] = entry

@@ -5,10 +5,11 @@ from __future__ import annotations
 from drawing.hardware import fit_pin
 from drawing.product import BLACK, GREY, YELLOW, Assembly, Colour, Part
 from drawing.solids import X, Y, bored, box, cut, fuse, mirrored, plate, rod, turned
+from drawing.steer_axle import PIN_OSCILLATION
 
 from . import values as v
 from .mast import PIN_MAST, PIN_TILT, PIVOT, Mast, outside, tilt_pin_y
-from .steer_axle import AXLE_X, AXLE_Z, PIN_OSCILLATION
+from .steer_axle import AXLE
 from .wheels import SPINDLE
 
 FRONT_Z = v.TYRE_DIAMETER.value / 2
@@ -52,8 +53,8 @@ def draw_frame(mast: Mast, hardware: Assembly) -> Assembly:
     tree.add(Part("FRONT PLATE", box(-150, -110, -470, 470, 300, 900)), BODY)
     tree.add(Part("FRAME X-MEMBER", box(-1850, -1810, -430, 430, 400, 850)), BODY)
     tree.add(Part("DECK PL", box(-2760, -1700, -470, 470, 900, 960)), BODY)
-    for name, x in (("AXLE HANGER FRT", AXLE_X + 100), ("AXLE HANGER RR", AXLE_X - 140)):
-        hanger = bored(box(x, x + 40, -100, 100, AXLE_Z - 80, 900), X, ((0, 0, AXLE_Z), PIN_OSCILLATION / 2))
+    for name, x in (("AXLE HANGER FRT", AXLE.x + 100), ("AXLE HANGER RR", AXLE.x - 140)):
+        hanger = bored(box(x, x + 40, -100, 100, AXLE.z - 80, 900), X, ((0, 0, AXLE.z), PIN_OSCILLATION / 2))
         tree.add(Part(name, hanger), BODY)
     (px, pz), y = TILT_ANCHOR, tilt_pin_y(mast)
     _pair(tree, "TILT CYL BASE", box(px - 95, px - 48, 470, y + 60, pz - 70, pz + 20))

@@ -17,11 +17,12 @@ from drawing.files import run, write_example
 from drawing.hardware import placed
 from drawing.product import Assembly, Use
 from drawing.solids import Z, shift, turn
+from drawing.steer_axle import draw_steer_axle
 
 from . import values as v
 from .chassis import TILT_ANCHOR, draw_frame, draw_front_axle, draw_top
 from .mast import MID, PIN_TILT, PIVOT, TILT_BACK, Mast, draw_mast, half_depth, tilt_pin_y
-from .steer_axle import draw_steer_axle
+from .steer_axle import AXLE
 from .truth import FRAME, truth
 from .wheels import draw_wheel
 
@@ -68,7 +69,7 @@ def draw_machine(mast: Mast) -> Assembly:
     root = Assembly("FORKLIFT GA")
     rod = tilt_pin(mast)
     axle = draw_front_axle(mast, hardware)
-    rear = draw_steer_axle(hardware)
+    rear = draw_steer_axle(AXLE, hardware)
     tilt = draw_cylinder(tilt_cylinder(mast))
     hydraulics = Assembly("TILT CYLINDERS")
     angle = math.atan2(rod[1] - TILT_ANCHOR[1], rod[0] - TILT_ANCHOR[0])

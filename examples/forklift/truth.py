@@ -14,7 +14,7 @@ from drawing.truth import CadFrame, value_rows
 
 from . import values as v
 from .mast import FACE, FREE_RAM, PIVOT, RAM, Mast, free_ram, lift_ram, tilt_pin_y
-from .steer_axle import ARM, AXLE_X, AXLE_Z, CYL_Z, KINGPIN, ROD_END, knuckle_angle, steer_ram
+from .steer_axle import AXLE
 
 FRAME = CadFrame((-900.0, 0.0, 300.0), x=(1.0, 0.0, 0.0), z=(0.0, -1.0, 0.0))
 """From a point of the drawing office's: x forward, y up, z to the right."""
@@ -32,7 +32,7 @@ def joints(mast: Mast, tilt: tuple[float, float], anchor: tuple[float, float]) -
 
     r = v.TYRE_DIAMETER.value / 2
     add("chassis", "outer_mast", (PIVOT[0], 0, PIVOT[1]))
-    add("chassis", "steer_axle", (AXLE_X, 0, AXLE_Z), X)
+    add("chassis", "steer_axle", (AXLE.x, 0, AXLE.z), X)
     y = tilt_pin_y(mast)
     for letter, sign in (("l", 1.0), ("r", -1.0)):
         barrel, piston = f"tilt_cylinder_barrel_{letter}", f"tilt_piston_rod_{letter}"
@@ -40,14 +40,14 @@ def joints(mast: Mast, tilt: tuple[float, float], anchor: tuple[float, float]) -
         add("outer_mast", piston, (tilt[0], sign * y, tilt[1]))
         along = (tilt[0] - anchor[0], 0.0, tilt[1] - anchor[1])
         add(barrel, piston, (anchor[0], sign * y, anchor[1]), along, kind="prismatic")
-        wheels = (("front", "chassis", 0.0, v.FRONT_TREAD), ("rear", f"knuckle_{letter}", AXLE_X, v.REAR_TREAD))
+        wheels = (("front", "chassis", 0.0, v.FRONT_TREAD), ("rear", f"knuckle_{letter}", AXLE.x, v.REAR_TREAD))
         for end, on, x, tread in wheels:
             wheel = f"{end}_wheel_{letter}"
             add(on, wheel, (x, sign * tread.value / 2, r), name=f"{wheel}_joint")
-        add("steer_axle", f"knuckle_{letter}", (KINGPIN[0], sign * KINGPIN[1], AXLE_Z), Z)
-        add(f"knuckle_{letter}", f"tie_rod_{letter}", (ARM[0], sign * ARM[1], CYL_Z), Z)
-        add("steering_piston_rod", f"tie_rod_{letter}", (ROD_END[0], sign * ROD_END[1], CYL_Z), Z)
-    add("steer_axle", "steering_piston_rod", (ROD_END[0], 0, CYL_Z), Y, kind="prismatic")
+        add("steer_axle", f"knuckle_{letter}", (AXLE.x, sign * AXLE.king, AXLE.z), Z)
+        add(f"knuckle_{letter}", f"tie_rod_{letter}", (AXLE.arm[0], sign * AXLE.arm[1], AXLE.ram_z), Z)
+        add("steering_piston_rod", f"tie_rod_{letter}", (AXLE.end[0], sign * AXLE.end[1], AXLE.ram_z), Z)
+    add("steer_axle", "steering_piston_rod", (AXLE.end[0], 0, AXLE.ram_z), Y, kind="prismatic")
     lifted = mast.body(mast.stages - 2)
     add("outer_mast", lifted, (RAM[0], 0, RAM[2]), Z, kind="prismatic")
     if mast.stages == 3:
@@ -87,7 +87,7 @@ def truth(
         v.MAST_CLEARANCE.name: float(of("outer_mast")[0, 2]),
     }
     slides = {f"tilt_cylinder_barrel_{s}2tilt_piston_rod_{s}_joint": cylinder.slide() for s in "lr"}
-    slides["steer_axle2steering_piston_rod_joint"] = steer_ram().slide()
+    slides["steer_axle2steering_piston_rod_joint"] = AXLE.ram().slide()
     slides[f"outer_mast2{mast.body(mast.stages - 2)}_joint"] = lift_ram(mast).slide()
     if mast.has_free_lift:
         slides["inner_mast2free_lift_crosshead_joint"] = free_ram(mast).slide()
@@ -101,8 +101,8 @@ def truth(
         "parts": {leaf.path: {"body": leaf.body, "role": leaf.role} for leaf in leaves},
         "cylinders": slides,
         "knuckles": {
-            "rod to the left": [round(math.degrees(knuckle_angle(half, side)), 6) for side in (1.0, -1.0)],
-            "rod to the right": [round(math.degrees(knuckle_angle(-half, side)), 6) for side in (1.0, -1.0)],
+            "rod to the left": [round(math.degrees(AXLE.knuckle_angle(half, side)), 6) for side in (1.0, -1.0)],
+            "rod to the right": [round(math.degrees(AXLE.knuckle_angle(-half, side)), 6) for side in (1.0, -1.0)],
         },
         "values": value_rows((*v.PUBLISHED, *v.EXAMPLE), {}, drawn),
     }  # fmt: skip

@@ -2,12 +2,9 @@
 again.
 
 Frame: the machine's, in millimetres and in the plane y = 0: x forward from the articulation axis, z up from
-the ground. Angles are radians, counter-clockwise seen from the machine's right side turned so that x points
-right and z up (a raised boom is positive). Bucket angle: 0 = floor plane level, positive = rolled back.
+the ground.
 
-Pins: A boom on the front frame, B bucket on the boom, C and D lift cylinder (frame, boom), E tilt cylinder on
-the frame, F tilt rod on the rocker, G rocker on the boom, H link on the rocker, J link on the bucket. T is
-the cutting edge (tooth points).
+Pins and angles are those of `drawing.loader`.
 """
 
 from __future__ import annotations
@@ -17,10 +14,11 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import brentq, least_squares
+from scipy.optimize import least_squares
 
+from drawing import loader
 from drawing.articulation import Steering, steering_between
-from drawing.planar import Point, direction, meet, rot, sine, vec
+from drawing.planar import Point, direction, rot, vec
 
 from . import values as v
 
@@ -32,91 +30,18 @@ EDGE_DEPTH = 290.0
 
 
 @dataclass(frozen=True, slots=True)
-class Pose:
-    """Where the pins are at one lift length and one tilt length; world points, millimetres, radians."""
+class Linkage(loader.Linkage):
+    """The linkage with this machine's tilt cylinder."""
 
-    lift: float
-    tilt: float
-    boom_angle: float
-    rocker_angle: float
-    bucket_angle: float
-    B: Point
-    D: Point
-    F: Point
-    G: Point
-    H: Point
-    J: Point
-    T: Point
-
-
-@dataclass(frozen=True, slots=True)
-class Linkage:
-    """Pin positions. A, C, E are world; D, G are in the boom's frame (origin A, x towards B); H in the
-    rocker's (origin G, x towards F); J and T in the level bucket's (origin B)."""
-
-    A: Point
-    C: Point
-    E: Point
-    boom: float
-    D: Point
-    G: Point
-    rocker: float
-    H: Point
-    link: float
-    J: Point
-    T: Point
-
-    def boom_angle(self, lift: float) -> float:
-        """Angle of A -> B at a lift cylinder length."""
-        p, q = float(np.hypot(*(self.C - self.A))), float(np.hypot(*self.D))
-        opening = math.acos((p * p + q * q - lift * lift) / (2 * p * q))
-        return direction(self.C - self.A) + opening - direction(self.D)
-
-    def lift_at(self, boom_angle: float) -> float:
-        """Lift cylinder length at an angle of A -> B."""
-        return float(np.hypot(*(self.A + rot(boom_angle, self.D) - self.C)))
-
-    def pose(self, lift: float, tilt: float) -> Pose:
-        """All pins at one pair of cylinder lengths."""
-        return self._pose(self.boom_angle(lift), lift, tilt)
-
-    def _pose(self, beta: float, lift: float, tilt: float) -> Pose:
-        b = self.A + rot(beta, vec(self.boom, 0.0))
-        g = self.A + rot(beta, self.G)
-        f = meet(self.E, tilt, g, self.rocker, 1.0)
-        rocker = direction(f - g)
-        h = g + rot(rocker, self.H)
-        j = meet(h, self.link, b, float(np.hypot(*self.J)), 1.0)
-        bucket = (direction(j - b) - direction(self.J) + math.pi) % (2 * math.pi) - math.pi
-        return Pose(
-            lift,
-            tilt,
-            beta,
-            rocker,
-            bucket,
-            b,
-            self.A + rot(beta, self.D),
-            f,
-            g,
-            h,
-            j,
-            b + rot(bucket, self.T),
-        )
-
-    def lift_for_hinge(self, height: float) -> float:
-        """Lift cylinder length at which the bucket hinge pin is at `height`."""
-        return self.lift_at(math.asin((height - self.A[1]) / self.boom))
-
-    def tilt_for_angle(self, lift: float, angle: float) -> float:
+    def tilt_for(self, lift: float, angle: float) -> float:
         """Tilt cylinder length that puts the bucket at `angle` (radians)."""
-        lo, hi = v.TILT_CLOSED.value, v.TILT_CLOSED.value + v.TILT_STROKE.value
-        return float(brentq(lambda t: self.pose(lift, t).bucket_angle - angle, lo, hi, xtol=1e-10))
+        return self.tilt_for_angle(lift, angle, (TILT_MIN, TILT_MAX))
 
     def breakout(self) -> float:
         """Upward force, kN, 100 mm behind the edge of the level bucket on the ground, tilt cylinder at relief pressure
         (ISO 14397-2), by virtual work; weights left out."""
         lift = self.lift_for_hinge(EDGE_DEPTH)
-        level, step = self.tilt_for_angle(lift, 0.0), 1e-3
+        level, step = self.tilt_for(lift, 0.0), 1e-3
 
         def height(tilt: float) -> float:
             pose = self.pose(lift, tilt)
@@ -124,16 +49,6 @@ class Linkage:
 
         rise = (height(level + step) - height(level - step)) / (2 * step)
         return v.WORK_PRESSURE.value * math.pi / 4 * v.TILT_BORE.value**2 / 1000 / rise
-
-    def margins(self, pose: Pose) -> tuple[float, float, float, float]:
-        """Sines at F (rod on rocker), H, J (link on bucket) and D (lift rod on boom): none may come near
-        0."""
-        return (
-            sine(self.E, pose.F, pose.G),
-            sine(pose.G, pose.H, pose.J),
-            sine(pose.H, pose.J, pose.B),
-            sine(self.A, pose.D, self.C),
-        )
 
 
 LIFT_MIN, LIFT_MAX = v.LIFT_CLOSED.value, v.LIFT_CLOSED.value + v.LIFT_STROKE.value
@@ -192,9 +107,9 @@ def _required(x: Point) -> Point:
     ground = direction(HINGE_GROUND - k.A)
     low = math.asin((EDGE_DEPTH - v.DIG_DEPTH.value - k.A[1]) / k.boom)
     angles = (
-        (k._pose(ground, 0.0, TILT_MAX).bucket_angle, v.RACK_BACK_GROUND.value),
-        (k._pose(top, 0.0, TILT_MAX).bucket_angle, v.RACK_BACK_MAX.value),
-        (k._pose(top, 0.0, TILT_MIN).bucket_angle, -v.DUMP_ANGLE_MAX.value),
+        (k.pose_at(ground, 0.0, TILT_MAX).bucket_angle, v.RACK_BACK_GROUND.value),
+        (k.pose_at(top, 0.0, TILT_MAX).bucket_angle, v.RACK_BACK_MAX.value),
+        (k.pose_at(top, 0.0, TILT_MIN).bucket_angle, -v.DUMP_ANGLE_MAX.value),
     )
     return np.array(
         [
@@ -215,7 +130,7 @@ def _wished(x: Point) -> Point:
     short: list[float] = []
     for beta in np.linspace(low, top, 7):
         for tilt in np.linspace(TILT_MIN, TILT_MAX, 7):
-            pose = k._pose(float(beta), 0.0, float(tilt))
+            pose = k.pose_at(float(beta), 0.0, float(tilt))
             for margin in (m * sign for m, sign in zip(k.margins(pose)[:3], (1.0, -1.0, 1.0), strict=True)):
                 short.append(20.0 * min(0.0, margin - _LEAST_SINE))
             reach = ((k.E, tilt, pose.G, k.rocker), (pose.H, k.link, pose.B, float(np.hypot(*k.J))))

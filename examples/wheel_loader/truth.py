@@ -108,9 +108,9 @@ def measured(k: Linkage, s: Steering) -> dict[str, float]:
     degrees."""
     degrees = math.degrees
     ground = k.lift_for_hinge(EDGE_DEPTH)
-    level = k.pose(ground, k.tilt_for_angle(ground, 0.0))
-    dump = k.pose(LIFT_MAX, k.tilt_for_angle(LIFT_MAX, math.radians(-45.0)))
-    low = k.pose(LIFT_MIN, k.tilt_for_angle(LIFT_MIN, 0.0))
+    level = k.pose(ground, k.tilt_for(ground, 0.0))
+    dump = k.pose(LIFT_MAX, k.tilt_for(LIFT_MAX, math.radians(-45.0)))
+    low = k.pose(LIFT_MIN, k.tilt_for(LIFT_MIN, 0.0))
     return {
         v.HINGE_HEIGHT_MAX.name: float(dump.B[1]),
         v.DUMP_CLEARANCE.name: float(dump.T[1]),
@@ -142,9 +142,9 @@ def drawn(root: Assembly, k: Linkage, pose: Pose) -> dict[str, float]:
         return placed((other.B[0], 0, other.B[1]), other.bucket_angle).Multiplied(at)
 
     ground = k.lift_for_hinge(EDGE_DEPTH)
-    level = extent(bucket, put(k.pose(ground, k.tilt_for_angle(ground, 0.0))))
+    level = extent(bucket, put(k.pose(ground, k.tilt_for(ground, 0.0))))
     high = extent(bucket, put(k.pose(LIFT_MAX, TILT_MAX)))
-    dump = extent(bucket, put(k.pose(LIFT_MAX, k.tilt_for_angle(LIFT_MAX, math.radians(-45.0)))))
+    dump = extent(bucket, put(k.pose(LIFT_MAX, k.tilt_for(LIFT_MAX, math.radians(-45.0)))))
     slope = turn(Y, v.APPROACH_ANGLE_CARRY.value, (FRONT_AXLE_X, 0.0, TYRE_RADIUS))
     heel = [leaf for leaf in bucket if leaf.part.name.startswith(("WRAPPER", "HINGE EAR", "SIDE PL"))]
 

@@ -92,7 +92,7 @@ def test_every_value_is_met(truth: dict[str, Any], values: ModuleType) -> None:
 
 def test_dump_and_lift_by_the_pins(linkage: ModuleType, values: ModuleType) -> None:
     k = linkage.solve()
-    lift, tilt = linkage.LIFT_MAX, k.tilt_for_angle(linkage.LIFT_MAX, math.radians(-45.0))
+    lift, tilt = linkage.LIFT_MAX, k.tilt_for(linkage.LIFT_MAX, math.radians(-45.0))
     assert linkage.TILT_MIN + 10 < tilt < linkage.TILT_MAX
     pose = k.pose(lift, tilt)
     assert pose.B[1] == pytest.approx(values.HINGE_HEIGHT_MAX.value, rel=PERCENT / 100)

@@ -78,6 +78,8 @@ MACHINES: Mapping[str, Mapping[str, str]] = {
         "Operating weight typically equipped": "Operating Weight", "Ripping depth": "Ripper Penetration",
     },
     "jcb-3cx": {
+        "Cab roof height": "Cab Height", "Stabiliser feet clearance": "Stabilizer Feet Clearance",
+        "Rear frame width": "Rear Frame Width",
         "Total travel length": "Overall Length", "Axle centreline distance": "Wheelbase",
         "Slew centre to rear axle centre": "Swing Pivot to Rear Axle", "Kingpost clearance": "Kingpost Clearance",
         "Travel height": "Overall Height", "Shovel width": "Loader Bucket Width",

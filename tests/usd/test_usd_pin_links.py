@@ -42,6 +42,22 @@ def test_only_what_a_motor_slews_has_pin_links(slewed: tuple[Mechanism, Path], t
     assert not [p for p in stage.Traverse() if "_end" in p.GetName()]
 
 
+@pytest.mark.parametrize(("degrees", "slews"), [(80.0, False), (150.0, True)])
+def test_what_cylinders_turn_far_is_slewed_too(degrees: float, slews: bool) -> None:
+    """As a backhoe; the front frame of a loader, which turns by 80°, is not."""
+    mechanism, _ = small_machine.make()
+    half = np.radians(degrees / 2)
+    joints = tuple(
+        replace(j, axis=(0.0, 0.0, 1.0), lower=-half, upper=half)
+        if j.name == "axle_joint"
+        else replace(j, body0="rear_axle")
+        if j.name in ("barrel_joint", "boom_joint")
+        else j
+        for j in mechanism.joints
+    )
+    assert [j.name for j in slewed_cuts(replace(mechanism, joints=joints))] == (["boom_joint"] if slews else [])
+
+
 def test_a_cut_joins_two_light_links_on_the_pin(slewed: tuple[Mechanism, Path]) -> None:
     mechanism, file = slewed
     stage = Usd.Stage.Open(str(file))

@@ -384,16 +384,23 @@ def _axes(answer: Answer, observation: Observation) -> dict[str, tuple[Vector, V
     structure, cylinders = answer.structure, observation.cylinders
     found = {}
     for joint, slide in sorted(answer.solution.slide_of.items()):
-        number = structure.slides[slide][2]
+        outer, _, number = structure.slides[slide]
         drawn = cylinders[number] if number < len(cylinders) else observation.nests[number - len(cylinders)]
         if isinstance(drawn, Nest) or drawn.apart:
-            found[joint] = (triple(drawn.origin), triple(drawn.direction))
+            # A section may slide over the one that carries it: outwards is away from that.
+            over = isinstance(drawn, Nest) and _carried(answer, joint) == answer.solution.body_of.get(outer)
+            found[joint] = (triple(drawn.origin), triple(-drawn.direction if over else drawn.direction))
     for joint, number in sorted(answer.solution.hinge_of.items()):
         hinge = structure.hinges[number]
         if not hinge.pins and not any(structure.clusters[c].kind == "wheel" for c in (hinge.a, hinge.b)):
             axis = structure.axes[hinge.axis]
             found[joint] = (triple(axis.origin), triple(axis.direction))
     return found
+
+
+def _carried(answer: Answer, joint: str) -> str | None:
+    """The second body of a joint."""
+    return answer.template.bodies_of(answer.template.joint(joint))[1]
 
 
 def _upright(tracks: list[Track]) -> Floats | None:

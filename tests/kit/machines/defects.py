@@ -12,6 +12,7 @@ import numpy as np
 
 from kit.machines import solids as align_solids
 from kit.machines.articulated_trucks import articulated_truck
+from kit.machines.backhoes import backhoe
 from kit.machines.crawler import merged
 from kit.machines.excavators import Features, excavator
 from kit.machines.rigid_trucks import rigid_truck
@@ -42,6 +43,8 @@ def drawn(kind: str, seed: int, *, segments: int = 32, hollow: bool = True) -> M
             return articulated_truck(seed, embedded=embedded)
         if kind == "rigid_truck":
             return rigid_truck(seed, embedded=embedded)
+        if kind == "backhoe":
+            return backhoe(seed, embedded=embedded)
         if kind == "mini":
             swinging = Features("single", swing=True, blade=seed % 3, tipping=("plates", "welded")[seed % 2])
             return excavator(seed, swinging, embedded=embedded)

@@ -37,6 +37,8 @@ EFFORT = 4.0
 """CP-SAT's deterministic time for a search: of machines that are whole, or nearly, it took 0.01 to 1.8."""
 EACH = 1.0
 """… and for one program of it: 0.01 to 0.7."""
+MANY_JOINTS = 30
+"""A type with more joints may take more, as their cube: a backhoe loader of 59 to 63 took up to 8 for one program."""
 AGAIN = 0.5
 """The share of it for a search made again without names."""
 BELIEVED = 0.6
@@ -56,8 +58,17 @@ class Search:
     best: Answer | None = None
     agreement: float = 1.0
     _named: bool = True
-    _effort: Effort = field(default_factory=lambda: Effort(EFFORT, EACH))
+    _effort: Effort = field(init=False)
     _looked: dict[float, tuple[Observation, list[dict[str, float]], list[Structure]]] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        self._effort = self._allowed(1.0)
+
+    def _allowed(self, share: float) -> Effort:
+        """What a search may take."""
+        joints = sum(1 for j in choose(self.template, {}).joints if j.type in ("revolute", "prismatic"))
+        more = max(1.0, joints / MANY_JOINTS) ** 3
+        return Effort(share * more * EFFORT, more * EACH)
 
     def run(self) -> tuple[Answer, Observation, list[dict[str, float]]]:
         """The best answer, what was observed with its tolerance, and what the names say of each solid there, as far as
@@ -69,7 +80,7 @@ class Search:
             self.best = None
             self._looked = {c: (s, [{} for _ in s.solids], known) for c, (s, _, known) in self._looked.items()}
             self._named = False
-            self._effort = Effort(AGAIN * EFFORT, EACH)
+            self._effort = self._allowed(AGAIN)
             answer, observation, _ = self._run()
             if len(believed) != len(observation.solids):
                 believed = [{} for _ in observation.solids]
@@ -81,7 +92,9 @@ class Search:
             # The other variants only under the tolerance that did best.
             for contact in CONTACT if self.best is None or not others else (self.best.contact,):
                 for structure in self._readings(contact, careful=careful):
-                    first, *rest = _by_cylinders(variants, self.template, len(structure.slides))
+                    # Sections in each other slide, too, and are no cylinders.
+                    drawn = len(self._looked[contact][0].cylinders)
+                    first, *rest = _by_cylinders(variants, self.template, drawn)
                     for chosen in itertools.chain(*rest) if others else first:
                         self._try(contact, structure, chosen)
                         if self._effort.spent:

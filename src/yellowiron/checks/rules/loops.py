@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import numpy as np
 
@@ -83,7 +83,7 @@ def locked(view: View) -> Remarks:
     "A pivot is missing or an axis is wrong; if it is meant to hold still, make it a fixed joint.",
 )
 def still(view: View) -> Remarks:
-    """A joint of a loop cannot move."""
+    """A joint of a loop cannot move, nor is it a pivot of a cylinder beside the slide of two sections."""
     for island in view.islands:
         motion = island.motion
         if motion is None or _skewed(island):
@@ -92,8 +92,21 @@ def still(view: View) -> Remarks:
         if any(j.driven and not motion.moves(j) for j in joints):
             continue
         for joint in joints:
-            if not motion.moves(joint):
+            if not motion.moves(joint) and not any(_straight(loop, motion.moves) for loop in _around(island, joint)):
                 yield joint.path, "Its loop does not let it move."
+
+
+def _around(island: Island, joint: StageJoint) -> list[StageLoop]:
+    return [loop for loop in island.loops if joint in loop.joints]
+
+
+def _straight(loop: StageLoop, moves: Callable[[StageJoint], bool]) -> bool:
+    """Whether slides side by side are all that moves in a loop, as a telescope's sections and the cylinder in them: the
+    pivots of that stand still."""
+    moving = [j for j in loop.joints if j.freedoms and moves(j)]
+    if len(moving) < 2 or any(j.type != "prismatic" for j in moving):
+        return False
+    return all(angle_between_lines(moving[0].axis, j.axis) < _PARALLEL for j in moving)
 
 
 @rule(

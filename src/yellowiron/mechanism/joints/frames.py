@@ -185,10 +185,11 @@ def _slide(
     elif joint.name in placement.axes:
         found = Axis(*placement.axes[joint.name])
         sense = found.direction if cylinder is None else None
-        if bearing is None or (not rams and not agree(bearing.line, found)):
+        sections = not any(template.role(body).kind in RAM for body in bodies)  # in each other, without a rod
+        guessed = bearing is not None and bearing.doubt is not None and sections
+        if bearing is None or guessed or (not rams and not agree(bearing.line, found)):
             bearing = lone_slide(placement, bodies, found)
-            if not any(template.role(body).kind in RAM for body in bodies):
-                bearing = replace(bearing, doubt=None)  # sections in each other have no rod
+            bearing = replace(bearing, doubt=None) if sections else bearing
     bearing = bearing or declared_bearing(placement, bodies, "prismatic")
     if bearing is None:
         words = f"'{bodies[0]}' and '{bodies[1]}' share no bore: the slide is left out."

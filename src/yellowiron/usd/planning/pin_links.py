@@ -10,6 +10,7 @@ instead of 0.43 mm. Other engines lose nothing by them.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
@@ -34,6 +35,8 @@ KIND = "end"
 """What the record on such a link says it is; its name there is that of the body it is welded to."""
 SHARE = 1e-5
 """Of the machine's mass, in each: enough for single precision, and lost in what a machine weighs."""
+SLEWED = math.radians(100.0)
+"""What cylinders turn by more is slewed: a backhoe by 150° to 180°, the front frame of a loader by 70° to 90°."""
 RADIUS = 0.1
 """Metres: gyration of one about any axis."""
 
@@ -50,12 +53,24 @@ class PinLink:
 
 
 def slewed_cuts(mechanism: Mechanism) -> tuple[Joint, ...]:
-    """The cut joints on bodies that a motor turns, as an excavator's swing does its boom's."""
+    """The cut joints on bodies that a motor turns, as an excavator's swing does its boom's, or cylinders about an axis
+    across theirs and as far as a motor would, as a backhoe's."""
     tree = [joint for joint in mechanism.joints if not joint.cut]
     turned = {joint.body1 for joint in tree if joint.drive is not None and joint.drive.kind == "velocity"}
+    turned |= {joint.body1 for joint in mechanism.joints if _slews(joint, mechanism)}
     for _ in mechanism.bodies:
         turned |= {joint.body1 for joint in tree if joint.body0 in turned}
     return tuple(joint for joint in mechanism.joints if joint.cut and joint.body0 in turned)
+
+
+def _slews(joint: Joint, mechanism: Mechanism) -> bool:
+    """Whether a pivot turns the foot of a linkage by more than `SLEWED`, about an axis across the linkage's."""
+    if joint.type != "revolute" or joint.lower is None or joint.upper is None:
+        return False
+    if not SLEWED < joint.upper - joint.lower < math.inf:
+        return False
+    carried = (cut.axis for cut in mechanism.joints if cut.cut and cut.body0 == joint.body1)
+    return any(abs(float(np.dot(joint.axis, axis))) < 0.5 for axis in carried)
 
 
 def plan_pin_links(mechanism: Mechanism, root: str, links: Names, joint_scope: str, joints: Names) -> Iterator[PinLink]:

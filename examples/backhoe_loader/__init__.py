@@ -1,0 +1,1 @@
+"""The example backhoe loader: of the JCB 3CX class."""

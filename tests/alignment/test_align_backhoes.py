@@ -1,0 +1,42 @@
+"""Unseen backhoe loaders without names: every part in its body, whichever linkage tilts the loader's bucket and whether
+the dipper extends."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from kit.machines.backhoes import backhoe
+from kit.machines.defects import on_triangles
+from kit.machines.synthetic import disguise
+from yellowiron import library
+from yellowiron.alignment.assignment.search import EACH, EFFORT, Search
+from yellowiron.alignment.pipeline import align
+from yellowiron.model.specification import Specifications
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("triangles", [False, True])
+@pytest.mark.parametrize(("seed", "parallel", "extending"), [(610, True, True), (611, True, False), (612, False, True)])
+def test_every_part_is_in_its_body(seed: int, parallel: bool, extending: bool, triangles: bool) -> None:
+    machine = backhoe(seed, parallel=parallel, extending=extending)
+    if triangles:
+        machine = replace(machine, shapes=on_triangles(machine.shapes))
+    assembly, truth, back = disguise(machine, seed)
+    found = align(assembly, library.load_template("backhoe_loader"), Specifications())
+    wrong = [(truth[p.part], p.body) for p in found.parts if p.body != truth[p.part][1]]
+    assert wrong == [] and not found.missing
+    turned = found.frame[:3, :3] @ back[:3, :3].T
+    assert abs(turned[0, 0] - 1.0) < 1e-3 and abs(turned[2, 2] - 1.0) < 1e-3
+
+
+def test_a_type_of_many_joints_may_take_more_of_the_solver_s_time() -> None:
+    def allowed(name: str) -> tuple[float, float]:
+        search = Search(
+            lambda _: pytest.fail("nothing is looked at"), library.load_template(name), Specifications(), {}, {}
+        )
+        return search._effort.left, search._effort.each
+
+    assert allowed("skid_steer") == allowed("wheel_loader") == (EFFORT, EACH)
+    assert allowed("backhoe_loader")[1] > 3.0 * EACH
