@@ -64,7 +64,7 @@ SCALE = "name"
 FIXED = ("said",)
 POSITIVE = ("name", "contacts", "said", "seen", "beside", "joined", "near", "exact")
 MOSTLY = 0.7
-"""A piece is of a body if so much of its surface is nearest to that body's; what it touches is as near here and there."""
+"""A piece is of a body if so much of its surface is nearest to that body's: where it touches another, both are near."""
 OWN = 2.0
 """A right labelling gives a piece its body, unless none is better by so many margins: small things go by contact."""
 RIVALS = 3

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from kit.machines.solids import bolt, box, lathe, place, plate, tube
@@ -72,6 +72,7 @@ def test_a_pin_in_two_lugs(radius: float, play: float, seed: int) -> None:
 
 @SMALL
 @given(st.floats(-0.9, 0.9), st.floats(-0.9, 0.9), st.integers(0, 99))
+@example(0.0, 0.9, 11)
 def test_flat_contact_has_the_overlap_as_its_area(dx: float, dy: float, seed: int) -> None:
     world = turned(seed)
     top = world @ place((dx, dy, 0.2), (0, 0, 1), (1, 0, 0))
@@ -79,8 +80,8 @@ def test_flat_contact_has_the_overlap_as_its_area(dx: float, dy: float, seed: in
     solids = tuple(sorted(found.values(), key=lambda s: s.index))
     flats = flats_of(solids, neighbours(solids, 1e-4), 1e-4)
     assert len(flats) == 1
-    # Counted on a grid of 24 × 24 cells: a strip of three cells is known to a tenth.
-    assert flats[0].area == pytest.approx((1 - abs(dx)) * (1 - abs(dy)), rel=0.12)
+    # Counted on a grid of 24 × 24 cells: a strip of two and a half cells is known to a seventh.
+    assert flats[0].area == pytest.approx((1 - abs(dx)) * (1 - abs(dy)), rel=0.15)
 
 
 def test_a_gap_is_no_contact() -> None:
