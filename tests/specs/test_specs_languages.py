@@ -128,7 +128,7 @@ def test_what_makers_print(equipment_type: str, section: str, label: str, name: 
     [
         ("dozer", "Engine", "Bore", "132 mm"), ("grader", "发动机", "行程", "165 mm"),
         ("forklift", "Hydraulik", "Arbeitsdruck für Anbaugeräte", "170 bar"),
-        ("backhoe_loader", "Dimensions", "Rear frame width", "2350 mm"),
+        ("backhoe_loader", "Dimensions", "Fuel filler height", "1350 mm"),
         ("mobile_crane", "Dimensions", "Jib stowed width", "900 mm"),
         ("rigid_dump_truck", "Weights", "Front axle, empty", "22400 kg"),
     ],
