@@ -314,8 +314,7 @@ def _drawn(drawn: DrawnTriangles, colors: Any, shots: Sequence[Shot]) -> list[An
         share = np.float32(shot.mix)
         return np.asarray(render(shown, shot.camera, colors=(1 - share) * _GREY + share * colors))
 
-    # Built once, before several ask for it.
-    assert drawn.pieces and drawn.bodies
+    _ = drawn.pieces, drawn.bodies  # built once, before several ask for them
     with ThreadPoolExecutor(max(1, min(os.cpu_count() or 1, MOST))) as pool:
         asked = {id(shot): pool.submit(one, shot) for shot in {id(shot): shot for shot in shots}.values()}
         return [asked[id(shot)].result() for shot in shots]

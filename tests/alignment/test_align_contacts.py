@@ -80,8 +80,8 @@ def test_flat_contact_has_the_overlap_as_its_area(dx: float, dy: float, seed: in
     solids = tuple(sorted(found.values(), key=lambda s: s.index))
     flats = flats_of(solids, neighbours(solids, 1e-4), 1e-4)
     assert len(flats) == 1
-    # Counted on a grid of 24 × 24 cells: a strip of two and a half cells is known to a seventh.
-    assert flats[0].area == pytest.approx((1 - abs(dx)) * (1 - abs(dy)), rel=0.15)
+    # Counted on a grid of 24 × 24 cells, or finer: a strip of three cells is known to a tenth.
+    assert flats[0].area == pytest.approx((1 - abs(dx)) * (1 - abs(dy)), rel=0.12)
 
 
 def test_a_gap_is_no_contact() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import collections
 import importlib
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
@@ -193,3 +194,13 @@ def gaps(solids: list[Solid], moves: list[np.ndarray], within: float) -> dict[tu
             if gap < within:
                 out[i, int(j)] = gap
     return out
+
+
+def met_as_drawn(file: Path, bodies: Mapping[str, str]) -> list[tuple[str, str]]:
+    """Parts of different bodies (by path) that meet in a STEP file."""
+    leaves = read_step(file)
+    return [
+        (leaves[i].path, leaves[j].path)
+        for (i, j), gap in gaps(solids_of(leaves), [np.eye(4)] * len(leaves), 0.01).items()
+        if bodies[leaves[i].path] != bodies[leaves[j].path] and gap == 0.0
+    ]

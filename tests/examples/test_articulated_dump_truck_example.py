@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import itertools
 import math
-from dataclasses import replace
 from types import ModuleType
 
 import numpy as np
@@ -13,7 +12,6 @@ import pytest
 from example_file import gaps, module, read_step, solids_of
 
 from kit.builds import MadeOnce
-from kit.machines.defects import on_triangles
 from kit.machines.drawn_examples import (
     Built,
     assert_as_drawn,
@@ -21,14 +19,12 @@ from kit.machines.drawn_examples import (
     assert_measured,
     assert_read,
     assert_ready,
-    assert_recognised,
+    assert_sourced,
     build_example,
     drawn_example,
+    recognised,
 )
 from kit.machines.forklifts import truth_of
-from yellowiron import library, specs
-from yellowiron.alignment.pipeline import align
-from yellowiron.cad import read_cad
 
 TYPE = "articulated_dump_truck"
 
@@ -45,9 +41,7 @@ def layout() -> ModuleType:
 
 # ---- the layout --------
 def test_values_are_either_published_or_ours(values: ModuleType) -> None:
-    names = [value.name for value in (*values.PUBLISHED, *values.EXAMPLE, *values.DRAWN_ONLY)]
-    assert len(names) == len(set(names))
-    assert len(values.PUBLISHED) == 8 and all(value.source and value.location for value in values.PUBLISHED)
+    assert_sourced(values, 8)
 
 
 def test_the_layout_meets_what_is_printed(layout: ModuleType, values: ModuleType) -> None:
@@ -155,10 +149,4 @@ def test_joints_and_cylinders_are_as_they_are_drawn(built: Built) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize(("names", "surfaces"), itertools.product(["", "nameless"], ["exact", "triangles"]))
 def test_every_part_is_in_its_body(names: str, surfaces: str, made_once: MadeOnce) -> None:
-    folder = drawn_example(TYPE, made_once)
-    assembly = read_cad(folder / names / f"{TYPE}.step")
-    if surfaces == "triangles":
-        assembly = replace(assembly, shapes=on_triangles(assembly.shapes))
-    template = library.load_template(TYPE)
-    found = align(assembly, template, specs.extract(template, [folder / "specifications.pdf"]))
-    assert_recognised(found, truth_of(folder))
+    recognised(TYPE, drawn_example(TYPE, made_once), names, surfaces)

@@ -4,15 +4,13 @@ is ready, with and without names, from surfaces and from triangles."""
 from __future__ import annotations
 
 import itertools
-from dataclasses import replace
 from types import ModuleType
 
 import numpy as np
 import pytest
-from example_file import gaps, module, read_step, solids_of
+from example_file import met_as_drawn, module
 
 from kit.builds import MadeOnce
-from kit.machines.defects import on_triangles
 from kit.machines.drawn_examples import (
     Built,
     assert_as_drawn,
@@ -20,14 +18,12 @@ from kit.machines.drawn_examples import (
     assert_measured,
     assert_read,
     assert_ready,
-    assert_recognised,
+    assert_sourced,
     build_example,
     drawn_example,
+    recognised,
 )
 from kit.machines.forklifts import truth_of
-from yellowiron import library, specs
-from yellowiron.alignment.pipeline import align
-from yellowiron.cad import read_cad
 
 TYPE = "backhoe_loader"
 
@@ -39,9 +35,7 @@ def values() -> ModuleType:
 
 # ---- linkages and drawing --------
 def test_values_are_either_published_or_ours(values: ModuleType) -> None:
-    names = [value.name for value in (*values.PUBLISHED, *values.EXAMPLE, *values.DRAWN_ONLY)]
-    assert len(names) == len(set(names))
-    assert len(values.PUBLISHED) == 19 and all(value.source and value.location for value in values.PUBLISHED)
+    assert_sourced(values, 19)
 
 
 def test_the_linkages_meet_what_is_printed(values: ModuleType) -> None:
@@ -72,13 +66,8 @@ def test_the_bucket_stays_level_as_the_arms_rise() -> None:
 @pytest.mark.slow
 def test_bodies_do_not_meet_as_drawn(made_once: MadeOnce) -> None:
     folder = drawn_example(TYPE, made_once)
-    parts, leaves = truth_of(folder)["parts"], read_step(folder / f"{TYPE}.step")
-    met = [
-        (leaves[i].path, leaves[j].path)
-        for (i, j), gap in gaps(solids_of(leaves), [np.eye(4)] * len(leaves), 0.01).items()
-        if parts[leaves[i].path]["body"] != parts[leaves[j].path]["body"] and gap == 0.0
-    ]
-    assert met == []
+    bodies = {path: part["body"] for path, part in truth_of(folder)["parts"].items()}
+    assert met_as_drawn(folder / f"{TYPE}.step", bodies) == []
 
 
 @pytest.mark.slow
@@ -131,10 +120,4 @@ def test_what_is_measured_and_drawn_is_what_is_meant(built: Built) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize(("names", "surfaces"), itertools.product(["", "nameless"], ["exact", "triangles"]))
 def test_every_part_is_in_its_body(names: str, surfaces: str, made_once: MadeOnce) -> None:
-    folder = drawn_example(TYPE, made_once)
-    assembly = read_cad(folder / names / f"{TYPE}.step")
-    if surfaces == "triangles":
-        assembly = replace(assembly, shapes=on_triangles(assembly.shapes))
-    template = library.load_template(TYPE)
-    found = align(assembly, template, specs.extract(template, [folder / "specifications.pdf"]))
-    assert_recognised(found, truth_of(folder))
+    recognised(TYPE, drawn_example(TYPE, made_once), names, surfaces)

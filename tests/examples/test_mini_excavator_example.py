@@ -17,6 +17,7 @@ from OCP.BRepGProp import BRepGProp
 from OCP.GProp import GProp_GProps
 
 from kit.builds import console
+from kit.machines.drawn_examples import assert_sourced
 from kit.machines.nameless import write_nameless
 from yellowiron.simulation import simulate
 
@@ -45,9 +46,7 @@ def drawn(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 # ---- the linkages --------
 def test_values_are_either_published_or_ours(values: ModuleType) -> None:
-    names = [value.name for value in (*values.PUBLISHED, *values.EXAMPLE, *values.DRAWN_ONLY)]
-    assert len(names) == len(set(names))
-    assert len(values.PUBLISHED) >= 30 and all(value.source and value.location for value in values.PUBLISHED)
+    assert_sourced(values, 32)
 
 
 def test_linkages_meet_what_is_published(linkage: ModuleType, values: ModuleType) -> None:

@@ -4,7 +4,6 @@ is ready, with and without names, from surfaces and from triangles."""
 from __future__ import annotations
 
 import itertools
-from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
 
@@ -16,7 +15,6 @@ from OCP.BRepGProp import BRepGProp
 from OCP.GProp import GProp_GProps
 
 from kit.builds import MadeOnce, without_pages
-from kit.machines.defects import on_triangles
 from kit.machines.drawn_examples import (
     Built,
     assert_as_drawn,
@@ -24,14 +22,12 @@ from kit.machines.drawn_examples import (
     assert_measured,
     assert_read,
     assert_ready,
-    assert_recognised,
+    assert_sourced,
     build_example,
     drawn_example,
+    recognised,
 )
 from kit.machines.forklifts import truth_of
-from yellowiron import library, specs
-from yellowiron.alignment.pipeline import align
-from yellowiron.cad import read_cad
 from yellowiron.kinematics import ClosedChain
 from yellowiron.pipeline import build
 
@@ -48,9 +44,7 @@ def linkage() -> ModuleType:
 
 # ---- the linkage --------
 def test_values_are_either_published_or_ours(values: ModuleType) -> None:
-    names = [value.name for value in (*values.PUBLISHED, *values.EXAMPLE, *values.DRAWN_ONLY)]
-    assert len(names) == len(set(names))
-    assert len(values.PUBLISHED) == 10 and all(value.source and value.location for value in values.PUBLISHED)
+    assert_sourced(values, 10)
 
 
 def test_the_linkage_meets_what_is_published(linkage: ModuleType, values: ModuleType) -> None:
@@ -182,14 +176,8 @@ def test_the_links_carry_the_arms_as_they_were_solved(built: Built, linkage: Mod
     ],
 )
 def test_every_part_is_in_its_body(path: str, names: str, surfaces: str, made_once: MadeOnce) -> None:
-    folder = drawn_example("skid_steer", made_once, path)
-    assembly = read_cad(folder / names / "skid_steer.step")
-    if surfaces == "triangles":
-        assembly = replace(assembly, shapes=on_triangles(assembly.shapes))
-    template = library.load_template("skid_steer")
-    found = align(assembly, template, specs.extract(template, [folder / "specifications.pdf"]))
+    found = recognised("skid_steer", drawn_example("skid_steer", made_once, path), names, surfaces)
     assert found.choices["lift_path"] == path
-    assert_recognised(found, truth_of(folder))
 
 
 @pytest.mark.slow

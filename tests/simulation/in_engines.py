@@ -6,6 +6,7 @@ from importlib.util import find_spec
 
 import pytest
 
+from yellowiron.simulation.driving.result import DrivingResult
 from yellowiron.simulation.engine import Engine, Setup
 from yellowiron.simulation.registry import ENGINES, load_engine
 
@@ -27,3 +28,12 @@ def load(engine: str, setup: Setup) -> Engine:
     """The engine with a setup loaded, or a skipped test."""
     need(engine)
     return load_engine(engine, setup)
+
+
+def assert_straight(result: DrivingResult) -> None:
+    """A machine that stands still first drives its 5 m there and back, and neither sinks nor drifts aside."""
+    assert result.creep < 1e-3 and abs(result.sunk) < 0.005
+    assert result.distance == 5.0
+    assert result.forward == pytest.approx(5.0, rel=0.005)
+    assert result.backward == pytest.approx(5.0, rel=0.005)
+    assert result.sideways < 0.02

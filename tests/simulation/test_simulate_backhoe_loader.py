@@ -37,10 +37,7 @@ def test_full_strokes(file: Path, engine: str, actuators: list[str] | None) -> N
 
 def test_it_drives_on_its_rear_wheels_and_steers_with_the_front_ones(file: Path) -> None:
     result = drive(file, engine="mujoco")
-    assert result.creep < 1e-3 and abs(result.sunk) < 0.005
-    assert result.forward == pytest.approx(5.0, rel=0.005)
-    assert result.backward == pytest.approx(5.0, rel=0.005)
-    assert result.sideways < 0.02
+    in_engines.assert_straight(result)
     assert result.lock is not None and math.radians(38.0) < result.lock < math.radians(43.0)
     assert result.turning_radius == pytest.approx(result.geometry_radius, rel=0.02)
     assert list(driving_findings(result)) == []

@@ -42,10 +42,7 @@ def test_full_strokes(file: Path, engine: str, payload: float, actuators: list[s
 @pytest.mark.parametrize("payload", [0.0, PAYLOAD])
 def test_it_drives_on_its_rear_wheels_and_steers_with_the_front_ones(file: Path, payload: float) -> None:
     result = drive(file, engine="mujoco", payload_kg=payload)
-    assert result.creep < 1e-3 and abs(result.sunk) < 0.005
-    assert result.forward == pytest.approx(5.0, rel=0.005)
-    assert result.backward == pytest.approx(5.0, rel=0.005)
-    assert result.sideways < 0.02
+    in_engines.assert_straight(result)
     # Tyres that scrub press the knuckles back by some of their 39°.
     assert result.lock is not None and math.radians(35.0) < result.lock < math.radians(39.0)
     assert result.turning_radius == pytest.approx(result.geometry_radius, rel=0.05)

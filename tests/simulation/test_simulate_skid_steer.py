@@ -46,11 +46,7 @@ def test_it_drives_and_turns_with_its_two_sides(file: Path, engine: str) -> None
     in_engines.need(engine)
     import_engine(engine)
     result = drive(file, engine=engine)
-    assert result.creep < 1e-3 and abs(result.sunk) < 0.005
-    assert result.distance == 5.0
-    assert result.forward == pytest.approx(5.0, rel=0.005)
-    assert result.backward == pytest.approx(5.0, rel=0.005)
-    assert result.sideways < 0.02
+    in_engines.assert_straight(result)
     base, tread = 1.22682, 1.5238
     friction = math.radians(45.0) / (1.0 + (base / tread) ** 2)
     assert result.turning_radius is None and result.spin_geometry == pytest.approx(friction, rel=0.01)

@@ -6,17 +6,21 @@ import json
 import subprocess
 import sys
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import numpy as np
 import pytest
 
 from kit.builds import MadeOnce, without_pages
+from kit.machines.defects import on_triangles
 from kit.machines.forklifts import truth_of
 from kit.machines.nameless import write_nameless
 from yellowiron import library, specs
+from yellowiron.alignment.pipeline import align
+from yellowiron.cad import read_cad
 from yellowiron.model.alignment import Alignment
 from yellowiron.model.mechanism import Mechanism
 from yellowiron.model.specification import Specification
@@ -137,8 +141,26 @@ def assert_as_drawn(machine: Machine, truth: Mapping[str, Any]) -> None:
         assert found.closed_length == pytest.approx(true["closed_length"], abs=1e-6)
 
 
-def assert_recognised(found: Alignment, truth: Mapping[str, Any]) -> None:
-    """Every part is in its body, and none is to be looked at."""
+def assert_sourced(values: ModuleType, published: int) -> None:
+    """Every value of an example stands once, and so many are published, each with its source."""
+    names = [value.name for value in (*values.PUBLISHED, *values.EXAMPLE, *values.DRAWN_ONLY)]
+    assert len(names) == len(set(names))
+    assert len(values.PUBLISHED) == published and all(value.source and value.location for value in values.PUBLISHED)
+
+
+def recognised(name: str, drawing: Path, names: str, surfaces: str) -> Alignment:
+    """An example's drawing (`drawn_example`) aligned with its sheet, in folder `names` of it, on "exact" surfaces or
+    "triangles": every part is in its body, and none is to be looked at."""
+    assembly = read_cad(drawing / names / f"{name}.step")
+    if surfaces == "triangles":
+        assembly = replace(assembly, shapes=on_triangles(assembly.shapes))
+    template = library.load_template(name)
+    found = align(assembly, template, specs.extract(template, [drawing / "specifications.pdf"]))
+    _assert_recognised(found, truth_of(drawing))
+    return found
+
+
+def _assert_recognised(found: Alignment, truth: Mapping[str, Any]) -> None:
     for part, (place, true) in zip(found.parts, truth["parts"].items(), strict=True):
         assert part.body == true["body"], place
     assert not found.to_review

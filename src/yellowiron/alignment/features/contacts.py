@@ -315,6 +315,13 @@ def _overlap_of(sa: Solid, sb: Solid, i: int, j: int, patches: Patches) -> Flat 
     return known[key]
 
 
+CELLS = 24
+"""Cells of a grid that what two faces both cover is counted on, along either side."""
+THIN, FINER = 0.2, 3
+"""What covers less than this share of them is counted again, so many times finer: a strip across the grid may be two
+cells wide."""
+
+
 def _overlap(sa: Solid, sb: Solid, i: int, ta: Floats, tb: Floats) -> Flat | None:
     normal = sa.plane_normals[i]
     basis = np.linalg.svd(normal[None, :])[2][1:]
@@ -330,8 +337,9 @@ def _overlap(sa: Solid, sb: Solid, i: int, ta: Floats, tb: Floats) -> Flat | Non
     return Flat(sa.index, sb.index, normal, middle @ basis + height * normal, area, width)
 
 
-def covered(fa: Floats, fb: Floats, low: Floats, high: Floats, count: int = 24) -> tuple[float, Floats, float]:
-    """Area, centre and extent of what two sets of triangles (m, 3, 2) both cover, on a grid over [low, high]."""
+def covered(fa: Floats, fb: Floats, low: Floats, high: Floats, count: int = CELLS) -> tuple[float, Floats, float]:
+    """Area, centre and extent of what two sets of triangles (m, 3, 2) both cover, on a grid over [low, high], and on a
+    finer one where that is `THIN`."""
     steps = (np.arange(count) + 0.5) / count
     xs, ys = low[0] + steps * (high[0] - low[0]), low[1] + steps * (high[1] - low[1])
     there = np.ones((count, count), dtype=np.bool_)
@@ -340,6 +348,8 @@ def covered(fa: Floats, fb: Floats, low: Floats, high: Floats, count: int = 24) 
     row, column = np.nonzero(there.T)
     if not len(row):
         return 0.0, low, 0.0
+    if count == CELLS and len(row) < THIN * count**2:
+        return covered(fa, fb, low, high, FINER * count)
     chosen = np.c_[xs[column], ys[row]]
     area = float(len(chosen) / count**2 * np.prod(high - low))
     return area, chosen.mean(axis=0), float(np.linalg.norm(np.ptp(chosen, axis=0)))
