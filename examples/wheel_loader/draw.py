@@ -15,6 +15,7 @@ from drawing.articulation import Steering
 from drawing.cylinders import Cylinder, draw_cylinder
 from drawing.files import run, write_example
 from drawing.hardware import placed
+from drawing.loader import Pose
 from drawing.planar import direction
 from drawing.product import GREY, Assembly, Use
 from drawing.solids import X, Z, frame, shift, turn
@@ -32,7 +33,7 @@ from .frames import (
     draw_rear_frame,
 )
 from .front_end import draw_boom, draw_bucket, draw_link, draw_rocker, heel_x
-from .linkage import Linkage, Pose, solve, solve_steering
+from .linkage import Linkage, solve, solve_steering
 from .superstructure import draw_cab, draw_hood, draw_power_train, draw_sides
 from .truth import FRAME, truth
 from .wheels import draw_front_axle, draw_rear_axle, draw_wheel

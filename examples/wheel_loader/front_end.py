@@ -15,11 +15,12 @@ from OCP.TopoDS import TopoDS_Shape
 from scipy.optimize import brentq
 
 from drawing.hardware import CLEARANCE, bush, fit_pin, placed
+from drawing.loader import Pose
 from drawing.product import GREY, STEEL, YELLOW, Assembly, Colour, Part
 from drawing.solids import Y, bored, box, cut, fuse, mirrored, moved, plate, prism, ring, rod, shift
 
 from . import values as v
-from .linkage import EDGE_DEPTH, FRONT_AXLE_X, TYRE_RADIUS, Linkage, Pose, direction
+from .linkage import EDGE_DEPTH, FRONT_AXLE_X, TYRE_RADIUS, Linkage, direction
 
 PIN_A, PIN_B, PIN_D, PIN_F, PIN_G, PIN_H, PIN_J = 100.0, 90.0, 80.0, 100.0, 120.0, 90.0, 90.0
 NOSE = 98.0

@@ -14,6 +14,7 @@ from scipy.optimize import brentq
 from drawing.articulation import Steering
 from drawing.cylinders import Cylinder
 from drawing.hardware import placed
+from drawing.loader import Pose
 from drawing.product import Assembly, Occurrence, extent, occurrences
 from drawing.solids import turn
 from drawing.truth import CadFrame, value_rows
@@ -28,7 +29,6 @@ from .linkage import (
     TILT_MIN,
     TYRE_RADIUS,
     Linkage,
-    Pose,
 )
 
 Array = NDArray[np.float64]
