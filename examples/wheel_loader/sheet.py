@@ -1,6 +1,6 @@
 """Writes `specifications.pdf`: the example wheel loader's specification sheet, in the layout of a maker's brochure.
 
-    python sheet.py [FOLDER]
+`python -m wheel_loader.sheet [FOLDER]`, run in `examples/`.
 
 Values come from `values.py`. A published one is printed as it is; one of our own carries the words "example value"
 (beside the number, in its column's head or in its section's bar). The distractors a real brochure has (engine, tyres,
@@ -13,12 +13,13 @@ import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-import values as v
 from reportlab.lib.colors import white
 from reportlab.lib.pagesizes import A4
 from reportlab.pdfgen.canvas import Canvas
-from sheet_buckets import BUCKETS, Bucket
-from sheet_parts import (
+
+from . import values as v
+from .sheet_buckets import BUCKETS, Bucket
+from .sheet_parts import (
     AMBER,
     BOLD,
     COLUMN,
@@ -52,8 +53,8 @@ from sheet_parts import (
     text,
     yards,
 )  # fmt: skip
-from sheet_views import keys, machine
-from values import Value
+from .sheet_views import keys, machine
+from .values import Value
 
 TITLE = "Example wheel loader (WA475-10 class)"
 SOURCE = (

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import values as v
+from . import values as v
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,7 +10,8 @@ from reportlab.lib.colors import Color, HexColor, white
 from reportlab.lib.pagesizes import A4
 from reportlab.pdfbase.pdfmetrics import stringWidth
 from reportlab.pdfgen.canvas import Canvas
-from values import Value
+
+from .values import Value
 
 WIDTH, HEIGHT = A4
 MARGIN, GUTTER = 36.0, 22.0

@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-import values as v
 from reportlab.lib.colors import Color, white
 from reportlab.pdfgen.canvas import Canvas
-from sheet_parts import AMBER, BOLD, GREY, INK, PALE, SLATE, rule, text
+
+from . import values as v
+from .sheet_parts import AMBER, BOLD, GREY, INK, PALE, SLATE, rule, text
 
 
 def machine(c: Canvas, x0: float, ground: float, scale: float, *, raised: bool) -> None:

@@ -53,5 +53,15 @@ def test_a_value_that_cannot_be_speaks_of_another() -> None:
     assert found("excavator", "Width over crawlers", "3,475 mm") == {"Overall Width": "ok"}
 
 
+def test_a_sub_heading_of_another_part_is_no_help() -> None:
+    """The arm that a loader lifts by is no dipper, which is called an arm as well."""
+    row = Statement(
+        1, 0, "Stangendurchmesser", "45 mm", BOX, "", context=("Ladearm-Hubzylinder",), section="Hydraulikzylinder"
+    )
+    sheet = Sheet("a.pdf", 1, (row,), (), "point")
+    values = from_sheets(template("backhoe_loader"), [sheet])
+    assert [s.name for s in values if s.status == "ok"] == ["Loader Lift Cylinder Rod Diameter"]
+
+
 def test_a_concept_is_spelled_out() -> None:
     assert spelled_out("lift_arm/boom cylinder bore") == ["lift arm cylinder bore", "boom cylinder bore"]

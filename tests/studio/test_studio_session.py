@@ -15,12 +15,14 @@ import pytest
 from yellowiron.model.errors import YellowironError
 from yellowiron.opinion.doubts import boxes_of
 from yellowiron.pipeline import build
+from yellowiron.stages import Solved
 from yellowiron.studio import Session, Setup, read_setup
 from yellowiron.studio import session as studio_session
 from yellowiron.studio.joints import joints_of
 from yellowiron.studio.operations import words
 from yellowiron.studio.questions import in_words, questions
 from yellowiron.studio.scene import Scene
+from yellowiron.studio.session import State
 from yellowiron.studio.twins import twins_of
 
 CAB = "WHEEL LOADER GA/REAR MACHINE/CAB ASSY"
@@ -199,6 +201,35 @@ def test_the_machine_is_there_before_it_is_measured(
     known = session.measured(60.0)
     assert known.version > shown.version and known.solved is shown.solved
     assert known.document["measurements"] and known.poses
+
+
+@pytest.mark.slow
+def test_what_is_seen_later_has_the_higher_number(
+    open_studio: Callable[[], Session], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A machine is measured while the next one is solved: a page, which takes only what is newer than what it has, must
+    see the second."""
+    session = open_studio()
+    session.measured(60.0)
+    may, measure, solve = threading.Event(), studio_session.measured_of, studio_session.solve
+    monkeypatch.setattr(studio_session, "measured_of", lambda mechanism: (may.wait(60.0), measure(mechanism))[1])
+    session.do(session.read({"kind": "value", "name": "Lift Cylinder Stroke", "text": "700 mm"}))
+    session.settled(60.0)
+    between: list[State] = []
+
+    def solved_late(*args: object) -> Solved:
+        may.set()
+        end = time.monotonic() + 60.0
+        while not session.state.measured and time.monotonic() < end:
+            time.sleep(0.01)
+        between.append(session.state)
+        return solve(*args)
+
+    monkeypatch.setattr(studio_session, "solve", solved_late)
+    session.do(session.read({"kind": "value", "name": "Lift Cylinder Stroke", "text": "710 mm"}))
+    last = session.settled(60.0)
+    assert between[0].measured and between[0].said < last.said
+    assert between[0].version < last.version
 
 
 @pytest.mark.slow

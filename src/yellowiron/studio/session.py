@@ -67,13 +67,13 @@ class State:
     facts: report.BuildFacts | None = None
     measured: bool = True
 
-    def with_measured(self, measured: Measured, *, version: int) -> State:
+    def with_measured(self, measured: Measured) -> State:
         """The state with what was measured of its mechanism."""
         if self.facts is None:
             return self
         facts = replace(self.facts, measurements=measured[0])
         document = report.report_document(facts)
-        return replace(self, version=version, document=document, poses=measured[1], facts=facts, measured=True)
+        return replace(self, document=document, poses=measured[1], facts=facts, measured=True)
 
 
 class Session:
@@ -133,7 +133,7 @@ class Session:
         self._journal = Journal(setup.out / FILE, self.read)
         if not self._continues():
             self._journal.begin(_snapshot(_own(self._edits), self._edits.values, self._edits.joints))
-        self.state = self._solved({})
+        self._show(self._solved({}))
         for work in (self._work, self._measure):
             threading.Thread(target=work, daemon=True).start()
 
@@ -238,8 +238,7 @@ class Session:
                 known = (state.said, state.aligned.parts) == (self.state.said, self.state.aligned.parts)
                 if known or state.said != self._said:
                     continue
-                self.state = state
-                self._heard.notify_all()
+                self._show(state)
             # Not what is settled: more may have been said, which is for the next round.
             self._write(state)
 
@@ -250,12 +249,15 @@ class Session:
             return self._solved(fixed)
         except Exception as error:  # noqa: BLE001 - one state that cannot be made must not end the studio
             failed = f"The machine of these decisions cannot be made ({type(error).__name__}: {error})"
-            return replace(self.state, version=self._next(), said=said, failed=failed)
+            return replace(self.state, said=said, failed=failed)
 
-    def _next(self) -> int:
+    def _show(self, state: State) -> None:
+        """Makes a state the one that is seen. It is numbered here and not where its making began: of two that are made
+        at once, the later seen has the higher number."""
         with self._heard:
             self._version += 1
-            return self._version
+            self.state = replace(state, version=self._version)
+            self._heard.notify_all()
 
     def _measure(self) -> None:
         """Measures the machine of the last state, as long as the session is open."""
@@ -268,16 +270,15 @@ class Session:
             assert state.solved is not None
             try:
                 found = measured_of(state.solved.mechanism)
-                done = state.with_measured(found, version=self._next())
+                done = state.with_measured(found)
                 known: tuple[bytes, Measured] | None = (content_of(state.solved.mechanism), found)
             except Exception as error:  # noqa: BLE001 - as of a state
                 failed = f"This machine cannot be measured ({type(error).__name__}: {error})"
-                done, known = replace(state, version=self._next(), failed=failed, measured=True), self._known
+                done, known = replace(state, failed=failed, measured=True), self._known
             with self._heard:
                 self._known = known
                 if self.state is state:
-                    self.state = done
-                    self._heard.notify_all()
+                    self._show(done)
 
     def _solved(self, fixed: Mapping[str, str]) -> State:
         """What the decisions come to, the variants in `fixed` as they were but for those that a person's role needs."""
@@ -299,7 +300,7 @@ class Session:
         alignment = alignment.suggested({part: asked[part] for part in alignment.to_review if part in asked})
         self._fixed = dict(alignment.choices)
         chosen = choose(template, {**alignment.choices, **choices})
-        bare = State(self._next(), said, chosen, self.assembly, alignment, specifications, alignment, self.assembly)
+        bare = State(0, said, chosen, self.assembly, alignment, specifications, alignment, self.assembly)
         try:
             solved = solve(template, self.assembly, alignment, specifications, data, choices)
         except MechanismError as error:
@@ -316,7 +317,7 @@ class Session:
         # Most decisions say that something is right, and leave the machine as it is.
         known = self._known
         same = known is not None and known[0] == content_of(solved.mechanism)
-        return state.with_measured(known[1], version=state.version) if known is not None and same else state
+        return state.with_measured(known[1]) if known is not None and same else state
 
     def _documents(self, joints: Mapping[str, Mapping[str, object]]) -> tuple[library.Documents, Template]:
         """The user's documents and what is said of joints here, with the template that they make. `YellowironError` for

@@ -307,6 +307,11 @@ def _match(asked_for: _Asked, claim: Claim, said: _Said) -> Match | None:
         left &= KNOWN | TELLING
     known = frozenset() if borrowed else KNOWN  # a heading that must help names other properties too
     rest = {t for t in left if _is_telling(t, asked_for, explained | left, claim, said, known)}
+    lent = explained - label - head
+    for words in said.contexts:  # a sub-heading that helps may name another one's part: "lift arm cylinder"
+        if words & lent:
+            named = words - explained - asked_for.words
+            rest |= {t for t in named if _is_others(t, asked_for, explained | words, claim, said)}
     worded = frozenset[str]().union(*(words for words in said.naming if not any(map(_is_number, words))))
     if ((label | context | section | worded) - explained) & REVERSING:  # the head "VS 135" is a model
         return None
@@ -372,15 +377,20 @@ def _is_telling(
 ) -> bool:
     """Whether a word that is left over may make the label mean another property: a condition or another body; what
     tells this value from another one of its dimension; a word that nothing is known of."""
-    if word in TELLING:
+    if word in TELLING or (word not in asked_for.words and _is_others(word, asked_for, words, claim, said)):
         return True
-    for other, phrase in asked_for.others.get(word, ()) if word not in asked_for.words else ():
-        if phrase <= words and not _forbidden(other, claim, said.text, [said.label, *said.naming, *said.contexts]):
-            return True
     foreign = word not in KNOWN or word not in {*asked_for.words, *asked_for.others}  # no cylinder has an angle
     if word in HARMLESS or word in NEUTRAL or (foreign and _opens_sentence(word, asked_for, claim)):
         return False
     return not (word in known and word in asked_for.words)
+
+
+def _is_others(word: str, asked_for: _Asked, words: Set[str], claim: Claim, said: _Said) -> bool:
+    """Whether a word, with others of `words`, is another value's phrase."""
+    return any(
+        phrase <= words and not _forbidden(other, claim, said.text, [said.label, *said.naming, *said.contexts])
+        for other, phrase in asked_for.others.get(word, ())
+    )
 
 
 def _is_translated(asked_for: _Asked, claim: Claim) -> bool:
