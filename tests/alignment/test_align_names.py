@@ -7,6 +7,7 @@ import pytest
 
 from yellowiron.alignment.assignment.collision import collision_parts
 from yellowiron.alignment.assignment.names import (
+    borne_by_others,
     concepts,
     exact_role,
     exact_roles,
@@ -127,6 +128,15 @@ def test_the_assembly_above_counts_less(template: Template) -> None:
     assert scores[2]["bucket"] == 1.5
     assert 0.3 < scores[2]["boom"] < 0.8
     assert scores[3] == {}
+
+
+def test_what_hangs_on_a_part_bears_its_name_only_in_part(template: Template) -> None:
+    """An animated model's cylinder hangs on the boom that carries it; a cover lies in the boom's assembly."""
+    parts = (
+        part("boom", "machine"), part("Mesh012", "machine", "boom"), part("bucket", "machine", "boom"),
+        part("Mesh013", "machine", "boom", "Mesh012"), part("Mesh014", "machine", "arm assy"),
+    )  # fmt: skip
+    assert borne_by_others(parts, template) == {1, 3}
 
 
 def test_what_holds_everything_says_nothing(template: Template) -> None:

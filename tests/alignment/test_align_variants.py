@@ -9,11 +9,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from yellowiron.alignment.fusion import reading
+from yellowiron.alignment.fusion import reading, trust
 from yellowiron.alignment.fusion.bonds import Bond
 from yellowiron.alignment.fusion.played import lacks
-from yellowiron.alignment.fusion.reading import _solution, trust_in_names
+from yellowiron.alignment.fusion.reading import _solution
 from yellowiron.alignment.fusion.stance import Stance
+from yellowiron.alignment.fusion.trust import trust_in_names
 from yellowiron.alignment.fusion.weights import weights
 from yellowiron.alignment.structure.clusters import Cluster, Hinge, Structure
 from yellowiron.library import load_template
@@ -91,19 +92,19 @@ def test_the_name_of_a_mesh_counts_less_for_its_solids_and_least_for_its_bars(
     """A cylinder that is drawn into the boom's mesh is called boom."""
     heard: list[float] = []
 
-    def told(pieces: Any, template: Any, scores: Any, trust: list[float], *_: Any) -> list[dict[str, Any]]:
-        heard.extend(trust)
+    def told(pieces: Any, template: Any, scores: Any, worth: list[float], *_: Any) -> list[dict[str, Any]]:
+        heard.extend(worth)
         return [{"boom": {}, "undercarriage": {}} for _ in pieces]
 
     monkeypatch.setattr(reading, "votes_of", told)
-    pieces: Any = [SimpleNamespace(slender=slender) for slender in (False, False, True, True)]
+    pieces: Any = [SimpleNamespace(slender=slender) for slender in (False, False, True, True, False)]
     rest: Any = dict.fromkeys(("scores", "answer", "surface"))
     part = Stance(np.eye(3), np.zeros(3), 1.0, 1.0, absent=frozenset({"undercarriage"}))
     evidence = reading.Evidence(
         pieces=pieces, leading=(), bonds=(), trust=0.8, shared=frozenset({1, 3}), pins=frozenset(),
-        stance=part, edited={}, **rest,
+        stance=part, edited={}, borne=frozenset({4}), **rest,
     )  # fmt: skip
     votes = evidence.votes(choose(open_template, {}))
-    assert votes == [{"boom": {}}] * 4  # what is not drawn is nothing's
-    assert heard == pytest.approx([0.8, 0.8 * reading.OF_SOLID, 0.8, 0.8 * reading.OF_BAR])
-    assert reading.OF_BAR < reading.OF_SOLID < 1.0
+    assert votes == [{"boom": {}}] * 5  # what is not drawn is nothing's
+    assert heard == pytest.approx([0.8, 0.8 * trust.OF_SOLID, 0.8, 0.8 * trust.OF_BAR, 0.8 * trust.OF_CARRIER])
+    assert trust.OF_BAR < trust.OF_SOLID < 1.0

@@ -317,6 +317,21 @@ def _assemblies(part: Part, own: Collection[tuple[str, ...]], shared: int) -> It
             return
 
 
+def borne_by_others(parts: tuple[Part, ...], template: Template) -> frozenset[int]:
+    """The parts, by number, whose own names say nothing and which hang in the tree on another part, whose name is all
+    that is said of them: what an arm carries in an animated model is the arm's, or a cylinder that stands on it."""
+    words = vocabulary(template)
+    silent = unnamed(n for p in parts for n in (p.name, *p.path))
+    drawn = {(*p.path, p.name) for p in parts}
+    found = set()
+    for number, part in enumerate(parts):
+        tree = (*part.path, part.name)
+        said = [n for n, name in enumerate(tree) if name not in silent and concepts(name, words)]
+        if said and said[-1] < len(part.path) and tree[: said[-1] + 1] in drawn:
+            found.add(number)
+    return frozenset(found)
+
+
 def name_scores(parts: tuple[Part, ...], template: Template, whole: Template | None = None) -> list[dict[str, float]]:
     """For every part: body → how well its names speak of it (`EXACT` where it bears the exact name of one of its
     roles). Names of assemblies that hold all parts say nothing, nor does a word that most parts' own names have; one

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -13,6 +12,7 @@ import numpy as np
 from yellowiron.alignment.assignment.answer import Answer, Judged
 from yellowiron.alignment.assignment.cp_sat import MISSING_WEIGHT, Solution
 from yellowiron.alignment.assignment.directions import ALIKE, NOT_ACROSS, linkages_of
+from yellowiron.alignment.assignment.names import borne_by_others
 from yellowiron.alignment.assignment.weights import twin_role
 from yellowiron.alignment.features.solids import size_of
 from yellowiron.alignment.fusion.annealing import CHAINS, SWEEPS, against, labelled, leads
@@ -21,6 +21,7 @@ from yellowiron.alignment.fusion.judge import Field, field_of, score_of, weighed
 from yellowiron.alignment.fusion.pieces import Piece, leading, pieces_of
 from yellowiron.alignment.fusion.played import drawn_bodies, lacks, missing_bodies
 from yellowiron.alignment.fusion.stance import Stance, on_wheels, stance_of
+from yellowiron.alignment.fusion.trust import trust_in_names, worth_of_name
 from yellowiron.alignment.fusion.votes import (
     BARS,
     CLEARLY,
@@ -45,15 +46,6 @@ PARTS = (1, 2)
 """What begins so many joints from the root may be all that is drawn."""
 NEARLY = 2
 """A machine is nearly whole if no more bodies are missing between those that are there."""
-EXPLAINED = {0: 1.0, 1: 1.0, 2: 0.5}
-"""How well names explain that two pieces are neighbours, by the joints between the bodies that they name."""
-BELIEVED = 0.45
-"""Names that explain less than this share of what they could of who is beside whom are not believed at all."""
-TRUSTED = 0.7
-"""… and from this share on, wholly."""
-OF_SOLID, OF_BAR = 0.5, 0.1
-"""What the name of a mesh counts for one of its solids, and for a bar: in 23 models of strangers 68 % of 2980 solids
-are what their mesh is called, but only 41 % of 234 bars, which may be its hydraulic cylinders."""
 TELLING = ("name", "said")
 GROUND = 30.0
 """By so much names (or a person) speak more for a body than for any other where they tell which it is. Contacts that
@@ -87,7 +79,8 @@ class Evidence:
     """What a machine is judged by: its pieces, which of them can be what a body mainly is (`leading`), all bonds, how
     far names are trusted, which pieces share theirs with others (solids of one mesh), how the machine stands, what the
     names say of each solid, what the contacts gave, what a person said, which pieces are bars in bores: pins, if they
-    are not halves of hydraulic cylinders, and the `surface` of all that is drawn, tracks too, m²."""
+    are not halves of hydraulic cylinders, the `surface` of all that is drawn, tracks too, m², and which pieces have no
+    name but that of a part which they hang on in the tree (`borne`)."""
 
     pieces: tuple[Piece, ...]
     leading: tuple[int, ...]
@@ -100,6 +93,7 @@ class Evidence:
     edited: Mapping[int, str]
     pins: frozenset[int]
     surface: float
+    borne: frozenset[int] = frozenset()
 
     @property
     def between(self) -> list[Bond]:
@@ -110,7 +104,7 @@ class Evidence:
     def votes(self, template: Template) -> Votes:
         """What speaks for every piece and body of a template with its variants decided."""
         trust = [
-            self.trust * (1.0 if k not in self.shared else OF_BAR if piece.slender else OF_SOLID)
+            self.trust * worth_of_name(piece, shared=k in self.shared, borne=k in self.borne)
             for k, piece in enumerate(self.pieces)
         ]
         votes = votes_of(self.pieces, template, self.scores, trust, self.answer, self.stance, self.edited, self.surface)
@@ -157,8 +151,10 @@ def evidence_of(
     )
     borne = Counter(name for names in called for name in names)
     shared = frozenset(k for k, names in enumerate(called) if any(borne[name] > 1 for name in names))
+    hung = borne_by_others(tuple(s.part for s in observation.solids), template)
+    hanging = frozenset(k for k, p in enumerate(pieces) if p.members <= hung)
     surface = sum(s.surface for s in drawn) or 1.0
-    return Evidence(pieces, leads, bonds, trust, shared, stance, scores, answer, edited, pins, surface)
+    return Evidence(pieces, leads, bonds, trust, shared, stance, scores, answer, edited, pins, surface, hanging)
 
 
 def fused(
@@ -308,34 +304,6 @@ def _all_root(pieces: Sequence[Piece], template: Template) -> dict[int, Judged]:
     return {i: Judged(template.root, 0.0, None, words, False) for p in pieces for i in sorted(p.members)}
 
 
-def trust_in_names(
-    pieces: Sequence[Piece],
-    bonds: Sequence[Bond],
-    scores: Sequence[Mapping[str, float]],
-    template: Template,
-    called: Sequence[frozenset[tuple[tuple[str, ...], str]]],
-) -> float:
-    """How far a machine's names are to be believed, 0 to 1: neighbours should be one body, or two that a joint joins,
-    much more often than any two pieces are (the chance taken off, as in Cohen's kappa); two joints count
-    half. Pieces that are `called` the same in one place (solids of one mesh) agree whatever the name is worth."""
-    apart = joints_apart(template)
-    said = clearly_named(pieces, scores)
-
-    def explained(a: int, b: int) -> float:
-        return EXPLAINED.get(apart.get((said[a], said[b]), 99), 0.0)
-
-    near = [
-        explained(b.a, b.b) for b in bonds if b.beside and b.a in said and b.b in said and not called[b.a] & called[b.b]
-    ]
-    every = [explained(a, b) for a, b in itertools.combinations(sorted(said), 2) if not called[a] & called[b]]
-    if not near or min(every) == 1.0:
-        return 1.0
-    chance = float(np.mean(every))
-    kappa = (float(np.mean(near)) - chance) / (1.0 - chance)
-    kappa = (len(near) * kappa + 4.0) / (len(near) + 4.0)  # names are mostly right: so many more agreed before
-    return float(np.clip((kappa - BELIEVED) / (TRUSTED - BELIEVED), 0.0, 1.0))
-
-
 def _is_pin(i: int, what: Judged, observation: Observation, template: Template) -> bool:
     """True for a bar in bores that is no half of a hydraulic cylinder: its role hangs on the joint it is the pin of."""
     return i in observation.evidence[-1].fasteners and template.role(what.body).kind not in BARS
@@ -379,8 +347,8 @@ def _judged(best: _Best, evidence: Evidence) -> dict[int, Judged]:
                 continue
         vote = best.votes[k][body]
         words = _words(body, margin, bodies[other] if other < none else None, vote)
-        # What a mesh is called is true of no more than two of three of its solids.
-        own = k not in evidence.shared or "said" in vote
+        # What a mesh is called is true of no more than two of three of its solids, and what carries a part is not it.
+        own = k not in evidence.shared | evidence.borne or "said" in vote
         grounded = own and not doubted and _grounded(body, best.votes[k], named(piece, evidence.scores), evidence.trust)
         for i in piece.members:
             found[i] = Judged(body, margin, bodies[other] if other < none else None, words, grounded)
