@@ -9,6 +9,7 @@ from yellowiron.alignment.assignment.collision import collision_parts
 from yellowiron.alignment.assignment.names import (
     borne_by_others,
     concepts,
+    described,
     exact_role,
     exact_roles,
     likeness,
@@ -119,6 +120,8 @@ def test_sides_and_ends_exclude_each_other(template: Template) -> None:
     assert score("boom cylinder rod", "boom_cylinder_barrel_l") == 0.0
     assert score("rear wheel", "front_wheel_l") == 0.0
     assert score("rear left", "rear_wheel_l") == 0.0  # a place is no name
+    assert score("rear", "rear_wheel_l") == score("front", "rear_frame") == 0.0
+    assert score("Front", "front_frame") > 0.6
 
 
 def test_the_assembly_above_counts_less(template: Template) -> None:
@@ -128,6 +131,18 @@ def test_the_assembly_above_counts_less(template: Template) -> None:
     assert scores[2]["bucket"] == 1.5
     assert 0.3 < scores[2]["boom"] < 0.8
     assert scores[3] == {}
+
+
+def test_robot_descriptions_call_every_body_a_link(digger: Template) -> None:
+    """`bucket_link` of a robot description is its bucket, `link4` has no name; elsewhere a link is one."""
+    robot = tuple(part(name) for name in ("base_link", "boomLink", "ARM_LINK", "bucket_link", "link4", "blink"))
+    assert [p.name for p in described(robot)] == ["base", "boom", "ARM", "bucket", "", "blink"]
+    scores = name_scores(robot, digger)
+    assert max(scores[3], key=lambda b: scores[3][b]) == "bucket"
+    assert scores[4] == {}
+    drawn = tuple(part(name) for name in ("bucket link", "tipping link", "boom", "arm", "bucket", "cab"))
+    assert described(drawn) == drawn
+    assert max(found := name_scores(drawn, digger)[0], key=lambda b: found[b]) == "bucket_link"
 
 
 def test_what_hangs_on_a_part_bears_its_name_only_in_part(template: Template) -> None:

@@ -12,7 +12,7 @@ import re
 import unicodedata
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from importlib import resources
 
 from rapidfuzz.distance import DamerauLevenshtein
@@ -46,6 +46,9 @@ _SPACED = re.compile(r"[\u0400-\u052f]")
 _ELIDED = re.compile(r"\b[dl]['\u2019](?=\w)", re.IGNORECASE)
 _HIGH = re.compile(r"[\x80-\xff\u0152-\u2122]{2,}")
 _COUNT = re.compile(r"[\s_#.-]*\d*$")
+_LINK = re.compile(r"(?:(?<=[a-z])L|(?<![A-Za-z])[lL])ink[\s_#.-]*\d*$|(?<![A-Za-z])LINK[\s_#.-]*\d*$")
+LINKS = 4
+"""Of so many names that end in "link", and of most of a model's, it is a robot description's word for a body."""
 _SIDES = {"l": "left", "r": "right"}
 _OPPOSED = (("left", "right"), ("front", "rear"), ("barrel", "rod"))
 _PLACES = frozenset({"left", "right", "front", "rear"})
@@ -236,7 +239,9 @@ def likeness(said: Mapping[str, float], role: frozenset[str]) -> float:
         ):
             return 0.0
     shared = [c for c in said if c in role]
-    if not set(shared) - _PLACES:
+    # A place is no name, but a part that is called so and no more is what the machine has there: the front of a loader.
+    whole = len(said) == 1 and role == said.keys() | {"frame"} and set(said.values()) == {1.0}
+    if not set(shared) - _PLACES and not whole:
         return 0.0
     common = sum(said[c] for c in shared)
     recall = common / len(role)
@@ -332,11 +337,25 @@ def borne_by_others(parts: tuple[Part, ...], template: Template) -> frozenset[in
     return frozenset(found)
 
 
+def described(parts: tuple[Part, ...]) -> tuple[Part, ...]:
+    """The parts, without the word for a body that robot descriptions put behind every name (`base_link`, `bucket_link`,
+    `link4`), where most names have it."""
+    names = {part.name for part in parts}
+    links = sum(bool(_LINK.search(name)) for name in names)
+    if links < LINKS or 2 * links <= len(names):
+        return parts
+    return tuple(
+        replace(p, name=_LINK.sub("", p.name).strip(" _-."), path=tuple(_LINK.sub("", n).strip(" _-.") for n in p.path))
+        for p in parts
+    )
+
+
 def name_scores(parts: tuple[Part, ...], template: Template, whole: Template | None = None) -> list[dict[str, float]]:
     """For every part: body → how well its names speak of it (`EXACT` where it bears the exact name of one of its
     roles). Names of assemblies that hold all parts say nothing, nor does a word that most parts' own names have; one
     that many have says less.
     `whole`: a template with further bodies, of which the template's nearest above is meant."""
+    parts = described(parts)
     words = vocabulary(whole or template)
     roles = exact_roles(template)
     shared = 0
