@@ -4,7 +4,7 @@ const token = new URLSearchParams(location.search).get("token") ?? "";
 const by = (id) => document.getElementById(id);
 const KEYS = [
   ["⏎", "Yes"], ["1 – 9", "Instead: the numbered answer"], ["X", "No part of the machine"], ["/", "Find any role"],
-  ["S", "Find parts and joints by name; ⇧⏎ takes all parts that are listed, Alt⏎ adds one to what is selected"], ["N, ⇧N", "The next part of the file, the one before"],
+  ["S", "Find parts and joints by name; ⇧⏎ takes all parts that are listed, Alt⏎ adds one to what is selected"], ["N, ⇧N", "The next part of those that are asked about, or of the file; the one before"],
   ["J, K", "Next question, the one before"], ["U, ⇧U", "Undo, redo"], ["A", "Take in the assembly around what is selected"],
   ["E", "Everything that is named so: the next answer is kept as a pattern over the CAD tree"],
   ["M", "The same on the other side"], ["P", "Point at a joint's axis: a bore; two round things or points; three points of a circle; Alt: an edge; arrow keys: one round thing after the other"],
@@ -603,12 +603,15 @@ class Studio {
     return `${parts.length} ${parts.length === 1 ? "part" : "parts"}`;
   }
 
-  /** Selects the next part of the file (1), or the one before (-1). */
+  /** Selects the next part (1), or the one before (-1): of several that are asked about, else of the file. */
   step(way) {
-    const numbers = this.viewer.model.parts.filter((part) => !part.hidden).map((part) => part.number);
+    const { question, selection } = this;
+    const asked = question?.kind === "parts" && !this.picked ? question.parts.map((path) => this.numbers.get(path)).filter(Boolean).sort((a, b) => a - b) : [];
+    const within = asked.length > 1 && [...selection].every((number) => asked.includes(number));
+    const numbers = within ? asked : this.viewer.model.parts.filter((part) => !part.hidden).map((part) => part.number);
     if (!numbers.length) return;
     const from = way > 0 ? Math.max(...this.shown) : Math.min(...this.shown);
-    const at = this.shown.size ? numbers.indexOf(from) : (way > 0 ? -1 : 0);
+    const at = (within ? selection : this.shown).size ? numbers.indexOf(from) : (way > 0 ? -1 : 0);
     this.#select([numbers[(at + way + numbers.length) % numbers.length]]);
   }
 
