@@ -26,7 +26,8 @@ pytestmark = pytest.mark.slow
 
 SECONDS, STEP, MOST = 4.0, 0.5, 120.0
 """Of a decision, of a step from one part to the next, of the whole review."""
-UNDONE = 20
+UNDONE, PER_WRONG = 20, 3
+"""Decisions of the ZX120 that are undone; questions about parts that are asked for one that is wrong, at most."""
 Truth = Mapping[str, tuple[str, ...]]
 """Part → the bodies that it may be of; '-': none."""
 
@@ -209,6 +210,7 @@ def test_nameless_machines_with_defects_are_reviewed_in_two_minutes(
         logging.getLogger(__name__).info("%s %d %s: %s", kind, seed, defect, told)
         assert person.wrong() == []
         assert person.seconds <= MOST, told
+        assert person.asked["parts"] <= PER_WRONG * max(len(wrong), 1), told
         said = kept(session)
         assert all(said[part]["source"] in ("edited", "confirmed") for part in wrong)
         assert all((said[part]["body"] or "-") in bodies for part, bodies in truth.items())
