@@ -167,7 +167,10 @@ def test_a_pattern_is_one_decision_that_is_kept_told_and_taken_back(open_studio:
     session.do(session.read({"kind": "role", "parts": {other: None}}))
     state = session.settled(60.0)
     assert roles(session)[other] is None and roles(session)[one] == "front_frame"
-    assert any("own decision goes before 'CAB ASSY ROPS/*'" in remark and other in remark for remark in state.remarks)
+    assert any(
+        "own decision goes before 'CAB ASSY ROPS/*'" in remark and f"'{other.rsplit('/', 1)[-1]}'" in remark
+        for remark in state.remarks
+    )
     session.keep()
     written = json.loads((session.setup.out / "alignment.json").read_text(encoding="utf-8"))
     assert [(r["pattern"], r["role"], r["by"]) for r in written["rules"]] == [("CAB ASSY ROPS/*", "front_frame", "Ann")]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import re
 import threading
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
@@ -305,7 +306,7 @@ class Session:
         alignment = alignment.suggested({part: asked[part] for part in alignment.to_review if part in asked})
         self._fixed = dict(alignment.choices)
         chosen = choose(template, {**alignment.choices, **choices})
-        told = (*kept.remarks, *(f.message for f in alignment.findings if f.code in _CONTRADICTIONS))
+        told = (*kept.remarks, *(self._shortly(f.message) for f in alignment.findings if f.code in _CONTRADICTIONS))
         bare = State(
             0, said, chosen, self.assembly, alignment, specifications, alignment, self.assembly, remarks=told
         )  # fmt: skip
@@ -326,6 +327,10 @@ class Session:
         known = self._known
         same = known is not None and known[0] == content_of(solved.mechanism)
         return state.with_measured(known[1]) if known is not None and same else state
+
+    def _shortly(self, message: str) -> str:
+        """A message with the names of parts in the place of their whole paths."""
+        return re.sub("'([^']+)'", lambda m: f"'{m[1].rsplit('/', 1)[-1]}'" if m[1] in self.parts else m[0], message)
 
     def _documents(self, joints: Mapping[str, Mapping[str, object]]) -> tuple[library.Documents, Template]:
         """The user's documents and what is said of joints here, with the template that they make. `YellowironError` for

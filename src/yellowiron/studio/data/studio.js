@@ -587,7 +587,7 @@ class Studio {
     }));
     try {
       const none = "No part and no assembly is named so. As much of a path as you like; * stands for any text.";
-      this.#finder("Names and assemblies, such as HITCH/* or *BOLT*", await rows({ parts: paths }), none, async (pattern) => (await rows({ pattern }))[0]);
+      this.#finder("A pattern, such as HITCH/* or *BOLT*", await rows({ parts: paths }), none, async (pattern) => (await rows({ pattern }))[0]);
     } catch (error) {
       this.tell(error.message);
     }
