@@ -114,14 +114,41 @@ def test_the_whole_review_by_keys_alone(page: tuple[Any, list[str]], session: Se
     assert not errors
 
 
-def test_the_machine_moves(page: tuple[Any, list[str]]) -> None:
+def test_the_machine_moves(page: tuple[Any, list[str]], session: Session) -> None:
     opened, errors = page
     sliders = opened.evaluate("yellowiron.viewer.sliders.map((slider) => slider.name)")
     assert {"boom", "bucket"} <= set(sliders)
+    # Without a sheet too, every actuator has one.
+    assert {a.name for a in session.state.solved.mechanism.actuators} <= set(sliders)  # type: ignore[union-attr]
     before = opened.evaluate("yellowiron.viewer.pose.bucket")
     opened.evaluate("yellowiron.viewer.set('boom', yellowiron.viewer.sliders.find((s) => s.name === 'boom').range[1])")
     after = opened.evaluate("yellowiron.viewer.pose.bucket")
     assert abs(after[14] - before[14]) > 0.5
+    assert not errors
+
+
+def test_a_frame_is_a_few_calls_however_many_parts(page: tuple[Any, list[str]]) -> None:
+    opened, errors = page
+    calls = opened.evaluate("""() => {
+      const { viewer } = yellowiron;
+      const { gl } = viewer.renderer;
+      let count = 0;
+      for (const name of ["drawElements", "drawArrays", "drawElementsInstanced", "drawArraysInstanced"]) {
+        gl[name] = (...all) => (count++, WebGL2RenderingContext.prototype[name].apply(gl, all));
+      }
+      const drawn = (light) => {
+        viewer.light(light);
+        viewer.move({});
+        count = 0;
+        viewer.draw(1);
+        return count;
+      };
+      const found = [drawn(null), drawn(new Set([1])), drawn(new Set(viewer.model.parts.map((part) => part.number)))];
+      ["drawElements", "drawArrays", "drawElementsInstanced", "drawArraysInstanced"].forEach((name) => delete gl[name]);
+      viewer.light(null);
+      return [...found, viewer.model.parts.length];
+    }""")
+    assert 0 < max(calls[:3]) <= 8 < calls[3]
     assert not errors
 
 
