@@ -330,7 +330,9 @@ class Session:
 
     def _shortly(self, message: str) -> str:
         """A message with the names of parts in the place of their whole paths."""
-        return re.sub("'([^']+)'", lambda m: f"'{m[1].rsplit('/', 1)[-1]}'" if m[1] in self.parts else m[0], message)
+        return re.sub(
+            r"(?<!\w)'([^']+)'", lambda m: f"'{m[1].rsplit('/', 1)[-1]}'" if m[1] in self.parts else m[0], message
+        )
 
     def _documents(self, joints: Mapping[str, Mapping[str, object]]) -> tuple[library.Documents, Template]:
         """The user's documents and what is said of joints here, with the template that they make. `YellowironError` for
