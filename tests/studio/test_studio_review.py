@@ -26,7 +26,7 @@ pytestmark = pytest.mark.slow
 
 SECONDS, STEP, MOST = 4.0, 0.5, 120.0
 """Of a decision, of a step from one part to the next, of the whole review."""
-UNDONE, PER_WRONG = 20, 3
+UNDONE, PER_WRONG = 20, 4
 """Decisions of the ZX120 that are undone; questions about parts that are asked for one that is wrong, at most."""
 Truth = Mapping[str, tuple[str, ...]]
 """Part → the bodies that it may be of; '-': none."""
