@@ -1,7 +1,7 @@
 """What a review in the studio costs a person: real models with labels, answered by one who knows the truth.
 
     python benchmarks/bench_studio.py [--models DIR:…] [--only NAME,…] [--names with,without] [--most N]
-                                      [--undo N --seed S] | --parts N,… [--example NAME]
+                                      [--undo N --seed S] | --parts N,… [--example NAME] [--page]
 
 The one who answers takes the first question that is about parts. Where all of them are right he says yes; where all are
 wrong in the same way, the body that they are of; else he picks out those that are wrong, body by body, which costs a
@@ -14,17 +14,23 @@ alignment.json for every wrong part, found by its name, a full run after each te
 
 With `--parts` no model is reviewed: the example loader (or another `--example`), grown by bolts to so many parts, takes
 nine decisions, and what is printed is how long each took to its machine, in seconds solving and packing: the least and
-the median.
+the median. With `--page` too, it is how the page draws in headless Chromium: triangles; draw calls of a frame as the
+machine stands, and with a part lit and all moved; the page's own work for a frame, without what a graphics card does,
+and to find what is clicked, which waits for a frame (milliseconds, medians of 50). Chromium draws in software there, so
+that the time of its frames says nothing of a graphics card.
 """
 
 from __future__ import annotations
 
 import argparse
 import os
+import queue
 import random
+import shutil
 import statistics
 import sys
 import tempfile
+import threading
 import time
 from collections import Counter
 from pathlib import Path
@@ -145,6 +151,66 @@ def speed(parts: int, example: str) -> str:
     return f"{len(session.assembly.parts):6d} parts  {each}"
 
 
+COUNTED = """
+window.calls = 0;
+for (const name of ["drawElements", "drawArrays", "drawElementsInstanced", "drawArraysInstanced"]) {
+  const drawn = WebGL2RenderingContext.prototype[name];
+  WebGL2RenderingContext.prototype[name] = function (...all) { window.calls++; return drawn.apply(this, all); };
+}
+"""
+MEASURED = """() => {
+  const { viewer } = yellowiron;
+  const calls = () => { window.calls = 0; viewer.draw(1); return window.calls; };
+  const median = (act, times) => {
+    const took = [];
+    for (let k = 0; k < times; k++) { const from = performance.now(); act(); took.push(performance.now() - from); }
+    return took.sort((a, b) => a - b)[times >> 1];
+  };
+  viewer.light(null);
+  calls();
+  const stands = calls();
+  viewer.light(new Set([1]));
+  viewer.move({});
+  const moves = calls();
+  viewer.light(null);
+  calls();
+  viewer.renderer.partAt(9, 9);
+  const work = median(() => viewer.draw(0.05), 50);
+  viewer.renderer.partAt(9, 9);
+  const parts = viewer.model.parts.length;
+  const triangles = viewer.renderer.mesh.count / 3;
+  return { triangles, stands, moves, work, pick: median(() => viewer.renderer.partAt(99, 99), 50), parts };
+}"""
+
+
+def page(parts: int, example: str) -> str:
+    """One size's row: how the page draws it."""
+    from playwright.sync_api import sync_playwright
+
+    from conftest import BROWSER_FLAGS
+    from yellowiron.studio.server import serve
+
+    with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
+        source = EXAMPLES / example / f"{example}.step"
+        grown = resize(source, Path(folder, "grown.step"), parts) if parts else source
+        session = Session(Setup(example, grown, Path(folder, "out")))
+        told: queue.Queue[str] = queue.Queue()
+        threading.Thread(target=serve, args=(session,), kwargs={"ready": told.put}, daemon=True).start()
+        chromium = next(p for name in ("chromium", "chromium-browser", "google-chrome") if (p := shutil.which(name)))
+        browser = playwright.chromium.launch(executable_path=chromium, args=list(BROWSER_FLAGS))
+        opened = browser.new_page(viewport={"width": 1400, "height": 900}, reduced_motion="reduce")
+        opened.add_init_script(COUNTED)
+        opened.goto(told.get(timeout=60.0))
+        opened.locator("#queue button").first.wait_for(timeout=120_000)
+        found = opened.evaluate(MEASURED)
+        browser.close()
+        session.close()
+    return (
+        f"{found['parts']:6d} parts {found['triangles']:9d} triangles  {found['stands']:6d} {found['moves']:6d}"
+        f"  {found['work']:10.2f} {found['pick']:10.2f}"
+    )
+
+
 def main() -> None:
     """Prints a row a model and naming."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
@@ -156,7 +222,13 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--parts", default="", help="sizes, 0: the example as it is")
     parser.add_argument("--example", default="wheel_loader", help="of which the sizes are")
+    parser.add_argument("--page", action="store_true", help="with --parts: how the page draws them")
     given = parser.parse_args()
+    if given.parts and given.page:
+        print(f"{'':36s}draw calls: still, moved   work ms    pick ms")
+        for parts in given.parts.split(","):
+            print(page(int(parts), given.example), flush=True)
+        return
     if given.parts:
         print(f"{'':14s} {'solving s: least, median':>17s}  {'packing s: least, median':>17s}")
         for parts in given.parts.split(","):

@@ -110,10 +110,15 @@ def test_steps_are_plain_lines_in_a_pipe(monkeypatch: pytest.MonkeyPatch, tmp_pa
     monkeypatch.setattr("yellowiron.api.check", check)
     told = console("check", "a.usd", cwd=tmp_path)
     assert re.fullmatch(r"Checking the file +\d+\.\d s\n", told.stderr)
-    silent = console("check", "a.usd", "-q", cwd=tmp_path)
-    assert (silent.returncode, silent.stdout, silent.stderr) == (0, "", "")
-    both = console("check", "a.usd", "--json", "--verbose", cwd=tmp_path)
-    assert json.loads(both.stdout) == {"findings": []} and "Checking the file" in both.stderr
+    # What all commands take stands before the command as well as behind it.
+    for words in (("check", "a.usd", "-q"), ("-q", "check", "a.usd"), ("--quiet", "check", "a.usd")):
+        silent = console(*words, cwd=tmp_path)
+        assert (silent.returncode, silent.stdout, silent.stderr) == (0, "", "")
+    for words in (("check", "a.usd", "--json", "--verbose"), ("--json", "-v", "check", "a.usd"),
+                  ("--json", "check", "a.usd", "-v")):  # fmt: skip
+        both = console(*words, cwd=tmp_path)
+        assert json.loads(both.stdout) == {"findings": []} and "Checking the file" in both.stderr
+    assert "Checking the file" in console("check", "a.usd", cwd=tmp_path).stderr
 
 
 @pytest.mark.parametrize(("verbose", "lines"), [(False, 2), (True, 4)])

@@ -36,7 +36,7 @@ def test_nothing_is_imported_before_it_is_loaded(tmp_path: Path, monkeypatch: py
         ("raise RuntimeError('no\\nlicence')", "RuntimeError: no licence"),
         ("import not_there_at_all", "No module named 'not_there_at_all'"),
         ("other = 1", "has no attribute 'it'"),
-        ("it = 1", "is no str but a int"),
+        ("it = 1", "is no str but an int"),
     ],
 )
 def test_what_is_broken_is_one_sentence(

@@ -58,6 +58,7 @@ def test_words() -> None:
     assert signed(-0.0001, 3, " %") == "0.000 %"
     assert signed(-1.25, 1, " %") == "−1.2 %"
     assert (counted(1, "part"), counted(2, "part"), counted(2, "body", "bodies")) == ("1 part", "2 parts", "2 bodies")
+    assert counted(2, "mass") == "2 masses"
     assert sentence("rear_frame") == "Rear frame"
     assert titled("steer_cyl_tube_2") == "Steer cyl tube 2"
     assert titled("rear_frame2boom_joint") == "Rear frame to boom"

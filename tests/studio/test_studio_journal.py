@@ -36,6 +36,11 @@ OPERATIONS = st.one_of(
     st.builds(
         lambda text: Operation("value", name="Boom Cylinder Stroke", text=text), st.sampled_from(("", "1 m", "2 ft"))
     ),
+    st.builds(
+        lambda name, text: Operation("rule", name=name, text=text),
+        st.sampled_from(("A/*", "*ü")),
+        st.sampled_from(("", "boom", "none")),
+    ),
 )
 STEPS = st.lists(st.one_of(OPERATIONS, st.just("undo"), st.just("redo")), max_size=12)
 

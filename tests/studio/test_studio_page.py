@@ -114,14 +114,41 @@ def test_the_whole_review_by_keys_alone(page: tuple[Any, list[str]], session: Se
     assert not errors
 
 
-def test_the_machine_moves(page: tuple[Any, list[str]]) -> None:
+def test_the_machine_moves(page: tuple[Any, list[str]], session: Session) -> None:
     opened, errors = page
     sliders = opened.evaluate("yellowiron.viewer.sliders.map((slider) => slider.name)")
     assert {"boom", "bucket"} <= set(sliders)
+    # Without a sheet too, every actuator has one.
+    assert {a.name for a in session.state.solved.mechanism.actuators} <= set(sliders)  # type: ignore[union-attr]
     before = opened.evaluate("yellowiron.viewer.pose.bucket")
     opened.evaluate("yellowiron.viewer.set('boom', yellowiron.viewer.sliders.find((s) => s.name === 'boom').range[1])")
     after = opened.evaluate("yellowiron.viewer.pose.bucket")
     assert abs(after[14] - before[14]) > 0.5
+    assert not errors
+
+
+def test_a_frame_is_a_few_calls_however_many_parts(page: tuple[Any, list[str]]) -> None:
+    opened, errors = page
+    calls = opened.evaluate("""() => {
+      const { viewer } = yellowiron;
+      const { gl } = viewer.renderer;
+      let count = 0;
+      for (const name of ["drawElements", "drawArrays", "drawElementsInstanced", "drawArraysInstanced"]) {
+        gl[name] = (...all) => (count++, WebGL2RenderingContext.prototype[name].apply(gl, all));
+      }
+      const drawn = (light) => {
+        viewer.light(light);
+        viewer.move({});
+        count = 0;
+        viewer.draw(1);
+        return count;
+      };
+      const found = [drawn(null), drawn(new Set([1])), drawn(new Set(viewer.model.parts.map((part) => part.number)))];
+      ["drawElements", "drawArrays", "drawElementsInstanced", "drawArraysInstanced"].forEach((name) => delete gl[name]);
+      viewer.light(null);
+      return [...found, viewer.model.parts.length];
+    }""")
+    assert 0 < max(calls[:3]) <= 8 < calls[3]
     assert not errors
 
 
@@ -333,6 +360,119 @@ def test_joints_are_chosen_by_keys(page: tuple[Any, list[str]], session: Session
     opened.evaluate("(yellowiron.viewer.showJoints = false, yellowiron.viewer.draw(1))")
     opened.keyboard.press("Escape")
     assert session.said == said
+    assert errors == []
+
+
+def test_an_assembly_is_one_decision_by_keys(page: tuple[Any, list[str]], session: Session) -> None:
+    """A part found, its assembly taken in, all that is named so given one role: told, in the history, undone."""
+    opened, errors = page
+
+    def solved() -> None:
+        until(lambda: bool(opened.evaluate("yellowiron.state.solved === yellowiron.state.said && !yellowiron.waiting")))
+
+    def closed() -> None:
+        until(lambda: not opened.locator("#finder").is_visible())
+
+    part = next(p for p in session.parts if "/HOOD ASSY/" in p)
+    inside = [p for p in session.parts if "/HOOD ASSY/" in p]
+    before = {p.part: p.role for p in session.settled(60).aligned.parts}
+    opened.keyboard.press("Escape")
+    opened.keyboard.press("s")
+    opened.keyboard.insert_text(part)
+    opened.keyboard.press("Enter")
+    opened.keyboard.press("x")
+    solved()
+    opened.keyboard.press("s")
+    opened.keyboard.insert_text(part)
+    opened.keyboard.press("Enter")
+    opened.keyboard.press("a")
+    opened.keyboard.press("e")
+    opened.locator("#finder").wait_for()
+    assert opened.locator("#found [aria-selected=true]").inner_text() == f"HOOD ASSY/* · {len(inside)} parts"
+    opened.keyboard.press("Enter")
+    closed()
+    assert f"All that is named HOOD ASSY/* · {len(inside)} parts" in opened.locator("#card").inner_text()
+    opened.keyboard.press("/")
+    opened.keyboard.insert_text("front frame")
+    opened.keyboard.press("Enter")
+    solved()
+    assert {p.part: p.role for p in session.settled(60).aligned.parts if p.part in inside} == dict.fromkeys(
+        inside, "front_frame"
+    )
+    assert "goes before what was said of single parts earlier" in opened.locator("#told").inner_text()
+    opened.get_by_role("tab", name="History").click()
+    assert "All that is named HOOD ASSY/* → front frame" in opened.locator("#history").inner_text()
+    assert "goes before what was said" in opened.locator("#history").inner_text()
+    opened.get_by_role("tab", name="Move").click()
+    opened.keyboard.press("u")
+    opened.keyboard.press("u")
+    solved()
+    assert {p.part: p.role for p in session.settled(60).aligned.parts} == before
+
+    # One that is written: its parts are selected, and the same role is a yes; it is found again, and taken back.
+    opened.keyboard.press("Escape")
+    opened.keyboard.press("e")
+    opened.locator("#finder").wait_for()
+    opened.keyboard.insert_text("no such assembly/*")
+    until(lambda: "No part and no assembly" in opened.locator("#found").inner_text())
+    opened.locator("#find").fill("*rear axle assy")
+    opened.keyboard.press("Enter")
+    closed()
+    chosen = opened.evaluate("[...yellowiron.selection].map(n => yellowiron.viewer.model.parts[n - 1].path)")
+    assert chosen == [p for p in session.parts if "/REAR AXLE ASSY/" in p]
+    opened.keyboard.press("x")
+    solved()
+    assert [(r.pattern, r.role) for r in session.settled(60).aligned.rules] == [("*rear axle assy", None)]
+    opened.keyboard.press("e")
+    opened.locator("#finder").wait_for()
+    assert "no part of the machine" in opened.locator("#found [aria-selected=true]").inner_text()
+    opened.keyboard.press("Enter")
+    closed()
+    opened.get_by_role("button", name="Take back").click()
+    solved()
+    assert session.settled(60).aligned.rules == ()
+    assert {p.part: p.role for p in session.settled(60).aligned.parts} == before
+    assert errors == []
+
+
+def test_an_axis_by_keys_alone(page: tuple[Any, list[str]], session: Session) -> None:
+    """S finds the joint, P points, arrow keys go through what is round there, Enter takes it."""
+    opened, errors = page
+    name = "front_frame2boom_joint"
+    opened.keyboard.press("Escape")
+    opened.keyboard.press("s")
+    opened.keyboard.insert_text("front frame to boom")
+    opened.keyboard.press("Enter")
+    assert opened.evaluate("yellowiron.picked") == name
+    camera = opened.evaluate("JSON.stringify(yellowiron.viewer.camera)")
+    opened.locator("canvas").focus()
+    opened.keyboard.press("p")
+    opened.keyboard.press("ArrowRight")
+    opened.locator(".v-meant line").wait_for()
+    first = opened.evaluate("yellowiron.aim.found")
+    assert "(1 of " in opened.locator("#card").inner_text()
+    opened.keyboard.press("ArrowRight")
+    until(lambda: "(2 of " in opened.locator("#card").inner_text())
+    second = opened.evaluate("yellowiron.aim.found")
+    assert second["entry"] != first["entry"] and second["words"] in opened.locator("#card").inner_text()
+    opened.keyboard.press("ArrowUp")
+    opened.keyboard.press("ArrowUp")
+    until(lambda: opened.evaluate("yellowiron.aim.at") > 1)  # once around
+    assert opened.evaluate("JSON.stringify(yellowiron.viewer.camera)") == camera  # the picture did not turn
+    opened.keyboard.press("ArrowDown")
+    opened.keyboard.press("ArrowDown")
+    until(lambda: "(2 of " in opened.locator("#card").inner_text())
+    opened.keyboard.press("Enter")
+    until(lambda: name in session.settled(60.0).aligned.by_hand)
+    given = session.state.aligned.joints[name]
+    assert {key: given[key] for key in ("anchor", "axis")} == second["entry"]
+    opened.keyboard.press("u")
+    until(lambda: session.settled(60.0).aligned.joints == {})
+    opened.keyboard.press("Escape")
+    # Without a joint that is pointed at, the keys turn the picture.
+    opened.locator("canvas").focus()
+    opened.keyboard.press("ArrowRight")
+    assert opened.evaluate("JSON.stringify(yellowiron.viewer.camera)") != camera
     assert errors == []
 
 

@@ -61,7 +61,7 @@ def test_strangers_get_nothing(client: Any, path: str, headers: dict[str, str]) 
     assert len(answer.text) < 100
 
 
-@pytest.mark.parametrize("path", ["/do", "/undo", "/redo", "/build", "/axis"])
+@pytest.mark.parametrize("path", ["/do", "/undo", "/redo", "/build", "/axis", "/rounds", "/patterns"])
 def test_strangers_decide_nothing(client: Any, session: Session, path: str) -> None:
     before = session.said
     assert client.post(path, headers={"Origin": "http://evil.example"}, content=b"{}").status_code == 403
@@ -95,6 +95,9 @@ def test_the_page_asks_for_nothing_else(client: Any) -> None:
                 b'{"kind": "role", "parts": {"x": "y"}}',
                 b'{"kind": "role", "parts": {"x": {"y": 1}}}', b'{"kind": ["role"]}',
                 b'{"kind": "role", "mirror": 1, "parts": 3}',
+                b'{"kind": "rule", "name": "", "text": "boom"}', b'{"kind": "rule", "name": "*", "text": "x"}',
+                b'{"kind": "rule", "name": ["*"], "text": "boom"}',
+                b'{"kind": "rule", "name": "a\\nb", "text": "boom"}',
                 b'{"kind": "joint", "name": "boom", "entry": 3}', b'{"kind": "joint", "name": "", "entry": {}}',
                 b'{"kind": "joint", "name": "boom", "entry": {"axis": [1e999, 0, 0], "anchor": [0, 0, 0]}}',
                 b'{"kind": "joint", "name": "boom", "entry": {"Body": ["boom", "nothing"]}}'],

@@ -7,6 +7,7 @@ import os
 import threading
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -18,14 +19,14 @@ from yellowiron.pipeline import build
 from yellowiron.stages import Solved
 from yellowiron.studio import Session, Setup, read_setup
 from yellowiron.studio import session as studio_session
-from yellowiron.studio.joints import joints_of
+from yellowiron.studio.joints import MOST_ROUNDS, joints_of, rounds_of
 from yellowiron.studio.operations import words
 from yellowiron.studio.questions import in_words, questions
 from yellowiron.studio.scene import Scene
 from yellowiron.studio.session import State
 from yellowiron.studio.twins import twins_of
 
-CAB = "WHEEL LOADER GA/REAR MACHINE/CAB ASSY"
+CAB = "WHEEL LOADER GA/REAR MACHINE/CAB ASSY ROPS"
 
 
 def roles(session: Session) -> dict[str, str | None]:
@@ -144,6 +145,90 @@ def test_values_are_asked_given_and_kept(open_studio: Callable[[], Session]) -> 
     assert len(session.history()[0]) == 1
     again = open_studio()
     assert again.state.specifications.number("Lift Cylinder Stroke") == pytest.approx(0.764)
+
+
+@pytest.mark.slow
+def test_a_pattern_is_one_decision_that_is_kept_told_and_taken_back(open_studio: Callable[[], Session]) -> None:
+    session = open_studio()
+    before = roles(session)
+    inside = [part for part in before if part.startswith(f"{CAB}/")]
+    one, other = inside[0], inside[1]
+    assert len(inside) > 5
+    session.do(session.read({"kind": "role", "parts": {one: "boom"}}))
+    session.do(session.read({"kind": "rule", "name": "CAB ASSY ROPS/*", "text": "front_frame"}))
+    state = session.settled(60.0)
+    # What was said last holds, for all that is named so, and what it goes before is told.
+    assert {roles(session)[part] for part in inside} == {"front_frame"}
+    assert {p.source for p in state.aligned.parts if p.part in inside} == {"rule"}
+    name = one.rsplit("/", 1)[-1]
+    assert f"'CAB ASSY ROPS/*' goes before what was said of single parts earlier: {name} (boom)" in state.remarks
+    assert words(session.history()[0][-1]) == "All that is named CAB ASSY ROPS/* → front frame"
+    # A part's own decision goes before the pattern, and that is told too.
+    session.do(session.read({"kind": "role", "parts": {other: None}}))
+    state = session.settled(60.0)
+    assert roles(session)[other] is None and roles(session)[one] == "front_frame"
+    assert any(
+        "own decision goes before 'CAB ASSY ROPS/*'" in remark and f"'{other.rsplit('/', 1)[-1]}'" in remark
+        for remark in state.remarks
+    )
+    session.keep()
+    written = json.loads((session.setup.out / "alignment.json").read_text(encoding="utf-8"))
+    assert [(r["pattern"], r["role"], r["by"]) for r in written["rules"]] == [("CAB ASSY ROPS/*", "front_frame", "Ann")]
+    assert kept(session).keys() == {other}
+
+    # Another goes on where it was, and takes all of it back.
+    again = open_studio()
+    assert again.history()[1] == 3
+    again.undo()
+    again.undo()
+    state = again.settled(60.0)
+    assert not any("'CAB ASSY ROPS/*'" in remark for remark in state.remarks)
+    assert roles(again) == {**before, **{p: r for p, r in roles(again).items() if p not in inside}, one: "boom"}
+    again.redo()
+    assert roles(again)[one] == "front_frame"
+    again.do(again.read({"kind": "rule", "name": "CAB ASSY ROPS/*", "text": ""}))
+    assert again.settled(60.0).aligned.rules == () and roles(again)[other] == before[other]
+    again.do(again.read({"kind": "rule", "name": "CAB ASSY ROPS", "text": "none"}))
+    assert {roles(again)[part] for part in inside} == {None}
+    again.do(again.read({"kind": "rule", "name": "NOT THERE/*", "text": "boom"}))
+    assert any("'NOT THERE/*'" in remark and "fits no part" in remark for remark in again.settled(60.0).remarks)
+    for broken in ({"name": "", "text": "boom"}, {"name": "CAB ASSY ROPS/*", "text": "bridge"}, {"name": 3}):
+        with pytest.raises(YellowironError):
+            again.read({"kind": "rule", **broken})
+
+    # The command line's pattern in the same file is one more of them.
+    again.keep()
+    again.close()
+    file = again.setup.out / "alignment.json"
+    document = json.loads(file.read_text(encoding="utf-8"))
+    document["rules"].append({"pattern": "*BOLT*", "role": "rear_frame"})
+    file.write_text(json.dumps(document), encoding="utf-8")
+    third = open_studio()
+    assert [rule.pattern for rule in third.settled(60.0).aligned.rules] == ["CAB ASSY ROPS", "NOT THERE/*", "*BOLT*"]
+    third.do(third.read({"kind": "rule", "name": "*BOLT*", "text": ""}))
+    assert [rule.pattern for rule in third.settled(60.0).aligned.rules] == ["CAB ASSY ROPS", "NOT THERE/*"]
+
+
+@pytest.mark.slow
+def test_the_round_things_of_a_joint(open_studio: Callable[[], Session]) -> None:
+    """What both bodies have comes first, and the joint's own axis is the first of all."""
+    session = open_studio()
+    state = session.settled(60.0)
+    for name in ("front_frame2boom_joint", "rear_frame2front_frame_joint"):
+        if name not in {joint.name for joint in state.template.joints}:
+            continue
+        joint = state.solved.mechanism.joint(name)  # type: ignore[union-attr]
+        rounds = rounds_of(state, name)
+        assert 1 < len(rounds) <= MOST_ROUNDS
+        point = state.aligned.frame @ (*rounds[0].entry["anchor"], 1.0)
+        away = point[:3] - joint.anchor
+        assert np.linalg.norm(away - (away @ joint.axis) * np.array(joint.axis)) < 2e-3
+        assert len({json.dumps(one.entry) for one in rounds}) == len(rounds)
+    # Of a joint whose axis nobody knows, those near the place where its bodies meet.
+    lost = replace(state, aligned=replace(state.aligned, axes={}))
+    assert rounds_of(lost, "front_frame2boom_joint")
+    nothing = replace(state, aligned=replace(state.aligned, parts=()))
+    assert rounds_of(nothing, "front_frame2boom_joint") == rounds_of(state, "no such joint") == []
 
 
 @pytest.mark.slow

@@ -26,7 +26,7 @@ from yellowiron.alignment.files.alignment_json import (
     said_in,
     write_alignment,
 )
-from yellowiron.alignment.files.decisions import decide, parse_rules
+from yellowiron.alignment.files.decisions import decide, fits, parse_rules
 from yellowiron.alignment.files.explanation import explain
 from yellowiron.alignment.labelling.confidence import REVIEW
 from yellowiron.alignment.labelling.halves import of_drawn
@@ -40,6 +40,7 @@ __all__ = [
     "discover",
     "discover_declared",
     "explain",
+    "fits",
     "of_drawn",
     "parse_rules",
     "parts_in",

@@ -10,7 +10,8 @@ from typing import Annotated, Any, Literal
 
 import typer
 
-from yellowiron.cli.telling import telling
+from yellowiron.cli.application import AsJson, Quiet, Verbose
+from yellowiron.cli.telling import telling_too
 
 
 def _types(incomplete: str) -> list[str]:
@@ -99,13 +100,9 @@ def command(group: typer.Typer, name: str | None = None) -> Callable[[Callable[.
     return added
 
 
-def _telling(
-    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON document and nothing else.")] = False,
-    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print nothing but errors.")] = False,
-    verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Say every step, with its time.")] = False,
-) -> None:
+def _telling(as_json: AsJson = False, quiet: Quiet = False, verbose: Verbose = False) -> None:
     """How a command says what it does and found."""
-    telling(as_json=as_json, quiet=quiet, verbose=verbose)
+    telling_too(as_json=as_json, quiet=quiet, verbose=verbose)
 
 
 def _with_options(command: Callable[..., None], options: Callable[..., Any], gets: str = "") -> Callable[..., None]:

@@ -39,6 +39,12 @@ def telling(*, as_json: bool, quiet: bool, verbose: bool) -> None:
     _TELLING.set(Telling(as_json, quiet, verbose))
 
 
+def telling_too(*, as_json: bool, quiet: bool, verbose: bool) -> None:
+    """Adds what is said behind a command to what was said before it."""
+    said = _TELLING.get()
+    _TELLING.set(Telling(said.as_json or as_json, said.quiet or quiet, said.verbose or verbose))
+
+
 def answer(document: Any, renderable: RenderableType) -> None:
     """The answer: the document where JSON was asked for, else the table or text."""
     told = _TELLING.get()

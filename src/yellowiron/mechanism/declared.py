@@ -24,6 +24,7 @@ from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Joint, Mechanism
 from yellowiron.model.specification import Specification, Specifications
 from yellowiron.model.template import Template
+from yellowiron.support.text import with_article
 from yellowiron.support.vectors import angle_between_lines
 
 OFFSET = 5e-4
@@ -217,7 +218,7 @@ def _beside(
     # A point that closes a loop stands for a hinge: the rest of the loop holds its axis.
     alike = found.type == kind or (kind == "spherical" and found.type == "revolute")
     agrees = alike and (angle or 0.0) <= PARALLEL and (distance or 0.0) <= offset
-    words = "" if agrees else f"{title}; found is a {found.type} joint"
+    words = "" if agrees else f"{title}; found is {with_article(found.type)} joint"
     if not agrees and alike:
         words += f", its axis {math.degrees(angle):.2f}° off" if angle is not None else ""
         words += f", {1e3 * distance:.1f} mm beside" if distance is not None else ""

@@ -54,5 +54,5 @@ def breakable(name: str) -> Any:
 
 
 def counted(number: int, thing: str, things: str = "") -> str:
-    """`1 part`, `2 parts`."""
-    return f"{number} {thing if number == 1 else things or thing + 's'}"
+    """`1 part`, `2 parts`, `2 masses`."""
+    return f"{number} {thing if number == 1 else things or thing + ('es' if thing.endswith('s') else 's')}"

@@ -133,6 +133,11 @@ def lines_near(
     return [RoundLine(*line) for line in lines]
 
 
+def found_axis(entry: Mapping[str, Any], words: str, part: Part, line: RoundLine) -> FoundAxis:
+    """A line as the axis that a click would have found on one of its parts."""
+    return _found(entry, words, part, line.point, line.direction)
+
+
 def _round(pick: Pick, part: Part, assembly: Assembly) -> FoundAxis:
     feature = _round_at(pick, assembly.shape_of(part))
     if feature is None:

@@ -3,23 +3,25 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy as np
 
+from yellowiron.model.assembly import Assembly, Part
+from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Joint
 from yellowiron.model.template import JointTemplate
 from yellowiron.report.html.joints import joint_evidence
 from yellowiron.report.rows import in_rows
 from yellowiron.report.words import titled
-from yellowiron.studio.axes import RoundLine, lines_near, plain
+from yellowiron.studio.axes import FoundAxis, RoundLine, found_axis, lines_near, plain
 from yellowiron.studio.operations import SIGNED
 from yellowiron.studio.session import State
 
-MOST_LINES = 8
-"""Other axes that are offered for a joint."""
+MOST_LINES, MOST_ROUNDS = 8, 60
+"""Other axes that are offered for a joint in doubt; round things to choose from while its axis is pointed at."""
 _FAR = 0.2
 """Of the machine's size: an axis farther off is not offered."""
 _HERE = 1e-3
@@ -91,26 +93,61 @@ def _entry(axis: tuple[Any, Any]) -> dict[str, Any]:
     return {"anchor": plain(point), "axis": plain(direction)}
 
 
+def rounds_of(state: State, name: str) -> list[FoundAxis]:
+    """Lines about which something of a joint's two bodies is round, as a click on it would give them: what both have
+    first, then the nearest to its axis, or to where the bodies meet. No more than `MOST_ROUNDS`."""
+    joint = next((joint for joint in state.template.joints if joint.name == name), None)
+    if joint is None:
+        return []
+    listed = []
+    for away, line, names in _near(state, joint)[:MOST_ROUNDS]:
+        part, radius = min(line.radii.items(), key=lambda each: (each[1], each[0]))
+        there = f", {1e3 * away:.0f} mm from there" if away > _HERE else ""
+        words = f"Round of {2e3 * radius:.3g} mm in {names}{there}"
+        listed.append(found_axis(_entry((line.point, line.direction)), words, state.aligned_model.part(part), line))
+    return listed
+
+
 def _others(state: State, joint: JointTemplate, size: float) -> tuple[tuple[str, str], ...]:
-    """Lines about which something of the joint's two bodies is round, along its axis: what both have first, then the
-    nearest."""
-    point, direction = (np.array(v) for v in state.aligned.axes[joint.name])
+    """Other lines along the joint's axis that it could be."""
+    near = [one for one in _near(state, joint, along=True) if _HERE < one[0] < _FAR * size]
+    return tuple(
+        (
+            json.dumps(_entry((line.point, line.direction))),
+            f"Round of {2e3 * min(line.radii.values()):.3g} mm in {names}, {1e3 * away:.0f} mm from there",
+        )
+        for away, line, names in near[:MOST_LINES]
+    )
+
+
+def _near(state: State, joint: JointTemplate, *, along: bool = False) -> list[tuple[float, RoundLine, str]]:
+    """Lines about which something of a joint's two bodies is round, what both have first, then the nearest: metres from
+    its axis (or from where the bodies meet), the line, its bodies in words. `along`: only those along its axis."""
     wanted = state.template.bodies_of(joint)
     bodies = {p.part: titled(p.body) for p in state.aligned.parts if p.body is not None and p.body in wanted}
     parts = [part for part in state.aligned_model.parts if part.id in bodies]
+    axis = state.aligned.axes.get(joint.name)
+    if not parts or (along and axis is None):
+        return []
+    point = np.array(axis[0]) if axis is not None else _meeting(parts, state.aligned_model, bodies)
+    direction = np.array(axis[1]) if axis is not None and along else None
 
     def away(line: RoundLine) -> float:
         offset = line.point - point
-        return float(np.linalg.norm(offset - (offset @ direction) * direction))
+        return float(np.linalg.norm(offset - (offset @ line.direction) * line.direction))
 
-    near = [
-        line for line in lines_near(parts, state.aligned_model, direction=direction)
-        if _HERE < away(line) < _FAR * size
-    ]  # fmt: skip
-    near.sort(key=lambda line: (-len({bodies[part] for part in line.radii}), away(line)))
-    listed = []
-    for line in near[:MOST_LINES]:
-        names = " and ".join(sorted({bodies[part] for part in line.radii}))
-        words = f"Round of {2e3 * min(line.radii.values()):.3g} mm in {names}, {1e3 * away(line):.0f} mm from there"
-        listed.append((json.dumps(_entry((line.point, line.direction))), words))
-    return tuple(listed)
+    lines = lines_near(parts, state.aligned_model, direction=direction)
+    named = [(away(line), line, sorted({bodies[part] for part in line.radii})) for line in lines]
+    named.sort(key=lambda one: (-len(one[2]), one[0]))
+    return [(far, line, " and ".join(names)) for far, line, names in named]
+
+
+def _meeting(parts: Sequence[Part], assembly: Assembly, bodies: Mapping[str, str]) -> Floats:
+    """(3,) the middle of what the boxes of two bodies share, or of the gap between them, CAD file's frame."""
+    lows, highs = [], []
+    for body in sorted(set(bodies.values())):
+        points = np.concatenate([assembly.points_of(part) for part in parts if bodies[part.id] == body])
+        lows.append(points.min(axis=0, initial=np.inf))
+        highs.append(points.max(axis=0, initial=-np.inf))
+    middle = 0.5 * (np.max(lows, axis=0) + np.min(highs, axis=0))
+    return np.nan_to_num(middle, posinf=0.0, neginf=0.0)

@@ -7,12 +7,14 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
-from yellowiron.model.alignment import UNSIGNED, GivenValue, PartDecision, Signature
+from yellowiron.model.alignment import UNSIGNED, GivenValue, PartDecision, RoleRule, Signature
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.template import Template
 
-Kind = Literal["role", "confirm", "forget", "value", "joint"]
-KINDS: tuple[Kind, ...] = ("role", "confirm", "forget", "value", "joint")
+Kind = Literal["role", "confirm", "forget", "rule", "value", "joint"]
+KINDS: tuple[Kind, ...] = ("role", "confirm", "forget", "rule", "value", "joint")
+NONE = "none"
+"""As a pattern's role: its parts are not part of the machine."""
 SIGNED = ("by", "date", "why")
 _SOURCE = {"role": "edited", "confirm": "confirmed", "forget": "solved"}
 _SAID = {
@@ -24,16 +26,17 @@ _SAID = {
 }
 _LONGEST = 200
 """Letters of a value, a name or a reason."""
-_LARGEST = 4000
-"""Letters of what is said of a joint."""
+LARGEST_TEXT = 4000
+"""Letters of what is said of a joint, and of a pattern."""
 
 
 @dataclass(frozen=True)
 class Operation:
     """One decision: `role` gives `parts` (id → role; None: not part of the machine) theirs, `confirm` says that they
-    are right, `forget` takes back what was said of them; `value` gives `name` the `text` (empty: takes it back);
-    `joint` says of the joint `name` what is in `entry`, as a `--data` document of joints has it (empty: takes all of it
-    back)."""
+    are right, `forget` takes back what was said of them; `rule` gives all parts that fit the pattern `name`
+    (`alignment.files.decisions.fits`) the role `text` (`NONE`; empty: takes the pattern back); `value` gives `name` the
+    `text` (empty: takes it back); `joint` says of the joint `name` what is in `entry`, as a `--data` document of joints
+    has it (empty: takes all of it back)."""
 
     kind: Kind
     parts: Mapping[str, str | None] = field(default_factory=dict)
@@ -44,7 +47,7 @@ class Operation:
 
     def decisions(self) -> dict[str, PartDecision]:
         """What it says of each part."""
-        if self.kind in ("value", "joint"):
+        if self.kind not in _SOURCE:
             return {}
         source = _SOURCE[self.kind]
         return {part: PartDecision(role, source, self.signature) for part, role in self.parts.items()}  # type: ignore[arg-type]
@@ -52,6 +55,11 @@ class Operation:
     def value(self) -> GivenValue | None:
         """The value that it gives; None where it takes one back, or is about parts."""
         return GivenValue(self.text, self.signature) if self.kind == "value" and self.text else None
+
+    def rule(self) -> RoleRule | None:
+        """The pattern with its role; None where it takes one back, or is about something else."""
+        role = None if self.text == NONE else self.text
+        return RoleRule(self.name, role, self.signature) if self.kind == "rule" and self.text else None
 
 
 def words(operation: Operation) -> str:
@@ -61,6 +69,9 @@ def words(operation: Operation) -> str:
     if operation.kind == "joint":
         said = ", ".join(_SAID[key] for key in _SAID if key in operation.entry)
         return f"{operation.name.replace('_', ' ')}: {said or 'taken back'}"
+    if operation.kind == "rule":
+        role = "no part of the machine" if operation.text == NONE else operation.text.replace("_", " ")
+        return f"All that is named {operation.name} → {role}" if role else f"{operation.name}: pattern taken back"
     names = [part.rsplit("/", 1)[-1] for part in operation.parts]
     some = ", ".join(names[:2]) + (f" and {len(names) - 2} more" if len(names) > 2 else "")
     roles = sorted({(role or "no part of the machine").replace("_", " ") for role in operation.parts.values()})
@@ -73,8 +84,8 @@ def words(operation: Operation) -> str:
 def to_entry(operation: Operation) -> dict[str, Any]:
     """An operation as the journal has it."""
     signed = {k: v for k in SIGNED if (v := getattr(operation.signature, k))}
-    if operation.kind == "value":
-        return {"kind": "value", "name": operation.name, "text": operation.text, **signed}
+    if operation.kind in ("value", "rule"):
+        return {"kind": operation.kind, "name": operation.name, "text": operation.text, **signed}
     if operation.kind == "joint":
         return {"kind": "joint", "name": operation.name, "entry": dict(operation.entry), **signed}
     return {"kind": operation.kind, "parts": dict(operation.parts), **signed}
@@ -84,7 +95,7 @@ def from_entry(entry: object, parts: Collection[str], template: Template) -> Ope
     """An operation that the page sent, or the journal has. `YellowironError` for one that is none, and for parts and
     roles that there are not."""
     if not isinstance(entry, Mapping) or entry.get("kind") not in KINDS:
-        raise _broken("It is none of: role, confirm, forget, value, joint")
+        raise _broken(f"It is none of: {', '.join(KINDS)}")
     signature = Signature(*(_text(entry, key) for key in SIGNED))
     kind: Kind = entry["kind"]
     if kind == "value":
@@ -92,9 +103,16 @@ def from_entry(entry: object, parts: Collection[str], template: Template) -> Ope
         if not name or "=" in name:
             raise _broken("A value has no name")
         return Operation("value", name=name, text=_text(entry, "text").strip(), signature=signature)
+    if kind == "rule":
+        name, text = _text(entry, "name", most=LARGEST_TEXT).strip(), _text(entry, "text").strip()
+        if not name:
+            raise _broken("It has no pattern")
+        if text not in ("", NONE) and not template.knows(text):
+            raise _broken(f"'{text}' is no role of the template {template.equipment_type}")
+        return Operation("rule", name=name, text=text, signature=signature)
     if kind == "joint":
         name, told = _text(entry, "name"), entry.get("entry", {})
-        if not name or not isinstance(told, Mapping) or len(json.dumps(told)) > _LARGEST:
+        if not name or not isinstance(told, Mapping) or len(json.dumps(told)) > LARGEST_TEXT:
             raise _broken("It says nothing of a joint")
         return Operation("joint", name=name, entry=dict(told), signature=signature)
     said = entry.get("parts")
@@ -108,9 +126,9 @@ def from_entry(entry: object, parts: Collection[str], template: Template) -> Ope
     return Operation(kind, parts={str(p): r for p, r in said.items()}, signature=signature)
 
 
-def _text(entry: Mapping[str, Any], key: str) -> str:
+def _text(entry: Mapping[str, Any], key: str, *, most: int = _LONGEST) -> str:
     value = entry.get(key, "")
-    if not isinstance(value, str) or len(value) > _LONGEST or not value.isprintable():
+    if not isinstance(value, str) or len(value) > most or not value.isprintable():
         raise _broken(f"'{key}' is no short text")
     return value
 

@@ -84,10 +84,21 @@ def _suggested(said: Sequence[Suggestion]) -> Iterator[str]:
 
 
 def _of_roles(state: State, boxes: Mapping[str, Floats]) -> list[Question]:
-    """A required role that no part plays: which one does, those that could be it first."""
+    """A required role that no part plays: which one does, those that could be it first. Not a pin whose joint has its
+    axis all the same (nothing hangs on it, and many models have none), or lacks a body (of which is asked first)."""
+    made = {joint.name for joint in state.solved.mechanism.joints} if state.solved is not None else set()
+    lacking = set(state.alignment.missing)
+    idle = {
+        part
+        for joint in state.template.joints
+        if joint.name in made or not lacking.isdisjoint(state.template.bodies_of(joint))
+        for part in joint.parts
+    }
     joints = Counter(body for joint in state.template.joints for body in state.template.bodies_of(joint))
     found = []
     for role in state.alignment.missing:
+        if role in idle and not joints[role]:
+            continue
         could = [p.part for p in state.alignment.parts if p.runner_up == role]
         loose = [p.part for p in state.alignment.parts if p.role is None and p.part in boxes]
         loose = sorted(loose, key=lambda part: (-spread(boxes[part]), part))

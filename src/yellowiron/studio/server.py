@@ -27,8 +27,9 @@ from yellowiron.report.html.viewer import asset
 from yellowiron.report.words import titled
 from yellowiron.studio.axes import axis_of, read_picks
 from yellowiron.studio.building import Build
-from yellowiron.studio.joints import joints_of
-from yellowiron.studio.operations import words
+from yellowiron.studio.joints import joints_of, rounds_of
+from yellowiron.studio.operations import LARGEST_TEXT, words
+from yellowiron.studio.patterns import pattern_of, patterns_of
 from yellowiron.studio.questions import questions
 from yellowiron.studio.scene import Scene
 from yellowiron.studio.session import Session, State
@@ -96,7 +97,7 @@ def application(session: Session, *, token: str, port: int) -> ASGIApp:
         Route("/state", pages.state),
         Route("/sheet/{number:int}", pages.sheet),
         Route("/events", pages.events),
-        Route("/axis", pages.axis, methods=["POST"]),
+        *(Route(f"/{name}", pages.meant, methods=["POST"]) for name in ("axis", "rounds", "patterns")),
         *(Route(f"/{name}", pages.said, methods=["POST"]) for name in ("do", "undo", "redo", "build")),
     ]
 
@@ -215,17 +216,35 @@ class _Pages:
         }
         return await self._answer(act[request.url.path.strip("/")])
 
-    async def axis(self, request: Request) -> Response:
-        """The axis that some clicks mean; nothing is decided by it."""
+    async def meant(self, request: Request) -> Response:
+        """What a person may mean; nothing is decided by it: the axis of some clicks, the axes near a joint, or the
+        patterns that fit a selection, or one that is being written."""
         body = await _body(request)
         if body is None:
             return PlainTextResponse("That is more than a few clicks can be.", 413, headers=_HEAD)
+        act: dict[str, Callable[[Any], Mapping[str, Any]]] = {
+            "axis": self._axis, "rounds": self._rounds, "patterns": self._patterns,
+        }  # fmt: skip
+        return await _asked(lambda: act[request.url.path.strip("/")](_parsed(body)))
 
-        def meant() -> dict[str, Any]:
-            assembly = self._session.assembly
-            return asdict(axis_of(read_picks(_parsed(body), assembly), assembly))
+    def _axis(self, entry: Any) -> dict[str, Any]:
+        assembly = self._session.assembly
+        return asdict(axis_of(read_picks(entry, assembly), assembly))
 
-        return await _asked(meant)
+    def _rounds(self, entry: Any) -> dict[str, Any]:
+        name = entry.get("joint") if isinstance(entry, dict) else None
+        return {"rounds": [asdict(axis) for axis in rounds_of(self._session.state, str(name))]}
+
+    def _patterns(self, entry: Any) -> dict[str, Any]:
+        said = entry if isinstance(entry, dict) else {}
+        fitting, rules, parts = self._session.fitting, self._session.state.aligned.rules, said.get("parts")
+        if isinstance(text := said.get("pattern"), str) and 0 < len(text.strip()) <= LARGEST_TEXT:
+            found = [pattern_of(text.strip(), fitting, rules)]
+        elif isinstance(parts, list) and all(part in self._session.parts for part in map(str, parts)):
+            found = patterns_of([str(part) for part in parts], self._session.assembly, fitting, rules)
+        else:
+            raise YellowironError("That names no parts and no pattern", where="studio", hint="Reload the page.")
+        return {"patterns": [asdict(one) for one in found]}
 
     async def events(self, request: Request) -> Response:
         """Tells a page, as long as it listens, that another state is there or the build has gone on."""
@@ -278,6 +297,7 @@ class _Pages:
                 {"words": words(o), "by": o.signature.by, "date": o.signature.date, "holds": k < cursor}
                 for k, o in enumerate(operations)
             ],
+            "remarks": list(state.remarks),
             "roles": [{"name": r.name, "words": titled(r.name), "body": state.template.body_of(r.name)} for r in roles],
             "values": [report.specification_entry(s) for s in state.specifications],
             "build": {"state": self._build.state, "lines": self._build.lines[-12:],

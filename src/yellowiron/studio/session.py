@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import functools
+import re
 import threading
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
@@ -10,15 +12,9 @@ from typing import Any
 import numpy as np
 
 from yellowiron import library, memory, report, specs
-from yellowiron.alignment import decide, read_alignment, write_alignment
+from yellowiron.alignment import decide, fits, read_alignment, write_alignment
 from yellowiron.inputs import checked_inputs
-from yellowiron.model.alignment import (
-    Alignment,
-    Decisions,
-    GivenValue,
-    PartDecision,
-    Signature,
-)
+from yellowiron.model.alignment import Alignment, Decisions, PartDecision
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import MechanismError
 from yellowiron.model.geometry import Floats
@@ -28,17 +24,16 @@ from yellowiron.model.template import Template, choose
 from yellowiron.stages import Solved, roles_of, solve
 from yellowiron.studio.journal import FILE, Journal
 from yellowiron.studio.operations import SIGNED, Operation, from_entry
+from yellowiron.studio.said import Said, said_after, said_in_file
 from yellowiron.studio.setup import Setup
 from yellowiron.studio.twins import twins_of
 from yellowiron.support.caching.content import content_of
 from yellowiron.support.guard import run_guarded
 from yellowiron.support.output import output_file, output_folder
 
+_CONTRADICTIONS = ("ALN026", "ALN027", "ALN028")
 _IDLE = 2.0
 """Seconds without a word after which all variants are tried again."""
-_OWN = ("edited", "confirmed")
-"""Sources of a part's own decision; a pattern's and a document's are not the studio's to change."""
-
 
 Measured = tuple[tuple[Measurement, ...], Mapping[str, Mapping[str, Floats]]]
 """What `kinematics.measure_and_pose` finds."""
@@ -50,7 +45,8 @@ class State:
     the alignment as it is kept, of `aligned_model`, before the sheet moves an axis or the machine is started; `solved`
     is None where no mechanism can be made of it, and `failed` says why; `document` is the report's, of `facts`, and
     `poses` are those that measurements take (`kinematics.key_poses`); they are empty without a mechanism, and lack what
-    is measured until `measured`, which may take seconds: the machine is shown before."""
+    is measured until `measured`, which may take seconds: the machine is shown before. `remarks`: what was said and
+    contradicts what was said earlier, or what was found."""
 
     version: int
     said: int
@@ -66,6 +62,7 @@ class State:
     poses: Mapping[str, Mapping[str, Floats]] = field(default_factory=dict)
     facts: report.BuildFacts | None = None
     measured: bool = True
+    remarks: tuple[str, ...] = ()
 
     def with_measured(self, measured: Measured) -> State:
         """The state with what was measured of its mechanism."""
@@ -98,6 +95,10 @@ class Session:
         self._version = self._said = 0
         self._closed = False
         self._fixed: Mapping[str, str] = {}
+        # What is tried out while a pattern is written is not kept for ever.
+        self._fitting = functools.lru_cache(maxsize=64)(
+            lambda pattern: tuple(part.id for part in filter(fits(pattern), self.assembly.parts))
+        )
         self._known: tuple[bytes, Measured] | None = None
         self._file = setup.out / "alignment.json"
         earlier = self._file if self._file.exists() else None
@@ -132,7 +133,7 @@ class Session:
             pass
         self._journal = Journal(setup.out / FILE, self.read)
         if not self._continues():
-            self._journal.begin(_snapshot(_own(self._edits), self._edits.values, self._edits.joints))
+            self._journal.begin(said_in_file(self._edits).snapshot())
         self._show(self._solved({}))
         for work in (self._work, self._measure):
             threading.Thread(target=work, daemon=True).start()
@@ -191,6 +192,10 @@ class Session:
         with self._heard:
             self._closed = True
             self._heard.notify_all()
+
+    def fitting(self, pattern: str) -> tuple[str, ...]:
+        """The parts that fit a pattern (`alignment.fits`), in the CAD model's order."""
+        return self._fitting(pattern)
 
     def mirrored(self, entry: Mapping[str, Any]) -> Mapping[str, Any]:
         """An operation as the page sends it, where it says `mirror` with the same said of the parts' twins on the
@@ -284,23 +289,27 @@ class Session:
         """What the decisions come to, the variants in `fixed` as they were but for those that a person's role needs."""
         with self._heard:
             said = self._said
-            parts, values, joints = _after(self._journal.base or {}, self._journal.in_force)
-        data, template = self._documents(joints)
+            kept = self._after(self._journal.in_force)
+        data, template = self._documents(kept.joints)
         played = choose(template, {**fixed, **self._choices}) if fixed else template
-        if any(d.role is not None and not played.knows(d.role) for d in parts.values()):
+        roles = {*(d.role for d in kept.parts.values()), *(rule.role for rule in kept.rules)}
+        if any(role is not None and not played.knows(role) for role in roles):
             fixed = {}
         choices = {**fixed, **self._choices}
-        forgotten = {p: PartDecision(None, "solved") for p in _own(self._edits) if p not in parts}
-        edits = decide(self._edits, Decisions(parts={**forgotten, **parts}), self.assembly, template)
-        edits = replace(edits or self._edits, values=values, joints=joints)
-        by_hand = specs.parse_settings([f"{n}={v.text}" for n, v in values.items()], template)
+        forgotten = {p: PartDecision(None, "solved") for p in said_in_file(self._edits).parts if p not in kept.parts}
+        edits = decide(self._edits, Decisions(parts={**forgotten, **kept.parts}), self.assembly, template)
+        edits = replace(edits or self._edits, values=kept.values, joints=kept.joints, rules=kept.rules)
+        by_hand = specs.parse_settings([f"{n}={v.text}" for n, v in kept.values.items()], template)
         specifications = specs.merge(self._sheet, by_hand, self._given)
         alignment = roles_of(self.assembly, template, specifications, edits=edits, data=data, choices=choices)
         asked = {p.part: p.suggestion for p in self._edits.parts if p.suggestion is not None}
         alignment = alignment.suggested({part: asked[part] for part in alignment.to_review if part in asked})
         self._fixed = dict(alignment.choices)
         chosen = choose(template, {**alignment.choices, **choices})
-        bare = State(0, said, chosen, self.assembly, alignment, specifications, alignment, self.assembly)
+        told = (*kept.remarks, *(self._shortly(f.message) for f in alignment.findings if f.code in _CONTRADICTIONS))
+        bare = State(
+            0, said, chosen, self.assembly, alignment, specifications, alignment, self.assembly, remarks=told
+        )  # fmt: skip
         try:
             solved = solve(template, self.assembly, alignment, specifications, data, choices)
         except MechanismError as error:
@@ -319,6 +328,12 @@ class Session:
         same = known is not None and known[0] == content_of(solved.mechanism)
         return state.with_measured(known[1]) if known is not None and same else state
 
+    def _shortly(self, message: str) -> str:
+        """A message with the names of parts in the place of their whole paths."""
+        return re.sub(
+            r"(?<!\w)'([^']+)'", lambda m: f"'{m[1].rsplit('/', 1)[-1]}'" if m[1] in self.parts else m[0], message
+        )
+
     def _documents(self, joints: Mapping[str, Mapping[str, object]]) -> tuple[library.Documents, Template]:
         """The user's documents and what is said of joints here, with the template that they make. `YellowironError` for
         what cannot be said of a joint."""
@@ -335,10 +350,16 @@ class Session:
         base = self._journal.base
         if base is None:
             return False
-        now = _snapshot(_own(self._edits), self._edits.values, self._edits.joints)
+        now = said_in_file(self._edits).snapshot()
         behind = not self._file.exists() or self._file.stat().st_mtime_ns < self._journal.written_ns
         known = self._journal.passed if behind else [self._journal.in_force]
-        return any(_snapshot(*_after(base, operations)) == now for operations in known)
+        return any(self._after(operations).snapshot() == now for operations in known)
+
+    def _after(self, operations: list[Operation]) -> Said:
+        """What holds after these operations. A journal's base that is older than patterns on the page has those of the
+        file."""
+        base = {"rules": said_in_file(self._edits).snapshot()["rules"], **(self._journal.base or {})}
+        return said_after(base, operations, self.fitting)
 
 
 def measured_of(mechanism: Mechanism) -> Measured:
@@ -353,49 +374,3 @@ def _other_side(role: object, template: Template) -> object:
         return role
     other = role[:-1] + {"l": "r", "r": "l"}[role[-1]]
     return other if template.knows(other) else role
-
-
-def _own(alignment: Alignment) -> dict[str, PartDecision]:
-    """The decisions of single parts."""
-    return {p.part: PartDecision(p.role, p.source, p.signature) for p in alignment.parts if p.source in _OWN}
-
-
-def _after(
-    base: Mapping[str, Any], operations: list[Operation]
-) -> tuple[dict[str, PartDecision], dict[str, GivenValue], dict[str, Mapping[str, object]]]:
-    """The decisions of parts, values and joints after some operations on top of a snapshot."""
-    parts = {
-        part: PartDecision(entry["role"], entry["source"], _signature(entry))
-        for part, entry in base.get("parts", {}).items()
-    }
-    values = {name: GivenValue(entry["value"], _signature(entry)) for name, entry in base.get("values", {}).items()}
-    joints = dict(base.get("joints", {}))
-    for operation in operations:
-        parts |= operation.decisions()
-        if operation.kind == "value":
-            values.pop(operation.name, None)
-            given = operation.value()
-            values |= {operation.name: given} if given is not None else {}
-        if operation.kind == "joint":
-            joints.pop(operation.name, None)
-            joints |= {operation.name: {**operation.entry, **_said(operation.signature)}} if operation.entry else {}
-    return {part: one for part, one in parts.items() if one.source != "solved"}, values, joints
-
-
-def _snapshot(
-    parts: Mapping[str, PartDecision], values: Mapping[str, GivenValue], joints: Mapping[str, Mapping[str, object]]
-) -> dict[str, Any]:
-    """Decisions as the journal's first line has them."""
-    return {
-        "parts": {p: {"role": d.role, "source": d.source, **_said(d.signature)} for p, d in sorted(parts.items())},
-        "values": {n: {"value": v.text, **_said(v.signature)} for n, v in sorted(values.items())},
-        "joints": {name: dict(entry) for name, entry in sorted(joints.items())},
-    }
-
-
-def _said(signature: Signature) -> dict[str, str]:
-    return {key: said for key in SIGNED if (said := getattr(signature, key))}
-
-
-def _signature(entry: Mapping[str, Any]) -> Signature:
-    return Signature(*(str(entry.get(key) or "") for key in SIGNED))

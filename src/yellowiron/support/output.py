@@ -12,6 +12,7 @@ from pathlib import Path
 from yellowiron.model.errors import OutputError, YellowironError
 from yellowiron.support import limits, stopping
 from yellowiron.support.files import staging
+from yellowiron.support.text import with_article
 
 _HINT = "Name a folder that you may write to."
 _ROOM = "Make room there, or name a folder on another disk."
@@ -185,7 +186,7 @@ def _refuse_clashes(temporary: Path, target: Path) -> None:
         else:
             continue
         raise OutputError(
-            f"There is a {there} where a {wanted} has to be written",
+            f"There is {with_article(there)} where {with_article(wanted)} has to be written",
             where=str(place),
             hint="Move it away, or name another output folder.",
         )

@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from yellowiron.model.errors import YellowironError
+from yellowiron.support.text import with_article
 
 _Kind = TypeVar("_Kind")
 _HINT = "Update the package that brings it, or uninstall it."
@@ -44,7 +45,7 @@ class Plugin:
             found = self.entry.load()
         if not isinstance(found, kind):
             raise YellowironError(
-                f"The plugin '{self.name}' is no {kind.__name__} but a {type(found).__name__}",
+                f"The plugin '{self.name}' is no {kind.__name__} but {with_article(type(found).__name__)}",
                 where=self.package,
                 hint=_HINT,
             )

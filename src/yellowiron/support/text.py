@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from collections.abc import Mapping
 from typing import Any
 
@@ -18,6 +19,9 @@ _DISPLAY = {
     "rad/s": ("rpm", 30.0 / math.pi),
 }
 
+_CONSONANT, _VOWEL = re.compile(r"uni|us[ae]|eu|one\b"), re.compile(r"8|11\b|18\b|hour|hon")
+"""Words that begin with a vowel and are not spoken so; words and numbers that are, and begin otherwise."""
+
 
 def display(value: float | None, unit: str, *, digits: int = 5) -> str:
     """An SI value in the unit people read: 0.764 m → '764 mm', 0.698 rad → '40 °'; '–' for None, '∞' for infinity."""
@@ -29,6 +33,13 @@ def display(value: float | None, unit: str, *, digits: int = 5) -> str:
     number = float(f"{value * factor:.{digits}g}")
     text = f"{number:.0f}" if number == round(number) else f"{number:g}"
     return f"{text} {shown}".rstrip()
+
+
+def with_article(words: str) -> str:
+    """`an angle`, `a length`, `a unit`: what is filled into a sentence, by how it is spoken."""
+    spoken = words.lower()
+    vowel = spoken.startswith(tuple("aeiou")) and _CONSONANT.match(spoken) is None
+    return f"{'an' if vowel or _VOWEL.match(spoken) else 'a'} {words}"
 
 
 def plain(value: Any) -> Any:

@@ -7,6 +7,7 @@ import math
 from yellowiron.checks.rule import Remarks, rule
 from yellowiron.checks.values import ANGULAR, LINEAR, StageJoint
 from yellowiron.checks.view import View
+from yellowiron.support.text import with_article
 
 _KNOWN = ("linear", "angular", *LINEAR, *ANGULAR)
 _STIFFEST = 200.0
@@ -46,7 +47,8 @@ def misfit(view: View) -> Remarks:
     for joint in view.joints:
         for drive in joint.drives:
             if drive.instance in _KNOWN and not _fits(joint, drive.instance):
-                yield joint.path, f"A {drive.instance} drive does nothing on a {joint.type} joint."
+                drive_kind, kind = with_article(drive.instance).capitalize(), with_article(joint.type)
+                yield joint.path, f"{drive_kind} drive does nothing on {kind} joint."
 
 
 @rule(

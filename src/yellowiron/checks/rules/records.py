@@ -17,6 +17,7 @@ from yellowiron.checks.values import WORLD, StageJoint, direction
 from yellowiron.checks.view import View
 from yellowiron.model.geometry import Floats
 from yellowiron.model.template import Follows, by_first_leader
+from yellowiron.support.text import with_article
 from yellowiron.support.vectors import angle_between
 
 _TURNED = math.radians(0.01)
@@ -246,7 +247,10 @@ def edited_leader(view: View) -> Remarks:
         elif before is not None:
             for word, value, given in (("ratio", joint.ratio, before.ratio), ("offset", joint.offset, before.offset)):
                 if not _same(value, given):
-                    yield joint.path, f"It follows with a {word} of {value:.5g}, and was built with {given:.5g} (SI)."
+                    yield (
+                        joint.path,
+                        f"It follows with {with_article(word)} of {value:.5g}, and was built with {given:.5g} (SI).",
+                    )
 
 
 def _recorded_follows(view: View) -> Iterator[tuple[str, Follows]]:

@@ -21,6 +21,7 @@ from yellowiron.kinematics.tolerances import CLOSED, RANK
 from yellowiron.model.errors import MechanismError
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Mechanism, chained
+from yellowiron.support.text import with_article
 
 _STEP = {"prismatic": 0.2, "revolute": 0.35}
 """Longest step between solved states, metres or radians, so that they stay on the branch."""
@@ -388,7 +389,7 @@ class ClosedChain:
         entry = self._joints[joint]
         if entry.type != "revolute":
             raise MechanismError(
-                f"a {entry.type} joint has no single coordinate", where=joint, hint="Ask for its rotation."
+                f"{with_article(entry.type)} joint has no single coordinate", where=joint, hint="Ask for its rotation."
             )
         self._at(state)
         relative = self._rotation(entry.body0).T @ self._rotation(entry.body1)

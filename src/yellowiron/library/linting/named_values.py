@@ -11,6 +11,7 @@ from yellowiron.library.parsing.joints import DIMENSION
 from yellowiron.model.finding import Finding
 from yellowiron.model.specification import fold
 from yellowiron.model.template import Template
+from yellowiron.support.text import with_article
 
 _NAMING = {
     "actuator": "actuator",
@@ -52,8 +53,8 @@ def specifications(template: Template) -> Iterator[Finding]:
                     "TPL005",
                     "error",
                     joint.name,
-                    f"Its limit '{name}' is a {wanted.dimension}; the joint is {joint.type}.",
-                    f"Name a {DIMENSION[joint.type]}.",
+                    f"Its limit '{name}' is {with_article(wanted.dimension)}; the joint is {joint.type}.",
+                    f"Name {with_article(DIMENSION[joint.type])}.",
                 )
     for actuator in template.actuators:
         for quantity, name in actuator.specifications.items():

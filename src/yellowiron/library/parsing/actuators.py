@@ -11,6 +11,7 @@ from yellowiron.library.parsing.variants import choices_of
 from yellowiron.model.errors import TemplateError
 from yellowiron.model.specification import fold
 from yellowiron.model.template import ActuatorTemplate, CylinderTemplate, JointTemplate, Role
+from yellowiron.support.text import with_article
 
 _QUANTITY_DIMENSION: Mapping[str, str] = {
     "bore": "length",
@@ -97,7 +98,7 @@ def read_actuators(
         needed, other = ("cylinders", motors) if entry["kind"] == "cylinder" else ("joints", cylinders)
         if other or not (cylinders or motors):
             raise TemplateError(
-                f"Actuator '{name}' is a {entry['kind']} and needs '{needed}', and nothing else that moves",
+                f"Actuator '{name}' is {with_article(entry['kind'])} and needs '{needed}', and nothing else that moves",
                 where=document.at(name),
                 hint="docs/template-format.md has an example of each kind.",
             )

@@ -13,6 +13,7 @@ from yellowiron.model.errors import TemplateError
 from yellowiron.model.sensor import FRAME_TYPES, PARAMETERS, SensorTemplate
 from yellowiron.model.specification import fold
 from yellowiron.model.template import Template
+from yellowiron.support.text import with_article
 
 _PLACES = ("site", "role", "joint", "cylinder", "actuator")
 """The keys of a mount, of which it has one."""
@@ -66,7 +67,9 @@ def _parameters(document: Document, name: str, sensor_type: str, entry: Mapping[
         place = document.at(name, "parameters", key)
         if fold(key) not in known:
             hint = near(key, known.values()) or f"It has: {', '.join(known.values())}."
-            raise TemplateError(f"A {sensor_type} has no parameter '{key}'", where=place, hint=hint)
+            raise TemplateError(
+                f"{with_article(sensor_type).capitalize()} has no parameter '{key}'", where=place, hint=hint
+            )
         parameter = PARAMETERS[sensor_type][known[fold(key)]]
         number = quantity(value, "count" if parameter.dimension == "number" else parameter.dimension, where=place)
         if not parameter.minimum <= number <= parameter.maximum:
@@ -95,7 +98,9 @@ def _mount(document: Document, name: str, entry: Mapping[str, Any], template: Te
     for key in entry:
         if key != place and key not in _POSE.get(place, ()):
             raise TemplateError(
-                f"A mount on a {place} has no '{key}'", where=where, hint="docs/sensors.md has every key of a mount."
+                f"A mount on {with_article(place)} has no '{key}'",
+                where=where,
+                hint="docs/sensors.md has every key of a mount.",
             )
     if "position" in entry and ("at" in entry or "on" in entry):
         raise TemplateError(
@@ -142,8 +147,9 @@ def _check_place(document: Document, name: str, sensor_type: str, mount: Mapping
         allowed = ("joint",) if sensor_type == "joint_encoder" else ("cylinder", "actuator")
     if not any(key in mount for key in allowed):
         place = next(key for key in _PLACES if key in mount)
+        kind, wanted = with_article(sensor_type).capitalize(), with_article(" or ".join(allowed))
         raise TemplateError(
-            f"A {sensor_type} is mounted on a {' or '.join(allowed)}, not on a {place}",
+            f"{kind} is mounted on {wanted}, not on {with_article(place)}",
             where=document.at(name, "mount"),
             hint="docs/sensors.md says what each is mounted on.",
         )

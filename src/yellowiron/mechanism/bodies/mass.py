@@ -19,7 +19,7 @@ from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats, Shape
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import Material, Template
-from yellowiron.support.text import display
+from yellowiron.support.text import display, with_article
 
 STEEL = 7850.0
 """Density where a material states none, kg/m³."""
@@ -199,7 +199,7 @@ def _part_moments(
             open_shapes.setdefault(shape.key, placement.parts[row].id)
     words = f"The material has no density: {STEEL:g} kg/m³ was taken."
     findings += [Finding("MEC030", "info", key, words) for key in undense]
-    words = f"The shape is not a closed solid: its mass is that of a {SHELL * 1e3:g} mm shell."
+    words = f"The shape is not a closed solid: its mass is that of {with_article(f'{SHELL * 1e3:g}')} mm shell."
     hint = "Close the solid in CAD, or give its body's weight."
     findings += [Finding("MEC031", "info", where, words, hint) for where in open_shapes.values()]
     return tuple(result)

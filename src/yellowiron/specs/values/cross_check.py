@@ -25,6 +25,7 @@ from yellowiron.specs.values.matching import Match, match
 from yellowiron.specs.values.requested import check_hint, usual
 from yellowiron.specs.values.series import extremes
 from yellowiron.specs.values.tolerances import DOUBTFUL, SURE
+from yellowiron.support.text import with_article
 from yellowiron.support.units import SI_UNIT
 
 _UNITS = {**BARE_UNITS, "angle": ("°",), "time": ("s",)}
@@ -192,7 +193,7 @@ def _to_review(one: Match, side: Side, sheets: Sheets) -> Specification:
     elif side == "cell" and not one.claim.statement.unit and not quantity.text.strip("0123456789., "):
         why = f"the sheet prints no unit for '{quantity.text}': in {quantity.unit} it would be usual"
     elif side == "cell":
-        why = f"that '{name_printed(one)}' is a {wanted.dimension.replace('_', ' ')}, only its unit says"
+        why = f"that '{name_printed(one)}' is {with_article(wanted.dimension.replace('_', ' '))}, only its unit says"
     return Specification(
         name=wanted.name,
         value=quantity.si_value,

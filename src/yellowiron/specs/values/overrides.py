@@ -13,7 +13,7 @@ from yellowiron.model.template import Template, Variant, Wanted
 from yellowiron.specs.language.numbers import parse_one
 from yellowiron.specs.values.requested import asked, hint_for, usual
 from yellowiron.specs.values.tolerances import DOUBTFUL
-from yellowiron.support.text import display
+from yellowiron.support.text import display, with_article
 from yellowiron.support.units import LARGEST, SI_UNIT
 
 _WHERE = "--set"
@@ -173,7 +173,9 @@ def _specification(wanted: Wanted, value: str, text: str) -> Specification:
         )
     if quantity.unit != "" and quantity.si_unit != unit:
         raise YellowironError(
-            f"'{value}' is not a {wanted.dimension}, as {wanted.name} is", where=_WHERE, hint=hint_for(wanted)
+            f"'{value}' is not {with_article(wanted.dimension)}, as {wanted.name} is",
+            where=_WHERE,
+            hint=hint_for(wanted),
         )
     _check_range(wanted, quantity.si_value, value, text)
     return Specification(

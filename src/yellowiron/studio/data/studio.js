@@ -4,9 +4,10 @@ const token = new URLSearchParams(location.search).get("token") ?? "";
 const by = (id) => document.getElementById(id);
 const KEYS = [
   ["⏎", "Yes"], ["1 – 9", "Instead: the numbered answer"], ["X", "No part of the machine"], ["/", "Find any role"],
-  ["S", "Find parts and joints by name; ⇧⏎ takes all parts that are listed, Alt⏎ adds one to what is selected"], ["N, ⇧N", "The next part of the file, the one before"],
+  ["S", "Find parts and joints by name; ⇧⏎ takes all parts that are listed, Alt⏎ adds one to what is selected"], ["N, ⇧N", "The next part of those that are asked about, or of the file; the one before"],
   ["J, K", "Next question, the one before"], ["U, ⇧U", "Undo, redo"], ["A", "Take in the assembly around what is selected"],
-  ["M", "The same on the other side"], ["P", "Point at a joint's axis: a bore; two round things or points; three points of a circle; Alt: an edge"],
+  ["E", "Everything that is named so: the next answer is kept as a pattern over the CAD tree"],
+  ["M", "The same on the other side"], ["P", "Point at a joint's axis: a bore; two round things or points; three points of a circle; Alt: an edge; arrow keys: one round thing after the other"],
   ["R", "A slide the other way round"], ["[, ]", "The joint's lower and upper stop where it is now"],
   ["I", "Only these parts, and all again"], ["F", "Look at these parts"],
   ["W", "Move what the question is about"], ["Esc", "Select nothing"], ["B", "Build"], ["?", "These keys"],
@@ -40,6 +41,7 @@ class Studio {
     this.aim = null; // where an axis was pointed at: clicks, and what they mean
     this.at = 0;
     this.mirror = false;
+    this.ruled = null; // the pattern that the selection is of
     this.waiting = 0; // messages that are not answered yet
     this.sent = Promise.resolve();
     this.answered = new Map(); // key of a question → how much was said when it was answered
@@ -48,6 +50,7 @@ class Studio {
     by("build").onclick = () => this.build();
     by("help").onclick = () => this.keys();
     document.addEventListener("keydown", (event) => this.#key(event));
+    document.addEventListener("keydown", (event) => this.#roundKey(event), true); // before the picture turns
     by("find").addEventListener("input", () => this.#list());
     by("find").addEventListener("keydown", (event) => this.#findKey(event));
     const events = new EventSource(`events?token=${encodeURIComponent(token)}`);
@@ -73,7 +76,10 @@ class Studio {
     const key = this.question?.key;
     // What was answered and is not solved yet is not asked again.
     for (const [answered, said] of this.answered) if (said <= state.solved) this.answered.delete(answered);
+    const known = this.state?.remarks;
     this.state = state;
+    const news = known ? state.remarks.filter((remark) => !known.includes(remark)) : [];
+    if (news.length) this.tell(`Done as decided. ${news.map((remark) => `${remark}.`).join(" ")}`);
     this.#open(key);
     this.show();
     if (state.version !== this.drawn) {
@@ -120,6 +126,11 @@ class Studio {
     return new Set((this.question?.parts ?? []).map((path) => this.numbers.get(path)).filter(Boolean));
   }
 
+  /** The pattern that is answered for, as long as what is selected is what fits it. */
+  get pattern() {
+    return this.ruled?.selection === this.selection && this.ruled.size === this.selection.size ? this.ruled : null;
+  }
+
   /** Numbers of the parts that an answer gives a role to. */
   get meant() {
     return this.selection.size || (this.question?.kind === "parts" && !this.picked) ? this.shown : new Set();
@@ -155,6 +166,7 @@ class Studio {
 
   /** Gives the meant parts a role; `null`: no part of the machine. */
   assign(role) {
+    if (this.pattern) return this.say("do", { kind: "rule", name: this.pattern.pattern, text: role ?? "none" });
     const parts = [...this.meant].map((number) => this.viewer.model.parts[number - 1].path);
     if (!parts.length) return this.tell("Click a part first, or several with Shift.");
     return this.say("do", { kind: "role", parts: Object.fromEntries(parts.map((path) => [path, role])), mirror: this.mirror });
@@ -167,6 +179,10 @@ class Studio {
     if (this.selection.size && question?.kind === "role") return this.assign(question.key.slice("role:".length));
     const parts = [...this.meant].map((number) => this.viewer.model.parts[number - 1]);
     if (!parts.length) return this.tell("Click the part that it is.");
+    if (this.pattern) {
+      const [role, ...others] = new Set(parts.map((part) => part.role || null));
+      return others.length ? this.tell("They have several roles: find the one of all with /.") : this.assign(role);
+    }
     return this.say("do", {
       kind: "confirm", mirror: this.mirror,
       parts: Object.fromEntries(parts.map((part) => [part.path, part.role || null])),
@@ -223,7 +239,27 @@ class Studio {
   /** Begins to point at the joint's axis, or ends it. */
   point() {
     if (!this.joint) return this.tell("Choose a joint first, in the list of joints.");
-    this.aim = this.aim ? null : { picks: [], found: null, said: "Click a bore or another round thing. With Alt: an edge." };
+    this.aim = this.aim ? null : { picks: [], found: null, said: "Click a bore or another round thing, with Alt an edge; or go through the round things there with the arrow keys.", at: -1 };
+    if (this.aim) this.aim.rounds = ask("rounds", { joint: this.joint.name }).then(async (answer) => (await answer.json()).rounds, () => []);
+    this.show();
+  }
+
+  /** Arrow keys, while an axis is pointed at: the next round thing near the joint, or the one before. */
+  #roundKey(event) {
+    const way = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[event.key];
+    if (!way || !this.aim || document.querySelector("dialog[open]") || event.target.closest("input, textarea, select, [role=tab]")) return;
+    event.preventDefault();
+    event.stopPropagation();
+    this.#round(this.aim, way);
+  }
+
+  async #round(aim, way) {
+    const rounds = await aim.rounds;
+    if (this.aim !== aim) return;
+    if (!rounds.length) return this.tell("Nothing of the joint's two bodies is round: type its axis.");
+    aim.at = aim.at < 0 ? (way > 0 ? 0 : rounds.length - 1) : (aim.at + way + rounds.length) % rounds.length;
+    const found = rounds[aim.at];
+    Object.assign(aim, { picks: [], found, said: `${found.words} (${aim.at + 1} of ${rounds.length})` });
     this.show();
   }
 
@@ -300,7 +336,7 @@ class Studio {
   }
 
   #amount(question) {
-    return { parts: `${question.parts.length} ${question.parts.length === 1 ? "part" : "parts"}`, role: "missing", value: "value", joint: "joint" }[question.kind];
+    return { parts: this.#counted(question.parts), role: "missing", value: "value", joint: "joint" }[question.kind];
   }
 
   go(index) {
@@ -357,8 +393,8 @@ class Studio {
       answers.append(element("li", {}, element("button", { type: "button", class: yes ? "yes" : false, onclick: act }, element("kbd", {}, key), element("span", {}, text))));
     const rest = element("div", { class: "more" },
       button("X  none", () => this.assign(null)), button("/  find a role", () => this.find()),
-      button("A  assembly", () => this.assembly()),
-      button("M  other side too", () => { this.mirror = !this.mirror; this.show(); }, { "aria-pressed": this.mirror }),
+      button("A  assembly", () => this.assembly()), button("E  all named so", () => this.rules(), { "aria-pressed": Boolean(this.pattern) }),
+      this.pattern ? null : button("M  other side too", () => { this.mirror = !this.mirror; this.show(); }, { "aria-pressed": this.mirror }),
       button("I  isolate", () => this.isolate()), button("F  look", () => this.viewer.focus(this.shown)));
     const { joint } = this;
     const asked = !picked.length && question;
@@ -366,12 +402,14 @@ class Studio {
     if (picked.length) {
       const roles = [...new Set(picked.map((part) => words(part.role) || "no part of the machine"))];
       card.replaceChildren(
-        element("p", { class: "eyebrow" }, picked.length > 1 ? `${picked.length} parts selected` : `Selected: ${picked[0].name}`),
+        element("p", { class: "eyebrow" }, this.pattern ? `All that is named ${this.pattern.pattern} · ${this.#counted(picked)}`
+          : picked.length > 1 ? `${picked.length} parts selected` : `Selected: ${picked[0].name}`),
         element("h2", {}, sentence(roles.slice(0, 3).join(", ")) + (roles.length > 3 ? " …" : "")),
         element("p", { class: "why" }, picked.length > 1 ? "" : `${picked[0].reason}${picked[0].confidence == null ? "" : ` (${Math.round(100 * picked[0].confidence)} %)`}`),
       );
       if (question?.kind === "role") add("⏎", `It is the ${words(question.key.slice("role:".length))}`, () => this.yes(), true);
-      else add("⏎", "Right as it is", () => this.yes(), true);
+      else if (!this.pattern || roles.length === 1) add("⏎", "Right as it is", () => this.yes(), true);
+      if (this.pattern?.ruled) rest.append(button("Take back", () => this.say("do", { kind: "rule", name: this.pattern.pattern, text: "" })));
       card.append(answers, rest);
     } else if (asked) {
       card.replaceChildren(
@@ -452,7 +490,8 @@ class Studio {
   #history() {
     const rows = this.state.history.map((entry) => element("li", { class: entry.holds ? false : "gone" }, entry.words,
       element("small", {}, [entry.by, entry.date].filter(Boolean).join(", "))));
-    by("history").replaceChildren(rows.length ? element("ol", {}, ...rows.reverse()) : element("p", { class: "dim" }, "Nothing decided yet."));
+    const remarks = this.state.remarks.map((remark) => element("p", { class: "known" }, `${remark}.`));
+    by("history").replaceChildren(...remarks, rows.length ? element("ol", {}, ...rows.reverse()) : element("p", { class: "dim" }, "Nothing decided yet."));
   }
 
   #values() {
@@ -539,12 +578,40 @@ class Studio {
     this.#finder("Name of a part, an assembly or a joint", [...parts, ...joints], "No part or joint of that name.");
   }
 
-  /** Selects the next part of the file (1), or the one before (-1). */
+  /** Finds the patterns over the CAD tree that fit what is selected, or takes one that is written. */
+  async rules() {
+    const paths = [...this.meant].map((number) => this.viewer.model.parts[number - 1].path);
+    const rows = async (body) => (await (await ask("patterns", body)).json()).patterns.filter((one) => one.parts.length || one.ruled).map((one) => ({
+      words: `${one.pattern} · ${this.#counted(one.parts)}${one.ruled ? ` · ${words(one.role ?? "") || "no part of the machine"}` : ""}`,
+      name: one.pattern, take: () => this.#rule(one),
+    }));
+    try {
+      const none = "No part and no assembly is named so. As much of a path as you like; * stands for any text.";
+      this.#finder("A pattern, such as HITCH/* or *BOLT*", await rows({ parts: paths }), none, async (pattern) => (await rows({ pattern }))[0]);
+    } catch (error) {
+      this.tell(error.message);
+    }
+  }
+
+  #rule({ pattern, parts, ruled }) {
+    this.#select(parts.map((path) => this.numbers.get(path)).filter(Boolean));
+    this.ruled = { pattern, ruled, selection: this.selection, size: this.selection.size };
+    this.show();
+  }
+
+  #counted(parts) {
+    return `${parts.length} ${parts.length === 1 ? "part" : "parts"}`;
+  }
+
+  /** Selects the next part (1), or the one before (-1): of several that are asked about, else of the file. */
   step(way) {
-    const numbers = this.viewer.model.parts.filter((part) => !part.hidden).map((part) => part.number);
+    const { question, selection } = this;
+    const asked = question?.kind === "parts" && !this.picked ? question.parts.map((path) => this.numbers.get(path)).filter(Boolean).sort((a, b) => a - b) : [];
+    const within = asked.length > 1 && [...selection].every((number) => asked.includes(number));
+    const numbers = within ? asked : this.viewer.model.parts.filter((part) => !part.hidden).map((part) => part.number);
     if (!numbers.length) return;
     const from = way > 0 ? Math.max(...this.shown) : Math.min(...this.shown);
-    const at = this.shown.size ? numbers.indexOf(from) : (way > 0 ? -1 : 0);
+    const at = (within ? selection : this.shown).size ? numbers.indexOf(from) : (way > 0 ? -1 : 0);
     this.#select([numbers[(at + way + numbers.length) % numbers.length]]);
   }
 
@@ -555,8 +622,9 @@ class Studio {
     this.viewer.focus(this.shown);
   }
 
-  #finder(label, rows, none) {
-    this.finding = { rows, none };
+  /** Lets one of some rows be found by its words; `typed` may make one more of what is written. */
+  #finder(label, rows, none, typed = null) {
+    this.finding = { rows, none, typed };
     by("find").value = "";
     by("find").placeholder = label;
     by("find").setAttribute("aria-label", label);
@@ -574,6 +642,16 @@ class Studio {
     this.found = this.finding.rows.filter(({ name, words }) => wanted.every((word) => `${name} ${words}`.toLowerCase().includes(word)))
       .sort((one, other) => rank(one) - rank(other));
     this.row = 0;
+    this.#rows();
+    const text = by("find").value.trim();
+    this.typing = this.finding.typed && text ? this.#typed(this.finding, text) : null;
+  }
+
+  /** What is written is the first of what is found, where it means something. */
+  async #typed(finding, text) {
+    const row = await finding.typed(text).catch(() => null);
+    if (!row || finding !== this.finding || by("find").value.trim() !== text) return;
+    this.found = [row, ...this.found.filter(({ name }) => name !== row.name)];
     this.#rows();
   }
 
@@ -602,6 +680,7 @@ class Studio {
     if (event.key === "Escape") (event.preventDefault(), this.#shut()); // else the first one only empties the field
     if (event.key === "Enter") {
       event.preventDefault();
+      if (this.typing) return this.typing.then(() => this.#take(this.row));
       const numbers = (event.altKey ? [this.found[this.row]] : this.found).map((row) => row?.number).filter(Boolean);
       if (!(event.shiftKey || event.altKey) || !numbers.length) return this.#take(this.row);
       this.#shut();
@@ -619,7 +698,7 @@ class Studio {
     if (event.target.closest("input, textarea, select")) return event.key === "Escape" && event.target.blur();
     const acts = {
       j: () => this.go(this.at + 1), k: () => this.go(this.at - 1), x: () => this.assign(null), "/": () => this.find(), s: () => this.search(), n: () => this.step(event.shiftKey ? -1 : 1),
-      a: () => this.assembly(), m: () => { this.mirror = !this.mirror; this.show(); }, i: () => this.isolate(),
+      a: () => this.assembly(), e: () => this.rules(), m: () => { this.mirror = !this.mirror; this.show(); }, i: () => this.isolate(),
       f: () => this.viewer.focus(this.shown), w: () => this.wiggle(), b: () => this.build(), "?": () => this.keys(),
       u: () => this.say(event.shiftKey ? "redo" : "undo", {}), escape: () => { this.selection.clear(); this.picked = this.aim = null; this.show(); },
       enter: () => this.yes(), p: () => this.point(), r: () => this.reverse(), "[": () => this.stop(0), "]": () => this.stop(1),

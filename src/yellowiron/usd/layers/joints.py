@@ -9,6 +9,7 @@ from pxr import Gf, Sdf
 
 from yellowiron.model.errors import MechanismError
 from yellowiron.model.mechanism import Joint, chained
+from yellowiron.support.text import with_article
 from yellowiron.usd.authoring.metadata import describe_joint, set_custom
 from yellowiron.usd.authoring.rotation import quaternion_to
 from yellowiron.usd.authoring.stage import Types, define, set_attribute, set_display_name, set_targets
@@ -45,7 +46,7 @@ def write_joints(layer: Sdf.Layer, plan: Plan) -> None:
         if joint.drive is not None and not joint.cut:
             if joint.type not in INSTANCES:
                 raise MechanismError(
-                    f"A {joint.type} joint cannot be driven",
+                    f"{with_article(joint.type).capitalize()} joint cannot be driven",
                     where=joint.name,
                     hint="Drive a revolute or prismatic one.",
                 )

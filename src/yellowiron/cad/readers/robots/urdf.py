@@ -23,6 +23,7 @@ from yellowiron.model.assembly import Assembly, DeclaredJoint
 from yellowiron.model.errors import CadError
 from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Color, Floats, Mesh
+from yellowiron.support.text import with_article
 
 _DAMAGED = "Check the file with the program that made it."
 _JOINTS = {"fixed": "fixed", "revolute": "revolute", "continuous": "revolute", "prismatic": "prismatic"}
@@ -203,7 +204,9 @@ def _turn(axis: int, angle: float) -> Floats:
 def _numbers(entry: ElementTree.Element, key: str, path: str) -> Floats:
     values = [_number(v, path) for v in (entry.get(key) or "").split()]
     if len(values) != 3:
-        raise CadError(f"'{key}' of a {entry.tag} in the robot has not three numbers", where=path, hint=_DAMAGED)
+        raise CadError(
+            f"'{key}' of {with_article(entry.tag)} in the robot has not three numbers", where=path, hint=_DAMAGED
+        )
     return np.array(values)
 
 
