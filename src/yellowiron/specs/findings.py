@@ -95,7 +95,7 @@ def unread_pages(sheets: Sequence[Sheet]) -> list[Finding]:
         if not sheet.silent:
             continue
         pages = _pages(sheet.silent)
-        whole = all(one.page in sheet.recognised for one in sheet.statements)
+        whole = all(one.guessed for one in sheet.statements)
         message = f"{sheet.file} has no text layer on {pages}: nothing could be read there"
         message += f"; {sheet.unrecognised}" if sheet.unrecognised else ""
         installed = "Run it through text recognition (OCR) first" if ocr.programs() else _INSTALL
