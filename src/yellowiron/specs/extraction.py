@@ -104,13 +104,13 @@ def _recognised(sheet: Sheet, path: Path, program: str, progress: Callable[[str]
     known = {page.number for page in pages}
     return replace(
         sheet,
-        statements=(*sheet.statements, *(s for page in pages for s in page.statements)),
+        statements=(*sheet.statements, *(replace(s, guessed=True) for page in pages for s in page.statements)),
         silent=tuple(n for n in sheet.silent if n not in known),
         style=sheet.style if sheet.statements else decimal_style([page.text for page in pages]),
         stated=(*sheet.stated, *(one for page in pages for one in page.stated)),
         recognised=tuple(sorted(known)),
         recogniser=program,
-        near=(*sheet.near, *(near for page in pages for near in page.near)),
+        near=(*sheet.near, *(replace(n, statement=replace(n.statement, guessed=True)) for p in pages for n in p.near)),
     )
 
 

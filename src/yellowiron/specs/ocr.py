@@ -84,8 +84,7 @@ def recognise(path: Path, numbers: Sequence[int], program: str) -> list[Recognis
                 continue
             if page.readable:
                 text = " ".join(w.text for w in page.words)
-                statements = tuple(replace(s, guessed=True) for s in with_cubes(statements_of(page)))
-                near = tuple(replace(n, statement=replace(n.statement, guessed=True)) for n in nearest_of(page))
+                statements, near = tuple(with_cubes(statements_of(page))), nearest_of(page)
                 found.append(Recognised(number, statements, text, tuple(stated_in(text, number)), near))
     finally:
         document.close()
