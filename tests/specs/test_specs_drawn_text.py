@@ -81,6 +81,20 @@ def test_units_in_other_cases(text: str, unit: str) -> None:
     assert read(text)[0].numbers[0].unit == unit
 
 
+def test_numbers_of_a_list_share_the_unit_of_the_last() -> None:
+    units = [[q.unit for r in read(text) for q in r.numbers] for text in ("4.5/2.9km/h", "120/2000 rpm")]
+    assert units == [["km/h", "km/h"], ["", "rpm"]]
+
+
+def test_of_two_speeds_in_a_row_of_one_none_is_taken(tmp_path: Path) -> None:
+    c = canvas(tmp_path / "a.pdf")
+    put(c, 60, 700, "Travel Speed")
+    put(c, 160, 700, "4.5/2.9km/h")
+    c.save()
+    (found,) = from_sheets(template(wanted("Travel Speed", "speed")), [read_sheet(tmp_path / "a.pdf")])
+    assert found.status == "conflict" and {round(c.value or 0.0, 3) for c in found.candidates} == {1.25, 0.806}
+
+
 @pytest.mark.parametrize(
     ("label", "plain"),
     [

@@ -67,8 +67,9 @@ def picture_programs() -> tuple[str, ...]:
 
 
 def recognise(path: Path, numbers: Sequence[int], program: str) -> list[Recognised]:
-    """The statements of pages (`numbers` count from 1) that have no text layer, through one of the `programs`; a page
-    on which nothing is recognised is left out. Runs in a guarded child. `SheetError` where the program fails."""
+    """The statements of pages (`numbers` count from 1) whose text is pictures or outlines, all or in part, through one
+    of the `programs`; a page on which nothing is recognised is left out. Runs in a guarded child. `SheetError` where
+    the program fails."""
     import pypdfium2
 
     found: list[Recognised] = []
