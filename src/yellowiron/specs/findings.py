@@ -88,7 +88,7 @@ def unread_pages(sheets: Sequence[Sheet]) -> list[Finding]:
                     code="SPC005",
                     severity="info",
                     where=f"{sheet.file}, {pages}",
-                    message=f"{sheet.file} has pictures or outlines for text on {pages}: read there through {sheet.recogniser}"
+                    message=f"{sheet.file} has pictures or outlines for text on {pages}: read through {sheet.recogniser}"
                     + (f", then {sheet.again.recogniser}" if sheet.again else ""),
                     hint="Compare the values to review with the pages.",
                 )
