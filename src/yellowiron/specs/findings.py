@@ -88,7 +88,7 @@ def unread_pages(sheets: Sequence[Sheet]) -> list[Finding]:
                     code="SPC005",
                     severity="info",
                     where=f"{sheet.file}, {pages}",
-                    message=f"{sheet.file} has pictures or outlines for text on {pages}: read through {sheet.recogniser}"
+                    message=f"{sheet.file} has pictures or outlines as text on {pages}, read by {sheet.recogniser}"
                     + (f", then {sheet.again.recogniser}" if sheet.again else ""),
                     hint="Compare the values to review with the pages.",
                 )
@@ -97,7 +97,7 @@ def unread_pages(sheets: Sequence[Sheet]) -> list[Finding]:
             continue
         pages = _pages(sheet.silent)
         whole = all(one.guessed for one in sheet.statements)
-        message = f"{sheet.file} has pictures or outlines for text on {pages}: they could not be read"
+        message = f"{sheet.file} has pictures or outlines as text on {pages}: they could not be read"
         message += f"; {sheet.unrecognised}" if sheet.unrecognised else ""
         installed = "Run it through text recognition (OCR) first" if ocr.programs() else _INSTALL
         findings.append(
