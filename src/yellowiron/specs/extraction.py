@@ -22,7 +22,7 @@ from yellowiron.specs.llm.page_reader import Reading, pages_of, read_pages
 from yellowiron.specs.reader import MEMORY_MB, RESIDENT_MB, TIMEOUT_S, Sheet, check_file
 from yellowiron.specs.values.claims import Claim, claims_of, configured
 from yellowiron.specs.values.cross_check import second_reading, stands_in
-from yellowiron.specs.values.decision import Column, Sheets, decide, missing, quantity_words, unreadable
+from yellowiron.specs.values.decision import Column, Sheets, decide, missing, placed, quantity_words, unreadable
 from yellowiron.specs.values.matching import match
 from yellowiron.specs.values.requested import asked
 from yellowiron.specs.values.tolerances import PICTURED
@@ -104,13 +104,13 @@ def _recognised(sheet: Sheet, path: Path, program: str, progress: Callable[[str]
     known = {page.number for page in pages}
     return replace(
         sheet,
-        statements=(*sheet.statements, *(s for page in pages for s in page.statements)),
+        statements=(*sheet.statements, *(replace(s, guessed=True) for page in pages for s in page.statements)),
         silent=tuple(n for n in sheet.silent if n not in known),
         style=sheet.style if sheet.statements else decimal_style([page.text for page in pages]),
         stated=(*sheet.stated, *(one for page in pages for one in page.stated)),
         recognised=tuple(sorted(known)),
         recogniser=program,
-        near=(*sheet.near, *(near for page in pages for near in page.near)),
+        near=(*sheet.near, *(replace(n, statement=replace(n.statement, guessed=True)) for p in pages for n in p.near)),
     )
 
 
@@ -200,13 +200,13 @@ def _claimed(sheets: Sequence[Sheet], config: str) -> _Claimed:
         every = claims_of(sheet.statements, sheet.style)
         meant = configured(every, config)
         for claim in meant:
-            (recognised if claim.statement.page in sheet.recognised else printed).append(claim)
+            (recognised if claim.statement.guessed else printed).append(claim)
         kept = {claim.statement for claim in meant}
         others = [claim.statement for claim in every if claim.statement not in kept]
         own = [n for n in sheet.near if not any(stands_in(n.statement, s) for s in others)]
         own += [Near("cell", statement) for statement in dict.fromkeys(c.statement for c in meant)]
-        near.append(([n for n in own if n.statement.page not in sheet.recognised], sheet.style))
-        near_recognised.append(([n for n in own if n.statement.page in sheet.recognised], sheet.style))
+        near.append(([n for n in own if not n.statement.guessed], sheet.style))
+        near_recognised.append(([n for n in own if n.statement.guessed], sheet.style))
     return _Claimed(printed, recognised, near, near_recognised)
 
 
@@ -240,8 +240,13 @@ def _of_pictures(
 ) -> dict[str, Specification]:
     """The values with those from pictures of pages to review at most, and those that may stand on pages without text
     `unreadable`."""
-    pictures = {(s.file, number): s.recogniser for s in sheets for number in s.recognised}
-    silent = [s.file for s in sheets if s.silent and all(one.page in s.recognised for one in s.statements)]
+    pictures: dict[_Seen, str] = {}
+    for sheet in sheets:
+        read = [*sheet.statements, *(n.statement for n in sheet.near)]
+        typed = {(sheet.file, one.page, placed(one)) for one in read if not one.guessed}
+        places = ((sheet.file, one.page, placed(one)) for one in read if one.guessed)
+        pictures |= {place: sheet.recogniser for place in places if place not in typed}
+    silent = [s.file for s in sheets if s.silent and all(one.guessed for one in s.statements)]
     found = dict(values)
     for one in wanted:
         found[one.name] = _at_most_review(found[one.name], pictures)
@@ -264,12 +269,16 @@ def _by_rules(
     return values
 
 
-def _at_most_review(value: Specification, pictures: Mapping[tuple[str, int], str]) -> Specification:
-    """A value that was read from one of the pictures (file, page) is to be looked at."""
+_Seen = tuple[str, int, tuple[float, ...]]
+"""A file, a page of it and a box on the page."""
+
+
+def _at_most_review(value: Specification, pictures: Mapping[_Seen, str]) -> Specification:
+    """A value that was read from one of the pictures is to be looked at."""
     seen = value.evidence
-    if value.status != "ok" or seen is None or (seen.file, seen.page) not in pictures:
+    program = pictures.get((seen.file, seen.page, seen.box or ())) if seen else None
+    if value.status != "ok" or seen is None or program is None:
         return value
-    program = pictures[seen.file, seen.page]
     return replace(
         value,
         status="review",

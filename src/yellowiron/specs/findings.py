@@ -77,7 +77,8 @@ def model_failure(error: EndpointError) -> Finding:
 
 
 def unread_pages(sheets: Sequence[Sheet]) -> list[Finding]:
-    """Findings of pages without a text layer: read through text recognition, or not at all."""
+    """Findings of pages without a text layer, or with part of their text in it: read through text recognition, or
+    not at all."""
     findings = []
     for sheet in sheets:
         if sheet.recognised:
@@ -87,7 +88,7 @@ def unread_pages(sheets: Sequence[Sheet]) -> list[Finding]:
                     code="SPC005",
                     severity="info",
                     where=f"{sheet.file}, {pages}",
-                    message=f"{sheet.file} has no text layer on {pages}: read there through {sheet.recogniser}"
+                    message=f"{sheet.file} has pictures or outlines as text on {pages}, read by {sheet.recogniser}"
                     + (f", then {sheet.again.recogniser}" if sheet.again else ""),
                     hint="Compare the values to review with the pages.",
                 )
@@ -95,8 +96,8 @@ def unread_pages(sheets: Sequence[Sheet]) -> list[Finding]:
         if not sheet.silent:
             continue
         pages = _pages(sheet.silent)
-        whole = all(one.page in sheet.recognised for one in sheet.statements)
-        message = f"{sheet.file} has no text layer on {pages}: nothing could be read there"
+        whole = all(one.guessed for one in sheet.statements)
+        message = f"{sheet.file} has pictures or outlines as text on {pages}: they could not be read"
         message += f"; {sheet.unrecognised}" if sheet.unrecognised else ""
         installed = "Run it through text recognition (OCR) first" if ocr.programs() else _INSTALL
         findings.append(

@@ -33,6 +33,8 @@ _RESOLUTION = {"rapidocr": 200.0, "tesseract": 300.0}
 _MOST_PIXELS = 16_000_000
 _SHORTEST = 15.0
 """Points; shorter strokes are parts of letters that are drawn, or of a machine."""
+_OVER = 0.3
+"""Share of a word's width and size by which it lies over another from which on the two are one."""
 _FEWEST = 4
 """Rules and fills; a file with fewer has its tables in its pictures."""
 
@@ -65,8 +67,9 @@ def picture_programs() -> tuple[str, ...]:
 
 
 def recognise(path: Path, numbers: Sequence[int], program: str) -> list[Recognised]:
-    """The statements of pages (`numbers` count from 1) that have no text layer, through one of the `programs`; a page
-    on which nothing is recognised is left out. Runs in a guarded child. `SheetError` where the program fails."""
+    """The statements of pages (`numbers` count from 1) whose text is pictures or outlines, all or in part, through one
+    of the `programs`; a page on which nothing is recognised is left out. Runs in a guarded child. `SheetError` where
+    the program fails."""
     import pypdfium2
 
     found: list[Recognised] = []
@@ -99,18 +102,19 @@ def with_cubes(statements: Sequence[Statement]) -> list[Statement]:
 
 
 def _page(page: object, number: int, program: str) -> Page:
-    """A page as it looks, its words read from its picture, its rules and fills from the file or else from the picture.
-    Points, from the top left."""
+    """A page as it looks, its words read from its picture but for those that the file has as text, its rules and fills
+    from the file or else from the picture. Points, from the top left."""
     drawn = read_page(page, number)
     width, height = drawn.width, drawn.height
     scale = min(_RESOLUTION[program] / 72.0, (_MOST_PIXELS / max(width * height, 1.0)) ** 0.5)
     picture = page.render(scale=scale, grayscale=True).to_pil()  # type: ignore[attr-defined]
     rules = [r for r in drawn.rules if (r.x1 - r.x0 if r.horizontal else r.bottom - r.top) >= _SHORTEST]
     bars = [b for b in drawn.bars if b[2] - b[0] >= _SHORTEST]
-    if len(rules) + len(bars) < _FEWEST:
+    typed = drawn.words if drawn.readable else ()
+    if len(rules) + len(bars) < _FEWEST and not typed:
         picture = straightened(picture)
         rules = [*rules, *rules_of_picture(np.asarray(picture), scale)]
-    words = _WORDS[program](picture, scale)
+    words = [*typed, *_beside(typed, _WORDS[program](picture, scale))]
     return Page(
         number,
         width,
@@ -121,6 +125,19 @@ def _page(page: object, number: int, program: str) -> Page:
         characters=sum(len(w.text) for w in words),
         images=1,
     )
+
+
+def _beside(typed: Sequence[Word], seen: Sequence[Word]) -> list[Word]:
+    """Of the words seen on a picture, those that are none of the typed ones."""
+    return [
+        word
+        for word in seen
+        if not any(
+            min(word.x1, t.x1) - max(word.x0, t.x0) > _OVER * min(word.x1 - word.x0, t.x1 - t.x0)
+            and min(word.bottom, t.bottom) - max(word.top, t.top) > _OVER * min(word.size, t.size)
+            for t in typed
+        )
+    ]
 
 
 _WORDS: dict[str, Callable[[Image.Image, float], list[Word]]] = {

@@ -33,10 +33,10 @@ _MOST_BYTES = 512 * 1024 * 1024
 
 @dataclass(frozen=True)
 class Sheet:
-    """A read PDF. `silent` pages have pictures or marks but no readable text; `style`: how it writes decimals;
-    `stated`: sentences that may say which configuration its figures are for. `recognised`: pages whose words are a
-    program's guess from their picture (`recogniser`: whose); `unrecognised` says why that program failed; `again`: the
-    same sheet through another program. `near`: its values again, each with
+    """A read PDF. `silent` pages have pictures or marks but no readable text, or text that is drawn in part; `style`:
+    how it writes decimals; `stated`: sentences that may say which configuration its figures are for. `recognised`:
+    pages whose words are a program's guess from their picture, all or in part (`recogniser`: whose); `unrecognised`
+    says why that program failed; `again`: the same sheet through another program. `near`: its values again, each with
     the words around it; `cells`: the text of its pages, piece by piece."""
 
     file: str
@@ -104,7 +104,7 @@ def read_sheet(path: Path) -> Sheet:
                 stated.extend(stated_in(texts[-1], number))
                 near.extend(nearest_of(page))
                 cells.extend(cells_of(page))
-            elif page.images or page.characters or page.rules:
+            if page.partly or (not page.readable and (page.images or page.characters or page.rules)):
                 silent.append(number)
         return Sheet(
             file=path.name,

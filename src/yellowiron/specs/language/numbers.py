@@ -80,12 +80,21 @@ def read(text: str, *, unit: str = "", style: DecimalStyle = "unknown") -> tuple
 _NAMED_NEXT = re.compile(r"\s*(?:[-–—~～/|,]|to|bis|à|a)\s*(?:min|max|low|high)\w*\.?\s*:?\s*", re.IGNORECASE)
 
 
+_LISTED = 5.0
+"""How many times one number of a list may be another; a power and its speed, "120/2000 rpm", are farther apart."""
+
+
 def _with_following_unit(text: str, quantities: list[Quantity]) -> list[Quantity]:
-    """ "Low 2.5 - High 5.0 km/h": a number without a unit has that of the next, which a word tells from it."""
+    """ "Low 2.5 - High 5.0 km/h", "4.5/2.9 km/h": a number without a unit has that of the next, which a word or a slash
+    tells from it."""
     found = list(quantities)
     for index in range(len(found) - 2, -1, -1):
         one, following = found[index], found[index + 1]
-        if not one.unit and following.unit and _NAMED_NEXT.fullmatch(text[one.end : following.start]):
+        if one.unit or not following.unit:
+            continue
+        between = text[one.end : following.start]
+        alike = max(one.value, following.value) <= _LISTED * min(one.value, following.value)
+        if _NAMED_NEXT.fullmatch(between) or (alike and between.strip() == "/"):
             found[index] = replace(one, unit=following.unit)
     return found
 

@@ -38,17 +38,17 @@ _TABLE = """
 millimeter        |0.001                |length       |metric  |mm|MM|millimet(?:er|re)s?
 centimeter        |0.01                 |length       |metric  |cm
 meter             |1.0                  |length       |metric  |m|met(?:er|re)s?|metros?|mtr
-inch              |0.0254               |length       |imperial|in\\.?|inch(?:es)?|"|″|”|''|′′
-foot              |0.30479999999999996  |length       |imperial|ft\\.?|feet|foot|'|′|’
+inch              |0.0254               |length       |imperial|in\\.?|IN\\.|inch(?:es)?|INCH(?:ES)?|"|″|”|''|′′
+foot              |0.30479999999999996  |length       |imperial|ft\\.?|FT\\.?|feet|FEET|foot|'|′|’
 kilogram          |1.0                  |mass         |metric  |kgs?|Kgs?|KG|kilograms?
 metric_ton        |1000.0               |mass         |metric  |t|tonnes?|mt|metric tons?
 short_ton         |907.1847400000001    |mass         |imperial|short tons?
-pound             |0.4535923700000001   |mass         |imperial|lbs?\\.?|pounds?
-megapascal        |1000000.0            |pressure     |metric  |MPa
-kilopascal        |1000.0               |pressure     |metric  |kPa
+pound             |0.4535923700000001   |mass         |imperial|lbs?\\.?|LBS?\\.?|pounds?|POUNDS?
+megapascal        |1000000.0            |pressure     |metric  |M[pP]a
+kilopascal        |1000.0               |pressure     |metric  |[kK][pP]a
 bar               |100000.0             |pressure     |metric  |bars?
 kgf/centimeter**2 |98066.5              |pressure     |metric  |[kK]gf? ?/ ?cm(?:2|²)
-psi               |6894.7572931683635   |pressure     |imperial|psi|p\\.s\\.i\\.?|lbf?/in(?:2|²)
+psi               |6894.7572931683635   |pressure     |imperial|psi|PSI|p\\.s\\.i\\.?|lbf?/in(?:2|²)
 liter/minute|1.666666666666667e-5|flow|metric|(?:[lL]|ltr\\.?|lit[er]{2}s?)/m(?:in\\.?)?|l\\.?p\\.?m\\.?|LPM|[lL] ?min-1
 gallon/minute|6.309019639999999e-05|flow|imperial|(?:US |U\\.S\\. )?gal(?:lons?)?\\.?/min\\.?|g\\.?p\\.?m\\.?|GPM|USgpm
 meter**3          |1.0                  |volume       |metric  |m(?:3|³)|cu\\.? ?m
@@ -65,11 +65,11 @@ force_pound       |4.4482216152605005   |force        |imperial|lbf
 newton*meter      |1.0                  |torque       |metric  |N ?[·.•*-]? ?m
 kilonewton*meter  |1000.0               |torque       |metric  |kN ?[·.•*-]? ?m
 foot*force_pound  |1.3558179483314001   |torque       |imperial|(?:lbf?|ft)[·.•*-](?:ft|lbf?)|lbf? ft|ft lbf?
-kilowatt          |1000.0               |power        |metric  |kW|KW|kw
+kilowatt          |1000.0               |power        |metric  |[kK][wW]
 watt              |1.0                  |power        |metric  |W
 horsepower        |745.6998715822701    |power        |imperial|hp|HP|bhp|h\\.p\\.?
 metric_horsepower |735.49875            |power        |metric  |PS|CV|ch
-kilometer/hour    |0.2777777777777778   |speed        |metric  |km/h|kph|km/hr|kmh|kmph
+kilometer/hour    |0.2777777777777778   |speed        |metric  |[kK][mM]/[hH]r?|kph|kmh|kmph
 meter/second      |1.0                  |speed        |metric  |m/s(?:ec)?\\.?
 meter/minute      |0.016666666666666666 |speed        |metric  |m/min\\.?|mpm
 centimeter/second |0.01                 |speed        |metric  |cm/s(?:ec)?\\.?

@@ -93,7 +93,8 @@ class Statement:
     `variant` is what names the row where heads name the properties (a bucket's capacity beside its width). `row` groups
     the cells of one row. `quote` is what the page prints, pieces that stand apart joined by " … "; `heads`
     are the lines over the column as printed, for a quote that needs them. `proven`: whether each part of the quote
-    stands together in the file's own text; `running`: whether it is said in a sentence. `sheet` is the number of its
+    stands together in the file's own text; `running`: whether it is said in a sentence; `guessed`: whether it was read
+    from the page's picture. `sheet` is the number of its
     sheet among those read together, from 0.
     """
 
@@ -113,6 +114,7 @@ class Statement:
     variant: tuple[str, ...] = ()
     proven: bool = True
     running: bool = False
+    guessed: bool = False
     sheet: int = 0
 
 
@@ -335,9 +337,9 @@ def split_inline(text: str) -> tuple[str, str]:
 
 
 def without_key(label: str) -> str:
-    """A label without its drawing's letter key: "B Hinge pin height" → "Hinge pin height"."""
+    """A label without its drawing's letter key: "B Hinge pin height", "f. Hinge pin height" → "Hinge pin height"."""
     match = re.match(
-        r"^\(?(?:[A-Z]{1,2}[′'\"]?|\d{1,2}(?:\.\d{1,2})*)[.):]*\s+(?=[A-ZÀ-Ý(][^\W\d_]+|[\u3040-\u30ff\u3400-\u9fff])(.+)$",
+        r"^\(?(?:[A-Z]{1,2}[′'\"]?|[a-zα-ω](?=\d?[.):]*\s+[A-ZÀ-Ý])\d?|\d{1,2}(?:\.\d{1,2})*)[.):]*\s+(?=[A-ZÀ-Ý(][^\W\d_]+|[\u3040-\u30ff\u3400-\u9fff])(.+)$",
         label,
     )
     return match.group(1) if match else label

@@ -17,6 +17,12 @@ SNAP = 3.0
 """Points within which the ends and edges of rules and fills are at one place: pdfplumber's own tolerance for them."""
 _THIN = 2.5
 """A filled rectangle thinner than this is a rule."""
+_LETTER = (2.0, 20.0)
+"""Points that a letter drawn as an outline is high at least and at most."""
+_WIDEST = 1.6
+"""Of such a letter, in its height."""
+_RUN = 4
+"""Letters side by side that are a word: fewer are marks of a drawing."""
 
 
 @dataclass(frozen=True)
@@ -34,12 +40,14 @@ class DrawnRule:
         return self.top == self.bottom
 
 
-def strokes_of(page: Any, place: Place) -> tuple[list[DrawnRule], list[Box], int]:
-    """Straight rules, filled bars (at least as high as a line of text), and the number of images."""
+def strokes_of(page: Any, place: Place) -> tuple[list[DrawnRule], list[Box], int, int]:
+    """Straight rules, filled bars (at least as high as a line of text), the number of images, and that of letters
+    drawn as outlines: small fills side by side."""
     import pypdfium2.raw as pdfium
 
     rules: list[DrawnRule] = []
     bars: list[Box] = []
+    letters: list[Box] = []
     images = 0
     for item in page.get_objects(filter=(pdfium.FPDF_PAGEOBJ_PATH, pdfium.FPDF_PAGEOBJ_IMAGE)):
         if item.type == pdfium.FPDF_PAGEOBJ_IMAGE:
@@ -50,6 +58,12 @@ def strokes_of(page: Any, place: Place) -> tuple[list[DrawnRule], list[Box], int
         if not (mode.value or stroked.value):
             continue
         points = _polylines(item, straight=not stroked.value)
+        if mode.value and not stroked.value:
+            left, low, right, high = item.get_bounds()
+            box = _extent([place(left, low), place(right, high)])
+            tall = box[3] - box[1]
+            if _LETTER[0] < tall < _LETTER[1] and 0.3 < box[2] - box[0] < _WIDEST * tall:
+                letters.append(box)
         for line in points:
             placed = [place(x, y) for x, y in line]
             box = _extent(placed)
@@ -61,7 +75,23 @@ def strokes_of(page: Any, place: Place) -> tuple[list[DrawnRule], list[Box], int
                     bars.append(box)
             if stroked.value:
                 rules.extend(_edges(placed))
-    return rules, bars, images
+    return rules, bars, images, _in_words(letters)
+
+
+def _in_words(letters: list[Box]) -> int:
+    """How many small fills stand side by side, as letters do: at one foot, closer than they are high."""
+    rows: dict[int, list[Box]] = {}
+    for box in letters:
+        rows.setdefault(round(box[3]), []).append(box)
+    count = 0
+    for row in rows.values():
+        run = 0
+        for last, box in pairwise([*sorted(row), (float("inf"), 0.0, 0.0, 0.0)]):
+            run += 1
+            if not -0.3 < (box[0] - last[2]) / (last[3] - last[1]) < 1.0:
+                count += run if run >= _RUN else 0
+                run = 0
+    return count
 
 
 def _polylines(item: Any, *, straight: bool) -> list[list[tuple[float, float]]]:

@@ -18,7 +18,9 @@ from yellowiron.specs.pages.strokes import Box, DrawnRule, Place, strokes_of
 _SUPERSCRIPT_UNITS = re.compile(r"(?:^|[\d\s(/\[.])(?:m|cm|mm|dm|in|ft|yd)$|[-⁻]$")
 _SIGNS = re.compile(r"[\u00b9\u00b2\u00b3\u2070-\u2079]+(?:[,)\u207e][\u00b9\u00b2\u00b3\u2070-\u2079]+)*[)\u207e]?$")
 """Raised digits that are characters of their own."""
-_LEADER = re.compile(r"[.·•_…]{3,}|^[.·•_…]+$")
+_DRAWN = (100, 0.12)
+"""Letters drawn as outlines, and their share of the page's characters, from which on they are text of it."""
+_LEADER = re.compile(r"[.·•_…]{3,}|^[.·•_…]+$|(?<=[^\W\d_])[-–—]{2,}$")
 
 
 @dataclass(frozen=True)
@@ -53,7 +55,7 @@ class Word:
 class Page:
     """What stands on a page. `number` counts from 1; `leaders` are dotted lines from a label to its value; `unmapped`
     characters have no Unicode meaning in the file; `footnotes` are signs and what they stand for; `text` is what the
-    file gives in its own order."""
+    file gives in its own order; `drawn` counts letters that are outlines and no characters."""
 
     number: int
     width: float
@@ -65,6 +67,7 @@ class Page:
     characters: int = 0
     unmapped: int = 0
     images: int = 0
+    drawn: int = 0
     footnotes: dict[str, str] = field(default_factory=dict)
     text: str = ""
 
@@ -72,6 +75,11 @@ class Page:
     def readable(self) -> bool:
         """Whether the page has a text layer that means something."""
         return self.characters >= 3 and self.unmapped < 0.3 * self.characters
+
+    @property
+    def partly(self) -> bool:
+        """Whether part of its text is drawn as outlines: a table beside typed headings, numbers beside typed labels."""
+        return self.drawn >= max(_DRAWN[0], _DRAWN[1] * self.characters)
 
 
 @dataclass
@@ -97,7 +105,7 @@ def read_page(page: Any, number: int) -> Page:
         text = textpage.get_text_range()
     finally:
         textpage.close()
-    rules, bars, images = strokes_of(page, place)
+    rules, bars, images, drawn = strokes_of(page, place)
     words, leaders = _words(glyphs)
     return Page(
         number=number,
@@ -110,6 +118,7 @@ def read_page(page: Any, number: int) -> Page:
         characters=characters,
         unmapped=unmapped,
         images=images,
+        drawn=drawn,
         text=text,
     )
 

@@ -6,6 +6,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import replace
 
+from yellowiron.specs.layout.statement import is_unit
 from yellowiron.specs.pages.words import Word
 
 
@@ -15,6 +16,19 @@ def mended(text: str) -> str:
     text = re.sub(r"(?<=/cm)[?*°’'\"]$", "2", text)
     text = re.sub(r"(?<=[A-Za-z])[.…]{2,}$|^[.…]+(?=\d{3}|\d+[x×])|^[.…]{2,}(?=\d)", "", text)
     return text or "."
+
+
+def with_whole_units(words: Sequence[Word]) -> list[Word]:
+    """The words of a line, a unit in brackets that is set with wide gaps in one: "(m", "m)" → "(mm)"."""
+    found: list[Word] = []
+    for word in words:
+        last = found[-1] if found else None
+        whole = last.text + word.text if last else ""
+        if last and last.text[0] == "(" and whole[-1] == ")" and "(" not in word.text and is_unit(whole):
+            found[-1] = replace(last, text=whole, x1=word.x1)
+        else:
+            found.append(word)
+    return found
 
 
 _DOTTED = 3

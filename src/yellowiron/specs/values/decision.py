@@ -12,7 +12,8 @@ from yellowiron.specs.language.decimal_style import DecimalStyle
 from yellowiron.specs.language.numbers import read
 from yellowiron.specs.language.quantities import Quantity, same
 from yellowiron.specs.language.vocabulary import tokens
-from yellowiron.specs.layout.statement import words_beside_numbers
+from yellowiron.specs.layout.statement import Statement, words_beside_numbers
+from yellowiron.specs.pages.strokes import Box
 from yellowiron.specs.values.claims import Claim, configured_by, split_phrases, without_case
 from yellowiron.specs.values.matching import Match
 from yellowiron.specs.values.requested import check_hint, hint_for, usual
@@ -146,10 +147,15 @@ def unreadable(wanted: Wanted, files: Sequence[str]) -> Specification:
 def evidence_of(found: Match, sheets: Sheets) -> Evidence:
     """Where a match stands."""
     statement = found.claim.statement
-    box = tuple(round(v, 2) for v in statement.box)
     heads = statement.heads if found.by_head else ()
     quote = " … ".join(dict.fromkeys([*heads, statement.quote]))
-    return Evidence(sheets.files[statement.sheet], statement.page, quote, (box[0], box[1], box[2], box[3]))
+    return Evidence(sheets.files[statement.sheet], statement.page, quote, placed(statement))
+
+
+def placed(statement: Statement) -> Box:
+    """A statement's box as its evidence has it."""
+    x0, top, x1, bottom = (round(v, 2) for v in statement.box)
+    return (x0, top, x1, bottom)
 
 
 def _preference(found: Match) -> tuple[float, bool, bool, bool, bool, float]:

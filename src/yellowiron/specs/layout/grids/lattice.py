@@ -7,7 +7,7 @@ from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
 
 from yellowiron.specs.layout.grids.open_sided import joined, merged, side_walls
-from yellowiron.specs.layout.grids.partly_ruled import with_columns, with_rows
+from yellowiron.specs.layout.grids.partly_ruled import with_columns, with_rows, with_values_apart
 from yellowiron.specs.layout.grids.table_grid import Cell, TableGrid
 from yellowiron.specs.layout.rows.lines import lines_of
 from yellowiron.specs.layout.statement import join_boxes
@@ -41,7 +41,7 @@ def grids_of(page: Page) -> list[TableGrid]:
         if 4 <= len(edges) <= _MOST_EDGES:
             cells = intersections_to_cells(edges_to_intersections(edges, SNAP, SNAP))
             parts = [part for boxes in cells_to_tables(cells) for part in _apart(boxes)]
-            grids += [with_columns(with_rows(_grid(boxes, page.words))) for boxes in parts]
+            grids += [with_columns(with_rows(with_values_apart(_grid(boxes, page.words)))) for boxes in parts]
     grids = [g for g in grids if g.columns >= 2 and sum(bool(c.lines) for c in g.cells) >= 2 and not _is_frame(g)]
     tables = [g for g in grids if g.rows >= 2 and sum(bool(c.lines) for c in g.cells) >= 3]
     found = [g for g in grids if any(g is t or (g.rows == 1 and _are_level(g, t)) for t in tables)]

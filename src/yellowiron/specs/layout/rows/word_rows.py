@@ -16,7 +16,7 @@ from yellowiron.specs.layout.rows.headings import (
 )
 from yellowiron.specs.layout.rows.lines import TextLine
 from yellowiron.specs.layout.rows.reader_state import ReaderState, TextColumn
-from yellowiron.specs.layout.statement import TextPiece, is_unit, kind_of, unit_said
+from yellowiron.specs.layout.statement import TextPiece, is_unit, kind_of, unit_of_heading, unit_said
 from yellowiron.specs.layout.tolerances import LARGER, LONGEST_LABEL
 
 
@@ -41,6 +41,9 @@ def read_words(column: TextColumn, line: TextLine, state: ReaderState) -> None:
     if heading is not None:
         state.open_section(*heading)
     elif _are_column_heads(texts, column.labels_end, state):
+        titled = at_label or ":" in texts[0].bare  # "Dimensions: mm   Model"
+        unit = unit_of_heading(texts[0].bare)[1] if titled and len(texts) > 1 else ""
+        state.unit = unit or ("" if state.data_since_heads else state.unit)
         state.add_heads(tuple(texts))
         if at_label and not is_unit(texts[0].bare):
             state.pending = []
