@@ -140,6 +140,9 @@ def test_robot_descriptions_call_every_body_a_link(digger: Template) -> None:
     scores = name_scores(robot, digger)
     assert max(scores[3], key=lambda b: scores[3][b]) == "bucket"
     assert scores[4] == {}
+    meshes = [(f"{name}_mesh", name) for name in ("base", "boom", "arm", "bucket")]
+    plain = name_scores(tuple(part(mesh, link) for mesh, link in meshes), digger)
+    assert name_scores(tuple(part(mesh, f"{link}_link") for mesh, link in meshes), digger) == plain
     drawn = tuple(part(name) for name in ("bucket link", "tipping link", "boom", "arm", "bucket", "cab"))
     assert described(drawn) == drawn
     assert max(found := name_scores(drawn, digger)[0], key=lambda b: found[b]) == "bucket_link"

@@ -339,15 +339,19 @@ def borne_by_others(parts: tuple[Part, ...], template: Template) -> frozenset[in
 
 def described(parts: tuple[Part, ...]) -> tuple[Part, ...]:
     """The parts, without the word for a body that robot descriptions put behind every name (`base_link`, `bucket_link`,
-    `link4`), where most names have it."""
-    names = {part.name for part in parts}
-    links = sum(bool(_LINK.search(name)) for name in names)
-    if links < LINKS or 2 * links <= len(names):
+    `link4`), where most names have it: the parts' own, or those above them, where each body's meshes have names too."""
+    if not any(_are_links(names) for names in ({p.name for p in parts}, {n for p in parts for n in p.path})):
         return parts
-    return tuple(
-        replace(p, name=_LINK.sub("", p.name).strip(" _-."), path=tuple(_LINK.sub("", n).strip(" _-.") for n in p.path))
-        for p in parts
-    )
+    return tuple(replace(p, name=_without_link(p.name), path=tuple(map(_without_link, p.path))) for p in parts)
+
+
+def _are_links(names: Collection[str]) -> bool:
+    links = sum(bool(_LINK.search(name)) for name in names)
+    return links >= LINKS and 2 * links > len(names)
+
+
+def _without_link(name: str) -> str:
+    return _LINK.sub("", name).strip(" _-.")
 
 
 def name_scores(parts: tuple[Part, ...], template: Template, whole: Template | None = None) -> list[dict[str, float]]:
