@@ -5,8 +5,7 @@ from __future__ import annotations
 import importlib
 
 import pytest
-
-from examples.example_file import EXAMPLES
+from example_file import EXAMPLES
 
 SCRIPTS = sorted(".".join(path.relative_to(EXAMPLES).with_suffix("").parts) for path in EXAMPLES.glob("*/*.py"))
 

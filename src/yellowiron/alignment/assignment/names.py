@@ -46,7 +46,7 @@ _SPACED = re.compile(r"[\u0400-\u052f]")
 _ELIDED = re.compile(r"\b[dl]['\u2019](?=\w)", re.IGNORECASE)
 _HIGH = re.compile(r"[\x80-\xff\u0152-\u2122]{2,}")
 _COUNT = re.compile(r"[\s_#.-]*\d*$")
-_LINK = re.compile(r"(?:(?<=[a-z])L|(?<![A-Za-z])[lL])ink[\s_#.-]*\d*$|(?<![A-Za-z])LINK[\s_#.-]*\d*$")
+_LINK = re.compile(r"link[\W\d_]*$", re.IGNORECASE)
 LINKS = 4
 """Of so many names that end in "link", and of most of a model's, it is a robot description's word for a body."""
 _SIDES = {"l": "left", "r": "right"}
@@ -325,6 +325,7 @@ def _assemblies(part: Part, own: Collection[tuple[str, ...]], shared: int) -> It
 def borne_by_others(parts: tuple[Part, ...], template: Template) -> frozenset[int]:
     """The parts, by number, whose own names say nothing and which hang in the tree on another part, whose name is all
     that is said of them: what an arm carries in an animated model is the arm's, or a cylinder that stands on it."""
+    parts = described(parts)
     words = vocabulary(template)
     silent = unnamed(n for p in parts for n in (p.name, *p.path))
     drawn = {(*p.path, p.name) for p in parts}
@@ -346,12 +347,16 @@ def described(parts: tuple[Part, ...]) -> tuple[Part, ...]:
 
 
 def _are_links(names: Collection[str]) -> bool:
-    links = sum(bool(_LINK.search(name)) for name in names)
+    links = sum(_is_link(name) for name in names)
     return links >= LINKS and 2 * links > len(names)
 
 
+def _is_link(name: str) -> bool:
+    return tokens(name)[-1:] == ["link"]
+
+
 def _without_link(name: str) -> str:
-    return _LINK.sub("", name).strip(" _-.")
+    return _LINK.sub("", name).rstrip(" _-.") if _is_link(name) else name
 
 
 def name_scores(parts: tuple[Part, ...], template: Template, whole: Template | None = None) -> list[dict[str, float]]:
