@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
+from itertools import combinations
 
 import networkx
 import numpy as np
@@ -146,9 +147,13 @@ def borrowed(saids: list[dict[str, float]], template: Template) -> list[dict[str
 
 def _lent_by_arms(spoken: Collection[str], template: Template) -> dict[str, set[tuple[str, float]]]:
     """Arm that no name speaks of → those of the nearest arms that some do, and what they count for it: less by `LENT`
-    for each joint between them."""
+    for each joint between them. Links on one rod are as near as if they were joined."""
     arms = {r.name for r in template.roles if r.rigid and r.kind == "arm"}
-    graph = networkx.Graph([ends for j in template.joints if set(ends := template.bodies_of(j)) <= arms])
+    rods = {r.name for r in template.roles if r.rigid and r.kind == "rod"}
+    joined = networkx.Graph([ends for j in template.joints if set(ends := template.bodies_of(j)) <= arms | rods])
+    shared = (pair for rod in sorted(rods & set(joined)) for pair in combinations(sorted(set(joined[rod]) & arms), 2))
+    graph = networkx.Graph(joined.subgraph(arms))
+    graph.add_edges_from(shared)
     lent = {}
     for own in sorted(arms & set(graph) - set(spoken)):
         reached = networkx.single_source_shortest_path_length(graph, own)
