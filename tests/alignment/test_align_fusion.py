@@ -124,6 +124,15 @@ def test_an_arm_borrows_from_the_nearest_that_is_named(excavator: Template) -> N
     assert said[0]["boom"] == pytest.approx(LENT**2)
 
 
+def test_of_links_named_alike_one_may_be_the_other(excavator: Template) -> None:
+    """`bucket_link_1`, `bucket_link_2`, on one rod."""
+    arms = [{"boom": 1.0}, {"arm": 1.0}]
+    links = borrowed([*arms, {"bucket_link": 1.0}, {"bucket_link": 1.0}], excavator)[2:]
+    assert [said["tipping_link"] for said in links] == pytest.approx([LENT, LENT])
+    both = borrowed([*arms, {"bucket_link": 1.0}, {"tipping_link": 1.0}], excavator)[2:]
+    assert both == [{"bucket_link": 1.0}, {"tipping_link": 1.0}]
+
+
 def test_where_no_barrel_is_named_a_piston_may_be_all_of_a_cylinder(excavator: Template) -> None:
     piston = {"boom_piston_rod": 0.5, "arm_piston_rod": 0.5}
     assert borrowed([piston], excavator)[0]["boom_cylinder_barrel"] == pytest.approx(0.5 * LENT)

@@ -19,9 +19,11 @@ from yellowiron.alignment.assignment.cp_sat import JOINT_WEIGHT, MISSING_WEIGHT,
 from yellowiron.alignment.assignment.directions import direction_classes, linkages_of, never_together
 from yellowiron.alignment.features.contacts import SharedAxis
 from yellowiron.alignment.fusion.played import drawn_bodies
+from yellowiron.alignment.labelling.halves import of_drawn
 from yellowiron.alignment.structure.clusters import Hinge, Structure
 from yellowiron.library import load_template
 from yellowiron.mechanism import build_mechanism
+from yellowiron.model.alignment import Alignment, PartAssignment
 from yellowiron.model.assembly import Assembly, Part, Shape
 from yellowiron.model.geometry import Mesh
 from yellowiron.model.rows import expand
@@ -82,6 +84,19 @@ def test_links_of_a_rod_that_is_not_drawn_hinge_on_each_other(excavator: Templat
     assert across.type == "revolute"
     assert as_drawn(excavator, bodies(excavator)) is excavator
     assert as_drawn(excavator, bodies(excavator) - {"bucket_piston_rod", "bucket_link"}) is excavator
+
+
+def test_half_a_machine_without_a_rod_keeps_the_hinge_of_its_links(excavator: Template) -> None:
+    """The hinge is none of the template's: it broke the half of a strangers' machine off."""
+    played = sorted(bodies(excavator) - {"bucket_piston_rod"})
+    parts = tuple(PartAssignment(f"{b}{side}", b, b, 1.0, "") for b in played for side in ("", " image"))
+    bare = as_drawn(excavator, played)
+    (across,) = [j.name for j in bare.joints if set(bare.bodies_of(j)) == {"tipping_link", "bucket_link"}]
+    axes = {across: ((0.0, 0.0, 0.0), (0.0, 1.0, 0.0))}
+    found = Alignment(excavator.equipment_type, np.eye(4), parts, axes=axes)
+    assert of_drawn(found, played, load_template("excavator")).axes == axes
+    without_link = [b for b in played if b != "bucket_link"]
+    assert of_drawn(found, without_link, load_template("excavator")).axes == {}
 
 
 def test_a_frame_that_is_not_drawn_is_one_with_its_carrier(loader: Template) -> None:

@@ -9,7 +9,7 @@ from yellowiron.alignment.labelling.result import is_required
 from yellowiron.model.alignment import Alignment
 from yellowiron.model.finding import Finding
 from yellowiron.model.rows import count_members
-from yellowiron.model.template import Template, choose
+from yellowiron.model.template import Template, as_drawn, choose
 
 
 def of_drawn(found: Alignment, drawn: Collection[str], template: Template) -> Alignment:
@@ -20,6 +20,7 @@ def of_drawn(found: Alignment, drawn: Collection[str], template: Template) -> Al
     played, everywhere = ({word for p in some for word in (p.role, p.body)} for some in (parts, found.parts))
     lost = tuple(r.name for r in chosen.roles if r.name in everywhere - played and is_required(r.name, chosen))
     bodies = {p.body for p in parts}
+    joints = as_drawn(chosen, {p.body for p in found.parts if p.body is not None})
     words = (
         "Only one half of the machine is drawn. It was completed by its mirror image to find what each part is; "
         "the machine has what is drawn"
@@ -32,5 +33,5 @@ def of_drawn(found: Alignment, drawn: Collection[str], template: Template) -> Al
         to_review=(*found.missing, *lost, *(i for i in found.to_review if i not in images and i not in found.missing)),
         findings=(told, *(f for f in found.findings if f.where not in images)),
         counts=count_members((p.role for p in parts), chosen),
-        axes={j: line for j, line in found.axes.items() if bodies.issuperset(chosen.bodies_of(chosen.joint(j)))},
+        axes={j: line for j, line in found.axes.items() if bodies.issuperset(joints.bodies_of(joints.joint(j)))},
     )
