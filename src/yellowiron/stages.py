@@ -120,9 +120,9 @@ def find_roles(
     """Roles for the parts of a CAD model, and the model whose parts they are: scaled where the sheet's overall length
     asks for it; left and right hydraulic cylinders in one mesh apart, where they were taken for one of the two; those
     that are drawn into other meshes taken out, where that finds a barrel and a rod that were missing; where bodies are
-    missing, or every mesh may be a whole one, taken apart, if that finds most of what is missing. `earlier` is an
-    alignment file whose edits hold, and whose parts are the model's as long as a person decides on them; `decisions`
-    go before them."""
+    missing, or every mesh may be a whole one, taken apart, if that finds a limb, or most of what is missing. `earlier`
+    is an alignment file whose edits hold, and whose parts are the model's as long as a person decides on them;
+    `decisions` go before them."""
 
     def found(model: Assembly) -> Alignment:
         edits = read_alignment(earlier, model, template) if earlier is not None else None
@@ -137,6 +137,10 @@ def find_roles(
     def halves(alignment: Alignment) -> int:
         """How many barrels and rods are missing."""
         return sum(role.name in alignment.missing for role in template.roles if role.kind in ("barrel", "rod"))
+
+    def limbs(alignment: Alignment) -> int:
+        """How many other bodies are missing: of them each changes what the machine can do."""
+        return hidden(alignment) - halves(alignment)
 
     assembly = to_scale(assembly, template, specifications)
     if earlier is not None and (decisions != UNDECIDED or said_in(earlier, template)):
@@ -159,10 +163,13 @@ def find_roles(
     apart = _apart(assembly) if merged or hidden(alignment) else None
     if apart is not None:
         other = found(apart)
-        # Bodies in crumbs answer to more roles, wrongly: where few bodies were missing, pins must be found as well.
+        # Bodies in crumbs answer to more roles, wrongly: where few bodies were missing, pins must be found as well, or
+        # a limb that was drawn into another.
+        fewer = hidden(other) < hidden(best)
+        limb = fewer and limbs(other) < limbs(best)
         most = hidden(alignment) > len(moving) and hidden(other) < 0.5 * hidden(alignment)
-        better = best is alignment or hidden(other) < hidden(best)
-        if better and (most or len(other.missing) < 0.5 * len(alignment.missing)):
+        pinned = len(other.missing) < 0.5 * len(alignment.missing)
+        if limb or ((fewer or best is alignment) and (most or pinned)):
             model, best = apart, other
     return model, _of_drawn(best, model, template)
 

@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from yellowiron.mechanism.joints.axes import coaxial_groups, fit_axis, machine_sense, on_axis, symmetry_axis
-from yellowiron.mechanism.joints.bearings import pin_bearing
+from yellowiron.mechanism.joints.bearings import pin_bearing, slide_bearing
 from yellowiron.mechanism.placement import Features, Placement
 
 coordinate = st.floats(-5.0, 5.0)
@@ -122,3 +122,21 @@ def test_a_pin_turns_on_its_shaft_and_not_on_the_bolts_of_its_flange() -> None:
     bearing = pin_bearing(cast(Placement, Drawn()), [2], ("a", "b"))
     assert bearing is not None
     assert bearing.line.distance(np.zeros((1, 3)))[0] == pytest.approx(0.0, abs=1e-9)
+
+
+def test_a_slide_without_a_bore_is_in_its_own_cylinder() -> None:
+    """Twin cylinders on common pins: the pivots' points are in the middle of the machine, the cylinders are not."""
+    box = np.array([[0.0, 0.4, 0.0], [1.0, 0.5, 0.1], [0.5, 0.4, 0.1]])
+
+    class Boxes:
+        def features(self, rows: tuple[int, ...] = ()) -> Features:
+            return features(np.zeros((1, 3)), np.ones((1, 3)), np.ones(1)).take(np.zeros(1, dtype=bool))
+
+        def points_of(self, rows: tuple[int, ...]) -> np.ndarray:
+            return box[: len(rows) * 2]
+
+    ends, across = (np.zeros(3), np.array([2.0, 0.1, 0.0])), np.array([0.0, 1.0, 0.0])
+    found = slide_bearing(cast(Placement, Boxes()), ((0,), (1,)), ends, across)
+    assert found is not None
+    assert found.line.distance(np.array([[1.0, 0.45, 0.0]])) == pytest.approx(0.0, abs=1e-12)
+    assert abs(found.line.direction @ across) < 1e-12

@@ -211,14 +211,18 @@ def slide_bearing(
         return replace(bore, doubt=None) if bore is not None else None
     if bore is not None:
         return _steadied(replace(bore, doubt=None), ends[0], ends[1], hinge)
-    between = ends[1] - ends[0]
+    start, between = ends[0], ends[1] - ends[0]
+    drawn = np.concatenate([placement.points_of(own) for own in rows])
+    if hinge is not None and len(drawn):
+        # A pivot's point is anywhere on its pin, which may reach from one of twins to the other.
+        across = drawn @ hinge
+        start = start + (0.5 * (across.min() + across.max()) - start @ hinge) * hinge
+        between = between - (between @ hinge) * hinge
     length = float(np.linalg.norm(between))
     if length == 0.0:
         return None
     words = "Its barrel and rod share no bore: the axis is the line between their pivots."
-    return Bearing(
-        Axis(ends[0], between / length), placement.features(()), "line between its pivots", ("MEC003", words)
-    )
+    return Bearing(Axis(start, between / length), placement.features(()), "line between its pivots", ("MEC003", words))
 
 
 def _between_twins(placement: Placement, rows: Rows, bore: Bearing) -> Bearing:
