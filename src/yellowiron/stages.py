@@ -139,8 +139,12 @@ def find_roles(
         return sum(role.name in alignment.missing for role in template.roles if role.kind in ("barrel", "rod"))
 
     def limbs(alignment: Alignment) -> int:
-        """How many other bodies are missing: of them each changes what the machine can do."""
-        return hidden(alignment) - halves(alignment)
+        """How many arms, links and tools are missing: they are drawn into others, which frames are too large for."""
+        arms = {role.name for role in template.roles if role.kind == "arm"}
+        kindless = {role.name for role in template.roles if role.rigid and not role.kind}
+        ends = [set(template.bodies_of(joint)) for joint in template.joints]
+        tools = {body for pair in ends if pair & arms for body in pair & kindless}
+        return sum(name in alignment.missing for name in arms | tools)
 
     assembly = to_scale(assembly, template, specifications)
     if earlier is not None and (decisions != UNDECIDED or said_in(earlier, template)):
