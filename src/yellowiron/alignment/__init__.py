@@ -28,13 +28,17 @@ from yellowiron.alignment.files.alignment_json import (
 )
 from yellowiron.alignment.files.decisions import decide, fits, parse_rules
 from yellowiron.alignment.files.explanation import explain
+from yellowiron.alignment.files.heard import as_said
+from yellowiron.alignment.files.whole import ABSENT, parse_machine, whole
 from yellowiron.alignment.labelling.confidence import REVIEW
 from yellowiron.alignment.labelling.halves import of_drawn
 from yellowiron.alignment.pipeline import align
 
 __all__ = [
+    "ABSENT",
     "REVIEW",
     "align",
+    "as_said",
     "decide",
     "declared_roles",
     "discover",
@@ -42,6 +46,7 @@ __all__ = [
     "explain",
     "fits",
     "of_drawn",
+    "parse_machine",
     "parse_rules",
     "parts_in",
     "read_alignment",
@@ -50,5 +55,6 @@ __all__ = [
     "said_in",
     "to_scale",
     "twin_role",
+    "whole",
     "write_alignment",
 ]

@@ -123,9 +123,10 @@ def twin_role(name: str) -> str | None:
     return swapped if swapped != name else None
 
 
-def interchangeable(template: Template) -> list[frozenset[str]]:
+def interchangeable(template: Template, *, joints: bool = True) -> list[frozenset[str]]:
     """Groups of bodies whose names differ in front, middle, rear, left, right alone and which hang on the same bodies
-    by joints of one type: a machine's four wheels on one chassis. Only where they stand tells which is which."""
+    by joints of one type: a machine's four wheels on one chassis. Only where they stand tells which is which. Without
+    `joints`, whatever they hang on: where a person said what is ahead, that tells as much."""
     rigid = [r.name for r in template.roles if r.rigid]
     joined: dict[str, list[tuple[str, str]]] = {name: [] for name in rigid}
     for joint in template.joints:
@@ -136,7 +137,8 @@ def interchangeable(template: Template) -> list[frozenset[str]]:
     groups: dict[tuple[str, tuple[tuple[str, str], ...]], set[str]] = {}
     for name in rigid:
         if _END.search(name):
-            groups.setdefault((_SIDE.sub("", _END.sub("", name)), tuple(sorted(joined[name]))), set()).add(name)
+            held = tuple(sorted(joined[name])) if joints else ()
+            groups.setdefault((_SIDE.sub("", _END.sub("", name)), held), set()).add(name)
     return [frozenset(g) for g in groups.values() if len({_END.findall(name)[0] for name in g}) > 1]
 
 
@@ -149,7 +151,7 @@ def side_weights(
     unary: Weights,
 ) -> Weights:
     """Weights that put the left one of each mirrored pair on +Y, and the front one of each pair that the joints do not
-    tell apart on +X."""
+    tell apart on +X: of each pair, where a person said what is ahead."""
     sided = dict(unary)
     cluster_of = {b: c for c, b in solution.body_of.items()}
 
@@ -158,7 +160,8 @@ def side_weights(
         middle = np.mean([0.5 * (s.low + s.high) for s in members], axis=0)
         return np.asarray(frame.matrix[:3, :3] @ middle + frame.matrix[:3, 3], dtype=np.float64)
 
-    alike = {names | {twin_role(name) or name for name in names} for names in interchangeable(template)}
+    ends = interchangeable(template, joints=not frame.told)
+    alike = {names | {twin_role(name) or name for name in names} for names in ends}
     for names in sorted(alike, key=sorted):
         there = {name: place(cluster_of[name]) for name in names if name in cluster_of}
         middle = np.mean(list(there.values()), axis=0) if there else np.zeros(3)
