@@ -18,6 +18,7 @@ from yellowiron.alignment.assignment.unit_scale import to_scale
 from yellowiron.alignment.assignment.weights import twin_role
 from yellowiron.alignment.discovery.discover import discover
 from yellowiron.alignment.discovery.robot import declared_roles, discover_declared
+from yellowiron.alignment.facing import named_direction
 from yellowiron.alignment.files.alignment_json import (
     parts_in,
     read_alignment,
@@ -45,6 +46,7 @@ __all__ = [
     "discover_declared",
     "explain",
     "fits",
+    "named_direction",
     "of_drawn",
     "parse_machine",
     "parse_rules",

@@ -44,7 +44,7 @@ from yellowiron.alignment.features.telescopes import Nest
 from yellowiron.alignment.features.tracks import Track, tracks_of
 from yellowiron.alignment.files.decisions import decided
 from yellowiron.alignment.files.heard import heard_of_whole, unlikely
-from yellowiron.alignment.fusion.reading import fused
+from yellowiron.alignment.fusion.reading import AS_GOOD, fused
 from yellowiron.alignment.labelling.coupler import with_couplers
 from yellowiron.alignment.labelling.fittings import fittings_of, sitting
 from yellowiron.alignment.labelling.place import pin_role
@@ -198,8 +198,8 @@ def align(
     if edits is not None:
         kept = {"rules": edits.rules, "joints": edits.joints, "values": edits.values, "machine": edits.machine}
         scored = name_scores(assembly.parts, every) if said.absent else []
-        named = dict(zip((part.id for part in assembly.parts), scored, strict=False))
-        against = unlikely(said, named, found, every) if edits.machine else ()
+        called = dict(zip((part.id for part in assembly.parts), scored, strict=False))
+        against = unlikely(said, called, found, every) if edits.machine else ()
         found = replace(found, **kept, findings=(*found.findings, *against))  # type: ignore[arg-type]
     drawn_axles = as_drawn(whole, {p.body for p in found.parts if p.body is not None})
     return _with_all_axes(found, _without(assembly, fittings), drawn_axles, answer, observation, frame)
@@ -380,6 +380,8 @@ def _fused(
     if frame.doubts:
         read = "it is read off how the machine stands"
         frame = MachineFrame(found.stance.matrix(), () if found.stance.told else (read,), told=found.stance.told)
+    elif found.ahead < AS_GOOD:
+        frame = replace(frame, doubts=("its front could as well be behind",))
     answer = replace(answer, solution=with_root(solution, answer.structure, solids, answer.template))
     return _Judged(answer, frame, found.trust, found.score, found.contacts)
 

@@ -135,6 +135,7 @@ class Alignment:
     what a person says of a joint, as an entry of a `--data` document of joints. `values`: name → what a person gives
     beside the sheet. `by_hand`: joints whose axis is a person's. `machine`: name → what a person says of the machine as
     a whole (`alignment.files.whole`). `open_choices`: variant → the choices that are nearly as good as the one found.
+    `facing_doubt`: in words, why the machine may face otherwise.
     """
 
     equipment_type: str
@@ -154,6 +155,7 @@ class Alignment:
     by_hand: frozenset[str] = frozenset()
     machine: Mapping[str, GivenValue] = field(default_factory=dict)
     open_choices: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    facing_doubt: str = ""
 
     def suggested(self, said: Mapping[str, Suggestion]) -> Alignment:
         """The same alignment with suggestions (part → suggestion) on its parts in place of those it had."""

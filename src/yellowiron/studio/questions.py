@@ -9,16 +9,20 @@ from typing import Literal
 
 import numpy as np
 
+from yellowiron.alignment import named_direction
 from yellowiron.model.alignment import Suggestion
 from yellowiron.model.geometry import Floats
 from yellowiron.model.specification import Specification, fold
 from yellowiron.opinion.doubts import doubts_of, size_of, spread
-from yellowiron.report.words import counted, titled
+from yellowiron.report.words import counted, sentence, spoken, titled
 from yellowiron.studio.joints import JointState
+from yellowiron.studio.machine import together, ways_of
 from yellowiron.studio.session import State
 
 MOST_CANDIDATES = 9
 """As many as there are digits to choose them by."""
+_WHOLE = 1000.0
+"""What the whole machine weighs: before anything else."""
 _PIN = 0.05
 """What a missing pin weighs: its joint has an axis without it."""
 _AXIS = 50.0
@@ -37,11 +41,13 @@ class Candidate:
 
 @dataclass(frozen=True)
 class Question:
-    """One thing to settle. Of `parts`: whether they play the roles that they were given. Of a `role`: which part plays
-    it. Of a `value`: what it is, `parts` being those that it is about. Of a `joint`: where its axis is. `weight` says
-    how much hangs on it, `known` what is known beside the reason."""
+    """One thing to settle. Of the `machine` as a whole: which way it faces, which variant it is; `yes` and the answers
+    are what `align --machine` takes. Of `parts`: whether they play the roles that they were given. Of a `role`: which
+    part plays it, or that neither it nor what else is in `absent` is drawn. Of a `value`: what it is, `parts` being
+    those that it is about. Of a `joint`: where its axis is. `weight` says how much hangs on it, `known` what is known
+    beside the reason."""
 
-    kind: Literal["parts", "role", "value", "joint"]
+    kind: Literal["machine", "parts", "role", "value", "joint"]
     key: str
     title: str
     weight: float
@@ -51,13 +57,36 @@ class Question:
     known: tuple[str, ...] = ()
     page: int | None = None
     file: str = ""
+    yes: str = ""
+    absent: str = ""
 
 
 def questions(state: State, boxes: Mapping[str, Floats], joints: Sequence[JointState] = ()) -> list[Question]:
     """What is to ask of a state and its joints, the most consequential first. `boxes`: part → its (2, 3) box in the CAD
     file's frame, metres, by which what is near is offered first."""
-    found = [*_of_parts(state, boxes), *_of_roles(state, boxes), *_of_joints(joints, boxes), *_of_values(state)]
+    found = [*_of_whole(state), *_of_parts(state, boxes), *_of_roles(state, boxes), *_of_joints(joints, boxes)]
+    found += _of_values(state)
     return sorted(found, key=lambda q: (-q.weight, q.key))
+
+
+def _of_whole(state: State) -> list[Question]:
+    """Which way the machine faces, and which of the type's variants it is, where that is in doubt: parts follow."""
+    found = []
+    aligned = state.aligned
+    if aligned.facing_doubt and "forward" not in aligned.machine:
+        here = f"forward={named_direction(np.asarray(aligned.frame)[0, :3])}"
+        found.append(Question(
+            "machine", "machine:forward", "Is this its front?", _WHOLE + 1.0, sentence(aligned.facing_doubt),
+            candidates=tuple(Candidate(way.answer, way.words) for way in ways_of(state)), yes=here,
+        ))  # fmt: skip
+    for name, others in aligned.open_choices.items():
+        own = aligned.choices[name]
+        found.append(Question(
+            "machine", f"machine:{name}", f"{sentence(name)}: {spoken(own)}?", _WHOLE,
+            f"What is drawn fits {' and '.join(spoken(c) for c in sorted((own, *others)))} as well.",
+            candidates=tuple(Candidate(f"{name}={other}", sentence(other)) for other in others), yes=f"{name}={own}",
+        ))  # fmt: skip
+    return found
 
 
 def _of_parts(state: State, boxes: Mapping[str, Floats]) -> list[Question]:
@@ -96,9 +125,9 @@ def _of_roles(state: State, boxes: Mapping[str, Floats]) -> list[Question]:
     }
     joints = Counter(body for joint in state.template.joints for body in state.template.bodies_of(joint))
     found = []
-    for role in state.alignment.missing:
-        if role in idle and not joints[role]:
-            continue
+    asked = [role for role in state.alignment.missing if role not in idle or joints[role]]
+    for group in together(asked, state.template):
+        role = group[0]
         could = [p.part for p in state.alignment.parts if p.runner_up == role]
         loose = [p.part for p in state.alignment.parts if p.role is None and p.part in boxes]
         loose = sorted(loose, key=lambda part: (-spread(boxes[part]), part))
@@ -106,9 +135,15 @@ def _of_roles(state: State, boxes: Mapping[str, Floats]) -> list[Question]:
         weight = 2.0 + joints[role] if joints[role] else _PIN
         found.append(Question(
             "role", f"role:{role}", f"Which part is the {titled(role).lower()}?", weight,
-            "Nothing was found for it.", candidates=tuple(Candidate(p, p.rsplit("/", 1)[-1]) for p in listed),
+            "Nothing was found for it.", known=_others_too(group), absent=",".join(group),
+            candidates=tuple(Candidate(p, p.rsplit("/", 1)[-1]) for p in listed),
         ))  # fmt: skip
     return found
+
+
+def _others_too(group: Sequence[str]) -> tuple[str, ...]:
+    others = ", ".join(titled(role).lower() for role in group[1:4]) + (" …" if len(group) > 4 else "")
+    return (f"Nor for: {others}.",) if others else ()
 
 
 def _of_joints(joints: Sequence[JointState], boxes: Mapping[str, Floats]) -> list[Question]:

@@ -18,7 +18,8 @@ _NAMED = 3
 @dataclass(frozen=True)
 class Said:
     """What was decided of `parts` (by id), `values` and `joints` (by name), and by patterns (`rules`, the last word
-    last); `machine`: of the whole, by name. `remarks`: which patterns went before what was said of single parts earlier, in words."""
+    last); `machine`: of the whole, by name. `remarks`: which patterns went before what was said of single parts
+    earlier, in words."""
 
     parts: Mapping[str, PartDecision] = field(default_factory=dict)
     values: Mapping[str, GivenValue] = field(default_factory=dict)
@@ -29,7 +30,7 @@ class Said:
 
     def snapshot(self) -> dict[str, Any]:
         """It as the journal's first line has it."""
-        parts, values, whole = (sorted(some.items()) for some in (self.parts, self.values, self.machine))
+        parts, values, whole = sorted(self.parts.items()), sorted(self.values.items()), sorted(self.machine.items())
         return {
             "parts": {part: {"role": d.role, "source": d.source, **_of(d.signature)} for part, d in parts},
             "values": {name: {"value": v.text, **_of(v.signature)} for name, v in values},

@@ -310,6 +310,10 @@ class Session:
         alignment = roles_of(self.assembly, template, specifications, edits=edits, data=data, choices=choices)
         asked = {p.part: p.suggestion for p in self._edits.parts if p.suggestion is not None}
         alignment = alignment.suggested({part: asked[part] for part in alignment.to_review if part in asked})
+        if fixed:
+            # They were not tried again.
+            as_good = self.state.aligned.open_choices
+            alignment = replace(alignment, open_choices={v: c for v, c in as_good.items() if v not in kept.machine})
         self._fixed, self._whole = dict(alignment.choices), kept.machine
         chosen = choose(as_said(template, alignment), {**alignment.choices, **choices})
         told = (*kept.remarks, *(self._shortly(f.message) for f in alignment.findings if f.code in _CONTRADICTIONS))

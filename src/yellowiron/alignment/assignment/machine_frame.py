@@ -26,6 +26,8 @@ LYING = 0.01
 SNAP = 1e-6
 """A rotation this near to a signed permutation of the axes is that permutation."""
 
+_GROUND = "no wheels were found, so the ground is taken under the lowest part"
+
 
 @dataclass(frozen=True, eq=False)
 class MachineFrame:
@@ -36,6 +38,11 @@ class MachineFrame:
     doubts: tuple[str, ...] = ()
     against: tuple[str, ...] = ()
     told: bool = False
+
+    @property
+    def facing_doubt(self) -> str:
+        """Why the machine may face otherwise; empty where that is sure."""
+        return next((words for words in self.doubts if words != _GROUND), "")
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,7 +132,7 @@ def _up(scene: _Scene, swing: str | None, flat: Floats | None, doubts: list[str]
         if float((above - below) @ up) < 0:
             up = -up
     elif scene.axes and "wheel" in scene.kinds.values():
-        doubts.append("no wheels were found, so the ground is taken under the lowest part")
+        doubts.append(_GROUND)
     return up
 
 

@@ -1,7 +1,7 @@
 """What a person says of a machine as a whole: which way it faces, which variant it is, and what is not drawn of it.
 
 By name: `forward` and `up`, a direction in the CAD file's frame (`-x`, `z`, `0.7 0.7 0`); a variant of the template,
-its choice; a role, or a pattern of roles (`*_pin`), the word `absent`.
+its choice; a role, a pattern of roles (`*_pin`), or several with commas, the word `absent`.
 """
 
 from __future__ import annotations
@@ -107,10 +107,11 @@ def _choice(variant: Variant, text: str) -> str:
 
 def _roles(pattern: str, template: Template) -> list[str]:
     names = [role.name for role in template.roles if role.kind != "group" and not role.many]
-    found = fnmatch.filter(names, pattern)
-    if not found:
+    listed = [one.strip() for one in pattern.split(",")]
+    found = {name: None for one in listed for name in fnmatch.filter(names, one)}
+    if not all(fnmatch.filter(names, one) for one in listed):
         raise AlignmentError(
             f"'{pattern}' is no role of the template {template.equipment_type}, and no variant", where=_WHERE,
             hint=near(pattern, set(names)) or "`yellowiron templates show TYPE` lists the roles and variants.",
         )  # fmt: skip
-    return found
+    return list(found)

@@ -72,6 +72,7 @@ def to_alignment(
         count_members((p.role for p in parts), template),
         dict(axes),
         open_choices=as_good,
+        facing_doubt=frame.facing_doubt,
     )
 
 
