@@ -69,6 +69,9 @@ from yellowiron.support.vectors import triple
 
 HELD = 0.7
 """Contacts that find this share of the type's joints have found the machine; below, every reading is asked."""
+HELD_TOLD = 0.6
+"""… and this share where a person said something: what is put right takes from what was found before, and the rest of
+the machine should not turn into another for that."""
 EXPLAINED = 0.9
 """… as have those that leave no more than this of what is drawn unexplained, whatever the type has besides."""
 BETTER = 150.0
@@ -127,7 +130,7 @@ def align(
     search = Search(look, plain, specifications, choices, edited)
     answer, observation, scores = search.run()
     agreement = search.agreement
-    held = held_share(answer) >= HELD
+    held = held_share(answer) >= (HELD_TOLD if edited else HELD)
     explained = held or drawn_share(answer, observation.solids) >= EXPLAINED
     contradicted = agreement < BELIEVED and not is_whole(answer)
     judged: _Judged | None = None

@@ -9,11 +9,11 @@ from typing import Literal
 
 import numpy as np
 
-from yellowiron.alignment import named_direction
+from yellowiron.alignment import named_direction, twin_role
 from yellowiron.model.alignment import Suggestion
 from yellowiron.model.geometry import Floats
 from yellowiron.model.specification import Specification, fold
-from yellowiron.opinion.doubts import doubts_of, size_of, spread
+from yellowiron.opinion.doubts import Doubt, doubts_of, size_of, spread
 from yellowiron.report.words import counted, sentence, spoken, titled
 from yellowiron.studio.joints import JointState
 from yellowiron.studio.machine import together, ways_of
@@ -23,6 +23,8 @@ MOST_CANDIDATES = 9
 """As many as there are digits to choose them by."""
 _WHOLE = 1000.0
 """What the whole machine weighs: before anything else."""
+_LITTLE = 0.4
+"""Doubts that weigh less are asked with others of their body: about a few bolts, or parts that are nearly sure."""
 _PIN = 0.05
 """What a missing pin weighs: its joint has an axis without it."""
 _AXIS = 50.0
@@ -90,17 +92,31 @@ def _of_whole(state: State) -> list[Question]:
 
 
 def _of_parts(state: State, boxes: Mapping[str, Floats]) -> list[Question]:
-    """Doubted parts together where they were given the same body and could be the same other one."""
+    """Doubted parts together where they were given the same body and could be the same other one; those on which little
+    hangs together with all such of their body, and of its twin on the other side: one look tells whether they are."""
     said = {p.part: p.suggestion for p in state.alignment.parts if p.suggestion is not None}
-    found = []
+    groups: dict[str, list[Doubt]] = {}
     for doubt in doubts_of(state.alignment, state.template, boxes):
-        called = titled(doubt.body) if doubt.body else "No part of the machine"
-        count = f", {len(doubt.parts)} parts" if len(doubt.parts) > 1 else ""
+        body = doubt.body or ""
+        alone = f"parts:{body}:{doubt.runner_up or ''}"
+        little = f"parts:{min(body, twin_role(body) or body)}"
+        groups.setdefault(little if body and doubt.weight < _LITTLE else alone, []).append(doubt)
+    found = []
+    for key, doubts in groups.items():
+        first = max(doubts, key=lambda doubt: doubt.weight)
+        bodies = list(dict.fromkeys(doubt.body for doubt in doubts))
+        parts = tuple(sorted(part for doubt in doubts for part in doubt.parts))
+        called = titled(first.body) if first.body else "No part of the machine"
+        called = f"{called[:-2]}, left and right" if len(bodies) > 1 else called
+        count = f", {len(parts)} parts" if len(parts) > 1 else ""
+        others = dict.fromkeys(role for doubt in doubts for role in doubt.others)
+        # Of both sides none is another's left or right.
+        listed = [role for role in others if len(bodies) == 1 or twin_role(role) is None]
+        listed = [role for role in listed if role not in bodies]
         found.append(Question(
-            "parts", f"parts:{doubt.body or ''}:{doubt.runner_up or ''}", f"{called}{count}?", doubt.weight,
-            doubt.reason, doubt.parts,
-            tuple(Candidate(role, titled(role)) for role in doubt.others[:MOST_CANDIDATES]),
-            tuple(_suggested([said[part] for part in doubt.parts if part in said])),
+            "parts", key, f"{called}{count}?", first.weight, first.reason, parts,
+            tuple(Candidate(role, titled(role)) for role in listed[:MOST_CANDIDATES]),
+            tuple(_suggested([said[part] for part in parts if part in said])),
         ))  # fmt: skip
     return found
 

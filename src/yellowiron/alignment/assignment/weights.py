@@ -24,6 +24,8 @@ EXACT_WEIGHT = 70
 EDIT_WEIGHT = 250
 MOSTLY = 0.5
 """More than this share of a cluster's surface speaks for all of it, where a person speaks."""
+CRUMB = 0.25
+"""What has less than this share of a body's usual surface is not what that body mainly is."""
 SIDE_WEIGHT = 80
 SIZE_WEIGHT = 12
 AS_GOOD = 0.1
@@ -46,6 +48,7 @@ def name_weights(
     """Weights from what the parts are called (`scores`, by solid) and from what a person said (part id → role)."""
     unary: Weights = {}
     bodies = {r.name for r in template.roles if r.rigid}
+    total = sum(s.surface for s in solids) or 1.0
     for c, cluster in enumerate(structure.clusters):
         members = sorted(cluster.members)
         telling = [i for i in members if scores[i]]
@@ -58,8 +61,19 @@ def name_weights(
                 exact = votes[body] > 1
                 unary[c, body] = round(EXACT_WEIGHT if exact else NAME_WEIGHT * votes[body])
         for body, share in decided_shares(solids, members, template, edited).items():
-            unary[c, body] = unary.get((c, body), 0) + round(EDIT_WEIGHT * (1.0 if share > MOSTLY else share))
+            said = EDIT_WEIGHT * (1.0 if share > MOSTLY else share)
+            main = _mainly(body, sum(solids[i].surface for i in members) / total, template)
+            unary[c, body] = unary.get((c, body), 0) + round(said * main)
+            # A crumb of a body is no other body, and leaves what the body mainly is to a larger cluster.
+            for other in sorted(bodies - {body}) if main < 1.0 and share > MOSTLY else ():
+                unary[c, other] = unary.get((c, other), 0) - round(said * (1.0 - main))
     return unary
+
+
+def _mainly(body: str, share: float, template: Template) -> float:
+    """How far a cluster with this share of the machine's surface can be what a body mainly is, 0 to 1."""
+    usual = template.usual.get(body)
+    return min(1.0, share / (CRUMB * usual.area)) if usual is not None and usual.area > 0.0 else 1.0
 
 
 def decided_shares(

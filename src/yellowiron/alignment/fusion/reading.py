@@ -219,24 +219,38 @@ def fused(
     judged |= _by_name_alone(observation, pieces, scores, trust, judged)
     judged = judged or _all_root(pieces, best.template)
     answer = replace(_answer(observation, best, judged, answer, evidence.stance), open_choices=as_good)
-    return Fused(answer, evidence.stance, trust, best.score, contacts, ahead)
+    score = best.score - _said(evidence, best.votes, best.field.bodies, best.labels)
+    return Fused(answer, evidence.stance, trust, score, contacts, ahead)
 
 
 def _score_of_contacts(answer: Answer, evidence: Evidence) -> float:
     """What the judge makes of the bodies that the contacts alone gave; a piece is of the body that most of it is of."""
     template = answer.template
-    field = _field(evidence, evidence.votes(template), template)
+    votes = evidence.votes(template)
+    field = _field(evidence, votes, template)
     none = len(field.bodies)
     solved = {
         i: field.bodies.index(body)
         for c, body in sorted(answer.solution.body_of.items())
         for i in answer.structure.clusters[c].members
     }
+    # Whatever the contacts say, a person's word holds in the end.
+    told = {i: field.bodies.index(body) for i, body in evidence.edited.items() if body in field.bodies}
     labels = np.full(len(evidence.leading), none, dtype=np.int64)
     for n, k in enumerate(evidence.leading):
-        counts = np.bincount([solved.get(i, none) for i in evidence.pieces[k].members], minlength=none + 1)
+        members = evidence.pieces[k].members
+        known = [told[i] for i in sorted(members & told.keys())] or [solved.get(i, none) for i in members]
+        counts = np.bincount(known, minlength=none + 1)
         labels[n] = int(np.argmax(counts))
-    return score_of(field, labels) + _lacking(evidence, field.bodies, labels, template)
+    score = score_of(field, labels) + _lacking(evidence, field.bodies, labels, template)
+    return score - _said(evidence, votes, field.bodies, labels)
+
+
+def _said(evidence: Evidence, votes: Votes, bodies: Sequence[str], labels: np.ndarray) -> float:
+    """What a labelling scores for what a person said: no reading is the better for being told more."""
+    led = zip(evidence.leading, labels, strict=True)
+    told = sum(votes[k].get(bodies[n], {}).get("said", 0.0) for k, n in led if n < len(bodies))
+    return weights()["said"] * told
 
 
 def _lacking(evidence: Evidence, bodies: Sequence[str], labels: np.ndarray, template: Template) -> float:
