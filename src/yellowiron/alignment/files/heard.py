@@ -11,7 +11,7 @@ from yellowiron.alignment.files.whole import Whole, whole
 from yellowiron.model.alignment import DECIDED, Alignment
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.finding import Finding
-from yellowiron.model.template import Template
+from yellowiron.model.template import Template, choose
 from yellowiron.model.undrawn import undrawn
 
 _LOOK = "It is done as decided; look at it once more, or take the decision back."
@@ -43,16 +43,18 @@ def heard_of_whole(
 
 
 def unlikely(
-    said: Whole, scores: Mapping[str, Mapping[str, float]], found: Alignment, template: Template
+    said: Whole, scores: Mapping[str, Mapping[str, float]], found: Alignment, template: Template, cylinders: int
 ) -> tuple[Finding, ...]:
     """What is said of the machine that names, or what was `found`, speak clearly against. `scores`: part → body → how
-    far its name says that (1: clearly); `template`: with all roles and variants."""
+    far its name says that (1: clearly); `template`: with all roles and variants; `cylinders`: hydraulic cylinders that
+    are drawn."""
     findings = []
     for name in sorted(said.absent):
         named = [part for part, of in sorted(scores.items()) if of and max(of, key=of.__getitem__) == name]
-        if named and scores[named[0]][name] >= 1.0:
-            text = f"{name} is said not to be drawn; the name of '{named[0]}' speaks for it"
-            findings.append(Finding("ALN028", "info", named[0], text, _LOOK))
+        clearest = max(named, key=lambda part: scores[part][name], default="")
+        if clearest and scores[clearest][name] >= 1.0:
+            text = f"{name} is said not to be drawn; the name of '{clearest}' speaks for it"
+            findings.append(Finding("ALN028", "info", clearest, text, _LOOK))
     played = {word for part in found.parts for word in (part.role, part.body)}
     for variant in template.variants:
         chosen = said.choices.get(variant.name)
@@ -61,7 +63,18 @@ def unlikely(
         if chosen is not None and own - shared and own.isdisjoint(played):
             text = f"{variant.name} is said to be {chosen}; nothing drawn is of it ({', '.join(sorted(own)[:3])})"
             findings.append(Finding("ALN028", "info", variant.name, text, _LOOK))
+        if variant.name in said.choices:
+            missed = {c: abs(cylinders - _barrels(template, found, {variant.name: c})) for c in variant.choices}
+            best = min(variant.choices, key=lambda c: missed[c])
+            if missed[best] < missed[said.choices[variant.name]]:
+                text = f"{variant.name} is said to be {chosen}; the {cylinders} hydraulic cylinders speak for {best}"
+                findings.append(Finding("ALN028", "info", variant.name, text, _LOOK))
     return tuple(findings)
+
+
+def _barrels(template: Template, found: Alignment, choices: Mapping[str, str]) -> int:
+    """How many hydraulic cylinders the type has under some choices, with those that were found for the rest."""
+    return sum(role.kind == "barrel" for role in choose(template, {**found.choices, **choices}).roles)
 
 
 def as_said(template: Template, alignment: Alignment) -> Template:
