@@ -124,7 +124,7 @@ def test_the_whole_machine_by_keys(page: tuple[Any, list[str]], session: Session
     before = ahead()
     asked = opened.locator("#card h2").inner_text()
     opened.keyboard.press("v")
-    opened.keyboard.type("front is behind")
+    opened.keyboard.type("other end")
     opened.keyboard.press("Enter")
     assert ahead() == [-v for v in before]
     assert "Forward is" in opened.locator("#history").text_content()

@@ -11,7 +11,8 @@ Findings: `ALN001` no part plays a required role · `ALN002` a joint is found bu
 under another choice of a variant · `ALN006` a hydraulic cylinder is not drawn as the sheet has it ·
 `ALN007` no body is left for parts that could move · `ALN008` a cylinder is to one side · `ALN009` parts stand apart and
 are left out · `ALN010` there seems to be more than one machine · `ALN011` the wheels have no tyres · `ALN016` a joint's
-axis is estimated · `ALN026` to `ALN028`: see `files.decisions` · `ALN029` one half is drawn.
+axis is estimated · `ALN026` to `ALN028`: see `files.decisions` · `ALN029` one half is drawn ·
+`ALN032` a variant is in doubt.
 """
 
 from yellowiron.alignment.assignment.unit_scale import to_scale

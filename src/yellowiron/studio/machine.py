@@ -27,12 +27,12 @@ def ways_of(state: State) -> list[Answer]:
     """How the machine may face instead, told from how it faces on the page."""
     forward, left, up = np.asarray(state.aligned.frame)[:3, :3]
     ways = (
-        ("forward", -forward, "Its front is behind"),
-        ("forward", left, "Its front is to the left"),
-        ("forward", -left, "Its front is to the right"),
+        ("forward", -forward, "The other end is its front"),
+        ("forward", left, "Its left side is its front"),
+        ("forward", -left, "Its right side is its front"),
         ("up", -up, "It is upside down"),
-        ("up", forward, "Its front is up"),
-        ("up", -forward, "Its front is down"),
+        ("up", forward, "What is ahead here is up"),
+        ("up", -forward, "What is ahead here is down"),
     )
     return [Answer(f"{name}={named_direction(way)}", words) for name, way, words in ways]
 
