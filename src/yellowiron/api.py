@@ -120,7 +120,6 @@ def align(
     from yellowiron.alignment import as_said, parse_machine, parse_rules, write_alignment
     from yellowiron.model.alignment import Decisions, Signature
     from yellowiron.model.rows import expand
-    from yellowiron.model.template import choose
     from yellowiron.opinion import second_opinion
     from yellowiron.stages import compare_with_declared, find_roles, values_by_hand
 
@@ -146,7 +145,7 @@ def align(
         assembly, template, specifications, earlier=earlier, choices=choices, decisions=decisions
     )
     if opinion is not None:
-        chosen = expand(choose(as_said(template, alignment), alignment.choices), alignment.counts)
+        chosen = expand(as_said(template, alignment, alignment.choices), alignment.counts)
         alignment = second_opinion(alignment, assembly, chosen, opinion, progress=progress)
     if out is not None:
         with output_file(Path(out)) as temporary:

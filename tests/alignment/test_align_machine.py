@@ -152,6 +152,14 @@ def test_what_is_not_drawn_is_not_missed(body: str, assembly: Assembly, template
     solved = solve(template, drawn, found, NOTHING, library.load_documents((), template, drawn), {})
     assert body not in {b.name for b in solved.mechanism.bodies}
     assert solved.template.root == ("front_frame" if body == "rear_frame" else "rear_frame")
+    # Nothing is measured, sensed or commanded on it.
+    told = library.lint(solved.chosen).findings
+    assert not [f for f in told if f.severity == "error" and f.code != "TPL001"], told
+    if body == "bucket":
+        assert not [f for f in told if f.severity == "error"]
+        assert {j.name for j in solved.chosen.joints if j.free} > {j.name for j in template.joints if j.free}
+    else:
+        assert "steering" not in {a.name for a in solved.chosen.actuators}
 
 
 @pytest.mark.slow

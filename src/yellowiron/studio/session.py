@@ -315,7 +315,7 @@ class Session:
             as_good = self.state.aligned.open_choices
             alignment = replace(alignment, open_choices={v: c for v, c in as_good.items() if v not in kept.machine})
         self._fixed, self._whole = dict(alignment.choices), kept.machine
-        chosen = choose(as_said(template, alignment), {**alignment.choices, **choices})
+        chosen = as_said(template, alignment, {**alignment.choices, **choices})
         told = (*kept.remarks, *(self._shortly(f.message) for f in alignment.findings if f.code in _CONTRADICTIONS))
         bare = State(
             0, said, chosen, self.assembly, alignment, specifications, alignment, self.assembly, remarks=told

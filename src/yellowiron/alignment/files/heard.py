@@ -77,11 +77,12 @@ def _barrels(template: Template, found: Alignment, choices: Mapping[str, str]) -
     return sum(role.kind == "barrel" for role in choose(template, {**found.choices, **choices}).roles)
 
 
-def as_said(template: Template, alignment: Alignment) -> Template:
-    """The template without what a person says is not drawn, and has given to no part."""
+def as_said(template: Template, alignment: Alignment, choices: Mapping[str, str]) -> Template:
+    """The template with its variants decided (`choices`), without what a person says is not drawn, and has given to no
+    part."""
     said = whole(alignment.machine, template)
     given = _given(said, {p.part: p.role or "" for p in alignment.parts if p.source in DECIDED}, template)
-    return undrawn(template, said.absent.keys() - given.keys())
+    return undrawn(choose(template, choices), said.absent.keys() - given.keys())
 
 
 def _given(said: Whole, decided: Mapping[str, str], template: Template) -> dict[str, str]:
