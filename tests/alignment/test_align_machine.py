@@ -17,13 +17,13 @@ from kit.scoring import true_bodies
 from yellowiron import library
 from yellowiron.alignment import align, decide, named_direction, parse_machine, read_alignment, write_alignment
 from yellowiron.alignment.facing import Facing
+from yellowiron.alignment.undrawn import undrawn
 from yellowiron.library import load_template
 from yellowiron.model.alignment import Alignment, Decisions, PartDecision, Signature
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import AlignmentError
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import Template, choose
-from yellowiron.model.undrawn import undrawn
 from yellowiron.stages import solve
 
 NOTHING = Specifications()

@@ -57,13 +57,13 @@ from yellowiron.alignment.labelling.track_places import on_tracks, track_places,
 from yellowiron.alignment.labelling.undercut import too_low, undercut
 from yellowiron.alignment.structure.observation import Observation, observe
 from yellowiron.alignment.tolerances import CONTACT
+from yellowiron.alignment.undrawn import undrawn
 from yellowiron.model.alignment import DECIDED, Alignment, Vector
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import AlignmentError
 from yellowiron.model.geometry import Floats
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import Template, as_drawn, choose
-from yellowiron.model.undrawn import undrawn
 from yellowiron.support.caching.remembered import remembered
 from yellowiron.support.vectors import triple
 

@@ -8,11 +8,11 @@ from dataclasses import replace
 
 from yellowiron.alignment.facing import Facing
 from yellowiron.alignment.files.whole import Whole, whole
+from yellowiron.alignment.undrawn import undrawn
 from yellowiron.model.alignment import DECIDED, Alignment
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.finding import Finding
 from yellowiron.model.template import Template, choose
-from yellowiron.model.undrawn import undrawn
 
 _LOOK = "It is done as decided; look at it once more, or take the decision back."
 _MEANT = "Nothing to do if that is meant; else remove one of them."
