@@ -357,7 +357,10 @@ def _framed(
         if sided != answer.unary:
             told = solve(structure, template, unary=sided, barred=answer.barred)
             solution = told if told is not None and told.body_of else solution
+            # What spoke against a person's word is not solved away by obeying it.
+            against = frame.against
             frame = machine_frame(solids, structure, solution, observation.wheels, template, tracks, facing)
+            frame = replace(frame, against=against or frame.against)
     return replace(answer, solution=with_root(solution, structure, solids, template)), frame
 
 
