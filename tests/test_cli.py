@@ -179,6 +179,31 @@ def test_an_assembly_is_given_a_role_confirmed_and_forgotten(
 
 
 @pytest.mark.slow
+def test_a_machine_is_said_to_face_the_other_way_and_built_so(
+    capsys: pytest.CaptureFixture[str], example: Path, tmp_path: Path
+) -> None:
+    """What `align --machine` keeps, `build` takes; and takes no longer once it is forgotten."""
+    cad, file = example / "wheel_loader.step", tmp_path / "alignment.json"
+    asked = ("align", "wheel_loader", cad, "--out", file, "--by", "Ann")
+    said = ("--machine", "Lift Cylinders=twin", "--machine", "forward=x", "--machine", "*_pin=absent")
+    _, aligned = _asked(capsys, *asked, *said)
+    assert "ALN028" in {f["code"] for f in aligned["findings"]}  # the arms are on the other side
+    kept = json.loads(file.read_text(encoding="utf-8"))
+    assert list(kept["machine"]) == ["lift_cylinders", "forward", "*_pin"]
+    assert kept["machine"]["forward"]["by"] == "Ann"
+    assert kept["frame"][0][0] > 0.99
+    out = tmp_path / "machine"
+    _asked(capsys, "build", "wheel_loader", "--cad", cad, "--out", out, "--alignment", file)
+    built = json.loads((out / "alignment.json").read_text(encoding="utf-8"))
+    assert built["machine"] == kept["machine"]
+    assert json.loads((out / "report.json").read_text(encoding="utf-8"))["frame"][0][0] > 0.99
+    _asked(capsys, *asked, "--forget", "forward", "--forget", "lift_cylinders", "--forget", "*_pin")
+    kept = json.loads(file.read_text(encoding="utf-8"))
+    assert "machine" not in kept
+    assert kept["frame"][0][0] < -0.99
+
+
+@pytest.mark.slow
 def test_watch_builds_again_when_an_input_changes(example: Path, tmp_path: Path) -> None:
     model, out = tmp_path / "loader.step", tmp_path / "out"
     model.write_bytes((example / "wheel_loader.step").read_bytes())

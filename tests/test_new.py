@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -53,6 +54,24 @@ def test_a_template_is_written_and_sound(drawn: Drawn, tmp_path: Path) -> None:
     assert roles == {r.name for r in template.roles if r.rigid}
     words = (tmp_path / "new" / "proposal.md").read_text(encoding="utf-8")
     assert all(f"`{role}`" in words for role in roles)
+
+
+def test_the_proposal_names_every_part(drawn: Drawn, tmp_path: Path) -> None:
+    """Of a body of many parts the table shows a few, and a list below it all."""
+    assembly = telescope()
+    chassis = next(p for p in assembly.parts if p.name == "CHASSIS")
+    place = np.eye(4)
+    place[2, 3] = 1e-4  # plates that lie on it, nearly
+    plates = tuple(
+        replace(chassis, id=f"{chassis.id} PLATE {k}", name=f"CHASSIS PLATE {k}", transform=place @ chassis.transform)
+        for k in range(8)
+    )
+    drawn(replace(assembly, parts=(*assembly.parts, *plates)))
+    new_template("crane.step", tmp_path / "new")
+    words = (tmp_path / "new" / "proposal.md").read_text(encoding="utf-8")
+    assert "more, listed under [Parts](#parts)" in words
+    listed = words.partition("## Parts")[2]
+    assert all(f"- {plate.id}" in listed for plate in plates)
 
 
 def test_the_same_twice(drawn: Drawn, tmp_path: Path) -> None:

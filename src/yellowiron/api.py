@@ -100,6 +100,7 @@ def align(
     roles: Sequence[str] = (),
     confirmed: Sequence[str] = (),
     forgotten: Sequence[str] = (),
+    machine: Sequence[str] = (),
     by: str = "",
     date: str = "",
     why: str = "",
@@ -112,13 +113,13 @@ def align(
 
     The alignment is written to the file `out`; what a person decided in it before holds. Decisions for whole parts of
     the CAD tree: `roles` are texts such as `ADT30/HITCH/*=hitch` (none: not part of the machine); what fits a pattern
-    of `confirmed` keeps the role that `out` has for it; of what fits one of `forgotten` every decision is dropped. They
-    are signed with `by`, an ISO `date` and `why`."""
+    of `confirmed` keeps the role that `out` has for it; of what fits one of `forgotten` every decision is dropped.
+    `machine` says of the whole: `forward=-x` or `up=z` in the CAD file's frame, a variant's choice, or a role that is
+    not drawn, `*_pin=absent`. They are signed with `by`, an ISO `date` and `why`."""
     from yellowiron import cad
-    from yellowiron.alignment import parse_rules, write_alignment
+    from yellowiron.alignment import as_said, parse_machine, parse_rules, write_alignment
     from yellowiron.model.alignment import Decisions, Signature
     from yellowiron.model.rows import expand
-    from yellowiron.model.template import choose
     from yellowiron.opinion import second_opinion
     from yellowiron.stages import compare_with_declared, find_roles, values_by_hand
 
@@ -126,8 +127,11 @@ def align(
         Endpoint(opinion)  # says at once what is wrong with it
 
     signature = Signature(by, date, why)
-    decisions = Decisions(parse_rules(roles, signature), tuple(confirmed), tuple(forgotten), signature)
     template = library.load_template(equipment_type)
+    decisions = Decisions(
+        parse_rules(roles, signature), tuple(confirmed), tuple(forgotten), signature,
+        machine=parse_machine(machine, template, signature),
+    )  # fmt: skip
     progress("Reading the CAD model")
     assembly = cad.read_cad(Path(cad_file))
     if mirror:
@@ -141,7 +145,7 @@ def align(
         assembly, template, specifications, earlier=earlier, choices=choices, decisions=decisions
     )
     if opinion is not None:
-        chosen = expand(choose(template, alignment.choices), alignment.counts)
+        chosen = expand(as_said(template, alignment, alignment.choices), alignment.counts)
         alignment = second_opinion(alignment, assembly, chosen, opinion, progress=progress)
     if out is not None:
         with output_file(Path(out)) as temporary:

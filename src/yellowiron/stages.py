@@ -11,6 +11,7 @@ import numpy as np
 from yellowiron import cad, kinematics, library, specs
 from yellowiron.alignment import (
     align,
+    as_said,
     decide,
     declared_roles,
     of_drawn,
@@ -36,7 +37,7 @@ from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Mechanism
 from yellowiron.model.rows import expand
 from yellowiron.model.specification import Specification, Specifications, fold
-from yellowiron.model.template import Template, choose
+from yellowiron.model.template import Template
 from yellowiron.support.caching.disk import kept
 from yellowiron.support.vectors import triple
 
@@ -67,7 +68,7 @@ def solve(
 ) -> Solved:
     """The mechanism of an aligned CAD model: axes put where the sheet has them, values that the CAD file declares lent,
     the machine brought to a pose within its limits."""
-    chosen = choose(template, {**alignment.choices, **choices})
+    chosen = as_said(template, alignment, {**alignment.choices, **choices})
     specifications = _missed(specifications, template, chosen)
     template = expand(chosen, alignment.counts)
     alignment, tape = on_sheet(assembly, template, alignment, specifications, data)
@@ -283,7 +284,7 @@ def compare_with_declared(
     assembly: Assembly, template: Template, alignment: Alignment, specifications: Specifications
 ) -> tuple[Finding, ...]:
     """How the joints that the CAD file declares agree with those that its geometry shows."""
-    chosen = expand(choose(template, alignment.choices), alignment.counts)
+    chosen = expand(as_said(template, alignment, alignment.choices), alignment.counts)
     try:
         mechanism = build_mechanism(assembly, chosen, alignment, specifications, name=assembly.name)
     except MechanismError:

@@ -114,6 +114,26 @@ def test_the_whole_review_by_keys_alone(page: tuple[Any, list[str]], session: Se
     assert not errors
 
 
+def test_the_whole_machine_by_keys(page: tuple[Any, list[str]], session: Session) -> None:
+    opened, errors = page
+
+    def ahead() -> list[float]:
+        until(lambda: bool(opened.evaluate("yellowiron.state.solved === yellowiron.state.said && !yellowiron.waiting")))
+        return [round(float(v), 3) for v in np.asarray(session.settled(60).aligned.frame)[0, :3]]
+
+    before = ahead()
+    asked = opened.locator("#card h2").inner_text()
+    opened.keyboard.press("v")
+    opened.keyboard.type("other end")
+    opened.keyboard.press("Enter")
+    assert ahead() == [-v for v in before]
+    assert "Forward is" in opened.locator("#history").text_content()
+    opened.keyboard.press("u")
+    assert ahead() == before
+    assert opened.locator("#card h2").inner_text() == asked  # the question that was open is open
+    assert not errors
+
+
 def test_the_machine_moves(page: tuple[Any, list[str]], session: Session) -> None:
     opened, errors = page
     sliders = opened.evaluate("yellowiron.viewer.sliders.map((slider) => slider.name)")

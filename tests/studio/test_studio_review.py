@@ -19,6 +19,7 @@ import strangers_models as strangers
 from kit.machines.defects import spoiled
 from kit.scene import placed, read
 from kit.scoring import true_bodies
+from yellowiron.alignment import named_direction
 from yellowiron.studio import Session, Setup
 
 pytest.importorskip("starlette", reason="the extra 'studio' is not installed")
@@ -35,10 +36,10 @@ Truth = Mapping[str, tuple[str, ...]]
 class Person:
     """Who answers by keys, and knows the truth: counts decisions, steps, and questions about parts."""
 
-    def __init__(self, browser: Any, session: Session, truth: Truth) -> None:
+    def __init__(self, browser: Any, session: Session, truth: Truth, ahead: str | None = None) -> None:
         from yellowiron.studio.server import serve
 
-        self.session, self.truth = session, truth
+        self.session, self.truth, self.ahead = session, truth, ahead
         self.decisions = self.steps = 0
         self.asked: Counter[str] = Counter()
         told: list[str] = []
@@ -73,6 +74,10 @@ class Person:
             self.asked[question["kind"]] += 1
             if question["kind"] == "parts":
                 self._of_parts(question)
+            elif question["key"] == "machine:forward" and self.ahead is not None:
+                self._of_front(question)
+            elif question["kind"] == "role" and self._undrawn(question):
+                self._decide("x")
             elif question["kind"] == "value" and question["candidates"]:
                 self._decide("Enter")
             else:  # nothing to say
@@ -101,6 +106,17 @@ class Person:
             "[...yellowiron.selection].map(n => yellowiron.viewer.model.parts[n - 1].path)"
         )
         return found
+
+    def _of_front(self, question: Mapping[str, Any]) -> None:
+        """Yes, or the number of the front that is right."""
+        ways = [question["yes"], *(one["answer"] for one in question["candidates"])]
+        at = ways.index(f"forward={self.ahead}")
+        self._decide(str(at) if at else "Enter")
+
+    def _undrawn(self, question: Mapping[str, Any]) -> bool:
+        """Whether none of the roles that are missing is of a body that is drawn."""
+        drawn = {body for bodies in self.truth.values() for body in bodies}
+        return drawn.isdisjoint(question["absent"].split(","))
 
     def _of_parts(self, question: Mapping[str, Any]) -> None:
         """Yes; or the body of most of them, after the others were given theirs one by one."""
@@ -189,19 +205,21 @@ def test_the_zx120_is_reviewed_in_two_minutes(
 
 @pytest.mark.parametrize(("kind", "seed", "defect"), [
     ("skid_steer", 2, "visual"), ("skid_steer", 3, "visual"), ("excavator", 1, "missing cylinder"),
+    ("rigid_truck", 2, "visual"),
 ])  # fmt: skip
 def test_nameless_machines_with_defects_are_reviewed_in_two_minutes(
     browser: Any, tmp_path: Path, record_property: Any, kind: str, seed: int, defect: str
 ) -> None:
     """No part has a name, no pin is drawn and no hole, or a cylinder is missing."""
     machine = spoiled(kind, seed, defect)
-    assembly, surface = read(machine, seed, placed(seed, "upright"), None)
+    place = placed(seed, "upright")
+    assembly, surface = read(machine, seed, place, None)
     cad = tmp_path / "machine.glb"
     cad.write_bytes(b"glTF")  # it was read
     session = Session(Setup(TYPES.get(kind, kind), cad, tmp_path / "out"), assembly=assembly)
     try:
         truth = true_bodies(session.assembly, session.settled(300).aligned, surface, session.template)
-        person = Person(browser, session, truth)
+        person = Person(browser, session, truth, named_direction(place[:3, 0]))
         wrong = person.wrong()
         person.review()
         person.page.close()

@@ -11,13 +11,15 @@ Findings: `ALN001` no part plays a required role · `ALN002` a joint is found bu
 under another choice of a variant · `ALN006` a hydraulic cylinder is not drawn as the sheet has it ·
 `ALN007` no body is left for parts that could move · `ALN008` a cylinder is to one side · `ALN009` parts stand apart and
 are left out · `ALN010` there seems to be more than one machine · `ALN011` the wheels have no tyres · `ALN016` a joint's
-axis is estimated · `ALN026` to `ALN028`: see `files.decisions` · `ALN029` one half is drawn.
+axis is estimated · `ALN026` to `ALN028`: see `files.decisions` · `ALN029` one half is drawn ·
+`ALN032` a variant is in doubt.
 """
 
 from yellowiron.alignment.assignment.unit_scale import to_scale
 from yellowiron.alignment.assignment.weights import twin_role
 from yellowiron.alignment.discovery.discover import discover
 from yellowiron.alignment.discovery.robot import declared_roles, discover_declared
+from yellowiron.alignment.facing import named_direction
 from yellowiron.alignment.files.alignment_json import (
     parts_in,
     read_alignment,
@@ -28,20 +30,26 @@ from yellowiron.alignment.files.alignment_json import (
 )
 from yellowiron.alignment.files.decisions import decide, fits, parse_rules
 from yellowiron.alignment.files.explanation import explain
+from yellowiron.alignment.files.heard import as_said
+from yellowiron.alignment.files.whole import ABSENT, parse_machine, whole
 from yellowiron.alignment.labelling.confidence import REVIEW
 from yellowiron.alignment.labelling.halves import of_drawn
 from yellowiron.alignment.pipeline import align
 
 __all__ = [
+    "ABSENT",
     "REVIEW",
     "align",
+    "as_said",
     "decide",
     "declared_roles",
     "discover",
     "discover_declared",
     "explain",
     "fits",
+    "named_direction",
     "of_drawn",
+    "parse_machine",
     "parse_rules",
     "parts_in",
     "read_alignment",
@@ -50,5 +58,6 @@ __all__ = [
     "said_in",
     "to_scale",
     "twin_role",
+    "whole",
     "write_alignment",
 ]

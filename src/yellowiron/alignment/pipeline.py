@@ -35,6 +35,7 @@ from yellowiron.alignment.assignment.sheet_weights import sheet_findings
 from yellowiron.alignment.assignment.weights import side_weights
 from yellowiron.alignment.axes.levers import without_lever
 from yellowiron.alignment.axes.unfound import axis_findings, lines_of, rough_axes, unfound_axes
+from yellowiron.alignment.facing import Facing
 from yellowiron.alignment.features.copies import copies_of
 from yellowiron.alignment.features.distance import Touch
 from yellowiron.alignment.features.separate_parts import separate_parts
@@ -42,7 +43,8 @@ from yellowiron.alignment.features.solids import solids_of
 from yellowiron.alignment.features.telescopes import Nest
 from yellowiron.alignment.features.tracks import Track, tracks_of
 from yellowiron.alignment.files.decisions import decided
-from yellowiron.alignment.fusion.reading import fused
+from yellowiron.alignment.files.heard import heard_of_whole, unlikely
+from yellowiron.alignment.fusion.reading import AS_GOOD, fused
 from yellowiron.alignment.labelling.coupler import with_couplers
 from yellowiron.alignment.labelling.fittings import fittings_of, sitting
 from yellowiron.alignment.labelling.place import pin_role
@@ -55,6 +57,7 @@ from yellowiron.alignment.labelling.track_places import on_tracks, track_places,
 from yellowiron.alignment.labelling.undercut import too_low, undercut
 from yellowiron.alignment.structure.observation import Observation, observe
 from yellowiron.alignment.tolerances import CONTACT
+from yellowiron.alignment.undrawn import undrawn
 from yellowiron.model.alignment import DECIDED, Alignment, Vector
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import AlignmentError
@@ -66,6 +69,9 @@ from yellowiron.support.vectors import triple
 
 HELD = 0.7
 """Contacts that find this share of the type's joints have found the machine; below, every reading is asked."""
+HELD_TOLD = 0.6
+"""… and this share where a person said something: what is put right takes from what was found before, and the rest of
+the machine should not turn into another for that."""
 EXPLAINED = 0.9
 """… as have those that leave no more than this of what is drawn unexplained, whatever the type has besides."""
 BETTER = 150.0
@@ -99,6 +105,8 @@ def align(
         )
     decisions, told = decided(assembly, template, edits)
     edited = {part: decision.role or "" for part, decision in decisions.items()}
+    said, heard = heard_of_whole(edits, edited, assembly, template, choices or {})
+    every, template, choices, facing = template, undrawn(template, said.absent), said.choices, said.facing
     bumpers = colliders(assembly) - edited.keys()
     drawn = _without(assembly, bumpers)
     copies = {copy: first for copy, first in copies_of(drawn).items() if copy not in edited}
@@ -119,22 +127,22 @@ def align(
     def look(contact: float) -> Observation:
         return replace(observe(machine, plain, contact), up=up, rows=rows)
 
-    search = Search(look, plain, specifications, choices or {}, edited)
+    search = Search(look, plain, specifications, choices, edited)
     answer, observation, scores = search.run()
     agreement = search.agreement
-    held = held_share(answer) >= HELD
+    held = held_share(answer) >= (HELD_TOLD if edited else HELD)
     explained = held or drawn_share(answer, observation.solids) >= EXPLAINED
     contradicted = agreement < BELIEVED and not is_whole(answer)
     judged: _Judged | None = None
     if not held or contradicted:
         wide = look(CONTACT[-1])
         named = name_scores(tuple(s.part for s in wide.solids), plain, template)
-        judged = _fused(answer, wide, named, plain, choices or {}, edited, tracks)
+        judged = _fused(answer, wide, named, plain, choices, edited, tracks, facing)
     if judged is not None and (not explained or judged.goes_before(held=held, named=any(named))):
         answer, frame, agreement = judged.answer, judged.frame, judged.trust
         observation, scores = wide, named
     else:
-        answer, frame = _framed(answer, observation, tracks)
+        answer, frame = _framed(answer, observation, tracks, facing)
     low = undercut(observation, answer)
     propagation = Propagation(
         observation,
@@ -171,8 +179,10 @@ def align(
         Labels(by_id, apart, bumpers, decisions),
         frame or MachineFrame(np.eye(4)),
         axes=_axes(answer, observation),
+        told=choices.keys(),
         remarks=[
             *told,
+            *heard,
             # What reading the file found; the rest was of an earlier model.
             *(f for f in (edits.findings if edits is not None else ()) if f.code in ("ALN012", "ALN013")),
             *name_findings(agreement, BELIEVED, template.equipment_type),
@@ -189,7 +199,11 @@ def align(
         ],
     )
     if edits is not None:
-        found = replace(found, rules=edits.rules, joints=edits.joints, values=edits.values)
+        kept = {"rules": edits.rules, "joints": edits.joints, "values": edits.values, "machine": edits.machine}
+        scored = name_scores(assembly.parts, every) if said.absent else []
+        called = dict(zip((part.id for part in assembly.parts), scored, strict=False))
+        against = unlikely(said, called, found, every, len(observation.cylinders)) if edits.machine else ()
+        found = replace(found, **kept, findings=(*found.findings, *against))  # type: ignore[arg-type]
     drawn_axles = as_drawn(whole, {p.body for p in found.parts if p.body is not None})
     return _with_all_axes(found, _without(assembly, fittings), drawn_axles, answer, observation, frame)
 
@@ -331,17 +345,22 @@ class _Judged:
         return self.score - self.contacts >= BETTER if named else self.contacts < FAR_BETTER * self.score
 
 
-def _framed(answer: Answer, observation: Observation, tracks: list[Track]) -> tuple[Answer, MachineFrame | None]:
+def _framed(
+    answer: Answer, observation: Observation, tracks: list[Track], facing: Facing
+) -> tuple[Answer, MachineFrame | None]:
     """The machine's frame, and the answer solved again with what that says of left and right; with a root in any case.
     No frame where the model has no solids."""
     solids, structure, template, solution = observation.solids, answer.structure, answer.template, answer.solution
-    frame = machine_frame(solids, structure, solution, observation.wheels, template, tracks) if solids else None
+    frame = machine_frame(solids, structure, solution, observation.wheels, template, tracks, facing) if solids else None
     if frame is not None and solution.body_of:
         sided = side_weights(solids, structure, template, solution, frame, answer.unary)
         if sided != answer.unary:
             told = solve(structure, template, unary=sided, barred=answer.barred)
             solution = told if told is not None and told.body_of else solution
-            frame = machine_frame(solids, structure, solution, observation.wheels, template, tracks)
+            # What spoke against a person's word is not solved away by obeying it.
+            against = frame.against
+            frame = machine_frame(solids, structure, solution, observation.wheels, template, tracks, facing)
+            frame = replace(frame, against=against or frame.against)
     return replace(answer, solution=with_root(solution, structure, solids, template)), frame
 
 
@@ -353,6 +372,7 @@ def _fused(
     choices: Mapping[str, str],
     edited: Mapping[str, str],
     tracks: list[Track],
+    facing: Facing,
 ) -> _Judged:
     """What names, shapes, places and contacts say together."""
     solids = observation.solids
@@ -360,11 +380,14 @@ def _fused(
         return _Judged(answer, None, 1.0, 0.0, 0.0)
     told = {s.index: template.body_of(edited[s.part.id]) for s in solids if template.knows(edited.get(s.part.id, ""))}
     said = {i: body for i, body in told.items() if body is not None}
-    found = fused(observation, template, variants_of(template, choices), scores, answer, said)
+    found = fused(observation, template, variants_of(template, choices), scores, answer, said, facing)
     answer, solution = found.answer, found.answer.solution
-    frame = machine_frame(solids, answer.structure, solution, observation.wheels, answer.template, tracks)
+    frame = machine_frame(solids, answer.structure, solution, observation.wheels, answer.template, tracks, facing)
     if frame.doubts:
-        frame = MachineFrame(found.stance.matrix(), ("it is read off how the machine stands",))
+        read = "it is read off how the machine stands"
+        frame = MachineFrame(found.stance.matrix(), () if found.stance.told else (read,), told=found.stance.told)
+    elif found.ahead < AS_GOOD:
+        frame = replace(frame, doubts=("its front could as well be behind",))
     answer = replace(answer, solution=with_root(solution, answer.structure, solids, answer.template))
     return _Judged(answer, frame, found.trust, found.score, found.contacts)
 

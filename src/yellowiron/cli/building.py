@@ -188,6 +188,10 @@ def align_parts(
     forgotten: Annotated[
         list[str] | None, typer.Option("--forget", metavar="PATTERN", help="Take decisions back.")
     ] = None,
+    machine: Annotated[
+        list[str] | None,
+        typer.Option("--machine", metavar="NAME=WHAT", help="Say forward=-x, up=z, VARIANT=choice or ROLE=absent."),
+    ] = None,
     why: Annotated[str, typer.Option("--why", help="The reason, kept with the decision.")] = "",
     by: Annotated[str, typer.Option("--by", help="Who decides.", envvar="YELLOWIRON_USER")] = "",
     sheets: Sheets = None,
@@ -205,7 +209,7 @@ def align_parts(
     with progress_shown() as progress:
         alignment = yellowiron.align(
             equipment_type, cad, sheets=sheets or (), settings=settings or (), config=config, mirror=mirror, out=out,
-            roles=roles or (), confirmed=confirmed or (), forgotten=forgotten or (),
+            roles=roles or (), confirmed=confirmed or (), forgotten=forgotten or (), machine=machine or (),
             by=by, date=datetime.date.today().isoformat(), why=why,
             opinion=llm if second_opinion else None, progress=progress,
         ).alignment  # fmt: skip

@@ -65,13 +65,15 @@ class GivenValue:
 @dataclass(frozen=True)
 class Decisions:
     """What a person decides beside what an alignment file says: `rules`, patterns of parts whose role is `confirmed`,
-    or of which every earlier decision is `forgotten`, and single `parts` by their ids, which go before all of these."""
+    or of which every earlier decision is `forgotten`, and single `parts` by their ids, which go before all of these;
+    `machine`: as an `Alignment`'s."""
 
     rules: tuple[RoleRule, ...] = ()
     confirmed: tuple[str, ...] = ()
     forgotten: tuple[str, ...] = ()
     signature: Signature = UNSIGNED
     parts: Mapping[str, PartDecision] = field(default_factory=dict)
+    machine: Mapping[str, GivenValue] = field(default_factory=dict)
 
 
 UNDECIDED = Decisions()
@@ -131,7 +133,9 @@ class Alignment:
     those of them that are known roughly → how well across the axis, metres (one sigma). `calibrated`: those that the
     sheet's dimensions placed → by which, in words. `rules`: a person's, the last word of several. `joints`: name →
     what a person says of a joint, as an entry of a `--data` document of joints. `values`: name → what a person gives
-    beside the sheet. `by_hand`: joints whose axis is a person's.
+    beside the sheet. `by_hand`: joints whose axis is a person's. `machine`: name → what a person says of the machine as
+    a whole (`alignment.files.whole`). `open_choices`: variant → the choices that are nearly as good as the one found.
+    `facing_doubt`: in words, why the machine may face otherwise.
     """
 
     equipment_type: str
@@ -149,6 +153,9 @@ class Alignment:
     joints: Mapping[str, Mapping[str, object]] = field(default_factory=dict)
     values: Mapping[str, GivenValue] = field(default_factory=dict)
     by_hand: frozenset[str] = frozenset()
+    machine: Mapping[str, GivenValue] = field(default_factory=dict)
+    open_choices: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    facing_doubt: str = ""
 
     def suggested(self, said: Mapping[str, Suggestion]) -> Alignment:
         """The same alignment with suggestions (part → suggestion) on its parts in place of those it had."""

@@ -7,12 +7,13 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
+from yellowiron.alignment import ABSENT, whole
 from yellowiron.model.alignment import UNSIGNED, GivenValue, PartDecision, RoleRule, Signature
 from yellowiron.model.errors import YellowironError
 from yellowiron.model.template import Template
 
-Kind = Literal["role", "confirm", "forget", "rule", "value", "joint"]
-KINDS: tuple[Kind, ...] = ("role", "confirm", "forget", "rule", "value", "joint")
+Kind = Literal["role", "confirm", "forget", "rule", "value", "joint", "machine"]
+KINDS: tuple[Kind, ...] = ("role", "confirm", "forget", "rule", "value", "joint", "machine")
 NONE = "none"
 """As a pattern's role: its parts are not part of the machine."""
 SIGNED = ("by", "date", "why")
@@ -36,7 +37,8 @@ class Operation:
     are right, `forget` takes back what was said of them; `rule` gives all parts that fit the pattern `name`
     (`alignment.files.decisions.fits`) the role `text` (`NONE`; empty: takes the pattern back); `value` gives `name` the
     `text` (empty: takes it back); `joint` says of the joint `name` what is in `entry`, as a `--data` document of joints
-    has it (empty: takes all of it back)."""
+    has it (empty: takes all of it back); `machine` says `text` of the whole machine under a `name`, as `align
+    --machine` does (empty: takes it back)."""
 
     kind: Kind
     parts: Mapping[str, str | None] = field(default_factory=dict)
@@ -54,7 +56,7 @@ class Operation:
 
     def value(self) -> GivenValue | None:
         """The value that it gives; None where it takes one back, or is about parts."""
-        return GivenValue(self.text, self.signature) if self.kind == "value" and self.text else None
+        return GivenValue(self.text, self.signature) if self.kind in ("value", "machine") and self.text else None
 
     def rule(self) -> RoleRule | None:
         """The pattern with its role; None where it takes one back, or is about something else."""
@@ -66,6 +68,8 @@ def words(operation: Operation) -> str:
     """An operation in a line of the history."""
     if operation.kind == "value":
         return f"{operation.name} = {operation.text}" if operation.text else f"{operation.name} as the sheet has it"
+    if operation.kind == "machine":
+        return whole_words(operation.name, operation.text)
     if operation.kind == "joint":
         said = ", ".join(_SAID[key] for key in _SAID if key in operation.entry)
         return f"{operation.name.replace('_', ' ')}: {said or 'taken back'}"
@@ -81,10 +85,20 @@ def words(operation: Operation) -> str:
     ]
 
 
+def whole_words(name: str, text: str) -> str:
+    """What is said of the whole machine, as a person reads it."""
+    plain = name.replace("_", " ")
+    if not text:
+        return f"{plain}: taken back"
+    if name in ("forward", "up"):
+        return f"{plain.capitalize()} is {text} of the CAD file"
+    return f"Not drawn: {plain}" if text == ABSENT else f"{plain.capitalize()}: {text.replace('_', ' ')}"
+
+
 def to_entry(operation: Operation) -> dict[str, Any]:
     """An operation as the journal has it."""
     signed = {k: v for k in SIGNED if (v := getattr(operation.signature, k))}
-    if operation.kind in ("value", "rule"):
+    if operation.kind in ("value", "rule", "machine"):
         return {"kind": operation.kind, "name": operation.name, "text": operation.text, **signed}
     if operation.kind == "joint":
         return {"kind": "joint", "name": operation.name, "entry": dict(operation.entry), **signed}
@@ -103,6 +117,13 @@ def from_entry(entry: object, parts: Collection[str], template: Template) -> Ope
         if not name or "=" in name:
             raise _broken("A value has no name")
         return Operation("value", name=name, text=_text(entry, "text").strip(), signature=signature)
+    if kind == "machine":
+        name, text = _text(entry, "name").strip(), _text(entry, "text").strip()
+        if not name:
+            raise _broken("It has no name")
+        if text:
+            whole({name: GivenValue(text)}, template)
+        return Operation("machine", name=name, text=text, signature=signature)
     if kind == "rule":
         name, text = _text(entry, "name", most=LARGEST_TEXT).strip(), _text(entry, "text").strip()
         if not name:

@@ -9,16 +9,22 @@ from typing import Literal
 
 import numpy as np
 
+from yellowiron.alignment import named_direction, twin_role
 from yellowiron.model.alignment import Suggestion
 from yellowiron.model.geometry import Floats
 from yellowiron.model.specification import Specification, fold
-from yellowiron.opinion.doubts import doubts_of, size_of, spread
-from yellowiron.report.words import counted, titled
+from yellowiron.opinion.doubts import Doubt, doubts_of, size_of, spread
+from yellowiron.report.words import counted, sentence, spoken, titled
 from yellowiron.studio.joints import JointState
+from yellowiron.studio.machine import together, ways_of
 from yellowiron.studio.session import State
 
 MOST_CANDIDATES = 9
 """As many as there are digits to choose them by."""
+_WHOLE = 1000.0
+"""What the whole machine weighs: before anything else."""
+_LITTLE = 0.4
+"""Doubts that weigh less are asked with others of their body: about a few bolts, or parts that are nearly sure."""
 _PIN = 0.05
 """What a missing pin weighs: its joint has an axis without it."""
 _AXIS = 50.0
@@ -37,11 +43,13 @@ class Candidate:
 
 @dataclass(frozen=True)
 class Question:
-    """One thing to settle. Of `parts`: whether they play the roles that they were given. Of a `role`: which part plays
-    it. Of a `value`: what it is, `parts` being those that it is about. Of a `joint`: where its axis is. `weight` says
-    how much hangs on it, `known` what is known beside the reason."""
+    """One thing to settle. Of the `machine` as a whole: which way it faces, which variant it is; `yes` and the answers
+    are what `align --machine` takes. Of `parts`: whether they play the roles that they were given. Of a `role`: which
+    part plays it, or that neither it nor what else is in `absent` is drawn. Of a `value`: what it is, `parts` being
+    those that it is about. Of a `joint`: where its axis is. `weight` says how much hangs on it, `known` what is known
+    beside the reason."""
 
-    kind: Literal["parts", "role", "value", "joint"]
+    kind: Literal["machine", "parts", "role", "value", "joint"]
     key: str
     title: str
     weight: float
@@ -51,27 +59,64 @@ class Question:
     known: tuple[str, ...] = ()
     page: int | None = None
     file: str = ""
+    yes: str = ""
+    absent: str = ""
 
 
 def questions(state: State, boxes: Mapping[str, Floats], joints: Sequence[JointState] = ()) -> list[Question]:
     """What is to ask of a state and its joints, the most consequential first. `boxes`: part → its (2, 3) box in the CAD
     file's frame, metres, by which what is near is offered first."""
-    found = [*_of_parts(state, boxes), *_of_roles(state, boxes), *_of_joints(joints, boxes), *_of_values(state)]
+    found = [*_of_whole(state), *_of_parts(state, boxes), *_of_roles(state, boxes), *_of_joints(joints, boxes)]
+    found += _of_values(state)
     return sorted(found, key=lambda q: (-q.weight, q.key))
 
 
-def _of_parts(state: State, boxes: Mapping[str, Floats]) -> list[Question]:
-    """Doubted parts together where they were given the same body and could be the same other one."""
-    said = {p.part: p.suggestion for p in state.alignment.parts if p.suggestion is not None}
+def _of_whole(state: State) -> list[Question]:
+    """Which way the machine faces, and which of the type's variants it is, where that is in doubt: parts follow."""
     found = []
-    for doubt in doubts_of(state.alignment, state.template, boxes):
-        called = titled(doubt.body) if doubt.body else "No part of the machine"
-        count = f", {len(doubt.parts)} parts" if len(doubt.parts) > 1 else ""
+    aligned = state.aligned
+    if aligned.facing_doubt and "forward" not in aligned.machine:
+        here = f"forward={named_direction(np.asarray(aligned.frame)[0, :3])}"
         found.append(Question(
-            "parts", f"parts:{doubt.body or ''}:{doubt.runner_up or ''}", f"{called}{count}?", doubt.weight,
-            doubt.reason, doubt.parts,
-            tuple(Candidate(role, titled(role)) for role in doubt.others[:MOST_CANDIDATES]),
-            tuple(_suggested([said[part] for part in doubt.parts if part in said])),
+            "machine", "machine:forward", "Is this its front?", _WHOLE + 1.0, sentence(aligned.facing_doubt),
+            candidates=tuple(Candidate(way.answer, way.words) for way in ways_of(state)), yes=here,
+        ))  # fmt: skip
+    for name, others in aligned.open_choices.items():
+        own = aligned.choices[name]
+        found.append(Question(
+            "machine", f"machine:{name}", f"{sentence(name)}: {spoken(own)}?", _WHOLE,
+            f"What is drawn fits {' and '.join(spoken(c) for c in sorted((own, *others)))} as well.",
+            candidates=tuple(Candidate(f"{name}={other}", sentence(other)) for other in others), yes=f"{name}={own}",
+        ))  # fmt: skip
+    return found
+
+
+def _of_parts(state: State, boxes: Mapping[str, Floats]) -> list[Question]:
+    """Doubted parts together where they were given the same body and could be the same other one; those on which little
+    hangs together with all such of their body, and of its twin on the other side: one look tells whether they are."""
+    said = {p.part: p.suggestion for p in state.alignment.parts if p.suggestion is not None}
+    groups: dict[str, list[Doubt]] = {}
+    for doubt in doubts_of(state.alignment, state.template, boxes):
+        body = doubt.body or ""
+        alone = f"parts:{body}:{doubt.runner_up or ''}"
+        little = f"parts:{min(body, twin_role(body) or body)}"
+        groups.setdefault(little if body and doubt.weight < _LITTLE else alone, []).append(doubt)
+    found = []
+    for key, doubts in groups.items():
+        first = max(doubts, key=lambda doubt: doubt.weight)
+        bodies = list(dict.fromkeys(doubt.body for doubt in doubts))
+        parts = tuple(sorted(part for doubt in doubts for part in doubt.parts))
+        called = titled(first.body) if first.body else "No part of the machine"
+        called = f"{called[:-2]}, left and right" if len(bodies) > 1 else called
+        count = f", {len(parts)} parts" if len(parts) > 1 else ""
+        others = dict.fromkeys(role for doubt in doubts for role in doubt.others)
+        # Of both sides none is another's left or right.
+        listed = [role for role in others if len(bodies) == 1 or twin_role(role) is None]
+        listed = [role for role in listed if role not in bodies]
+        found.append(Question(
+            "parts", key, f"{called}{count}?", first.weight, first.reason, parts,
+            tuple(Candidate(role, titled(role)) for role in listed[:MOST_CANDIDATES]),
+            tuple(_suggested([said[part] for part in parts if part in said])),
         ))  # fmt: skip
     return found
 
@@ -96,9 +141,9 @@ def _of_roles(state: State, boxes: Mapping[str, Floats]) -> list[Question]:
     }
     joints = Counter(body for joint in state.template.joints for body in state.template.bodies_of(joint))
     found = []
-    for role in state.alignment.missing:
-        if role in idle and not joints[role]:
-            continue
+    asked = [role for role in state.alignment.missing if role not in idle or joints[role]]
+    for group in together(asked, state.template):
+        role = group[0]
         could = [p.part for p in state.alignment.parts if p.runner_up == role]
         loose = [p.part for p in state.alignment.parts if p.role is None and p.part in boxes]
         loose = sorted(loose, key=lambda part: (-spread(boxes[part]), part))
@@ -106,9 +151,15 @@ def _of_roles(state: State, boxes: Mapping[str, Floats]) -> list[Question]:
         weight = 2.0 + joints[role] if joints[role] else _PIN
         found.append(Question(
             "role", f"role:{role}", f"Which part is the {titled(role).lower()}?", weight,
-            "Nothing was found for it.", candidates=tuple(Candidate(p, p.rsplit("/", 1)[-1]) for p in listed),
+            "Nothing was found for it.", known=_others_too(group), absent=",".join(group),
+            candidates=tuple(Candidate(p, p.rsplit("/", 1)[-1]) for p in listed),
         ))  # fmt: skip
     return found
+
+
+def _others_too(group: Sequence[str]) -> tuple[str, ...]:
+    others = ", ".join(titled(role).lower() for role in group[1:4]) + (" …" if len(group) > 4 else "")
+    return (f"Nor for: {others}.",) if others else ()
 
 
 def _of_joints(joints: Sequence[JointState], boxes: Mapping[str, Floats]) -> list[Question]:

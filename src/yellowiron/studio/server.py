@@ -28,6 +28,7 @@ from yellowiron.report.words import titled
 from yellowiron.studio.axes import axis_of, read_picks
 from yellowiron.studio.building import Build
 from yellowiron.studio.joints import joints_of, rounds_of
+from yellowiron.studio.machine import all_of
 from yellowiron.studio.operations import LARGEST_TEXT, words
 from yellowiron.studio.patterns import pattern_of, patterns_of
 from yellowiron.studio.questions import questions
@@ -298,6 +299,7 @@ class _Pages:
                 for k, o in enumerate(operations)
             ],
             "remarks": list(state.remarks),
+            "machineSaid": [asdict(one) for one in all_of(state, self._session.template)],
             "roles": [{"name": r.name, "words": titled(r.name), "body": state.template.body_of(r.name)} for r in roles],
             "values": [report.specification_entry(s) for s in state.specifications],
             "build": {"state": self._build.state, "lines": self._build.lines[-12:],

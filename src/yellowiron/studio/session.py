@@ -12,9 +12,9 @@ from typing import Any
 import numpy as np
 
 from yellowiron import library, memory, report, specs
-from yellowiron.alignment import decide, fits, read_alignment, write_alignment
+from yellowiron.alignment import as_said, decide, fits, read_alignment, write_alignment
 from yellowiron.inputs import checked_inputs
-from yellowiron.model.alignment import Alignment, Decisions, PartDecision
+from yellowiron.model.alignment import Alignment, Decisions, GivenValue, PartDecision
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.errors import MechanismError
 from yellowiron.model.geometry import Floats
@@ -95,6 +95,7 @@ class Session:
         self._version = self._said = 0
         self._closed = False
         self._fixed: Mapping[str, str] = {}
+        self._whole: Mapping[str, GivenValue] = {}
         # What is tried out while a pattern is written is not kept for ever.
         self._fitting = functools.lru_cache(maxsize=64)(
             lambda pattern: tuple(part.id for part in filter(fits(pattern), self.assembly.parts))
@@ -295,17 +296,26 @@ class Session:
         roles = {*(d.role for d in kept.parts.values()), *(rule.role for rule in kept.rules)}
         if any(role is not None and not played.knows(role) for role in roles):
             fixed = {}
+        # What is said of the whole machine may make another variant the best.
+        if {n: v.text for n, v in kept.machine.items()} != {n: v.text for n, v in self._whole.items()}:
+            fixed = {}
         choices = {**fixed, **self._choices}
         forgotten = {p: PartDecision(None, "solved") for p in said_in_file(self._edits).parts if p not in kept.parts}
         edits = decide(self._edits, Decisions(parts={**forgotten, **kept.parts}), self.assembly, template)
-        edits = replace(edits or self._edits, values=kept.values, joints=kept.joints, rules=kept.rules)
+        edits = replace(
+            edits or self._edits, values=kept.values, joints=kept.joints, rules=kept.rules, machine=kept.machine
+        )
         by_hand = specs.parse_settings([f"{n}={v.text}" for n, v in kept.values.items()], template)
         specifications = specs.merge(self._sheet, by_hand, self._given)
         alignment = roles_of(self.assembly, template, specifications, edits=edits, data=data, choices=choices)
         asked = {p.part: p.suggestion for p in self._edits.parts if p.suggestion is not None}
         alignment = alignment.suggested({part: asked[part] for part in alignment.to_review if part in asked})
-        self._fixed = dict(alignment.choices)
-        chosen = choose(template, {**alignment.choices, **choices})
+        if fixed:
+            # They were not tried again.
+            as_good = self.state.aligned.open_choices
+            alignment = replace(alignment, open_choices={v: c for v, c in as_good.items() if v not in kept.machine})
+        self._fixed, self._whole = dict(alignment.choices), kept.machine
+        chosen = as_said(template, alignment, {**alignment.choices, **choices})
         told = (*kept.remarks, *(self._shortly(f.message) for f in alignment.findings if f.code in _CONTRADICTIONS))
         bare = State(
             0, said, chosen, self.assembly, alignment, specifications, alignment, self.assembly, remarks=told

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import networkx as nx
 
@@ -37,7 +37,8 @@ class Judged:
 @dataclass(frozen=True, eq=False)
 class Answer:
     """One reading of the welds and one variant of the template, solved. `contact`: the tolerance of the contacts, as a
-    share of the machine's diagonal. `judged`: solid → what it was judged to be, where contacts alone do not tell."""
+    share of the machine's diagonal. `judged`: solid → what it was judged to be, where contacts alone do not tell.
+    `open_choices`: variant → the choices that are nearly as good."""
 
     contact: float
     structure: Structure
@@ -48,6 +49,7 @@ class Answer:
     sided: tuple[str, ...]
     barred: frozenset[tuple[str, int]]
     judged: Mapping[int, Judged] | None = None
+    open_choices: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
     @property
     def score(self) -> int:
@@ -66,6 +68,16 @@ def is_whole(answer: Answer) -> bool:
     cylinders = {c for slide in answer.structure.slides for c in slide[:2]}
     played = answer.solution.body_of
     return not answer.sided and joints <= found and bodies <= set(played.values()) and cylinders <= set(played)
+
+
+def open_choices(
+    chosen: Mapping[str, str], tried: Sequence[tuple[Mapping[str, str], float]], least: float
+) -> dict[str, tuple[str, ...]]:
+    """Variant → the choices other than the one `chosen` under which an answer was found that scores `least` or more;
+    `tried`: choices, and what the best answer under them scores."""
+    close = [other for other, score in tried if score >= least]
+    found = {name: {other[name] for other in close if name in other} - {own} for name, own in chosen.items()}
+    return {name: tuple(sorted(others)) for name, others in sorted(found.items()) if others}
 
 
 def held_share(answer: Answer) -> float:

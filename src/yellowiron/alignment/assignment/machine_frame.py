@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from yellowiron.alignment.assignment.cp_sat import Solution
+from yellowiron.alignment.facing import UNTOLD, Facing
 from yellowiron.alignment.features.contacts import SharedAxis
 from yellowiron.alignment.features.solids import Solid
 from yellowiron.alignment.features.tracks import Track
@@ -25,13 +26,23 @@ LYING = 0.01
 SNAP = 1e-6
 """A rotation this near to a signed permutation of the axes is that permutation."""
 
+_GROUND = "no wheels were found, so the ground is taken under the lowest part"
+
 
 @dataclass(frozen=True, eq=False)
 class MachineFrame:
-    """`matrix` (4, 4) takes CAD metres to the machine frame; `doubts` says what had to be guessed."""
+    """`matrix` (4, 4) takes CAD metres to the machine frame; `doubts` says what had to be guessed, `against` what was
+    found and a person said otherwise; `told`: a person said what is ahead."""
 
     matrix: Floats
     doubts: tuple[str, ...] = ()
+    against: tuple[str, ...] = ()
+    told: bool = False
+
+    @property
+    def facing_doubt(self) -> str:
+        """Why the machine may face otherwise; empty where that is sure."""
+        return next((words for words in self.doubts if words != _GROUND), "")
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,10 +67,11 @@ class _Scene:
 
 def machine_frame(
     solids: tuple[Solid, ...], structure: Structure, solution: Solution, wheels: list[Wheel], template: Template,
-    tracks: Sequence[Track] = (),
+    tracks: Sequence[Track] = (), facing: Facing = UNTOLD,
 ) -> MachineFrame:  # fmt: skip
     """The frame: up along the axis about which the machine turns or bends, left along the root's wheels or across its
-    tracks, forward towards the working arms. What is not there is guessed and said so."""
+    tracks, forward towards the working arms; and as a person said that it faces (`facing`). What is not there is
+    guessed, and said so."""
     axes = {j: structure.axes[structure.hinges[h].axis] for j, h in solution.hinge_of.items()}
     cluster_of = {b: c for c, b in solution.body_of.items()}
     turning = [structure.clusters[c] for _, c in sorted(cluster_of.items())]
@@ -73,7 +85,10 @@ def machine_frame(
     left = tracks[0].axis if tracks else _left(scene, swing, up)
     if left is None:
         if not axes and not rolling:
-            return MachineFrame(np.eye(4), ("no joints and no wheels were found: the CAD file's own axes are taken",))
+            turned = np.eye(4)
+            turned[:3, :3] = facing.obeyed(np.eye(3))
+            words = "no joints and no wheels were found: the CAD file's own axes are taken"
+            return MachineFrame(turned, () if facing.forward is not None else (words,))
         left = np.eye(3)[int(np.argmin(np.abs(up)))]
         doubts.append("left is guessed: no wheel or pitch axis was found")
     left = unit(left - (left @ up) * up)
@@ -83,12 +98,17 @@ def machine_frame(
         doubts.append("forward is guessed: no arm and no other body tells it")
     elif sense < 0:
         forward, left = -forward, -left
-    rotation = _snapped(np.array([forward, left, up]))
+    read = np.array([forward, left, up])
+    rotation = _snapped(facing.obeyed(read))
+    against = facing.against(read) if not doubts else ()
+    if facing.forward is not None:
+        doubts.clear()
+    up = rotation[2]
     origin = _origin(scene, axes[swing] if swing else None, up)
     matrix = np.eye(4)
     matrix[:3, :3] = rotation
     matrix[:3, 3] = np.round(-rotation @ origin, 12) + 0.0
-    return MachineFrame(matrix, tuple(doubts))
+    return MachineFrame(matrix, tuple(doubts), against, facing.forward is not None)
 
 
 def _up(scene: _Scene, swing: str | None, flat: Floats | None, doubts: list[str]) -> Floats:
@@ -112,7 +132,7 @@ def _up(scene: _Scene, swing: str | None, flat: Floats | None, doubts: list[str]
         if float((above - below) @ up) < 0:
             up = -up
     elif scene.axes and "wheel" in scene.kinds.values():
-        doubts.append("no wheels were found, so the ground is taken under the lowest part")
+        doubts.append(_GROUND)
     return up
 
 

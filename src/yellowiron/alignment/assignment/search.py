@@ -11,9 +11,9 @@ from __future__ import annotations
 import functools
 import itertools
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
-from yellowiron.alignment.assignment.answer import Answer, is_whole
+from yellowiron.alignment.assignment.answer import MARGIN, Answer, is_whole, open_choices
 from yellowiron.alignment.assignment.cp_sat import JOINT_WEIGHT, MISSING_WEIGHT, TYPED, Effort, solve, without_islands
 from yellowiron.alignment.assignment.names import name_scores
 from yellowiron.alignment.assignment.one_sided import one_sided
@@ -58,6 +58,7 @@ class Search:
     best: Answer | None = None
     agreement: float = 1.0
     _named: bool = True
+    _tried: list[tuple[dict[str, str], float]] = field(default_factory=list)
     _effort: Effort = field(init=False)
     _looked: dict[float, tuple[Observation, list[dict[str, float]], list[Structure]]] = field(default_factory=dict)
 
@@ -77,7 +78,7 @@ class Search:
         self.agreement = name_agreement(answer.structure, answer.solution, scores)
         believed = [{body: self.agreement * score for body, score in of.items()} for of in scores]
         if self.agreement < BELIEVED:
-            self.best = None
+            self.best, self._tried = None, []
             self._looked = {c: (s, [{} for _ in s.solids], known) for c, (s, _, known) in self._looked.items()}
             self._named = False
             self._effort = self._allowed(AGAIN)
@@ -115,7 +116,10 @@ class Search:
     def _result(self) -> tuple[Answer, Observation, list[dict[str, float]]]:
         assert self.best is not None
         observation, scores, _ = self._looked[self.best.contact]
-        return self.best, observation, scores
+        if is_whole(self.best):
+            return self.best, observation, scores
+        as_good = open_choices(self.best.choices, self._tried, self.best.score - MARGIN)
+        return replace(self.best, open_choices=as_good), observation, scores
 
     def _readings(self, contact: float, *, careful: bool) -> Iterator[Structure]:
         """The readings of the welds that were not looked at before (of the careful ones: all)."""
@@ -156,6 +160,7 @@ class Search:
         solution = without_islands(solution, resolved)
         sided = one_sided(observation, structure, solution, self.template, resolved)
         answer = Answer(contact, structure, chosen, resolved, solution, unary, sided, barred)
+        self._tried.append((chosen, answer.score))
         if self.best is None or (is_whole(answer), answer.score) > (is_whole(self.best), self.best.score):
             self.best = answer
 

@@ -24,6 +24,8 @@ EXACT_WEIGHT = 70
 EDIT_WEIGHT = 250
 MOSTLY = 0.5
 """More than this share of a cluster's surface speaks for all of it, where a person speaks."""
+CRUMB = 0.25
+"""What has less than this share of a body's usual surface is not what that body mainly is."""
 SIDE_WEIGHT = 80
 SIZE_WEIGHT = 12
 AS_GOOD = 0.1
@@ -46,6 +48,7 @@ def name_weights(
     """Weights from what the parts are called (`scores`, by solid) and from what a person said (part id → role)."""
     unary: Weights = {}
     bodies = {r.name for r in template.roles if r.rigid}
+    total = sum(s.surface for s in solids) or 1.0
     for c, cluster in enumerate(structure.clusters):
         members = sorted(cluster.members)
         telling = [i for i in members if scores[i]]
@@ -58,8 +61,19 @@ def name_weights(
                 exact = votes[body] > 1
                 unary[c, body] = round(EXACT_WEIGHT if exact else NAME_WEIGHT * votes[body])
         for body, share in decided_shares(solids, members, template, edited).items():
-            unary[c, body] = unary.get((c, body), 0) + round(EDIT_WEIGHT * (1.0 if share > MOSTLY else share))
+            said = EDIT_WEIGHT * (1.0 if share > MOSTLY else share)
+            main = _mainly(body, sum(solids[i].surface for i in members) / total, template)
+            unary[c, body] = unary.get((c, body), 0) + round(said * main)
+            # A crumb of a body is no other body, and leaves what the body mainly is to a larger cluster.
+            for other in sorted(bodies - {body}) if main < 1.0 and share > MOSTLY else ():
+                unary[c, other] = unary.get((c, other), 0) - round(said * (1.0 - main))
     return unary
+
+
+def _mainly(body: str, share: float, template: Template) -> float:
+    """How far a cluster with this share of the machine's surface can be what a body mainly is, 0 to 1."""
+    usual = template.usual.get(body)
+    return min(1.0, share / (CRUMB * usual.area)) if usual is not None and usual.area > 0.0 else 1.0
 
 
 def decided_shares(
@@ -123,9 +137,10 @@ def twin_role(name: str) -> str | None:
     return swapped if swapped != name else None
 
 
-def interchangeable(template: Template) -> list[frozenset[str]]:
+def interchangeable(template: Template, *, joints: bool = True) -> list[frozenset[str]]:
     """Groups of bodies whose names differ in front, middle, rear, left, right alone and which hang on the same bodies
-    by joints of one type: a machine's four wheels on one chassis. Only where they stand tells which is which."""
+    by joints of one type: a machine's four wheels on one chassis. Only where they stand tells which is which. Without
+    `joints`, whatever they hang on: where a person said what is ahead, that tells as much."""
     rigid = [r.name for r in template.roles if r.rigid]
     joined: dict[str, list[tuple[str, str]]] = {name: [] for name in rigid}
     for joint in template.joints:
@@ -136,7 +151,8 @@ def interchangeable(template: Template) -> list[frozenset[str]]:
     groups: dict[tuple[str, tuple[tuple[str, str], ...]], set[str]] = {}
     for name in rigid:
         if _END.search(name):
-            groups.setdefault((_SIDE.sub("", _END.sub("", name)), tuple(sorted(joined[name]))), set()).add(name)
+            held = tuple(sorted(joined[name])) if joints else ()
+            groups.setdefault((_SIDE.sub("", _END.sub("", name)), held), set()).add(name)
     return [frozenset(g) for g in groups.values() if len({_END.findall(name)[0] for name in g}) > 1]
 
 
@@ -149,7 +165,7 @@ def side_weights(
     unary: Weights,
 ) -> Weights:
     """Weights that put the left one of each mirrored pair on +Y, and the front one of each pair that the joints do not
-    tell apart on +X."""
+    tell apart on +X: of each pair, where a person said what is ahead."""
     sided = dict(unary)
     cluster_of = {b: c for c, b in solution.body_of.items()}
 
@@ -158,7 +174,8 @@ def side_weights(
         middle = np.mean([0.5 * (s.low + s.high) for s in members], axis=0)
         return np.asarray(frame.matrix[:3, :3] @ middle + frame.matrix[:3, 3], dtype=np.float64)
 
-    alike = {names | {twin_role(name) or name for name in names} for names in interchangeable(template)}
+    ends = interchangeable(template, joints=not frame.told)
+    alike = {names | {twin_role(name) or name for name in names} for names in ends}
     for names in sorted(alike, key=sorted):
         there = {name: place(cluster_of[name]) for name in names if name in cluster_of}
         middle = np.mean(list(there.values()), axis=0) if there else np.zeros(3)

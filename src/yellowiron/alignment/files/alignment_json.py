@@ -43,8 +43,8 @@ def write_alignment(alignment: Alignment, assembly: Assembly, path: str | Path) 
     order of the parts in the CAD model does not matter.
 
     A person changes `role`, or `source` to `confirmed`; `solved` keeps what the program had found; `shape` and `place`
-    are what a part is known by in a later revision of the CAD model (`revisions.Print`). `rules`, `joints` and `values`
-    are a person's. `OutputError` if it cannot be written.
+    are what a part is known by in a later revision of the CAD model (`revisions.Print`). `rules`, `joints`, `values`,
+    `machine` are a person's. `OutputError` if it cannot be written.
     """
     doubtful = set(alignment.to_review)
 
@@ -64,6 +64,7 @@ def write_alignment(alignment: Alignment, assembly: Assembly, path: str | Path) 
         **({"rules": [_rule_entry(r) for r in alignment.rules]} if alignment.rules else {}),
         **({"joints": dict(alignment.joints)} if alignment.joints else {}),
         **({"values": {n: _value_entry(v) for n, v in sorted(alignment.values.items())}} if alignment.values else {}),
+        **({"machine": {n: _value_entry(v) for n, v in alignment.machine.items()}} if alignment.machine else {}),
         "parts": [_entry(p, prints.get(p.part)) for p in sorted(alignment.parts, key=rank)],
     }
     text = json.dumps(document, ensure_ascii=False, indent=1) + "\n"
@@ -158,6 +159,7 @@ def read_alignment(path: str | Path, assembly: Assembly, template: Template) -> 
         rules=tuple(_rules(document, source)),
         joints=_joints(document, source),
         values=_values(document, source),
+        machine=_values(document, source, "machine", '{"forward": {"value": "-x"}, …}'),
     )
 
 
@@ -178,7 +180,7 @@ def said_in(path: str | Path, template: Template) -> dict[str, Any]:
             key: entry.get(key) for key in ("part", "role", "solved", "by", "date", "why")
         }} for entry in entries if _is_edit(entry)
     ]  # fmt: skip
-    kept = {key: document.get(key) for key in ("equipment_type", "rules", "joints", "values")}
+    kept = {key: document.get(key) for key in ("equipment_type", "rules", "joints", "values", "machine")}
     if not edits and not any(list(kept.values())[1:]):
         return {}
     # Parts are found again among all those that there were, and say how the model was taken apart.
@@ -211,16 +213,20 @@ def read_values(path: str | Path) -> dict[str, GivenValue]:
     return _values(_load(source), source)
 
 
-def _values(document: Mapping[str, Any], source: Path) -> dict[str, GivenValue]:
-    values = document.get("values", {})
+def _values(
+    document: Mapping[str, Any],
+    source: Path,
+    key: str = "values",
+    example: str = '{"Boom Cylinder Stroke": {"value": "1400 mm"}, …}',
+) -> dict[str, GivenValue]:
+    values = document.get(key, {})
     said = {
         n: v if isinstance(v, Mapping) else {"value": v}
         for n, v in (values if isinstance(values, Mapping) else {}).items()
     }
     if not isinstance(values, Mapping) or not all(isinstance(v.get("value"), str) for v in said.values()):
         raise AlignmentError(
-            "`values` is no object of values", where=str(source),
-            hint='Write {"Boom Cylinder Stroke": {"value": "1400 mm"}, …}.',
+            f"`{key}` is no object of values", where=str(source), hint=f"Write {example}.",
         )  # fmt: skip
     return {str(name): GivenValue(entry["value"], _signature(entry)) for name, entry in said.items()}
 

@@ -15,6 +15,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from yellowiron.alignment.files.whole import whole
 from yellowiron.model.alignment import (
     DECIDED,
     UNDECIDED,
@@ -75,7 +76,8 @@ def decide(earlier: Alignment | None, decisions: Decisions, assembly: Assembly, 
             "There is no earlier alignment whose roles could be confirmed", where=decisions.confirmed[0],
             hint="Run `yellowiron align … --out alignment.json` first, and confirm with the same --out.",
         )  # fmt: skip
-    given = {rule.pattern for rule in earlier.rules} if earlier is not None else set()
+    whole(decisions.machine, template)
+    given = {*(rule.pattern for rule in earlier.rules), *earlier.machine} if earlier is not None else set()
     for pattern in (*decisions.confirmed, *(p for p in decisions.forgotten if p not in given)):
         if not any(map(fits(pattern), assembly.parts)):
             raise AlignmentError(
@@ -109,7 +111,11 @@ def decide(earlier: Alignment | None, decisions: Decisions, assembly: Assembly, 
     new = [rule if rule.signature.why else said.get((rule.pattern, rule.role), rule) for rule in decisions.rules]
     gone = {*decisions.forgotten, *(rule.pattern for rule in new)}
     rules = (*(rule for rule in edits.rules if rule.pattern not in gone), *new)
-    return replace(edits, parts=tuple(kept), rules=rules)
+    # What is said later of the whole machine is the last of several.
+    told = {**edits.machine}
+    for name in {*decisions.forgotten, *decisions.machine} & told.keys():
+        del told[name]
+    return replace(edits, parts=tuple(kept), rules=rules, machine={**told, **decisions.machine})
 
 
 def decided(

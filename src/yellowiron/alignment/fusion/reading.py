@@ -9,11 +9,12 @@ from dataclasses import dataclass, replace
 import networkx
 import numpy as np
 
-from yellowiron.alignment.assignment.answer import Answer, Judged
+from yellowiron.alignment.assignment.answer import Answer, Judged, open_choices
 from yellowiron.alignment.assignment.cp_sat import MISSING_WEIGHT, Solution
 from yellowiron.alignment.assignment.directions import ALIKE, NOT_ACROSS, linkages_of
 from yellowiron.alignment.assignment.names import borne_by_others
 from yellowiron.alignment.assignment.weights import twin_role
+from yellowiron.alignment.facing import UNTOLD, Facing
 from yellowiron.alignment.features.solids import size_of
 from yellowiron.alignment.fusion.annealing import CHAINS, SWEEPS, against, labelled, leads
 from yellowiron.alignment.fusion.bonds import Bond, bonds_of, out_of_line
@@ -52,6 +53,8 @@ GROUND = 30.0
 did not find the machine tell nothing for certain."""
 CONTRARY = 25.0
 """Where all but the names speak so much more for another body, names are not enough to go unasked."""
+AS_GOOD = 12.0
+"""A variant by which a machine is judged less well by no more than this could as well be the one."""
 CLEAR_LEAD = 12.0
 """A small piece whose body is better than any other by less than this goes with what it touches."""
 
@@ -119,13 +122,15 @@ class Evidence:
 @dataclass(frozen=True, eq=False)
 class Fused:
     """The fused `answer`, how the machine stands, how far its names were trusted (0 to 1), what the judge makes of it,
-    and what it makes of the bodies that the `contacts` alone gave, however the machine stands."""
+    and what it makes of the bodies that the `contacts` alone gave, however the machine stands; how much better it is
+    than with its front behind (`ahead`: at first sight, the score's units)."""
 
     answer: Answer
     stance: Stance
     trust: float
     score: float
     contacts: float
+    ahead: float = np.inf
 
 
 def evidence_of(
@@ -134,11 +139,12 @@ def evidence_of(
     answer: Answer,
     edited: Mapping[int, str],
     template: Template,
+    facing: Facing = UNTOLD,
 ) -> Evidence:
     """Everything that is known before anything is judged; the arguments are those of `fused`."""
     directions = [np.asarray(axis.direction) for axis in observation.evidence[0].axes] if observation.evidence else []
     drawn = (*observation.solids, *observation.rows)
-    stance = on_wheels(stance_of(drawn, size_of(drawn), directions), observation.wheels)
+    stance = on_wheels(stance_of(drawn, size_of(drawn), directions, facing), observation.wheels)
     pieces = pieces_of(observation, frozenset(i for i, said in enumerate(scores) if said) | frozenset(edited))
     bonds = tuple(bonds_of(observation, pieces, answer.structure, stance))
     parts = [[observation.solids[i].part for i in sorted(piece.members)] for piece in pieces]
@@ -164,13 +170,14 @@ def fused(
     scores: Sequence[Mapping[str, float]],
     answer: Answer,
     edited: Mapping[int, str],
+    facing: Facing = UNTOLD,
 ) -> Fused:
     """The answer that names, shapes, places and contacts give together.
 
     `template` with its variants open, `variants` the choices to try; `scores`: by solid, what its names say; `answer`:
-    what the contacts alone gave; `edited`: solid → the body a person gave it. The solution's joints are those that the
-    contacts show an exact axis of."""
-    evidence = evidence_of(observation, scores, answer, edited, template)
+    what the contacts alone gave; `edited`: solid → the body a person gave it; `facing`: which way a person
+    said that the machine faces. The solution's joints are those that the contacts show an exact axis of."""
+    evidence = evidence_of(observation, scores, answer, edited, template, facing)
 
     found_so_far: dict[tuple[Evidence, int], _Best] = {}
 
@@ -189,7 +196,10 @@ def fused(
 
     machines = [(chosen, choose(template, chosen)) for chosen in variants]
     ways = ways_of(evidence, template, bool(observation.rows))
-    evidence = max(ways, key=lambda e: tried(*machines[0], e, GLANCE, FEW).score)
+    looked = [(tried(*machines[0], e, GLANCE, FEW).score, e) for e in ways]
+    score, evidence = max(looked, key=lambda one: one[0])
+    behind = [other for other, e in looked if e.stance.rotation[0] @ evidence.stance.rotation[0] < 0.0]
+    ahead = score - max(behind, default=-np.inf)
     glanced = sorted((tried(*machine, evidence, GLANCE, FEW) for machine in machines), key=lambda b: -b.score)
     likely = [tried(b.choices, b.template, evidence) for b in glanced[:LIKELY]]
     bare = [(b, as_drawn(b.template, b.played)) for b in likely]
@@ -200,31 +210,47 @@ def fused(
         wider = replace(evidence, leading=tuple(sorted({*evidence.leading, *more})))
         found = tried(best.choices, best.template, wider, chains=MANY)
         evidence, best = (wider, found) if found.score > best.score else (evidence, best)
+    tried_so = [(b.choices, b.score) for b in likely]
+    as_good = open_choices(best.choices, tried_so, max(b.score for b in likely) - AS_GOOD)
     contacts = max(_score_of_contacts(answer, way) for way in ways)
     pieces, trust = evidence.pieces, evidence.trust
     judged = _judged(best, evidence)
     judged = {i: what for i, what in judged.items() if not _is_pin(i, what, observation, best.template)}
     judged |= _by_name_alone(observation, pieces, scores, trust, judged)
     judged = judged or _all_root(pieces, best.template)
-    answer = _answer(observation, best, judged, answer, evidence.stance)
-    return Fused(answer, evidence.stance, trust, best.score, contacts)
+    answer = replace(_answer(observation, best, judged, answer, evidence.stance), open_choices=as_good)
+    score = best.score - _said(evidence, best.votes, best.field.bodies, best.labels)
+    return Fused(answer, evidence.stance, trust, score, contacts, ahead)
 
 
 def _score_of_contacts(answer: Answer, evidence: Evidence) -> float:
     """What the judge makes of the bodies that the contacts alone gave; a piece is of the body that most of it is of."""
     template = answer.template
-    field = _field(evidence, evidence.votes(template), template)
+    votes = evidence.votes(template)
+    field = _field(evidence, votes, template)
     none = len(field.bodies)
     solved = {
         i: field.bodies.index(body)
         for c, body in sorted(answer.solution.body_of.items())
         for i in answer.structure.clusters[c].members
     }
+    # Whatever the contacts say, a person's word holds in the end.
+    told = {i: field.bodies.index(body) for i, body in evidence.edited.items() if body in field.bodies}
     labels = np.full(len(evidence.leading), none, dtype=np.int64)
     for n, k in enumerate(evidence.leading):
-        counts = np.bincount([solved.get(i, none) for i in evidence.pieces[k].members], minlength=none + 1)
+        members = evidence.pieces[k].members
+        known = [told[i] for i in sorted(members & told.keys())] or [solved.get(i, none) for i in members]
+        counts = np.bincount(known, minlength=none + 1)
         labels[n] = int(np.argmax(counts))
-    return score_of(field, labels) + _lacking(evidence, field.bodies, labels, template)
+    score = score_of(field, labels) + _lacking(evidence, field.bodies, labels, template)
+    return score - _said(evidence, votes, field.bodies, labels)
+
+
+def _said(evidence: Evidence, votes: Votes, bodies: Sequence[str], labels: np.ndarray) -> float:
+    """What a labelling scores for what a person said: no reading is the better for being told more."""
+    led = zip(evidence.leading, labels, strict=True)
+    told = sum(votes[k].get(bodies[n], {}).get("said", 0.0) for k, n in led if n < len(bodies))
+    return weights()["said"] * told
 
 
 def _lacking(evidence: Evidence, bodies: Sequence[str], labels: np.ndarray, template: Template) -> float:
@@ -239,7 +265,7 @@ def ways_of(evidence: Evidence, template: Template, tracked: bool) -> list[Evide
     whole = tracked or evidence.stance.wheeled
     return [
         replace(evidence, stance=stance)
-        for way in (evidence.stance, evidence.stance.turned())
+        for way in (evidence.stance, *(() if evidence.stance.told else (evidence.stance.turned(),)))
         for stance in (way, *(() if whole else _as_parts(way, evidence, template)))
     ]
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.spatial import ConvexHull, cKDTree
 
+from yellowiron.alignment.facing import UNTOLD, Facing
 from yellowiron.alignment.features.solids import Solid
 from yellowiron.alignment.features.wheels import Wheel
 from yellowiron.alignment.tolerances import SAME_DIRECTION
@@ -51,7 +52,8 @@ LYING = 0.05
 class Stance:
     """`rotation` (3, 3): rows forward, left, up, in the CAD frame; `origin` (3,) on the ground, in the middle of what
     the machine stands on; `size` metres; `likeness` 0 to 1, how alike left and right are; `wheeled`: whether it stands
-    on wheels that were found. Where only a part of a machine is `drawn`, `absent` bodies are not in it."""
+    on wheels that were found. Where only a part of a machine is `drawn`, `absent` bodies are not in it. `told`: a
+    person said where its front is."""
 
     rotation: Floats
     origin: Floats
@@ -60,6 +62,7 @@ class Stance:
     drawn: float = 1.0
     wheeled: bool = False
     absent: frozenset[str] = frozenset()
+    told: bool = False
 
     @property
     def left(self) -> Floats:
@@ -91,9 +94,9 @@ class Stance:
         return np.asarray((point - self.origin) @ self.rotation.T / self.size)
 
 
-def stance_of(solids: Sequence[Solid], size: float, hinges: Sequence[Floats] = ()) -> Stance:
+def stance_of(solids: Sequence[Solid], size: float, hinges: Sequence[Floats] = (), facing: Facing = UNTOLD) -> Stance:
     """How the machine stands. `hinges`: directions of axes that were found, of which most lie across the machine;
-    `size`: the machine's diagonal, metres."""
+    `size`: the machine's diagonal, metres; `facing`: what a person said of it."""
     points = surface_points(solids)
     left, likeness = _across(points, size, _commonest(hinges))
     up = _up(points, left, size)
@@ -101,6 +104,7 @@ def stance_of(solids: Sequence[Solid], size: float, hinges: Sequence[Floats] = (
     reach = points @ forward
     if reach.max() + reach.min() < 2 * reach.mean():
         forward, left = -forward, -left
+    forward, left, up = facing.obeyed(np.array([forward, left, up]))
     stands = [_stand(points, left, up, size, h) for h in LEVELS]
     level = next(h for h, stand in zip(LEVELS, stands, strict=True) if stand >= HALF * max(stands))
     standing = points[np.abs(points @ up - (points @ up).min() - level * size) < SOLE * size]
@@ -108,7 +112,7 @@ def stance_of(solids: Sequence[Solid], size: float, hinges: Sequence[Floats] = (
     aside = np.abs(standing @ left - 0.5 * ((standing @ left).min() + (standing @ left).max()))
     standing = standing[aside >= OUTER * aside.max()]  # all of it, where it has no width
     middle = 0.5 * (standing.min(axis=0) + standing.max(axis=0))
-    return Stance(np.array([forward, left, up]), middle, size, likeness)
+    return Stance(np.array([forward, left, up]), middle, size, likeness, told=facing.forward is not None)
 
 
 def on_wheels(stance: Stance, wheels: Sequence[Wheel]) -> Stance:

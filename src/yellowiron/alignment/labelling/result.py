@@ -6,7 +6,6 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 from yellowiron.alignment.assignment.answer import Answer, is_whole
-from yellowiron.alignment.assignment.cp_sat import Solution
 from yellowiron.alignment.assignment.machine_frame import MachineFrame
 from yellowiron.alignment.files.decisions import Decision, doubts
 from yellowiron.alignment.labelling.confidence import REVIEW, grounds, probability
@@ -45,10 +44,11 @@ def to_alignment(
     frame: MachineFrame,
     *,
     axes: Mapping[str, tuple[Vector, Vector]],
+    told: Collection[str],
     remarks: Sequence[Finding],
 ) -> Alignment:
-    """The alignment. `template` has the answer's choices, with its tracks; `axes`: the alignment's; `remarks`: further
-    findings."""
+    """The alignment. `template` has the answer's choices, with its tracks; `axes`: the alignment's; `told`: the
+    variants that a person decided; `remarks`: further findings."""
     whole, rung = is_whole(answer), CONTACT.index(answer.contact)
     parts = [_assignment(part.id, template, labels, whole=whole, rung=rung) for part in assembly.parts]
     doubted = {p.id for p in assembly.parts if _is_doubted(p.id, labels)}
@@ -59,7 +59,8 @@ def to_alignment(
     missing = tuple(r.name for r in template.roles if is_required(r.name, template) and r.name not in played)
     doubtful = tuple(p.part for p in sorted(parts, key=lambda p: p.confidence) if p.part in doubted)
     against = doubts(labels.decided, _against(labels, whole=whole, rung=rung))
-    findings = (*_findings(template, answer.solution, missing, frame, labels.decided), *against, *remarks)
+    as_good = {name: others for name, others in answer.open_choices.items() if name not in told}
+    findings = (*_findings(template, answer, missing, frame, labels.decided, as_good), *against, *remarks)
     return Alignment(
         template.equipment_type,
         frame.matrix,
@@ -70,6 +71,8 @@ def to_alignment(
         findings,
         count_members((p.role for p in parts), template),
         dict(axes),
+        open_choices=as_good,
+        facing_doubt=frame.facing_doubt,
     )
 
 
@@ -137,11 +140,13 @@ def is_required(name: str, template: Template) -> bool:
 
 def _findings(
     template: Template,
-    solution: Solution,
+    answer: Answer,
     missing: tuple[str, ...],
     frame: MachineFrame,
     decided: Mapping[str, Decision],
+    as_good: Mapping[str, tuple[str, ...]],
 ) -> tuple[Finding, ...]:
+    solution = answer.solution
     pins = {pin_role(j, template): j.name for j in template.joints}
     findings = []
     for name in missing:
@@ -155,7 +160,14 @@ def _findings(
     where = template.equipment_type
     for doubt in frame.doubts:
         text = f"The machine's frame is partly a guess: {doubt}"
-        findings.append(Finding("ALN003", "warning", where, text, "Check the frame in alignment.json."))
+        findings.append(Finding("ALN003", "warning", where, text, "Say it: `yellowiron align … --machine forward=-x`."))
+    for name, others in as_good.items():
+        text = f"The variant {name} is taken to be {answer.choices[name]}; as good is {' or '.join(others)}"
+        hint = f"Say which it is: `yellowiron align … --machine {name}={others[0]}`."
+        findings.append(Finding("ALN032", "info", name, text, hint))
+    for words in frame.against:
+        hint = "It is done as decided; look at it once more, or take the decision back."
+        findings.append(Finding("ALN028", "info", where, words[0].upper() + words[1:], hint))
     if not solution.proven and solution.body_of:
         text = "The search for the best assignment was cut short"
         findings.append(Finding("ALN004", "warning", where, text, "Review the roles."))

@@ -735,7 +735,23 @@ class Viewer {
     }
   }
 
+  /** An arrow on the ground under the machine: where its front is. */
+  #drawAhead() {
+    const { middle, radius } = this.scene;
+    const reach = (share) => this.project([middle[0] + share * radius, middle[1], 0]);
+    const [a, b, l, r] = [reach(-0.4), reach(0.85), ...[-0.08, 0.08].map((y) => this.project([middle[0] + 0.71 * radius, middle[1] + y * radius, 0]))];
+    if (!a || !b || !l || !r) return;
+    const { line, head, label } = this.#mark("ahead", "v-axis v-ahead", () => ({ line: svg("line"), head: svg("polyline"), label: svg("text") }), b, () => "Its front is there");
+    change(line, { x1: a[0], y1: a[1], x2: b[0], y2: b[1] });
+    change(head, { points: [l, b, r].map((p) => p.map(tenth).join(",")).join(" ") });
+    // Where the arrow leaves the picture its word stays.
+    const { clientWidth, clientHeight } = this.stage;
+    change(label, { x: Math.max(4, Math.min(b[0] + 8, clientWidth - 46)), y: Math.max(16, Math.min(b[1] + 18, clientHeight - 34)) });
+    label.textContent = "front";
+  }
+
   #drawAxis(index, axis) {
+    if (axis.ahead) return this.#drawAhead();
     const joint = this.model.joints.find((each) => each.name === axis);
     const place = joint ? this.pose[joint.parent] : this.model.parts[axis.number - 1]?.place;
     if (!place) return;

@@ -3,12 +3,13 @@
 const token = new URLSearchParams(location.search).get("token") ?? "";
 const by = (id) => document.getElementById(id);
 const KEYS = [
-  ["⏎", "Yes"], ["1 – 9", "Instead: the numbered answer"], ["X", "No part of the machine"], ["/", "Find any role"],
+  ["⏎", "Yes"], ["1 – 9", "Instead: the numbered answer"], ["X", "No part of the machine; of a role that is missing: it is not drawn"], ["/", "Find any role"],
   ["S", "Find parts and joints by name; ⇧⏎ takes all parts that are listed, Alt⏎ adds one to what is selected"], ["N, ⇧N", "The next part of those that are asked about, or of the file; the one before"],
   ["J, K", "Next question, the one before"], ["U, ⇧U", "Undo, redo"], ["A", "Take in the assembly around what is selected"],
   ["E", "Everything that is named so: the next answer is kept as a pattern over the CAD tree"],
   ["M", "The same on the other side"], ["P", "Point at a joint's axis: a bore; two round things or points; three points of a circle; Alt: an edge; arrow keys: one round thing after the other"],
   ["R", "A slide the other way round"], ["[, ]", "The joint's lower and upper stop where it is now"],
+  ["V", "The whole machine: which way it faces, which variant it is, what is not drawn"],
   ["I", "Only these parts, and all again"], ["F", "Look at these parts"],
   ["W", "Move what the question is about"], ["Esc", "Select nothing"], ["B", "Build"], ["?", "These keys"],
 ];
@@ -138,8 +139,7 @@ class Studio {
 
   // ---- saying ------------------------------------------------------------------------------------------------------
   /** Sends what was said, in the order it was said; the next question is asked at once. */
-  say(path, body) {
-    const about = path === "do" && !this.selection.size && !this.picked ? this.question?.key : null;
+  say(path, body, about = path === "do" && !this.selection.size && !this.picked ? this.question?.key : null) {
     this.mirror = false;
     this.aim = null;
     if (about) this.answered.set(about, Infinity);
@@ -164,6 +164,19 @@ class Studio {
     }
   }
 
+  /** Says something of the whole machine, `name=text`. */
+  whole(answer, about) {
+    const at = answer.indexOf("=");
+    return this.say("do", { kind: "machine", name: answer.slice(0, at), text: answer.slice(at + 1) }, about);
+  }
+
+  /** X: the meant parts are no part of the machine; a role that is missing is not drawn. */
+  none() {
+    const { question } = this;
+    if (question?.kind === "role" && !this.selection.size && !this.picked) return this.whole(`${question.absent}=absent`);
+    return this.assign(null);
+  }
+
   /** Gives the meant parts a role; `null`: no part of the machine. */
   assign(role) {
     if (this.pattern) return this.say("do", { kind: "rule", name: this.pattern.pattern, text: role ?? "none" });
@@ -175,6 +188,7 @@ class Studio {
   yes() {
     const { question, joint } = this;
     if (joint) return this.#axis(this.aim?.found?.entry ?? joint.axis);
+    if (!this.selection.size && question?.kind === "machine") return this.whole(question.yes);
     if (!this.selection.size && question?.kind === "value") return this.answer(0);
     if (this.selection.size && question?.kind === "role") return this.assign(question.key.slice("role:".length));
     const parts = [...this.meant].map((number) => this.viewer.model.parts[number - 1]);
@@ -195,6 +209,7 @@ class Studio {
     if (joint) return joint.others[index] && this.#axis(JSON.parse(joint.others[index][0]));
     const candidate = question?.candidates[index];
     if (!candidate) return;
+    if (question.kind === "machine") return this.whole(candidate.answer);
     if (question.kind === "value") return this.give(question.title.replace(/\?$/, ""), candidate.answer);
     if (question.kind === "parts") return this.assign(candidate.answer);
     const role = question.key.slice("role:".length);
@@ -331,12 +346,13 @@ class Studio {
     this.viewer.light(this.shown);
     const { joint, aim } = this;
     const meant = aim?.found && { number: this.numbers.get(aim.found.part), point: aim.found.point, direction: aim.found.direction };
-    this.viewer.showAxes([...(joint ? [joint.name] : []), ...(meant ? [meant] : [])]);
+    const ahead = !joint && !this.selection.size && this.question?.key === "machine:forward";
+    this.viewer.showAxes([...(joint ? [joint.name] : []), ...(meant ? [meant] : []), ...(ahead ? [{ ahead }] : [])]);
     this.viewer.canvas.style.cursor = aim ? "crosshair" : "";
   }
 
   #amount(question) {
-    return { parts: this.#counted(question.parts), role: "missing", value: "value", joint: "joint" }[question.kind];
+    return { machine: "machine", parts: this.#counted(question.parts), role: "missing", value: "value", joint: "joint" }[question.kind];
   }
 
   go(index) {
@@ -392,7 +408,7 @@ class Studio {
     const add = (key, text, act, yes = false) =>
       answers.append(element("li", {}, element("button", { type: "button", class: yes ? "yes" : false, onclick: act }, element("kbd", {}, key), element("span", {}, text))));
     const rest = element("div", { class: "more" },
-      button("X  none", () => this.assign(null)), button("/  find a role", () => this.find()),
+      button(!picked.length && question?.kind === "role" ? "X  not drawn" : "X  none", () => this.none()), button("/  find a role", () => this.find()),
       button("A  assembly", () => this.assembly()), button("E  all named so", () => this.rules(), { "aria-pressed": Boolean(this.pattern) }),
       this.pattern ? null : button("M  other side too", () => { this.mirror = !this.mirror; this.show(); }, { "aria-pressed": this.mirror }),
       button("I  isolate", () => this.isolate()), button("F  look", () => this.viewer.focus(this.shown)));
@@ -413,18 +429,18 @@ class Studio {
       card.append(answers, rest);
     } else if (asked) {
       card.replaceChildren(
-        element("p", { class: "eyebrow" }, { parts: "Is that right?", role: "Missing", value: "Value" }[question.kind]),
+        element("p", { class: "eyebrow" }, { machine: "The whole machine", parts: "Is that right?", role: "Missing", value: "Value" }[question.kind]),
         element("h2", {}, question.title),
         element("p", { class: "why" }, question.reason),
       );
       for (const known of question.known) card.append(element("p", { class: "known" }, known));
       if (question.parts.length > 1) card.append(element("p", { class: "names" }, question.parts.map((path) => path.split("/").pop()).join(", ")));
-      if (question.kind === "parts") add("⏎", "Yes", () => this.yes(), true);
+      if (["parts", "machine"].includes(question.kind)) add("⏎", "Yes", () => this.yes(), true);
       question.candidates.forEach((candidate, index) =>
         add(question.kind === "value" && !index ? "⏎" : index + 1, candidate.words, () => this.answer(index), question.kind === "value" && !index));
       card.append(answers);
       if (question.kind === "value") card.append(this.#form(question));
-      else card.append(rest);
+      else card.append(question.kind === "machine" ? element("div", { class: "more" }, button("V  more of the whole machine", () => this.overall())) : rest);
       if (question.page != null) card.append(element("div", { class: "more" }, button(`Page ${question.page} of the sheet`, () => this.sheet(question.page, question.file))));
     } else {
       card.replaceChildren(
@@ -569,6 +585,12 @@ class Studio {
     this.#finder("Role of these parts", rows, "No role of that name. A part without one of its own, such as a cab, has its body's.");
   }
 
+  /** Finds what can be said of the whole machine. */
+  overall() {
+    const rows = this.state.machineSaid.map(({ answer, words }) => ({ words, name: answer, take: () => this.whole(answer, null) }));
+    this.#finder("Of the whole machine: its front, a variant, what is not drawn", rows, "Nothing of that name can be said of the whole machine.");
+  }
+
   /** Finds parts by their names and those of their assemblies, and joints. */
   search() {
     const parts = this.viewer.model.parts.filter((part) => !part.hidden)
@@ -697,7 +719,7 @@ class Studio {
     if (event.ctrlKey || event.metaKey || event.altKey || document.querySelector("dialog[open]")) return;
     if (event.target.closest("input, textarea, select")) return event.key === "Escape" && event.target.blur();
     const acts = {
-      j: () => this.go(this.at + 1), k: () => this.go(this.at - 1), x: () => this.assign(null), "/": () => this.find(), s: () => this.search(), n: () => this.step(event.shiftKey ? -1 : 1),
+      j: () => this.go(this.at + 1), k: () => this.go(this.at - 1), x: () => this.none(), v: () => this.overall(), "/": () => this.find(), s: () => this.search(), n: () => this.step(event.shiftKey ? -1 : 1),
       a: () => this.assembly(), e: () => this.rules(), m: () => { this.mirror = !this.mirror; this.show(); }, i: () => this.isolate(),
       f: () => this.viewer.focus(this.shown), w: () => this.wiggle(), b: () => this.build(), "?": () => this.keys(),
       u: () => this.say(event.shiftKey ? "redo" : "undo", {}), escape: () => { this.selection.clear(); this.picked = this.aim = null; this.show(); },
