@@ -28,6 +28,7 @@ def test_which_types_there_are() -> None:
         "articulated_dump_truck",
         "backhoe_loader",
         "rigid_dump_truck",
+        "roller",
         "wheel_loader",
         "excavator",
         "forklift",
