@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from kit.machines.defects import on_triangles
+from kit.machines.defects import on_triangles, spoiled
 from kit.machines.rollers import roller
 from kit.machines.synthetic import disguise
 from yellowiron import library
@@ -31,6 +31,21 @@ def test_every_part_is_in_its_body(seed: int, tandem: bool, triangles: bool) -> 
     assert wrong == [] and not found.missing
     turned = found.frame[:3, :3] @ back[:3, :3].T
     assert abs(turned[0, 0] - 1.0) < 1e-3 and abs(turned[2, 2] - 1.0) < 1e-3
+
+
+@pytest.mark.parametrize("seed", [1100, 1103])
+def test_a_drum_that_ends_in_plates_without_bores_turns_in_what_it_touches(seed: int) -> None:
+    assembly, truth, _ = disguise(spoiled("roller", seed, "visual"), seed)
+    found = align(assembly, library.load_template("roller"), Specifications())
+    assert [(truth[p.part], p.body) for p in found.parts if p.body != truth[p.part][1]] == []
+
+
+def test_a_drum_plays_no_wheel_and_a_wheel_no_drum() -> None:
+    """Of a machine that lacks a steering cylinder hardly a joint is found, and still not two drums."""
+    assembly, truth, _ = disguise(spoiled("roller", 1100, "missing cylinder"), 1100)
+    found = align(assembly, library.load_template("roller"), Specifications())
+    assert found.choices == {"drums": "single"}
+    assert {p.body for p in found.parts if truth[p.part][1] == "front_drum"} == {"front_drum"}
 
 
 @pytest.mark.parametrize(("tandem", "bodies"), [(True, ["drum", "drum"]), (False, ["drum", "wheel", "wheel"])])

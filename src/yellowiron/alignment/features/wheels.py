@@ -15,7 +15,8 @@ from yellowiron.support.vectors import unit
 
 @dataclass(frozen=True, eq=False)
 class Wheel:
-    """One wheel: its solids, the outermost ring among them, its axis and radius (metres, CAD frame)."""
+    """One wheel: its solids, the outermost ring among them, its axis and radius (metres, CAD frame), and whether it is
+    a drum."""
 
     members: frozenset[int]
     tyre: int
@@ -23,6 +24,7 @@ class Wheel:
     direction: Floats
     radius: float
     width: float
+    drum: bool = False
 
 
 LEAST = 0.025
@@ -64,7 +66,7 @@ def drums_of(solids: tuple[Solid, ...], count: int, taken: set[int], tolerance: 
         width = s.end - s.start
         centre = s.axis.center + 0.5 * (s.start + s.end) * s.axis.direction
         if DRUM[0] * s.reach <= width <= DRUM[1] * s.reach and not any(_same_place(w, s.axis, centre) for w in found):
-            found.append(Wheel(frozenset({s.index}), s.index, centre, s.axis.direction, s.reach, width))
+            found.append(Wheel(frozenset({s.index}), s.index, centre, s.axis.direction, s.reach, width, True))
     return [_with_all_about(w, solids, taken, tolerance) for w in found[:count]]
 
 
