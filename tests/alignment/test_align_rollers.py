@@ -19,14 +19,19 @@ from yellowiron.model.specification import Specifications
 
 @pytest.mark.slow
 @pytest.mark.parametrize("triangles", [False, True])
-@pytest.mark.parametrize(("seed", "tandem"), [(601, True), (602, False), (603, True), (604, False)])
-def test_every_part_is_in_its_body(seed: int, tandem: bool, triangles: bool) -> None:
-    machine = roller(seed, tandem=tandem)
+@pytest.mark.parametrize(
+    ("seed", "tandem", "twin"),
+    [(601, True, True), (602, False, True), (603, True, False), (604, False, True), (605, False, False)],
+)
+def test_every_part_is_in_its_body(seed: int, tandem: bool, twin: bool, triangles: bool) -> None:
+    machine = roller(seed, tandem=tandem, twin=twin)
     if triangles:
         machine = replace(machine, shapes=on_triangles(machine.shapes))
     assembly, truth, back = disguise(machine, seed)
     found = align(assembly, library.load_template("roller"), Specifications())
-    assert found.choices == {"drums": "tandem" if tandem else "single"}
+    assert found.choices == {
+        "drums": "tandem" if tandem else "single", "steering_cylinders": "twin" if twin else "single",
+    }  # fmt: skip
     wrong = [(truth[p.part], p.body) for p in found.parts if p.body != truth[p.part][1]]
     assert wrong == [] and not found.missing
     turned = found.frame[:3, :3] @ back[:3, :3].T
@@ -44,7 +49,7 @@ def test_a_drum_plays_no_wheel_and_a_wheel_no_drum() -> None:
     """Of a machine that lacks a steering cylinder hardly a joint is found, and still not two drums."""
     assembly, truth, _ = disguise(spoiled("roller", 1100, "missing cylinder"), 1100)
     found = align(assembly, library.load_template("roller"), Specifications())
-    assert found.choices == {"drums": "single"}
+    assert found.choices["drums"] == "single"
     assert {p.body for p in found.parts if truth[p.part][1] == "front_drum"} == {"front_drum"}
 
 

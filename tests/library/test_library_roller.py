@@ -17,7 +17,7 @@ def test_it_moves_as_it_should_on_one_drum_and_on_two(template: Template) -> Non
     report = library.lint(template)
     assert [f for f in report.findings if f.severity != "info"] == []
     # Steering, oscillation, the drum and two wheels; or two drums.
-    assert [(m.computed, m.expected) for m in report.mobility] == [(5, 5)] * 2 + [(4, 4)] * 2
+    assert [(m.computed, m.expected) for m in report.mobility] == [(5, 5)] * 4 + [(4, 4)] * 4
 
 
 @pytest.mark.parametrize(
@@ -39,4 +39,5 @@ def test_a_drum_is_a_wheel_that_is_known_as_a_drum(template: Template) -> None:
 
 def test_one_cylinder_pushes_as_the_other_pulls_to_steer(template: Template) -> None:
     steering = next(a for a in template.actuators if a.name == "steering")
-    assert [(c.sign, c.passive) for c in steering.cylinders] == [(1, False), (-1, True)]
+    # The third is the only one where there is one.
+    assert [(c.sign, c.passive) for c in steering.cylinders] == [(1, False), (-1, True), (1, False)]

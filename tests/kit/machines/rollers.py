@@ -1,5 +1,5 @@
 """Parametric rollers straight as `Assembly` objects, with the truth: one drum ahead of driven wheels, or two drums,
-on journals in their frames' plates; a shell with heads, or one can.
+on journals in their frames' plates; a shell with heads, or one can; two steering cylinders, or one.
 
 Every dimension is drawn from a seed, by none of the example's code; simplified as the synthetic loaders are. The
 steering stands at an angle, the front frame is rolled.
@@ -21,8 +21,10 @@ STEERING = ((-0.78, 0.34), (0.14, 0.27))
 class Roller(ArticulatedTruck):
     """One machine from one generator of random numbers."""
 
-    def __init__(self, seed: int, *, tandem: bool, embedded: bool) -> None:
+    def __init__(self, seed: int, *, tandem: bool, twin: bool, embedded: bool) -> None:
         self.tandem = tandem
+        self.steered: tuple[tuple[int, str], ...] = tuple((side, f"_{letter}") for side, letter in SIDES)
+        self.steered = self.steered if twin else ((-1, ""),)
         super().__init__(seed, beams=False, race=False, embedded=embedded)
         u, s = self.rng.uniform, self.s
         self.m.title = "ROLLER"
@@ -49,10 +51,10 @@ class Roller(ArticulatedTruck):
         self.m.pose = self.bent @ turn_about_x(np.array([0.0, 0.0, self.z]), self.rolled)
         self.front_end()
         self.m.pose = np.eye(4)
-        for side, letter in SIDES:
+        for side, suffix in self.steered:
             p, q = (at * np.array([1, side, 1]) for at in self.SP)
-            names = (f"steering_cylinder_barrel_{letter}", f"steering_piston_rod_{letter}")
-            self.cylinder(f"steer {letter}", *names, p, (self.bent @ np.append(q, 1.0))[:3], Z, 0.035 * self.s)
+            names = (f"steering_cylinder_barrel{suffix}", f"steering_piston_rod{suffix}")
+            self.cylinder(f"steer{suffix}", *names, p, (self.bent @ np.append(q, 1.0))[:3], Z, 0.035 * self.s)
         return self.m
 
     # ---- behind ----
@@ -63,15 +65,16 @@ class Roller(ArticulatedTruck):
         end = x + self.drum_r / s + 0.12 if self.tandem else x - 0.7
         low, high = self.low / s, self.high / s
         foremost = end if self.tandem else -0.98
-        for side, letter in SIDES:
+        for side, _ in SIDES:
             self.block("rail", body, *beside(side, (foremost, wall), inner / s, half, (low, high)))
             if end < foremost - 0.01:
                 self.block("long rail", body, *beside(side, (end, foremost), inner / s, half, (low + 0.36, high)))
+        for side, suffix in self.steered:
             p = self.SP[0] * np.array([1, side, 1])
             lug = around((p[0], p[1], 1.7 * self.pin_r), (p[0] + 0.12 * s, side * (inner + e), 0),
                          (p[0] - 0.1 * s, side * (inner + e), 0))  # fmt: skip
             self.upright_lugs("steering lug", body, p, lug)
-            self.upright(f"steering_cylinder_barrel_{letter}_pin", body, p, self.eye_w / 2 + self.gap + 0.6 * t)
+            self.upright(f"steering_cylinder_barrel{suffix}_pin", body, p, self.eye_w / 2 + self.gap + 0.6 * t)
         # Above and below the steering cylinders, which go through between.
         gap, between = (0.5 * self.eye_w + t) / s, (inner + e) / s
         z = self.z / s
@@ -128,11 +131,11 @@ class Roller(ArticulatedTruck):
         self.block("hitch wall", body, (0.34, -0.36, z - 0.34), (0.4, 0.36, z + 0.34))
         ring = tube("hitch_ring", 1.35 * self.roll_r, self.roll_r + self.clearance, 0.24 * s)
         m.add("hitch ring", body, body, ring, place((0.4 * s - e, 0, self.z), X))
-        for side, letter in SIDES:
+        for side, suffix in self.steered:
             q = self.SP[1] * np.array([1, side, 1])
             lug = around((q[0], q[1], 1.7 * self.pin_r), (wall + e, q[1] + 0.04 * s, 0), (wall + e, q[1] - 0.1 * s, 0))
             self.upright_lugs("hitch lug", body, q, lug)
-            self.upright(f"steering_piston_rod_{letter}_pin", body, q, self.eye_w / 2 + self.gap + 0.6 * t)
+            self.upright(f"steering_piston_rod{suffix}_pin", body, q, self.eye_w / 2 + self.gap + 0.6 * t)
 
     # ---- ahead ----
     def front_end(self) -> None:
@@ -194,7 +197,10 @@ class Roller(ArticulatedTruck):
             m.add("shaft", drum, drum, bar, place(centre + side * start * Y, side * Y))
 
 
-def roller(seed: int, *, tandem: bool | None = None, embedded: bool = False) -> Machine:
-    """The machine of a seed, in its own frame, in drawing order, with names; what is not stated is the seed's."""
-    drawn = np.random.default_rng([seed, 47]).random()
-    return Roller(seed, tandem=bool(drawn < 0.5) if tandem is None else tandem, embedded=embedded).draw()
+def roller(seed: int, *, tandem: bool | None = None, twin: bool | None = None, embedded: bool = False) -> Machine:
+    """The machine of a seed, in its own frame, in drawing order, with names; what is not stated is the seed's. `twin`:
+    whether two cylinders steer it, or the right one alone."""
+    drawn = np.random.default_rng([seed, 47]).random(2)
+    tandem = bool(drawn[0] < 0.5) if tandem is None else tandem
+    twin = bool(drawn[1] < 0.75) if twin is None else twin
+    return Roller(seed, tandem=tandem, twin=twin, embedded=embedded).draw()
