@@ -1,8 +1,8 @@
 """How right alignment is on machines nobody tuned for: synthetic loaders and excavators without names, turned, scaled
 and shuffled, sound and with one defect at a time, from B-rep and from triangles.
 
-    python benchmarks/bench_recognition.py [--first SEED] [--count N] [--kinds loader,excavator,mini] [--defects …]
-        [--inputs brep,triangles] [--out FILE.json] [--parts 1000,5000]
+    python benchmarks/bench_recognition.py [--first SEED] [--count N] [--kinds loader,excavator,mini,roller]
+        [--defects …] [--inputs brep,triangles] [--out FILE.json] [--parts 1000,5000]
 
 From the repository's root. Seeds below 1000 were looked at while the aligner was written, those from 1000 on are held
 back.
@@ -41,7 +41,7 @@ from yellowiron.model.geometry import Mesh  # noqa: E402
 from yellowiron.model.specification import Specifications  # noqa: E402
 from yellowiron.model.template import Template, choose  # noqa: E402
 
-TEMPLATES = {"loader": "wheel_loader", "excavator": "excavator", "mini": "excavator"}
+TEMPLATES = {"loader": "wheel_loader", "excavator": "excavator", "mini": "excavator", "roller": "roller"}
 ROWS = ("track_shoe", "track_roller", "carrier_roller", "sprocket", "idler")
 
 

@@ -22,28 +22,28 @@ sys.path[:0] = [str(ROOT / "src"), str(ROOT / "tests")]
 from kit.machines.defects import drawn  # noqa: E402
 from kit.machines.synthetic import disguise  # noqa: E402
 from yellowiron.alignment.features.solids import size_of, solids_of  # noqa: E402
-from yellowiron.alignment.features.wheels import wheels_of  # noqa: E402
+from yellowiron.alignment.features.wheels import rolling_of  # noqa: E402
 from yellowiron.alignment.fusion.stance import on_wheels, stance_of, surface_points  # noqa: E402
 from yellowiron.library import load_template  # noqa: E402
+from yellowiron.model.template import Template  # noqa: E402
 
 TYPES = {
     "wheel_loader": ("loader",), "excavator": ("excavator", "mini"), "skid_steer": ("skid_steer",),
     "articulated_dump_truck": ("articulated_truck",), "rigid_dump_truck": ("rigid_truck",),
-    "backhoe_loader": ("backhoe",),
+    "backhoe_loader": ("backhoe",), "roller": ("roller",),
 }  # fmt: skip
 """Type → kinds of machines that we draw of it; a body is measured on the first kind that has it."""
 KEPT = 0.05
 """This share of a body's surface is left out at either end of its box."""
 
 
-def seen(kind: str, seed: int, wheels: int) -> dict[str, tuple[np.ndarray, float, float]]:
-    """Body → points of its surface in the machine's frame and in sizes, its length, its share of the surface. The type
-    has so many `wheels` at most."""
+def seen(kind: str, seed: int, template: Template) -> dict[str, tuple[np.ndarray, float, float]]:
+    """Body → points of its surface in the machine's frame and in sizes, its length, its share of the surface."""
     machine = drawn(kind, seed)
     assembly, truth, back = disguise(machine, seed, rotate=False)
     solids = solids_of(assembly)
     size = size_of(solids)
-    stance = on_wheels(stance_of(solids, size), wheels_of(solids, wheels, set(), 1e-3 * size))
+    stance = on_wheels(stance_of(solids, size), rolling_of(solids, template, set(), 1e-3 * size))
     if (stance.rotation @ back[:3, :3].T)[0, 0] < 0.0:
         stance = stance.turned()  # the judge tries either end as the front
     if np.abs(stance.rotation @ back[:3, :3].T - np.eye(3)).max() > 0.3:
@@ -71,16 +71,15 @@ def main() -> None:
         if given.only not in (None, name):
             continue
         bodies: dict[str, list] = {}
-        roles = load_template(name).roles
-        wheels = sum(r.kind == "wheel" and r.rigid for r in roles)
+        template = load_template(name)
         for kind in kinds:
             own: dict[str, list] = {}
             for seed in range(given.first, given.first + given.count):
-                for body, what in seen(kind, seed, wheels).items():
+                for body, what in seen(kind, seed, template).items():
                     own.setdefault(body, []).append(what)
             bodies = own | bodies
         table = {}
-        known = {r.name for r in roles if r.rigid and not r.many}
+        known = {r.name for r in template.roles if r.rigid and not r.many}
         for body, whats in sorted(b for b in bodies.items() if b[0] in known):
             points = np.concatenate([w[0] for w in whats])
             low, high = np.quantile(points, [KEPT, 1 - KEPT], axis=0)

@@ -20,7 +20,7 @@ from yellowiron.support.units import SI_UNIT
 
 LANGUAGES = {"en", "de", "fr", "es", "zh", "ja"}
 TYPES = library.list_templates()
-SHEET_ONLY = {"dozer", "grader", "mobile_crane"}
+SHEET_ONLY = {"dozer", "grader", "mobile_crane", "telehandler"}
 
 
 def test_which_types_there_are() -> None:
@@ -28,6 +28,7 @@ def test_which_types_there_are() -> None:
         "articulated_dump_truck",
         "backhoe_loader",
         "rigid_dump_truck",
+        "roller",
         "wheel_loader",
         "excavator",
         "forklift",

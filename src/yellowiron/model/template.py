@@ -27,18 +27,19 @@ class Role:
     """A part name of the hierarchy.
 
     `rigid` roles are bodies; others move with their nearest rigid ancestor or only group. `kind` tells the aligner
-    what geometry to expect: `frame`, `pin`, `barrel`, `rod`, `wheel`, `tyre`, `arm`, `edge`, `group`, of tracks `shoe`,
-    `sprocket`, `idler`, `roller`, `carrier`, or "" (anything). `many`: the role is written `name[*]` and stands for a
-    counted row of parts. `side`: `l`, `r` or "". `rigid_when`: the choices under which a rigid role is a body; under
-    others it moves with its nearest rigid ancestor. `row`: the row that a concrete part belongs to ("" for parts of no
-    row; see `rows.expand`). `hidden`: how a body that no CAD part plays is made from a row's parts (docs: template
-    format, hidden wheels).
+    what geometry to expect: `frame`, `pin`, `barrel`, `rod`, `wheel`, `tyre`, `arm`, `edge`, `group`, of tracks
+    `shoe`, `sprocket`, `idler`, `roller`, `carrier`, or "" (anything). `drum`: a wheel that is a steel drum.
+    `many`: the role is written `name[*]` and stands for a counted row of parts. `side`: `l`, `r` or "".
+    `rigid_when`: the choices under which a rigid role is a body; under others it moves with its nearest rigid
+    ancestor. `row`: the row that a concrete part belongs to ("" for parts of no row; see `rows.expand`). `hidden`:
+    how a body that no CAD part plays is made from a row's parts (docs: template format, hidden wheels).
     """
 
     name: str
     parent: str | None
     rigid: bool
     kind: str = ""
+    drum: bool = False
     side: str = ""
     optional: bool = False
     many: bool = False

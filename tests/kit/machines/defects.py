@@ -16,6 +16,7 @@ from kit.machines.backhoes import backhoe
 from kit.machines.crawler import merged
 from kit.machines.excavators import Features, excavator
 from kit.machines.rigid_trucks import rigid_truck
+from kit.machines.rollers import roller
 from kit.machines.skid_steers import skid_steer
 from kit.machines.solids import Array, bolt, place
 from kit.machines.synthetic import Machine, loader
@@ -43,6 +44,8 @@ def drawn(kind: str, seed: int, *, segments: int = 32, hollow: bool = True) -> M
             return articulated_truck(seed, embedded=embedded)
         if kind == "rigid_truck":
             return rigid_truck(seed, embedded=embedded)
+        if kind == "roller":
+            return roller(seed, embedded=embedded)
         if kind == "backhoe":
             return backhoe(seed, embedded=embedded)
         if kind == "mini":

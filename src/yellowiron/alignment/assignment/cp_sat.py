@@ -159,7 +159,8 @@ def _add_bodies(program: _Program, structure: Structure, template: Template, clu
             continue
         for name, role in bodies.items():
             typed = role.kind if role.kind in TYPED else ""
-            if cluster.kind == typed:
+            wide = typed == "wheel" and cluster.number in structure.drums
+            if cluster.kind == typed and wide == role.drum:
                 x[c, name] = model.new_bool_var(f"x_{c}_{name}")
     by_cluster: dict[int, list[Any]] = {c: [] for c in range(len(structure.clusters))}
     by_body: dict[str, list[Any]] = {name: [] for name in bodies}

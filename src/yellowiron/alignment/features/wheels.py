@@ -9,12 +9,14 @@ import numpy as np
 from yellowiron.alignment.features.solids import Cyl, Solid, coaxial, size_of
 from yellowiron.alignment.tolerances import SAME_DIRECTION
 from yellowiron.model.geometry import Floats
+from yellowiron.model.template import Template
 from yellowiron.support.vectors import unit
 
 
 @dataclass(frozen=True, eq=False)
 class Wheel:
-    """One wheel: its solids, the outermost ring among them, its axis and radius (metres, CAD frame)."""
+    """One wheel: its solids, the outermost ring among them, its axis and radius (metres, CAD frame), and whether it is
+    a drum."""
 
     members: frozenset[int]
     tyre: int
@@ -22,6 +24,7 @@ class Wheel:
     direction: Floats
     radius: float
     width: float
+    drum: bool = False
 
 
 LEAST = 0.025
@@ -36,6 +39,35 @@ WIDER = 1.3
 """What is of a wheel is no more than so much wider than its ring."""
 ASIDE, BESIDE = 0.02, 1.6
 """Twin tyres are this near to one axis, in radii, and this near to each other, in widths between their middles."""
+
+
+DRUM = (1.5, 6.0)
+"""A drum is so many of its radii wide, at least and at most, …"""
+LIKE = 0.5
+"""… and its radius is at least this share of the largest drum's."""
+
+
+def rolling_of(solids: tuple[Solid, ...], template: Template, taken: set[int], tolerance: float) -> list[Wheel]:
+    """The drums and wheels of a template, as many as it has at most; what is in a drum is no wheel."""
+    rolling = [r for r in template.roles if r.kind == "wheel" and r.rigid]
+    drums = drums_of(solids, sum(r.drum for r in rolling), taken, tolerance)
+    inside = taken.union(*(d.members for d in drums))
+    return [*drums, *wheels_of(solids, sum(not r.drum for r in rolling), inside, tolerance)]
+
+
+def drums_of(solids: tuple[Solid, ...], count: int, taken: set[int], tolerance: float) -> list[Wheel]:
+    """Up to `count` steel drums: the largest round things that are about as wide as they are high, with what is about
+    their axes between their ends: heads, journals, exciters. `taken` solids are left alone."""
+    found: list[Wheel] = []
+    least = LEAST * size_of(solids) if count else 0.0
+    for s in sorted(solids, key=lambda s: (-round(s.reach, 5), s.index)) if count else ():
+        if s.axis is None or s.index in taken or s.reach < max(least, LIKE * found[0].radius if found else 0.0):
+            continue
+        width = s.end - s.start
+        centre = s.axis.center + 0.5 * (s.start + s.end) * s.axis.direction
+        if DRUM[0] * s.reach <= width <= DRUM[1] * s.reach and not any(_same_place(w, s.axis, centre) for w in found):
+            found.append(Wheel(frozenset({s.index}), s.index, centre, s.axis.direction, s.reach, width, True))
+    return [_with_all_about(w, solids, taken, tolerance) for w in found[:count]]
 
 
 def wheels_of(solids: tuple[Solid, ...], count: int, taken: set[int], tolerance: float) -> list[Wheel]:

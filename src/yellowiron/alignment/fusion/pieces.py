@@ -69,7 +69,7 @@ def pieces_of(observation: Observation, named: frozenset[int]) -> tuple[Piece, .
         if not (cylinder.apart or cylinder.fixed):
             owner |= dict.fromkeys(cylinder.barrel, ("barrel", k)) | dict.fromkeys(cylinder.rod, ("rod", k))
     for k, wheel in enumerate(observation.wheels):
-        owner |= dict.fromkeys(wheel.members, ("wheel", k))
+        owner |= dict.fromkeys(wheel.members, ("drum" if wheel.drum else "wheel", k))
     groups: dict[tuple[str, int], list[int]] = {}
     for solid in solids:
         groups.setdefault(owner.get(solid.index, ("", solid.index)), []).append(solid.index)

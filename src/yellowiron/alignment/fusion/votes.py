@@ -55,7 +55,7 @@ def votes_of(
     """What speaks for every body a piece could be. `scores`: by solid, what its names say; `trust` in them, by piece,
     0 to 1; `answer`: what the contacts alone gave; `stance`: how the machine stands; `edited`: solid → the body that a
     person gave it; `total`: the machine's surface, m²."""
-    kinds = {r.name: r.kind for r in template.roles if r.rigid}
+    kinds = {r.name: "drum" if r.drum else r.kind for r in template.roles if r.rigid}
     largest = max((p.area for p in pieces), default=1.0)
     solved = _solved(answer)
     apart = joints_apart(template)
@@ -246,7 +246,7 @@ def _shape(
 ) -> dict[str, float] | None:
     """What a piece's shape says for a body of a kind; None where it cannot be one."""
     share = piece.area / total
-    if kind == "wheel" or piece.kind == "wheel":
+    if {kind, piece.kind} & {"wheel", "drum"}:
         if kind == piece.kind:
             return {"seen": 1.0}
         return {"unlike": 1.0} if named_so else None

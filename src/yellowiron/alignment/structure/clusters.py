@@ -54,7 +54,8 @@ class Structure:
     cylinder; then sections in each other, numbered on from how many `cylinders` there are),
     axes (the wheels' axes behind those of the evidence), for each pin and bolt its hosts, and the pairs of solids that
     touch but were not welded, since a pin would have nothing to turn on, with the strength of their contact;
-    and the hoses and such that hold nothing; and axis → the races of a slewing bearing on it."""
+    and the hoses and such that hold nothing; axis → the races of a slewing bearing on it; and
+    which of the wheels' numbers are drums'."""
 
     clusters: tuple[Cluster, ...] = ()
     hinges: tuple[Hinge, ...] = ()
@@ -65,6 +66,7 @@ class Structure:
     refused: tuple[tuple[int, int, float], ...] = ()
     slight: frozenset[int] = frozenset()
     races: dict[int, tuple[int, ...]] = field(default_factory=dict)
+    drums: frozenset[int] = frozenset()
 
 
 def structure_of(evidence: ContactEvidence, *, leaves: bool, weak: bool, careful: bool) -> Structure:
@@ -157,6 +159,13 @@ def _beside(s: Solid, wheel: Wheel) -> bool:
         if low < wheel.width and high > -wheel.width and c.off(wheel.center) < 0.02 * wheel.radius:
             return True
     return False
+
+
+def _about_ends(evidence: ContactEvidence, wheel: Wheel, cluster_of: dict[int, int]) -> set[int]:
+    """The clusters that touch a drum where nothing round is drawn about its axis: its journals end in plain plates."""
+    pairs = [(a, b) for a, b in evidence.near if (a in wheel.members) != (b in wheel.members)]
+    others = {b if a in wheel.members else a for a, b in pairs if evidence.touching(a, b)}
+    return {cluster_of[i] for i in others if i in cluster_of}
 
 
 def _absorb_leaves(groups: Groups, evidence: ContactEvidence, *, leaves: bool) -> None:
@@ -269,6 +278,8 @@ def _collected(groups: Groups, evidence: ContactEvidence, refused: Pairs) -> Str
     for number, wheel in enumerate(evidence.wheels, len(evidence.axes)):
         own = cluster_of[wheel.tyre]
         beside = {c for i, c in cluster_of.items() if _beside(evidence.solids[i], wheel)} - {own}
+        if wheel.drum and not beside:
+            beside = _about_ends(evidence, wheel, cluster_of) - {own}
         for other in sorted(beside):
             if clusters[other].kind != "wheel":
                 pins.setdefault((min(own, other), max(own, other), number), set())
@@ -285,6 +296,7 @@ def _collected(groups: Groups, evidence: ContactEvidence, refused: Pairs) -> Str
         refused=tuple((a, b, strength(evidence, a, b)) for a, b in refused if groups.find(a) != groups.find(b)),
         slight=evidence.slight,
         races=races,
+        drums=frozenset(k for k, wheel in enumerate(evidence.wheels) if wheel.drum),
     )
 
 

@@ -19,7 +19,7 @@ from yellowiron.alignment.features.solids import Solid, size_of, solids_of
 from yellowiron.alignment.features.telescopes import Nest, nests_of
 from yellowiron.alignment.features.undrilled import interrupted_fits_of, pierced_fits_of, rimmed_fits_of
 from yellowiron.alignment.features.undrilled_cylinders import apart_cylinders_of, solid_cylinders_of
-from yellowiron.alignment.features.wheels import Wheel, wheels_of
+from yellowiron.alignment.features.wheels import Wheel, rolling_of
 from yellowiron.alignment.structure.branches import branches_of
 from yellowiron.alignment.structure.contact_evidence import ContactEvidence, Contacts, evidence_of, tables_of
 from yellowiron.model.assembly import Assembly
@@ -82,7 +82,7 @@ def observe(assembly: Assembly, template: Template, contact: float) -> Observati
     flats = flats_of(solids, near, tolerance)
     nests = tuple(nests_of(solids, size, tolerance)) if _sections(template) else ()
     taken = {i for r in cylinders for i in r.barrel | r.rod}
-    wheels = wheels_of(solids, sum(1 for r in template.roles if r.kind == "wheel" and r.rigid), taken, tolerance)
+    wheels = rolling_of(solids, template, taken, tolerance)
 
     contacts = Contacts(
         solids, fits, bare, flats, cylinders, wheels, near, touch.touching, tolerance, nests, stays, holes

@@ -296,8 +296,9 @@ def _tyre_diameter(quantity: Mapping[str, Any], posed: Posed) -> float:
 
 
 def _turning_radius(quantity: Mapping[str, Any], posed: Posed) -> float:
-    """From the middle of the turn to the outer side of the outermost tyre, seen from above. The middle is where the
-    wheels' axes come nearest to each other (least squares): of two parallel axles of a bogie counts the line midway."""
+    """From the middle of the turn to the outer side of the outermost tyre, seen from above; `of` `min`: to the inner
+    side of the innermost. The middle is where the wheels' axes come nearest to each other (least squares): of two
+    parallel axles of a bogie counts the line midway."""
     places, axes, halves = [], [], []
     for joint, radius in posed.rolling:
         axis = posed.direction(joint.body0, joint.axis)[:2]
@@ -312,7 +313,8 @@ def _turning_radius(quantity: Mapping[str, Any], posed: Posed) -> float:
     normals = np.column_stack([-np.array(axes)[:, 1], np.array(axes)[:, 0]])
     centre = np.linalg.lstsq(normals, np.sum(normals * np.array(places), axis=1), rcond=None)[0]
     sides = [p + sign * h * a for p, a, h in zip(places, axes, halves, strict=True) for sign in (1.0, -1.0)]
-    return float(np.linalg.norm(np.array(sides) - centre, axis=1).max())
+    far = np.linalg.norm(np.array(sides) - centre, axis=1)
+    return float(far.min() if quantity.get("of") == "min" else far.max())
 
 
 _KINDS: Mapping[str, Callable[[Mapping[str, Any], Posed], float]] = {

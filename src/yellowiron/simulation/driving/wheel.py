@@ -36,8 +36,8 @@ class GroundWheel:
 def driven_wheels(mechanism: Mechanism) -> tuple[GroundWheel, ...]:
     """The wheels that motors drive, on the ground in the drawn pose.
 
-    `YellowironError` where there are fewer than three wheels, but for one on either side with a motor of its own: what
-    has none (a crane) does not drive.
+    `YellowironError` where there are fewer than three wheels (a drum counts for two), but for one on either side with a
+    motor of its own: what has none (a crane) does not drive.
     """
     standing = standing_bodies(mechanism)
     found = [
@@ -47,7 +47,8 @@ def driven_wheels(mechanism: Mechanism) -> tuple[GroundWheel, ...]:
         if (drive := mechanism.joint(entry.joint).drive) is not None and drive.kind == "velocity"
         and mechanism.joint(entry.joint).body1 in standing
     ]  # fmt: skip
-    if not found or (len(found) + len(free_wheels(mechanism)) < 3 and not sides(found)):
+    every = (*found, *free_wheels(mechanism))
+    if not found or (sum(2 if w.half_width > w.radius else 1 for w in every) < 3 and not sides(found)):
         raise YellowironError(
             "The machine has no driven wheels to drive on",
             where=mechanism.name,

@@ -1,0 +1,43 @@
+"""The roller's template: mobility, names and limits, with one drum and driven wheels or with two drums."""
+
+from __future__ import annotations
+
+import pytest
+
+from yellowiron import library
+from yellowiron.model.template import Template, choose
+
+
+@pytest.fixture(scope="module")
+def template() -> Template:
+    return library.load_template("roller")
+
+
+def test_it_moves_as_it_should_on_one_drum_and_on_two(template: Template) -> None:
+    report = library.lint(template)
+    assert [f for f in report.findings if f.severity != "info"] == []
+    # Steering, oscillation, the drum and two wheels; or two drums.
+    assert [(m.computed, m.expected) for m in report.mobility] == [(5, 5)] * 4 + [(4, 4)] * 4
+
+
+@pytest.mark.parametrize(
+    ("drums", "rolling"),
+    [("single", {"front_drum", "rear_wheel_l", "rear_wheel_r"}), ("tandem", {"front_drum", "rear_drum"})],
+)
+def test_what_rolls_is_of_the_choice_and_driven(template: Template, drums: str, rolling: set[str]) -> None:
+    chosen = choose(template, {"drums": drums})
+    assert {r.name for r in chosen.roles if r.kind == "wheel"} == rolling
+    assert all(chosen.joint(f"{body}_joint").drive is not None for body in rolling)
+    idle = choose(template, {"drums": drums, "drum_drive": "rolling"})
+    assert idle.joint("front_drum_joint").drive is None
+
+
+def test_a_drum_is_a_wheel_that_is_known_as_a_drum(template: Template) -> None:
+    assert {r.name for r in template.roles if r.drum} == {"front_drum", "rear_drum"}
+    assert {r.kind for r in template.roles if r.drum} == {"wheel"}
+
+
+def test_one_cylinder_pushes_as_the_other_pulls_to_steer(template: Template) -> None:
+    steering = next(a for a in template.actuators if a.name == "steering")
+    # The third is the only one where there is one.
+    assert [(c.sign, c.passive) for c in steering.cylinders] == [(1, False), (-1, True), (1, False)]
