@@ -169,9 +169,12 @@ def find_roles(
     if apart is not None:
         other = found(apart)
         # Bodies in crumbs answer to more roles, wrongly: where few bodies were missing, pins must be found as well, or
-        # a limb that was drawn into another.
+        # a limb that was drawn into another, with no more pins lost than found.
         fewer = hidden(other) < hidden(best)
-        limb = fewer and limbs(other) < limbs(best)
+        pins = {role.name for role in template.roles if role.kind == "pin"}
+        gained = pins & (set(best.missing) - set(other.missing))
+        lost = pins & {str(part.role) for part in best.parts} & (set(other.missing) - set(best.missing))
+        limb = fewer and limbs(other) < limbs(best) and len(lost) <= len(gained)
         most = hidden(alignment) > len(moving) and hidden(other) < 0.5 * hidden(alignment)
         pinned = len(other.missing) < 0.5 * len(alignment.missing)
         if limb or ((fewer or best is alignment) and (most or pinned)):

@@ -155,8 +155,10 @@ def test_a_mesh_a_material_is_taken_apart_without_pins_too() -> None:
         (("boom", "arm", "bucket", "boom_pin"), ("boom",), True),
         # As many bodies, but pins are lost for them.
         (("boom", "arm", "bucket", "boom_pin"), ("arm_pin", "bucket_pin", "boom_pin"), False),
-        # No more than half.
-        (("boom", "arm", "bucket", "boom_pin"), ("boom", "arm"), False),
+        # No more than half, but a limb, for which no pin is lost.
+        (("boom", "arm", "bucket", "boom_pin"), ("boom", "arm", "boom_pin"), True),
+        # A frame is no limb: crumbs of a machine drawn in one piece were taken for its other frame.
+        (("boom", "upperstructure", "boom_pin"), ("boom", "boom_pin"), False),
     ],
 )
 def test_a_merged_mesh_is_taken_apart_where_that_finds_most_of_what_is_missing(
