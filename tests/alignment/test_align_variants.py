@@ -56,6 +56,17 @@ def test_a_part_of_a_machine_misses_nothing_that_is_not_of_it(open_template: Tem
     assert (whole["part"], part["part"]) == (0, 1)
 
 
+def test_names_of_bodies_that_only_some_machines_have_are_believed(open_template: Template) -> None:
+    """A wheeled excavator's `SECOND_BOOM`, `BLADE` and their cylinders; its names were not believed at all."""
+    chain = ["blade", "undercarriage", "upperstructure", "boom", "adjust_boom", "arm", "bucket"]
+    pieces: Any = [SimpleNamespace(members=frozenset({k})) for k in range(len(chain))]
+    bonds = [Bond(k, k + 1, {"beside": 1.0}, True, False, False) for k in range(len(chain) - 1)]
+    called = [frozenset({((), name)}) for name in chain]
+    assert trust_in_names(pieces, bonds, [{name: 1.0} for name in chain], open_template, called) == 1.0
+    mixed = ["bucket", "upperstructure", "blade", "arm", "undercarriage", "boom", "adjust_boom"]
+    assert trust_in_names(pieces, bonds, [{name: 1.0} for name in mixed], open_template, called) < 0.5
+
+
 def test_solids_of_one_mesh_do_not_make_its_name_true(open_template: Template) -> None:
     """A mesh called arm that holds the boom and the upperstructure, taken apart: its solids touch, and agree."""
     pieces: Any = [SimpleNamespace(members=frozenset({k})) for k in range(10)]

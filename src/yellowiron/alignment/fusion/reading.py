@@ -149,7 +149,7 @@ def evidence_of(
     bonds = tuple(bonds_of(observation, pieces, answer.structure, stance))
     parts = [[observation.solids[i].part for i in sorted(piece.members)] for piece in pieces]
     called = [frozenset((part.path, part.name) for part in mine) for mine in parts]
-    trust = trust_in_names(pieces, bonds, scores, choose(template, {}), called)
+    trust = trust_in_names(pieces, bonds, scores, template, called)
     leads = tuple(leading(pieces, observation.size, clearly_named(pieces, scores) if trust > 0.0 else {}))
     bars = observation.evidence[-1].fasteners if observation.evidence else frozenset()
     pins = frozenset(

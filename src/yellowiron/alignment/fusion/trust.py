@@ -41,8 +41,9 @@ def trust_in_names(
     called: Sequence[frozenset[tuple[tuple[str, ...], str]]],
 ) -> float:
     """How far a machine's names are to be believed, 0 to 1: neighbours should be one body, or two that a joint joins,
-    much more often than any two pieces are (the chance taken off, as in Cohen's kappa); two joints count
-    half. Pieces that are `called` the same in one place (solids of one mesh) agree whatever the name is worth."""
+    much more often than any two pieces are (the chance taken off, as in Cohen's kappa); two joints count half.
+    `template` has its variants open: a blade, or a second boom, is as true a name as any. Pieces that are `called` the
+    same in one place (solids of one mesh) agree whatever the name is worth."""
     apart = joints_apart(template)
     said = clearly_named(pieces, scores)
 
