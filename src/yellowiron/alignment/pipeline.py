@@ -199,11 +199,11 @@ def align(
         ],
     )
     if edits is not None:
-        kept = {"rules": edits.rules, "joints": edits.joints, "values": edits.values, "machine": edits.machine}
+        found = replace(found, rules=edits.rules, joints=edits.joints, values=edits.values, machine=edits.machine)
         scored = name_scores(assembly.parts, every) if said.absent else []
         called = dict(zip((part.id for part in assembly.parts), scored, strict=False))
         against = unlikely(said, called, found, every, len(observation.cylinders)) if edits.machine else ()
-        found = replace(found, **kept, findings=(*found.findings, *against))  # type: ignore[arg-type]
+        found = replace(found, findings=(*found.findings, *against))
     drawn_axles = as_drawn(whole, {p.body for p in found.parts if p.body is not None})
     return _with_all_axes(found, _without(assembly, fittings), drawn_axles, answer, observation, frame)
 

@@ -54,7 +54,7 @@ def _dangling(bare: Template, whole: Template) -> Template:
         graph = networkx.Graph([pair for pair in ends if None not in pair])
         return {frozenset(pair) for pair in networkx.bridges(graph)}
 
-    driven = {name for actuator in bare.actuators for c in actuator.cylinders for name in (c.slide,)}
+    driven = {cylinder.slide for actuator in bare.actuators for cylinder in actuator.cylinders}
     driven |= {name for actuator in bare.actuators for name in actuator.joints}
     new = bridges(bare) - bridges(whole)
     joints = tuple(
