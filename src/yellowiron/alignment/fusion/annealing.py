@@ -9,9 +9,11 @@ one is taken: one alone often ends beside it. The random numbers are fixed: the 
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
-from yellowiron.alignment.fusion.judge import Field, Ints, counted_by, score_of, scores_of
+from yellowiron.alignment.fusion.judge import KINDS, Field, Ints, score_of, scores_of
 from yellowiron.model.geometry import Floats
 
 HOT, COLD = 40.0, 2.0
@@ -24,94 +26,113 @@ MOVES = 12
 CHAINS = 12
 SEED = 1
 SAME, JOINED, ALIKE, FARTHER, NEAR, EXACT = range(6)
-"""Columns of what a piece's bonds count: as in `Field.weights`, for its body being the farther one, nearly held, and
-exactly held as the first of `KINDS` (the others follow)."""
+"""What a piece's bonds count: as in `Field.weights`, for its body being the farther one, nearly held, and exactly held
+as the first of `KINDS` (the others follow)."""
 
 
 class Annealing:
     """The state of `n` chains: their labels (n, pieces), and how often each joint is held (n, joints + 1: the last is
-    none) and each body played (n, labels)."""
+    none) and each body played (n, labels). Its arrays are as the inner loop reads them: this is where recognition
+    spends its time."""
 
     def __init__(self, field: Field, labels: Ints) -> None:
         self.field = field
-        pieces = labels.shape[1]
-        count = len(field.bodies) + 1
+        chains, (pieces, count) = len(labels), field.unary.shape
         at = [np.flatnonzero((field.ends == p).any(axis=1)) for p in range(pieces)]
         self._others = [
             np.where(field.ends[bonds, 0] == p, field.ends[bonds, 1], field.ends[bonds, 0])
             for p, bonds in enumerate(at)
         ]
         self._columns = [
-            np.column_stack(
+            np.vstack(
                 [
-                    field.weights[bonds],
+                    field.weights[bonds].T,
                     np.where(field.ends[bonds, 1] == p, 1.0, -1.0) * field.order[bonds],
                     field.near[bonds],
-                    field.exact[bonds],
+                    field.exact[bonds].T,
                 ]
-            ).T
+            )
             for p, bonds in enumerate(at)
         ]
+        self._rows = np.arange(chains)
+        self._same = np.ones(count)
+        self._same[-1] = 0.0
         self._joined = (field.joint < field.joints).astype(np.float64)
         self._twins = field.twins.astype(np.float64)
+        self._astray = frozenset(np.flatnonzero(field.astray.any(axis=1)).tolist())
         # Of two labels there is one joint at most: its ends, and which labels it is at.
         first, second = np.nonzero(np.triu(field.joint < field.joints))
-        self._ends = np.zeros((field.joints, 2), dtype=np.int64)
-        self._ends[field.joint[first, second]] = np.column_stack([first, second])
-        self._at = np.eye(count)[self._ends.T]
-        self._one_of = np.eye(count)
+        ends = np.zeros((field.joints, 2), dtype=np.int64)
+        ends[field.joint[first, second]] = np.column_stack([first, second])
+        own, other = ends.T.ravel(), ends[:, ::-1].T.ravel()
+        self._gains = np.eye(count)[own]
+        # Where, in what is around a piece, stands what holds each joint: its one end here, or the other.
+        there = self._rows[:, None] * count + other
+        self._nearly = NEAR * chains * count + there
+        self._exactly = (EXACT + np.tile(field.kind[:-1], 2)) * chains * count + there
+        self._exact_at = (EXACT + field.kind[field.joint]) * chains * count + np.arange(count)
         self.take(labels)
 
     def take(self, labels: Ints) -> None:
         """Goes on from these labels."""
-        field = self.field
+        field, (pieces, count) = self.field, self.field.unary.shape
         self.labels = labels.copy()
-        self._is = self._one_of[self.labels]
-        held = field.joint[self.labels[:, field.ends[:, 0]], self.labels[:, field.ends[:, 1]]]
-        self.near = counted_by(held, field.near, field.joints + 1)
-        self.exact = counted_by(held, field.exactly(held), field.joints + 1)
-        self.played = self._is.sum(axis=1)
+        self._is = np.zeros((pieces, len(labels), count))
+        self._is[np.arange(pieces), self._rows[:, None], labels] = 1.0
+        held = field.joint[labels[:, field.ends[:, 0]], labels[:, field.ends[:, 1]]]
+        exact = field.exact[np.arange(held.shape[1]), field.kind[held]]
+        self.near = self._counted(held, np.broadcast_to(field.near, held.shape), field.joints + 1)
+        self.exact = self._counted(held, exact, field.joints + 1)
+        self.played = self._is.sum(axis=0)
+
+    def _counted(self, numbers: Ints, weights: np.ndarray[Any, np.dtype[Any]], count: int) -> Floats:
+        """(n, count) the sum of `weights` (n, m) by the `numbers` (n, m) they have, row by row."""
+        rows = len(self._rows)
+        flat = (numbers + count * self._rows[:, None]).ravel()
+        return np.bincount(flat, weights=weights.ravel(), minlength=rows * count).reshape(rows, count).astype(float)
 
     def _around(self, p: int) -> Floats:
-        """(n, columns, labels) what the bonds of a piece count, by the label of what they lead to."""
-        return np.asarray(self._columns[p] @ self._is[:, self._others[p]])
+        """(what is counted, n, labels) what the bonds of a piece count, by the label of what they lead to."""
+        others = self._is[self._others[p]]
+        found = self._columns[p] @ others.reshape(len(others), self.played.size)
+        return np.asarray(found.reshape(EXACT + len(KINDS), *self.played.shape))
 
     def _add(self, p: int, around: Floats, sign: int) -> None:
         """Counts a piece, with its labels, or (-1) no longer."""
-        rows, labels = np.arange(len(self.labels)), self.labels[:, p]
+        rows, labels = self._rows, self.labels[:, p]
         held = self.field.joint[labels]
         # A joint stands once in a row; the number for none may stand there often, and nothing reads its count.
-        self.near[rows[:, None], held] += sign * around[:, NEAR]
-        exact = around[rows[:, None], EXACT + self.field.kind[held], np.arange(held.shape[1])]
-        self.exact[rows[:, None], held] += sign * exact
+        at = rows[:, None] * self.near.shape[1] + held
+        self.near.reshape(-1)[at] += sign * around[NEAR]
+        exact = around.reshape(-1).take(self._exact_at[labels] + rows[:, None] * self.played.shape[1])
+        self.exact.reshape(-1)[at] += sign * exact
         self.played[rows, labels] += sign
 
     def conditional(self, p: int) -> Floats:
         """(n, labels) what each label of piece p would score, all others as they are, up to a constant. The counts are
         left without the piece; `put` adds it again."""
-        field, joints = self.field, self.field.joints
+        field = self.field
         around = self._around(p)
         self._add(p, around, -1)
-        self._is[np.arange(len(self.labels)), p, self.labels[:, p]] = 0.0
+        self._is[p, self._rows, self.labels[:, p]] = 0.0
         scores = field.unary[p] + field.played * (self.played == 0)
-        scores += field.halves * (field.astray[p] @ self._is)
-        scores[:, :-1] += around[:, SAME, :-1]
-        scores += around[:, JOINED] @ self._joined + around[:, ALIKE] @ self._twins + around[:, FARTHER] @ field.farther
+        if p in self._astray:
+            scores += field.halves * np.tensordot(field.astray[p], self._is, 1)
+        scores += around[SAME] * self._same
+        scores += around[JOINED] @ self._joined + around[ALIKE] @ self._twins + around[FARTHER] @ field.farther
         # What holding each joint would add: nothing where one holds it.
-        near = field.held[0] * (self.near[:, :joints] <= 0)
-        exact = field.held[1] * (self.exact[:, :joints] <= 0)
-        kinds = EXACT + field.kind[:joints]
-        for own, other in ((0, 1), (1, 0)):
-            there = self._ends[:, other]
-            gain = near * np.minimum(around[:, NEAR, there], 1.0) + exact * np.minimum(around[:, kinds, there], 1.0)
-            scores += gain @ self._at[own]
+        near = np.tile(field.held[0] * (self.near[:, :-1] <= 0), 2)
+        exact = np.tile(field.held[1] * (self.exact[:, :-1] <= 0), 2)
+        flat = around.reshape(-1)
+        gain = near * np.minimum(flat.take(self._nearly), 1.0) + exact * np.minimum(flat.take(self._exactly), 1.0)
+        scores += gain @ self._gains
         self._last = around
         return np.asarray(scores)
 
     def put(self, p: int, labels: Ints) -> None:
         """Gives piece p its labels (n,), after `conditional`."""
         self.labels[:, p] = labels
-        self._is[np.arange(len(labels)), p, labels] = 1.0
+        self._is[p, self._rows, labels] = 1.0
         self._add(p, self._last, 1)
 
     def sweep(self, temperature: float, rng: np.random.Generator) -> None:

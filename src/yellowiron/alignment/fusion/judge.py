@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import networkx
@@ -70,10 +71,25 @@ class Field:
         """How many joints there are."""
         return len(self.kind) - 1
 
-    def exactly(self, held: Ints) -> Ints:
-        """(n, bonds) whether each bond holds exactly the joint that it would hold."""
-        exact = self.exact[np.arange(held.shape[1]), self.kind[held]]
-        return np.where(held < self.joints, exact, 0)
+    @cached_property
+    def nearly(self) -> Ints:
+        """The bonds that hold a joint nearly."""
+        return np.flatnonzero(self.near)
+
+    @cached_property
+    def by_pair(self) -> Floats:
+        """(labels * labels, 4) what two labels are to each other, as numbers: one body, joined, one body or twins, and
+        `farther`: what a bond's `weights` and `order` count."""
+        same = np.eye(len(self.joint), dtype=np.bool_)
+        same[-1, -1] = False
+        return (
+            np.stack([same, self.joint < self.joints, self.twins, self.farther], axis=-1).reshape(-1, 4).astype(float)
+        )
+
+    @cached_property
+    def by_bond(self) -> Floats:
+        """(bonds * 4,) what each bond counts of it."""
+        return np.column_stack([self.weights, self.order]).ravel()
 
 
 def field_of(
@@ -189,35 +205,32 @@ def weighed(features: Features, weights: Features) -> float:
 
 def scores_of(field: Field, labels: Ints) -> Floats:
     """(n,) what each of several labellings (n, pieces) scores."""
-    none, joints = len(field.bodies), field.joints
-    a, b = labels[:, field.ends[:, 0]], labels[:, field.ends[:, 1]]
-    held = field.joint[a, b]
-    same = (a == b) & (a != none)
-    total = field.unary[np.arange(labels.shape[1]), labels].sum(axis=1)
-    for weight, counted in zip(field.weights.T, (same, held < joints, field.twins[a, b]), strict=True):
-        total += counted @ weight
-    near = counted_by(held, field.near, joints + 1)[:, :joints]
-    exact = counted_by(held, field.exactly(held), joints + 1)[:, :joints]
-    played = counted_by(labels, np.ones(labels.shape[1]), none + 1)[:, :none]
-    one, other = labels[:, field.off[:, 0]], labels[:, field.off[:, 1]]
-    return np.asarray(
-        total
-        + field.farther[a, b] @ field.order
-        + (field.halves[one] & (one == other)) @ field.astray[field.off[:, 0], field.off[:, 1]]
-        + field.held[0] * (near > 0).sum(axis=1)
-        + field.held[1] * (exact > 0).sum(axis=1)
-        + (played > 0) @ field.played[:none]
-    )
+    rows, (pieces, count) = np.arange(len(labels))[:, None], field.unary.shape
+    pairs = labels.take(field.ends[:, 0], axis=1) * count + labels.take(field.ends[:, 1], axis=1)
+    held = field.joint.ravel().take(pairs)
+    total = field.unary.ravel().take(np.arange(pieces) * count + labels).sum(axis=1)
+    total += field.by_pair.take(pairs, axis=0).reshape(len(labels), -1) @ field.by_bond
+    exact = field.exact.ravel().take(np.arange(held.shape[1]) * len(KINDS) + field.kind.take(held)) > 0
+    of_joints = held + (field.joints + 1) * rows
+    # The last column is no joint, or no body.
+    near_held = _there(of_joints.take(field.nearly, axis=1), len(labels), field.joints + 1)[:, :-1]
+    exactly_held = _there(of_joints[exact], len(labels), field.joints + 1)[:, :-1]
+    played = _there(labels + count * rows, len(labels), count)[:, :-1]
+    total += field.held[0] * near_held.sum(axis=1) + field.held[1] * exactly_held.sum(axis=1)
+    total += played @ field.played[:-1]
+    if len(field.off):
+        one, other = labels[:, field.off[:, 0]], labels[:, field.off[:, 1]]
+        total += (field.halves[one] & (one == other)) @ field.astray[field.off[:, 0], field.off[:, 1]]
+    return np.asarray(total)
+
+
+def _there(numbers: Ints, rows: int, count: int) -> NDArray[np.bool_]:
+    """(rows, count) which numbers, counted on from row to row, are there."""
+    found = np.zeros(rows * count, dtype=np.bool_)
+    found[numbers.ravel()] = True
+    return found.reshape(rows, count)
 
 
 def score_of(field: Field, labels: Ints) -> float:
     """What a labelling (pieces,) scores."""
     return float(scores_of(field, labels[None])[0])
-
-
-def counted_by(numbers: Ints, weights: np.ndarray[Any, np.dtype[Any]], count: int) -> Floats:
-    """(n, count) the sum of `weights` (m,) or (n, m) by the `numbers` (n, m) they have, row by row."""
-    rows = len(numbers)
-    flat = (numbers + count * np.arange(rows)[:, None]).ravel()
-    weighed_so = np.broadcast_to(weights, numbers.shape).ravel()
-    return np.bincount(flat, weights=weighed_so, minlength=rows * count).reshape(rows, count).astype(np.float64)
