@@ -58,11 +58,13 @@ def wrong(machine: Machine, kind: str, merged: str, seed: int) -> list[str]:
     return [f"{part}: {body}, not {true}" for part, body, true in bodies if body != true]
 
 
-@pytest.mark.parametrize("merged", ["one", pytest.param("body", marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("merged", ["one", "body"])
 def test_loader_merged(merged: str) -> None:
     assert wrong(loader(1001), "wheel_loader", merged, 1001) == []
 
 
+@pytest.mark.slow
 def test_decisions_on_parts_of_a_model_that_was_taken_apart_hold(tmp_path: Path) -> None:
     """The file's parts are the model's, though one that is read anew has a single part."""
     machine, template, file = loader(1001), load_template("wheel_loader"), tmp_path / "alignment.json"

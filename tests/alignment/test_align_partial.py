@@ -105,6 +105,7 @@ def test_a_frame_that_is_not_drawn_is_one_with_its_carrier(loader: Template) -> 
     assert "rear2front_joint" not in {j.name for j in rigid.joints}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("kind", "damage"), [("excavator", "no cylinders"), ("loader", "work equipment")])
 def test_what_is_drawn_is_found_without_names(kind: str, damage: str) -> None:
     """Every part right; before, 26 % and 22 % of the surface were, as bodies that are not drawn were looked for."""

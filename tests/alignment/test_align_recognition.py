@@ -34,7 +34,8 @@ def aligned(
     return found, wrong, silent, len(found.parts)
 
 
-@pytest.mark.parametrize("kind", ["loader", pytest.param("excavator", marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", ["loader", "excavator"])
 def test_shrunk(kind: str) -> None:
     found, wrong, _, count = aligned(kind, 1, "0.3 % shrink")
     assert wrong == []

@@ -45,6 +45,7 @@ def test_a_drum_that_ends_in_plates_without_bores_turns_in_what_it_touches(seed:
     assert [(truth[p.part], p.body) for p in found.parts if p.body != truth[p.part][1]] == []
 
 
+@pytest.mark.slow
 def test_a_drum_plays_no_wheel_and_a_wheel_no_drum() -> None:
     """Of a machine that lacks a steering cylinder hardly a joint is found, and still not two drums."""
     assembly, truth, _ = disguise(spoiled("roller", 1100, "missing cylinder"), 1100)

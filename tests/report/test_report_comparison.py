@@ -14,6 +14,8 @@ from rich.console import Console
 
 from yellowiron.report import difference_table, differences
 
+pytestmark = pytest.mark.slow  # its machine is built for it
+
 
 @pytest.fixture(scope="module")
 def document(five_lines: Path) -> Any:

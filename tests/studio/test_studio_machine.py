@@ -20,6 +20,7 @@ from yellowiron.studio.operations import words
 from yellowiron.studio.questions import questions
 
 
+@pytest.mark.slow
 def test_the_whole_machine_is_said_and_taken_back(open_studio: Callable[..., Session]) -> None:
     studio = open_studio()
     before = np.asarray(studio.settled(120).aligned.frame)[0, :3]
@@ -43,6 +44,7 @@ def test_the_whole_machine_is_said_and_taken_back(open_studio: Callable[..., Ses
     assert again.state.aligned.machine == {}
 
 
+@pytest.mark.slow
 def test_a_variant_and_what_is_not_drawn(open_studio: Callable[..., Session]) -> None:
     studio = open_studio()
     studio.do(studio.read({"kind": "machine", "name": "lift_cylinders", "text": "single"}))
