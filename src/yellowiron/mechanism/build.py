@@ -169,8 +169,10 @@ def _with_drawn_axles(template: Template, placement: Placement, findings: list[F
     """The template without axles that are not drawn, with a finding for each."""
     names = [r.name for r in template.roles if r.rigid]
     merged = as_drawn(template, [name for name in names if placement.has_body(name)])
+    merged_away = {name for name in names if not merged.role(name).rigid}
     for name in names:
-        if not merged.role(name).rigid:
+        # What hangs on an axle that is not drawn goes with it.
+        if name in merged_away and template.body_of(str(template.role(name).parent)) not in merged_away:
             what = "it is one with" if template.role(name).kind == "frame" else "its wheels turn on"
             words = f"No part of the CAD model is '{name}': {what} '{merged.body_of(name)}'."
             findings.append(Finding("MEC017", "warning", name, words, "Give its parts that role in the alignment."))

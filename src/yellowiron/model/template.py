@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
@@ -451,21 +451,37 @@ def across_absent(template: Template, present: Collection[str]) -> Template:
 
 def without_absent_axles(template: Template, present: Collection[str]) -> Template:
     """The template (its variants decided) without the axles that no part is drawn for: of the bodies that are not
-    `present`, those that hold nothing but wheels on the body above them. Their wheels, and what else moves with them,
-    then move on that body."""
+    `present`, those that hold nothing but wheels on the body above them, alone or together (an axle with its knuckles,
+    tie rods and steering cylinder). Their wheels, and what else moves with them, then move on that body."""
     wheels = {r.name for r in template.roles if r.kind == "wheel"}
     known = [j for j in template.joints if all(template.knows(part.partition("[")[0]) for part in j.parts)]
     ends = {j.name: template.bodies_of(j) for j in known}
-    absent = set()
-    for role in template.roles:
-        if not role.rigid or role.name in present or role.name == template.root or role.parent is None:
-            continue
-        others = {b for pair in ends.values() if role.name in pair for b in pair if b != role.name}
-        above = template.body_of(role.parent)
-        if above in others and others & wheels and others <= wheels | {above}:
-            absent.add(role.name)
+    beside: dict[str, set[str]] = {}
+    for pair in ends.values():
+        for body in pair:
+            beside.setdefault(str(body), set()).update(str(b) for b in pair if b != body)
+    above = {r.name: template.body_of(r.parent) for r in template.roles if r.rigid and r.parent is not None}
+    open_ones = [b for b in above if b not in present and b != template.root and b not in wheels]
+    absent: set[str] = set()
+    for group in [{b} for b in open_ones] + _hanging_together(open_ones, beside):
+        others = set().union(*(beside.get(b, set()) for b in group)) - group
+        carriers = {above[b] for b in group} - group
+        if len(carriers) == 1 and carriers <= others and others & wheels and others <= wheels | carriers:
+            absent |= group
     if not absent:
         return template
     merged = replace(template, roles=tuple(replace(r, rigid=r.rigid and r.name not in absent) for r in template.roles))
     gone = {j.name for j in known if absent & {*ends[j.name]} and len(set(merged.bodies_of(j))) == 1}
     return replace(merged, joints=tuple(j for j in template.joints if j.name not in gone))
+
+
+def _hanging_together(bodies: Sequence[str], beside: Mapping[str, Collection[str]]) -> list[set[str]]:
+    """The groups of these bodies that are beside each other."""
+    found, left = [], dict.fromkeys(bodies)
+    while left:
+        group = [next(iter(left))]
+        for body in group:
+            left.pop(body, None)
+            group += [b for b in beside.get(body, ()) if b in left and b not in group]
+        found.append(set(group))
+    return found
