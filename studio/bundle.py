@@ -33,6 +33,10 @@ class BundleError(Exception):
     """Why there is no script, in one sentence."""
 
 
+class UnreachableError(BundleError):
+    """Node, or what it needs, cannot be had here."""
+
+
 def stamp() -> str:
     """The first line of a script that is made of the sources as they are."""
     found = hashlib.sha256()
@@ -86,7 +90,7 @@ def _install(*, all_of_it: bool) -> None:
     outcome = _run([*command, *([] if all_of_it else ["--omit=dev"])], node)
     if outcome.returncode != 0:
         said = next((line for line in outcome.stderr.splitlines() if "npm error" in line), "it gave no reason")
-        raise BundleError(f"npm could not fetch what the 3D view is bundled with ({said.strip()}).")
+        raise UnreachableError(f"npm could not fetch what the 3D view is bundled with ({said.strip()}).")
     done.write_text(f"{lock} all" if all_of_it else lock, encoding="utf-8")
 
 
@@ -120,7 +124,7 @@ def _programs() -> tuple[str, Path]:
     node_here, npm_here = shutil.which("node"), shutil.which("npm")
     if node_here and npm_here and Path(npm_here).resolve().suffix == ".js":
         return node_here, Path(npm_here).resolve()
-    raise BundleError(f"Node is not there to bundle the 3D view: pip install '{NODE}'.")
+    raise UnreachableError(f"Node is not there to bundle the 3D view: pip install '{NODE}'.")
 
 
 def main() -> int:

@@ -15,9 +15,9 @@ async function open(): Promise<void> {
     onjoint: (name) => studio && !studio.aim && studio.choosesJoint(name),
   });
   studio = new Studio(viewer, model.version);
-  await studio.load();
-  studio.listen();
   Object.assign(window, { yellowiron: studio });
+  studio.listen();
+  await studio.load();
 }
 
 open().catch((error: Error) => {

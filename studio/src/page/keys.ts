@@ -27,7 +27,7 @@ const PLAIN = {
 /** What a key means; null: nothing. */
 export function meaning({ key, shiftKey }: Pick<KeyboardEvent, "key" | "shiftKey">): Act | null {
   const low = key.toLowerCase();
-  if (low in PLAIN) return { act: PLAIN[low as keyof typeof PLAIN] };
+  if (Object.hasOwn(PLAIN, low)) return { act: PLAIN[low as keyof typeof PLAIN] };
   if (low === "u") return { act: shiftKey ? "redo" : "undo" };
   if (low === "n") return { act: "step", way: shiftKey ? -1 : 1 };
   if (low === "[" || low === "]") return { act: "stop", end: low === "[" ? 0 : 1 };

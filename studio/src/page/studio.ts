@@ -54,7 +54,7 @@ export class Studio {
       (numbers, more) => this.select(more ? [...this.selection, ...numbers] : numbers));
   }
 
-  /** Hears the person, once there is something to say, and the server. */
+  /** Hears the person and the server. */
   listen(): void {
     by("undo").onclick = () => this.say("undo", {});
     by("redo").onclick = () => this.say("redo", {});
@@ -244,6 +244,7 @@ export class Studio {
 
   /** The dialog opens at once: later it would take the focus from what is written meanwhile. */
   async build(): Promise<void> {
+    if (!this.state) return;
     this.asking = true;
     this.showBuild();
     if (!dialog("building").open) dialog("building").showModal();
@@ -491,7 +492,7 @@ export class Studio {
     // A button that has the focus is pressed by Enter itself.
     if (event.key === "Enter" && target.closest("button, summary")) return;
     const meant = meaning(event);
-    if (!meant) return;
+    if (!meant || !this.state) return; // before that, the page says that it loads
     event.preventDefault();
     act(this, meant);
   }

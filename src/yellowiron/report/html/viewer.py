@@ -25,7 +25,7 @@ from yellowiron.report.words import titled
 
 MOST_TRIANGLES = 700_000
 """Distinct triangles; the smallest shapes beyond are not drawn, and the view says so."""
-MOST_BYTES = 2_600_000
+MOST_BYTES = 2_300_000
 """Of the packed machine, which keeps a page under 5 MB; what is more goes in the same way."""
 NOT_BUNDLED = (
     "The 3D view was not bundled when yellowiron was installed: install it again where npm's registry can be reached."
