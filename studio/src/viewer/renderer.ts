@@ -21,6 +21,8 @@ export interface How {
   chosen: ReadonlySet<number>;
   /** Something moved: shadows are cast anew. */
   moved: boolean;
+  /** What is said of the parts is as it was: where they are, their colours, which are seen and chosen. */
+  same: boolean;
 }
 
 /** Three corners without coordinates: the shader knows where they are. */
@@ -132,13 +134,15 @@ export class Renderer {
   }
 
   /** Draws parts with a camera; the ball is the machine's. */
-  draw(parts: readonly Part[], camera: Camera, ball: Ball, { fine, chosen, moved }: How): void {
+  draw(parts: readonly Part[], camera: Camera, ball: Ball, { fine, chosen, moved, same }: How): void {
     const { told, three } = this;
     const { width, height } = this.canvas;
     three.setViewport(0, 0, width, height);
     three.setClearColor(0x000000, 0); // each time: a context that comes back has forgotten
-    parts.forEach((part, index) => writePart(this.numbers, index, part, this.shapes[part.shape], chosen.has(part.number)));
-    this.table.needsUpdate = true;
+    if (!same) {
+      parts.forEach((part, index) => writePart(this.numbers, index, part, this.shapes[part.shape], chosen.has(part.number)));
+      this.table.needsUpdate = true;
+    }
     if (moved || !this.lighted) this.castShadows(ball);
     const target = this.sized(width * fine, height * fine);
     told.view.value.fromArray(camera.matrix);

@@ -61,6 +61,7 @@ export class Viewer {
   private readonly marks: Marks;
   private byBody = false;
   private shadowsOld = true;
+  private partsOld = true;
   private waiting = 0;
   private resting: number | undefined;
   private trials = 0;
@@ -156,6 +157,7 @@ export class Viewer {
       const color = this.byBody ? this.model.bodies[part.body].color : part.drawn;
       part.color = !this.lit || this.lit.has(part.number) ? color : color.map((value, k) => 0.2 * value + PALE[k]);
     }
+    this.partsOld = true;
     this.request();
   }
 
@@ -209,6 +211,7 @@ export class Viewer {
   choose(number: number, event: MouseEvent | null = null): unknown {
     if (this.onchoose) return this.onchoose(number, event);
     this.chosen = number;
+    this.partsOld = true;
     const part = this.model.parts[number - 1];
     this.card.hidden = !part;
     if (part) {
@@ -277,7 +280,7 @@ export class Viewer {
 
   private changed(): void {
     for (const part of this.model.parts) part.place = multiply(this.bodyPlace(part, this.pose), part.rest);
-    this.shadowsOld = true;
+    this.shadowsOld = this.partsOld = true;
     this.request();
   }
 
@@ -410,8 +413,8 @@ export class Viewer {
     const [width, height] = [clientWidth, clientHeight].map((size) => Math.max(1, Math.round(size * ratio)));
     if (this.canvas.width !== width || this.canvas.height !== height) Object.assign(this.canvas, { width, height });
     const chosen = this.lit ?? new Set(this.chosen ? [this.chosen] : []);
-    this.renderer.draw(this.model.parts, this.seen(), this.scene, { fine, chosen, moved: this.shadowsOld });
-    this.shadowsOld = false;
+    this.renderer.draw(this.model.parts, this.seen(), this.scene, { fine, chosen, moved: this.shadowsOld, same: !this.partsOld });
+    this.shadowsOld = this.partsOld = false;
     if (fine === 1 && this.trials < 3) {
       // Reading a pixel waits for the frame: where coarse ones are slow (no graphics card), fine ones are left out.
       this.renderer.partAt(0, 0);
