@@ -5,11 +5,14 @@ STAMP := $(VENV)/.installed
 ENGINES := $(VENV)/.engines
 EXAMPLE := examples/wheel_loader
 PIP := $(VENV)/bin/python -m pip install --quiet --disable-pip-version-check
+# The pages' scripts (the last of them): installing makes them, and so does whatever needs them after a change.
+PAGES := src/yellowiron/studio/data/studio.bundle.js
+SOURCES := $(shell find studio/src -name '*.ts') $(wildcard studio/*.json studio/*.ts)
 
 .PHONY: demo test test-fast lint bench clean
 .DELETE_ON_ERROR:
 
-demo: $(STAMP)
+demo: $(STAMP) $(PAGES)
 	$(VENV)/bin/yellowiron build wheel_loader \
 	  --cad $(EXAMPLE)/wheel_loader.step --specs $(EXAMPLE)/specifications.pdf --out out/wheel_loader --simulate
 
@@ -18,17 +21,18 @@ demo: $(STAMP)
 # once, even where the environment asks Python to keep nothing.
 PYTEST := PYTHONDONTWRITEBYTECODE= $(VENV)/bin/python -m pytest -n 2 --dist loadfile
 
-test: $(ENGINES)
+test: $(ENGINES) $(PAGES)
 	$(PYTEST) -m "not slow"
 	$(PYTEST) -m slow --no-loadscope-reorder
 
-test-fast: $(STAMP)
+test-fast: $(STAMP) $(PAGES)
 	$(PYTEST) -m "not slow"
 
 lint: $(STAMP)
 	$(VENV)/bin/ruff check . && $(VENV)/bin/ruff format --check . && $(VENV)/bin/mypy
+	$(VENV)/bin/python studio/bundle.py check
 
-bench: $(ENGINES)
+bench: $(ENGINES) $(PAGES)
 	for script in benchmarks/bench_*.py; do $(VENV)/bin/python $$script || exit 1; done
 
 $(VENV)/bin/python:
@@ -46,5 +50,9 @@ $(ENGINES): pyproject.toml | $(VENV)/bin/python
 	  echo "PhysX and Newton could not be installed: their tests will be skipped"; }
 	touch $(STAMP) $(ENGINES)
 
+# Where it cannot be, it says why, and the rest goes on without.
+$(PAGES): $(SOURCES) | $(VENV)/bin/python
+	$(VENV)/bin/python studio/bundle.py --or-say
+
 clean:
-	rm -rf $(VENV) out
+	rm -rf $(VENV) out studio/node_modules studio/dist src/yellowiron/*/data/*.bundle.js

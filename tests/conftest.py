@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import fcntl
+import importlib.util
 import os
 import pickle
 import shutil
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import pytest
@@ -17,6 +19,7 @@ from hypothesis import settings
 from kit.builds import MadeOnce, read_once, reading_once, script, without_pages
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.mechanism import Mechanism
+from yellowiron.report.html.viewer import NOT_BUNDLED
 
 ROOT = Path(__file__).resolve().parent.parent
 LONGEST = (
@@ -163,8 +166,28 @@ def shared_data() -> Path:
     return folder
 
 
+@pytest.fixture(scope="session")
+def bundle() -> ModuleType:
+    """`studio/bundle.py`, which makes the pages' scripts."""
+    spec = importlib.util.spec_from_file_location("bundle", ROOT / "studio" / "bundle.py")
+    assert spec is not None and spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.fixture(scope="session")
+def bundled(bundle: ModuleType) -> None:
+    """The pages' scripts are there, and of the sources as they are."""
+    state = bundle.state()
+    if state == "absent":
+        pytest.skip(NOT_BUNDLED)
+    if state == "stale":
+        pytest.fail(f"The pages' scripts are not of the sources as they are; make them: {bundle.COMMAND}")
+
+
 @pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
+def browser(bundled: None) -> Iterator[Any]:
     """Debian's Chromium, drawing in software: no display and no graphics card are needed."""
     sync_api = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
     chromium = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")

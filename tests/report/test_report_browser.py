@@ -324,6 +324,17 @@ def test_without_webgl_the_picture_stays(browser: Any, machine: Any) -> None:
     page.close()
 
 
+def test_graphics_that_were_taken_away_come_back(page: Any) -> None:
+    before = picture(page)
+    page.evaluate("(window.graphics = yellowiron.renderer.gl.getExtension('WEBGL_lose_context')).loseContext()")
+    hint = page.locator(".v-hint")
+    page.wait_for_function("document.querySelector('.v-hint').textContent.includes('taken the graphics away')")
+    page.evaluate("graphics.restoreContext()")
+    page.wait_for_function("!document.querySelector('.v-hint').textContent.includes('taken')")
+    assert "to turn" in hint.inner_text()
+    assert (np.abs(picture(page) - before).max(axis=2) > 8).mean() < 1e-3
+
+
 def test_from_a_value_to_its_box_on_the_page_and_back(page: Any) -> None:
     row = page.locator("tr[data-value='Lift Cylinder Stroke']")
     row.locator("a.piece").click()

@@ -19,6 +19,7 @@ from yellowiron.model.poses import PoseTables
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import Role, Template
 from yellowiron.report import BuildFacts, page, report_document
+from yellowiron.report.html.viewer import NOT_BUNDLED
 
 SHOES, ROLLERS, BOLTS = 49, 9, 4
 LENGTH, HIGH = 3.6, 0.9
@@ -119,6 +120,15 @@ def test_rows_of_a_track_are_read_as_one(crawler: tuple[Mechanism, Assembly, Ali
     assert "49 bodies, 245 parts" in bodies.group(1)
     assert "left out of the machine" in bodies.group(1)
     assert text == made(crawler)
+
+
+def test_a_report_whose_view_was_not_bundled_says_so(
+    crawler: tuple[Mechanism, Assembly, Alignment], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("yellowiron.report.html.page.script", lambda package, name: "")
+    text = made(crawler)
+    assert f'<figcaption id="viewer-caption">As drawn in the CAD model. {NOT_BUNDLED}' in text
+    assert "<script" not in text and '<img alt="The machine in the drawn pose"' in text
 
 
 def test_only_what_a_person_would_set_has_a_slider(crawler: tuple[Mechanism, Assembly, Alignment]) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import gzip
 import json
+import re
 import struct
 from dataclasses import replace
 from typing import Any
@@ -80,7 +81,7 @@ def unpacked(data: str) -> tuple[dict[str, Any], Any]:
 
 
 def decoded(entry: dict[str, Any], array: Any) -> tuple[np.ndarray, np.ndarray]:
-    """Points and triangles as `viewer_draw.js` decodes them."""
+    """Points and triangles as `meshes.ts` decodes them."""
     planes = np.cumsum(array(entry["points"]).reshape(3, -1).astype(np.int64), axis=1) % 65536
     points = np.array(entry["low"]) + planes.T / 65535.0 * np.array(entry["size"])
     indices = np.cumsum(array(entry["indices"]).astype(np.int64))
@@ -153,10 +154,14 @@ def test_a_page_stays_small(press: Any, monkeypatch: pytest.MonkeyPatch) -> None
     assert len(header["parts"]) == 1
 
 
-def test_the_script_closes_no_tag_and_asks_for_nothing(press: Any) -> None:
+def test_the_script_closes_no_tag_and_asks_for_nothing(press: Any, bundled: None) -> None:
     made = viewer(*press)
-    assert "</" not in made.script and "</" not in made.style
-    assert "http" not in made.script.replace("http://www.w3.org/2000/svg", "")
+    for text in (made.script, made.style):
+        assert "</" not in text and "<!--" not in text and "<script" not in text
+    addresses = set(re.findall(r"https?://[^\"'`\s)]+", made.script))
+    assert addresses <= {"http://www.w3.org/2000/svg", "http://www.w3.org/1999/xhtml"}
+    # What it is made of, and under which terms that may be given on.
+    assert "Copyright © 2010-2026 three.js authors" in made.script and "The MIT License" in made.script
 
 
 @settings(deadline=None)

@@ -54,6 +54,7 @@ def page(browser: Any, session: Session) -> Iterator[tuple[Any, list[str]]]:
 
 
 def until(holds: Callable[[], bool], seconds: float = 60.0) -> None:
+    """Waits; `holds` has to ask the page something, since requests that a test answers reach it only then."""
     end = time.monotonic() + seconds
     while not holds():
         assert time.monotonic() < end
@@ -337,7 +338,8 @@ def test_the_other_keys_do_what_they_say(page: tuple[Any, list[str]], session: S
     opened_state = opened.evaluate("yellowiron.state")
     opened.route("**/build", answer)
     opened.keyboard.press("b")
-    until(lambda: bool(begun) and opened.locator("#building").is_visible())
+    until(lambda: opened.locator("#building").is_visible() and bool(begun))
+    until(lambda: not opened.evaluate("yellowiron.waiting"))
     opened.unroute("**/build")
     opened.keyboard.press("Escape")
     assert errors == []
@@ -356,6 +358,85 @@ def test_what_is_being_written_stays(page: tuple[Any, list[str]]) -> None:
     opened.keyboard.press("Escape")
     opened.evaluate("yellowiron.show()")
     assert field.input_value() == ""
+    assert errors == []
+
+
+def test_a_build_that_begins_late_takes_no_key(page: tuple[Any, list[str]]) -> None:
+    """B is answered at once, however long the server takes, and what is written meanwhile keeps the focus."""
+    opened, errors = page
+    state = opened.evaluate("yellowiron.state")
+    held: list[Any] = []
+    opened.route("**/build", lambda route: held.append(route))
+    opened.keyboard.press("Escape")
+    opened.keyboard.press("b")
+    assert opened.locator("#building").is_visible()
+    assert "then it builds" in opened.locator("#building").inner_text()
+    opened.keyboard.press("Escape")
+    field = opened.locator("#card input")
+    field.fill("73")
+    until(lambda: opened.evaluate("yellowiron.waiting") == 1 and bool(held))
+    held[0].fulfill(json=state)
+    until(lambda: not opened.evaluate("yellowiron.waiting"))
+    opened.keyboard.type("5 mm")
+    assert field.input_value() == "735 mm"
+    assert not opened.locator("#building").is_visible()
+    opened.keyboard.press("Escape")
+    opened.unroute("**/build")
+    assert errors == []
+
+
+def test_what_is_written_and_not_sent_is_kept(page: tuple[Any, list[str]]) -> None:
+    """Without the focus too, on the way to other questions and back, and where the server refuses it."""
+    opened, errors = page
+    opened.keyboard.press("Escape")
+    heading = opened.locator("#card h2").inner_text()
+    field = opened.locator("#card input")
+    field.fill("735")
+    opened.locator("canvas").focus()
+    opened.evaluate("yellowiron.load()")
+    opened.evaluate("yellowiron.show()")
+    assert field.input_value() == "735"
+    opened.keyboard.press("j")
+    assert opened.locator("#card h2").inner_text() != heading
+    opened.keyboard.press("k")
+    assert field.input_value() == "735"
+    opened.route("**/do", lambda route: route.fulfill(status=400, json={"message": "Not so."}))
+    field.press("Enter")
+    until(lambda: "Not so." in opened.locator("#told").inner_text())
+    until(lambda: not opened.evaluate("yellowiron.waiting"))
+    opened.unroute("**/do")
+    while opened.locator("#card h2").inner_text() != heading:
+        opened.keyboard.press("j")
+    assert field.input_value() == "735"
+    field.focus()
+    opened.keyboard.press("Escape")
+    assert field.input_value() == ""
+    errors.clear()  # of the answer that was refused
+
+
+def test_letters_are_no_keys_while_patterns_are_looked_for(page: tuple[Any, list[str]]) -> None:
+    """E opens at once: what is typed before the server knows of patterns is a search, and Enter waits for it."""
+    opened, errors = page
+    held: list[Any] = []
+    opened.keyboard.press("Escape")
+    path = opened.evaluate("yellowiron.viewer.model.parts.find(p => p.path.includes('/HOOD ASSY/')).path")
+    opened.evaluate("path => yellowiron.choose(yellowiron.numbers.get(path), null)", path)
+    free = threading.Event()
+    opened.route("**/patterns", lambda route: route.continue_() if free.is_set() else held.append(route))
+    opened.keyboard.press("e")
+    assert opened.locator("#finder").is_visible()
+    opened.keyboard.type("hood")
+    assert not opened.locator("#building").is_visible()
+    opened.keyboard.press("Enter")
+    assert opened.locator("#finder").is_visible()
+    until(lambda: opened.locator("#finder").is_visible() and bool(held))
+    free.set()
+    for one in held:
+        one.continue_()
+    until(lambda: not opened.locator("#finder").is_visible())
+    opened.unroute("**/patterns")
+    assert "All that is named" in opened.locator("#card").inner_text()
+    opened.keyboard.press("Escape")
     assert errors == []
 
 

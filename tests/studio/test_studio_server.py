@@ -15,6 +15,7 @@ from typing import Any
 import pytest
 
 from yellowiron.model.specification import Evidence, Specification, Specifications
+from yellowiron.report.html.viewer import NOT_BUNDLED
 from yellowiron.studio import Session, Setup
 
 starlette = pytest.importorskip("starlette.testclient", reason="the extra 'studio' is not installed")
@@ -72,7 +73,7 @@ def test_strangers_decide_nothing(client: Any, session: Session, path: str) -> N
 
 @pytest.mark.parametrize(
     "path", ["/../../etc/passwd", "/%2e%2e/%2e%2e/etc/passwd", "/sheet/../../etc/passwd", "/sheet/..%2f1",
-             "/data/studio.js",
+             "/data/studio.bundle.js",
              "/sheet/-1", "/sheet/99999", "/sheet/1e3", "//etc/passwd", "/state/../../x"],
 )  # fmt: skip
 def test_no_other_file_is_readable(client: Any, path: str) -> None:
@@ -222,3 +223,9 @@ def test_the_server_says_where_it_is_and_ends(open_studio: Callable[[], Session]
     finally:
         process.kill()
         process.communicate()
+
+
+def test_without_its_script_the_page_says_so(client: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("yellowiron.studio.server.script", lambda package, name: "")
+    text = client.get("/").text
+    assert NOT_BUNDLED in text and "{waiting}" not in text and "Loading" not in text

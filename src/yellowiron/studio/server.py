@@ -23,7 +23,7 @@ from typing import Any
 from yellowiron import report, specs
 from yellowiron.model.errors import YellowironError
 from yellowiron.opinion.doubts import boxes_of, size_of
-from yellowiron.report.html.viewer import asset
+from yellowiron.report.html.viewer import NOT_BUNDLED, asset, script
 from yellowiron.report.words import titled
 from yellowiron.studio.axes import axis_of, read_picks
 from yellowiron.studio.building import Build
@@ -63,7 +63,6 @@ _HEAD = {
     "X-Frame-Options": "DENY",
     "Cross-Origin-Resource-Policy": "same-origin",
 }
-_SCRIPTS = ("viewer_pose.js", "viewer_draw.js", "viewer.js")
 _STYLES = ("page.css", "viewer.css")
 
 
@@ -169,11 +168,10 @@ class _Pages:
         """The page, whole: it asks for nothing else but what is below."""
         nonce = secrets.token_urlsafe(12)
         folder = resources.files("yellowiron.studio").joinpath("data")
-        own = {name: folder.joinpath(name).read_text(encoding="utf-8") for name in
-               ("studio.html", "studio.css", "studio.js")}  # fmt: skip
-        html = own["studio.html"].replace("{nonce}", nonce)
-        html = html.replace("{style}", asset(*_STYLES) + own["studio.css"])
-        html = html.replace("{script}", asset(*_SCRIPTS) + own["studio.js"])
+        html, style = (folder.joinpath(n).read_text(encoding="utf-8") for n in ("studio.html", "studio.css"))
+        html = html.replace("{nonce}", nonce).replace("{style}", asset(*_STYLES) + style)
+        source = script("yellowiron.studio", "studio")
+        html = html.replace("{waiting}", "Loading the machine …" if source else NOT_BUNDLED).replace("{script}", source)
         policy = (
             f"default-src 'none'; script-src 'nonce-{nonce}'; style-src 'unsafe-inline'; connect-src 'self'; "
             "img-src 'self' data: blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"

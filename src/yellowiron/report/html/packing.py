@@ -1,4 +1,4 @@
-"""What the 3D view unpacks (`data/viewer.js`).
+"""What the 3D view unpacks (`studio/src/viewer/model.ts`).
 
 Gzip of a little-endian uint32 (the length of what follows), a JSON header padded to a multiple of 8, and one block of
 binary in which the header's `[kind, offset, count]` entries point. The same content gives the same bytes.

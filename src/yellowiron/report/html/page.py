@@ -25,7 +25,7 @@ from yellowiron.report.html.sensors import sensor_marks, sensor_rows, view_svg, 
 from yellowiron.report.html.sheets import pieces, sheet_pages
 from yellowiron.report.html.simulation import engine_name, in_a_sentence, simulation_tables
 from yellowiron.report.html.sweeps import Sweeps, sweep_entries, sweep_pictures
-from yellowiron.report.html.viewer import viewer
+from yellowiron.report.html.viewer import NOT_BUNDLED, script, viewer
 from yellowiron.report.open_points import causes, named, tally
 from yellowiron.report.rows import in_rows
 from yellowiron.report.words import breakable, counted, sentence, shown, signed
@@ -69,11 +69,12 @@ def page(
     reasons = causes(document)
     joints = joint_rows(document)
     seen = _cameras(document, mechanism)
+    bundled = script("yellowiron.report", "viewer") != ""
     made: dict[str, Any] = {}
 
     def meanwhile() -> None:
         made["template"] = environment.from_string(source)
-        made["viewer"] = viewer(mechanism, assembly, alignment, tables(), poses=poses) if tables is not None else None
+        made["viewer"] = viewer(mechanism, assembly, alignment, tables(), poses=poses) if tables and bundled else None
 
     pictures = draw(drawn, {
         "machine": Picture(seen.machine),
@@ -98,6 +99,7 @@ def page(
         machine=pictures["machine"],
         poses=[(caption, pictures[f"pose {caption}"]) for caption in (poses or {})],
         viewer=made["viewer"],
+        unbundled=NOT_BUNDLED if tables and not bundled else "",
         measurements=[_measurement(m) for m in document["measurements"]],
         simulation=simulation_tables(document["simulation"]),
         sweeps=sweep_entries(sweeps or {}, document, pictures),

@@ -25,10 +25,11 @@ from yellowiron.report.words import titled
 
 MOST_TRIANGLES = 700_000
 """Distinct triangles; the smallest shapes beyond are not drawn, and the view says so."""
-MOST_BYTES = 2_600_000
+MOST_BYTES = 2_300_000
 """Of the packed machine, which keeps a page under 5 MB; what is more goes in the same way."""
-_SCRIPTS = ("viewer_pose.js", "viewer_draw.js", "viewer.js", "viewer_page.js")
-_STYLES = ("viewer.css",)
+NOT_BUNDLED = (
+    "The 3D view was not bundled when yellowiron was installed: install it again where the npm registry can be reached."
+)
 
 
 @dataclass(frozen=True)
@@ -55,7 +56,7 @@ def viewer(
         data, drawn = made
         # The largest shape is drawn however large it is.
         if len(data) <= MOST_BYTES or drawn >= before:
-            return Viewer(data, asset(*_SCRIPTS), asset(*_STYLES))
+            return Viewer(data, script("yellowiron.report", "viewer"), asset("viewer.css"))
         most, before = min(int(0.95 * drawn * MOST_BYTES / len(data)), drawn - 1), drawn
     return None
 
@@ -97,6 +98,13 @@ def _packed(
     }
     drawn = sum(len(assembly.shapes[key].mesh.triangles) for key in numbers)
     return base64.b64encode(packed(header, binary)).decode("ascii"), drawn
+
+
+def script(package: str, name: str) -> str:
+    """The script of a page, which is made from `studio/` when the package is (`hatch_build.py`);
+    empty where it was not."""
+    file = resources.files(package).joinpath("data", f"{name}.bundle.js")
+    return file.read_text(encoding="utf-8") if file.is_file() else ""
 
 
 def asset(*names: str) -> str:
