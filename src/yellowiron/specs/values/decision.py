@@ -47,7 +47,8 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
     bucket"; a value of the column will do: "4.2 m3")."""
     if not matches:
         return missing(wanted)
-    chosen = _without_charts(_configured(matches, sheets, config))
+    whole = [m for m in matches if not _is_broken_off(m.claim.statement.label)]
+    chosen = _without_charts(_configured(whole or matches, sheets, config))
     groups = _groups(wanted, chosen)
     said, counted = None, 0
     if len(groups) > 1:
@@ -266,12 +267,17 @@ def _as_stated(wanted: Wanted, matches: Sequence[Match], sheets: Sheets) -> tupl
     in full, those of no configuration that say the same, and that sentence."""
     for stated in sheets.stated:
         words = set(tokens(stated.sentence)) | quantity_words(stated.sentence)
-        kept = [m for m in matches if (names := configured_by(m.claim)) and all(_says(words, n) for n in names)]
+        kept = [m for m in matches if (names := _heads_of(m)) and all(_says(words, n) for n in names)]
         if kept:
             first = _by_value(wanted, kept)[0][0]
             plain = [m for m in matches if not configured_by(m.claim)]
             return stated, [*kept, *(m for m in plain if len(_by_value(wanted, [first, m])) == 1)]
     return None, list(matches)
+
+
+def _heads_of(found: Match) -> list[str]:
+    """What names a match's configuration; its own value names none."""
+    return [name for name in configured_by(found.claim) if name != found.claim.statement.text]
 
 
 def _says(words: set[str], name: str) -> bool:

@@ -26,7 +26,7 @@ from yellowiron.specs.language.vocabulary import (
     squeezed,
     tokens,
 )
-from yellowiron.specs.values.claims import Claim
+from yellowiron.specs.values.claims import Claim, names_model
 from yellowiron.specs.values.requested import usual
 from yellowiron.specs.values.tolerances import LEAST
 
@@ -34,6 +34,8 @@ _EXTREME = {"maximum"}
 """Says of a label no more than makers mean without it; a value of which both are asked forbids it."""
 _WHOLE = {"overall"}
 """Says of a part no more than makers mean without it: the overall width of a bucket is its width."""
+_RATE = {"speed"}
+"""What makers call the time that a motion takes: "Boom extension speed: 21 m/80 s"."""
 _RATED = {"flow", "pressure", "force", "torque"}
 """Dimensions of values that are printed for their maximum, whether the label says so or not."""
 _BY_CIRCUIT = {"pressure", "flow"}
@@ -82,7 +84,7 @@ def match(claims: Sequence[Claim], wanted: Sequence[Wanted]) -> dict[str, list[M
             continue
         if any(m.by_label for m in matches):
             matches = [m for m in matches if m.by_label]
-        matches = _of_possible(matches, said)
+        matches = _of_part(_of_possible(matches, said), said)
         best = max((m.score, _specific(m)) for m in matches)
         kept = [m for m in matches if m.score >= best[0] - 1e-9 and (m.score > 0.999 or _specific(m) >= best[1])]
         kept = _by_own_name(kept)
@@ -112,7 +114,8 @@ def _without_shared_headings(matches: list[Match]) -> list[Match]:
 
     def place(one: Match) -> tuple[object, ...]:
         statement = one.claim.statement
-        return (statement.sheet, statement.page, statement.section, statement.column)
+        model = (statement.context, statement.label) if names_model(statement.label) else ()
+        return (statement.sheet, statement.page, statement.section, statement.column, model)
 
     for one in matches:
         if not one.by_label and not one.by_head:
@@ -139,6 +142,12 @@ def _ends_told_apart(found: dict[str, list[Match]], wanted: Sequence[Wanted]) ->
             if at in both:
                 found[one.wanted.name].append(one)
     return found
+
+
+def _of_part(matches: Sequence[Match], said: _Said) -> list[Match]:
+    """The matches without those of the machine where a sub-heading makes their words a part's: "Blade | Height"."""
+    named = [(m, frozenset(tokens(m.phrase))) for m in matches]
+    return [m for m, words in named if not any(words < other and other - words <= said.context for _, other in named)]
 
 
 def _of_possible(matches: Sequence[Match], said: _Said) -> list[Match]:
@@ -248,7 +257,9 @@ def _said(claim: Claim) -> _Said:
 def _cut(words: str, head: str, column: tuple[str, ...], context: tuple[str, ...], section: str) -> _Said:
     heads = [h for h in column if not _names_configuration(h)]
     label = words
-    if context and _LEADS.search(context[-1]) and not tokens(words):  # in several languages over its value
+    if context and names_model(words):  # "Shipping weight", and under it a row for each model
+        label = ""
+    elif context and _LEADS.search(context[-1]) and not tokens(words):  # in several languages over its value
         label, context = " ".join(context), ()
     if context and tokens(whole := f"{context[-1]} {label}") != tokens(context[-1]) + tokens(label):
         label, context = whole, context[:-1]  # an expression goes on from the line above: "rod" over "diameter"
@@ -303,6 +314,7 @@ def _match(asked_for: _Asked, claim: Claim, said: _Said) -> Match | None:
     left = {t for t in primary - explained - _EXTREME - asked_for.name if not _is_number(t)}
     left = {t for t in left if t not in NEUTRAL or _is_telling(t, asked_for, explained | left, claim, said, KNOWN)}
     left -= said.standard | (frozenset() if from_head else _WHOLE)
+    left -= _RATE if wanted.dimension == "time" else frozenset()
     if _is_translated(asked_for, claim):
         left &= KNOWN | TELLING
     known = frozenset() if borrowed else KNOWN  # a heading that must help names other properties too
