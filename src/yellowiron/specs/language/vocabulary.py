@@ -294,8 +294,7 @@ def names_a_part(text: str) -> bool:
     return bool(words) and words <= KNOWN - NEUTRAL - GENERAL - VAGUE - HARMLESS - _PROPERTIES
 
 
-_PROPERTIES = frozenset(
-    ["load", "point", "lift", "reach", "gear", "length", "width", "height", "depth", "weight", "mass", "capacity"]
-    + ["speed", "force", "pressure", "power", "radius", "angle", "diameter", "number"]
+_PROPERTIES = _words(
+    ["load point lift reach gear length width height depth weight mass capacity", "speed force pressure power radius"]
 )
 """Words that head a chart or a list of properties, and no part."""
