@@ -394,7 +394,7 @@ def configured_by(claim: Claim) -> tuple[str, ...]:
     return claim.statement.variant or claim.statement.column or ((label,) if names_model(label) else ())
 
 
-_MODEL = re.compile(r"(?=\S*\d)[A-Z]{1,4}[-–]?[A-Z]{0,3}\d[\dA-Z/-]*(?:\s(?:\([A-Z\d/-]{1,5}\)|[A-Z\d/-]{1,5}))*")
+_MODEL = re.compile(r"(?=\S*\d\S*\d)[A-Z]{1,4}[-–]?[A-Z]{0,3}\d[\dA-Z/-]*(?:\s(?:\([A-Z\d/-]{1,5}\)|[A-Z\d/-]{1,5}))*")
 
 
 def names_model(label: str) -> bool:
