@@ -8,7 +8,7 @@ from kit.templates import template
 from yellowiron.specs.extraction import from_sheets
 from yellowiron.specs.layout.statement import Statement
 from yellowiron.specs.reader import Sheet
-from yellowiron.specs.values.matching import spelled_out
+from yellowiron.specs.values.requested import spelled_out
 
 BOX = (10.0, 10.0, 90.0, 20.0)
 

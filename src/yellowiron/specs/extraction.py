@@ -19,6 +19,7 @@ from yellowiron.specs.language.decimal_style import DecimalStyle, decimal_style
 from yellowiron.specs.layout.nearest import Near
 from yellowiron.specs.llm.agreement import Asked, agreed
 from yellowiron.specs.llm.page_reader import Reading, pages_of, read_pages
+from yellowiron.specs.machines import of_others, several
 from yellowiron.specs.reader import MEMORY_MB, RESIDENT_MB, TIMEOUT_S, Sheet, check_file
 from yellowiron.specs.values.claims import Claim, claims_of, configured
 from yellowiron.specs.values.cross_check import second_reading, stands_in
@@ -152,7 +153,8 @@ def from_sheets(
             heard = Asked(one, matches.get(one.name, []), known, config, model.model if model else "")
             values[one.name] = agreed(heard, values[one.name], reading.found.get(one.name, []))
         findings += more
-    return Specifications(_of_pictures(wanted, values, sheets), tuple(findings))
+    values = _of_pictures(wanted, values, sheets)
+    return Specifications(values if config else _of_several(values, sheets), tuple(findings))
 
 
 def _of_words_recognised(
@@ -197,13 +199,18 @@ def _claimed(sheets: Sequence[Sheet], config: str) -> _Claimed:
     near: list[tuple[list[Near], DecimalStyle]] = []
     near_recognised: list[tuple[list[Near], DecimalStyle]] = []
     for sheet in sheets:
-        every = claims_of(sheet.statements, sheet.style)
+        other = of_others(sheet.titles, config)
+        every = claims_of([s for s in sheet.statements if s.page not in other], sheet.style)
         meant = configured(every, config)
         for claim in meant:
             (recognised if claim.statement.guessed else printed).append(claim)
         kept = {claim.statement for claim in meant}
         others = [claim.statement for claim in every if claim.statement not in kept]
-        own = [n for n in sheet.near if not any(stands_in(n.statement, s) for s in others)]
+        own = [
+            n
+            for n in sheet.near
+            if n.statement.page not in other and not any(stands_in(n.statement, s) for s in others)
+        ]
         own += [Near("cell", statement) for statement in dict.fromkeys(c.statement for c in meant)]
         near.append(([n for n in own if not n.statement.guessed], sheet.style))
         near_recognised.append(([n for n in own if n.statement.guessed], sheet.style))
@@ -267,6 +274,20 @@ def _by_rules(
         else:
             values[one.name] = decide(one, matches.get(one.name, []), known, config)
     return values
+
+
+def _of_several(values: Mapping[str, Specification], sheets: Sequence[Sheet]) -> dict[str, Specification]:
+    """The values with those of one of several machines, whose sheets are bound in one file, to review."""
+    machines = {(sheet.file, page): name for sheet in sheets for page, name in several(sheet.titles).items()}
+    found = dict(values)
+    for name, value in values.items():
+        seen = value.evidence
+        machine = machines.get((seen.file, seen.page)) if seen else None
+        if value.status == "ok" and machine:
+            reason = f"the file is of several machines, and this is of {machine}; {value.reason}"
+            hint = f'Name the machine with --config "{machine}".'
+            found[name] = replace(value, status="review", reason=reason, hint=hint)
+    return found
 
 
 _Seen = tuple[str, int, tuple[float, ...]]

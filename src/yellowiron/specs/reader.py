@@ -15,6 +15,7 @@ from yellowiron.specs.layout.page_cells import Cell, cells_of
 from yellowiron.specs.layout.router import statements_of
 from yellowiron.specs.layout.rows.lines import TextLine, lines_of
 from yellowiron.specs.layout.statement import Statement
+from yellowiron.specs.machines import titled
 from yellowiron.specs.pages.words import Page, read_page
 from yellowiron.specs.values.stated_configuration import Stated, stated_in
 from yellowiron.support.files.inputs import require_file
@@ -37,7 +38,8 @@ class Sheet:
     how it writes decimals; `stated`: sentences that may say which configuration its figures are for. `recognised`:
     pages whose words are a program's guess from their picture, all or in part (`recogniser`: whose); `unrecognised`
     says why that program failed; `again`: the same sheet through another program. `near`: its values again, each with
-    the words around it; `cells`: the text of its pages, piece by piece."""
+    the words around it; `cells`: the text of its pages, piece by piece; `titles`: the
+    models that the title of each page names."""
 
     file: str
     pages: int
@@ -50,6 +52,7 @@ class Sheet:
     unrecognised: str = ""
     near: tuple[Near, ...] = ()
     cells: tuple[Cell, ...] = ()
+    titles: tuple[frozenset[str], ...] = ()
     again: Sheet | None = None
 
 
@@ -76,6 +79,7 @@ def read_sheet(path: Path) -> Sheet:
         stated: list[Stated] = []
         near: list[Near] = []
         cells: list[Cell] = []
+        titles: list[frozenset[str]] = []
         begin = time.monotonic()
         for number in range(1, len(document) + 1):
             beat(f"Reading page {number} of {len(document)} of {path.name}")
@@ -98,6 +102,7 @@ def read_sheet(path: Path) -> Sheet:
                     where=f"{path}, page {number}",
                     hint="Get the file again, or print it to a new PDF.",
                 ) from error
+            titles.append(titled(page))
             if page.readable:
                 statements.extend(proven(statements_of(page), page))
                 texts.append(" ".join(w.text for w in page.words))
@@ -115,6 +120,7 @@ def read_sheet(path: Path) -> Sheet:
             stated=tuple(stated),
             near=tuple(near),
             cells=tuple(cells),
+            titles=tuple(titles),
         )
     finally:
         document.close()

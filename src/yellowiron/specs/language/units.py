@@ -79,7 +79,7 @@ foot/second       |0.30479999999999996  |speed        |imperial|ft/s(?:ec)?\\.?|
 mile/hour         |0.44704              |speed        |imperial|mph|MPH|mi/h|m\\.p\\.h\\.?
 revolution/minute|0.10471975511965977|angular_speed|both|r\\.?p\\.?m\\.?|RPM|r/min|rev/min|min-1|min⁻¹|1/min|U/min|tr/min
 second            |1.0                  |time         |both    |s|secs?\\.?|seconds?|segundos?|secondes?|Sekunden?
-minute            |60.0                 |time         |both    |mins?\\.?|minutes?|minutos?|Minuten?
+minute            |60.0                 |time         |both    |mins?\\.?(?![-⁻][1¹])|minutes?|minutos?|Minuten?
 degree            |0.017453292519943295 |angle        |both    |°|º|˚|[Dd]eg\\.?|[Dd]egrees?|[Gg]rados?|[Dd]egrés?|Grad
 radian            |1.0                  |angle        |both    |rad
 """

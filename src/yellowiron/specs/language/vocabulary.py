@@ -286,3 +286,15 @@ def has_cjk(text: str) -> bool:
 def squeezed(text: str) -> str:
     """A text without case, spaces and punctuation: for scripts without spaces."""
     return "".join(c for c in unicodedata.normalize("NFKC", text).casefold() if c.isalnum())
+
+
+def names_a_part(text: str) -> bool:
+    """Whether words name a part of a machine, and no property of one: "Blade"."""
+    words = frozenset(tokens(text))
+    return bool(words) and words <= KNOWN - NEUTRAL - GENERAL - VAGUE - HARMLESS - _PROPERTIES
+
+
+_PROPERTIES = _words(
+    ["load point lift reach gear length width height depth weight mass capacity", "speed force pressure power radius"]
+)
+"""Words that head a chart or a list of properties, and no part."""

@@ -252,13 +252,13 @@ def unit_said(text: str) -> str:
 
 
 def kind_of(piece: TextPiece) -> str:
-    """`value`, `unit`, `mark` (an example mark, or a dash for "none", alone) or `text`."""
+    """`value`, `unit`, `mark` (an example mark, or a dash or "N/A" for none, alone) or `text`."""
     bare = piece.bare
     if not bare:
         return "mark"
     if is_unit(bare):
         return "unit"
-    if not bare.strip("-–—−/. "):
+    if not bare.strip("-–—−/. ") or bare.casefold() in ("n/a", "n.a."):
         return "mark"
     return "value" if looks_like_value(bare) or lists_items(bare) else "text"
 

@@ -16,6 +16,8 @@ from typing import Any
 from yellowiron.specs.pages.strokes import Box, DrawnRule, Place, strokes_of
 
 _SUPERSCRIPT_UNITS = re.compile(r"(?:^|[\d\s(/\[.])(?:m|cm|mm|dm|in|ft|yd)$|[-⁻]$")
+_PER, _PER_UNITS = re.compile(r"[-–−]1"), re.compile(r"(?:^|[\d\s/])min$")
+_NOTES = re.compile(r"(?:\(\d{1,2}\))+")
 _SIGNS = re.compile(r"[\u00b9\u00b2\u00b3\u2070-\u2079]+(?:[,)\u207e][\u00b9\u00b2\u00b3\u2070-\u2079]+)*[)\u207e]?$")
 """Raised digits that are characters of their own."""
 _DRAWN = (100, 0.12)
@@ -271,7 +273,7 @@ def _is_plain(character: str) -> bool:
 
 def _with_superscripts(words: list[Word]) -> list[Word]:
     """Raised small characters joined to the word they follow: an exponent of a unit, or a footnote's sign."""
-    small = [i for i, w in enumerate(words) if len(w.text) <= 4]
+    small = [i for i, w in enumerate(words) if len(w.text) <= 4 or _NOTES.fullmatch(w.text)]
     hosts: dict[int, int] = {}
     rows: dict[int, list[int]] = {}
     for index, word in enumerate(words):
@@ -297,8 +299,11 @@ def _with_superscripts(words: list[Word]) -> list[Word]:
     joined = list(words)
     for own, index in hosts.items():
         raised, host = words[own], joined[index]
-        if raised.text in ("2", "3") and _SUPERSCRIPT_UNITS.search(host.text):
-            joined[index] = replace(host, text=host.text + raised.text, x1=max(host.x1, raised.x1))
+        exponent = raised.text in ("2", "3") and _SUPERSCRIPT_UNITS.search(host.text)
+        if exponent or (_PER.fullmatch(raised.text) and _PER_UNITS.search(host.text)):
+            joined[index] = replace(
+                host, text=host.text + raised.text.replace("–", "-").replace("−", "-"), x1=max(host.x1, raised.x1)
+            )
         else:
             joined[index] = replace(host, marks=host.marks + raised.text, x1=max(host.x1, raised.x1))
     return [w for index, w in enumerate(joined) if index not in hosts]

@@ -11,6 +11,7 @@ from itertools import pairwise
 from yellowiron.specs.language.decimal_style import DecimalStyle
 from yellowiron.specs.language.numbers import Reading, read
 from yellowiron.specs.language.quantities import FEET_DASH, FEET_INCHES, Quantity, same
+from yellowiron.specs.language.units import printed_unit
 from yellowiron.specs.language.vocabulary import tokens
 from yellowiron.specs.layout.statement import COUNTED, GRAVITATIONAL, Statement
 from yellowiron.specs.values.enumerations import COUNTED_PARTS, alternatives, enumerated, opposed
@@ -222,9 +223,22 @@ def _expand(statement: Statement, style: DecimalStyle) -> Iterator[Claim]:
             continue
         kept.append(reading)
     labels = _labels_of_each(text, label, readings, kept)
-    for reading, own in zip(kept, labels, strict=True):
+    ends = _ends(text, kept) if len(readings) == len(kept) == 2 and labels == [[label]] * 2 else ()
+    for index, (reading, own) in enumerate(zip(kept, labels, strict=True)):
         for one in own:
-            yield from _claims_of_reading(statement, one, reading)
+            for claim in _claims_of_reading(statement, one, reading):
+                yield replace(claim, ranged=True, low=ends[index]) if ends else claim
+
+
+def _ends(text: str, pair: Sequence[Reading]) -> tuple[bool, ...]:
+    """Which of two numbers with a slash between them is the lower end of a range, the other being the upper: "256/147
+    kN" of one force."""
+    first, second = (reading.numbers[0] for reading in pair)
+    end = max(q.end for q in (*pair[0].numbers, *pair[0].partner))
+    alone = all(len(r.numbers) == 1 and not r.qualifier for r in pair) and first.dimension == second.dimension
+    if not alone or first.si_value == second.si_value or text[end : second.start].strip() not in ("/", "／"):
+        return ()
+    return first.si_value < second.si_value, second.si_value < first.si_value
 
 
 def _at_radius(statement: Statement, label: str, readings: Sequence[Reading]) -> Iterator[Claim]:
@@ -303,7 +317,8 @@ def _restates(a: Reading, b: Reading) -> bool:
 
 
 def _claims_of_reading(statement: Statement, label: str, reading: Reading) -> Iterator[Claim]:
-    words = f"{label} {reading.qualifier}".strip()
+    again = re.fullmatch(r"[({](.*)[)}]", reading.qualifier.strip())  # "2.6 min-1 (rpm)"
+    words = label if again and printed_unit(again.group(1)) else f"{label} {reading.qualifier}".strip()
     if reading.numbers[0].sign == "±" and "each" not in tokens(words):
         words = f"{words} ±"
     head = " ".join(statement.column)
@@ -323,8 +338,18 @@ def _claims_of_reading(statement: Statement, label: str, reading: Reading) -> It
         doubt = f"the sheet counts {several} of them: {COUNTED_TOGETHER}" if named else ""
         if several > 1:
             quantity, other = _times(quantity, several), other and _times(other, several)
+        doubt = doubt or _sum(statement.text, quantity)
         low = ranged and index == 0
         yield _checked(Claim(statement, words, head, quantity, other, ranged=ranged, low=low, doubt=doubt))
+
+
+def _sum(text: str, quantity: Quantity) -> str:
+    """A doubt about a number that another one is added to: "28 + 10 mm"."""
+    at = text.find(quantity.text.lstrip("+ "))
+    parts = at >= 0 and (
+        re.search(r"\d\s*\+\s*$", text[:at]) or re.match(r"\S*\s*\+\s*\d", text[at + len(quantity.text.lstrip("+ ")) :])
+    )
+    return f"the sheet prints a sum, '{text}'" if parts else ""
 
 
 def _times(quantity: Quantity, count: int) -> Quantity:
@@ -365,7 +390,16 @@ def _factors(statement: Statement, label: str, reading: Reading) -> Iterator[Cla
 
 def configured_by(claim: Claim) -> tuple[str, ...]:
     """What names the configuration that a claim holds for."""
-    return claim.statement.variant or claim.statement.column
+    label = claim.statement.label
+    return claim.statement.variant or claim.statement.column or ((label,) if names_model(label) else ())
+
+
+_MODEL = re.compile(r"(?=\S*\d\S*\d)[A-Z]{1,4}[-–]?[A-Z]{0,3}\d[\dA-Z/-]*(?:\s(?:\([A-Z\d/-]{1,5}\)|[A-Z\d/-]{1,5}))*")
+
+
+def names_model(label: str) -> bool:
+    """Whether a label is a model's designation, and no more: "D6R2 XL (SU)"."""
+    return _MODEL.fullmatch(label.strip()) is not None and not any(q.printed for r in read(label) for q in r.numbers)
 
 
 def _without_conditions(label: str) -> str:

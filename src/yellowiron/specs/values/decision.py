@@ -47,7 +47,8 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
     bucket"; a value of the column will do: "4.2 m3")."""
     if not matches:
         return missing(wanted)
-    chosen = _without_charts(_configured(matches, sheets, config))
+    whole = [m for m in matches if not _is_broken_off(m.claim.statement.label)]
+    chosen = _without_charts(_configured(whole or matches, sheets, config))
     groups = _groups(wanted, chosen)
     said, counted = None, 0
     if len(groups) > 1:
@@ -264,12 +265,19 @@ def _words_of(phrase: str) -> set[str]:
 def _as_stated(wanted: Wanted, matches: Sequence[Match], sheets: Sheets) -> tuple[Stated | None, list[Match]]:
     """The matches whose column (or row, where rows are the configurations) a sentence about the sheet's figures names
     in full, those of no configuration that say the same, and that sentence."""
+    plain = [m for m in matches if not configured_by(m.claim)]
+
+    def names(found: Match) -> Sequence[str]:
+        """What names a match's configuration; its own value does only where the sheet says that one plainly, too."""
+        heads = configured_by(found.claim)
+        by_itself = found.claim.statement.text in heads
+        return () if by_itself and all(len(_by_value(wanted, [found, m])) > 1 for m in plain) else heads
+
     for stated in sheets.stated:
         words = set(tokens(stated.sentence)) | quantity_words(stated.sentence)
-        kept = [m for m in matches if (names := configured_by(m.claim)) and all(_says(words, n) for n in names)]
+        kept = [m for m in matches if (heads := names(m)) and all(_says(words, head) for head in heads)]
         if kept:
             first = _by_value(wanted, kept)[0][0]
-            plain = [m for m in matches if not configured_by(m.claim)]
             return stated, [*kept, *(m for m in plain if len(_by_value(wanted, [first, m])) == 1)]
     return None, list(matches)
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-import itertools
 import re
 from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass, field, replace
@@ -23,11 +22,12 @@ from yellowiron.specs.language.vocabulary import (
     ends,
     has_cjk,
     is_one_place,
+    names_a_part,
     squeezed,
     tokens,
 )
-from yellowiron.specs.values.claims import Claim
-from yellowiron.specs.values.requested import usual
+from yellowiron.specs.values.claims import Claim, names_model
+from yellowiron.specs.values.requested import phrases, usual
 from yellowiron.specs.values.tolerances import LEAST
 
 _EXTREME = {"maximum"}
@@ -82,7 +82,7 @@ def match(claims: Sequence[Claim], wanted: Sequence[Wanted]) -> dict[str, list[M
             continue
         if any(m.by_label for m in matches):
             matches = [m for m in matches if m.by_label]
-        matches = _of_possible(matches, said)
+        matches = _of_part(_of_possible(matches, said))
         best = max((m.score, _specific(m)) for m in matches)
         kept = [m for m in matches if m.score >= best[0] - 1e-9 and (m.score > 0.999 or _specific(m) >= best[1])]
         kept = _by_own_name(kept)
@@ -112,7 +112,8 @@ def _without_shared_headings(matches: list[Match]) -> list[Match]:
 
     def place(one: Match) -> tuple[object, ...]:
         statement = one.claim.statement
-        return (statement.sheet, statement.page, statement.section, statement.column)
+        model = (statement.context, statement.label) if names_model(statement.label) else ()
+        return (statement.sheet, statement.page, statement.section, statement.column, model)
 
     for one in matches:
         if not one.by_label and not one.by_head:
@@ -139,6 +140,13 @@ def _ends_told_apart(found: dict[str, list[Match]], wanted: Sequence[Wanted]) ->
             if at in both:
                 found[one.wanted.name].append(one)
     return found
+
+
+def _of_part(matches: Sequence[Match]) -> list[Match]:
+    """The matches without those of the machine where a sub-heading makes their words a part's: "Blade | Height"."""
+    named = [(m, frozenset(tokens(m.phrase))) for m in matches]
+    parts = [frozenset(tokens(c)) for m in matches[:1] for c in m.claim.statement.context if names_a_part(c)]
+    return [m for m, words in named if not any(words < other and other - words in parts for _, other in named)]
 
 
 def _of_possible(matches: Sequence[Match], said: _Said) -> list[Match]:
@@ -248,7 +256,9 @@ def _said(claim: Claim) -> _Said:
 def _cut(words: str, head: str, column: tuple[str, ...], context: tuple[str, ...], section: str) -> _Said:
     heads = [h for h in column if not _names_configuration(h)]
     label = words
-    if context and _LEADS.search(context[-1]) and not tokens(words):  # in several languages over its value
+    if context and names_model(words):  # "Shipping weight", and under it a row for each model
+        label = ""
+    elif context and _LEADS.search(context[-1]) and not tokens(words):  # in several languages over its value
         label, context = " ".join(context), ()
     if context and tokens(whole := f"{context[-1]} {label}") != tokens(context[-1]) + tokens(label):
         label, context = whole, context[:-1]  # an expression goes on from the line above: "rod" over "diameter"
@@ -303,6 +313,7 @@ def _match(asked_for: _Asked, claim: Claim, said: _Said) -> Match | None:
     left = {t for t in primary - explained - _EXTREME - asked_for.name if not _is_number(t)}
     left = {t for t in left if t not in NEUTRAL or _is_telling(t, asked_for, explained | left, claim, said, KNOWN)}
     left -= said.standard | (frozenset() if from_head else _WHOLE)
+    left -= {"speed"} if wanted.dimension == "time" else set()  # "Boom extension speed: 21 m/80 s"
     if _is_translated(asked_for, claim):
         left &= KNOWN | TELLING
     known = frozenset() if borrowed else KNOWN  # a heading that must help names other properties too
@@ -407,24 +418,6 @@ def _opens_sentence(word: str, asked_for: _Asked, claim: Claim) -> bool:
     order = tokens(claim.words)
     first = next((i for i, t in enumerate(order) if t in asked_for.words), 0)
     return word in order[:first] and word not in order[first:]
-
-
-@functools.lru_cache(maxsize=1024)
-def _phrases(name: str, synonyms: tuple[tuple[str, ...], ...], concepts: tuple[str, ...]) -> tuple[str, ...]:
-    spelled = [p for concept in concepts for p in spelled_out(concept)]
-    return tuple(dict.fromkeys([name, *(s for group in synonyms for s in group), *spelled]))
-
-
-def spelled_out(concept: str) -> list[str]:
-    """The phrases of a concept: ("lift/boom cylinder bore") → ["lift cylinder bore", "boom cylinder bore"]; `_` joins
-    the words of an alternative."""
-    choices = [part.split("/") for part in concept.split()]
-    return [" ".join(chosen).replace("_", " ") for chosen in itertools.product(*choices)]
-
-
-def phrases(wanted: Wanted) -> tuple[str, ...]:
-    """A wanted value's name, its synonyms in every language and its concepts."""
-    return _phrases(wanted.name, tuple(tuple(group) for group in wanted.synonyms.values()), wanted.concepts)
 
 
 def _anchored(words: Set[str], label: Set[str], head: Set[str], above: Set[str]) -> bool:

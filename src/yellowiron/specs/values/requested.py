@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import functools
+import itertools
+
 from yellowiron.model.specification import Specifications, fold
 from yellowiron.model.template import JointTemplate, Template, Wanted
 
@@ -94,3 +97,21 @@ _EXAMPLES = {
     "time": "VALUE s",
     "count": "VALUE",
 }
+
+
+@functools.lru_cache(maxsize=1024)
+def _phrases(name: str, synonyms: tuple[tuple[str, ...], ...], concepts: tuple[str, ...]) -> tuple[str, ...]:
+    spelled = [p for concept in concepts for p in spelled_out(concept)]
+    return tuple(dict.fromkeys([name, *(s for group in synonyms for s in group), *spelled]))
+
+
+def spelled_out(concept: str) -> list[str]:
+    """The phrases of a concept: ("lift/boom cylinder bore") → ["lift cylinder bore", "boom cylinder bore"]; `_` joins
+    the words of an alternative."""
+    choices = [part.split("/") for part in concept.split()]
+    return [" ".join(chosen).replace("_", " ") for chosen in itertools.product(*choices)]
+
+
+def phrases(wanted: Wanted) -> tuple[str, ...]:
+    """A wanted value's name, its synonyms in every language and its concepts."""
+    return _phrases(wanted.name, tuple(tuple(group) for group in wanted.synonyms.values()), wanted.concepts)

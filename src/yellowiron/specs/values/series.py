@@ -17,8 +17,11 @@ def extremes(matches: Sequence[Match], value: Callable[[Match], float]) -> list[
     """Of values that the rows of each column count one by one, and that rise or fall with the count, the greatest where
     a maximum is meant, the least where a minimum is; [] where the matches are anything else. `value`: in SI."""
     columns: dict[tuple[object, ...], dict[int, list[Match]]] = {}
+    counted = any(_count(m) is not None for m in matches)
+    if not counted and not _are_gears(matches):
+        return []
     for one in matches:
-        count = _count(one)
+        count = _count(one) if counted else one.claim.statement.row
         if count is None:
             return []
         statement = one.claim.statement
@@ -28,12 +31,17 @@ def extremes(matches: Sequence[Match], value: Callable[[Match], float]) -> list[
     found: list[Match] = []
     for rows in columns.values():
         values = [[value(m) for m in rows[count]] for count in sorted(rows)]
-        rises = all(max(a) < min(b) for a, b in pairwise(values))
+        rises = all(max(a) < min(b) or (not counted and a == b) for a, b in pairwise(values))
         falls = all(min(a) > max(b) for a, b in pairwise(values))
         if meant is None or len(rows) < _LEAST_COUNTED or not (rises or falls):
             return []
         found += rows[max(rows) if rises == (meant == "maximum") else min(rows)]
     return found
+
+
+def _are_gears(matches: Sequence[Match]) -> bool:
+    """Whether the values are speeds under one name, one for each gear: "1.0 Forward", "1.5 Forward"."""
+    return len({m.claim.words for m in matches}) == 1 and all(m.wanted.dimension == "speed" for m in matches)
 
 
 def _meant(matches: Sequence[Match]) -> str | None:

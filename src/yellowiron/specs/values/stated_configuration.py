@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-_SENTENCE_END = re.compile(r"(?<=[.!?])\s+(?=[^\W\d_a-z])")
+_SENTENCE_END = re.compile(r"(?<=[.!?])\s+(?=(?:\d{1,2}[.)]?\s)?[^\W\d_a-z])")
 _STATES = re.compile(
     r"\b(?:figures|values|data|dimensions|specifications|ratings)\b[^.]{0,60}?\b(?:are|is|apply|refer|shown|given|based)\b"
     r"[^.]{0,30}?\b(?:for|on|with|to)\b"

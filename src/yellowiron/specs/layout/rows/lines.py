@@ -150,6 +150,8 @@ def _gutter(lines: Sequence[TextLine], bars: Sequence[Box], across: Sequence[Box
     return best[1:] if best else None
 
 
+_SURELY_PAIRED = 6
+"""So many labels with values make a column of them, though a list without values goes on under them."""
 _FEWEST_RUNNING = 5
 """Lines of running text that make a column of it."""
 
@@ -207,7 +209,8 @@ def _of_repeated_labels(lines: Sequence[TextLine]) -> list[float]:
     found: list[float] = []
     for key in sorted(starts):
         near = starts[key] + starts.get(key + 1, [])
-        if len(near) >= 4 and sum(paired for _, paired in near) >= max(3, 0.5 * len(near)):
+        pairs = sum(paired for _, paired in near)
+        if len(near) >= 4 and pairs >= max(3, 0.5 * len(near) if pairs < _SURELY_PAIRED else 0.3 * len(near)):
             label = min(x for x, _ in near)
             found.extend([label, *_hanging(lines, label)])
     return found

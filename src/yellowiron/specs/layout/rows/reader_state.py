@@ -47,6 +47,10 @@ class ReaderState:
     orphans: list[int] = field(default_factory=list)
     last: tuple[Sequence[TextLine], range, str] | None = None
     beside: Beside | None = None
+    corner: TextPiece | None = None
+    """The part that a table's corner names, beside the heads of its columns ("Blade | 6S | 6SU")."""
+    worded: tuple[TextPiece, ...] = ()
+    """The row of words right above: a label and what is said of it."""
     circuit: TextPiece | None = None
     """The label of a row of words that names a hydraulic circuit ("Pilot pump: gear type"), which holds for the rows
     after it up to the next row of words."""
@@ -57,7 +61,7 @@ class ReaderState:
             self.kept = []
         elif self.heads and not self.data_since_heads and all(len(line) > 1 for line in self.heads):
             self.kept = list(self.heads)  # a table's own heads, above its first section
-        self.section, self.unit, self.circuit = heading.text, "", None
+        self.section, self.unit, self.circuit, self.corner = heading.text, "", None, None
         self.headings.append(heading)
         self.context, self.pending, self.heads = [], [], [heads] if heads else list(self.kept)
         self.indented = self.data_since_heads = False
@@ -68,7 +72,7 @@ class ReaderState:
             self.heads, self.kept = [], []
         far = bool(self.heads) and heads[0].box[1] - self.heads[-1][0].box[3] > 2.5 * heads[0].size
         if self.data_since_heads or far:
-            self.heads = []
+            self.heads, self.corner = [], None
             self.data_since_heads = False
         self.heads.append(heads)
 

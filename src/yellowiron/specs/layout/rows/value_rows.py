@@ -32,6 +32,7 @@ from yellowiron.specs.pages.words import Page
 
 def read_values(page: Page, row: Sequence[TextLine], state: ReaderState, number: int, found: list[Statement]) -> None:
     """Adds the statements of a row with values, `number` theirs, to those found above it."""
+    state.worded = ()
     cells = [c for c in cells_of(row) if sum(len(p.words) for p in c.label) <= LONGEST_LABEL]
     if not cells:
         return
@@ -48,6 +49,8 @@ def read_values(page: Page, row: Sequence[TextLine], state: ReaderState, number:
     context = [*state.context, *(p for p in pending if p not in state.context)]
     if state.circuit is not None:
         context.insert(0, state.circuit)
+    if state.corner is not None and state.heads:
+        context.insert(0, state.corner)
     marked = bool(EXAMPLE.search(state.section)) or any(
         EXAMPLE.search(p.text) for p in [*context, *(q for c in cells for q in [*c.notes, *c.label, *c.values])]
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from yellowiron.specs.language.vocabulary import CIRCUITS, tokens
+from yellowiron.specs.language.vocabulary import CIRCUITS, names_a_part, tokens
 from yellowiron.specs.layout.rows.headings import (
     Heading,
     bar_under,
@@ -15,7 +15,7 @@ from yellowiron.specs.layout.rows.headings import (
     names_no_columns,
 )
 from yellowiron.specs.layout.rows.lines import TextLine
-from yellowiron.specs.layout.rows.reader_state import ReaderState, TextColumn
+from yellowiron.specs.layout.rows.reader_state import ReaderState, TextColumn, stacked
 from yellowiron.specs.layout.statement import TextPiece, is_unit, kind_of, unit_of_heading, unit_said
 from yellowiron.specs.layout.tolerances import LARGER, LONGEST_LABEL
 
@@ -23,6 +23,7 @@ from yellowiron.specs.layout.tolerances import LARGER, LONGEST_LABEL
 def read_words(column: TextColumn, line: TextLine, state: ReaderState) -> None:
     """Reads a line without a value: a heading, column heads, a sub-heading, or the first line of a label."""
     texts = [q for p in line.pieces if kind_of(p) != "mark" for q in _parted(p)]
+    above, state.worded = state.worded, ()
     if not texts:
         if state.heads and not state.data_since_heads:
             state.heads.append(line.pieces)
@@ -36,6 +37,9 @@ def read_words(column: TextColumn, line: TextLine, state: ReaderState) -> None:
         return
     if len(texts) == 1 == len(line.pieces) and _is_larger_over_labels(texts[0], column):
         at_label = True  # a heading in the middle
+    if len(texts) == 1 and len(above) == 2 and not at_label and stacked(above[1], texts[0]):
+        state.worded = (above[0], texts[0])  # what is said of it goes on
+        return
     heading = _on_bar_or_large(column, line, texts, at_label=at_label)
     heading = heading or (_titled_with_unit(column, line, texts) if at_label else None)
     if heading is not None:
@@ -47,12 +51,16 @@ def read_words(column: TextColumn, line: TextLine, state: ReaderState) -> None:
         state.add_heads(tuple(texts))
         if at_label and not is_unit(texts[0].bare):
             state.pending = []
+            state.corner = texts[0] if len(texts) > 2 and names_a_part(texts[0].bare) else state.corner
     elif at_label and len(texts) == 1 and not _is_prose(texts[0]):
         state.add_label(texts[0])
     else:
         state.pending = []
         if at_label and len(texts) == 2:
-            state.circuit = texts[0] if CIRCUITS & set(tokens(texts[0].bare)) else None
+            # "Pump type – implements", "Pump type – steering": rows of one kind open no part of the table
+            alike = above and tokens(above[0].bare)[:1] == tokens(texts[0].bare)[:1]
+            state.circuit = texts[0] if CIRCUITS & set(tokens(texts[0].bare)) and not alike else None
+            state.worded = tuple(texts)
 
 
 def _is_larger_over_labels(piece: TextPiece, column: TextColumn) -> bool:
