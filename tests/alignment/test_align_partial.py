@@ -99,6 +99,19 @@ def test_half_a_machine_without_a_rod_keeps_the_hinge_of_its_links(excavator: Te
     assert of_drawn(found, without_link, load_template("excavator")).axes == {}
 
 
+@pytest.mark.parametrize(("kind", "wheel"), [("forklift", "rear_wheel_l"), ("backhoe_loader", "front_wheel_r")])
+def test_what_hangs_on_an_axle_that_is_not_drawn_goes_with_it(kind: str, wheel: str) -> None:
+    """A forklift of a stranger's, drawn without its steered axle, had its rear wheels welded to the chassis."""
+    whole = choose(load_template(kind), {})
+    held = {b for b in bodies(whole) if "axle" in b or "knuckle" in b or "tie_rod" in b or b == "steering_piston_rod"}
+    bare = as_drawn(whole, bodies(whole) - held)
+    assert bodies(bare) == bodies(whole) - held
+    assert set(bare.bodies_of(bare.joint(f"{wheel}_joint"))) == {"chassis", wheel}
+    kept = min(b for b in held if b.startswith("knuckle"))
+    steered = as_drawn(whole, bodies(whole) - held | {kept})
+    assert held - bodies(steered) == set()  # it has a knuckle: what holds it is missed, and said
+
+
 def test_a_frame_that_is_not_drawn_is_one_with_its_carrier(loader: Template) -> None:
     rigid = as_drawn(loader, bodies(loader) - {"front_frame"})
     assert set(rigid.bodies_of(rigid.joint("front_frame2boom_joint"))) == {"rear_frame", "boom"}
