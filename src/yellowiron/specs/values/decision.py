@@ -266,16 +266,20 @@ def _as_stated(wanted: Wanted, matches: Sequence[Match], sheets: Sheets) -> tupl
     """The matches whose column (or row, where rows are the configurations) a sentence about the sheet's figures names
     in full, those of no configuration that say the same, and that sentence."""
     plain = [m for m in matches if not configured_by(m.claim)]
+    plainly = _by_value(wanted, plain)
 
-    def names(found: Match) -> Sequence[str]:
-        """What names a match's configuration; its own value does only where the sheet says that one plainly, too."""
+    def names(found: Match, words: set[str]) -> Sequence[str]:
+        """What names a match's configuration; its own value does only if the sheet says it plainly, too, and the
+        sentence speaks of no other such value: "a 23.45 m or a 30.5 m boom" is no machine's."""
         heads = configured_by(found.claim)
-        by_itself = found.claim.statement.text in heads
-        return () if by_itself and all(len(_by_value(wanted, [found, m])) > 1 for m in plain) else heads
+        if found.claim.statement.text not in heads:
+            return heads
+        said = [group[0] for group in plainly if any(_says(words, m.claim.statement.text) for m in group)]
+        return heads if len(said) == 1 and len(_by_value(wanted, [found, *said])) == 1 else ()
 
     for stated in sheets.stated:
         words = set(tokens(stated.sentence)) | quantity_words(stated.sentence)
-        kept = [m for m in matches if (heads := names(m)) and all(_says(words, head) for head in heads)]
+        kept = [m for m in matches if (heads := names(m, words)) and all(_says(words, head) for head in heads)]
         if kept:
             first = _by_value(wanted, kept)[0][0]
             return stated, [*kept, *(m for m in plain if len(_by_value(wanted, [first, m])) == 1)]
