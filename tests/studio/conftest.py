@@ -24,3 +24,13 @@ def open_studio(cad_read_once: None, example: Path, tmp_path: Path) -> Iterator[
     yield opening
     for one in opened:
         one.close()
+
+
+@pytest.fixture(scope="module")
+def untouched(cad_read_once: None, example: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Session]:
+    """A session in which nobody decides anything, one for all tests of a module."""
+    session = Session(
+        Setup("wheel_loader", example / "wheel_loader.step", tmp_path_factory.mktemp("untouched") / "machine")
+    )
+    yield session
+    session.close()

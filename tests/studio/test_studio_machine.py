@@ -61,16 +61,14 @@ def test_a_variant_and_what_is_not_drawn(open_studio: Callable[..., Session]) ->
 @pytest.mark.parametrize(
     ("name", "text"), [("", "x"), ("forward", "ahead"), ("wing", "absent"), ("bucket", "gone"), ("forward", "x" * 300)]
 )
-def test_what_means_nothing_of_a_machine_is_refused(open_studio: Callable[..., Session], name: str, text: str) -> None:
-    studio = open_studio()
+def test_what_means_nothing_of_a_machine_is_refused(untouched: Session, name: str, text: str) -> None:
     with pytest.raises(YellowironError):
-        studio.do(studio.read({"kind": "machine", "name": name, "text": text}))
-    assert studio.history() == ([], 0)
+        untouched.do(untouched.read({"kind": "machine", "name": name, "text": text}))
+    assert untouched.history() == ([], 0)
 
 
-def test_it_is_asked_before_any_part(open_studio: Callable[..., Session]) -> None:
-    studio = open_studio()
-    state, boxes = studio.settled(120), boxes_of(studio.assembly)
+def test_it_is_asked_before_any_part(untouched: Session) -> None:
+    state, boxes = untouched.settled(120), boxes_of(untouched.assembly)
     assert not [q for q in questions(state, boxes) if q.kind == "machine"]  # of a machine that was found, nothing
     doubted = replace(
         state.aligned, facing_doubt="forward is guessed", open_choices={"lift_cylinders": ("single",)},
@@ -90,9 +88,8 @@ def test_it_is_asked_before_any_part(open_studio: Callable[..., Session]) -> Non
     assert absent == {"bucket", "boom_cylinder_barrel_l,boom_piston_rod_l"}
 
 
-def test_little_doubts_of_a_body_and_its_twin_are_one_question(open_studio: Callable[..., Session]) -> None:
-    studio = open_studio()
-    state, boxes = studio.settled(120), boxes_of(studio.assembly)
+def test_little_doubts_of_a_body_and_its_twin_are_one_question(untouched: Session) -> None:
+    state, boxes = untouched.settled(120), boxes_of(untouched.assembly)
     rods = [p for p in state.alignment.parts if p.body in ("boom_piston_rod_l", "boom_piston_rod_r")]
     sure = {p.part: replace(p, confidence=0.99) for p in rods}
     doubted = replace(

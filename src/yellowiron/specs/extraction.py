@@ -166,6 +166,8 @@ def _of_words_recognised(
     style: DecimalStyle,
 ) -> dict[str, Specification]:
     """What pictures of pages say of the values that are missing."""
+    if not claimed.recognised and not any(near for near, _ in claimed.near_recognised):
+        return {}
     open_ = [w for w in wanted if values[w.name].status in ("missing", "unreadable")]
     found = _by_rules(open_, claimed.recognised, known, config, style)
     return second_reading(open_, found, claimed.near_recognised, known, config)

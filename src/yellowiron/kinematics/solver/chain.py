@@ -89,6 +89,7 @@ class ClosedChain:
         self._jacobian = np.zeros((0, self._model.nv))
         self._gaps = np.zeros(0)
         self._placed: State | None = None
+        self._moving: tuple[State, str, Floats] | None = None
         self.drawn = State(np.array(self._model.qpos0, dtype=np.float64))
         size = float(np.ptp(np.array([joint.anchor for joint in mechanism.joints] or [(0, 0, 0)]), axis=0).max())
         self._tolerance = CLOSED * max(1.0, size / 10.0)
@@ -409,11 +410,14 @@ class ClosedChain:
     def tangent(self, state: State, joint: str) -> Floats:
         """Velocities of all tree coordinates (nv,) per unit velocity of one independent coordinate, the others held."""
         jacobian = self._at(state)
+        if self._moving is not None and self._moving[0] is state and self._moving[1] == joint:
+            return self._moving[2]
         velocity = np.zeros(self._model.nv)
         column = self._dofs(joint)[0]
         velocity[column] = 1.0
         if len(self._rows):
             velocity[self._columns] = np.linalg.solve(jacobian[self._block], -jacobian[self._rows, column])
+        self._moving = (state, joint, velocity)
         return velocity
 
     def rate(self, state: State, joint: str, tangent: Floats) -> float:

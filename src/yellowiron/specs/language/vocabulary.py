@@ -267,10 +267,10 @@ def ends(text: str) -> tuple[frozenset[str], frozenset[str]] | None:
 
 def is_one_place(words: frozenset[str]) -> bool:
     """Whether words name a single place of a machine and none of its properties: "rear axle"."""
-    return words <= _ENDS | _SIDES and len(words & _ENDS) == 1 and not {"front", "rear"} <= words
+    return words <= _PLACES and len(words & _ENDS) == 1 and not {"front", "rear"} <= words
 
 
-_SIDES = frozenset(["front", "rear", "left", "right", "center", "centerline"])
+_PLACES = _ENDS | frozenset(["front", "rear", "left", "right", "center", "centerline"])
 _TERMS = {term: tuple(_english(meant.split())) for meant, terms in _DATA["cjk"].items() for term in terms.split()}
 _TERM = re.compile("|".join(sorted((re.escape(t) for t in _TERMS), key=len, reverse=True)))
 """Terms of scripts without spaces, the longest first, each with the English words it stands for."""

@@ -228,6 +228,7 @@ def _asked(wanted: tuple[Wanted, ...]) -> tuple[_Asked, ...]:
     return tuple(replace(one, others=others) for one in alone)
 
 
+@functools.lru_cache(maxsize=4096)
 def _alone(wanted: Wanted) -> _Asked:
     said = tuple((p, words) for p, words in _with_words(phrases(wanted)) if words)
     if wanted.dimension == "length":
