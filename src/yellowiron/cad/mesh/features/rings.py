@@ -9,7 +9,7 @@ facets are too wide to tell: the height of the arc over a chord.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -91,9 +91,9 @@ def _ways(soup: Soup) -> list[Floats]:
 def _patches(soup: Soup, free: Flags, bent: Flags) -> Iterator[Floats]:
     """The direction that the normals of each smooth patch lie across: for walls without ends."""
     label = linked(soup.pair[bent], len(soup.corners))
-    count = np.bincount(label)
-    for k in np.flatnonzero(count > _CORNERS).tolist():
-        rows = np.flatnonzero(label == k)
+    members = _members(label)
+    for k in np.flatnonzero(np.bincount(label) > _CORNERS).tolist():
+        rows = members(k)
         if not free[rows].all():
             continue
         normals = soup.normals[rows]
@@ -112,8 +112,16 @@ def _walls(soup: Soup, free: Flags, direction: Floats) -> Iterator[Indices]:
     size = np.bincount(label, weights=soup.areas)
     net: Floats = np.stack([np.bincount(label, weights=soup.areas * soup.normals[:, k]) for k in range(3)], axis=1)
     net = net - np.outer(net @ direction, direction)
+    members = _members(label)
     for k in np.flatnonzero((count >= _CORNERS) & (np.linalg.norm(net, axis=1) < _ALL_ROUND * size)).tolist():
-        yield np.flatnonzero(label == k)
+        yield members(k)
+
+
+def _members(label: Indices) -> Callable[[int], Indices]:
+    """The rows that have a label, in order."""
+    order = np.argsort(label, kind="stable")
+    ends = np.cumsum(np.bincount(label))
+    return lambda k: order[ends[k - 1] if k else 0 : ends[k]]
 
 
 def _ring(soup: Soup, rows: Indices, direction: Floats) -> Ring | None:

@@ -120,18 +120,15 @@ def fit(start: Round, points: Floats) -> Round | None:
 def lying_on(soup: Soup, cylinder: Round, among: Indices, slack: float) -> Indices:
     """Of the triangles `among`, those on a cylinder: all corners at its radius, within `slack` metres, facing along it,
     no wider than a strip may be."""
-    radial = cylinder.distances(soup.points[soup.corners[among]])
-    close = (np.abs(radial - cylinder.radius) <= slack).all(axis=1)
-    left = among[close]
-    normals, middles = soup.normals[left], soup.middles[left]
-    offset = middles - cylinder.point
+    left = among[np.abs(soup.normals[among] @ cylinder.direction) <= LEAN]  # the cheapest test first: few are left
+    offset = soup.middles[left] - cylinder.point
     outward = offset - (offset @ cylinder.direction)[:, None] * cylinder.direction
     length = np.maximum(np.linalg.norm(outward, axis=1), 1e-12)
-    facing = np.einsum("ij,ij->i", normals, outward) / length
-    if cylinder.inner:
-        facing = -facing
-    flat = np.abs(normals @ cylinder.direction) <= LEAN
-    return left[flat & (facing > math.cos(0.75 * WIDEST)) & (widths(soup, cylinder, left) <= WIDEST)]
+    facing = np.einsum("ij,ij->i", soup.normals[left], outward) / length
+    left = left[(-facing if cylinder.inner else facing) > math.cos(0.75 * WIDEST)]
+    radial = cylinder.distances(soup.points[soup.corners[left]])
+    left = left[(np.abs(radial - cylinder.radius) <= slack).all(axis=1)]
+    return left[widths(soup, cylinder, left) <= WIDEST]
 
 
 def widths(soup: Soup, cylinder: Round, triangles: Indices) -> Floats:
