@@ -45,6 +45,7 @@ from yellowiron.alignment import pipeline  # noqa: E402
 from yellowiron.alignment.fusion import reading  # noqa: E402
 from yellowiron.alignment.fusion.annealing import labelled  # noqa: E402
 from yellowiron.alignment.fusion.bonds import out_of_line  # noqa: E402
+from yellowiron.alignment.fusion.evidence import Evidence, evidence_of, ways_of  # noqa: E402
 from yellowiron.alignment.fusion.judge import Field, field_of, score_of, weighed  # noqa: E402
 from yellowiron.alignment.fusion.played import drawn_bodies, lacks  # noqa: E402
 from yellowiron.alignment.fusion.weights import weights  # noqa: E402
@@ -76,7 +77,7 @@ Weights = dict[str, float]
 class Way:
     """A machine as it may stand, under a variant with what is drawn of it; `right`: as it does stand, and is."""
 
-    evidence: reading.Evidence
+    evidence: Evidence
     template: Template
     right: bool
 
@@ -121,10 +122,10 @@ def problems_of(name: str, given: Scene) -> list[Problem]:
     if not seen:
         return []
     observation, template, variants, scores, answer = seen[-1]
-    evidence = reading.evidence_of(observation, scores, answer, {}, template)
+    evidence = evidence_of(observation, scores, answer, {}, template)
     right = _right_of(evidence, given, template)
     there = {b for _, body in given.truth.labels for b in body.split("|")}
-    ways = reading.ways_of(evidence, template, bool(observation.rows))
+    ways = ways_of(evidence, template, bool(observation.rows))
     resolved = [choose(template, c) for c in variants]
     best = max(resolved, key=lambda t: _fitting(t, there))
     areas = [evidence.pieces[k].area for k in evidence.leading]
@@ -139,7 +140,7 @@ def problems_of(name: str, given: Scene) -> list[Problem]:
     return [replace(problem, ways=[true, *wrong, *liked[:RIVALS]])]
 
 
-def _right_of(evidence: reading.Evidence, given: Scene, template: Template) -> list[frozenset[str]]:
+def _right_of(evidence: Evidence, given: Scene, template: Template) -> list[frozenset[str]]:
     """The bodies that are right of each leading piece; none where nobody knows, or the type lacks it."""
     truth = given.truth
     tree, known = cKDTree(truth.points), {r.name for r in template.roles if r.rigid}

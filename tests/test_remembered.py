@@ -1,4 +1,4 @@
-"""An answer is given once for an object, not for its equals, and forgotten with it."""
+"""An answer is given once for an object, not for its equals, and forgotten with it; or once for equal values."""
 
 from __future__ import annotations
 
@@ -6,6 +6,9 @@ import gc
 import weakref
 from dataclasses import dataclass
 
+import pytest
+
+from yellowiron.support.caching.recent import recent
 from yellowiron.support.caching.remembered import remembered
 
 
@@ -52,3 +55,29 @@ def test_an_answer_is_forgotten_with_its_object() -> None:
     del thing
     gc.collect()
     assert answer() is None
+
+
+def test_equal_values_are_asked_once_and_the_last_few_kept() -> None:
+    asked: list[float] = []
+
+    def ask(thing: Thing) -> float:
+        asked.append(thing.size)
+        return 2.0 * thing.size
+
+    lately = recent(ask, most=2)
+    assert [lately(Thing(size)) for size in (1.0, 1.0, 2.0, 1.0, 3.0, 1.0, 2.0)] == [2, 2, 4, 2, 6, 2, 4]
+    assert asked == [1.0, 2.0, 3.0, 2.0]
+
+
+def test_a_failure_is_not_kept() -> None:
+    asked: list[float] = []
+
+    @recent
+    def ask(thing: Thing) -> float:
+        asked.append(thing.size)
+        return 1.0 / thing.size
+
+    for _ in range(2):
+        with pytest.raises(ZeroDivisionError):
+            ask(Thing(0.0))
+    assert asked == [0.0, 0.0]

@@ -39,6 +39,7 @@ from yellowiron.model.rows import expand
 from yellowiron.model.specification import Specification, Specifications, fold
 from yellowiron.model.template import Template
 from yellowiron.support.caching.disk import kept
+from yellowiron.support.caching.recent import recent
 from yellowiron.support.vectors import triple
 
 
@@ -295,6 +296,12 @@ def compare_with_declared(
     return declared_findings(compare_declared(mechanism, assembly, alignment), assembly.name)
 
 
+@recent
+def _completed(mechanism: Mechanism) -> Mechanism:
+    """Most of what a person decides leaves the machine as it is: what its loops come to is not worked out again."""
+    return kinematics.complete(kinematics.calibrate(mechanism))
+
+
 def complete_mechanism(
     assembly: Assembly,
     template: Template,
@@ -311,7 +318,7 @@ def complete_mechanism(
             assembly, template, alignment, specifications,
             name=template.equipment_type, documents=data, standing=standing,
         )  # fmt: skip
-        mechanism = kinematics.complete(kinematics.calibrate(mechanism))
+        mechanism = _completed(mechanism)
         wrong = kinematics.unworkable(mechanism)
         if not wrong:
             return mechanism

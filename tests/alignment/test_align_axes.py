@@ -25,7 +25,7 @@ from yellowiron.library import load_template
 from yellowiron.model.alignment import PartAssignment
 from yellowiron.model.assembly import Assembly, Node
 from yellowiron.model.geometry import Floats, Mesh
-from yellowiron.model.template import JointTemplate, Role, Template, choose
+from yellowiron.model.template import JointTemplate, Role, Template, as_drawn, choose
 
 MACHINE = Frame(*np.eye(3))
 TEMPLATES = {"loader": "wheel_loader", "excavator": "excavator"}
@@ -158,6 +158,21 @@ def test_without_evidence_a_guess_says_how_rough_it_is() -> None:
     assert off < 2 * found.across
     assert found.across > 0.03
     assert abs(found.direction[1]) > 0.999
+
+
+def test_what_slides_on_a_mast_that_is_not_drawn_goes_up() -> None:
+    """Forks lie along the machine: their length is not the way that they are lifted."""
+    template = as_drawn(choose(load_template("forklift"), {"mast": "single"}), {"chassis", "carriage"})
+    solids = solids_from(
+        (polygons.box((2.0, 1.0, 1.5)), (0.0, 0.0, 0.8)), (polygons.box((1.2, 0.8, 0.1)), (1.65, 0.0, 0.1))
+    )
+    ahead = [s.index for s in solids if s.center[0] > 1.0]
+    labels = {"chassis": [s.index for s in solids if s.index not in ahead], "carriage": ahead}
+    frame = Frame(np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0]), np.array([0.0, 0.0, 1.0]))
+    found = estimate_axes(solids, labels, template, frame=frame)["outer_mast2carriage_joint"]
+    assert found.direction == pytest.approx([0.0, 0.0, 1.0], abs=1e-9)
+    assert math.degrees(found.angle) == pytest.approx(5.0)
+    assert found.how == "how its machine stands"
 
 
 def test_a_pivot_of_the_scene_tree_is_taken_where_the_bodies_meet() -> None:

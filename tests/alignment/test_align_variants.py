@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from yellowiron.alignment.fusion import reading, trust
+from yellowiron.alignment.fusion import evidence as known
+from yellowiron.alignment.fusion import trust
 from yellowiron.alignment.fusion.bonds import Bond
 from yellowiron.alignment.fusion.played import lacks
 from yellowiron.alignment.fusion.reading import _solution
@@ -107,11 +108,11 @@ def test_the_name_of_a_mesh_counts_less_for_its_solids_and_least_for_its_bars(
         heard.extend(worth)
         return [{"boom": {}, "undercarriage": {}} for _ in pieces]
 
-    monkeypatch.setattr(reading, "votes_of", told)
+    monkeypatch.setattr(known, "votes_of", told)
     pieces: Any = [SimpleNamespace(slender=slender) for slender in (False, False, True, True, False)]
     rest: Any = dict.fromkeys(("scores", "answer", "surface"))
     part = Stance(np.eye(3), np.zeros(3), 1.0, 1.0, absent=frozenset({"undercarriage"}))
-    evidence = reading.Evidence(
+    evidence = known.Evidence(
         pieces=pieces, leading=(), bonds=(), trust=0.8, shared=frozenset({1, 3}), pins=frozenset(),
         stance=part, edited={}, borne=frozenset({4}), **rest,
     )  # fmt: skip

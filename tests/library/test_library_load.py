@@ -18,7 +18,7 @@ from yellowiron import library
 from yellowiron.library.notation.quantities import limit, number_text, quantity
 from yellowiron.library.type_folders import DOCUMENTS, library_folder
 from yellowiron.model.errors import OutputError
-from yellowiron.model.template import Template, choose, without_absent_axles
+from yellowiron.model.template import Template, as_drawn, choose, without_absent_axles
 from yellowiron.support.units import SI_UNIT
 
 DATA = Path(__file__).resolve().parent.parent / "data" / "templates"
@@ -369,3 +369,15 @@ def test_wheels_of_an_axle_that_is_not_drawn_turn_on_what_carries_it() -> None:
     assert bare.role("rocker").rigid
     assert bare.bodies_of(bare.joint("rear_wheel_l_joint")) == ("rear_frame", "rear_wheel_l")
     assert "rear_frame2rear_axle_joint" not in {j.name for j in bare.joints}
+
+
+def test_what_slides_on_a_mast_that_is_not_drawn_slides_on_what_carries_it() -> None:
+    forklift = choose(library.load_template("forklift"), {"mast": "single"})
+    bodies = {r.name for r in forklift.roles if r.rigid}
+    assert as_drawn(forklift, bodies) is forklift
+    bare = as_drawn(forklift, {"chassis", "carriage"})
+    assert not bare.role("outer_mast").rigid
+    assert bare.bodies_of(bare.joint("outer_mast2carriage_joint")) == ("chassis", "carriage")
+    assert "chassis2outer_mast_joint" not in {j.name for j in bare.joints}
+    # Where nothing slides, nothing stands in.
+    assert as_drawn(forklift, {"chassis"}).role("outer_mast").rigid

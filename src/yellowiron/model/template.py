@@ -404,18 +404,24 @@ def choose(template: Template, choices: Mapping[str, str]) -> Template:
 
 def as_drawn(template: Template, present: Collection[str]) -> Template:
     """The template (its variants decided) for a machine of which these bodies are drawn: without absent axles
-    (`without_absent_axles`), an absent frame one with the frame that carries it, and what would turn on one pin of an
-    absent body turning on each other."""
-    return across_absent(_with_frames_in_one(without_absent_axles(template, present), present), present)
+    (`without_absent_axles`), an absent frame one with the frame that carries it, an absent slideway with what bears it,
+    and what would turn on one pin of an absent body turning on each other."""
+    return across_absent(_with_bearers_in_one(without_absent_axles(template, present), present), present)
 
 
-def _with_frames_in_one(template: Template, present: Collection[str]) -> Template:
-    """Frames that are not drawn, on one that is, are one with it: an articulated machine drawn in one piece."""
+def _with_bearers_in_one(template: Template, present: Collection[str]) -> Template:
+    """Frames that are not drawn, on one that is, are one with it: an articulated machine drawn in one piece. So are
+    arms on which something slides that is drawn: a forklift's mast in its chassis."""
+    slides = [j for j in template.joints if j.type == "prismatic" and j.follows is None]
+    bearers = {
+        str(a) for a, b in map(template.bodies_of, slides) if b in present and template.role(str(a)).kind == "arm"
+    }
     absent = {
         r.name
         for r in template.roles
-        if r.rigid and r.kind == "frame" and r.name not in present and r.parent is not None
-        if (above := template.body_of(r.parent)) in present and template.role(str(above)).kind == "frame"
+        if r.rigid and r.name not in present and r.parent is not None
+        if (above := template.body_of(r.parent)) in present
+        if r.name in bearers or r.kind == template.role(str(above)).kind == "frame"
     }
     if not absent:
         return template

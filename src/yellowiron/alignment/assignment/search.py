@@ -32,6 +32,7 @@ from yellowiron.model.errors import AlignmentError
 from yellowiron.model.geometry import Floats
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import Template, across_absent, choose
+from yellowiron.support.caching.remembered import remembered
 
 EFFORT = 4.0
 """CP-SAT's deterministic time for a search: of machines that are whole, or nearly, it took 0.01 to 1.8."""
@@ -67,7 +68,7 @@ class Search:
 
     def _allowed(self, share: float) -> Effort:
         """What a search may take."""
-        joints = sum(1 for j in choose(self.template, {}).joints if j.type in ("revolute", "prismatic"))
+        joints = sum(1 for j in machine_of(self.template, {}).joints if j.type in ("revolute", "prismatic"))
         more = max(1.0, joints / MANY_JOINTS) ** 3
         return Effort(share * more * EFFORT, more * EACH)
 
@@ -139,7 +140,7 @@ class Search:
 
     def _try(self, contact: float, structure: Structure, chosen: dict[str, str]) -> None:
         observation, scores, _ = self._looked[contact]
-        resolved = choose(self.template, chosen)
+        resolved = machine_of(self.template, chosen)
         unary = name_weights(observation.solids, structure, resolved, scores, self.edited)
         for more in (
             sheet_weights(structure, observation.cylinders, resolved, self.specifications),
@@ -188,7 +189,7 @@ def _by_cylinders(variants: list[dict[str, str]], template: Template, drawn: int
     special = template.special()
     groups: dict[tuple[int, bool], list[dict[str, str]]] = {}
     for chosen in variants:
-        count = sum(1 for r in choose(template, chosen).roles if r.kind == "barrel")
+        count = sum(1 for r in machine_of(template, chosen).roles if r.kind == "barrel")
         groups.setdefault((abs(count - drawn), not special.isdisjoint(chosen.items())), []).append(chosen)
     return [groups[key] for key in sorted(groups)]
 
@@ -201,7 +202,7 @@ def _structures(observation: Observation, template: Template, *, careful: bool) 
         yield Structure()
         return
     read = functools.cache(functools.partial(structure_of, leaves=_has_leaves(template), careful=careful))
-    bodies = sum(1 for r in choose(template, {}).roles if r.rigid)
+    bodies = sum(1 for r in machine_of(template, {}).roles if r.rigid)
     broken = loose_ends(read(observation.evidence[0], weak=False)) > 1.3 * bodies + 4
     for weak in (broken, not broken):
         for evidence in observation.evidence:
@@ -227,6 +228,16 @@ def _has_leaves(template: Template) -> bool:
                 degree[body] += 1
     kinds = {r.name: r.kind for r in template.roles}
     return any(n == 1 and kinds[b] != "wheel" and b != template.root for b, n in degree.items())
+
+
+def machine_of(template: Template, chosen: Mapping[str, str]) -> Template:
+    """`choose`, made once for every combination: a search asks for the same ones hundreds of times."""
+    return _machine(template, frozenset(chosen.items()))
+
+
+@remembered
+def _machine(template: Template, chosen: frozenset[tuple[str, str]]) -> Template:
+    return choose(template, dict(chosen))
 
 
 def variants_of(template: Template, choices: Mapping[str, str]) -> list[dict[str, str]]:

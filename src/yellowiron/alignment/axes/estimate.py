@@ -32,6 +32,9 @@ WHEELS = ("wheel", "sprocket", "idler", "roller", "carrier")
 """Kinds of roles that turn about their own axis of symmetry."""
 TWIN_BETTER = 3.0
 """So many times as well known, a cylinder's line is its twin's too."""
+_UNSEEN, _LEANS = 0.5, math.radians(5.0)
+"""How far a slideway that is not drawn may be beside the middle of what slides on it, in widths of that, and how far it
+may lean: masts tilt by 5° to 12°, and are drawn upright as a rule."""
 PIVOT_TAKEN = 0.4
 """Quality from which a hinge that is drawn at a pivot of the scene's tree has it to itself."""
 
@@ -63,6 +66,7 @@ def estimate_axes(
     linkages = [joints for joints, _ in groups]
     lines = _lines(template, bodies, linkages)
     frame = completed(frame or Frame(), linkages, template, bodies, lines)
+    lines |= _lines_up(template, bodies, frame)
     found: dict[str, AxisEstimate] = {}
     for linkage, planar in groups:
         if not planar:
@@ -92,15 +96,34 @@ def estimate_axes(
 def _lines(
     template: Template, bodies: Mapping[str, Body], linkages: Sequence[Sequence[JointTemplate]]
 ) -> dict[str, Line]:
-    """Slide → the line of its cylinder."""
+    """Slide → the line of its cylinder, or of what slides in each other."""
     kinds = {r.name: r.kind for r in template.roles}
     found = {}
-    for joint in (j for linkage in linkages for j in linkage if j.type == "prismatic"):
+    for joint in (j for linkage in linkages for j in linkage if j.type == "prismatic" and not _is_bare(j, template)):
         a, b = (str(name) for name in template.bodies_of(joint))
         barrel, rod = (b, a) if kinds[a] == "rod" or kinds[b] == "barrel" else (a, b)
         line = cylinder_line(bodies.get(barrel), bodies.get(rod))
         if line is not None:
             found[joint.name] = line
+    return found
+
+
+def _is_bare(slide: JointTemplate, template: Template) -> bool:
+    """Whether a slideway is not drawn: another body stands in for it (`as_drawn`)."""
+    way = template.role(slide.parts[0].partition("[")[0])
+    return way.kind == "arm" and not way.rigid
+
+
+def _lines_up(template: Template, bodies: Mapping[str, Body], frame: Frame) -> dict[str, Line]:
+    """Slide → upright through what slides, where no slideway is drawn: masts are what is drawn into chassis."""
+    found = {}
+    for joint in template.joints:
+        body = bodies.get(str(template.bodies_of(joint)[1]))
+        if joint.type == "prismatic" and _is_bare(joint, template) and body is not None and frame.up is not None:
+            middle = np.median(body.samples, axis=0)
+            off = body.samples - middle
+            width = float(np.percentile(np.linalg.norm(off - np.outer(off @ frame.up, frame.up), axis=1), 60))
+            found[joint.name] = Line(middle, frame.up, _UNSEEN * width, _LEANS, width, "how its machine stands")
     return found
 
 

@@ -22,7 +22,8 @@ SWEEPS = 80
 LAST = 6
 """So many sweeps without temperature end it."""
 MOVES = 12
-"""So many times two bodies change places, and two mirror images are tried as another body, after every sweep."""
+"""So many times two bodies change places, and two mirror images are tried as another body, after every sweep; of a few
+pieces, half as many times as there are pieces."""
 CHAINS = 12
 SEED = 1
 SAME, JOINED, ALIKE, FARTHER, NEAR, EXACT = range(6)
@@ -147,7 +148,7 @@ class Annealing:
         """Tries two bodies in each other's place, and two mirror images as another body, several times (Metropolis).
         Returns what the labels score (n,)."""
         labels, scores = self.labels, scores_of(self.field, self.labels)
-        for _ in range(MOVES):
+        for _ in range(min(MOVES, max(2, labels.shape[1] // 2))):
             for other in (self._swapped(labels, rng), self._mirrored(labels, rng)):
                 changed = scores_of(self.field, other)
                 gain = changed - scores

@@ -2,49 +2,44 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
-import networkx
 import numpy as np
 
 from yellowiron.alignment.assignment.answer import Answer, Judged, open_choices
 from yellowiron.alignment.assignment.cp_sat import MISSING_WEIGHT, Solution
 from yellowiron.alignment.assignment.directions import ALIKE, NOT_ACROSS, linkages_of
-from yellowiron.alignment.assignment.names import borne_by_others
+from yellowiron.alignment.assignment.search import machine_of
 from yellowiron.alignment.assignment.weights import twin_role
 from yellowiron.alignment.facing import UNTOLD, Facing
-from yellowiron.alignment.features.solids import size_of
-from yellowiron.alignment.fusion.annealing import CHAINS, SWEEPS, against, labelled, leads
-from yellowiron.alignment.fusion.bonds import Bond, bonds_of, out_of_line
+from yellowiron.alignment.fusion.annealing import CHAINS, HOT, SWEEPS, against, labelled, leads
+from yellowiron.alignment.fusion.bonds import Bond, out_of_line
+from yellowiron.alignment.fusion.evidence import Evidence, evidence_of, ways_of
 from yellowiron.alignment.fusion.judge import Field, field_of, score_of, weighed
-from yellowiron.alignment.fusion.pieces import Piece, leading, pieces_of
+from yellowiron.alignment.fusion.pieces import Piece
 from yellowiron.alignment.fusion.played import drawn_bodies, lacks, missing_bodies
-from yellowiron.alignment.fusion.stance import Stance, on_wheels, stance_of
-from yellowiron.alignment.fusion.trust import trust_in_names, worth_of_name
+from yellowiron.alignment.fusion.stance import Stance
 from yellowiron.alignment.fusion.votes import (
     BARS,
     CLEARLY,
     Features,
     Votes,
-    clearly_named,
     joints_apart,
     named,
-    votes_of,
 )
 from yellowiron.alignment.fusion.weights import weights
 from yellowiron.alignment.structure.clusters import Hinge, Structure, labelled_structure
 from yellowiron.alignment.structure.observation import Observation, slewing_joints
 from yellowiron.model.geometry import Floats
-from yellowiron.model.template import JointTemplate, Template, as_drawn, choose
+from yellowiron.model.template import JointTemplate, Template, as_drawn
 
 GLANCE, FEW, LIKELY = SWEEPS // 2, 4, 4
 """So many sweeps of few chains tell which variants are the likeliest, and so many of these are judged with all."""
+WARM, WARM_UP = 14, 16.0
+"""So many sweeps, from this temperature, tell how good a variant is beside another, from whose labels they begin."""
 MANY = 32
 """So many chains settle the variant that was chosen."""
-PARTS = (1, 2)
-"""What begins so many joints from the root may be all that is drawn."""
 NEARLY = 2
 """A machine is nearly whole if no more bodies are missing between those that are there."""
 TELLING = ("name", "said")
@@ -78,48 +73,6 @@ class _Best:
 
 
 @dataclass(frozen=True, eq=False)
-class Evidence:
-    """What a machine is judged by: its pieces, which of them can be what a body mainly is (`leading`), all bonds, how
-    far names are trusted, which pieces share theirs with others (solids of one mesh), how the machine stands, what the
-    names say of each solid, what the contacts gave, what a person said, which pieces are bars in bores: pins, if they
-    are not halves of hydraulic cylinders, the `surface` of all that is drawn, tracks too, m², and which pieces have no
-    name but that of a part which they hang on in the tree (`borne`)."""
-
-    pieces: tuple[Piece, ...]
-    leading: tuple[int, ...]
-    bonds: tuple[Bond, ...]
-    trust: float
-    shared: frozenset[int]
-    stance: Stance
-    scores: Sequence[Mapping[str, float]]
-    answer: Answer
-    edited: Mapping[int, str]
-    pins: frozenset[int]
-    surface: float
-    borne: frozenset[int] = frozenset()
-
-    @property
-    def between(self) -> list[Bond]:
-        """The bonds of the leading pieces, numbered as these are."""
-        number = {k: n for n, k in enumerate(self.leading)}
-        return [replace(b, a=number[b.a], b=number[b.b]) for b in self.bonds if b.a in number and b.b in number]
-
-    def votes(self, template: Template) -> Votes:
-        """What speaks for every piece and body of a template with its variants decided."""
-        trust = [
-            self.trust * worth_of_name(piece, shared=k in self.shared, borne=k in self.borne)
-            for k, piece in enumerate(self.pieces)
-        ]
-        votes = votes_of(self.pieces, template, self.scores, trust, self.answer, self.stance, self.edited, self.surface)
-        halves = {r.name for r in template.roles if r.kind in BARS}
-        absent = self.stance.absent - set(self.edited.values())
-        return [
-            {body: what for body, what in mine.items() if body not in absent and (k not in self.pins or body in halves)}
-            for k, mine in enumerate(votes)
-        ]
-
-
-@dataclass(frozen=True, eq=False)
 class Fused:
     """The fused `answer`, how the machine stands, how far its names were trusted (0 to 1), what the judge makes of it,
     and what it makes of the bodies that the `contacts` alone gave, however the machine stands; how much better it is
@@ -131,36 +84,6 @@ class Fused:
     score: float
     contacts: float
     ahead: float = np.inf
-
-
-def evidence_of(
-    observation: Observation,
-    scores: Sequence[Mapping[str, float]],
-    answer: Answer,
-    edited: Mapping[int, str],
-    template: Template,
-    facing: Facing = UNTOLD,
-) -> Evidence:
-    """Everything that is known before anything is judged; the arguments are those of `fused`."""
-    directions = [np.asarray(axis.direction) for axis in observation.evidence[0].axes] if observation.evidence else []
-    drawn = (*observation.solids, *observation.rows)
-    stance = on_wheels(stance_of(drawn, size_of(drawn), directions, facing), observation.wheels)
-    pieces = pieces_of(observation, frozenset(i for i, said in enumerate(scores) if said) | frozenset(edited))
-    bonds = tuple(bonds_of(observation, pieces, answer.structure, stance))
-    parts = [[observation.solids[i].part for i in sorted(piece.members)] for piece in pieces]
-    called = [frozenset((part.path, part.name) for part in mine) for mine in parts]
-    trust = trust_in_names(pieces, bonds, scores, template, called)
-    leads = tuple(leading(pieces, observation.size, clearly_named(pieces, scores) if trust > 0.0 else {}))
-    bars = observation.evidence[-1].fasteners if observation.evidence else frozenset()
-    pins = frozenset(
-        k for k, p in enumerate(pieces) if not p.kind and p.members <= bars and not p.members & edited.keys()
-    )
-    borne = Counter(name for names in called for name in names)
-    shared = frozenset(k for k, names in enumerate(called) if any(borne[name] > 1 for name in names))
-    hung = borne_by_others(tuple(s.part for s in observation.solids), template)
-    hanging = frozenset(k for k, p in enumerate(pieces) if p.members <= hung)
-    surface = sum(s.surface for s in drawn) or 1.0
-    return Evidence(pieces, leads, bonds, trust, shared, stance, scores, answer, edited, pins, surface, hanging)
 
 
 def fused(
@@ -182,25 +105,33 @@ def fused(
     found_so_far: dict[tuple[Evidence, int], _Best] = {}
 
     def tried(
-        chosen: dict[str, str], resolved: Template, evidence: Evidence, sweeps: int = SWEEPS, chains: int = CHAINS
+        chosen: dict[str, str],
+        resolved: Template,
+        evidence: Evidence,
+        sweeps: int = SWEEPS,
+        chains: int = CHAINS,
+        start: _Best | None = None,
     ) -> _Best:
         last = found_so_far.get((evidence, id(resolved)))
         votes = last.votes if last is not None else evidence.votes(resolved)
         field = last.field if last is not None else _field(evidence, votes, resolved)
-        labels, score = labelled(field, sweeps=sweeps, chains=chains)
+        first = _labels_in(field, start) if start is not None else None
+        hot = HOT if start is None else WARM_UP
+        labels, score = labelled(field, first, hot=hot, sweeps=sweeps, chains=chains)
         score += _lacking(evidence, field.bodies, labels, resolved)
         found = _Best(score, chosen, resolved, field, labels, votes)
         # A longer annealing may end beside what a shorter one had found.
         found_so_far[evidence, id(resolved)] = max(last or found, found, key=lambda b: b.score)
         return found_so_far[evidence, id(resolved)]
 
-    machines = [(chosen, choose(template, chosen)) for chosen in variants]
+    machines = [(chosen, machine_of(template, chosen)) for chosen in variants]
     ways = ways_of(evidence, template, bool(observation.rows))
-    looked = [(tried(*machines[0], e, GLANCE, FEW).score, e) for e in ways]
-    score, evidence = max(looked, key=lambda one: one[0])
-    behind = [other for other, e in looked if e.stance.rotation[0] @ evidence.stance.rotation[0] < 0.0]
-    ahead = score - max(behind, default=-np.inf)
-    glanced = sorted((tried(*machine, evidence, GLANCE, FEW) for machine in machines), key=lambda b: -b.score)
+    looked = [(tried(*machines[0], e, GLANCE, FEW), e) for e in ways]
+    first, evidence = max(looked, key=lambda one: one[0].score)
+    behind = [other.score for other, e in looked if e.stance.rotation[0] @ evidence.stance.rotation[0] < 0.0]
+    ahead = first.score - max(behind, default=-np.inf)
+    others = [tried(*machine, evidence, WARM, FEW, first) for machine in machines[1:]]
+    glanced = sorted((first, *others), key=lambda b: -b.score)
     likely = [tried(b.choices, b.template, evidence) for b in glanced[:LIKELY]]
     bare = [(b, as_drawn(b.template, b.played)) for b in likely]
     likely += [tried(b.choices, drawn, evidence) for b, drawn in bare if drawn is not b.template]
@@ -259,44 +190,17 @@ def _lacking(evidence: Evidence, bodies: Sequence[str], labels: np.ndarray, temp
     return weighed(lacks(template, played, evidence.stance.absent), weights())
 
 
-def ways_of(evidence: Evidence, template: Template, tracked: bool) -> list[Evidence]:
-    """How the machine may stand: which end is the front is a guess so far, and whether all of it is drawn. What has
-    tracks (`tracked`), or wheels to stand on, has a root."""
-    whole = tracked or evidence.stance.wheeled
-    return [
-        replace(evidence, stance=stance)
-        for way in (evidence.stance, *(() if evidence.stance.told else (evidence.stance.turned(),)))
-        for stance in (way, *(() if whole else _as_parts(way, evidence, template)))
-    ]
-
-
-def _as_parts(stance: Stance, evidence: Evidence, template: Template) -> list[Stance]:
-    """How the machine would stand if only what is so many joints (`PARTS`) from the root, or more, were drawn of it:
-    all above its carrier, its work equipment. None where what it would lack is named."""
-    resolved = choose(template, {})
-    depths = {b: n for (a, b), n in joints_apart(resolved).items() if a == resolved.root}
-    ends = [tuple(map(str, resolved.bodies_of(j))) for j in resolved.joints]
-    total = sum(usual.area for usual in resolved.usual.values()) or 1.0
-    points = np.concatenate([p.samples for p in evidence.pieces]) if evidence.pieces else np.zeros((0, 3))
-    said = clearly_named(evidence.pieces, evidence.scores) if evidence.trust > 0.0 else {}
-    nearest = min((depths[b] for b in said.values() if b in depths), default=len(depths))
-    rigid = {r.name for r in resolved.roles if r.rigid}
-    found = []
-    for depth in (d for d in PARTS if d <= nearest):
-        far = networkx.Graph([pair for pair in ends if min(depths.get(b, 0) for b in pair) >= depth])
-        groups: list[set[str]] = list(networkx.connected_components(far))
-        bodies = max(groups, key=lambda some: (len(some), sorted(some)), default=set[str]())
-        usual = [resolved.usual[b] for b in sorted(bodies) if b in resolved.usual]
-        if usual and len(points):
-            low, high = np.min([u.low for u in usual], axis=0), np.max([u.high for u in usual], axis=0)
-            found.append(stance.as_part(points, low, high, sum(u.area for u in usual) / total, rigid - bodies))
-    return found
-
-
 def _field(evidence: Evidence, votes: Votes, resolved: Template) -> Field:
     """The score of the leading pieces."""
     lined = out_of_line([evidence.pieces[k] for k in evidence.leading])
     return field_of([votes[k] for k in evidence.leading], evidence.between, resolved, weights(), lined)
+
+
+def _labels_in(field: Field, other: _Best) -> np.ndarray:
+    """Another variant's labels as those of a field with the same pieces: of the same bodies, or of none."""
+    place = {body: n for n, body in enumerate(field.bodies)}
+    told = [place.get(body, len(place)) for body in other.field.bodies]
+    return np.array([*told, len(place)])[other.labels]
 
 
 def _drawn(evidence: Evidence, bodies: Sequence[str], labels: np.ndarray, template: Template) -> set[str]:

@@ -1,0 +1,132 @@
+"""What a machine is judged by: its pieces and what speaks for each of them, and the ways it may stand."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import networkx
+import numpy as np
+
+from yellowiron.alignment.assignment.answer import Answer
+from yellowiron.alignment.assignment.names import borne_by_others
+from yellowiron.alignment.assignment.search import machine_of
+from yellowiron.alignment.facing import UNTOLD, Facing
+from yellowiron.alignment.features.solids import size_of
+from yellowiron.alignment.fusion.bonds import Bond, bonds_of
+from yellowiron.alignment.fusion.pieces import Piece, leading, pieces_of
+from yellowiron.alignment.fusion.stance import Stance, on_wheels, stance_of
+from yellowiron.alignment.fusion.trust import trust_in_names, worth_of_name
+from yellowiron.alignment.fusion.votes import BARS, Votes, clearly_named, joints_apart, votes_of
+from yellowiron.alignment.structure.observation import Observation
+from yellowiron.model.template import Template
+
+PARTS = (1, 2)
+"""What begins so many joints from the root may be all that is drawn."""
+
+
+@dataclass(frozen=True, eq=False)
+class Evidence:
+    """What a machine is judged by: its pieces, which of them can be what a body mainly is (`leading`), all bonds, how
+    far names are trusted, which pieces share theirs with others (solids of one mesh), how the machine stands, what the
+    names say of each solid, what the contacts gave, what a person said, which pieces are bars in bores: pins, if they
+    are not halves of hydraulic cylinders, the `surface` of all that is drawn, tracks too, m², and which pieces have no
+    name but that of a part which they hang on in the tree (`borne`)."""
+
+    pieces: tuple[Piece, ...]
+    leading: tuple[int, ...]
+    bonds: tuple[Bond, ...]
+    trust: float
+    shared: frozenset[int]
+    stance: Stance
+    scores: Sequence[Mapping[str, float]]
+    answer: Answer
+    edited: Mapping[int, str]
+    pins: frozenset[int]
+    surface: float
+    borne: frozenset[int] = frozenset()
+
+    @property
+    def between(self) -> list[Bond]:
+        """The bonds of the leading pieces, numbered as these are."""
+        number = {k: n for n, k in enumerate(self.leading)}
+        return [replace(b, a=number[b.a], b=number[b.b]) for b in self.bonds if b.a in number and b.b in number]
+
+    def votes(self, template: Template) -> Votes:
+        """What speaks for every piece and body of a template with its variants decided."""
+        trust = [
+            self.trust * worth_of_name(piece, shared=k in self.shared, borne=k in self.borne)
+            for k, piece in enumerate(self.pieces)
+        ]
+        votes = votes_of(self.pieces, template, self.scores, trust, self.answer, self.stance, self.edited, self.surface)
+        halves = {r.name for r in template.roles if r.kind in BARS}
+        absent = self.stance.absent - set(self.edited.values())
+        return [
+            {body: what for body, what in mine.items() if body not in absent and (k not in self.pins or body in halves)}
+            for k, mine in enumerate(votes)
+        ]
+
+
+def evidence_of(
+    observation: Observation,
+    scores: Sequence[Mapping[str, float]],
+    answer: Answer,
+    edited: Mapping[int, str],
+    template: Template,
+    facing: Facing = UNTOLD,
+) -> Evidence:
+    """Everything that is known before anything is judged; the arguments are those of `reading.fused`."""
+    directions = [np.asarray(axis.direction) for axis in observation.evidence[0].axes] if observation.evidence else []
+    drawn = (*observation.solids, *observation.rows)
+    stance = on_wheels(stance_of(drawn, size_of(drawn), directions, facing), observation.wheels)
+    pieces = pieces_of(observation, frozenset(i for i, said in enumerate(scores) if said) | frozenset(edited))
+    bonds = tuple(bonds_of(observation, pieces, answer.structure, stance))
+    parts = [[observation.solids[i].part for i in sorted(piece.members)] for piece in pieces]
+    called = [frozenset((part.path, part.name) for part in mine) for mine in parts]
+    trust = trust_in_names(pieces, bonds, scores, template, called)
+    leads = tuple(leading(pieces, observation.size, clearly_named(pieces, scores) if trust > 0.0 else {}))
+    bars = observation.evidence[-1].fasteners if observation.evidence else frozenset()
+    pins = frozenset(
+        k for k, p in enumerate(pieces) if not p.kind and p.members <= bars and not p.members & edited.keys()
+    )
+    borne = Counter(name for names in called for name in names)
+    shared = frozenset(k for k, names in enumerate(called) if any(borne[name] > 1 for name in names))
+    hung = borne_by_others(tuple(s.part for s in observation.solids), template)
+    hanging = frozenset(k for k, p in enumerate(pieces) if p.members <= hung)
+    surface = sum(s.surface for s in drawn) or 1.0
+    return Evidence(pieces, leads, bonds, trust, shared, stance, scores, answer, edited, pins, surface, hanging)
+
+
+def ways_of(evidence: Evidence, template: Template, tracked: bool) -> list[Evidence]:
+    """How the machine may stand: which end is the front is a guess so far, and whether all of it is drawn. What has
+    tracks (`tracked`), or wheels to stand on, has a root."""
+    whole = tracked or evidence.stance.wheeled
+    return [
+        replace(evidence, stance=stance)
+        for way in (evidence.stance, *(() if evidence.stance.told else (evidence.stance.turned(),)))
+        for stance in (way, *(() if whole else _as_parts(way, evidence, template)))
+    ]
+
+
+def _as_parts(stance: Stance, evidence: Evidence, template: Template) -> list[Stance]:
+    """How the machine would stand if only what is so many joints (`PARTS`) from the root, or more, were drawn of it:
+    all above its carrier, its work equipment. None where what it would lack is named."""
+    resolved = machine_of(template, {})
+    depths = {b: n for (a, b), n in joints_apart(resolved).items() if a == resolved.root}
+    ends = [tuple(map(str, resolved.bodies_of(j))) for j in resolved.joints]
+    total = sum(usual.area for usual in resolved.usual.values()) or 1.0
+    points = np.concatenate([p.samples for p in evidence.pieces]) if evidence.pieces else np.zeros((0, 3))
+    said = clearly_named(evidence.pieces, evidence.scores) if evidence.trust > 0.0 else {}
+    nearest = min((depths[b] for b in said.values() if b in depths), default=len(depths))
+    rigid = {r.name for r in resolved.roles if r.rigid}
+    found = []
+    for depth in (d for d in PARTS if d <= nearest):
+        far = networkx.Graph([pair for pair in ends if min(depths.get(b, 0) for b in pair) >= depth])
+        groups: list[set[str]] = list(networkx.connected_components(far))
+        bodies = max(groups, key=lambda some: (len(some), sorted(some)), default=set[str]())
+        usual = [resolved.usual[b] for b in sorted(bodies) if b in resolved.usual]
+        if usual and len(points):
+            low, high = np.min([u.low for u in usual], axis=0), np.max([u.high for u in usual], axis=0)
+            found.append(stance.as_part(points, low, high, sum(u.area for u in usual) / total, rigid - bodies))
+    return found
