@@ -15,6 +15,7 @@ from kit.machines.articulated_trucks import articulated_truck
 from kit.machines.backhoes import backhoe
 from kit.machines.crawler import merged
 from kit.machines.excavators import Features, excavator
+from kit.machines.lift_trucks import lift_truck
 from kit.machines.rigid_trucks import rigid_truck
 from kit.machines.rollers import roller
 from kit.machines.skid_steers import skid_steer
@@ -48,6 +49,8 @@ def drawn(kind: str, seed: int, *, segments: int = 32, hollow: bool = True) -> M
             return roller(seed, embedded=embedded)
         if kind == "backhoe":
             return backhoe(seed, embedded=embedded)
+        if kind == "forklift":
+            return lift_truck(seed, embedded=embedded)
         if kind == "mini":
             swinging = Features("single", swing=True, blade=seed % 3, tipping=("plates", "welded")[seed % 2])
             return excavator(seed, swinging, embedded=embedded)

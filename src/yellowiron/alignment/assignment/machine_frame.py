@@ -23,6 +23,8 @@ RUN = 0.05
 """Shoes this near to the lowest, as a share of the track's height, are on the ground."""
 LYING = 0.01
 """Axles within this sine lie in a plane, and wheels within this share of their radius stand on one."""
+_ALIKE_WHEELS, _LEVELLED = 0.02, 4
+"""Radii that differ by less are one size; where they differ, so many times the ground is laid under the wheels anew."""
 SNAP = 1e-6
 """A rotation this near to a signed permutation of the axes is that permutation."""
 
@@ -79,7 +81,7 @@ def machine_frame(
     kinds = {r.name: r.kind for r in template.roles}
     scene = _Scene(solids, structure, template, wheels, tracks, axes, cluster_of, kinds, rolling)
     doubts: list[str] = []
-    flat = _ground_normal(rolling) if not tracks else np.cross(tracks[0].axis, tracks[0].along)
+    flat = _ground_normal(scene) if not tracks else np.cross(tracks[0].axis, tracks[0].along)
     swing = _swing(scene, flat)
     up = _up(scene, swing, flat, doubts)
     left = tracks[0].axis if tracks else _left(scene, swing, up)
@@ -128,8 +130,7 @@ def _up(scene: _Scene, swing: str | None, flat: Floats | None, doubts: list[str]
             doubts.append("up is guessed: no wheels and no swing axis were found")
     if scene.rolling or scene.tracks:
         below = np.mean([*(w.center for w in scene.rolling), *(t.center for t in scene.tracks)], axis=0)
-        above = _middle([s for s in scene.solids if all(s.index not in w.members for w in scene.wheels)])
-        if float((above - below) @ up) < 0:
+        if float((_above(scene) - below) @ up) < 0:
             up = -up
     elif scene.axes and "wheel" in scene.kinds.values():
         doubts.append(_GROUND)
@@ -143,12 +144,30 @@ def _middle(solids: list[Solid]) -> Floats:
     return np.asarray(weights @ np.array([s.center for s in solids]) / weights.sum(), dtype=np.float64)
 
 
-def _ground_normal(wheels: list[Wheel]) -> Floats | None:
+def _ground_normal(scene: _Scene) -> Floats | None:
+    """The normal of the plane that the wheels stand on, whatever their sizes; either way up."""
+    wheels = scene.rolling
     if len(wheels) < 3:
         return None
-    centres = np.array([w.center for w in wheels])
+    centres, radii = np.array([w.center for w in wheels]), np.array([w.radius for w in wheels])
     _, spread, axes = np.linalg.svd(centres - centres.mean(axis=0))
-    return np.asarray(axes[2], dtype=np.float64) if spread[1] > 0.2 * spread[0] else None
+    if not spread[1] > 0.2 * spread[0]:
+        return None
+    normal = np.asarray(axes[2], dtype=np.float64)
+    if np.ptp(radii) < _ALIKE_WHEELS * radii.min():
+        return normal
+    if float((_above(scene) - centres.mean(axis=0)) @ normal) < 0.0:
+        normal = -normal
+    for _ in range(_LEVELLED):
+        feet = centres - np.outer(radii, normal)
+        other = np.linalg.svd(feet - feet.mean(axis=0))[2][2]
+        normal = np.asarray(other if float(other @ normal) > 0.0 else -other, dtype=np.float64)
+    return normal
+
+
+def _above(scene: _Scene) -> Floats:
+    """The middle of what is no wheel."""
+    return _middle([s for s in scene.solids if all(s.index not in w.members for w in scene.wheels)])
 
 
 def _stand_alike(wheels: list[Wheel], normal: Floats) -> bool:
