@@ -37,7 +37,7 @@ from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Mechanism
 from yellowiron.model.rows import expand
 from yellowiron.model.specification import Specification, Specifications, fold
-from yellowiron.model.template import Template
+from yellowiron.model.template import Template, choose
 from yellowiron.support.caching.disk import kept
 from yellowiron.support.caching.recent import recent
 from yellowiron.support.vectors import triple
@@ -131,10 +131,14 @@ def find_roles(
         edits = decide(edits, decisions, model, template)
         return _roles_of_whole(model, template, specifications, edits=edits, data=data, choices=choices)
 
+    def unplayed(alignment: Alignment) -> set[str]:
+        """The bodies that no part is of, also of a machine that was taken for drawn in part: what is not drawn may be
+        inside of what is. Neither pins nor the root count: many models have none, whatever is done to them."""
+        bodies = {r.name for r in choose(template, alignment.choices).roles if r.rigid and r.name != template.root}
+        return bodies - {str(part.body) for part in alignment.parts} if alignment.missing else set()
+
     def hidden(alignment: Alignment) -> int:
-        # Neither pins nor the root count: many models have none, whatever is done to them.
-        bodies = [role.name for role in template.roles if role.rigid and role.name != template.root]
-        return sum(name in alignment.missing for name in bodies)
+        return len(unplayed(alignment))
 
     def halves(alignment: Alignment) -> int:
         """How many barrels and rods are missing."""
@@ -146,7 +150,7 @@ def find_roles(
         kindless = {role.name for role in template.roles if role.rigid and not role.kind}
         ends = [set(template.bodies_of(joint)) for joint in template.joints]
         tools = {body for pair in ends if pair & arms for body in pair & kindless}
-        return sum(name in alignment.missing for name in arms | tools)
+        return len(unplayed(alignment) & (arms | tools))
 
     assembly = to_scale(assembly, template, specifications)
     if earlier is not None and (decisions != UNDECIDED or said_in(earlier, template)):

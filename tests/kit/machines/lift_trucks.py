@@ -32,10 +32,11 @@ class LiftTruck(Drawer):
         self.front = (0.34 * s * u(0.93, 1.08), 0.22 * s * u(0.85, 1.15), 1.08 * s * u(0.98, 1.05))  # type: ignore[assignment]
         self.rear = (0.27 * s * u(0.95, 1.08), 0.17 * s * u(0.85, 1.15), 1.06 * s * u(0.99, 1.05))
         self.gap = float(self.rng.choice([0.0, 0.001, 0.002])) * s
-        self.y_rail, self.play = 0.31 * s, 0.006 * s
+        self.y_rail, self.play = 0.32 * s, 0.006 * s
         self.height = 1.95 * s * u(0.9, 1.2)
         self.lift, self.free = (float(u(0.05, 0.3)) * s, float(u(0.0, 0.15)) * s)
         self.P = {"M": s * np.array([0.15, 0.3]), "T": s * np.array([-0.36 * u(0.9, 1.2), 0.56])}
+        self.y_eye = self.y_rail - self.t / 2 - 0.03 * s - self.eye_w / 2
         self.P["Q"] = s * np.array([0.38 - 0.19, 0.6 * u(0.95, 1.15)])
 
     def link_pins(self) -> None:
@@ -64,7 +65,7 @@ class LiftTruck(Drawer):
         for side, letter in SIDES:
             self.side_plate("rail", body, side * y, around(*corners), "MT")
             self.across("mast_pin", body, self.P["M"], side, y - 2.4 * t - self.gap, y + t)
-            near = y - t / 2 - 2 * self.gap - self.eye_w - t / 2
+            near = self.y_eye - self.eye_w / 2 - self.gap - t / 2
             lug = around(
                 (*self.P["T"], 2 * self.pin_r), *(((self.P["T"][0] + d * s), 0.62 * s, 0) for d in (-0.08, 0.08))
             )
@@ -77,15 +78,15 @@ class LiftTruck(Drawer):
         self.block("counterweight", body, (-w - 0.55, -wide, 0.35), (-w - 0.3, wide, 1.0))
         self.block("counterweight top", body, (-w - 0.3, -wide, 0.62), (-w + 0.1, wide, 1.0))
         self.block("hood", body, (-w + 0.1, -0.38, 0.62), (-0.45, 0.38, float(u(0.85, 1.0))))
-        self.block("floor", body, (-0.45, -0.42, 0.62), (0.2, 0.42, 0.64))
-        self.block("dashboard", body, (0.1, -0.34, 0.64), (0.2, 0.34, 1.02))
-        self.block("tie", body, (0.16, -inner, 0.45), (0.2, inner, 0.6))
+        self.block("floor", body, (-0.45, -0.42, 0.62), (0.12, 0.42, 0.64))
+        self.block("dashboard", body, (0.02, -0.34, 0.64), (0.12, 0.34, 1.02))
+        self.block("tie", body, (0.08, -inner, 0.45), (0.12, inner, 0.6))
         top = float(u(1.95, 2.2))
         for side in (1, -1):
             near, far = sorted((side * 0.37, side * 0.41))
-            self.block("front post", body, (0.1, near, 0.64), (0.15, far, top))
+            self.block("front post", body, (0.06, near, 0.64), (0.11, far, top))
             self.block("rear post", body, (-w, near, 1.0), (-w + 0.05, far, top))
-        self.block("overhead guard", body, (-w, -0.41, top), (0.15, 0.41, top + 0.03))
+        self.block("overhead guard", body, (-w, -0.41, top), (0.11, 0.41, top + 0.03))
         self.rolls(self.front)  # type: ignore[arg-type]
         for side, letter in SIDES:
             self.stub(f"front_wheel_{letter}", body, side, 0.0, y + t / 2 - self.e, 0.6)
@@ -243,7 +244,7 @@ class LiftTruck(Drawer):
         """Lugs on the outer channels: of the mast's pins, and of the tilt cylinders'."""
         s, t, body, outer = self.s, self.t, "outer_mast", STAGES[self.mast] - 1
         back, y = self.middle - self.half(outer), self.outside(outer)
-        y_eye = self.y_rail - t / 2 - self.gap - self.eye_w / 2
+        y_eye = self.y_eye
         for side, letter in SIDES:
             y_lug = self.y_rail - t - self.gap - 0.004 * s
             for name, pin, ways in (("pivot", "M", (y_lug,)), ("tilt", "Q", tuple(
