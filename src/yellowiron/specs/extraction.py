@@ -165,10 +165,10 @@ def _of_words_recognised(
     config: str,
     style: DecimalStyle,
 ) -> dict[str, Specification]:
-    """What pictures of pages say of the values that are missing."""
-    open_ = [w for w in wanted if values[w.name].status in ("missing", "unreadable")]
-    found = _by_rules(open_, claimed.recognised, known, config, style)
-    return second_reading(open_, found, claimed.near_recognised, known, config)
+    """What pictures of pages say of the values that are missing; what they say of the others is theirs."""
+    found = _by_rules(wanted, claimed.recognised, known, config, style)
+    found = second_reading(wanted, found, claimed.near_recognised, known, config)
+    return {name: one for name, one in found.items() if values[name].status in ("missing", "unreadable")}
 
 
 def _numbered(sheet: Sheet, number: int) -> Sheet:

@@ -42,6 +42,8 @@ _BORROWED = 0.1
 """The most that words cost that are borrowed from headings."""
 _UNSAID = 0.2
 """What it costs that a label does not say "maximum" where the greatest value and another one are asked for."""
+_TITLE = 5
+"""Words from which on a heading is a product's name: a title that says "with lift" names no lift."""
 _REMARK = 0.02
 """What a word costs that is left over and says nothing else: enough to prefer a value that it does speak of."""
 
@@ -298,7 +300,7 @@ def _match(asked_for: _Asked, claim: Claim, said: _Said) -> Match | None:
         asked_for,
         claim,
         said.text,
-        [label - said.standard, *said.naming, *above, *([] if supported or section <= GENERAL else [section])],
+        [label - said.standard, *said.naming, *above, *([] if supported or section <= GENERAL or len(section) > _TITLE else [section])],
     ):
         return None
     circuits = label.union(*said.naming) | context | section
@@ -372,7 +374,7 @@ def _explanation(asked_for: _Asked, said: _Said, *, supported: bool) -> _Explana
             continue
         if any(words & end for end in said.ends) and not all(words & end for end in said.ends):
             continue  # a distance from the same place to another one
-        if len(words) == 1 and not supported and (words <= vague or label - words - NEUTRAL - _WHOLE - remarks):
+        if len(words - _EXTREME) == 1 and not supported and (words <= vague or label - words - NEUTRAL - _WHOLE - remarks):
             continue
         explained |= words
         from_head |= words - label - context - section
