@@ -32,6 +32,8 @@ from yellowiron.specs.values.tolerances import LEAST
 
 _EXTREME = {"maximum"}
 """Says of a label no more than makers mean without it; a value of which both are asked forbids it."""
+_PLAIN = [{"height"}, {"length"}, {"width"}, {"depth"}]
+"""What anything has: "maximum" beside it tells no more than it does alone."""
 _WHOLE = {"overall"}
 """Says of a part no more than makers mean without it: the overall width of a bucket is its width."""
 _RATED = {"flow", "pressure", "force", "torque"}
@@ -300,7 +302,12 @@ def _match(asked_for: _Asked, claim: Claim, said: _Said) -> Match | None:
         asked_for,
         claim,
         said.text,
-        [label - said.standard, *said.naming, *above, *([] if supported or section <= GENERAL or len(section) > _TITLE else [section])],
+        [
+            label - said.standard,
+            *said.naming,
+            *above,
+            *([] if supported or section <= GENERAL or len(section) > _TITLE else [section]),
+        ],
     ):
         return None
     circuits = label.union(*said.naming) | context | section
@@ -374,7 +381,11 @@ def _explanation(asked_for: _Asked, said: _Said, *, supported: bool) -> _Explana
             continue
         if any(words & end for end in said.ends) and not all(words & end for end in said.ends):
             continue  # a distance from the same place to another one
-        if len(words - _EXTREME) == 1 and not supported and (words <= vague or label - words - NEUTRAL - _WHOLE - remarks):
+        if (
+            (len(words) == 1 or words - _EXTREME in _PLAIN)
+            and not supported
+            and (words <= vague or label - words - NEUTRAL - _WHOLE - remarks)
+        ):
             continue
         explained |= words
         from_head |= words - label - context - section
