@@ -297,18 +297,9 @@ def _match(asked_for: _Asked, claim: Claim, said: _Said) -> Match | None:
     if not (label | head | context | section) & asked_for.words:
         return None
     supported = _supports(asked_for, section)
-    above = [words for words in said.contexts if not _supports(asked_for, words)]
-    if _forbidden(
-        asked_for,
-        claim,
-        said.text,
-        [
-            label - said.standard,
-            *said.naming,
-            *above,
-            *([] if supported or section <= GENERAL or len(section) > _TITLE else [section]),
-        ],
-    ):
+    headings = [*said.contexts, *([] if section <= GENERAL else [section])]
+    above = [words for words in headings if len(words) <= _TITLE and not _supports(asked_for, words)]
+    if _forbidden(asked_for, claim, said.text, [label - said.standard, *said.naming, *above]):
         return None
     circuits = label.union(*said.naming) | context | section
     if wanted.dimension in _BY_CIRCUIT and (circuits & CIRCUITS) - asked_for.words:
