@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from specs_layouts import canvas, put, template, wanted
+from specs_layouts import canvas, lattice, put, template, wanted
 
 from yellowiron.model.template import Template
 from yellowiron.specs.extraction import from_sheets
@@ -28,10 +28,8 @@ TRUCK = template(
 )
 
 
-def page(path: Path, rows: list[tuple[str, ...]], *, title: str = "") -> Sheet:
+def page(path: Path, rows: list[tuple[str, ...]]) -> Sheet:
     c = canvas(path)
-    if title:
-        put(c, 60, 740, title, size=16, bold=True)
     for index, row in enumerate(rows):
         for column, text in enumerate(row):
             put(c, 60 + 230 * column, 700 - 16 * index, text)
@@ -79,11 +77,16 @@ def test_a_raised_o_is_a_degree(tmp_path: Path) -> None:
     assert found == {"Boom Angle Maximum": ("ok", 1.4312), "Boom Angle Minimum": ("ok", 0.0175)}
 
 
-def test_a_products_name_over_a_table_names_no_part(tmp_path: Path) -> None:
-    rows = [("Travel speed", "6 km/h")]
-    title = "A Series Mini Range Pallet Truck With Initial Lift"
-    assert said(TRUCK, page(tmp_path / "a.pdf", rows, title=title)) == {"Travel Speed": ("ok", 1.6667)}
-    assert said(TRUCK, page(tmp_path / "b.pdf", rows, title="Lift")) == {}
+@pytest.mark.parametrize(
+    ("title", "found"),
+    [("A Series Mini Range Pallet Truck With Initial Lift", {"Travel Speed": ("ok", 1.6667)}), ("Lift", {})],
+)
+def test_a_products_name_over_a_table_names_no_part(tmp_path: Path, title: str, found: dict[str, object]) -> None:
+    c = canvas(tmp_path / "a.pdf")
+    put(c, 60, 740, title, size=16, bold=True)
+    lattice(c, 60, 700, [120, 100], [("Model", "X-100"), ("Travel speed", "6 km/h")])
+    c.save()
+    assert said(TRUCK, read_sheet(tmp_path / "a.pdf")) == found
 
 
 @pytest.mark.parametrize(("last", "is_ok"), [("2,040 mm", True), ("6 ft 8 in", False)])

@@ -297,8 +297,8 @@ def _match(asked_for: _Asked, claim: Claim, said: _Said) -> Match | None:
     if not (label | head | context | section) & asked_for.words:
         return None
     supported = _supports(asked_for, section)
-    headings = [*said.contexts, *([] if section <= GENERAL else [section])]
-    above = [words for words in headings if len(words) <= _TITLE and not _supports(asked_for, words)]
+    headings = [*said.contexts, *([] if section <= GENERAL or len(section) > _TITLE else [section])]
+    above = [words for words in headings if not _supports(asked_for, words)]
     if _forbidden(asked_for, claim, said.text, [label - said.standard, *said.naming, *above]):
         return None
     circuits = label.union(*said.naming) | context | section
