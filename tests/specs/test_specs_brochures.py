@@ -218,14 +218,6 @@ def test_length_width_and_height_by_their_letters() -> None:
         f"Overall dimensions {name}" for name in ("length", "width", "height")]  # fmt: skip
 
 
-def test_feet_with_a_dash_beside_millimetres() -> None:
-    row = Statement(1, 0, "Track length", "5,075 mm 16-8", (0, 0, 9, 9), "q")
-    (claim,) = claims_of([row], "point")
-    assert claim.quantity.si_value == pytest.approx(5.075) and claim.partner is not None and not claim.doubt
-    other = Statement(1, 0, "Track length", "5,075 mm 12-8", (0, 0, 9, 9), "q")
-    assert all(c.partner is None for c in claims_of([other], "point"))
-
-
 def test_a_distance_has_two_ends() -> None:
     assert ends("Rear axle to edge of counterweight") == (frozenset({"axle"}), frozenset({"edge", "counterweight"}))
     assert ends("De l'essieu arrière à l'axe d'articulation") is not None

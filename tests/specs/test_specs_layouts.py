@@ -408,7 +408,7 @@ def test_a_separator_in_doubt_is_reviewed(tmp_path: Path) -> None:
 
 
 # Caterpillar 740 GC (manualmachine.com/cat/740gc/17904591-specifications)
-def test_a_label_digit_glued_to_its_value_is_found_by_the_other_system(tmp_path: Path) -> None:
+def test_a_label_digit_glued_to_its_value_is_for_review(tmp_path: Path) -> None:
     c = canvas(tmp_path / "sheet.pdf")
     bar(c, 36, 800, "Transmission", 300)
     for i, line in enumerate(("Forward 16.4 km/h4.0 mph", "Forward 957.5 km/h35.7 mph", "Reverse 16.8 km/h4.2 mph")):
@@ -416,7 +416,7 @@ def test_a_label_digit_glued_to_its_value_is_found_by_the_other_system(tmp_path:
     c.save()
     found = extract(template(wanted("Reverse Speed", "speed", "reverse")), [tmp_path / "sheet.pdf"])
     speed = found.get("Reverse Speed")
-    assert speed is not None and speed.status == "review" and speed.value == pytest.approx(6.8 / 3.6)
+    assert speed is not None and speed.status == "review" and "which differ" in speed.reason
 
 
 def test_steering_angles_are_told_apart(tmp_path: Path) -> None:

@@ -25,6 +25,7 @@ from yellowiron.specs.values.claims import Claim, claims_of, configured
 from yellowiron.specs.values.cross_check import second_reading, stands_in
 from yellowiron.specs.values.decision import Column, Sheets, decide, missing, placed, quantity_words, unreadable
 from yellowiron.specs.values.matching import match
+from yellowiron.specs.values.only_unit import in_only_unit
 from yellowiron.specs.values.requested import asked
 from yellowiron.specs.values.tolerances import PICTURED
 from yellowiron.specs.values.values_in_labels import in_label
@@ -102,9 +103,10 @@ def _recognised(sheet: Sheet, path: Path, program: str, progress: Callable[[str]
         )
     except SheetError as error:
         return replace(sheet, unrecognised=f"{error.message} ({error.hint})")
-    known = {page.number for page in pages}
+    known = {page.number: page.titles for page in pages}
     return replace(
         sheet,
+        titles=tuple(own | known.get(n, frozenset()) for n, own in enumerate(sheet.titles, start=1)),
         statements=(*sheet.statements, *(replace(s, guessed=True) for page in pages for s in page.statements)),
         silent=tuple(n for n in sheet.silent if n not in known),
         style=sheet.style if sheet.statements else decimal_style([page.text for page in pages]),
@@ -165,12 +167,12 @@ def _of_words_recognised(
     config: str,
     style: DecimalStyle,
 ) -> dict[str, Specification]:
-    """What pictures of pages say of the values that are missing."""
+    """What pictures of pages say of the values that are missing; what they say of the others is theirs."""
     if not claimed.recognised and not any(near for near, _ in claimed.near_recognised):
         return {}
-    open_ = [w for w in wanted if values[w.name].status in ("missing", "unreadable")]
-    found = _by_rules(open_, claimed.recognised, known, config, style)
-    return second_reading(open_, found, claimed.near_recognised, known, config)
+    found = _by_rules(wanted, claimed.recognised, known, config, style)
+    found = second_reading(wanted, found, claimed.near_recognised, known, config)
+    return {name: one for name, one in found.items() if values[name].status in ("missing", "unreadable")}
 
 
 def _numbered(sheet: Sheet, number: int) -> Sheet:
@@ -203,7 +205,7 @@ def _claimed(sheets: Sequence[Sheet], config: str) -> _Claimed:
     for sheet in sheets:
         other = of_others(sheet.titles, config)
         every = claims_of([s for s in sheet.statements if s.page not in other], sheet.style)
-        meant = configured(every, config)
+        meant = configured([*every, *in_only_unit(every)], config)
         for claim in meant:
             (recognised if claim.statement.guessed else printed).append(claim)
         kept = {claim.statement for claim in meant}

@@ -17,6 +17,7 @@ from yellowiron.model.errors import SheetError
 from yellowiron.specs.layout.nearest import Near, nearest_of
 from yellowiron.specs.layout.router import statements_of
 from yellowiron.specs.layout.statement import Statement
+from yellowiron.specs.machines import titled
 from yellowiron.specs.pages.picture_rules import rules_of_picture
 from yellowiron.specs.pages.words import Page, Word, read_page
 from yellowiron.specs.recognition import rapid, tesseract
@@ -45,13 +46,14 @@ _SQUARE = re.compile(r"(?<=\d )m[AÂ]?[²2](?!\w)|(?<=\d)m[AÂ]?²")
 
 @dataclass(frozen=True)
 class Recognised:
-    """What was recognised on one page (`number` counts from 1)."""
+    """What was recognised on one page (`number` counts from 1); `titles`: the models that its title names."""
 
     number: int
     statements: tuple[Statement, ...]
     text: str
     stated: tuple[Stated, ...]
     near: tuple[Near, ...] = ()
+    titles: frozenset[str] = frozenset()
 
 
 def programs() -> tuple[str, ...]:
@@ -86,7 +88,7 @@ def recognise(path: Path, numbers: Sequence[int], program: str) -> list[Recognis
             if page.readable:
                 text = " ".join(w.text for w in page.words)
                 statements, near = tuple(with_cubes(statements_of(page))), nearest_of(page)
-                found.append(Recognised(number, statements, text, tuple(stated_in(text, number)), near))
+                found.append(Recognised(number, statements, text, tuple(stated_in(text, number)), near, titled(page)))
     finally:
         document.close()
     if failure is not None and not found:

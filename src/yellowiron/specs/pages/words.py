@@ -300,7 +300,9 @@ def _with_superscripts(words: list[Word]) -> list[Word]:
     for own, index in hosts.items():
         raised, host = words[own], joined[index]
         exponent = raised.text in ("2", "3") and _SUPERSCRIPT_UNITS.search(host.text)
-        if exponent or (_PER.fullmatch(raised.text) and _PER_UNITS.search(host.text)):
+        if raised.text in ("o", "O") and host.text[-1].isdigit():  # a degree, as word processors raise it
+            joined[index] = replace(host, text=f"{host.text}°", x1=max(host.x1, raised.x1))
+        elif exponent or (_PER.fullmatch(raised.text) and _PER_UNITS.search(host.text)):
             joined[index] = replace(
                 host, text=host.text + raised.text.replace("–", "-").replace("−", "-"), x1=max(host.x1, raised.x1)
             )

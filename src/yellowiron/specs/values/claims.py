@@ -212,7 +212,6 @@ def without_case(text: str) -> str:
 
 def _expand(statement: Statement, style: DecimalStyle) -> Iterator[Claim]:
     text, unit = spelled_out(GRAVITATIONAL.sub("", statement.text), statement.unit)
-    text = _feet_spelled_out(text, unit)
     every = read(text, unit=unit, style=style)
     readings = [r for r in every if not r.condition]
     label = _without_conditions(statement.label)
@@ -288,19 +287,6 @@ def spelled_out(text: str, unit: str) -> tuple[str, str]:
     if apart and "(" not in text and len(read(apart.group(1))) == len(read(apart.group(2))) == 1:
         text = f"{apart.group(1)} ({apart.group(2)})"
     return re.sub(r"\(([^()]*)\)", inside, text), first
-
-
-def _feet_spelled_out(text: str, unit: str) -> str:
-    """Feet and inches written with a dash behind a metric length that says the same, with their signs: "1,616 mm 5-4" →
-    "1,616 mm 5'4\""."""
-    match = re.search(r"(?<=\s)[(\[]?(\d+)\s?[-–]\s?(\d+(?:\.\d+)?)[)\]]?$", text)
-    before = read(text[: match.start()], unit=unit) if match else ()
-    if match is None or len(before) != 1 or len(before[0].numbers) != 1:
-        return text
-    spelled = re.sub(FEET_DASH, _feet_and_inches, match.group(0))
-    feet = read(spelled)
-    agrees = len(feet) == 1 and same(before[0].numbers[0], feet[0].numbers[0])
-    return f"{text[: match.start()]}{spelled}" if agrees else text
 
 
 def _feet_and_inches(match: re.Match[str]) -> str:
@@ -423,24 +409,7 @@ def _checked(claim: Claim) -> Claim:
         swapped = replace(quantity, value=quantity.other, half=0.5, other=None)
         if same(swapped, partner):
             return replace(claim, quantity=swapped)
-    repaired = _unglued(quantity, partner)
-    if repaired is not None:
-        why = f"printed '{quantity.text}', and '{partner.text}' says that its first digit belongs to the label"
-        return replace(claim, quantity=repaired, doubt=why)
     return replace(claim, doubt=f"the sheet prints '{quantity.text}' beside '{partner.text}', which differ")
-
-
-def _unglued(quantity: Quantity, partner: Quantity) -> Quantity | None:
-    """ "Forward 16.4 km/h 4.0 mph" is gear 1 at 6.4 km/h: the value without the digits that the partner denies."""
-    digits = re.match(r"\d+", quantity.text)
-    if digits is None or quantity.sign:
-        return None
-    for cut in range(1, len(digits.group(0))):
-        rest = read(quantity.text[cut:])
-        if rest and same(rest[0].numbers[0], partner):
-            found = rest[0].numbers[0]
-            return replace(found, start=quantity.start + cut, end=quantity.end)
-    return None
 
 
 def _joined_systems(claims: Sequence[Claim]) -> list[Claim]:

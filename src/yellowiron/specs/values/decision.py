@@ -17,7 +17,7 @@ from yellowiron.specs.pages.strokes import Box
 from yellowiron.specs.values.claims import Claim, configured_by, split_phrases, without_case
 from yellowiron.specs.values.matching import Match
 from yellowiron.specs.values.requested import check_hint, hint_for, usual
-from yellowiron.specs.values.series import extremes
+from yellowiron.specs.values.series import called, extremes
 from yellowiron.specs.values.stated_configuration import Stated
 from yellowiron.specs.values.tolerances import DOUBTFUL, SURE
 from yellowiron.support.units import SI_UNIT
@@ -50,16 +50,19 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
     whole = [m for m in matches if not _is_broken_off(m.claim.statement.label)]
     chosen = _without_charts(_configured(whole or matches, sheets, config))
     groups = _groups(wanted, chosen)
-    said, counted = None, 0
+    said, counted = None, ""
     if len(groups) > 1:
         said, chosen = _as_stated(wanted, chosen, sheets)
         groups = _groups(wanted, chosen)
     if len(groups) > 1:
         every = [m for group in groups for m in group]
         greatest = extremes(every, lambda m: settled(wanted, m.claim)[0].si_value)
+        counted = f"the rows count {len(groups)} values up or down, of which this is the last"
+        if not greatest:
+            greatest, counted = called(every), f"of {len(groups)} values, this is what the sheet calls so"
         if not greatest or not all(same(greatest[0].claim.quantity, m.claim.quantity) for m in greatest):
             return _conflict(wanted, groups, sheets, config)
-        groups, counted = [greatest], len(groups)
+        groups = [greatest]
     group = groups[0]
     top = max(group, key=_preference)
     quantity, doubt = settled(wanted, top.claim)
@@ -73,8 +76,7 @@ def decide(wanted: Wanted, matches: Sequence[Match], sheets: Sheets, config: str
         doubt = doubt or "its label goes on elsewhere"
     if any(map(_is_measures, top.claim.statement.column)):
         doubt = doubt or "measures of a drawing stand over it"
-    if counted:
-        doubt = doubt or f"the rows count {counted} values up or down, of which this is the last"
+    doubt = doubt or counted
     if top.claim.ranged:
         doubt = doubt or "the sheet prints a range"
     value = quantity.si_value

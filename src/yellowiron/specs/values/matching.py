@@ -32,6 +32,8 @@ from yellowiron.specs.values.tolerances import LEAST
 
 _EXTREME = {"maximum"}
 """Says of a label no more than makers mean without it; a value of which both are asked forbids it."""
+_PLAIN = [{"height"}, {"length"}, {"width"}, {"depth"}]
+"""What anything has: "maximum" beside it tells no more than it does alone."""
 _WHOLE = {"overall"}
 """Says of a part no more than makers mean without it: the overall width of a bucket is its width."""
 _RATED = {"flow", "pressure", "force", "torque"}
@@ -42,6 +44,8 @@ _BORROWED = 0.1
 """The most that words cost that are borrowed from headings."""
 _UNSAID = 0.2
 """What it costs that a label does not say "maximum" where the greatest value and another one are asked for."""
+_TITLE = 5
+"""Words from which on a heading is a product's name: a title that says "with lift" names no lift."""
 _REMARK = 0.02
 """What a word costs that is left over and says nothing else: enough to prefer a value that it does speak of."""
 
@@ -294,13 +298,9 @@ def _match(asked_for: _Asked, claim: Claim, said: _Said) -> Match | None:
     if not (label | head | context | section) & asked_for.words:
         return None
     supported = _supports(asked_for, section)
-    above = [words for words in said.contexts if not _supports(asked_for, words)]
-    if _forbidden(
-        asked_for,
-        claim,
-        said.text,
-        [label - said.standard, *said.naming, *above, *([] if supported or section <= GENERAL else [section])],
-    ):
+    headings = [*said.contexts, *([] if section <= GENERAL or len(section) > _TITLE else [section])]
+    above = [words for words in headings if not _supports(asked_for, words)]
+    if _forbidden(asked_for, claim, said.text, [label - said.standard, *said.naming, *above]):
         return None
     circuits = label.union(*said.naming) | context | section
     if wanted.dimension in _BY_CIRCUIT and (circuits & CIRCUITS) - asked_for.words:
@@ -373,7 +373,11 @@ def _explanation(asked_for: _Asked, said: _Said, *, supported: bool) -> _Explana
             continue
         if any(words & end for end in said.ends) and not all(words & end for end in said.ends):
             continue  # a distance from the same place to another one
-        if len(words) == 1 and not supported and (words <= vague or label - words - NEUTRAL - _WHOLE - remarks):
+        if (
+            (len(words) == 1 or words - _EXTREME in _PLAIN)
+            and not supported
+            and (words <= vague or label - words - NEUTRAL - _WHOLE - remarks)
+        ):
             continue
         explained |= words
         from_head |= words - label - context - section

@@ -57,3 +57,10 @@ def _count(found: Match) -> int | None:
     words = [w for text in (found.claim.words, *statement.variant) for w in tokens(text)]
     counts = [int(m.group(1)) for w in words if (m := _ORDINAL.fullmatch(w))]
     return counts[0] if len(counts) == 1 else None
+
+
+def called(matches: Sequence[Match]) -> list[Match]:
+    """Of values that differ, those whose own label says the extreme that the value's name says: of a "maximum lifting
+    capacity" and a "crane capacity" the former."""
+    own = [m for m in matches if {"maximum", "minimum"} & {*tokens(m.wanted.name)} & {*tokens(m.claim.words)}]
+    return own if len(own) < len(matches) else []
