@@ -30,7 +30,7 @@ from yellowiron.model.template import Template  # noqa: E402
 TYPES = {
     "wheel_loader": ("loader",), "excavator": ("excavator", "mini"), "skid_steer": ("skid_steer",),
     "articulated_dump_truck": ("articulated_truck",), "rigid_dump_truck": ("rigid_truck",),
-    "backhoe_loader": ("backhoe",), "roller": ("roller",),
+    "backhoe_loader": ("backhoe",), "roller": ("roller",), "telehandler": ("telehandler",),
 }  # fmt: skip
 """Type → kinds of machines that we draw of it; a body is measured on the first kind that has it."""
 KEPT = 0.05

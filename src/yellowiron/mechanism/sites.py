@@ -25,6 +25,10 @@ _ALIKE = 1e-3
 """Relative difference of the lengths by which parts are compared up to which they are congruent."""
 _ON_PLANE = 1e-3
 """A plane this near to the edge contains it, metres."""
+_FACING = math.cos(math.radians(50.0))
+"""Cosine up to which a plane faces a way: forks are drawn tilted by less than 40°."""
+_SAME = 1e-6
+"""Cosine's lack up to which two planes face the same way (0.08°)."""
 _ACROSS = math.sin(PARALLEL)
 """Sine of the angle up to which a plane is parallel to the joint's axis."""
 
@@ -64,7 +68,9 @@ def _site(
         return _middle_site(entry, placement)
     if "foremost" in rule:
         return _foremost_site(entry, placement)
-    name = next((rule[key] for key in ("joint", "along", "edge_from", "inside_from") if key in rule), "")
+    if "heel" in rule:
+        return _heel_site(entry, placement)
+    name = next((rule[key] for key in ("joint", "along", "pointing", "edge_from", "inside_from") if key in rule), "")
     if isinstance(name, tuple):
         name = next((each for each in name if each in frames), name[0])
     frame = frames.get(name)
@@ -74,6 +80,13 @@ def _site(
         return Site(entry.name, entry.body, clean_triple(frame.anchor), source=f"anchor of {name}")
     if "along" in rule:
         return _upright_site(entry, frame)
+    if "pointing" in rule:
+        x_axis = frame.axis if frame.axis[0] >= 0.0 else -frame.axis
+        z_axis = np.cross(x_axis, (0.0, 1.0, 0.0))
+        source = f"pointing along {name}"
+        return Site(
+            entry.name, entry.body, clean_triple(frame.anchor), clean_triple(x_axis), clean_triple(z_axis), source
+        )
     spanning = float(rule.get("spanning", 0.8))
     if "inside_from" in rule:
         return _inside_site(entry, frame, spanning, placement)
@@ -105,13 +118,50 @@ def _foremost_site(entry: SiteTemplate, placement: Placement) -> Site:
     """The middle of the box around those of a body's parts that reach as far ahead as it does, within a share of its
     length: a truck's forks."""
     low, high = placement.boxes
-    rows = [row for row in placement.rows_of_body(entry.body) if np.isfinite(low[row]).all()]
-    front = high[rows, 0].max() - float(entry.rule["foremost"]) * (high[rows, 0].max() - low[rows, 0].min())
-    ahead = [row for row in rows if high[row, 0] >= front]
+    ahead = _foremost(entry.body, float(entry.rule["foremost"]), placement)
     middle = 0.5 * (low[ahead].min(axis=0) + high[ahead].max(axis=0))
-    also = f" and {len(ahead) - 1} more" if len(ahead) > 1 else ""
-    source = f"middle of {placement.parts[ahead[0]].id}{also}, the foremost"
+    source = f"middle of {_named(ahead, placement)}, the foremost"
     return Site(entry.name, entry.body, clean_triple(middle), source=source)
+
+
+def _foremost(body: str, share: float, placement: Placement) -> list[int]:
+    low, high = placement.boxes
+    rows = [row for row in placement.rows_of_body(body) if np.isfinite(low[row]).all()]
+    front = high[rows, 0].max() - share * (high[rows, 0].max() - low[rows, 0].min())
+    return [row for row in rows if high[row, 0] >= front]
+
+
+def _named(rows: Sequence[int], placement: Placement) -> str:
+    return placement.parts[rows[0]].id + (f" and {len(rows) - 1} more" if len(rows) > 1 else "")
+
+
+def _heel_site(entry: SiteTemplate, placement: Placement) -> Site | None:
+    """Of the foremost parts, a truck's forks: where the widest plane that faces up meets the widest that faces ahead,
+    in their middle across; x along the first, forwards."""
+    ahead = _foremost(entry.body, float(entry.rule["heel"]), placement)
+    level = np.array([0.0, 1.0, 0.0])
+    found = zip(*(placement.planes(row) for row in ahead), strict=True)
+    points, normals, areas = (np.concatenate(each) for each in found)
+    sides = []
+    for facing in (2, 0):
+        towards = (normals[:, facing] > _FACING) & (np.abs(normals @ level) < _ACROSS)
+        if not towards.any():
+            return None
+        # Facets of one plane count together.
+        own = normals[towards]
+        alike = own @ own.T > 1.0 - _SAME
+        offsets = np.sum(points[towards] * own, axis=1)
+        alike &= np.abs(offsets[:, None] - offsets[None, :]) < _ON_PLANE
+        widest = int(np.argmax(alike @ areas[towards]))
+        sides.append((own[widest], offsets[widest]))
+    (up, height), (face, reach) = sides
+    low, high = placement.boxes
+    across = 0.5 * (low[ahead, 1].min() + high[ahead, 1].max())
+    place = np.linalg.solve([up, face, level], [height, reach, across])
+    source = f"heel of {_named(ahead, placement)}, the foremost"
+    return Site(
+        entry.name, entry.body, clean_triple(place), clean_triple(np.cross(level, up)), clean_triple(up), source
+    )
 
 
 def _at_tip(edge: Site, frame: JointFrame, placement: Placement) -> Site:
