@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, QhullError
 
 from yellowiron.mechanism.joints.axes import Axis
@@ -136,32 +137,37 @@ def _named(rows: Sequence[int], placement: Placement) -> str:
 
 
 def _heel_site(entry: SiteTemplate, placement: Placement) -> Site | None:
-    """Of the foremost parts, a truck's forks: where the widest plane that faces up meets the widest that faces ahead,
-    in their middle across; x along the first, forwards."""
+    """Of the foremost parts, a truck's forks: where the widest plane that faces up meets the widest of their rear half
+    that faces ahead, or where they end at the rear; in their middle across; x along the first plane, forwards."""
     ahead = _foremost(entry.body, float(entry.rule["heel"]), placement)
-    level = np.array([0.0, 1.0, 0.0])
+    low, high = (corner[ahead] for corner in placement.boxes)
     found = zip(*(placement.planes(row) for row in ahead), strict=True)
     points, normals, areas = (np.concatenate(each) for each in found)
-    sides = []
-    for facing in (2, 0):
-        towards = (normals[:, facing] > _FACING) & (np.abs(normals @ level) < _ACROSS)
-        if not towards.any():
-            return None
-        # Facets of one plane count together.
-        own = normals[towards]
-        alike = own @ own.T > 1.0 - _SAME
-        offsets = np.sum(points[towards] * own, axis=1)
-        alike &= np.abs(offsets[:, None] - offsets[None, :]) < _ON_PLANE
-        widest = int(np.argmax(alike @ areas[towards]))
-        sides.append((own[widest], offsets[widest]))
-    (up, height), (face, reach) = sides
-    low, high = placement.boxes
-    across = 0.5 * (low[ahead, 1].min() + high[ahead, 1].max())
-    place = np.linalg.solve([up, face, level], [height, reach, across])
+    square = np.abs(normals[:, 1]) < _ACROSS
+    top = _widest(points, normals, areas, square & (normals[:, 2] > _FACING))
+    if top is None:
+        return None
+    up, height = top
+    behind = points[:, 0] < 0.5 * (low[:, 0].min() + high[:, 0].max())
+    face = _widest(points, normals, areas, square & (normals[:, 0] > _FACING) & behind)
+    level = np.array([0.0, 1.0, 0.0])
+    x_axis = np.cross(level, up)
+    normal, reach = face or (x_axis, float((placement.points_of(tuple(ahead)) @ x_axis).min()))
+    across = 0.5 * (low[:, 1].min() + high[:, 1].max())
+    place = np.linalg.solve([up, normal, level], [height, reach, across])
     source = f"heel of {_named(ahead, placement)}, the foremost"
-    return Site(
-        entry.name, entry.body, clean_triple(place), clean_triple(np.cross(level, up)), clean_triple(up), source
-    )
+    return Site(entry.name, entry.body, clean_triple(place), clean_triple(x_axis), clean_triple(up), source)
+
+
+def _widest(points: Floats, normals: Floats, areas: Floats, chosen: NDArray[np.bool_]) -> tuple[Floats, float] | None:
+    """Of the chosen faces the plane with most area: its normal and its place along it. Facets of one plane count
+    together."""
+    if not chosen.any():
+        return None
+    own, offsets = normals[chosen], np.sum(points[chosen] * normals[chosen], axis=1)
+    alike = (own @ own.T > 1.0 - _SAME) & (np.abs(offsets[:, None] - offsets[None, :]) < _ON_PLANE)
+    widest = int(np.argmax(alike @ areas[chosen]))
+    return own[widest], float(offsets[widest])
 
 
 def _at_tip(edge: Site, frame: JointFrame, placement: Placement) -> Site:
