@@ -403,6 +403,7 @@ def choose(template: Template, choices: Mapping[str, str]) -> Template:
         variants=(),
         sensors=tuple(replace(s, when={}) for s in template.sensors if holds(s.when, chosen)),
         measurements=tuple(replace(m, when={}) for m in template.measurements if holds(m.when, chosen)),
+        tests=tuple(replace(t, when={}) for t in template.tests if holds(t.when, chosen)),
         wanted=tuple(replace(w, when={}) for w in template.wanted if holds(w.when, chosen)),
     )
 
