@@ -1,7 +1,7 @@
 """How right alignment is on machines nobody tuned for: synthetic loaders and excavators without names, turned, scaled
 and shuffled, sound and with one defect at a time, from B-rep and from triangles.
 
-    python benchmarks/bench_recognition.py [--first SEED] [--count N] [--kinds loader,excavator,mini,roller]
+    python benchmarks/bench_recognition.py [--first SEED] [--count N] [--kinds loader,excavator,mini,roller,telehandler]
         [--defects …] [--inputs brep,triangles] [--out FILE.json] [--parts 1000,5000]
 
 From the repository's root. Seeds below 1000 were looked at while the aligner was written, those from 1000 on are held
@@ -41,7 +41,8 @@ from yellowiron.model.geometry import Mesh  # noqa: E402
 from yellowiron.model.specification import Specifications  # noqa: E402
 from yellowiron.model.template import Template, choose  # noqa: E402
 
-TEMPLATES = {"loader": "wheel_loader", "excavator": "excavator", "mini": "excavator", "roller": "roller"}
+TEMPLATES = {"loader": "wheel_loader", "excavator": "excavator", "mini": "excavator", "roller": "roller",
+             "telehandler": "telehandler"}  # fmt: skip
 ROWS = ("track_shoe", "track_roller", "carrier_roller", "sprocket", "idler")
 
 

@@ -8,19 +8,16 @@ from __future__ import annotations
 
 from OCP.TopoDS import TopoDS_Shape
 
-from drawing.hardware import CLEARANCE, fit_pin
-from drawing.planar import rot, vec
+from drawing.hardware import fit_pin
 from drawing.product import BLACK, GLASS, GREY, YELLOW, Assembly, Colour, Part, add_pair
-from drawing.solids import X, Y, Z, bored, box, cut, fuse, mirrored, moved, plate, rod, sheet_box, shift, turned
+from drawing.solids import X, Y, Z, bored, box, cut, fuse, moved, plate, rod, sheet_box, shift, turned
+from drawing.stabiliser import PIN_LEG, PIN_LEG_CYL
 from drawing.steer_axle import PIN_OSCILLATION
 
 from . import values as v
 from .linkage import (
     AXLE_Z,
-    FOOT,
     FRONT_X,
-    HEEL,
-    LEG,
     REAR_RADIUS,
     SWING_X,
     SWING_Z,
@@ -34,7 +31,7 @@ RAIL = (220.0, 260.0, 600.0, 760.0)
 """Inside, outside, underside, top."""
 LIFT_Y, ARM_Y = 318.0, (405.0, 445.0)
 TOWERS = ((376.0, 402.0), (448.0, 475.0))
-PIN_ARM, PIN_LIFT, PIN_TILT, PIN_LEG, PIN_LEG_CYL = 70.0, 55.0, 60.0, 60.0, 40.0
+PIN_ARM, PIN_LIFT, PIN_TILT = 70.0, 55.0, 60.0
 PIN_POST, PIN_SWING = 80.0, 45.0
 REAR_SPINDLE = 60.0
 LEG_X = (-1150.0, -1070.0)
@@ -116,30 +113,6 @@ def draw_rear(hardware: Assembly) -> Assembly:
         ):
             bar = Part(f"PIN D{size:g}", rod((0, 0, 0), X, size / 2, last - first + 56))
             hardware.add(bar, BODY, role, shift(first - 28, sign * float(y), float(z)))
-    return tree
-
-
-def draw_stabiliser(angle: float, hardware: Assembly) -> Assembly:
-    """Both legs at an angle from the level: a box from heel to foot, lugs of the cylinder."""
-    tree, leg = Assembly("STABILISERS"), solve_stabiliser()
-    (ly, lz), (qy, qz) = leg.pin, leg.rod(angle)
-    fy, fz = leg.pin + rot(angle, vec(LEG, 0.0))
-    shape = plate([(ly, lz, HEEL), (fy, fz, FOOT)], "yz", *LEG_X)
-    core = plate([(ly, lz, HEEL - 14), (fy, fz, FOOT - 14)], "yz", LEG_X[0] + 14, LEG_X[1] - 14)
-    hub = rod((LEG_X[0], ly, lz), X, PIN_LEG / 2 + 22, LEG_X[1] - LEG_X[0])
-    slot = rod((LEG_X[0] + 14, qy, qz), X, 44, LEG_X[1] - LEG_X[0] - 28)
-    shape = bored(cut(fuse(cut(shape, core), hub), slot), X, ((0, ly, lz), PIN_LEG / 2 + CLEARANCE))
-    lugs = []
-    for x in (LEG_X[0], LEG_X[1] - 14):
-        lug = plate([(qy, qz, 34), (ly, lz, 60)], "yz", x, x + 14)
-        lugs.append(bored(lug, X, ((0, qy, qz), PIN_LEG_CYL / 2), ((0, ly, lz), PIN_LEG / 2 + CLEARANCE)))
-    whole = fuse(shape, *lugs)
-    for letter, sign, one in (("l", 1.0, whole), ("r", -1.0, mirrored(whole))):
-        body = f"stabilizer_{letter}"
-        tree.add(Part(f"STABILISER LEG {letter.upper()}H", one), body)
-        bar = Part(f"PIN D{PIN_LEG_CYL:g}", rod((0, 0, 0), X, PIN_LEG_CYL / 2, LEG_X[1] - LEG_X[0] + 8))
-        role = f"stabilizer_piston_rod_{letter}_pin"
-        hardware.add(bar, body, role, shift(LEG_X[0] - 4, sign * float(qy), float(qz)))
     return tree
 
 

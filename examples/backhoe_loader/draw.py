@@ -18,17 +18,17 @@ from drawing.hardware import placed
 from drawing.planar import Point, direction
 from drawing.product import Assembly, Use
 from drawing.solids import Vector, frame
+from drawing.stabiliser import RAISED, draw_stabilisers
 from drawing.steer_axle import draw_steer_axle
 from drawing.wheels import WheelSizes, draw_wheel, put_wheels, wheel_places
 
 from . import values as v
 from .backhoe import ROD_PIN, draw_boom, draw_bucket, draw_dipper, draw_extension, draw_links, draw_post, out
-from .chassis import LEG_X, LIFT_Y, REAR_SPINDLE, draw_frame, draw_rear, draw_stabiliser, draw_top
+from .chassis import LEG_X, LIFT_Y, REAR_SPINDLE, draw_frame, draw_rear, draw_top
 from .linkage import (
     FRONT_RADIUS,
     FRONT_X,
     HALF_ARC,
-    RAISED,
     REAR_RADIUS,
     SWING_X,
     SWING_Z,
@@ -164,7 +164,7 @@ def draw_machine() -> Assembly:
     hoe.add(draw_post(d.hoe, hardware))
     for draw in (draw_boom, draw_dipper, draw_extension, draw_links, draw_bucket):
         hoe.add(draw(d.hoe, d.pose, hardware))
-    axle, legs = draw_steer_axle(solve_axle(), hardware), draw_stabiliser(d.leg, hardware)
+    axle, legs = draw_steer_axle(solve_axle(), hardware), draw_stabilisers(solve_stabiliser(), d.leg, LEG_X, hardware)
     for child in (chassis, axle, shovel, hoe, legs, wheels, draw_cylinders(d), hardware):
         root.add(child)
     return root

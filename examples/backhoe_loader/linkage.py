@@ -17,6 +17,7 @@ from scipy.optimize import brentq, least_squares
 from drawing import loader
 from drawing.digger import Ends, Linkage, Sketch, Strokes, fitted
 from drawing.planar import Point, direction, rot, vec
+from drawing.stabiliser import Stabiliser
 from drawing.steer_axle import SteerAxle
 
 from . import values as v
@@ -165,60 +166,11 @@ def solve_swing() -> Swing:
 
 
 # ---- stabilisers: across, (y, z) of the left one --------
-HEEL, FOOT = 110.0, 60.0
-"""Radii of a leg's ends."""
-LEG = 640.0
-_OPEN = math.radians(25.0)
-"""Angle at the leg's pin between barrel pin and rod pin, raised."""
-RAISED, LOWERED = math.radians(55.0), math.radians(-64.0)
-"""Angles of the leg from the level."""
-
-
-@dataclass(frozen=True, slots=True)
-class Stabiliser:
-    """The left leg's triangle: distance of the rod's pin from the leg's."""
-
-    arm: float
-
-    @property
-    def pin(self) -> Point:
-        """The leg's pin: raised, its heel has the published clearance; on the ground its foot the spread."""
-        z = v.FEET_CLEARANCE.value + HEEL
-        out = LEG * math.sqrt(1.0 - ((z - FOOT) / LEG) ** 2) + FOOT
-        return vec(v.SPREAD.value / 2 - out, z)
-
-    @property
-    def barrel(self) -> Point:
-        """The barrel's pin."""
-        return vec(560.0, 1150.0)
-
-    @property
-    def lug(self) -> float:
-        """Angle from the leg to its rod's pin."""
-        return direction(self.barrel - self.pin) - _OPEN - RAISED
-
-    def rod(self, angle: float) -> Point:
-        """The rod's pin at an angle of the leg."""
-        return self.pin + rot(angle + self.lug, vec(self.arm, 0.0))
-
-    def length(self, angle: float) -> float:
-        """The cylinder's length."""
-        return float(np.hypot(*(self.rod(angle) - self.barrel)))
-
-    def angle(self, length: float) -> float:
-        """The leg's angle at a length of the cylinder."""
-        return float(brentq(lambda a: self.length(a) - length, LOWERED - 0.01, RAISED + 0.01, xtol=1e-14))
-
-
 @functools.cache
 def solve_stabiliser() -> Stabiliser:
     """The triangle that lowers the leg over the stroke."""
-
-    def miss(arm: float) -> float:
-        leg = Stabiliser(arm)
-        return leg.length(LOWERED) - leg.length(RAISED) - v.STABILISER_STROKE.value
-
-    return Stabiliser(float(brentq(miss, 120.0, 300.0, xtol=1e-12)))
+    leg = Stabiliser(v.FEET_CLEARANCE.value, v.SPREAD.value, (560.0, 1150.0))
+    return leg.moved_by(v.STABILISER_STROKE.value)
 
 
 # ---- steering --------

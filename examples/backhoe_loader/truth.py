@@ -11,6 +11,7 @@ import numpy as np
 from drawing.cylinders import Cylinder
 from drawing.planar import Point, rot
 from drawing.product import Assembly, extent, occurrences
+from drawing.stabiliser import FOOT, HEEL, LEG, LOWERED, RAISED
 from drawing.truth import CadFrame, Joints, document, twin_slides, value_rows
 from drawing.wheels import wheel_places
 
@@ -18,15 +19,10 @@ from . import values as v
 from .chassis import LEG_X, LIFT_Y
 from .linkage import (
     DEPTH,
-    FOOT,
     FRONT_RADIUS,
     FRONT_X,
     HALF_ARC,
-    HEEL,
-    LEG,
     LIFTS,
-    LOWERED,
-    RAISED,
     REAR_RADIUS,
     SWING_X,
     SWING_Z,

@@ -23,7 +23,8 @@ class SteerAxle:
     """`body`: of the beam; `x`, `z`: where it oscillates, over the middle of the wheels. `king`: y of the left kingpin;
     `arm` and `end`: x and y of the pins between its knuckle's arm and its tie, and between that and the steering rod.
     `ram_z` and `tie_z`: heights of cylinder and ties; `wheel_z`: of the wheels, on spindles of a diameter and a length.
-    Bore, rod and stroke of the cylinder, its diameter outside."""
+    Bore, rod and stroke of the cylinder, its diameter outside. `prefix`: of the names of all but the beam, where a
+    machine has two such axles. `on`: the body that carries the beam; with `fast` the beam is of it."""
 
     body: str
     x: float
@@ -39,6 +40,9 @@ class SteerAxle:
     rod: float
     stroke: float
     outside: float = 100.0
+    prefix: str = ""
+    on: str = "chassis"
+    fast: bool = False
 
     def ram(self) -> Ram:
         """Sizes of the steering cylinder, drawn in its middle."""
@@ -73,30 +77,31 @@ def _both(tree: Assembly, name: str, shape: TopoDS_Shape, bodies: tuple[str, str
 def draw_steer_axle(a: SteerAxle, hardware: Assembly) -> Assembly:
     """Beam, cylinder, rod ends, ties and knuckles; the wheels are put on by the caller. Its pin is the chassis'."""
     tree = Assembly("STEER AXLE ASSY")
-    x, z, wall, body = a.x, a.z, a.king + 55, a.body
+    x, z, wall, body = a.x, a.z, a.king + 55, a.on if a.fast else a.body
+    steering = f"{a.prefix}steering"
     king = (x, a.king, 0.0)
     beam = box(x - 60, x + 60, -a.king - 50, a.king + 50, z - 50, z + 50)
-    beam = bored(beam, X, ((0, 0, z), PIN_OSCILLATION / 2 + CLEARANCE))
+    beam = beam if a.fast else bored(beam, X, ((0, 0, z), PIN_OSCILLATION / 2 + CLEARANCE))
     beam = bored(beam, Z, (king, PIN_KING / 2), ((x, -a.king, 0), PIN_KING / 2))
     tree.add(Part("STEER AXLE BEAM", beam, GREY), body)
     ram, (ex, ey), (ax, ay) = a.ram(), a.end, a.arm
     _both(tree, "STEER CYL BRKT", box(ex + 40, x - 60, 120, 150, z - 45, z + 45), (body, body))
     names = {
         "barrel": body,
-        "rod": "steering_piston_rod",
-        "barrel_role": "steering_cylinder_barrel",
-        "rod_role": "steering_piston_rod",
+        "rod": f"{steering}_piston_rod",
+        "barrel_role": f"{steering}_cylinder_barrel",
+        "rod_role": f"{steering}_piston_rod",
     }
     # Its axis goes from z to y: the barrel's foot to the right, the rod out to the left.
     at = shift(ex, -ram.length / 2, a.ram_z).Multiplied(turn(X, -90.0))
     tree.uses.append(Use(draw_ram(ram), at, names=names))
     low, high = a.tie_z - 19, a.ram_z + 20
     eye = bored(box(ex - 28, ex + 28, ey - 25, ey + 28, a.ram_z - 20, high), Z, ((ex, ey, 0), PIN_TIE / 2))
-    tree.add(Part("STEER ROD END", eye, CHROME), "steering_piston_rod")
-    tree.add(Part("STEER ROD END", mirrored(eye), CHROME), "steering_piston_rod")
+    tree.add(Part("STEER ROD END", eye, CHROME), f"{steering}_piston_rod")
+    tree.add(Part("STEER ROD END", mirrored(eye), CHROME), f"{steering}_piston_rod")
     tie = plate([(ex, ey, 26), (ax, ay, 26)], "xy", low, a.tie_z + 19)
     tie = bored(tie, Z, ((ex, ey, 0), PIN_TIE / 2 + CLEARANCE), ((ax, ay, 0), PIN_TIE / 2 + CLEARANCE))
-    _both(tree, "TIE ROD", tie, ("tie_rod_l", "tie_rod_r"))
+    _both(tree, "TIE ROD", tie, (f"{a.prefix}tie_rod_l", f"{a.prefix}tie_rod_r"))
     fork = [(x + 60, wall, 0.0), (x + 60, wall + 1, 0.0), (x - 60, wall + 1, 0.0)]
     upper = plate([(x + 60, wall, 0), *fork[1:], (x, a.king, 52.0)], "xy", z + 55, z + 95)
     upper = bored(upper, Z, (king, PIN_KING / 2 + CLEARANCE))
@@ -108,15 +113,16 @@ def draw_steer_axle(a: SteerAxle, hardware: Assembly) -> Assembly:
     size, length = a.spindle
     post = box(x - 60, x + 60, wall, wall + 30, z - 95, z + 95)
     post = fuse(post, rod((x, wall + 30, a.wheel_z), Y, size / 2, length))
-    _both(tree, "STEER KNUCKLE", fuse(upper, post, lower), ("knuckle_l", "knuckle_r"))
+    _both(tree, "STEER KNUCKLE", fuse(upper, post, lower), (f"{a.prefix}knuckle_l", f"{a.prefix}knuckle_r"))
     for sign, letter in ((1.0, "l"), (-1.0, "r")):
-        knuckle = f"knuckle_{letter}"
+        knuckle = f"{a.prefix}knuckle_{letter}"
         fit_pin(hardware, (x, sign * a.king, z - 95), PIN_KING, 190, body, f"{knuckle}_pin", upright=True)
         for px, py, owner, role in (
-            (ax, ay, knuckle, f"tie_rod_{letter}_pin"),
-            (ex, ey, "steering_piston_rod", f"steering_piston_rod_{letter}_pin"),
+            (ax, ay, knuckle, f"{a.prefix}tie_rod_{letter}_pin"),
+            (ex, ey, f"{steering}_piston_rod", f"{steering}_piston_rod_{letter}_pin"),
         ):
             fit_pin(hardware, (px, sign * py, low), PIN_TIE, high - low, owner, role, upright=True)
-    bolt = pin(PIN_OSCILLATION, 290)
-    hardware.add(bolt, "chassis", f"{body}_pin", shift(x - 145, 0, z).Multiplied(turn(Z, -90.0)))
+    if not a.fast:
+        bolt = pin(PIN_OSCILLATION, 290)
+        hardware.add(bolt, a.on, f"{body}_pin", shift(x - 145, 0, z).Multiplied(turn(Z, -90.0)))
     return tree

@@ -20,7 +20,7 @@ from yellowiron.support.units import SI_UNIT
 
 LANGUAGES = {"en", "de", "fr", "es", "zh", "ja"}
 TYPES = library.list_templates()
-SHEET_ONLY = {"dozer", "grader", "mobile_crane", "telehandler"}
+SHEET_ONLY = {"dozer", "grader", "mobile_crane"}
 
 
 def test_which_types_there_are() -> None:
@@ -33,6 +33,7 @@ def test_which_types_there_are() -> None:
         "excavator",
         "forklift",
         "skid_steer",
+        "telehandler",
     }
     assert {t for t in TYPES if library.is_sheet_only(t)} == SHEET_ONLY
 

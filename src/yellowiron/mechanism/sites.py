@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.spatial import ConvexHull, QhullError
 
 from yellowiron.mechanism.joints.axes import Axis
@@ -25,6 +26,10 @@ _ALIKE = 1e-3
 """Relative difference of the lengths by which parts are compared up to which they are congruent."""
 _ON_PLANE = 1e-3
 """A plane this near to the edge contains it, metres."""
+_FACING = math.cos(math.radians(50.0))
+"""Cosine up to which a plane faces a way: forks are drawn tilted by less than 40°."""
+_SAME = 1e-6
+"""Cosine's lack up to which two planes face the same way (0.08°)."""
 _ACROSS = math.sin(PARALLEL)
 """Sine of the angle up to which a plane is parallel to the joint's axis."""
 
@@ -64,7 +69,9 @@ def _site(
         return _middle_site(entry, placement)
     if "foremost" in rule:
         return _foremost_site(entry, placement)
-    name = next((rule[key] for key in ("joint", "along", "edge_from", "inside_from") if key in rule), "")
+    if "heel" in rule:
+        return _heel_site(entry, placement)
+    name = next((rule[key] for key in ("joint", "along", "pointing", "edge_from", "inside_from") if key in rule), "")
     if isinstance(name, tuple):
         name = next((each for each in name if each in frames), name[0])
     frame = frames.get(name)
@@ -74,6 +81,13 @@ def _site(
         return Site(entry.name, entry.body, clean_triple(frame.anchor), source=f"anchor of {name}")
     if "along" in rule:
         return _upright_site(entry, frame)
+    if "pointing" in rule:
+        x_axis = frame.axis if frame.axis[0] >= 0.0 else -frame.axis
+        z_axis = np.cross(x_axis, (0.0, 1.0, 0.0))
+        source = f"pointing along {name}"
+        return Site(
+            entry.name, entry.body, clean_triple(frame.anchor), clean_triple(x_axis), clean_triple(z_axis), source
+        )
     spanning = float(rule.get("spanning", 0.8))
     if "inside_from" in rule:
         return _inside_site(entry, frame, spanning, placement)
@@ -105,13 +119,55 @@ def _foremost_site(entry: SiteTemplate, placement: Placement) -> Site:
     """The middle of the box around those of a body's parts that reach as far ahead as it does, within a share of its
     length: a truck's forks."""
     low, high = placement.boxes
-    rows = [row for row in placement.rows_of_body(entry.body) if np.isfinite(low[row]).all()]
-    front = high[rows, 0].max() - float(entry.rule["foremost"]) * (high[rows, 0].max() - low[rows, 0].min())
-    ahead = [row for row in rows if high[row, 0] >= front]
+    ahead = _foremost(entry.body, float(entry.rule["foremost"]), placement)
     middle = 0.5 * (low[ahead].min(axis=0) + high[ahead].max(axis=0))
-    also = f" and {len(ahead) - 1} more" if len(ahead) > 1 else ""
-    source = f"middle of {placement.parts[ahead[0]].id}{also}, the foremost"
+    source = f"middle of {_named(ahead, placement)}, the foremost"
     return Site(entry.name, entry.body, clean_triple(middle), source=source)
+
+
+def _foremost(body: str, share: float, placement: Placement) -> list[int]:
+    low, high = placement.boxes
+    rows = [row for row in placement.rows_of_body(body) if np.isfinite(low[row]).all()]
+    front = high[rows, 0].max() - share * (high[rows, 0].max() - low[rows, 0].min())
+    return [row for row in rows if high[row, 0] >= front]
+
+
+def _named(rows: Sequence[int], placement: Placement) -> str:
+    return placement.parts[rows[0]].id + (f" and {len(rows) - 1} more" if len(rows) > 1 else "")
+
+
+def _heel_site(entry: SiteTemplate, placement: Placement) -> Site | None:
+    """Of the foremost parts, a truck's forks: where the widest plane that faces up meets the widest of their rear half
+    that faces ahead, or where they end at the rear; in their middle across; x along the first plane, forwards."""
+    ahead = _foremost(entry.body, float(entry.rule["heel"]), placement)
+    low, high = (corner[ahead] for corner in placement.boxes)
+    found = zip(*(placement.planes(row) for row in ahead), strict=True)
+    points, normals, areas = (np.concatenate(each) for each in found)
+    square = np.abs(normals[:, 1]) < _ACROSS
+    top = _widest(points, normals, areas, square & (normals[:, 2] > _FACING))
+    if top is None:
+        return None
+    up, height = top
+    behind = points[:, 0] < 0.5 * (low[:, 0].min() + high[:, 0].max())
+    face = _widest(points, normals, areas, square & (normals[:, 0] > _FACING) & behind)
+    level = np.array([0.0, 1.0, 0.0])
+    x_axis = np.cross(level, up)
+    normal, reach = face or (x_axis, float((placement.points_of(tuple(ahead)) @ x_axis).min()))
+    across = 0.5 * (low[:, 1].min() + high[:, 1].max())
+    place = np.linalg.solve([up, normal, level], [height, reach, across])
+    source = f"heel of {_named(ahead, placement)}, the foremost"
+    return Site(entry.name, entry.body, clean_triple(place), clean_triple(x_axis), clean_triple(up), source)
+
+
+def _widest(points: Floats, normals: Floats, areas: Floats, chosen: NDArray[np.bool_]) -> tuple[Floats, float] | None:
+    """Of the chosen faces the plane with most area: its normal and its place along it. Facets of one plane count
+    together."""
+    if not chosen.any():
+        return None
+    own, offsets = normals[chosen], np.sum(points[chosen] * normals[chosen], axis=1)
+    alike = (own @ own.T > 1.0 - _SAME) & (np.abs(offsets[:, None] - offsets[None, :]) < _ON_PLANE)
+    widest = int(np.argmax(alike @ areas[chosen]))
+    return own[widest], float(offsets[widest])
 
 
 def _at_tip(edge: Site, frame: JointFrame, placement: Placement) -> Site:

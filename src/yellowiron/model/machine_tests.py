@@ -37,7 +37,8 @@ class MachineTest:
     in the tool, at the flow that the wanted name `flow` gives.
 
     `base` floating: on the ground; `expected`: whether a `lift` arrives. `inputs`: wanted names that the figure hangs
-    on; `specification`: the one that it is compared with, "" for none.
+    on; `specification`: the one that it is compared with, "" for none. `when`: choices under which it is made, until
+    they are decided (`template.UNDECIDED`).
     """
 
     name: str
@@ -56,3 +57,4 @@ class MachineTest:
     expected: bool = True
     inputs: tuple[str, ...] = field(default=())
     definition: str = ""
+    when: Mapping[str, tuple[str, ...]] = field(default_factory=dict, metadata={"undecided": True})

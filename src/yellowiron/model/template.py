@@ -12,7 +12,7 @@ from yellowiron.model.sensor import SensorTemplate
 
 JointType = Literal["fixed", "distance", "spherical", "revolute", "prismatic"]
 DriveType = Literal["linear", "angular"]
-Coupling = Literal["chain", "gear", "rope"]
+Coupling = Literal["chain", "gear", "rope", "oil"]
 Choices = Mapping[str, tuple[str, ...]]
 """Variant name → the choices under which an entry exists; empty: always."""
 UNDECIDED = "undecided"
@@ -200,13 +200,18 @@ class ActuatorTemplate:
     defaults: Mapping[str, float] = field(default_factory=dict)
     source: str = ""
 
+    @property
+    def slave(self) -> bool:
+        """Whether no lever moves it: its cylinders follow what others move, such as one whose oil levels a fork."""
+        return bool(self.cylinders) and all(c.passive for c in self.cylinders)
+
 
 @dataclass(frozen=True)
 class SiteTemplate:
     """A named frame on a body. `rule` says where: {"joint": J} (its anchor), {"along": J} (there, upright along that
-    slide), {"edge_from": J, "spanning": 0.8} (the
-    point of the body farthest from that joint's axis among parts spanning that share of the body's width along the
-    axis), {"point": [x, y, z]} (machine frame)."""
+    slide), {"pointing": J} (there, x along it), {"heel": 0.02} (of the foremost parts), {"edge_from": J, "spanning":
+    0.8} (the point of the body farthest from that joint's axis among parts spanning that share of the body's width
+    along the axis), {"point": [x, y, z]} (machine frame)."""
 
     name: str
     body: str
@@ -398,6 +403,7 @@ def choose(template: Template, choices: Mapping[str, str]) -> Template:
         variants=(),
         sensors=tuple(replace(s, when={}) for s in template.sensors if holds(s.when, chosen)),
         measurements=tuple(replace(m, when={}) for m in template.measurements if holds(m.when, chosen)),
+        tests=tuple(replace(t, when={}) for t in template.tests if holds(t.when, chosen)),
         wanted=tuple(replace(w, when={}) for w in template.wanted if holds(w.when, chosen)),
     )
 

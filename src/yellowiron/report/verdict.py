@@ -38,6 +38,8 @@ def levers_of(mechanism: Mechanism, template: Template, alignment: Alignment) ->
     told = {(f.code, f.where) for f in (*alignment.findings, *mechanism.findings) if f.severity != "info"}
     found = []
     for wanted in template.actuators:
+        if wanted.slave:
+            continue
         slides = [c.slide for c in wanted.cylinders if c.slide in edges]
         joints = tuple(dict.fromkeys(j for name in (*slides, *wanted.joints) for j in together.get(name, (name,))))
         actuator = built.get(wanted.name)

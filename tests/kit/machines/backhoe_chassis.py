@@ -1,4 +1,4 @@
-"""The carrier of the drawn backhoe loaders: their pins, chassis, stabilizers, steered front axle."""
+"""The carrier of the drawn backhoe loaders: their pins, chassis, swing post."""
 
 from __future__ import annotations
 
@@ -6,16 +6,15 @@ import math
 
 import numpy as np
 
-from kit.machines.crawler import merged
-from kit.machines.solids import Array, around, box, lathe, place, plate, tube
-from kit.machines.synthetic import Drawer, X, Y, Z, meet, polar
+from kit.machines.solids import Array, around
+from kit.machines.steered_chassis import SIDES, SteeredChassis
+from kit.machines.synthetic import X, meet, polar
 
-SIDES = ((1, "l"), (-1, "r"))
 SWING = -1.36
 """The swing pivot, from the rear axle."""
 
 
-class BackhoeChassis(Drawer):
+class BackhoeChassis(SteeredChassis):
     """One machine from one generator of random numbers; the backhoe's pins are in its own plane, backward from the
     swing pivot."""
 
@@ -90,35 +89,6 @@ class BackhoeChassis(Drawer):
             raise ValueError("a cylinder does not reach")
         self.boom_angle, self.arm_angle, self.arm_long = boom, arm, far
         return dict(zip("abcdmpkeghj", (a, b, c, d, m, p, k, e, g, h, j), strict=True))
-
-    # ---- small things ----
-    def plates(self, name: str, body: str, y: float, outline: Array, pins: str, *, both: bool = True) -> None:
-        for side in (1, -1) if both else (1,):
-            self.side_plate(name, body, side * y, outline, pins)
-
-    def through(self, role: str, body: str, pin: str, half: float) -> None:
-        self.across(role, body, self.P[pin], 1, -half, half)
-
-    def upright(self, role: str, body: str, at: Array, half: float) -> None:
-        self.pin(role, body, at - half * Z, at + half * Z)
-
-    def level(self, name: str, body: str, z: float, outline: Array, *holes: tuple[float, float]) -> None:
-        bores = [(float(x), float(y), self.bore_r) for x, y in holes]
-        shape = plate(f"{name}_{z:.4f}_{outline[0, 1]:.4f}", outline, self.t, bores)
-        self.m.add(name, body, body, shape, place((0, 0, z), Z, X))
-
-    def steep(
-        self, name: str, body: str, x: float, outline: Array, *holes: tuple[float, float], thick: float = 0.0
-    ) -> None:
-        """A plate across the machine; its outline and holes are (y, z)."""
-        bores = [(float(y), float(z), self.bore_r) for y, z in holes]
-        shape = plate(f"{name}_{x:.4f}_{outline[0, 0]:.4f}", outline, thick or self.t, bores)
-        self.m.add(name, body, body, shape, place((x, 0, 0), X, Y))
-
-    @property
-    def lug_y(self) -> float:
-        """Middle of the plates beside a cylinder's eye."""
-        return self.eye_w / 2 + self.gap + self.t / 2
 
     # ---- chassis ----
     def chassis(self) -> None:
@@ -215,120 +185,5 @@ class BackhoeChassis(Drawer):
                 f"swing_cylinder_barrel_{letter}_pin", body, np.array([*p, self.swing_z]), self.lug_y + 0.6 * t
             )
 
-    def stabilizer(self, side: int, letter: str, x: float) -> None:
-        """A leg as two plates with a foot between them."""
-        s, t, body, mirror = self.s, self.t, f"stabilizer_{letter}", np.array([side, 1])
-        wide = 2.2 * self.pin_r
-        foot = self.leg_pin + polar(0.62 * s, self.leg)
-        self.leg_rod = self.leg_pin + polar(0.2 * s, self.leg + 0.53)
-        pin, end, rod = (p * mirror for p in (self.leg_pin, foot, self.leg_rod))
-        outline = around((*pin, wide), (*end, 0.06 * s), (*rod, 1.6 * self.pin_r))
-        half = 0.06 * s - t / 2 - self.gap - t / 2
-        for d in (1, -1):
-            self.steep("leg", body, x + d * half, outline, tuple(pin), tuple(rod))
-        inner = half - t / 2 + self.e
-        tip = plate("foot", around((*end, 0.058 * s)), 2 * inner)
-        self.m.add("foot", body, body, tip, place((x, 0, 0), X, Y))
-        start = np.array([x - half - 0.6 * t, *rod])
-        self.pin(f"stabilizer_piston_rod_{letter}_pin", body, start, start + 2 * (half + 0.6 * t) * X)
-
-    # ---- the front axle ----
     def axle(self) -> None:
-        s, t, e, m, body, x, z = self.s, self.t, self.e, self.m, "front_axle", self.front_x, self.axle_z
-        r, king, a = 2.2 * self.pin_r, 0.69 * s, x / s
-        self.block("axle beam", body, (a - 0.06, -0.6, z / s - 0.05), (a + 0.06, 0.6, z / s + 0.05))
-        rail = 0.2 + e / s
-        near, far = 0.16 * s, 0.06 * s + t / 2 - e
-        self.block(
-            "hanger beam",
-            "chassis",
-            (a - (near - t / 2 + e) / s, -rail, 0.63),
-            (a + (near - t / 2 + e) / s, rail, 0.74),
-        )
-        for d in (1, -1):
-            hanger = around((0, z, r), (0.16 * s, 0.74 * s, 0), (-0.16 * s, 0.74 * s, 0))
-            self.steep("hanger", "chassis", x + d * near, hanger, (0.0, z))
-            trunnion = around((0, z, r), (0.14 * s, z - 0.04 * s, 0), (0.14 * s, z + 0.04 * s, 0),
-                              (-0.14 * s, z + 0.04 * s, 0),
-                              (-0.14 * s, z - 0.04 * s, 0))  # fmt: skip
-            self.steep("trunnion", body, x + d * far, trunnion, (0.0, z))
-            middle = x + d * 0.5 * (near + far)
-            span = 0.5 * (near - far) + t
-            start = np.array([middle - span, 0.0, z])
-            self.pin("front_axle_pin", "chassis", start, start + 2 * span * X)
-        arm_x, end_x = x - 0.187 * s, x - 0.212 * s
-        ram_z = z - 0.1 * s
-        low = ram_z - 0.045 * s
-        bore, rod, half = 0.035 * s, 0.02 * s, 0.17 * s
-        can = [(rod, -half), (0.05 * s, -half), (0.05 * s, half), (rod, half), (rod, half - 0.03 * s),
-               (bore, half - 0.03 * s),
-               (bore, 0.03 * s - half), (rod, 0.03 * s - half)]  # fmt: skip
-        shapes = [(lathe("steer_can", can), place((end_x, 0, ram_z), Y))]
-        long = x - 0.06 * s + e - end_x - 0.04 * s
-        for y in (0.1, -0.1):
-            at = (end_x + 0.04 * s + long / 2, y * s, ram_z + 0.04 * s)
-            shapes.append((box("ram_foot", long, 0.04 * s, 0.1 * s), place(at, Z, X)))
-        m.add("steering barrel", "steering_cylinder_barrel", body, merged("steer_barrel", *shapes), np.eye(4))
-        piston = tube("steer_piston", bore, rod, 0.04 * s)
-        m.add(
-            "steering piston", "steering_piston_rod", "steering_piston_rod", piston, place((end_x, -0.02 * s, ram_z), Y)
-        )
-        ends = [(tube("steer_rod", rod, 0.0, 0.62 * s), place((end_x, -0.31 * s, ram_z), Y))]
-        for side, letter in SIDES:
-            k, arm, end = (
-                np.array([x, side * king]),
-                np.array([arm_x, side * (king - 0.03 * s)]),
-                np.array([end_x, side * 0.34 * s]),
-            )
-            wall = side * (0.6 * s - e)
-            eye = around((*k, r), (x - 0.06 * s, wall, 0), (x + 0.06 * s, wall, 0))
-            shape = plate(f"king_eye{side}", eye, 0.09 * s, [(float(k[0]), float(k[1]), self.bore_r)])
-            m.add("king eye", body, body, shape, place((0, 0, z), Z, X))
-            self.upright(f"knuckle_{letter}_pin", body, np.array([*k, z]), 0.09 * s)
-            eye = plate(
-                f"rod_end{side}",
-                around((*end, 1.5 * self.pin_r)),
-                0.04 * s,
-                [(float(end[0]), float(end[1]), self.pin_r)],
-            )
-            ends.append((eye, place((0, 0, ram_z), Z, X)))
-            tie = around((*arm, 1.6 * self.pin_r), (*end, 1.6 * self.pin_r))
-            holes = [(float(q[0]), float(q[1]), self.bore_r) for q in (arm, end)]
-            m.add("tie rod", f"tie_rod_{letter}", f"tie_rod_{letter}", plate(f"tie{side}", tie, 0.035 * s, holes),
-                  place((0, 0, low), Z, X))  # fmt: skip
-            for role, at, owner, top in (
-                (f"tie_rod_{letter}_pin", arm, f"knuckle_{letter}", z - 0.044 * s),
-                (f"steering_piston_rod_{letter}_pin", end, "steering_piston_rod", ram_z + 0.022 * s),
-            ):
-                foot = np.array([*at, low - 0.02 * s])
-                self.pin(role, owner, foot, foot + (top - foot[2]) * Z)
-            self.knuckle(side, letter, k, arm)
-        shape = merged("steer_rod_with_ends", *ends)
-        m.add("steering rod", "steering_piston_rod", "steering_piston_rod", shape, np.eye(4))
-
-    def knuckle(self, side: int, letter: str, king: Array, arm: Array) -> None:
-        """Two plates about the king eye, a web with the spindle, the arm: one casting."""
-        s, t, body, x, z = self.s, self.t, f"knuckle_{letter}", self.front_x, self.axle_z
-        web, r = side * 0.77 * s, 2.2 * self.pin_r
-        fork = around((*king, r), (x - 0.07 * s, web, 0), (x + 0.07 * s, web, 0))
-        hole = (float(king[0]), float(king[1]), self.bore_r)
-        off = 0.045 * s + t / 2 + max(self.gap, 0.002 * s)
-        reach, start = self.tread / 2 - 0.1 * s, 0.79 * s
-        low = plate(
-            f"arm{side}",
-            around((*king, r), (*arm, 1.6 * self.pin_r)),
-            t,
-            [hole, (float(arm[0]), float(arm[1]), self.pin_r)],
-        )
-        shapes = [
-            (plate(f"top{side}", fork, t, [hole]), place((0, 0, z + off), Z, X)),
-            (plate(f"low{side}", fork, t, [hole]), place((0, 0, z - off), Z, X)),
-            (low, place((0, 0, z - off), Z, X)),
-            (box("web", 0.14 * s, 0.03 * s, 2 * off + t), place((x, web, z), Z, X)),
-            (tube("spindle", 0.05 * s, 0.0, reach - start), place((x, side * start, self.front_r), side * Y)),
-        ]
-        self.m.add("knuckle", body, body, merged(f"{body}_casting", *shapes), np.eye(4))
-        kept = self.tyre_r, self.tyre_w
-        self.tyre_r, self.tyre_w = self.front_r, 0.7 * self.tyre_w
-        self.wheel(f"front_wheel_{letter}", body, side, np.array([x, side * self.tread / 2, self.front_r]), reach)
-        self.tyre_r, self.tyre_w = kept
+        self.steered_axle("front", self.front_x, self.front_r, 0.7 * self.tyre_w)

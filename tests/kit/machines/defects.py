@@ -21,6 +21,7 @@ from kit.machines.rollers import roller
 from kit.machines.skid_steers import skid_steer
 from kit.machines.solids import Array, bolt, place
 from kit.machines.synthetic import Machine, loader
+from kit.machines.telehandlers import telehandler
 from yellowiron.cad.mesh.assembly import shape_of
 from yellowiron.model.assembly import Part
 from yellowiron.model.geometry import Mesh, Shape
@@ -47,6 +48,8 @@ def drawn(kind: str, seed: int, *, segments: int = 32, hollow: bool = True) -> M
             return rigid_truck(seed, embedded=embedded)
         if kind == "roller":
             return roller(seed, embedded=embedded)
+        if kind == "telehandler":
+            return telehandler(seed, embedded=embedded)
         if kind == "backhoe":
             return backhoe(seed, embedded=embedded)
         if kind == "forklift":

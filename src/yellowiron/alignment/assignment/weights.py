@@ -6,7 +6,7 @@ A found joint counts `solve.JOINT_WEIGHT`; everything here counts less, save a p
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping, Sequence
 
 import numpy as np
 
@@ -28,6 +28,8 @@ CRUMB = 0.25
 """What has less than this share of a body's usual surface is not what that body mainly is."""
 SIDE_WEIGHT = 80
 SIZE_WEIGHT = 12
+LONGER = 1.3
+"""Of two cylinders that hang alike, one that usually is so many times longer than the other is told by it."""
 AS_GOOD = 0.1
 """Bodies that a name speaks of this nearly as much as of the one it speaks of most are meant as well."""
 TRUSTING = 6
@@ -156,6 +158,57 @@ def interchangeable(template: Template, *, joints: bool = True) -> list[frozense
     return [frozenset(g) for g in groups.values() if len({_END.findall(name)[0] for name in g}) > 1]
 
 
+def between_twins(template: Template) -> list[tuple[str, str, str]]:
+    """Barrels, and rods, of three cylinders between the same two bodies, (left, middle, right), of which two are twins:
+    a boom's lift cylinders and the one that levels its forks. Only where they stand tells which is which."""
+    found = []
+    for names in _hung_alike(template):
+        left = [name for name in names if _SIDE.findall(name) == ["l"] and twin_role(name) in names]
+        middle = [name for name in names if twin_role(name) is None]
+        if len(names) == 3 and len(left) == len(middle) == 1:
+            found.append((left[0], middle[0], str(twin_role(left[0]))))
+    return found
+
+
+def told_by_length(template: Template) -> list[tuple[str, str]]:
+    """Barrels, and rods, of two cylinders between the same two bodies of which one usually is clearly longer, that one
+    first."""
+    usual, found = template.usual, []
+    for names in _hung_alike(template):
+        if len(names) == 2 and all(name in usual and twin_role(name) is None for name in names):
+            short, long = sorted(names, key=lambda name: usual[name].length)
+            if usual[long].length > LONGER * usual[short].length:
+                found.append((long, short))
+    return found
+
+
+def _hung_alike(template: Template) -> list[list[str]]:
+    """Barrels, and rods, of the cylinders between the same two bodies."""
+    kinds, ends = {r.name: r.kind for r in template.roles if r.rigid}, dict[str, set[str]]()
+    for joint in template.joints:
+        a, b = template.bodies_of(joint)
+        if joint.type == "revolute" and a is not None and b is not None:
+            for own, other in ((a, b), (b, a)):
+                ends.setdefault(own, set()).add(other)
+    held: dict[tuple[str, frozenset[str], frozenset[str]], list[str]] = {}
+    for joint in template.joints:
+        halves = template.bodies_of(joint)
+        if joint.type == "prismatic" and {kinds.get(b or "") for b in halves} == {"barrel", "rod"}:
+            pair = sorted((str(b) for b in halves), key=lambda b: kinds[b])
+            hung, held_by = (frozenset(ends.get(half, ())) for half in pair)
+            for half in pair:
+                held.setdefault((kinds[half], hung, held_by), []).append(half)
+    return list(held.values())
+
+
+def _told(sided: Weights, names: Sequence[str], cluster_of: Mapping[str, int], rank: Callable[[int], float]) -> None:
+    """Weights that give clusters, by their rank, the names in their order."""
+    there = sorted((cluster_of[name] for name in names if name in cluster_of), key=rank)
+    for cluster, fits in zip(there, names, strict=True) if len(there) == len(names) else ():
+        for name in names:
+            sided[cluster, name] = sided.get((cluster, name), 0) + (SIDE_WEIGHT if name == fits else -SIDE_WEIGHT)
+
+
 def side_weights(
     solids: tuple[Solid, ...],
     structure: Structure,
@@ -188,7 +241,19 @@ def side_weights(
                 where = (cluster_of[found], name)
                 sided[where] = sided.get(where, 0) + (SIDE_WEIGHT if fits else -SIDE_WEIGHT)
 
-    for name in sorted(cluster_of.keys() - frozenset().union(*alike)):
+    def long(cluster: int) -> float:
+        members = [solids[i] for i in sorted(structure.clusters[cluster].members)]
+        return float(
+            np.linalg.norm(np.max([s.high for s in members], axis=0) - np.min([s.low for s in members], axis=0))
+        )
+
+    between = between_twins(template)
+    for trio in between:
+        _told(sided, trio, cluster_of, lambda cluster: -place(cluster)[1])
+    for pair in told_by_length(template):
+        _told(sided, pair, cluster_of, lambda cluster: -long(cluster))
+
+    for name in sorted(cluster_of.keys() - frozenset().union(*alike, *between)):
         match = _SIDE.search(name)
         twin = twin_role(name)
         if match is None or twin is None or not any(r.name == twin for r in template.roles):

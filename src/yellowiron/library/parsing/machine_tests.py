@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from yellowiron.library.notation.quantities import quantity, yes
 from yellowiron.library.notation.validated_json import Document
 from yellowiron.library.parsing.measurements import in_si
+from yellowiron.library.parsing.variants import choices_of
 from yellowiron.model.errors import TemplateError
 from yellowiron.model.machine_tests import MachineTest, PayloadTemplate, RatedLoad
 from yellowiron.model.specification import fold
@@ -53,6 +54,7 @@ def read_tests(document: Document) -> tuple[PayloadTemplate | None, tuple[Machin
                 best=tuple(entry.get("best", ())),
                 inputs=tuple(entry.get("inputs", ())),
                 definition=entry.get("definition", ""),
+                when=choices_of(entry, "when"),
                 **given,
             )
         )

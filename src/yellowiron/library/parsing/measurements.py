@@ -29,7 +29,7 @@ def read_measurements(
     sites = []
     for name, entry in document.data.get("sites", {}).items():
         rule = {k: v for k, v in entry.items() if k != "body"}
-        for key in ("joint", "edge_from", "inside_from", "along"):
+        for key in ("joint", "edge_from", "inside_from", "along", "pointing"):
             if key in rule:
                 place, given = document.at("sites", name, key), rule[key]
                 several = isinstance(given, list)

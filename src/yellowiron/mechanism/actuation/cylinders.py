@@ -114,7 +114,7 @@ def with_leaders(template: Template, frames: Mapping[str, JointFrame], findings:
     actuators = []
     for actuator in template.actuators:
         present = [c for c in actuator.cylinders if c.slide in frames]
-        if present and all(c.passive for c in present):
+        if present and all(c.passive for c in present) and not actuator.slave:
             words = f"The cylinder it follows was not found: '{present[0].slide}' is driven in its place, alone."
             findings.append(
                 Finding("MEC028", "warning", actuator.name, words, "Check its twin's parts in the alignment.")

@@ -173,9 +173,9 @@ def actuators(
         else:
             joints = tuple(ActuatorJoint(name) for name in entry.joints if name in frames)
             moves = bool(joints)
-        if moves:
+        if moves and not entry.slave:
             result.append(Actuator(entry.name, entry.kind, joints, tuple(f.cylinder.name for f in cylinders)))
-        else:
+        elif not entry.slave:
             words = "None of the actuator's driven joints was found: it is left out."
             hint = "Check its cylinders' parts in the alignment."
             findings.append(Finding("MEC026", "error", entry.name, words, hint))

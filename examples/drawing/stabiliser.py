@@ -1,0 +1,96 @@
+"""Legs that swing down beside a machine, each by a cylinder: the left one across it, (y, z) in millimetres, and both
+drawn. Angles are of the leg from the level, radians."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.optimize import brentq
+
+from .hardware import CLEARANCE
+from .planar import Point, direction, rot, vec
+from .product import Assembly, Part
+from .solids import X, bored, cut, fuse, mirrored, plate, rod, shift
+
+HEEL, FOOT = 110.0, 60.0
+"""Radii of a leg's ends."""
+LEG = 640.0
+_OPEN = math.radians(25.0)
+"""Angle at the leg's pin between barrel pin and rod pin, raised."""
+RAISED, LOWERED = math.radians(55.0), math.radians(-64.0)
+PIN_LEG, PIN_LEG_CYL = 60.0, 40.0
+
+
+@dataclass(frozen=True, slots=True)
+class Stabiliser:
+    """The left leg's triangle. Raised, its heel is clear of the ground by `clearance`; on the ground its foot has the
+    `spread`; `barrel`: y and z of the cylinder's pin; `arm`: distance of the rod's pin from the leg's."""
+
+    clearance: float
+    spread: float
+    barrel_pin: tuple[float, float]
+    arm: float = 0.0
+
+    @property
+    def pin(self) -> Point:
+        """The leg's pin: raised, its heel has the published clearance; on the ground its foot the spread."""
+        z = self.clearance + HEEL
+        out = LEG * math.sqrt(1.0 - ((z - FOOT) / LEG) ** 2) + FOOT
+        return vec(self.spread / 2 - out, z)
+
+    @property
+    def barrel(self) -> Point:
+        """The barrel's pin."""
+        return vec(*self.barrel_pin)
+
+    @property
+    def lug(self) -> float:
+        """Angle from the leg to its rod's pin."""
+        return direction(self.barrel - self.pin) - _OPEN - RAISED
+
+    def rod(self, angle: float) -> Point:
+        """The rod's pin at an angle of the leg."""
+        return self.pin + rot(angle + self.lug, vec(self.arm, 0.0))
+
+    def length(self, angle: float) -> float:
+        """The cylinder's length."""
+        return float(np.hypot(*(self.rod(angle) - self.barrel)))
+
+    def angle(self, length: float) -> float:
+        """The leg's angle at a length of the cylinder."""
+        return float(brentq(lambda a: self.length(a) - length, LOWERED - 0.01, RAISED + 0.01, xtol=1e-14))
+
+    def moved_by(self, stroke: float) -> Stabiliser:
+        """With the arm at which a cylinder's stroke lowers the leg."""
+
+        def miss(arm: float) -> float:
+            leg = replace(self, arm=arm)
+            return leg.length(LOWERED) - leg.length(RAISED) - stroke
+
+        return replace(self, arm=float(brentq(miss, 120.0, 300.0, xtol=1e-12)))
+
+
+def draw_stabilisers(leg: Stabiliser, angle: float, x: tuple[float, float], hardware: Assembly) -> Assembly:
+    """Both legs at an angle, from one `x` to the other: a box from heel to foot, lugs of the cylinder."""
+    tree = Assembly("STABILISERS")
+    (ly, lz), (qy, qz) = leg.pin, leg.rod(angle)
+    fy, fz = leg.pin + rot(angle, vec(LEG, 0.0))
+    shape = plate([(ly, lz, HEEL), (fy, fz, FOOT)], "yz", *x)
+    core = plate([(ly, lz, HEEL - 14), (fy, fz, FOOT - 14)], "yz", x[0] + 14, x[1] - 14)
+    hub = rod((x[0], ly, lz), X, PIN_LEG / 2 + 22, x[1] - x[0])
+    slot = rod((x[0] + 14, qy, qz), X, 44, x[1] - x[0] - 28)
+    shape = bored(cut(fuse(cut(shape, core), hub), slot), X, ((0, ly, lz), PIN_LEG / 2 + CLEARANCE))
+    lugs = []
+    for start in (x[0], x[1] - 14):
+        lug = plate([(qy, qz, 34), (ly, lz, 60)], "yz", start, start + 14)
+        lugs.append(bored(lug, X, ((0, qy, qz), PIN_LEG_CYL / 2), ((0, ly, lz), PIN_LEG / 2 + CLEARANCE)))
+    whole = fuse(shape, *lugs)
+    for letter, sign, one in (("l", 1.0, whole), ("r", -1.0, mirrored(whole))):
+        body = f"stabilizer_{letter}"
+        tree.add(Part(f"STABILISER LEG {letter.upper()}H", one), body)
+        bar = Part(f"PIN D{PIN_LEG_CYL:g}", rod((0, 0, 0), X, PIN_LEG_CYL / 2, x[1] - x[0] + 8))
+        role = f"stabilizer_piston_rod_{letter}_pin"
+        hardware.add(bar, body, role, shift(x[0] - 4, sign * float(qy), float(qz)))
+    return tree

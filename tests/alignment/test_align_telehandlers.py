@@ -1,0 +1,54 @@
+"""Unseen telehandlers without names: every part in its body, whatever the boom's sections, its lift cylinders, its
+stabilizers and its front axle."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from kit.machines.defects import on_triangles
+from kit.machines.synthetic import disguise
+from kit.machines.telehandlers import telehandler
+from yellowiron import library
+from yellowiron.alignment.assignment.weights import between_twins
+from yellowiron.alignment.pipeline import align
+from yellowiron.model.specification import Specifications
+from yellowiron.model.template import choose
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("triangles", [False, True])
+@pytest.mark.parametrize(
+    ("seed", "sections", "twin", "legs", "levelled"),
+    [(1110, 2, False, False, False), (1111, 3, True, False, True), (1112, 4, False, True, True)],
+)
+def test_every_part_is_in_its_body(
+    seed: int, sections: int, twin: bool, legs: bool, levelled: bool, triangles: bool
+) -> None:
+    machine = telehandler(seed, sections=sections, twin=twin, legs=legs, levelled=levelled)
+    if triangles:
+        machine = replace(machine, shapes=on_triangles(machine.shapes))
+    assembly, truth, back = disguise(machine, seed)
+    found = align(assembly, library.load_template("telehandler"), Specifications())
+    wrong = [(truth[p.part], p.body) for p in found.parts if p.body != truth[p.part][1]]
+    assert wrong == [] and not found.missing
+    turned = found.frame[:3, :3] @ back[:3, :3].T
+    assert abs(turned[0, 0] - 1.0) < 1e-3 and abs(turned[2, 2] - 1.0) < 1e-3
+
+
+def test_a_cylinder_between_twins_is_told_by_where_it_stands() -> None:
+    """Two lift cylinders and the one that levels the forks hang on the same two bodies."""
+    template = library.load_template("telehandler")
+    halves = ("lift_cylinder_barrel", "compensation_cylinder_barrel"), ("lift_piston_rod", "compensation_piston_rod")
+    twin = choose(template, {"lift_cylinders": "twin"})
+    assert sorted(between_twins(twin)) == sorted((f"{lift}_l", middle, f"{lift}_r") for lift, middle in halves)
+    assert between_twins(choose(template, {"lift_cylinders": "single"})) == []
+
+
+@pytest.mark.parametrize(
+    "name", [n for n in library.list_templates() if n != "telehandler" and not library.is_sheet_only(n)]
+)
+def test_other_types_have_no_such_three(name: str) -> None:
+    template = library.load_template(name)
+    assert between_twins(choose(template, {})) == []

@@ -1,0 +1,87 @@
+"""The telehandler example in engines: strokes, sections on chains, driving and steering by two wheels or four, what it
+lifts and where it tips."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import in_engines
+import pytest
+
+from kit.builds import MadeOnce, without_pages
+from kit.machines.drawn_examples import built_example, drawn_example
+from yellowiron.pipeline import build
+from yellowiron.simulation import drive, run_tests, simulate
+from yellowiron.simulation.driving.result import driving_findings
+from yellowiron.simulation.registry import import_engine
+
+pytestmark = pytest.mark.slow
+
+
+@pytest.fixture(scope="module")
+def file(made_once: MadeOnce) -> Path:
+    return built_example("telehandler", made_once, "two")
+
+
+@pytest.mark.parametrize(
+    ("engine", "actuators"), [("mujoco", None), ("newton", ["telescope", "lift", "steering"]), ("physx", None)]
+)
+def test_full_strokes(file: Path, engine: str, actuators: list[str] | None) -> None:
+    _strokes(file, engine, actuators)
+
+
+@pytest.mark.parametrize("engine", ["mujoco", "newton", "physx"])
+def test_sections_that_follow_on_chains_go_as_far_as_they_should(made_once: MadeOnce, engine: str) -> None:
+    _strokes(built_example("telehandler", made_once, "three"), engine, ["telescope"])
+
+
+@pytest.mark.parametrize("engine", ["mujoco", "physx"])
+def test_it_levels_its_frame_and_stands_on_its_stabilizers(made_once: MadeOnce, engine: str) -> None:
+    _strokes(built_example("telehandler", made_once, "three"), engine, ["levelling", "stabilizer_left"])
+
+
+def _strokes(file: Path, engine: str, actuators: list[str] | None) -> None:
+    in_engines.need(engine)
+    import_engine(engine)  # before a stage opens: its schemas
+    result = simulate(file, engine=engine, actuators=actuators)
+    assert result.base == "fixed" and result.completed and result.branches_kept
+    assert not result.findings, result.findings
+    assert result.pin_error < {"mujoco": 5e-5, "newton": 5e-5, "physx": 2.5e-4}[engine]
+    assert all(a.final_error_percent < 1.0 for a in result.actuators)
+
+
+def test_it_drives_on_all_wheels_and_steers_with_the_front_ones(file: Path) -> None:
+    result = drive(file, engine="mujoco")
+    in_engines.assert_straight(result)
+    assert result.lock is not None and math.radians(43.0) < result.lock < math.radians(49.0)
+    assert result.turning_radius == pytest.approx(result.geometry_radius, rel=0.02)
+    assert list(driving_findings(result)) == []
+
+
+def test_steered_by_all_wheels_it_turns_in_little_more_than_half(made_once: MadeOnce, file: Path) -> None:
+    folder = drawn_example("telehandler", made_once, "two")
+
+    def fill(out: Path) -> None:
+        out.mkdir()
+        with without_pages():
+            cad, sheet = folder / "telehandler.step", folder / "specifications.pdf"
+            build("telehandler", cad, out / "out", sheets=(sheet,), settings=("steering_mode=all",))
+
+    every = made_once("telehandler_all_steered", fill) / "out" / "telehandler.usda"
+    one, all_ = (drive(each, engine="mujoco") for each in (file, every))
+    assert one.turning_radius is not None and all_.turning_radius is not None
+    # Its four axes do not meet, steered as two wheels want it: where the middle is then, friction decides.
+    assert 0.5 < all_.turning_radius / one.turning_radius < 0.65
+
+
+def test_it_lifts_its_rated_capacity_and_takes_the_time_that_is_printed(file: Path) -> None:
+    figures = {f.test.name: f for f in run_tests(file, engine="mujoco")}
+    tipping = figures["Tipping Load at Maximum Reach"]
+    assert tipping.engine_value == pytest.approx(tipping.statics_value, rel=0.03)
+    assert tipping.engine_value > 1250.0
+    assert figures["Rated Capacity Through the Lift"].arrived
+    assert figures["Three Times the Rated Capacity"].engine_value == pytest.approx(0.0, abs=0.02)
+    for name, printed in (("Boom Lift Time", 9.0), ("Boom Extend Time", 5.54)):
+        assert figures[name].statics_value == pytest.approx(printed, rel=0.003), name
+        assert figures[name].engine_value == pytest.approx(printed, rel=0.03), name
