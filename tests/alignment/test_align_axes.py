@@ -160,19 +160,19 @@ def test_without_evidence_a_guess_says_how_rough_it_is() -> None:
     assert abs(found.direction[1]) > 0.999
 
 
-def test_what_slides_on_a_mast_that_is_not_drawn_goes_up() -> None:
-    """Forks lie along the machine: their length is not the way that they are lifted."""
+@pytest.mark.parametrize(("wide", "way"), [(0.8, (0.0, 0.0, 1.0)), (0.1, (1.0, 0.0, 0.0))])
+def test_what_slides_on_a_mast_that_is_not_drawn_goes_up(wide: float, way: tuple[float, float, float]) -> None:
+    """Forks lie along the machine: their length is not the way that they are lifted; a narrow bar slides along its."""
     template = as_drawn(choose(load_template("forklift"), {"mast": "single"}), {"chassis", "carriage"})
     solids = solids_from(
-        (polygons.box((2.0, 1.0, 1.5)), (0.0, 0.0, 0.8)), (polygons.box((1.2, 0.8, 0.1)), (1.65, 0.0, 0.1))
+        (polygons.box((2.0, 1.0, 1.5)), (0.0, 0.0, 0.8)), (polygons.box((1.2, wide, 0.1)), (1.65, 0.0, 0.1))
     )
     ahead = [s.index for s in solids if s.center[0] > 1.0]
     labels = {"chassis": [s.index for s in solids if s.index not in ahead], "carriage": ahead}
     frame = Frame(np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0]), np.array([0.0, 0.0, 1.0]))
     found = estimate_axes(solids, labels, template, frame=frame)["outer_mast2carriage_joint"]
-    assert found.direction == pytest.approx([0.0, 0.0, 1.0], abs=1e-9)
-    assert math.degrees(found.angle) == pytest.approx(5.0)
-    assert found.how == "how its machine stands"
+    assert np.abs(found.direction) == pytest.approx(way, abs=1e-3)
+    assert (found.how == "how its machine stands") == (wide > 0.5)
 
 
 def test_a_pivot_of_the_scene_tree_is_taken_where_the_bodies_meet() -> None:

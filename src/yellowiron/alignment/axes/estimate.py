@@ -35,6 +35,8 @@ TWIN_BETTER = 3.0
 _UNSEEN, _LEANS = 0.5, math.radians(5.0)
 """How far a slideway that is not drawn may be beside the middle of what slides on it, in widths of that, and how far it
 may lean: masts tilt by 5° to 12°, and are drawn upright as a rule."""
+_NARROW = 4.0
+"""What is so many times longer than wide slides along its length."""
 PIVOT_TAKEN = 0.4
 """Quality from which a hinge that is drawn at a pivot of the scene's tree has it to itself."""
 
@@ -115,15 +117,22 @@ def _is_bare(slide: JointTemplate, template: Template) -> bool:
 
 
 def _lines_up(template: Template, bodies: Mapping[str, Body], frame: Frame) -> dict[str, Line]:
-    """Slide → upright through what slides, where no slideway is drawn: masts are what is drawn into chassis."""
-    found = {}
+    """Slide → upright through what slides, where no slideway is drawn: masts are what is drawn into chassis. What is
+    long and narrow slides along its length: a boom's section."""
+    found: dict[str, Line] = {}
     for joint in template.joints:
         body = bodies.get(str(template.bodies_of(joint)[1]))
-        if joint.type == "prismatic" and _is_bare(joint, template) and body is not None and frame.up is not None:
-            middle = np.median(body.samples, axis=0)
-            off = body.samples - middle
-            width = float(np.percentile(np.linalg.norm(off - np.outer(off @ frame.up, frame.up), axis=1), 60))
-            found[joint.name] = Line(middle, frame.up, _UNSEEN * width, _LEANS, width, "how its machine stands")
+        if joint.type != "prismatic" or not _is_bare(joint, template) or body is None or frame.up is None:
+            continue
+        middle = np.median(body.samples, axis=0)
+        off = body.samples - middle
+        spread = np.ptp(off @ np.linalg.svd(off, full_matrices=False)[2].T, axis=0)
+        if spread[0] > _NARROW * spread[1]:
+            line = cylinder_line(None, body)
+            found |= {joint.name: line} if line is not None else {}
+            continue
+        width = float(np.percentile(np.linalg.norm(off - np.outer(off @ frame.up, frame.up), axis=1), 60))
+        found[joint.name] = Line(middle, frame.up, _UNSEEN * width, _LEANS, width, "how its machine stands")
     return found
 
 
