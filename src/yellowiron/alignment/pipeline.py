@@ -37,7 +37,7 @@ from yellowiron.alignment.axes.levers import without_lever
 from yellowiron.alignment.axes.unfound import axis_findings, lines_of, rough_axes, unfound_axes
 from yellowiron.alignment.facing import Facing
 from yellowiron.alignment.features.copies import copies_of
-from yellowiron.alignment.features.distance import Touch
+from yellowiron.alignment.features.distance import Touch, touch_of
 from yellowiron.alignment.features.separate_parts import separate_parts
 from yellowiron.alignment.features.solids import solids_of
 from yellowiron.alignment.features.telescopes import Nest
@@ -169,7 +169,7 @@ def align(
         by_id |= on_tracks(by_id, on_track, solids, Touch(solids, answer.contact * observation.size)) | on_track
     if fittings:
         solids = solids_of(tracking)
-        by_id |= sitting(by_id, fittings, solids, Touch(solids, answer.contact * observation.size))
+        by_id |= sitting(by_id, fittings, solids, touch_of(tracking, answer.contact * observation.size))
     by_id |= {copy: by_id[first] for copy, first in copies.items() if first in by_id}
     apart |= {copy: apart[first] for copy, first in copies.items() if first in apart}
     found = to_alignment(

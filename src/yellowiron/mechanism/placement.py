@@ -90,6 +90,7 @@ class Placement:
     by_hand: frozenset[str] = frozenset()
     declared: tuple[DeclaredAxis, ...] = ()
     _features: dict[int, Features] = field(default_factory=dict)
+    _joined: dict[tuple[int, ...], Features] = field(default_factory=dict)
     _points: dict[int, Floats] = field(default_factory=dict)
     _planes: dict[int, tuple[Floats, Floats, Floats]] = field(default_factory=dict)
 
@@ -115,7 +116,10 @@ class Placement:
 
     def features(self, rows: Iterable[int]) -> Features:
         """Cylinder features of those parts, machine frame."""
-        return join(self._features_of(row) for row in rows)
+        wanted = tuple(rows)
+        if wanted not in self._joined:
+            self._joined[wanted] = join(self._features_of(row) for row in wanted)
+        return self._joined[wanted]
 
     def points(self, row: int) -> Floats:
         """(n, 3) mesh points of one part, machine frame."""

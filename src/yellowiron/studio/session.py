@@ -6,7 +6,7 @@ import functools
 import re
 import threading
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
 import numpy as np
@@ -100,7 +100,7 @@ class Session:
         self._fitting = functools.lru_cache(maxsize=64)(
             lambda pattern: tuple(part.id for part in filter(fits(pattern), self.assembly.parts))
         )
-        self._known: tuple[bytes, Measured] | None = None
+        self._known: tuple[Mechanism, bytes, Measured] | None = None
         self._file = setup.out / "alignment.json"
         earlier = self._file if self._file.exists() else None
         inputs = checked_inputs(
@@ -277,7 +277,8 @@ class Session:
             try:
                 found = measured_of(state.solved.mechanism)
                 done = state.with_measured(found)
-                known: tuple[bytes, Measured] | None = (content_of(state.solved.mechanism), found)
+                mechanism = state.solved.mechanism
+                known: tuple[Mechanism, bytes, Measured] | None = (mechanism, content_of(mechanism), found)
             except Exception as error:  # noqa: BLE001 - as of a state
                 failed = f"This machine cannot be measured ({type(error).__name__}: {error})"
                 done, known = replace(state, failed=failed, measured=True), self._known
@@ -335,8 +336,8 @@ class Session:
         )  # fmt: skip
         # Most decisions say that something is right, and leave the machine as it is.
         known = self._known
-        same = known is not None and known[0] == content_of(solved.mechanism)
-        return state.with_measured(known[1]) if known is not None and same else state
+        same = known is not None and (_are_one(known[0], solved.mechanism) or known[1] == content_of(solved.mechanism))
+        return state.with_measured(known[2]) if known is not None and same else state
 
     def _shortly(self, message: str) -> str:
         """A message with the names of parts in the place of their whole paths."""
@@ -376,6 +377,11 @@ def measured_of(mechanism: Mechanism) -> Measured:
     """`memory.measure` in a process of its own, so that what is decided meanwhile does not wait for it."""
     found: Measured = run_guarded("yellowiron.memory:measure", mechanism, where=mechanism.name)
     return found
+
+
+def _are_one(one: Mechanism, other: Mechanism) -> bool:
+    """Whether two mechanisms are of the very same things; what was found of them does not count."""
+    return all(getattr(one, f.name) is getattr(other, f.name) for f in fields(one) if f.name != "findings")
 
 
 def _other_side(role: object, template: Template) -> object:

@@ -8,9 +8,10 @@ from typing import Any
 import fcl
 import numpy as np
 
-from yellowiron.alignment.features.solids import Cyl, Solid
-from yellowiron.model.assembly import Part
+from yellowiron.alignment.features.solids import Cyl, Solid, solids_of
+from yellowiron.model.assembly import Assembly, Part
 from yellowiron.model.geometry import Floats, Shape
+from yellowiron.support.caching.remembered import remembered
 from yellowiron.support.spans import Spans
 
 SAMPLES = 12
@@ -27,6 +28,7 @@ class Touch:
         self._low = np.array([s.low for s in solids]).reshape(-1, 3)
         self._high = np.array([s.high for s in solids]).reshape(-1, 3)
         self._spans = Spans(self._low[:, 0], self._high[:, 0])
+        self._near: dict[int, list[int]] = {}
 
     def distance(self, a: int, b: int) -> float:
         """Metres between two solids; 0 where they cut each other."""
@@ -50,6 +52,12 @@ class Touch:
         found = some[(self._low[some] <= high).all(axis=1) & (self._high[some] >= low).all(axis=1)]
         return np.sort(found).tolist()
 
+    def near(self, index: int) -> list[int]:
+        """The solids whose boxes reach that of a solid, itself among them."""
+        if index not in self._near:
+            self._near[index] = self.reaching(self._low[index], self._high[index])
+        return self._near[index]
+
     def pierced(self, index: int, bar: Cyl, radius: float) -> bool:
         """True if a solid's mesh comes within a radius of the axis of a bar, between its ends."""
         u = np.linalg.svd(bar.direction[None, :])[2][1]
@@ -62,6 +70,12 @@ class Touch:
         sa, sb = self._solids[a], self._solids[b]
         apart = np.maximum(sa.low - sb.high, sb.low - sa.high).max()
         return bool(apart <= self._tolerance) and self.distance(min(a, b), max(a, b)) <= self._tolerance
+
+
+@remembered
+def touch_of(assembly: Assembly, tolerance: float) -> Touch:
+    """The distances of all parts of an assembly."""
+    return Touch(solids_of(assembly), tolerance)
 
 
 _objects: weakref.WeakKeyDictionary[Part, tuple[Shape, Any]] = weakref.WeakKeyDictionary()

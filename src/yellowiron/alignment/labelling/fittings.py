@@ -59,7 +59,7 @@ def sitting(
     waiting = [s.index for s in solids if s.part.id in fittings]
     result: dict[str, Place] = {}
     while waiting:
-        grown = {i: place for i in waiting if (place := _on(i, placed, touch, solids)) is not None}
+        grown = {i: place for i in waiting if (place := _on(i, placed, touch)) is not None}
         if not grown:
             break
         placed |= grown
@@ -76,10 +76,9 @@ def sitting(
     return result
 
 
-def _on(i: int, placed: Mapping[int, Place], touch: Touch, solids: Sequence[Solid]) -> Place | None:
+def _on(i: int, placed: Mapping[int, Place], touch: Touch) -> Place | None:
     """The place of a fitting among those that are placed; None where it touches none of them."""
-    near = [j for j in touch.reaching(solids[i].low, solids[i].high) if j in placed]
-    hosts = [j for j in near if touch.touching(i, j)]
+    hosts = [j for j in touch.near(i) if j in placed and touch.touching(i, j)]
     if not hosts:
         return None
     bodies = {placed[j].body for j in hosts}

@@ -33,6 +33,8 @@ def _of_many(value: Any, known: Known) -> bytes:
         if value.dtype.kind not in "biuf":
             raise TypeError(f"an array of {value.dtype} has no content")
         return _of(f"array {value.dtype.str} {value.shape}", [np.ascontiguousarray(value).data])
+    if isinstance(value, (list, tuple)) and value and all(type(one) is str for one in value):
+        return _of("texts", [repr(list(value)).encode("utf-8", "surrogatepass")])
     if isinstance(value, (list, tuple)):
         return _of("list", [_digest(one, known) for one in value])
     if isinstance(value, Mapping):
