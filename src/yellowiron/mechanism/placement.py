@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import weakref
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TypeVar
 
@@ -93,6 +94,11 @@ class Placement:
     _joined: dict[tuple[int, ...], Features] = field(default_factory=dict)
     _points: dict[int, Floats] = field(default_factory=dict)
     _planes: dict[int, tuple[Floats, Floats, Floats]] = field(default_factory=dict)
+
+    def stands_as(self, other: Placement) -> bool:
+        """Whether another has the same parts in the same places, whatever bodies they are of."""
+        same = len(self.parts) == len(other.parts) and all(a is b for a, b in zip(self.parts, other.parts, strict=True))
+        return same and np.array_equal(self.transforms, other.transforms)
 
     def rows_of_body(self, body: str) -> tuple[int, ...]:
         """Rows of the parts that move with a body, in CAD order."""
@@ -210,7 +216,18 @@ def place(assembly: Assembly, template: Template, alignment: Alignment) -> tuple
         by_hand=alignment.by_hand,
         declared=declared_axes(assembly, alignment),
     )
+    last = _last.get(assembly)
+    if last is not None and last.stands_as(placement):
+        # What was computed of parts in these places holds.
+        placement = replace(
+            placement, _features=last._features, _joined=last._joined, _points=last._points, _planes=last._planes
+        )
+    _last[assembly] = placement
     return placement, findings
+
+
+_last: weakref.WeakKeyDictionary[Assembly, Placement] = weakref.WeakKeyDictionary()
+"""How the parts of an assembly that is still in use were placed last."""
 
 
 def _axis(frame: Floats, point: Vector, direction: Vector) -> tuple[Floats, Floats]:
