@@ -94,6 +94,7 @@ class Placement:
     _joined: dict[tuple[int, ...], Features] = field(default_factory=dict)
     _points: dict[int, Floats] = field(default_factory=dict)
     _planes: dict[int, tuple[Floats, Floats, Floats]] = field(default_factory=dict)
+    _boxes: list[tuple[Floats, Floats]] = field(default_factory=list)
 
     def stands_as(self, other: Placement) -> bool:
         """Whether another has the same parts in the same places, whatever bodies they are of."""
@@ -134,20 +135,23 @@ class Placement:
             self._points[row] = self.shapes[row].mesh.points @ matrix[:3, :3].T + matrix[:3, 3]
         return self._points[row]
 
-    @cached_property
+    @property
     def boxes(self) -> tuple[Floats, Floats]:
         """Least and greatest corners (n, 3) of the parts, machine frame; infinite of a part without points."""
-        corners = np.full((2, len(self.parts), 3), np.inf)
-        for row in range(len(self.parts)):
-            if len(points := self.points(row)):
-                corners[:, row] = points.min(axis=0), points.max(axis=0)
-        return corners[0], corners[1]
+        if not self._boxes:
+            corners = np.full((2, len(self.parts), 3), np.inf)
+            for row in range(len(self.parts)):
+                if len(points := self.points(row)):
+                    corners[:, row] = points.min(axis=0), points.max(axis=0)
+            self._boxes.append((corners[0], corners[1]))
+        return self._boxes[0]
 
     def diagonal(self, rows: Iterable[int]) -> float:
         """Metres across the box around those parts; 0 without any."""
-        low, high = self.boxes
-        there = [row for row in rows if np.isfinite(low[row]).all()]
-        return float(np.linalg.norm(high[there].max(axis=0) - low[there].min(axis=0))) if there else 0.0
+        some = np.fromiter(rows, dtype=np.int64)
+        low, high = (corners[some] for corners in self.boxes)
+        there = np.isfinite(low).all(axis=1)
+        return float(np.linalg.norm(high[there].max(axis=0) - low[there].min(axis=0))) if there.any() else 0.0
 
     def planes(self, row: int) -> tuple[Floats, Floats, Floats]:
         """Planar faces of one part, else its facets, machine frame: points (m, 3), unit normals (m, 3), areas (m,)."""
@@ -219,13 +223,12 @@ def place(assembly: Assembly, template: Template, alignment: Alignment) -> tuple
     last = _last.get(assembly)
     if last is not None and last.stands_as(placement):
         # What was computed of parts in these places holds.
-        placement = replace(
-            placement, _features=last._features, _joined=last._joined, _points=last._points, _planes=last._planes
-        )
+        placement = replace(placement, **{name: getattr(last, name) for name in _KEPT})
     _last[assembly] = placement
     return placement, findings
 
 
+_KEPT = ("_features", "_joined", "_points", "_planes", "_boxes")
 _last: weakref.WeakKeyDictionary[Assembly, Placement] = weakref.WeakKeyDictionary()
 """How the parts of an assembly that is still in use were placed last."""
 
