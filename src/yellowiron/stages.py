@@ -135,7 +135,8 @@ def find_roles(
         """The bodies that no part is of, also of a machine that was taken for drawn in part: what is not drawn may be
         inside of what is. Neither pins nor the root count: many models have none, whatever is done to them."""
         bodies = {r.name for r in choose(template, alignment.choices).roles if r.rigid and r.name != template.root}
-        return bodies - {str(part.body) for part in alignment.parts} if alignment.missing else set()
+        played = {str(part.body) for part in alignment.parts} - {*alignment.missing}
+        return bodies - played if alignment.missing else set()
 
     def hidden(alignment: Alignment) -> int:
         return len(unplayed(alignment))
