@@ -134,9 +134,9 @@ def find_roles(
     def unplayed(alignment: Alignment) -> set[str]:
         """The bodies that no part is of, also of a machine that was taken for drawn in part: what is not drawn may be
         inside of what is. Neither pins nor the root count: many models have none, whatever is done to them."""
-        bodies = {r.name for r in choose(template, alignment.choices).roles if r.rigid and r.name != template.root}
+        roles = [r for r in choose(template, alignment.choices).roles if r.rigid and r.name != template.root]
         played = {str(part.body) for part in alignment.parts} - {*alignment.missing}
-        return bodies - played if alignment.missing else set()
+        return {r.name for r in roles if not (r.optional or r.many)} - played
 
     def hidden(alignment: Alignment) -> int:
         return len(unplayed(alignment))
@@ -170,8 +170,8 @@ def find_roles(
     if rams is not assembly and halves(other := found(rams)) + 2 <= halves(alignment):
         model, best = rams, other
     moving = {part.body for part in alignment.parts}
-    merged = alignment.missing and len(assembly.parts) < 2 * len(moving)
-    apart = _apart(assembly) if merged or hidden(alignment) else None
+    merged = len(assembly.parts) < 2 * len(moving)
+    apart = _apart(assembly) if alignment.missing and (merged or hidden(alignment)) else None
     if apart is not None:
         other = found(apart)
         # Bodies in crumbs answer to more roles, wrongly: where few bodies were missing, pins must be found as well, or
