@@ -2,16 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import pytest
 
-from kit.machines.defects import on_triangles
 from kit.machines.rigid_trucks import rigid_truck
-from kit.machines.synthetic import disguise
-from yellowiron import library
-from yellowiron.alignment.pipeline import align
-from yellowiron.model.specification import Specifications
+from kit.machines.unseen import found_whole
 
 
 @pytest.mark.slow
@@ -19,11 +13,4 @@ from yellowiron.model.specification import Specifications
 @pytest.mark.parametrize("seed", [501, 502, 503])
 def test_every_part_is_in_its_body(seed: int, triangles: bool) -> None:
     machine = rigid_truck(seed)
-    if triangles:
-        machine = replace(machine, shapes=on_triangles(machine.shapes))
-    assembly, truth, back = disguise(machine, seed)
-    found = align(assembly, library.load_template("rigid_dump_truck"), Specifications())
-    wrong = [(truth[p.part], p.body) for p in found.parts if p.body != truth[p.part][1]]
-    assert wrong == [] and not found.missing
-    turned = found.frame[:3, :3] @ back[:3, :3].T
-    assert abs(turned[0, 0] - 1.0) < 1e-3 and abs(turned[2, 2] - 1.0) < 1e-3
+    found_whole(machine, "rigid_dump_truck", seed, triangles=triangles)

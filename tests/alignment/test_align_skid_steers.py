@@ -2,16 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import pytest
 
-from kit.machines.defects import on_triangles
 from kit.machines.skid_steers import skid_steer
-from kit.machines.synthetic import disguise
-from yellowiron import library
-from yellowiron.alignment.pipeline import align
-from yellowiron.model.specification import Specifications
+from kit.machines.unseen import found_whole
 
 
 @pytest.mark.slow
@@ -22,12 +16,5 @@ from yellowiron.model.specification import Specifications
 )
 def test_every_part_is_in_its_body(seed: int, path: str, single: bool, triangles: bool) -> None:
     machine = skid_steer(seed, path, single_tilt=single)
-    if triangles:
-        machine = replace(machine, shapes=on_triangles(machine.shapes))
-    assembly, truth, back = disguise(machine, seed)
-    found = align(assembly, library.load_template("skid_steer"), Specifications())
+    found = found_whole(machine, "skid_steer", seed, triangles=triangles)
     assert found.choices == {"lift_path": path, "tilt_cylinders": "single" if single else "twin"}
-    wrong = [(truth[p.part], p.body) for p in found.parts if p.body != truth[p.part][1]]
-    assert wrong == [] and not found.missing
-    turned = found.frame[:3, :3] @ back[:3, :3].T
-    assert abs(turned[0, 0] - 1.0) < 1e-3 and abs(turned[2, 2] - 1.0) < 1e-3

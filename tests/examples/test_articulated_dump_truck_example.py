@@ -30,11 +30,6 @@ TYPE = "articulated_dump_truck"
 
 
 @pytest.fixture(scope="module")
-def values() -> ModuleType:
-    return module(TYPE, "values")
-
-
-@pytest.fixture(scope="module")
 def layout() -> ModuleType:
     return module(TYPE, "layout")
 

@@ -28,11 +28,6 @@ from kit.machines.forklifts import truth_of
 TYPE = "backhoe_loader"
 
 
-@pytest.fixture(scope="module")
-def values() -> ModuleType:
-    return module(TYPE, "values")
-
-
 # ---- linkages and drawing --------
 def test_values_are_either_published_or_ours(values: ModuleType) -> None:
     assert_sourced(values, 19)

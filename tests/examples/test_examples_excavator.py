@@ -19,13 +19,9 @@ from example_file import EXAMPLES, Bore, Leaf, bores_of, gaps, mesh_of, module, 
 from OCP.BRepGProp import BRepGProp
 from OCP.GProp import GProp_GProps
 
+TYPE = "excavator"
 FOLDER = EXAMPLES / "excavator"
 PERCENT = 0.02
-
-
-@pytest.fixture(scope="module")
-def values() -> ModuleType:
-    return module("excavator", "values")
 
 
 @pytest.fixture(scope="module")

@@ -11,7 +11,7 @@ from types import ModuleType
 import numpy as np
 import pytest
 from example_drawn import differences
-from example_file import EXAMPLES, module
+from example_file import EXAMPLES
 
 from kit.builds import MadeOnce, without_pages
 from kit.machines.drawn_examples import Built, assert_read, assert_ready, build_example
@@ -19,12 +19,8 @@ from kit.machines.forklifts import drawn, truth_of
 from yellowiron.kinematics import ClosedChain
 from yellowiron.pipeline import build
 
+TYPE = "forklift"
 FOLDER = EXAMPLES / "forklift"
-
-
-@pytest.fixture(scope="module")
-def values() -> ModuleType:
-    return module("forklift", "values")
 
 
 # ---- drawing and sheet --------

@@ -21,14 +21,10 @@ from kit.machines.drawn_examples import assert_sourced
 from kit.machines.nameless import write_nameless
 from yellowiron.simulation import simulate
 
+TYPE = "mini_excavator"
 PERCENT, DEGREES = 0.3, 0.2
 """Bars of what is published."""
 LEVERS = {"swing", "boom", "arm", "bucket", "boom_swing", "blade", "travel_left", "travel_right"}
-
-
-@pytest.fixture(scope="module")
-def values() -> ModuleType:
-    return module("mini_excavator", "values")
 
 
 @pytest.fixture(scope="module")

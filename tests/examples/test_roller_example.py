@@ -31,11 +31,6 @@ KINDS = ("tandem", "single")
 
 
 @pytest.fixture(scope="module")
-def values() -> ModuleType:
-    return module(TYPE, "values")
-
-
-@pytest.fixture(scope="module")
 def layout() -> ModuleType:
     return module(TYPE, "layout")
 

@@ -31,10 +31,7 @@ from kit.machines.forklifts import truth_of
 from yellowiron.kinematics import ClosedChain
 from yellowiron.pipeline import build
 
-
-@pytest.fixture(scope="module")
-def values() -> ModuleType:
-    return module("skid_steer", "values")
+TYPE = "skid_steer"
 
 
 @pytest.fixture(scope="module")

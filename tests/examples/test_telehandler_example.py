@@ -29,11 +29,6 @@ TYPE = "telehandler"
 LEVERS = {"steering", "rear_steering", "drive", "lift", "telescope", "tilt"}
 
 
-@pytest.fixture(scope="module")
-def values() -> ModuleType:
-    return module(TYPE, "values")
-
-
 # ---- linkage and drawing --------
 def test_values_are_either_published_or_ours(values: ModuleType) -> None:
     assert_sourced(values, 23)

@@ -19,13 +19,9 @@ from example_file import EXAMPLES, Bore, Leaf, bores_of, gaps, module, planes_al
 from OCP.BRepGProp import BRepGProp
 from OCP.GProp import GProp_GProps
 
+TYPE = "wheel_loader"
 FOLDER = EXAMPLES / "wheel_loader"
 PERCENT = 0.02
-
-
-@pytest.fixture(scope="module")
-def values() -> ModuleType:
-    return module("wheel_loader", "values")
 
 
 @pytest.fixture(scope="module")

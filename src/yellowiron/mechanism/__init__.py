@@ -30,7 +30,7 @@ MEC013  an actuator has no cylinder in the CAD model; its hinge is driven direct
 MEC014  no rod in its bore shows the axis of a slide: it is along the line that both its bodies are on
 MEC015  no part is the root body; another body stands in for it
 MEC016  nothing that is drawn shows a joint's axis: it is where the CAD file declares it
-MEC017  an axle is not drawn; its wheels turn on the body that would carry it
+MEC017  an axle, a frame or a slideway is not drawn; the body that would carry it stands in for it
 MEC018  a cylinder's linkage does not work as it was found; it stands as drawn, its hinge is driven directly
 MEC019  nothing moves or holds a body on its pivot or slide; it stands as drawn
 MEC020  a bore or rod diameter differs between sheet and CAD

@@ -229,6 +229,7 @@ def place(assembly: Assembly, template: Template, alignment: Alignment) -> tuple
 
 
 _KEPT = ("_features", "_joined", "_points", "_planes", "_boxes")
+"""What a placement computes of parts by their places alone, whatever bodies they are of."""
 _last: weakref.WeakKeyDictionary[Assembly, Placement] = weakref.WeakKeyDictionary()
 """How the parts of an assembly that is still in use were placed last."""
 

@@ -45,7 +45,7 @@ _BORROWED = 0.1
 _UNSAID = 0.2
 """What it costs that a label does not say "maximum" where the greatest value and another one are asked for."""
 _TITLE = 5
-"""Words from which on a heading is a product's name: a title that says "with lift" names no lift."""
+"""The most words of a heading; what has more is a product's name: a title that says "with lift" names no lift."""
 _REMARK = 0.02
 """What a word costs that is left over and says nothing else: enough to prefer a value that it does speak of."""
 
