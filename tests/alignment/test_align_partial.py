@@ -47,13 +47,22 @@ def bodies(template: Template) -> set[str]:
 
 
 def test_hinges_of_a_linkage_go_together_and_frames_turn_across_them(loader: Template, excavator: Template) -> None:
-    linkage_of, frames = linkages_of(loader)
+    linkage_of, frames, _ = linkages_of(loader)
     assert linkage_of["front_frame2boom_joint"] == linkage_of["rocker2bucket_link_joint"]
     assert {linkage_of["rear2front_joint"]} == frames == {linkage_of["front_frame2steering_piston_rod_l_joint"]}
     assert "rear_wheel_l_joint" not in linkage_of
-    linkage_of, frames = linkages_of(excavator)
+    linkage_of, frames, _ = linkages_of(excavator)
     assert {linkage_of["undercarriage2upperstructure_joint"]} == frames
     assert linkage_of["arm2bucket_joint"] == linkage_of["bucket_link2bucket_joint"] not in frames
+
+
+def test_what_steers_wheels_works_no_tool() -> None:
+    """A wheeled excavator turns about the upright on its bearing, and so do the knuckles of its axle."""
+    linkage_of, frames, tools = linkages_of(choose(load_template("wheeled_excavator"), {}))
+    steering = linkage_of["front_axle2knuckle_l_joint"]
+    assert steering == linkage_of["steering_piston_rod2tie_rod_r_joint"]
+    assert steering not in frames and steering not in tools
+    assert {linkage_of["arm2bucket_joint"], linkage_of["undercarriage2stabilizer_l_joint"]} <= tools
 
 
 def test_directions_are_told_apart() -> None:

@@ -8,8 +8,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from yellowiron.library.notation.role_keys import by_role
 from yellowiron.library.alike import template_document
+from yellowiron.library.notation.role_keys import by_role
 from yellowiron.library.notation.validated_json import Document, near, read_document
 from yellowiron.library.parsing.actuators import read_actuators
 from yellowiron.library.parsing.hierarchy import read_hierarchy, read_relations, root_of

@@ -55,7 +55,7 @@ class Carrier(SteeredChassis):
         x2 = self.ends[1] * s - t / 2 + e
         x1, middle = x2 - 0.14 * s, x2 - 0.07 * s
         self.leg = float(self.rng.uniform(-0.3, 0.8))
-        self.leg_pin, top = np.array([0.72, 0.5]) * s, np.array([0.58, 0.89]) * s
+        self.leg_pin, top = np.array([0.72, 0.5]) * s, np.array([0.58, 1.1]) * s
         for side, letter in SIDES:
             pin, high = self.leg_pin * [side, 1], top * [side, 1]
             half = around((side * 0.2 * s, 0.56 * s, 0), (*pin, r), (*high, r), (side * 0.2 * s, 0.85 * s, 0))
@@ -81,10 +81,14 @@ class WheeledDigger(Digger):
 
     def link_pins(self) -> None:
         u, s = self.rng.uniform, self.s
-        self.tyre_r, self.tyre_w, self.tread = 0.58 * s * u(0.95, 1.04), 0.4 * s * u(0.92, 1.05), 1.9 * s * u(0.98, 1.03)
+        self.tyre_r, self.tyre_w, self.tread = (
+            0.58 * s * u(0.95, 1.04),
+            0.4 * s * u(0.92, 1.05),
+            1.9 * s * u(0.98, 1.03),
+        )
         self.front_x, self.rear_x = 1.45 * s * u(0.95, 1.06), -1.15 * s * u(0.95, 1.06)
-        self.axle_z, self.frame_top = 0.54 * s, 0.99 * s
-        self.deck_low = self.frame_top + 0.27 * s
+        self.axle_z, self.frame_top = 0.54 * s, 1.12 * s
+        self.deck_low = self.frame_top + 0.14 * s
         self.deck_top = self.deck_low + 0.1 * s
         super().link_pins()
 
@@ -96,7 +100,7 @@ class WheeledDigger(Digger):
 
     def blade_places(self) -> tuple[float, float, float]:
         front = self.front_x + 0.7 * self.s
-        return front, front + 0.75 * self.s, 2.3 * self.s
+        return front, front + 1.25 * self.s, 2.3 * self.s
 
 
 def wheeled_excavator(

@@ -217,7 +217,7 @@ def _add_one_joint_each(program: _Program) -> None:
 def _add_directions(program: _Program, structure: Structure, template: Template) -> None:
     """The hinges of a linkage have one direction, and those on which frames turn another than tools' linkages have."""
     model = program.model
-    linkage_of, frames = linkages_of(template)
+    linkage_of, frames, tools = linkages_of(template)
     class_of, firsts = direction_classes(structure)
     lies: dict[tuple[int, int], Any] = {}
     for (joint, number), group in program.pivots.items():
@@ -231,7 +231,7 @@ def _add_directions(program: _Program, structure: Structure, template: Template)
     linkages = sorted({linkage for linkage, _ in lies})
     for linkage in linkages:
         model.add_at_most_one(v for (k, _), v in lies.items() if k == linkage)
-    for turned, tool in itertools.product(sorted(frames & set(linkages)), sorted(set(linkages) - frames)):
+    for turned, tool in itertools.product(sorted(frames & set(linkages)), sorted(tools & set(linkages))):
         for a, b in never_together(firsts):
             if (turned, a) in lies and (tool, b) in lies:
                 model.add_at_most_one([lies[turned, a], lies[tool, b]])

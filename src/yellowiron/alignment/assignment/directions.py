@@ -1,7 +1,7 @@
 """Which hinges of a type lie alike, and which across each other, whatever way the machine stands.
 
 The hinges of one closed linkage are parallel: it moves in a plane. A frame turns on a frame about the upright, or rolls
-about the long axis: across the hinges of every linkage that works a tool. So a bucket's linkage is not taken for two
+about the long axis: across the hinges of every linkage that works a tool. What steers wheels works none. So a bucket's linkage is not taken for two
 frames with their steering.
 """
 
@@ -22,9 +22,10 @@ NOT_ACROSS = 0.7
 """… and this near to it (45°) are not across each other."""
 
 
-def linkages_of(template: Template) -> tuple[dict[str, int], frozenset[int]]:
-    """Hinge → the linkage of the type that it is in, for hinges in a closed one and between frames; and which of the
-    linkages turn frames on each other."""
+def linkages_of(template: Template) -> tuple[dict[str, int], frozenset[int], frozenset[int]]:
+    """Hinge → the linkage of the type that it is in, for hinges in a closed one and between frames; which of the
+    linkages turn frames on each other; and which of the others work tools: not those that steer wheels, which turn
+    about the upright, too."""
     kinds = {r.name: r.kind for r in template.roles}
     moving = [j for j in template.joints if j.type in ("revolute", "prismatic") and None not in template.bodies_of(j)]
     graph = nx.Graph([template.bodies_of(j) for j in moving])
@@ -39,7 +40,11 @@ def linkages_of(template: Template) -> tuple[dict[str, int], frozenset[int]]:
         if joint.type == "revolute" and (frames or len(blocks[number]) > 1):
             found[joint.name] = number
             upright |= {number} if frames else set()
-    return found, frozenset(upright)
+    rolling = {b for b, kind in kinds.items() if kind == "wheel"}
+    steered = {str(b) for edge in graph.edges if rolling & set(edge) for b in edge if kinds[str(b)] != "frame"}
+    steered -= rolling
+    steers = {k for k, edges in enumerate(blocks) if len(edges) > 1 and any(steered & edge for edge in edges)}
+    return found, frozenset(upright), frozenset(found.values()) - upright - steers
 
 
 def direction_classes(structure: Structure) -> tuple[list[int], list[Floats]]:
