@@ -34,6 +34,7 @@ def test_which_types_there_are() -> None:
         "forklift",
         "skid_steer",
         "telehandler",
+        "wheeled_excavator",
     }
     assert {t for t in TYPES if library.is_sheet_only(t)} == SHEET_ONLY
 

@@ -18,7 +18,8 @@ from yellowiron.support.output import output_folder
 
 def copy_template(type_or_folder: str | Path, folder: str | Path) -> Path:
     """Copies a template's documents, and the textures they name, into a folder that is new or empty, and returns it.
-    What `wanted.json` takes from the library, and any document from the type it is `like`, is written out, so that the copy says everything itself.
+    What `wanted.json` takes from the library, and any document from the type it is `like`, is written out, so that the
+    copy says everything itself.
     `OutputError` where the folder has something in it or cannot be written, or a texture lies outside the template;
     `TemplateError` where the template does not load."""
     source, target = find_template(type_or_folder), Path(folder)

@@ -1,8 +1,8 @@
 """Which hinges of a type lie alike, and which across each other, whatever way the machine stands.
 
 The hinges of one closed linkage are parallel: it moves in a plane. A frame turns on a frame about the upright, or rolls
-about the long axis: across the hinges of every linkage that works a tool. What steers wheels works none. So a bucket's linkage is not taken for two
-frames with their steering.
+about the long axis: across the hinges of every linkage that works a tool. What steers wheels works none. So a bucket's
+linkage is not taken for two frames with their steering.
 """
 
 from __future__ import annotations
