@@ -51,7 +51,8 @@ def copy_template(type_or_folder: str | Path, folder: str | Path) -> Path:
 
 
 def _copy(file: Path, target: Path) -> None:
-    kind, alike = fold(file.stem), is_like(file)
+    kind = fold(file.stem)
+    alike = kind in DOCUMENTS and is_like(file)
     if alike or kind == "wanted":
         document = template_document(file, kind)
         whole = complete(document) if kind == "wanted" else document
