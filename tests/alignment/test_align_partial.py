@@ -16,7 +16,7 @@ from kit.scoring import score
 from yellowiron import align
 from yellowiron.alignment.assignment.collision import colliders
 from yellowiron.alignment.assignment.cp_sat import JOINT_WEIGHT, MISSING_WEIGHT, Solution, without_islands
-from yellowiron.alignment.assignment.directions import direction_classes, linkages_of, never_together
+from yellowiron.alignment.assignment.directions import direction_classes, linkages_of, never_together, twin_linkages
 from yellowiron.alignment.features.contacts import SharedAxis
 from yellowiron.alignment.fusion.played import drawn_bodies
 from yellowiron.alignment.labelling.halves import of_drawn
@@ -63,6 +63,15 @@ def test_what_steers_wheels_works_no_tool() -> None:
     assert steering == linkage_of["steering_piston_rod2tie_rod_r_joint"]
     assert steering not in frames and steering not in tools
     assert {linkage_of["arm2bucket_joint"], linkage_of["undercarriage2stabilizer_l_joint"]} <= tools
+
+
+def test_a_linkage_lies_as_its_mirror_image(excavator: Template) -> None:
+    """A blade's cylinder was taken for one of two stabilizers': all three hang alike, the blade across."""
+    template = choose(load_template("wheeled_excavator"), {"stabilizers": "hinged"})
+    linkage_of = linkages_of(template)[0]
+    left, right = (linkage_of[f"undercarriage2stabilizer_{side}_joint"] for side in "lr")
+    assert twin_linkages(template, linkage_of) == {(min(left, right), max(left, right))}
+    assert twin_linkages(excavator, linkages_of(excavator)[0]) == set()
 
 
 def test_directions_are_told_apart() -> None:
