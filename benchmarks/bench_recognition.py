@@ -42,7 +42,7 @@ from yellowiron.model.specification import Specifications  # noqa: E402
 from yellowiron.model.template import Template, choose  # noqa: E402
 
 TEMPLATES = {"loader": "wheel_loader", "excavator": "excavator", "mini": "excavator", "roller": "roller",
-             "telehandler": "telehandler"}  # fmt: skip
+             "telehandler": "telehandler", "wheeled_excavator": "wheeled_excavator"}  # fmt: skip
 ROWS = ("track_shoe", "track_roller", "carrier_roller", "sprocket", "idler")
 
 

@@ -16,7 +16,7 @@ from kit.scoring import score
 from yellowiron import align
 from yellowiron.alignment.assignment.collision import colliders
 from yellowiron.alignment.assignment.cp_sat import JOINT_WEIGHT, MISSING_WEIGHT, Solution, without_islands
-from yellowiron.alignment.assignment.directions import direction_classes, linkages_of, never_together
+from yellowiron.alignment.assignment.directions import direction_classes, linkages_of, never_together, twin_linkages
 from yellowiron.alignment.features.contacts import SharedAxis
 from yellowiron.alignment.fusion.played import drawn_bodies
 from yellowiron.alignment.labelling.halves import of_drawn
@@ -47,13 +47,31 @@ def bodies(template: Template) -> set[str]:
 
 
 def test_hinges_of_a_linkage_go_together_and_frames_turn_across_them(loader: Template, excavator: Template) -> None:
-    linkage_of, frames = linkages_of(loader)
+    linkage_of, frames, _ = linkages_of(loader)
     assert linkage_of["front_frame2boom_joint"] == linkage_of["rocker2bucket_link_joint"]
     assert {linkage_of["rear2front_joint"]} == frames == {linkage_of["front_frame2steering_piston_rod_l_joint"]}
     assert "rear_wheel_l_joint" not in linkage_of
-    linkage_of, frames = linkages_of(excavator)
+    linkage_of, frames, _ = linkages_of(excavator)
     assert {linkage_of["undercarriage2upperstructure_joint"]} == frames
     assert linkage_of["arm2bucket_joint"] == linkage_of["bucket_link2bucket_joint"] not in frames
+
+
+def test_what_steers_wheels_works_no_tool() -> None:
+    """A wheeled excavator turns about the upright on its bearing, and so do the knuckles of its axle."""
+    linkage_of, frames, tools = linkages_of(choose(load_template("wheeled_excavator"), {}))
+    steering = linkage_of["front_axle2knuckle_l_joint"]
+    assert steering == linkage_of["steering_piston_rod2tie_rod_r_joint"]
+    assert steering not in frames and steering not in tools
+    assert {linkage_of["arm2bucket_joint"], linkage_of["undercarriage2stabilizer_l_joint"]} <= tools
+
+
+def test_a_linkage_lies_as_its_mirror_image(excavator: Template) -> None:
+    """A blade's cylinder was taken for one of two stabilizers': all three hang alike, the blade across."""
+    template = choose(load_template("wheeled_excavator"), {"stabilizers": "hinged"})
+    linkage_of = linkages_of(template)[0]
+    left, right = (linkage_of[f"undercarriage2stabilizer_{side}_joint"] for side in "lr")
+    assert twin_linkages(template, linkage_of) == {(min(left, right), max(left, right))}
+    assert twin_linkages(excavator, linkages_of(excavator)[0]) == set()
 
 
 def test_directions_are_told_apart() -> None:

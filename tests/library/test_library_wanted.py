@@ -34,6 +34,7 @@ def test_which_types_there_are() -> None:
         "forklift",
         "skid_steer",
         "telehandler",
+        "wheeled_excavator",
     }
     assert {t for t in TYPES if library.is_sheet_only(t)} == SHEET_ONLY
 
@@ -130,6 +131,7 @@ def test_everything_common_is_used_more_than_once() -> None:
         entry
         for name in TYPES
         for entry in json.loads((library_folder() / name / "wanted.json").read_text(encoding="utf-8")).values()
+        if isinstance(entry, dict)
     ]
     entries = [*written, *COMMON["wanted"].values()]
     assert min(Counter(e.get("common") for e in entries)[name] for name in COMMON["wanted"]) > 1

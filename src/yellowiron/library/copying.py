@@ -7,8 +7,8 @@ import shutil
 from pathlib import Path
 from typing import Any
 
+from yellowiron.library.alike import is_like, template_document
 from yellowiron.library.load import load_template
-from yellowiron.library.notation.validated_json import read_document
 from yellowiron.library.parsing.wanted import complete
 from yellowiron.library.type_folders import DOCUMENTS, find_template
 from yellowiron.model.errors import OutputError
@@ -18,7 +18,8 @@ from yellowiron.support.output import output_folder
 
 def copy_template(type_or_folder: str | Path, folder: str | Path) -> Path:
     """Copies a template's documents, and the textures they name, into a folder that is new or empty, and returns it.
-    What `wanted.json` takes from the library is written out, so that the copy says everything itself.
+    What `wanted.json` takes from the library, and any document from the type it is `like`, is written out, so that the
+    copy says everything itself.
     `OutputError` where the folder has something in it or cannot be written, or a texture lies outside the template;
     `TemplateError` where the template does not load."""
     source, target = find_template(type_or_folder), Path(folder)
@@ -50,10 +51,12 @@ def copy_template(type_or_folder: str | Path, folder: str | Path) -> Path:
 
 
 def _copy(file: Path, target: Path) -> None:
-    if fold(file.stem) == "wanted":
-        document = read_document(file, "wanted")
-        whole = complete(document)
-        if whole != document:
+    kind = fold(file.stem)
+    alike = kind in DOCUMENTS and is_like(file)
+    if alike or kind == "wanted":
+        document = template_document(file, kind)
+        whole = complete(document) if kind == "wanted" else document
+        if alike or whole != document:
             target.write_text(_text(whole.data) + "\n", encoding="utf-8")
             return
     shutil.copyfile(file, target)

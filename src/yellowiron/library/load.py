@@ -8,6 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from yellowiron.library.alike import template_document
 from yellowiron.library.notation.role_keys import by_role
 from yellowiron.library.notation.validated_json import Document, near, read_document
 from yellowiron.library.parsing.actuators import read_actuators
@@ -43,7 +44,7 @@ def load_template(type_or_folder: str | Path, *, sheet_only: bool = False) -> Te
     paths = documents_in(folder)
     if "joints" not in paths and "wanted" in paths:
         if sheet_only:
-            wanted = read_wanted(read_document(paths["wanted"], "wanted"), ())
+            wanted = read_wanted(template_document(paths["wanted"], "wanted"), ())
             return Template(folder.resolve().name, str(folder), "", (), (), wanted=wanted)
         raise TemplateError(
             f"The type {folder.resolve().name} is sheet-only so far: its template says what to ask a sheet for and has "
@@ -64,7 +65,7 @@ def load_template(type_or_folder: str | Path, *, sheet_only: bool = False) -> Te
 @functools.lru_cache(maxsize=16)
 def _read(folder: Path, paths: tuple[tuple[str, Path], ...], seen: tuple[tuple[int, int], ...]) -> Template:
     """The template of some documents, once while they are as they were `seen`: when changed last, how large."""
-    return _assemble({kind: read_document(path, kind) for kind, path in paths}, folder)
+    return _assemble({kind: template_document(path, kind) for kind, path in paths}, folder)
 
 
 def _assemble(documents: Mapping[str, Document], folder: Path) -> Template:

@@ -22,6 +22,7 @@ from kit.machines.skid_steers import skid_steer
 from kit.machines.solids import Array, bolt, place
 from kit.machines.synthetic import Machine, loader
 from kit.machines.telehandlers import telehandler
+from kit.machines.wheeled_excavators import wheeled_excavator
 from yellowiron.cad.mesh.assembly import shape_of
 from yellowiron.model.assembly import Part
 from yellowiron.model.geometry import Mesh, Shape
@@ -50,6 +51,8 @@ def drawn(kind: str, seed: int, *, segments: int = 32, hollow: bool = True) -> M
             return roller(seed, embedded=embedded)
         if kind == "telehandler":
             return telehandler(seed, embedded=embedded)
+        if kind == "wheeled_excavator":
+            return wheeled_excavator(seed, embedded=embedded)
         if kind == "backhoe":
             return backhoe(seed, embedded=embedded)
         if kind == "forklift":

@@ -577,13 +577,16 @@ class Digger(Drawer):
             placed = [(apart.shapes[p.shape], p.transform) for p in apart.parts if apart.truth[p.id][1] == body]
             self.m.add(body, body, body, merged(body, *placed), np.eye(4))
 
+    def blade_places(self) -> tuple[float, float, float]:
+        """x of the face that holds the blade, and of the blade; its width."""
+        return 0.65 * self.s, self.half + self.pitch_r + 0.35 * self.s, self.gauge + 0.4 * self.s
+
     def blade(self) -> None:
         m, s, t, e = self.m, self.s, self.t, self.e
-        front = 0.65 * s
+        front, ahead, wide_plate = self.blade_places()
         z = self.axle_z
         self.P["U"] = np.array([front + 0.18 * s, z - 0.12 * s])
         self.P["V"] = np.array([front + 0.2 * s, z + 0.18 * s])
-        ahead = self.half + self.pitch_r + 0.35 * s
         turned = float(self.rng.uniform(-0.1, 0.12))
         self.P["W"] = np.array([ahead - 0.15 * s, z + 0.05 * s]) + turned * np.array([0.0, ahead - front])
         wide = self.level(0) if self.f.blade == 1 else 0.42 * s
@@ -619,7 +622,7 @@ class Digger(Drawer):
                 self.pin(f"{role}_pin", body, self.at(at, y - inner - t), self.at(at, y + inner + t))
             self.cylinder(f"blade{tail}", barrel, rod, self.at("V", y), self.at("W", y), Y, 0.04 * s)
         height = 0.5 * s
-        plate_ = box("blade_plate", 0.08 * s, self.gauge + 0.4 * s, height)
+        plate_ = box("blade_plate", 0.08 * s, wide_plate, height)
         m.add("blade plate", "blade", "blade", plate_, place((ahead + 0.04 * s, 0, z - 0.05 * s + down), Z, X))
 
 

@@ -15,6 +15,8 @@ class SteeredChassis(Drawer):
     """One machine from one generator of random numbers."""
 
     axle_z: float
+    carrier = "chassis"
+    """The body that carries the axles."""
     leg: float
     leg_pin: Array
     leg_rod: Array
@@ -72,7 +74,7 @@ class SteeredChassis(Drawer):
         """A beam on its pin, or `fast` on the chassis; on it cylinder, ties, knuckles with wheels. `prefix`: of the
         bodies' names, where a machine has two."""
         s, t, e, m, z = self.s, self.t, self.e, self.m, self.axle_z
-        body = "chassis" if fast else f"{end}_axle"
+        body = self.carrier if fast else f"{end}_axle"
         rod_body = f"{prefix}steering_piston_rod"
         r, king, a = 2.2 * self.pin_r, 0.69 * s, x / s
         self.block("axle beam", body, (a - 0.06, -0.6, z / s - 0.05), (a + 0.06, 0.6, z / s + 0.05))
@@ -85,13 +87,13 @@ class SteeredChassis(Drawer):
             near, far = 0.16 * s, 0.06 * s + t / 2 - e
             self.block(
                 "hanger beam",
-                "chassis",
+                self.carrier,
                 (a - (near - t / 2 + e) / s, -rail, 0.63),
                 (a + (near - t / 2 + e) / s, rail, 0.74),
             )
             for d in (1, -1):
                 hanger = around((0, z, r), (0.16 * s, 0.74 * s, 0), (-0.16 * s, 0.74 * s, 0))
-                self.steep("hanger", "chassis", x + d * near, hanger, (0.0, z))
+                self.steep("hanger", self.carrier, x + d * near, hanger, (0.0, z))
                 trunnion = around((0, z, r), (0.14 * s, z - 0.04 * s, 0), (0.14 * s, z + 0.04 * s, 0),
                                   (-0.14 * s, z + 0.04 * s, 0),
                                   (-0.14 * s, z - 0.04 * s, 0))  # fmt: skip
@@ -99,7 +101,7 @@ class SteeredChassis(Drawer):
                 middle = x + d * 0.5 * (near + far)
                 span = 0.5 * (near - far) + t
                 start = np.array([middle - span, 0.0, z])
-                self.pin(f"{end}_axle_pin", "chassis", start, start + 2 * span * X)
+                self.pin(f"{end}_axle_pin", self.carrier, start, start + 2 * span * X)
         arm_x, end_x = x - 0.187 * s, x - 0.212 * s
         ram_z = z - 0.1 * s
         low = ram_z - 0.045 * s

@@ -13,7 +13,7 @@ from typing import Any
 
 import networkx as nx
 
-from yellowiron.alignment.assignment.directions import direction_classes, linkages_of, never_together
+from yellowiron.alignment.assignment.directions import direction_classes, linkages_of, never_together, twin_linkages
 from yellowiron.alignment.structure.clusters import Structure
 from yellowiron.model.template import JointTemplate, Template
 
@@ -215,9 +215,10 @@ def _add_one_joint_each(program: _Program) -> None:
 
 
 def _add_directions(program: _Program, structure: Structure, template: Template) -> None:
-    """The hinges of a linkage have one direction, and those on which frames turn another than tools' linkages have."""
+    """The hinges of a linkage have one direction, as has its mirror image; and those on which
+    frames turn another than tools' linkages have."""
     model = program.model
-    linkage_of, frames = linkages_of(template)
+    linkage_of, frames, tools = linkages_of(template)
     class_of, firsts = direction_classes(structure)
     lies: dict[tuple[int, int], Any] = {}
     for (joint, number), group in program.pivots.items():
@@ -231,7 +232,11 @@ def _add_directions(program: _Program, structure: Structure, template: Template)
     linkages = sorted({linkage for linkage, _ in lies})
     for linkage in linkages:
         model.add_at_most_one(v for (k, _), v in lies.items() if k == linkage)
-    for turned, tool in itertools.product(sorted(frames & set(linkages)), sorted(set(linkages) - frames)):
+    for one, other in sorted(twin_linkages(template, linkage_of)):
+        for (k, a), (m, b) in itertools.product(sorted(lies), repeat=2):
+            if (k, m) == (one, other) and a != b:
+                model.add_at_most_one([lies[k, a], lies[m, b]])
+    for turned, tool in itertools.product(sorted(frames & set(linkages)), sorted(tools & set(linkages))):
         for a, b in never_together(firsts):
             if (turned, a) in lies and (tool, b) in lies:
                 model.add_at_most_one([lies[turned, a], lies[tool, b]])

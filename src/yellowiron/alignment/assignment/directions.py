@@ -1,13 +1,14 @@
 """Which hinges of a type lie alike, and which across each other, whatever way the machine stands.
 
 The hinges of one closed linkage are parallel: it moves in a plane. A frame turns on a frame about the upright, or rolls
-about the long axis: across the hinges of every linkage that works a tool. So a bucket's linkage is not taken for two
-frames with their steering.
+about the long axis: across the hinges of every linkage that works a tool. What steers wheels works none. So a bucket's
+linkage is not taken for two frames with their steering.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import re
+from collections.abc import Mapping, Sequence
 
 import networkx as nx
 import numpy as np
@@ -16,15 +17,17 @@ from yellowiron.alignment.structure.clusters import Structure
 from yellowiron.model.geometry import Floats
 from yellowiron.model.template import Template
 
+_SIDE = re.compile(r"(?<=_)[lr](?=_|$)")
 ALIKE = 0.94
 """Hinges drawn this far from parallel (20°), by its cosine, are not of one linkage."""
 NOT_ACROSS = 0.7
 """… and this near to it (45°) are not across each other."""
 
 
-def linkages_of(template: Template) -> tuple[dict[str, int], frozenset[int]]:
-    """Hinge → the linkage of the type that it is in, for hinges in a closed one and between frames; and which of the
-    linkages turn frames on each other."""
+def linkages_of(template: Template) -> tuple[dict[str, int], frozenset[int], frozenset[int]]:
+    """Hinge → the linkage of the type that it is in, for hinges in a closed one and between frames; which of the
+    linkages turn frames on each other; and which of the others work tools: not those that steer wheels, which turn
+    about the upright, too."""
     kinds = {r.name: r.kind for r in template.roles}
     moving = [j for j in template.joints if j.type in ("revolute", "prismatic") and None not in template.bodies_of(j)]
     graph = nx.Graph([template.bodies_of(j) for j in moving])
@@ -39,7 +42,21 @@ def linkages_of(template: Template) -> tuple[dict[str, int], frozenset[int]]:
         if joint.type == "revolute" and (frames or len(blocks[number]) > 1):
             found[joint.name] = number
             upright |= {number} if frames else set()
-    return found, frozenset(upright)
+    rolling = {b for b, kind in kinds.items() if kind == "wheel"}
+    steered = {str(b) for edge in graph.edges if rolling & set(edge) for b in edge if kinds[str(b)] != "frame"}
+    steered -= rolling
+    steers = {k for k, edges in enumerate(blocks) if len(edges) > 1 and any(steered & edge for edge in edges)}
+    return found, frozenset(upright), frozenset(found.values()) - upright - steers
+
+
+def twin_linkages(template: Template, linkage_of: Mapping[str, int]) -> set[tuple[int, int]]:
+    """The pairs of linkages of which one is the other's mirror image, such as two stabilizers': they lie alike."""
+    by_pair = {frozenset(template.bodies_of(j)): linkage_of[j.name] for j in template.joints if j.name in linkage_of}
+    found = {
+        (k, by_pair.get(frozenset(_SIDE.sub(lambda m: "lr"[m.group() == "l"], str(b)) for b in pair), k))
+        for pair, k in by_pair.items()
+    }
+    return {(k, other) for k, other in found if k < other}
 
 
 def direction_classes(structure: Structure) -> tuple[list[int], list[Floats]]:

@@ -109,7 +109,7 @@ def field_of(
     for p, mine in enumerate(votes):
         for body, features in mine.items():
             unary[p, at[body]] = weighed(features, weights)
-    linkage_of, frames = linkages_of(template)
+    linkage_of, frames, _ = linkages_of(template)
     joints = [
         (_kind(j, linkage_of, frames), at[str(a)], at[str(b)])
         for j in template.joints

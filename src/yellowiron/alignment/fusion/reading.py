@@ -367,7 +367,7 @@ def _answer(
 def _solution(structure: Structure, body_of: Mapping[int, str], best: _Best, stance: Stance) -> Solution:
     """The joints that exact axes are there for, in a direction that they may have: of several between two bodies the
     one that most pins run through."""
-    linkage_of, frames = linkages_of(best.template)
+    linkage_of, frames, _ = linkages_of(best.template)
     slewing = slewing_joints(best.template)
 
     def may_be(joint: JointTemplate, hinge: Hinge) -> bool:
