@@ -131,6 +131,11 @@ class ClosedChain:
         return range(first, first + (3 if self._joints[joint].type == "spherical" else 1))
 
     @property
+    def plain(self) -> bool:
+        """Whether a state's position is one number a coordinate: no ball among the tree's joints."""
+        return bool(self._model.nq == self._model.nv)
+
+    @property
     def degrees_of_freedom(self) -> int:
         """Tree coordinates less the rank of the constraint Jacobian (singular values) in the drawn pose."""
         jacobian = self._at(self.drawn)
@@ -211,10 +216,9 @@ class ClosedChain:
         table = np.array([np.asarray(paths[name], dtype=np.float64) for name in names]).T
         state = self.drawn if start is None else start
         states: list[State] = []
-        plain = self._model.nq == self._model.nv
         for row in table:
             # Paths are mostly smooth: guess the dependent coordinates from the last states.
-            position = _continued(states) if plain and len(states) >= 3 else state.position.copy()
+            position = _continued(states) if self.plain and len(states) >= 3 else state.position.copy()
             near = float(np.abs(row - position[indices]).max(initial=0.0)) < _NEAR
             small = float(np.abs(row - state.position[indices]).max(initial=0.0)) < _SMALL
             position[indices] = row
@@ -419,6 +423,16 @@ class ClosedChain:
             velocity[self._columns] = np.linalg.solve(jacobian[self._block], -jacobian[self._rows, column])
         self._moving = (state, joint, velocity)
         return velocity
+
+    def tangents(self, state: State) -> Floats:
+        """Velocities of all tree coordinates (nv, independent) per unit velocity of each independent one in turn."""
+        jacobian = self._at(state)
+        given = np.array([self._dofs(name)[0] for name in self.independent], dtype=int)
+        velocities = np.zeros((self._model.nv, len(given)))
+        velocities[given, np.arange(len(given))] = 1.0
+        if len(self._rows):
+            velocities[self._columns] = np.linalg.solve(jacobian[self._block], -jacobian[np.ix_(self._rows, given)])
+        return velocities
 
     def rate(self, state: State, joint: str, tangent: Floats) -> float:
         """Velocity of any joint's coordinate, cut ones included, where the tree moves with `tangent`."""

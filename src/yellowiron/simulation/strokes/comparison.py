@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -10,10 +11,13 @@ from yellowiron.kinematics import ClosedChain, State, branch_pivots
 from yellowiron.kinematics.solver.branches import branch_sines
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Mechanism
+from yellowiron.simulation.strokes.expected import led_over, solved
 from yellowiron.support import guard
 
 _PIVOTS = ("revolute", "spherical")
 _CHUNK = 2000
+_LED = 1e-8
+"""Metres by which loops may stay open in poses between solved ones: far below every bar of an engine, near dead points too."""
 
 
 @dataclass(frozen=True)
@@ -49,8 +53,10 @@ class Agreement:
 class Comparison:
     """Follows one machine: every stretch continues from the pose where the last one ended."""
 
-    def __init__(self, mechanism: Mechanism) -> None:
-        self._mechanism = mechanism
+    def __init__(self, mechanism: Mechanism, stride: int = 1) -> None:
+        """`stride`: every so many steps the kinematics is solved; what lies between is led over, and solved too where
+        its loops would stay open."""
+        self._mechanism, self._stride = mechanism, stride
         self.chain = ClosedChain(mechanism)
         self._state: State = self.chain.drawn
         self._bodies = np.array([self.chain.body_index(body.name) for body in mechanism.bodies])
@@ -67,6 +73,8 @@ class Comparison:
         self._carriers, self._arms = np.array(carriers, dtype=int), np.array(arms).reshape(-1, 3)
         cut = {joint.name for joint in mechanism.joints if joint.cut}
         self._cuts = np.array([i for i in range(0, len(self._pins), 2) if self._pins[i] in cut], dtype=int)
+        self._shown = cut <= set(self._pins)
+        """Whether each loop's cut shows in its pins how well the loop closes."""
         signs = {loop.cut: loop.branch for loop in mechanism.loops if loop.branch}
         self._triangles = {c: (p, signs[c]) for c, p in branch_pivots(mechanism).items() if c in signs}
 
@@ -90,13 +98,11 @@ class Comparison:
         return _together(parts, good == count)
 
     def _chunk(self, coordinates: Floats, rotations: Floats, origins: Floats, first: int) -> Agreement:
-        paths = {name: coordinates[:, column] for column, name in enumerate(self.measured)}
-        states = self.chain.sweep(paths, start=self._state) if paths else (self._state,) * len(coordinates)
+        states, placed, at = self._expected(coordinates)
         followed = len(states) == len(coordinates)
         if not states:
             return Agreement(Worst(), Worst(), Worst(), {}, False)
         self._state = states[-1]
-        placed, at = self.chain.placements(states)
         expected, expected_at = placed[:, self._bodies], at[:, self._bodies]
         rotations, origins = self._without_root(rotations[: len(states)], origins[: len(states)])
         pins = self._places(rotations, origins)
@@ -120,6 +126,21 @@ class Comparison:
             pins=off.max(axis=1, initial=0.0),
             angles=angles.max(axis=1, initial=0.0),
         )
+
+    def _expected(self, coordinates: Floats) -> tuple[Sequence[State], Floats, Floats]:
+        """The kinematics' states, and the rotations and origins of all bodies in them."""
+        states: list[State] = led_over(self.chain, coordinates, self._state, self._stride) if self._shown else []
+        placed, at = self.chain.placements(states)
+        halves = self._places(placed[:, self._bodies], at[:, self._bodies])
+        gaps = np.abs(halves[:, self._cuts] - halves[:, self._cuts + 1]).max(axis=(1, 2), initial=0.0)
+        opened = np.flatnonzero(gaps > _LED).tolist()
+        for step in opened:
+            states[step : step + 1] = solved(self.chain, coordinates[step : step + 1], states[max(0, step - 1)])
+        if len(states) < len(coordinates):
+            states = list(solved(self.chain, coordinates, self._state))
+        if opened or len(placed) != len(states):
+            placed, at = self.chain.placements(states)
+        return states, placed, at
 
     def _without_root(self, rotations: Floats, origins: Floats) -> tuple[Floats, Floats]:
         """Poses as they were with the root body in its drawn pose."""

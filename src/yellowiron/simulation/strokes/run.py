@@ -32,6 +32,8 @@ from yellowiron.usd import read_mechanism
 
 FINAL_BAR = 0.01
 """A cylinder ends within this share of its stroke from its target; a motor within ten times that of its speed."""
+_SOLVED = 0.008
+"""Seconds from one solved pose of the kinematics to the next; those of the steps between are led over."""
 _CHUNK = 50
 """Steps that are read at once: enough to make it quick, few enough for their states to stay in the processor's cache
 (MuJoCo, fixed base: 12.0 µs a step, with 250 at once 13.0)."""
@@ -84,7 +86,7 @@ def simulate(
         raise YellowironError(
             "The machine has nothing to drive", where=mechanism.name, hint="Name its actuators in the template."
         )
-    comparison = Comparison(mechanism)
+    comparison = Comparison(mechanism, stride=max(1, round(_SOLVED / step)))
     heavier = tuple(b for b, old in zip(mechanism.bodies, read.bodies, strict=True) if b is not old or b in changed)
     progress(f"Loading the machine into {engine}")
     setup = Setup(
