@@ -3,7 +3,6 @@ is ready, with and without names, from surfaces and from triangles."""
 
 from __future__ import annotations
 
-import itertools
 from types import ModuleType
 
 import numpy as np
@@ -93,9 +92,9 @@ def test_every_value_is_read_off_the_sheet(values: ModuleType, made_once: MadeOn
 
 # ---- the machine --------
 @pytest.fixture(scope="module", params=[True, False], ids=["named", "nameless"])
-def built(request: pytest.FixtureRequest, made_once: MadeOnce, tmp_path_factory: pytest.TempPathFactory) -> Built:
-    drawing, out = drawn_example(TYPE, made_once), tmp_path_factory.mktemp(TYPE)
-    return build_example(TYPE, drawing, out, named=request.param)
+def built(request: pytest.FixtureRequest, made_once: MadeOnce) -> Built:
+    drawing = drawn_example(TYPE, made_once)
+    return build_example(TYPE, drawing, made_once, named=request.param)
 
 
 @pytest.mark.slow
@@ -113,6 +112,6 @@ def test_what_is_measured_and_drawn_is_what_is_meant(built: Built) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("names", "surfaces"), itertools.product(["", "nameless"], ["exact", "triangles"]))
-def test_every_part_is_in_its_body(names: str, surfaces: str, made_once: MadeOnce) -> None:
-    recognised(TYPE, drawn_example(TYPE, made_once), names, surfaces)
+@pytest.mark.parametrize("names", ["", "nameless"])
+def test_every_part_is_in_its_body_on_triangles(names: str, made_once: MadeOnce) -> None:
+    recognised(TYPE, drawn_example(TYPE, made_once), names, "triangles")

@@ -62,9 +62,9 @@ def test_every_value_is_read_off_the_sheet(values: ModuleType) -> None:
 
 # ---- the machine --------
 @pytest.fixture(scope="module", params=[True, False], ids=["named", "nameless"])
-def built(request: pytest.FixtureRequest, made_once: MadeOnce, tmp_path_factory: pytest.TempPathFactory) -> Built:
-    drawing, out = drawn("simplex", made_once), tmp_path_factory.mktemp("forklift")
-    return build_example("forklift", drawing, out, named=request.param, sheet=FOLDER / "specifications.pdf")
+def built(request: pytest.FixtureRequest, made_once: MadeOnce) -> Built:
+    drawing = drawn("simplex", made_once)
+    return build_example("forklift", drawing, made_once, named=request.param, sheet=FOLDER / "specifications.pdf")
 
 
 @pytest.mark.slow

@@ -120,9 +120,9 @@ def test_every_value_is_read_off_the_sheet(values: ModuleType, made_once: MadeOn
 
 # ---- the machine --------
 @pytest.fixture(scope="module", params=itertools.product(KINDS, (True, False)), ids=lambda p: f"{p[0]}-{p[1]}")
-def built(request: pytest.FixtureRequest, made_once: MadeOnce, tmp_path_factory: pytest.TempPathFactory) -> Built:
+def built(request: pytest.FixtureRequest, made_once: MadeOnce) -> Built:
     kind, named = request.param
-    return build_example(TYPE, drawn_example(TYPE, made_once, kind), tmp_path_factory.mktemp(TYPE), named=named)
+    return build_example(TYPE, drawn_example(TYPE, made_once, kind), made_once, named=named)
 
 
 @pytest.mark.slow
@@ -145,8 +145,6 @@ def test_joints_and_cylinders_are_as_they_are_drawn(built: Built) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("kind", "names", "surfaces"), itertools.product(KINDS, ["", "nameless"], ["exact", "triangles"])
-)
-def test_every_part_is_in_its_body(kind: str, names: str, surfaces: str, made_once: MadeOnce) -> None:
-    recognised(TYPE, drawn_example(TYPE, made_once, kind), names, surfaces)
+@pytest.mark.parametrize(("kind", "names"), itertools.product(KINDS, ["", "nameless"]))
+def test_every_part_is_in_its_body_on_triangles(kind: str, names: str, made_once: MadeOnce) -> None:
+    recognised(TYPE, drawn_example(TYPE, made_once, kind), names, "triangles")

@@ -129,9 +129,9 @@ def test_every_value_is_read_off_the_sheet(values: ModuleType, made_once: MadeOn
 
 # ---- the machine --------
 @pytest.fixture(scope="module", params=[True, False], ids=["named", "nameless"])
-def built(request: pytest.FixtureRequest, made_once: MadeOnce, tmp_path_factory: pytest.TempPathFactory) -> Built:
-    drawing, out = drawn_example("skid_steer", made_once, "vertical"), tmp_path_factory.mktemp("skid_steer")
-    return build_example("skid_steer", drawing, out, named=request.param)
+def built(request: pytest.FixtureRequest, made_once: MadeOnce) -> Built:
+    drawing = drawn_example("skid_steer", made_once, "vertical")
+    return build_example("skid_steer", drawing, made_once, named=request.param)
 
 
 @pytest.mark.slow

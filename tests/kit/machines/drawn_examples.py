@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import pickle
 import subprocess
 import sys
 from collections.abc import Collection, Mapping
@@ -46,18 +47,6 @@ def drawn_example(name: str, made_once: MadeOnce, *arguments: str) -> Path:
     return made_once("_".join([name, *arguments]), fill)
 
 
-def built_example(name: str, made_once: MadeOnce, *arguments: str) -> Path:
-    """The USD file of an example, built once a run of its drawing and its sheet."""
-    folder = drawn_example(name, made_once, *arguments)
-
-    def fill(out: Path) -> None:
-        out.mkdir()
-        with without_pages():
-            build(name, folder / f"{name}.step", out / "out", sheets=(folder / "specifications.pdf",))
-
-    return made_once("_".join([name, *arguments, "built"]), fill) / "out" / f"{name}.usda"
-
-
 @dataclass(frozen=True)
 class Built:
     """A machine that was built of an example, and the truth of its drawing."""
@@ -70,16 +59,28 @@ class Built:
         return self.machine.mechanism
 
 
-def build_example(name: str, drawing: Path, out: Path, *, named: bool, sheet: Path | None = None) -> Built:
-    """An example built into a folder from its `drawing` (`drawn_example`), with names or without, and its sheet."""
-    cad = drawing / ("" if named else "nameless") / f"{name}.step"
-    with without_pages():
-        machine = build(name, cad, out, sheets=[sheet or drawing / "specifications.pdf"])
-    return Built(machine, truth_of(drawing))
+def build_example(name: str, drawing: Path, made_once: MadeOnce, *, named: bool, sheet: Path | None = None) -> Built:
+    """An example built once a run from its `drawing` (`drawn_example`), with names or without, and its sheet."""
+
+    def fill(out: Path) -> None:
+        out.mkdir()
+        cad = drawing / ("" if named else "nameless") / f"{name}.step"
+        with without_pages():
+            machine = build(name, cad, out / "out", sheets=[sheet or drawing / "specifications.pdf"])
+        (out / "machine.pickle").write_bytes(pickle.dumps(machine))
+
+    out = made_once(f"{drawing.name}_{'named' if named else 'nameless'}_built", fill)
+    return Built(pickle.loads((out / "machine.pickle").read_bytes()), truth_of(drawing))
+
+
+def built_example(name: str, made_once: MadeOnce, *arguments: str) -> Path:
+    """The USD file of an example, built once a run of its drawing and its sheet."""
+    return build_example(name, drawn_example(name, made_once, *arguments), made_once, named=True).machine.usd
 
 
 def assert_ready(built: Built, mobility: int, actuators: Collection[str]) -> None:
-    """Nothing is left to do, and the machine moves as many ways as it should."""
+    """Every part is in its body, nothing is left to do, and the machine moves as many ways as it should."""
+    _assert_recognised(built.machine.alignment, built.truth)
     report = json.loads((built.machine.folder / "report.json").read_text(encoding="utf-8"))
     assert [f for f in report["findings"] if f["severity"] != "info"] == []
     found = built.mechanism.mobility
