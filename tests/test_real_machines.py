@@ -34,7 +34,7 @@ ZX200 = {
 STROKES = ("Boom Cylinder Stroke=950 mm", "Arm Cylinder Stroke=1100 mm", "Bucket Cylinder Stroke=880 mm")
 
 
-def build(cad: Path, out: Path, *more: str, page: bool = False) -> dict[str, Any]:
+def build(cad: Path, out: Path, *more: str | Path, page: bool = False) -> dict[str, Any]:
     with contextlib.nullcontext() if page else without_pages():
         outcome = console("build", "excavator", "--cad", cad, "--out", out, *more, cwd=out.parent)
     assert outcome.returncode in (0, 1), outcome.stdout + outcome.stderr
@@ -149,7 +149,7 @@ def check_roles(
 @pytest.fixture(scope="module")
 def zx200(shared_data: Path, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, Any]]:
     out = tmp_path_factory.mktemp("zx200") / "out"
-    return out, build(shared_data / "zx200" / "zx200.glb", out, page=True)
+    return out, build(shared_data / "zx200" / "zx200.glb", out)
 
 
 def test_zx200_axes(zx200: tuple[Path, dict[str, Any]], shared_data: Path) -> None:
@@ -175,7 +175,9 @@ def test_zx200_hinges_without_cylinders_are_driven(zx200: tuple[Path, dict[str, 
     assert driven["upperstructure2boom_joint"] == driven["boom2arm_joint"] == driven["arm2bucket_joint"] == "position"
 
 
-def test_zx200_is_drawn_outside_its_limits(shared_data: Path, tmp_path: Path) -> None:
+def test_zx200_is_drawn_outside_its_limits(
+    zx200: tuple[Path, dict[str, Any]], shared_data: Path, tmp_path: Path
+) -> None:
     """The limits of its URDF: boom and arm are drawn outside of them; the machine starts where it may be."""
     truth = json.loads((shared_data / "zx200" / "zx200.truth.json").read_text(encoding="utf-8"))
     limits = {j["name"]: [f"{v} rad" for v in j["limit"]] for j in truth["joints"] if j["limit"]}
@@ -188,7 +190,8 @@ def test_zx200_is_drawn_outside_its_limits(shared_data: Path, tmp_path: Path) ->
         entry["joint_type"] = "Revolute"
     data = tmp_path / "limits.json"
     data.write_text(json.dumps(document))
-    report = build(shared_data / "zx200" / "zx200.glb", tmp_path / "out", "--data", str(data))
+    known = ("--alignment", zx200[0] / "alignment.json", "--data", data)
+    report = build(shared_data / "zx200" / "zx200.glb", tmp_path / "out", *known)
     moved = [f["where"] for f in report["findings"] if f["code"] == "KIN012"]
     assert moved == ["upperstructure2boom_joint", "boom2arm_joint"]
     joints = {j["name"]: j for j in report["joints"]}
