@@ -24,6 +24,8 @@ _EDGE = 5e-4
 """Points this near to the farthest one belong to the edge, metres."""
 _ALIKE = 1e-3
 """Relative difference of the lengths by which parts are compared up to which they are congruent."""
+_LENGTHS = 5
+"""Lengths by which parts are compared: of volume, area and the three principal moments."""
 _ON_PLANE = 1e-3
 """A plane this near to the edge contains it, metres."""
 _FACING = math.cos(math.radians(50.0))
@@ -221,6 +223,15 @@ class _Edge:
     area: float
 
 
+@dataclass(frozen=True, eq=False)
+class _Planes:
+    """Planes: a point (n, 3) and the unit normal (n, 3) of each, and the area (n,) that lies in it."""
+
+    points: Floats
+    normals: Floats
+    areas: Floats
+
+
 def _edge_site(
     entry: SiteTemplate,
     frame: JointFrame,
@@ -237,11 +248,14 @@ def _edge_site(
     """
     line = Axis(frame.anchor, frame.axis)
     rows = placement.rows_of_body(entry.body)
-    edges = [_far_edge(group, rows, line, placement) for group in _wide_groups(rows, line, spanning, placement)]
-    if not edges:
+    groups = _wide_groups(rows, line, spanning, placement)
+    if not groups:
         return None
+    planes = _planes_along(rows, line, placement)
+    edges = [_far_edge(group, planes, line, placement) for group in groups]
     blades = [row for row in rows if (chain := ancestors(template, placement.roles[row])) and chain[0].kind == "edge"]
-    cutting = [e for e in edges if any(_planes_through(e.position, line, row, placement) for row in blades)] or edges
+    blade = _planes_along(blades, line, placement)
+    cutting = [e for e in edges if len(_through(e.position, blade))] or edges
     widest = max(cutting, key=lambda e: (e.area, e.distance))
     if widest.normal is None:
         widest = max(cutting, key=lambda e: e.distance)
@@ -267,7 +281,7 @@ def _edge_site(
     )
 
 
-def _far_edge(group: tuple[int, ...], rows: Sequence[int], line: Axis, placement: Placement) -> _Edge:
+def _far_edge(group: tuple[int, ...], planes: _Planes, line: Axis, placement: Placement) -> _Edge:
     """The edge of a wide part, or row of equal parts, that is farthest from a line."""
     points = placement.points_of(group)
     distance = line.distance(points)
@@ -275,7 +289,7 @@ def _far_edge(group: tuple[int, ...], rows: Sequence[int], line: Axis, placement
     along = line.along(tip)
     middle = 0.5 * (along.min() + along.max())
     position = tip.mean(axis=0) + (middle - along.mean()) * line.direction
-    normal, area = _plane_at(position, line, rows, placement)
+    normal, area = _plane_at(position, planes)
     return _Edge(group, position, float(distance.max()), normal, area)
 
 
@@ -291,14 +305,19 @@ def _wide_groups(rows: Sequence[int], line: Axis, spanning: float, placement: Pl
     draw every tooth as a part of its own, turned or mirrored)."""
     reach = {row: (line.along(p := placement.points(row)).min(), line.along(p).max()) for row in rows}
     width = max(high for _, high in reach.values()) - min(low for low, _ in reach.values())
-    sizes = {row: _invariants(row, placement) for row in rows}
     alike: list[list[int]] = []
+    first = np.empty((len(rows), _LENGTHS))
+    of_shape: dict[str, int] = {}
     for row in rows:
-        group = next((g for g in alike if _congruent(row, g[0], sizes, placement)), None)
-        if group is None:
-            alike.append([row])
-        else:
-            group.append(row)
+        key, size = placement.shapes[row].key, _invariants(row, placement)
+        firsts = first[: len(alike)]
+        equal = np.all(np.abs(firsts - size) <= _ALIKE * np.maximum(firsts, size), axis=1)
+        number = min(of_shape.get(key, len(alike)), int(np.argmax(equal)) if equal.any() else len(alike))
+        if number == len(alike):
+            first[number] = size
+            of_shape[key] = number
+            alike.append([])
+        alike[number].append(row)
     wide = []
     for equal in alike:
         covered = max(reach[r][1] for r in equal) - min(reach[r][0] for r in equal)
@@ -317,32 +336,28 @@ def _invariants(row: int, placement: Placement) -> Floats:
     return scale * np.array(lengths, dtype=np.float64)
 
 
-def _congruent(row: int, other: int, sizes: Mapping[int, Floats], placement: Placement) -> bool:
-    """Whether two parts are equal, or equal when one is turned or mirrored, as far as their invariants tell."""
-    if placement.shapes[row].key == placement.shapes[other].key:
-        return True
-    return bool(np.all(np.abs(sizes[row] - sizes[other]) <= _ALIKE * np.maximum(sizes[row], sizes[other])))
-
-
-def _plane_at(position: Floats, line: Axis, rows: Sequence[int], placement: Placement) -> tuple[Floats | None, float]:
-    """The plane through an edge, parallel to the axis, on which the body has most area: (normal, area), or (None,
-    0)."""
+def _plane_at(position: Floats, planes: _Planes) -> tuple[Floats | None, float]:
+    """The plane through an edge on which most area of some planes is: (normal, area), or (None, 0)."""
     found: list[tuple[Floats, float]] = []
-    for row in rows:
-        for normal, area in _planes_through(position, line, row, placement):
-            for i, (other, total) in enumerate(found):
-                if np.linalg.norm(np.cross(normal, other)) < _ACROSS:
-                    found[i] = (other, total + area)
-                    break
-            else:
-                found.append((normal, area))
+    for index in _through(position, planes).tolist():
+        normal, area = planes.normals[index], float(planes.areas[index])
+        for i, (other, total) in enumerate(found):
+            if np.linalg.norm(np.cross(normal, other)) < _ACROSS:
+                found[i] = (other, total + area)
+                break
+        else:
+            found.append((normal, area))
     return max(found, key=lambda pair: pair[1]) if found else (None, 0.0)
 
 
-def _planes_through(position: Floats, line: Axis, row: int, placement: Placement) -> list[tuple[Floats, float]]:
-    """(normal, area) of one part's planes through the edge: its planar faces, else its facets."""
-    point, normal, area = placement.planes(row)
-    through = (np.abs(normal @ line.direction) < _ACROSS) & (
-        np.abs(np.sum((position - point) * normal, axis=1)) < _ON_PLANE
-    )
-    return [(normal[i], float(area[i])) for i in np.nonzero(through)[0]]
+def _planes_along(rows: Sequence[int], line: Axis, placement: Placement) -> _Planes:
+    """Parts' planes that are parallel to a line, part by part: planar faces, else facets."""
+    none = (np.zeros((0, 3)), np.zeros((0, 3)), np.zeros(0))
+    points, normals, areas = (np.concatenate(c) for c in zip(none, *map(placement.planes, rows), strict=True))
+    along = np.abs(normals @ line.direction) < _ACROSS
+    return _Planes(points[along], normals[along], areas[along])
+
+
+def _through(position: Floats, planes: _Planes) -> NDArray[np.intp]:
+    """Which of some planes go through an edge."""
+    return np.flatnonzero(np.abs(np.sum((position - planes.points) * planes.normals, axis=1)) < _ON_PLANE)
