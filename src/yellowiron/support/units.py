@@ -63,17 +63,26 @@ def registry() -> pint.UnitRegistry[Any]:
     return pint.UnitRegistry()
 
 
+@functools.lru_cache(maxsize=1024)
+def _dimension(spelled: str) -> str | None:
+    """The SI unit of a unit's dimension, if it is one of a specification: asked of pint once a spelling."""
+    quantity = registry().Quantity(1.0, spelled)
+    angular = spelled in ("degree", "radian", "rad")
+    for si in SI_UNIT.values():
+        target = registry().Unit(si) if si != "1" else registry().dimensionless
+        if quantity.is_compatible_with(target) and ((si == "rad") == angular or si not in ("rad", "1")):
+            return si
+    return None
+
+
 def to_si(value: float, unit: str, *, where: str = "") -> tuple[float, str]:
     """A number with a unit in SI: (value, SI unit of its dimension). `YellowironError` for an unknown unit."""
     spelled = _SPELLING.get(unit, unit)
     try:
-        quantity = registry().Quantity(value, spelled)
-        for si in SI_UNIT.values():
+        si = _dimension(spelled)
+        if si is not None:
             target = registry().Unit(si) if si != "1" else registry().dimensionless
-            same_kind = quantity.is_compatible_with(target)
-            angular = (si == "rad") == (spelled in ("degree", "radian", "rad"))
-            if same_kind and (angular or si not in ("rad", "1")):
-                return float(quantity.to(target).magnitude), si
+            return float(registry().Quantity(value, spelled).to(target).magnitude), si
     except Exception as error:  # pint raises half a dozen unrelated classes for bad text
         raise YellowironError(
             f"'{unit}' is not a unit", where=where, hint="Write e.g. 764 mm, 31.5 MPa, 40 deg."
