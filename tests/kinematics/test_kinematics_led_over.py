@@ -58,6 +58,18 @@ def test_a_pin_that_is_off_in_one_step_is_seen(mechanism: Mechanism) -> None:
     assert agreed.pin.value == pytest.approx(2e-4, abs=1e-6)
 
 
+def test_where_steps_between_solved_ones_lock_it_ends(mechanism: Mechanism) -> None:
+    """The linkage can stand at each solved step, and at none of the four before the last."""
+    chain = ClosedChain(mechanism)
+    table = np.repeat(_run(chain, 0.0, 400)[:1], 17, axis=0)
+    table[12:16, chain.independent.index("lift_l")] += 50.0
+    rotations, origins = chain.placements([chain.drawn] * 17)
+    bodies = [chain.body_index(body.name) for body in mechanism.bodies]
+    assert len(led_over(chain, table, chain.drawn, 8)) == 17
+    agreed = Comparison(mechanism, 8).compare(table, rotations[:, bodies], origins[:, bodies])
+    assert not agreed.followed and len(agreed.pins) == 12
+
+
 def test_what_cannot_be_led_over_is_solved_as_far_as_it_goes(mechanism: Mechanism) -> None:
     chain = ClosedChain(mechanism)
     table = _run(chain, 0.0, 400)

@@ -69,6 +69,24 @@ def test_a_copy_says_everything_itself(template: Template, tmp_path: Path) -> No
     assert (copied.wanted, copied.actuators, copied.words) == (template.wanted, template.actuators, template.words)
 
 
+def test_what_is_left_out_is_a_list_of_names(tmp_path: Path) -> None:
+    (tmp_path / "joints.json").write_text(json.dumps({"like": "excavator", "without": "track_*"}), encoding="utf-8")
+    with pytest.raises(TemplateError, match="no list of names") as found:
+        library.load_template(tmp_path)
+    assert found.value.where is not None and found.value.where.endswith("joints.json: without")
+
+
+def test_a_document_is_not_like_itself(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As two types of an installed package may be like each other."""
+    types = {"one": tmp_path / "one", "other": tmp_path / "other"}
+    for folder, other in zip(types.values(), reversed(types), strict=True):
+        folder.mkdir()
+        (folder / "joints.json").write_text(json.dumps({"like": other}), encoding="utf-8")
+    monkeypatch.setattr("yellowiron.library.alike.type_folders", lambda: types)
+    with pytest.raises(TemplateError, match="like itself"):
+        library.load_template(types["one"])
+
+
 @pytest.mark.parametrize("like", ["excavatr", "common"])
 def test_a_type_that_is_not_there_is_named(tmp_path: Path, like: str) -> None:
     (tmp_path / "joints.json").write_text(json.dumps({"like": like}), encoding="utf-8")

@@ -15,8 +15,8 @@ axis is estimated · `ALN026` to `ALN028`: see `files.decisions` · `ALN029` one
 `ALN032` a variant is in doubt.
 """
 
+from yellowiron.alignment.assignment.sides import twin_role
 from yellowiron.alignment.assignment.unit_scale import to_scale
-from yellowiron.alignment.assignment.weights import twin_role
 from yellowiron.alignment.discovery.discover import discover
 from yellowiron.alignment.discovery.robot import declared_roles, discover_declared
 from yellowiron.alignment.facing import named_direction

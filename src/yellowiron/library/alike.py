@@ -17,7 +17,7 @@ def template_document(path: Path, kind: str) -> Document:
     less the entries whose names match a pattern of `without`, and with what else is in it put on top: objects key by
     key, lists of named entries one after the other, anything else instead. The group that has the other type's name
     has this one's. `TemplateError` names file and key."""
-    return check_document(path, _whole(path), kind)
+    return check_document(path, _whole(path, ()), kind)
 
 
 def is_like(path: Path) -> bool:
@@ -26,16 +26,23 @@ def is_like(path: Path) -> bool:
     return isinstance(own, dict) and "like" in own
 
 
-def _whole(path: Path) -> Any:
+def _whole(path: Path, above: tuple[Path, ...]) -> Any:
+    """A document's content, for those `above` that are like it."""
     own = read_json(path)
     if not isinstance(own, dict) or not isinstance(own.get("like"), str):
         return own
-    other, types = own["like"], type_folders()
+    other, types, without = own["like"], type_folders(), own.get("without", [])
+    if not isinstance(without, list) or not all(isinstance(pattern, str) for pattern in without):
+        raise TemplateError("It is no list of names", where=f"{path}: without", hint='Write e.g. ["track_*"].')
     if other not in types or not (types[other] / path.name).is_file():
         raise TemplateError(
             f"There is no {path.name} of a type '{other}' to be like", where=f"{path}: like", hint=near(other, types)
         )
-    base = _less(_whole(types[other] / path.name), tuple(own.get("without", ())))
+    if path.resolve() in above:
+        raise TemplateError(
+            "The document is like itself, or like one that is like it", where=f"{path}: like", hint="Name another type."
+        )
+    base = _less(_whole(types[other] / path.name, (*above, path.resolve())), tuple(without))
     renamed = {path.parent.name if name == other else name: entry for name, entry in base.items()}
     return _on_top(renamed, {name: entry for name, entry in own.items() if name not in ("like", "without")})
 

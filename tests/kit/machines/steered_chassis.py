@@ -20,6 +20,7 @@ class SteeredChassis(Drawer):
     leg: float
     leg_pin: Array
     leg_rod: Array
+    leg_top: Array
 
     # ---- small things ----
     def plates(self, name: str, body: str, y: float, outline: Array, pins: str, *, both: bool = True) -> None:
@@ -49,6 +50,17 @@ class SteeredChassis(Drawer):
     def lug_y(self) -> float:
         """Middle of the plates beside a cylinder's eye."""
         return self.eye_w / 2 + self.gap + self.t / 2
+
+    def leg_plates(self, name: str, side: int, letter: str, ends: tuple[float, float], shoulder: float) -> None:
+        """Two plates across the carrier at x `ends`, which hold a leg, and at `leg_top` its cylinder."""
+        s, t, r, body = self.s, self.t, 2.2 * self.pin_r, self.carrier
+        pin, high = self.leg_pin * [side, 1], self.leg_top * [side, 1]
+        half = around((side * 0.2 * s, 0.56 * s, 0), (*pin, r), (*high, r), (side * 0.2 * s, shoulder * s, 0))
+        for x in ends:
+            self.steep(name, body, x, half, tuple(pin), tuple(high))
+        for role, at in ((f"stabilizer_{letter}_pin", pin), (f"stabilizer_cylinder_barrel_{letter}_pin", high)):
+            start = np.array([ends[0] - t, *at])
+            self.pin(role, body, start, start + (ends[1] - ends[0] + 2 * t) * X)
 
     def stabilizer(self, side: int, letter: str, x: float) -> None:
         """A leg as two plates with a foot between them."""

@@ -120,22 +120,15 @@ class Telehandler(SteeredChassis):
 
     def front_frame(self, long: float) -> None:
         """Two plates across the rails' ends, between which the stabilizers swing."""
-        s, t, e, body, r = self.s, self.t, self.e, "chassis", 2.2 * self.pin_r
+        s, t, e, body = self.s, self.t, self.e, "chassis"
         x1, x2 = (long + 0.0) * s + t / 2 - e, (long + 0.14) * s
-        self.leg_pin = np.array([0.72, 0.5]) * s
-        top = np.array([0.58, 1.1]) * s
+        self.leg_pin, self.leg_top = np.array([0.72, 0.5]) * s, np.array([0.58, 1.1]) * s
         for side, letter in SIDES:
-            pin, high = self.leg_pin * [side, 1], top * [side, 1]
-            half = around((side * 0.2 * s, 0.56 * s, 0), (*pin, r), (*high, r), (side * 0.2 * s, 0.78 * s, 0))
-            for x in (x1, x2):
-                self.steep("front plate", body, x, half, tuple(pin), tuple(high))
-            for role, at in ((f"stabilizer_{letter}_pin", pin), (f"stabilizer_cylinder_barrel_{letter}_pin", high)):
-                start = np.array([x1 - t, *at])
-                self.pin(role, body, start, start + (x2 - x1 + 2 * t) * X)
+            self.leg_plates("front plate", side, letter, (x1, x2), 0.78)
             self.stabilizer(side, letter, 0.5 * (x1 + x2))
         half_y = 0.22
         self.block("front beam", body, ((x1 + t / 2 - e) / s, -half_y, 0.6), ((x2 - t / 2 + e) / s, half_y, 0.74))
-        self.leg_top, self.leg_x = top, 0.5 * (x1 + x2)
+        self.leg_x = 0.5 * (x1 + x2)
 
     def axles(self) -> None:
         s, t, e = self.s, self.t, self.e

@@ -8,7 +8,6 @@ from dataclasses import replace
 import numpy as np
 
 from kit.machines.excavators import Digger, Features, any_features
-from kit.machines.solids import around
 from kit.machines.steered_chassis import SIDES, SteeredChassis
 from kit.machines.synthetic import Machine, X
 
@@ -51,22 +50,16 @@ class Carrier(SteeredChassis):
 
     def legs(self) -> None:
         """Two plates across the rails' rear ends, between which the stabilizers swing, each by a cylinder."""
-        s, t, e, r = self.s, self.t, self.e, 2.2 * self.pin_r
+        s, t, e = self.s, self.t, self.e
         x2 = self.ends[1] * s - t / 2 + e
         x1, middle = x2 - 0.14 * s, x2 - 0.07 * s
         self.leg = float(self.rng.uniform(-0.3, 0.8))
-        self.leg_pin, top = np.array([0.72, 0.5]) * s, np.array([0.58, 1.1]) * s
+        self.leg_pin, self.leg_top = np.array([0.72, 0.5]) * s, np.array([0.58, 1.1]) * s
         for side, letter in SIDES:
-            pin, high = self.leg_pin * [side, 1], top * [side, 1]
-            half = around((side * 0.2 * s, 0.56 * s, 0), (*pin, r), (*high, r), (side * 0.2 * s, 0.85 * s, 0))
-            for x in (x1, x2):
-                self.steep("rear plate", BODY, x, half, tuple(pin), tuple(high))
-            for role, at in ((f"stabilizer_{letter}_pin", pin), (f"stabilizer_cylinder_barrel_{letter}_pin", high)):
-                start = np.array([x1 - t, *at])
-                self.pin(role, BODY, start, start + (x2 - x1 + 2 * t) * X)
+            self.leg_plates("rear plate", side, letter, (x1, x2), 0.85)
             self.stabilizer(side, letter, middle)
             halves = (f"stabilizer_cylinder_barrel_{letter}", f"stabilizer_piston_rod_{letter}")
-            ends = (np.array([middle, *high]), np.array([middle, side * self.leg_rod[0], self.leg_rod[1]]))
+            ends = (np.array([middle, side * at[0], at[1]]) for at in (self.leg_top, self.leg_rod))
             self.cylinder(f"stabilizer_{letter}", *halves, *ends, X, 0.034 * s)
         self.block("rear beam", BODY, ((x1 + t / 2 - e) / s, -0.22, 0.62), ((x2 - t / 2 + e) / s, 0.22, 0.82))
 

@@ -215,8 +215,8 @@ def _add_one_joint_each(program: _Program) -> None:
 
 
 def _add_directions(program: _Program, structure: Structure, template: Template) -> None:
-    """The hinges of a linkage have one direction, as has its mirror image; and those on which
-    frames turn another than tools' linkages have."""
+    """The hinges of a linkage have one direction, as has its mirror image; and those on which frames turn
+    another than tools' linkages have."""
     model = program.model
     linkage_of, frames, tools = linkages_of(template)
     class_of, firsts = direction_classes(structure)

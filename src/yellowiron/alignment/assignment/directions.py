@@ -7,17 +7,16 @@ linkage is not taken for two frames with their steering.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping, Sequence
 
 import networkx as nx
 import numpy as np
 
+from yellowiron.alignment.assignment.sides import twin_role
 from yellowiron.alignment.structure.clusters import Structure
 from yellowiron.model.geometry import Floats
 from yellowiron.model.template import Template
 
-_SIDE = re.compile(r"(?<=_)[lr](?=_|$)")
 ALIKE = 0.94
 """Hinges drawn this far from parallel (20°), by its cosine, are not of one linkage."""
 NOT_ACROSS = 0.7
@@ -52,10 +51,7 @@ def linkages_of(template: Template) -> tuple[dict[str, int], frozenset[int], fro
 def twin_linkages(template: Template, linkage_of: Mapping[str, int]) -> set[tuple[int, int]]:
     """The pairs of linkages of which one is the other's mirror image, such as two stabilizers': they lie alike."""
     by_pair = {frozenset(template.bodies_of(j)): linkage_of[j.name] for j in template.joints if j.name in linkage_of}
-    found = {
-        (k, by_pair.get(frozenset(_SIDE.sub(lambda m: "lr"[m.group() == "l"], str(b)) for b in pair), k))
-        for pair, k in by_pair.items()
-    }
+    found = {(k, by_pair.get(frozenset(twin_role(str(b)) or b for b in pair), k)) for pair, k in by_pair.items()}
     return {(k, other) for k, other in found if k < other}
 
 

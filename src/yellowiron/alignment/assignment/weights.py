@@ -12,6 +12,7 @@ import numpy as np
 
 from yellowiron.alignment.assignment.cp_sat import Solution
 from yellowiron.alignment.assignment.machine_frame import MachineFrame
+from yellowiron.alignment.assignment.sides import SIDE, twin_role
 from yellowiron.alignment.features.solids import Solid
 from yellowiron.alignment.structure.clusters import Structure
 from yellowiron.model.geometry import Floats
@@ -34,7 +35,6 @@ AS_GOOD = 0.1
 """Bodies that a name speaks of this nearly as much as of the one it speaks of most are meant as well."""
 TRUSTING = 6
 """So many parts must contradict their names as clearly as if so many more agreed: names are mostly right."""
-_SIDE = re.compile(r"(?<=_)([lr])(?=_|$)")
 _END = re.compile(r"(?:^|(?<=_))(front|middle|rear)(?=_|$)")
 _ORDER = ("front", "middle", "rear")
 """The words of `_END` as they stand behind each other."""
@@ -133,12 +133,6 @@ def size_weights(solids: tuple[Solid, ...], structure: Structure, template: Temp
     return found
 
 
-def twin_role(name: str) -> str | None:
-    """The mirrored name: `boom_piston_rod_l_pin` → `boom_piston_rod_r_pin`; None without a side."""
-    swapped = _SIDE.sub(lambda m: "r" if m.group(1) == "l" else "l", name)
-    return swapped if swapped != name else None
-
-
 def interchangeable(template: Template, *, joints: bool = True) -> list[frozenset[str]]:
     """Groups of bodies whose names differ in front, middle, rear, left, right alone and which hang on the same bodies
     by joints of one type: a machine's four wheels on one chassis. Only where they stand tells which is which. Without
@@ -154,7 +148,7 @@ def interchangeable(template: Template, *, joints: bool = True) -> list[frozense
     for name in rigid:
         if _END.search(name):
             held = tuple(sorted(joined[name])) if joints else ()
-            groups.setdefault((_SIDE.sub("", _END.sub("", name)), held), set()).add(name)
+            groups.setdefault((SIDE.sub("", _END.sub("", name)), held), set()).add(name)
     return [frozenset(g) for g in groups.values() if len({_END.findall(name)[0] for name in g}) > 1]
 
 
@@ -163,7 +157,7 @@ def between_twins(template: Template) -> list[tuple[str, str, str]]:
     a boom's lift cylinders and the one that levels its forks. Only where they stand tells which is which."""
     found = []
     for names in _hung_alike(template):
-        left = [name for name in names if _SIDE.findall(name) == ["l"] and twin_role(name) in names]
+        left = [name for name in names if SIDE.findall(name) == ["l"] and twin_role(name) in names]
         middle = [name for name in names if twin_role(name) is None]
         if len(names) == 3 and len(left) == len(middle) == 1:
             found.append((left[0], middle[0], str(twin_role(left[0]))))
@@ -236,7 +230,7 @@ def side_weights(
         for found, at in there.items():
             ahead, leftward = (bool(at[axis] > middle[axis]) for axis in (0, 1))
             for name in names:
-                ends, sides = _END.findall(name), _SIDE.findall(name)
+                ends, sides = _END.findall(name), SIDE.findall(name)
                 fits = (ends[0] == foremost) == ahead and (not sides or (sides[0] == "l") == leftward)
                 where = (cluster_of[found], name)
                 sided[where] = sided.get(where, 0) + (SIDE_WEIGHT if fits else -SIDE_WEIGHT)
@@ -254,7 +248,7 @@ def side_weights(
         _told(sided, pair, cluster_of, lambda cluster: -long(cluster))
 
     for name in sorted(cluster_of.keys() - frozenset().union(*alike, *between)):
-        match = _SIDE.search(name)
+        match = SIDE.search(name)
         twin = twin_role(name)
         if match is None or twin is None or not any(r.name == twin for r in template.roles):
             continue

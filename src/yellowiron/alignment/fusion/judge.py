@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from yellowiron.alignment.assignment.directions import linkages_of
-from yellowiron.alignment.assignment.weights import twin_role
+from yellowiron.alignment.assignment.sides import twin_role
 from yellowiron.alignment.fusion.bonds import Bond
 from yellowiron.alignment.fusion.votes import BARS, Features, joints_apart
 from yellowiron.model.geometry import Floats

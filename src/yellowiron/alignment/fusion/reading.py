@@ -11,7 +11,7 @@ from yellowiron.alignment.assignment.answer import Answer, Judged, open_choices
 from yellowiron.alignment.assignment.cp_sat import MISSING_WEIGHT, Solution
 from yellowiron.alignment.assignment.directions import ALIKE, NOT_ACROSS, linkages_of
 from yellowiron.alignment.assignment.search import machine_of
-from yellowiron.alignment.assignment.weights import twin_role
+from yellowiron.alignment.assignment.sides import twin_role
 from yellowiron.alignment.facing import UNTOLD, Facing
 from yellowiron.alignment.fusion.annealing import CHAINS, HOT, SWEEPS, against, labelled, leads
 from yellowiron.alignment.fusion.bonds import Bond, out_of_line

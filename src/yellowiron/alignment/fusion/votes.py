@@ -9,7 +9,7 @@ import networkx
 import numpy as np
 
 from yellowiron.alignment.assignment.answer import Answer, held_share
-from yellowiron.alignment.assignment.weights import twin_role
+from yellowiron.alignment.assignment.sides import twin_role
 from yellowiron.alignment.fusion.pieces import Piece
 from yellowiron.alignment.fusion.stance import Stance
 from yellowiron.model.template import Template, Usual

@@ -425,7 +425,8 @@ class ClosedChain:
         return velocity
 
     def tangents(self, state: State) -> Floats:
-        """Velocities of all tree coordinates (nv, independent) per unit velocity of each independent one in turn."""
+        """Velocities of all tree coordinates (nv, independent), metres or radians a second, per unit velocity of each
+        independent one in turn, the others held: `tangent` of all at once."""
         jacobian = self._at(state)
         given = np.array([self._dofs(name)[0] for name in self.independent], dtype=int)
         velocities = np.zeros((self._model.nv, len(given)))

@@ -135,7 +135,11 @@ class Comparison:
         gaps = np.abs(halves[:, self._cuts] - halves[:, self._cuts + 1]).max(axis=(1, 2), initial=0.0)
         opened = np.flatnonzero(gaps > _LED).tolist()
         for step in opened:
-            states[step : step + 1] = solved(self.chain, coordinates[step : step + 1], states[max(0, step - 1)])
+            alone = solved(self.chain, coordinates[step : step + 1], states[max(0, step - 1)])
+            if not alone:
+                states = []
+                break
+            states[step] = alone[0]
         if len(states) < len(coordinates):
             states = list(solved(self.chain, coordinates, self._state))
         if opened or len(placed) != len(states):

@@ -11,7 +11,8 @@ from yellowiron.model.geometry import Floats
 
 
 def solved(chain: ClosedChain, coordinates: Floats, start: State) -> tuple[State, ...]:
-    """The states of n steps, each solved: `coordinates` (n, independent). Fewer where the linkage locks."""
+    """The states of n steps, each solved on from `start`: `coordinates` (n, independent), metres or radians in the
+    chain's order. Fewer where the linkage locks."""
     if not chain.independent:
         return (start,) * len(coordinates)
     return chain.sweep({name: coordinates[:, i] for i, name in enumerate(chain.independent)}, start=start)
@@ -19,9 +20,9 @@ def solved(chain: ClosedChain, coordinates: Floats, start: State) -> tuple[State
 
 def led_over(chain: ClosedChain, coordinates: Floats, start: State, stride: int) -> list[State]:
     """Like `solved`, but only each `stride`-th step and the last are: between them all coordinates run along a cubic
-    spline through the solved ones, and where the given ones leave it, the others go with them along the tangents. None
-    where that cannot be done. How well loops close between the solved steps is for the caller to see: the `closure` of
-    the states there is infinite."""
+    spline through the solved ones, and where the given ones leave it, the others go with them along the tangents.
+    Empty where that cannot be done: `solved` says how far it goes. How well loops close between the solved steps is for
+    the caller to see: the `closure` of the states there is infinite."""
     count = len(coordinates)
     if stride < 2 or count < 2 * stride or not chain.independent or not chain.plain:
         return []
