@@ -95,3 +95,20 @@ def test_only_ctrl_c_is_how_a_watch_ends(monkeypatch: pytest.MonkeyPatch, sent: 
 def test_a_program_that_ends_itself_is_not_held_up() -> None:
     with pytest.raises(SystemExit, match="3"), stopping.until_interrupted():
         sys.exit(3)
+
+
+_ENDED = """
+import atexit, os, signal
+from yellowiron.cli import entry
+
+atexit.register(os.abort)
+print("said", end="")
+entry.terminal.called = lambda app: os.kill(os.getpid(), signal.SIGTERM)
+entry.main()
+"""
+
+
+def test_a_run_that_was_ended_is_not_taken_down() -> None:
+    """A library that was stopped while it loads may crash where Python takes it down: nothing asks it any more."""
+    ended = subprocess.run([sys.executable, "-c", _ENDED], capture_output=True, text=True, check=False)
+    assert (ended.returncode, ended.stdout) == (128 + signal.SIGTERM, "said")

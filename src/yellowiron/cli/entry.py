@@ -24,9 +24,9 @@ def main() -> None:
         except BaseException:
             if not stopped:
                 raise
-        # A library that was interrupted while it loads may make of it what it likes.
+        # A library that was interrupted while it loads may make of it what it likes, also where Python takes it down.
         if stopped:
-            sys.exit(128 + stopped[0])
+            terminal.leave(128 + stopped[0])
         terminal.flush()
     except YellowironError as error:
         _tell(error)
