@@ -121,7 +121,8 @@ def align(
     from yellowiron.model.alignment import Decisions, Signature
     from yellowiron.model.rows import expand
     from yellowiron.opinion import second_opinion
-    from yellowiron.stages import compare_with_declared, find_roles, values_by_hand
+    from yellowiron.said import values_by_hand
+    from yellowiron.stages import compare_with_declared, find_roles
 
     if opinion is not None:
         Endpoint(opinion)  # says at once what is wrong with it

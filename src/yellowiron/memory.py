@@ -1,20 +1,20 @@
 """The stages of a build that are kept between runs: a stage that meets the same inputs again answers at once.
 
-What a stage depends on is its inputs' content (`support.caching.disk.kept`), so that a changed value of a sheet leaves
-the CAD model's parts in their roles, and a build of the same inputs is read from the disk.
+Modules of stages are imported where one runs: what is read from the disk needs none of their libraries. What a stage
+depends on is its inputs' content (`support.caching.disk.kept`), so that a changed value of a sheet leaves the CAD
+model's parts in their roles, and a build of the same inputs is read from the disk.
 """
 
 from __future__ import annotations
 
-import functools
 import importlib
 import threading
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from typing import Any, ParamSpec, TypeVar
+from typing import Any
 
-from yellowiron import cad, checks, kinematics, library, report, specs, stages, usd
+from yellowiron import cad, checks, kinematics, library, report, said, specs, usd
 from yellowiron.alignment import said_in
 from yellowiron.endpoint import ModelOptions
 from yellowiron.model.alignment import Alignment
@@ -25,6 +25,7 @@ from yellowiron.model.mechanism import Measurement, Mechanism
 from yellowiron.model.specification import Specifications
 from yellowiron.model.sweep import Sweep
 from yellowiron.model.template import Template
+from yellowiron.solved import Solved
 from yellowiron.support.caching.disk import kept, stages_are_kept
 
 _LIBRARIES = (
@@ -33,19 +34,6 @@ _LIBRARIES = (
 )  # fmt: skip
 _LOADED_S = 10.0
 """Seconds by which all of these are loaded, on a slow machine."""
-
-Given = ParamSpec("Given")
-Found = TypeVar("Found")
-
-
-def _keeping(kind: str, stage: Callable[Given, Found]) -> Callable[Given, Found]:
-    """A stage that depends on its arguments alone, kept."""
-
-    @functools.wraps(stage)
-    def answered(*args: Given.args, **kwargs: Given.kwargs) -> Found:
-        return kept(kind, lambda: stage(*args, **kwargs), args, kwargs)
-
-    return answered
 
 
 def read_model(cad_file: Path, *, mirror: bool = False) -> Assembly:
@@ -104,17 +92,35 @@ def find_roles(
     data: library.Documents,
     choices: Mapping[str, str],
 ) -> tuple[Assembly, Alignment]:
-    """`stages.find_roles`."""
-    heard = stages.heard_of(template, specifications)
+    """`stages.find_roles`, of what it hears."""
+    heard = said.heard_of(template, specifications)
 
     def make() -> tuple[Assembly, Alignment]:
+        from yellowiron import stages
+
         return stages.find_roles(assembly, template, heard, earlier=earlier, data=data, choices=choices)
 
-    said = said_in(earlier, template) if earlier is not None else {}
-    return kept("roles", make, assembly, template, heard, data, choices, said)
+    edits = said_in(earlier, template) if earlier is not None else {}
+    return kept("roles", make, assembly, template, heard, data, choices, edits)
 
 
-solve = _keeping("mechanisms", stages.solve)
+def solve(
+    template: Template,
+    assembly: Assembly,
+    alignment: Alignment,
+    specifications: Specifications,
+    data: library.Documents,
+    choices: Mapping[str, str],
+) -> Solved:
+    """`stages.solve`."""
+    given = (template, assembly, alignment, specifications, data, choices)
+
+    def make() -> Solved:
+        from yellowiron import stages
+
+        return stages.solve(*given)
+
+    return kept("mechanisms", make, *given)
 
 
 def measure(mechanism: Mechanism) -> tuple[tuple[Measurement, ...], dict[str, dict[str, Floats]]]:
@@ -147,6 +153,11 @@ def write(
     return found
 
 
+def lint(template: Template) -> tuple[Finding, ...]:
+    """What `library.lint` finds."""
+    return kept("lint", lambda: library.lint(template).findings, template)
+
+
 def levers(mechanism: Mechanism) -> dict[str, Any]:
     """`kinematics.lever_table` of every actuator."""
     return kept(
@@ -154,8 +165,13 @@ def levers(mechanism: Mechanism) -> dict[str, Any]:
     )
 
 
+def document(facts: report.BuildFacts) -> dict[str, Any]:
+    """`report.report_document`."""
+    return kept("documents", lambda: report.report_document(facts), facts)
+
+
 def page(
-    document: Mapping[str, Any],
+    told: Mapping[str, Any],
     mechanism: Mechanism,
     assembly: Assembly,
     alignment: Alignment,
@@ -170,8 +186,8 @@ def page(
         with ThreadPoolExecutor(1) as pool:
             pages = pool.submit(specs.page_pictures, sheets, specifications)
             return report.page(
-                document, mechanism, assembly, alignment,
+                told, mechanism, assembly, alignment,
                 poses=poses, tables=lambda: kinematics.pose_tables(mechanism), sweeps=sweeps, sheets=pages.result,
             )  # fmt: skip
 
-    return kept("pages", make, document, mechanism, assembly, alignment, poses, sweeps, files=sheets)
+    return kept("pages", make, told, mechanism, assembly, alignment, poses, sweeps, files=sheets)

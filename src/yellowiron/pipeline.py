@@ -20,8 +20,7 @@ from yellowiron.model.assembly import Assembly
 from yellowiron.model.mechanism import Measurement, Mechanism
 from yellowiron.model.specification import Specifications
 from yellowiron.model.sweep import Sweep
-from yellowiron.opinion import second_opinion
-from yellowiron.stages import values_by_hand
+from yellowiron.said import values_by_hand
 from yellowiron.support.output import output_folder
 
 Progress = Callable[[str], None]
@@ -149,6 +148,8 @@ def build(
             mechanism, specifications, compared = solved.mechanism, solved.specifications, solved.compared
 
         if opinion is not None:
+            from yellowiron.opinion import second_opinion
+
             # After all that an alignment is used for: what the model says can change nothing.
             with clock.stage("opinion", "Asking for a second opinion"):
                 alignment = second_opinion(alignment, assembly, template, opinion, progress=progress)
@@ -168,10 +169,10 @@ def build(
                     simulation[engine], sweeps[engine] = _driven(written, engine, progress)
 
         with clock.stage("report", "Writing the report"):
-            document = report.report_document(report.BuildFacts(
+            document = memory.document(report.BuildFacts(
                 mechanism, template, alignment, specifications, measurements,
                 findings=(
-                    *library.lint(chosen).findings, *assembly.findings, *data.findings,
+                    *memory.lint(chosen), *assembly.findings, *data.findings,
                     *declared_findings(compared, assembly.name), *checked,
                 ),
                 usd_counts=usd_counts,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -17,13 +17,11 @@ from yellowiron.alignment import (
     of_drawn,
     parts_in,
     read_alignment,
-    read_values,
     said_in,
     to_scale,
     twin_role,
 )
 from yellowiron.mechanism import (
-    ComparedJoint,
     build_mechanism,
     compare_declared,
     declared_findings,
@@ -36,27 +34,12 @@ from yellowiron.model.finding import Finding
 from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Mechanism
 from yellowiron.model.rows import expand
-from yellowiron.model.specification import Specification, Specifications, fold
+from yellowiron.model.specification import Specifications, fold
 from yellowiron.model.template import Template, choose
+from yellowiron.solved import Solved
 from yellowiron.support.caching.disk import kept
 from yellowiron.support.caching.recent import recent
 from yellowiron.support.vectors import triple
-
-
-@dataclass(frozen=True, eq=False)
-class Solved:
-    """A machine before it is measured and written: `chosen`, the template with its variants decided, `template`, that
-    with its rows counted; the CAD model, as started; what the file's declared joints were `compared` to; `started`:
-    joint → metres or radians from the drawn pose to the one it starts in."""
-
-    chosen: Template
-    template: Template
-    assembly: Assembly
-    alignment: Alignment
-    mechanism: Mechanism
-    specifications: Specifications
-    compared: tuple[ComparedJoint, ...]
-    started: Mapping[str, float] = field(default_factory=dict)
 
 
 def solve(
@@ -98,15 +81,6 @@ def _missed(specifications: Specifications, template: Template, chosen: Template
         if fold(name) not in of_others or value.status not in ("missing", "unreadable")
     }
     return replace(specifications, values=kept) if len(kept) < len(specifications) else specifications
-
-
-def heard_of(template: Template, specifications: Specifications) -> Specifications:
-    """What `find_roles` hears of the sheet: lengths of the whole machine, and of its cylinders; no evidence."""
-    quantities = ("bore", "rod_diameter")
-    names = [w.name for w in template.wanted if w.length_of == "*"]
-    names += [name for a in template.actuators for q in quantities if (name := a.specifications.get(q)) is not None]
-    numbers = {name: number for name in names if (number := specifications.number(name)) is not None}
-    return Specifications({name: Specification(name, number, "m", "ok") for name, number in numbers.items()})
 
 
 def find_roles(
@@ -253,12 +227,6 @@ def _of_drawn(found: Alignment, assembly: Assembly, template: Template) -> Align
     """The alignment of the parts of `assembly`, without those of its mirror image."""
     drawn = {part.id for part in assembly.parts}
     return found if len(found.parts) == len(drawn) else of_drawn(found, drawn, template)
-
-
-def values_by_hand(earlier: Path | None, template: Template) -> Specifications:
-    """The values that a person wrote into an earlier alignment; none without one."""
-    values = read_values(earlier) if earlier is not None else {}
-    return specs.parse_settings([f"{name}={value.text}" for name, value in values.items()], template)
 
 
 def on_sheet(

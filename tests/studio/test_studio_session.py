@@ -16,7 +16,7 @@ import pytest
 from yellowiron.model.errors import YellowironError
 from yellowiron.opinion.doubts import boxes_of
 from yellowiron.pipeline import build
-from yellowiron.stages import Solved
+from yellowiron.solved import Solved
 from yellowiron.studio import Session, Setup, read_setup
 from yellowiron.studio import session as studio_session
 from yellowiron.studio.joints import MOST_ROUNDS, joints_of, rounds_of

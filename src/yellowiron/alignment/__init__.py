@@ -15,26 +15,33 @@ axis is estimated · `ALN026` to `ALN028`: see `files.decisions` · `ALN029` one
 `ALN032` a variant is in doubt.
 """
 
-from yellowiron.alignment.assignment.sides import twin_role
-from yellowiron.alignment.assignment.unit_scale import to_scale
-from yellowiron.alignment.discovery.discover import discover
-from yellowiron.alignment.discovery.robot import declared_roles, discover_declared
-from yellowiron.alignment.facing import named_direction
-from yellowiron.alignment.files.alignment_json import (
-    parts_in,
-    read_alignment,
-    read_joints,
-    read_values,
-    said_in,
-    write_alignment,
-)
-from yellowiron.alignment.files.decisions import decide, fits, parse_rules
-from yellowiron.alignment.files.explanation import explain
-from yellowiron.alignment.files.heard import as_said
-from yellowiron.alignment.files.whole import ABSENT, parse_machine, whole
-from yellowiron.alignment.labelling.confidence import REVIEW
-from yellowiron.alignment.labelling.halves import of_drawn
-from yellowiron.alignment.pipeline import align
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from yellowiron.support.lazy import lazy_names
+
+if TYPE_CHECKING:
+    from yellowiron.alignment.assignment.sides import twin_role
+    from yellowiron.alignment.assignment.unit_scale import to_scale
+    from yellowiron.alignment.discovery.discover import discover
+    from yellowiron.alignment.discovery.robot import declared_roles, discover_declared
+    from yellowiron.alignment.facing import named_direction
+    from yellowiron.alignment.files.alignment_json import (
+        parts_in,
+        read_alignment,
+        read_joints,
+        read_values,
+        said_in,
+        write_alignment,
+    )
+    from yellowiron.alignment.files.decisions import decide, fits, parse_rules
+    from yellowiron.alignment.files.explanation import explain
+    from yellowiron.alignment.files.heard import as_said
+    from yellowiron.alignment.files.whole import ABSENT, parse_machine, whole
+    from yellowiron.alignment.labelling.confidence import REVIEW
+    from yellowiron.alignment.labelling.halves import of_drawn
+    from yellowiron.alignment.pipeline import align
 
 __all__ = [
     "ABSENT",
@@ -61,3 +68,32 @@ __all__ = [
     "whole",
     "write_alignment",
 ]
+
+__getattr__, __dir__ = lazy_names(
+    __name__,
+    {
+        "ABSENT": "files.whole",
+        "REVIEW": "labelling.confidence",
+        "align": "pipeline",
+        "as_said": "files.heard",
+        "decide": "files.decisions",
+        "declared_roles": "discovery.robot",
+        "discover": "discovery.discover",
+        "discover_declared": "discovery.robot",
+        "explain": "files.explanation",
+        "fits": "files.decisions",
+        "named_direction": "facing",
+        "of_drawn": "labelling.halves",
+        "parse_machine": "files.whole",
+        "parse_rules": "files.decisions",
+        "parts_in": "files.alignment_json",
+        "read_alignment": "files.alignment_json",
+        "read_joints": "files.alignment_json",
+        "read_values": "files.alignment_json",
+        "said_in": "files.alignment_json",
+        "to_scale": "assignment.unit_scale",
+        "twin_role": "assignment.sides",
+        "whole": "files.whole",
+        "write_alignment": "files.alignment_json",
+    },
+)

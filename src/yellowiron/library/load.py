@@ -27,6 +27,7 @@ from yellowiron.library.type_folders import documents_in, find_template
 from yellowiron.model.errors import TemplateError
 from yellowiron.model.specification import fold
 from yellowiron.model.template import JointTemplate, Role, Template
+from yellowiron.support.caching.disk import kept
 
 _MACHINE = "machine"
 
@@ -65,7 +66,8 @@ def load_template(type_or_folder: str | Path, *, sheet_only: bool = False) -> Te
 @functools.lru_cache(maxsize=16)
 def _read(folder: Path, paths: tuple[tuple[str, Path], ...], seen: tuple[tuple[int, int], ...]) -> Template:
     """The template of some documents, once while they are as they were `seen`: when changed last, how large."""
-    return _assemble({kind: template_document(path, kind) for kind, path in paths}, folder)
+    documents = {kind: template_document(path, kind) for kind, path in paths}
+    return kept("templates", lambda: _assemble(documents, folder), documents, folder)
 
 
 def _assemble(documents: Mapping[str, Document], folder: Path) -> Template:

@@ -64,7 +64,25 @@ MEC083  values that no sheet gives were taken from the limits of joints that the
 ======  ========================================================================================================
 """
 
-from yellowiron.mechanism.build import build_mechanism
-from yellowiron.mechanism.declared import ComparedJoint, compare_declared, declared_findings, declared_values
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from yellowiron.support.lazy import lazy_names
+
+if TYPE_CHECKING:
+    from yellowiron.mechanism.build import build_mechanism
+    from yellowiron.mechanism.declared import ComparedJoint, compare_declared, declared_findings, declared_values
 
 __all__ = ["ComparedJoint", "build_mechanism", "compare_declared", "declared_findings", "declared_values"]
+
+__getattr__, __dir__ = lazy_names(
+    __name__,
+    {
+        "ComparedJoint": "declared",
+        "build_mechanism": "build",
+        "compare_declared": "declared",
+        "declared_findings": "declared",
+        "declared_values": "declared",
+    },
+)

@@ -21,7 +21,8 @@ from yellowiron.model.geometry import Floats
 from yellowiron.model.mechanism import Measurement, Mechanism
 from yellowiron.model.specification import Specifications
 from yellowiron.model.template import Template, choose
-from yellowiron.stages import Solved, roles_of, solve
+from yellowiron.solved import Solved
+from yellowiron.stages import roles_of, solve
 from yellowiron.studio.journal import FILE, Journal
 from yellowiron.studio.operations import SIGNED, Operation, from_entry
 from yellowiron.studio.said import Said, said_after, said_in_file

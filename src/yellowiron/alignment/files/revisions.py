@@ -11,7 +11,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from yellowiron.model.assembly import Assembly
 from yellowiron.model.geometry import Floats, Mesh
@@ -97,6 +96,9 @@ def match_parts(earlier: Mapping[str, Print], later: Mapping[str, Print]) -> dic
         open_ = [i for i in range(len(old)) if i not in found]
         if not free or not open_:
             return []
+        # Most alignments are read of the model they were written of: they need none of it.
+        from scipy.spatial import cKDTree
+
         # Places in sizes and shapes in shares of what is allowed: one ball holds both.
         scale = np.concatenate([np.full(3, 1 / (limit * size)), np.full(shapes[0].shape[1], 1 / alike)])
         tree = cKDTree(np.hstack([places[1][free], shapes[1][free]]) * scale)
@@ -128,6 +130,8 @@ def _logs(shapes: Sequence[tuple[float, ...]]) -> Floats:
 
 def _once(shapes: Sequence[Floats]) -> list[tuple[int, int]]:
     """Pairs of the same shape that each model has once."""
+    from scipy.spatial import cKDTree
+
     trees = [cKDTree(s) for s in shapes]
     alone = [
         {i for i, n in enumerate(np.atleast_1d(t.query_ball_point(s, SAME, p=np.inf, return_length=True))) if n == 1}

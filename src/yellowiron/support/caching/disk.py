@@ -20,7 +20,7 @@ from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import TypeVar
 
-from yellowiron.support.caching.content import content_of
+from yellowiron.support.caching.content import content_of, remember_content, wholes
 from yellowiron.support.files import answers
 
 VARIABLE = "YELLOWIRON_CACHE"
@@ -85,7 +85,17 @@ def kept(kind: str, make: Callable[[], Answer], *given: object, files: Iterable[
     digest = hashlib.sha256(content_of([_program(), *given]))
     for file in files:
         digest.update(f"{file}\0".encode("utf-8", "surrogateescape") + _of_file(file))
-    return remember(kind, digest.hexdigest(), make)
+
+
+    def make_with_contents() -> tuple[Answer, list[bytes]]:
+        answer = make()
+        return answer, [content_of(whole) for whole in wholes(answer)]
+
+    answer, contents = remember(kind, digest.hexdigest(), make_with_contents)
+    # The next stage asks for them.
+    for whole, content in zip(wholes(answer), contents, strict=True):
+        remember_content(whole, content)
+    return answer
 
 
 def kept_each(
