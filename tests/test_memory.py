@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import json
+import os
 import shutil
+import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -16,7 +19,7 @@ from hypothesis import strategies as st
 from yellowiron import build, cad, checks, stages, usd
 from yellowiron.cad.dependence import files_of
 from yellowiron.model.geometry import Mesh
-from yellowiron.support.caching import disk
+from yellowiron.support.caching import content, disk
 from yellowiron.support.caching.content import content_of
 from yellowiron.support.caching.disk import FRESH, VARIABLE, kept
 
@@ -59,6 +62,32 @@ def test_content_does_not_hang_on_what_is_shared_or_on_sets() -> None:
         content_of(object())
     with pytest.raises(TypeError, match="has no content"):
         content_of(np.array([object()]))
+
+
+def test_a_value_is_digested_once_while_it_lives(monkeypatch: pytest.MonkeyPatch) -> None:
+    mesh = Mesh(np.zeros((1, 3)), np.zeros((1, 3), dtype=int))
+    again = Mesh(np.zeros((1, 3)), np.zeros((1, 3), dtype=int))
+    asked = [content_of([mesh, "a"]), content_of(mesh), content_of(again)]
+    before = len(content._remembered)
+    with monkeypatch.context() as patch:
+        patch.setattr(content, "_of_many", lambda value, known: pytest.fail("looked through again"))
+        assert content_of(mesh) == asked[1] == asked[2]
+    assert content_of([again, "a"]) == asked[0]
+    del mesh, again
+    assert len(content._remembered) == before - 2
+
+
+def test_what_is_read_has_the_digest_of_what_was_made(memory: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def make() -> tuple[Mesh, int]:
+        return Mesh(np.ones((4, 3)), np.zeros((1, 3), dtype=int)), 1
+
+    made = content_of(kept("meshes", make)[0])
+    read = kept("meshes", lambda: pytest.fail("made again"))[0]
+    with monkeypatch.context() as patch:
+        patch.setattr(content, "_of_many", lambda value, known: pytest.fail("looked through again"))
+        assert content_of(read) == made
+    content._remembered.clear()
+    assert content_of(read) == made
 
 
 def test_kept_by_values_and_files(memory: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -120,6 +149,17 @@ def test_which_files_a_cad_file_hangs_on(tmp_path: Path, example: Path) -> None:
     assert files_of(tmp_path) is None
 
 
+_LOADED = """
+import sys
+from yellowiron.cli import main
+try:
+    main()
+except SystemExit as ended:
+    assert not ended.code, ended
+sys.stdout.write("loaded: " + " ".join({"mujoco", "networkx", "ortools", "pint", "pxr", "scipy"} & sys.modules.keys()))
+"""
+
+
 @pytest.mark.slow
 def test_the_same_build_is_read_and_a_changed_one_made(
     memory: Path, example: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -150,6 +190,14 @@ def test_the_same_build_is_read_and_a_changed_one_made(
         machine = build("wheel_loader", model, out, sheets=[sheet])
         assert files() == first
         assert machine.mechanism.joint("front_frame2boom_joint").type == "revolute"
+
+    # Nor is a library loaded that only asks for time.
+    command = ["build", "wheel_loader", "--cad", model, "--specs", sheet, "--out", out]
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(p for p in sys.path if p)}
+    said = subprocess.run([sys.executable, "-c", _LOADED, *map(str, command)], env=environment, capture_output=True,
+                          text=True, check=True)  # fmt: skip
+    assert said.stdout.splitlines()[-1] == "loaded: "
+    assert files() == first
 
     # A value does not touch who plays which role; the machine is another.
     with monkeypatch.context() as patch:

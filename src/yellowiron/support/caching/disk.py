@@ -86,7 +86,6 @@ def kept(kind: str, make: Callable[[], Answer], *given: object, files: Iterable[
     for file in files:
         digest.update(f"{file}\0".encode("utf-8", "surrogateescape") + _of_file(file))
 
-
     def make_with_contents() -> tuple[Answer, list[bytes]]:
         answer = make()
         return answer, [content_of(whole) for whole in wholes(answer)]
