@@ -82,7 +82,7 @@ def test_what_is_read_has_the_digest_of_what_was_made(memory: Path, monkeypatch:
         return Mesh(np.ones((4, 3)), np.zeros((1, 3), dtype=int)), 1
 
     made = content_of(kept("meshes", make)[0])
-    read = kept("meshes", lambda: pytest.fail("made again"))[0]
+    read: Mesh = kept("meshes", lambda: pytest.fail("made again"))[0]
     with monkeypatch.context() as patch:
         patch.setattr(content, "_of_many", lambda value, known: pytest.fail("looked through again"))
         assert content_of(read) == made
