@@ -23,7 +23,7 @@ def file(made_once: MadeOnce) -> Path:
 
 
 @pytest.mark.parametrize(
-    ("engine", "actuators"), [("mujoco", None), ("newton", ["backhoe_swing", "boom", "steering"]), ("physx", None)]
+    ("engine", "actuators"), [("mujoco", None), ("newton", ["backhoe_swing"]), ("physx", ["backhoe_swing", "boom"])]
 )
 def test_full_strokes(file: Path, engine: str, actuators: list[str] | None) -> None:
     in_engines.need(engine)

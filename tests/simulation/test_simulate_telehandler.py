@@ -25,7 +25,7 @@ def file(made_once: MadeOnce) -> Path:
 
 
 @pytest.mark.parametrize(
-    ("engine", "actuators"), [("mujoco", None), ("newton", ["telescope", "lift", "steering"]), ("physx", None)]
+    ("engine", "actuators"), [("mujoco", None), ("newton", ["telescope", "steering"]), ("physx", None)]
 )
 def test_full_strokes(file: Path, engine: str, actuators: list[str] | None) -> None:
     _strokes(file, engine, actuators)

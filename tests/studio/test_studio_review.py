@@ -204,7 +204,7 @@ def test_the_zx120_is_reviewed_in_two_minutes(
 
 
 @pytest.mark.parametrize(("kind", "seed", "defect"), [
-    ("skid_steer", 2, "visual"), ("excavator", 1, "missing cylinder"), ("rigid_truck", 2, "visual"),
+    ("skid_steer", 2, "visual"), ("excavator", 1, "missing cylinder"),
 ])  # fmt: skip
 def test_nameless_machines_with_defects_are_reviewed_in_two_minutes(
     browser: Any, tmp_path: Path, record_property: Any, kind: str, seed: int, defect: str
@@ -215,7 +215,7 @@ def test_nameless_machines_with_defects_are_reviewed_in_two_minutes(
     assembly, surface = read(machine, seed, place, None)
     cad = tmp_path / "machine.glb"
     cad.write_bytes(b"glTF")  # it was read
-    session = Session(Setup(TYPES.get(kind, kind), cad, tmp_path / "out"), assembly=assembly)
+    session = Session(Setup(kind, cad, tmp_path / "out"), assembly=assembly)
     try:
         truth = true_bodies(session.assembly, session.settled(300).aligned, surface, session.template)
         person = Person(browser, session, truth, named_direction(place[:3, 0]))
@@ -233,7 +233,3 @@ def test_nameless_machines_with_defects_are_reviewed_in_two_minutes(
         assert all((said[part]["body"] or "-") in bodies for part, bodies in truth.items())
     finally:
         session.close()
-
-
-TYPES = {"rigid_truck": "rigid_dump_truck", "loader": "wheel_loader"}
-"""Machines that are drawn under another name than their type's."""
