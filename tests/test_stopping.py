@@ -97,6 +97,34 @@ def test_a_program_that_ends_itself_is_not_held_up() -> None:
         sys.exit(3)
 
 
+_LOADED = """
+import sys, time
+from yellowiron.support import stopping
+
+stopping.listen()
+sys.path.insert(0, sys.argv[1])
+import library
+time.sleep(30)
+print("went on")
+"""
+_LIBRARY = """
+import os, signal, time
+try:
+    os.kill(os.getpid(), signal.SIGTERM)
+    time.sleep(0.3)
+except BaseException:
+    print("interrupted")
+print("loaded", flush=True)
+"""
+
+
+def test_a_library_that_is_being_loaded_is_waited_for(tmp_path: Path) -> None:
+    """It would take what is raised in it for its own, and the run went on to its end."""
+    (tmp_path / "library.py").write_text(_LIBRARY)
+    ended = subprocess.run([sys.executable, "-c", _LOADED, tmp_path], capture_output=True, text=True, check=False)
+    assert (ended.returncode, ended.stdout) == (128 + signal.SIGTERM, "loaded\n")
+
+
 _ENDED = """
 import atexit, os, signal
 from yellowiron.cli import entry

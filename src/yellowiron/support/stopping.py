@@ -7,6 +7,12 @@ import sys
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
+from types import FrameType
+
+_LOOK_S = 0.02
+"""Seconds until it is looked again whether a library is loaded."""
+_IMPORT = "<frozen importlib._bootstrap>"
+"""The file of every frame that imports."""
 
 _asked: list[int] = []
 _raised: list[int] = []
@@ -15,7 +21,10 @@ _depth = 0
 
 def listen() -> list[int]:
     """From now on a termination, a closed terminal, or Ctrl-C leaves by `SystemExit`: once, so that nothing that is
-    taken away on the way out is left half. What nohup has told to stay stays. The list has the signals that came."""
+    taken away on the way out is left half. What nohup has told to stay stays. The list has the signals that came. A
+    library that is being loaded is waited for: it may make of what is raised in it what it likes, keep Python's lock
+    for imports, or crash where it is taken down half made."""
+    signal.signal(signal.SIGALRM, _look)
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         if signal.getsignal(number) != signal.SIG_IGN:
             signal.signal(number, _ask)
@@ -71,9 +80,25 @@ def _hears() -> bool:
     return threading.current_thread() is threading.main_thread()
 
 
-def _ask(number: int, frame: object) -> None:
+def _ask(number: int, frame: FrameType | None) -> None:
     _asked.append(number)
-    _leave()
+    _look(number, frame)
+
+
+def _look(number: int, frame: FrameType | None) -> None:
+    if _asked and not _raised and _imports(frame):
+        signal.setitimer(signal.ITIMER_REAL, _LOOK_S)
+    else:
+        _leave()
+
+
+def _imports(frame: FrameType | None) -> bool:
+    """Whether a library is being loaded."""
+    while frame is not None:
+        if frame.f_code.co_filename == _IMPORT:
+            return True
+        frame = frame.f_back
+    return False
 
 
 def _leave() -> None:
