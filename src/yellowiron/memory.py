@@ -45,8 +45,11 @@ def read_model(cad_file: Path, *, mirror: bool = False) -> Assembly:
         loading.start()
         try:
             model = cad.read_cad(cad_file)
+        except SystemExit:
+            # The program ends as it stands (`support.stopping`).
+            raise
         except BaseException:
-            # One that is interrupted while it loads may keep Python's lock, which the others then wait for in vain.
+            # Python crashes where it is taken down while a library loads; and what loads may wait in vain.
             loading.join(_LOADED_S)
             raise
         loading.join()
